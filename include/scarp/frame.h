@@ -1,0 +1,62 @@
+// Where the samples of a height field lie in the coordinates of its mesh.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+
+namespace scarp {
+
+/// A map of points that is not affine, such as a map projection. Implementations are immutable and may be
+/// called from several threads at once.
+class PointTransform {
+ public:
+  virtual ~PointTransform() = default;
+  /// Maps the points (x[k], y[k]) in place; x and y have equal sizes. Returns false if any point has no image
+  /// (it is then NaN).
+  virtual bool apply(std::span<double> x, std::span<double> y) const = 0;
+};
+
+/// How sample (col, row) becomes a point (x, y) of the mesh:
+///   x = affine[0] + affine[1]·col + affine[2]·row
+///   y = affine[3] + affine[4]·col + affine[5]·row
+/// (GDAL's order of terms; integer col, row are sample *centres*), then `transform` where it is set. z is the
+/// sample's height and is never changed by a frame.
+///
+/// DEFAULT: the grid frame of a raster without georeference, see grid_frame().
+struct Frame {
+  enum class Kind {
+    kGrid,       ///< x = col, y = rows − 1 − row, cell size 1
+    kSource,     ///< the raster's own CRS
+    kLocal,      ///< metres east and north of the raster's centre (geographic rasters), affine in the grid
+    kProjected,  ///< another CRS, reached through `transform`
+  };
+  Kind kind = Kind::kGrid;
+  std::array<double, 6> affine{0, 1, 0, 0, 0, -1};
+  std::shared_ptr<const PointTransform> transform;  ///< null where the frame is affine
+  std::string crs;          ///< of x and y: "EPSG:32611", WKT, or empty where there is none
+  std::string description;  ///< one line for reports: what x and y are, and in which unit
+
+  bool is_affine() const { return transform == nullptr; }
+  /// Affine part only: the position of the (fractional) sample (col, row).
+  std::array<double, 2> apply_affine(double col, double row) const {
+    return {affine[0] + affine[1] * col + affine[2] * row, affine[3] + affine[4] * col + affine[5] * row};
+  }
+  /// Orientation of the affine part: negative for the usual raster whose rows go south.
+  double determinant() const { return affine[1] * affine[5] - affine[2] * affine[4]; }
+};
+
+/// The frame of a raster with `rows` rows and no georeference: x = col, y = rows − 1 − row.
+Frame grid_frame(int rows);
+
+/// Origin that keeps offsets short: the position of the sample (cols / 2, rows / 2) in the frame.
+/// Returns {NaN, NaN} if that point has no image.
+std::array<double, 2> frame_origin(const Frame& frame, int cols, int rows);
+
+/// True if every sample's offset from frame_origin() is exactly a float32, so that a mesh written with
+/// float32 offsets has its vertices exactly on the samples. False for frames that are not affine.
+/// Cost: O(cols + rows).
+bool offsets_are_exact(const Frame& frame, int cols, int rows);
+
+}  // namespace scarp

@@ -1,0 +1,78 @@
+// What is given: samples on a rectangular grid.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scarp/frame.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+/// A height field that borrows its samples.
+///
+/// Samples are row-major, `cols` to a row without padding, the first row at the top (north) of the raster.
+/// Sample (col, row) stands for the height at its pixel's centre. NaN and the infinities are never heights; nor
+/// is any sample equal to `nodata`.
+struct HeightField {
+  const float* samples = nullptr;  ///< cols·rows values, owned by the caller, alive while this is used
+  int cols = 0;                    ///< at least 2
+  int rows = 0;                    ///< at least 2
+  std::optional<float> nodata;     ///< DEFAULT: none besides NaN and ±infinity
+  Frame frame;                     ///< where samples lie in the mesh. DEFAULT: cell size 1, first row at y = 0, going down
+  /// Largest |given value − float32 sample| of a source that does not fit float32 (int32, float64). A promise
+  /// about the source keeps this much in reserve. DEFAULT: 0.
+  double sample_rounding = 0;
+};
+
+/// What a reader found out about a raster besides its samples.
+struct RasterInfo {
+  std::string path;
+  std::string format;         ///< "GTiff", "PGM", "STM", …
+  std::string sample_type;    ///< type in the file: "Int16", "Float32", …
+  std::string crs;            ///< of the file, "EPSG:4326" where an authority is known, else WKT; empty if none
+  bool is_geographic = false; ///< x and y of the file are degrees
+  std::string unit;           ///< of z where the file says so; else empty
+  std::optional<double> nodata;            ///< the value that was taken as nodata
+  std::array<double, 6> geotransform{0, 1, 0, 0, 0, 1};  ///< GDAL's, of the pixel *corner*; identity if none
+  bool has_georeference = false;
+  double cell_x = 1, cell_y = 1;           ///< size of a cell in the units of the file's CRS
+  double cell_x_m = 0, cell_y_m = 0;       ///< the same in metres at the centre; 0 if unknown
+  std::uint64_t valid = 0;                 ///< samples that are heights
+  double min = 0, max = 0;                 ///< of the valid samples
+  std::vector<std::string> warnings;       ///< sentences for the user: infinities taken as nodata, …
+};
+
+/// A height field that owns its samples. nodata samples are NaN.
+struct OwnedHeightField {
+  std::vector<float> samples;
+  int cols = 0;
+  int rows = 0;
+  Frame frame;
+  double sample_rounding = 0;
+  RasterInfo info;
+
+  /// Borrows this object's samples: valid while it is alive and `samples` is not resized.
+  HeightField view() const { return {samples.data(), cols, rows, std::nullopt, frame, sample_rounding}; }
+  operator HeightField() const { return view(); }  // NOLINT: the door takes both
+};
+
+/// Number, minimum and maximum of the samples that are heights. min = max = 0 if there are none.
+struct HeightRange {
+  std::uint64_t valid = 0;
+  double min = 0, max = 0;
+};
+HeightRange height_range(const HeightField& field);
+
+/// Gives voids heights by interpolation: each void sample within `max_distance` samples (Euclidean, along the eight
+/// compass directions) of a valid one becomes the mean of the nearest valid samples in those directions, weighted by
+/// inverse squared distance. Samples farther away stay void. Returns the number of samples filled.
+/// REQUIRES: max_distance > 0. Cost: O(cols·rows), 12 extra bytes for each void sample.
+std::uint64_t fill_voids(OwnedHeightField& field, double max_distance);
+
+/// Gives every void sample the height `value`. Returns the number of samples filled.
+std::uint64_t fill_background(OwnedHeightField& field, float value);
+
+}  // namespace scarp

@@ -1,0 +1,46 @@
+// What is given back: triangles.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace scarp {
+
+/// A triangle mesh. Vertex v lies at origin + (positions[3v], positions[3v+1], positions[3v+2]); x east, y north, z up.
+///
+/// Meshes made by simplify() have positions that are exactly float32 values (z offsets from an origin whose z is 0,
+/// so z is the sample itself). Meshes read from files keep the file's precision, so that a judge does not
+/// round what it judges.
+struct Mesh {
+  std::array<double, 3> origin{0, 0, 0};
+  std::vector<double> positions;         ///< 3 per vertex: x, y, z offsets from origin
+  std::vector<std::uint32_t> triangles;  ///< 3 vertex ids per triangle, counter-clockwise seen from +z
+  std::vector<float> normals;            ///< empty, or 3 per vertex, unit length, z > 0
+  /// What the mesh is, for file headers: "generator", "command", "frame", "crs", … Written by every writer whose
+  /// format has a place for it, and read back.
+  std::map<std::string, std::string> metadata;
+
+  std::size_t vertex_count() const { return positions.size() / 3; }
+  std::size_t triangle_count() const { return triangles.size() / 3; }
+  /// Absolute position of a vertex, in double.
+  std::array<double, 3> vertex(std::size_t v) const {
+    return {origin[0] + positions[3 * v], origin[1] + positions[3 * v + 1], origin[2] + positions[3 * v + 2]};
+  }
+};
+
+/// Renumbers triangles for the vertex cache and vertices for fetch order (meshoptimizer). Same triangles, same
+/// corners, same winding; deterministic. Unused vertices are dropped. Cost: O(triangles).
+void optimize_order(Mesh& mesh);
+
+/// Closes an open terrain mesh into a solid: a flat base at z = `base` (absolute) and vertical walls along every border
+/// edge, outward-oriented, so that each edge has exactly two triangles. Vertices where two parts of the domain meet in a
+/// single point are duplicated, one for each part. Normals are dropped.
+/// REQUIRES: every edge has one or two triangles, all counter-clockwise from above; base below every vertex.
+/// Returns false (mesh unchanged) if the base is not below every vertex.
+bool add_base(Mesh& mesh, double base);
+
+}  // namespace scarp

@@ -1,0 +1,13 @@
+// The whole door.
+#pragma once
+
+#include "scarp/frame.h"
+#include "scarp/height_field.h"
+#include "scarp/io.h"
+#include "scarp/measure.h"
+#include "scarp/mesh.h"
+#include "scarp/picture.h"
+#include "scarp/progress.h"
+#include "scarp/result.h"
+#include "scarp/simplify.h"
+#include "scarp/version.h"

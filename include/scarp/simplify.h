@@ -1,0 +1,88 @@
+// From a height field to the mesh: the main job.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scarp/height_field.h"
+#include "scarp/measure.h"
+#include "scarp/mesh.h"
+#include "scarp/progress.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+/// What to reach. At least one goal; the first that is reached ends the run.
+struct SimplifyOptions {
+  /// Vertical error bound in z units, at least 0: |mesh − sample| <= max_error at every valid sample. 0 reproduces every
+  /// sample. DEFAULT: none.
+  std::optional<double> max_error;
+  /// Upper bounds. Without max_error, the result is the mesh with the smallest max error among the last 5 % of the
+  /// insertions that fit (max error is not monotone in the number of points). DEFAULT: none.
+  std::optional<std::uint64_t> max_triangles;
+  std::optional<std::uint64_t> max_vertices;
+  /// How far, in samples, the outline of the valid data may be simplified, at least 0. It only moves outwards, over void
+  /// samples: no valid sample is cut off. DEFAULT: 0, the exact outline.
+  double outline_tolerance = 0;
+  /// Vertex normals from the full-resolution samples. DEFAULT: false.
+  bool normals = false;
+  int threads = 0;  ///< 0 = all cores. Never changes the result. DEFAULT: 0.
+  ProgressCallback progress;
+};
+
+/// Which goal ended the run.
+enum class StopReason { kMaxError, kMaxTriangles, kMaxVertices, kExact };
+
+struct Simplified {
+  Mesh mesh;
+  StopReason stop = StopReason::kMaxError;
+  /// The proof: `mesh` as it stands (rounded positions), judged against all samples by measure(). Its topology part is filled in.
+  Measurement measurement;
+  double seconds_refine = 0;   ///< outline, refinement and freezing
+  double seconds_measure = 0;  ///< the proof
+  std::vector<std::string> warnings;
+};
+
+/// Greedy insertion (Garland & Heckbert 1995, Algorithm III) on a constrained Delaunay triangulation of the valid data.
+///
+/// Guarantees, for every input:
+/// (1) if max_error is given and no budget ended the run, measurement.max_error <= max_error, in exact arithmetic, for
+///     the positions in `mesh`, and no valid sample of the domain is uncovered;
+/// (2) the domain is the union of grid cells whose corners are all valid, and of half cells where three are;
+/// (3) vertices are samples; triangles are counter-clockwise from above and share whole edges;
+/// (4) the result depends on the field and the options only, not on threads or machine.
+/// Budgets are upper bounds. Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex.
+///
+/// Fails with kUsage (no goal, a goal out of range, a budget below what the outline needs), kInput (fewer than 2×2 samples, no
+/// valid cell), kPromise (a bound that float32 positions or samples cannot keep), kCancelled.
+Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& options);
+
+/// The same engine, one vertex at a time. Works on a copy of nothing: `field` must stay alive.
+class Refiner {
+ public:
+  /// Builds the triangulation of the outline and finds every triangle's worst sample.
+  static Result<Refiner> create(const HeightField& field, double outline_tolerance = 0);
+  Refiner(Refiner&&) noexcept;
+  Refiner& operator=(Refiner&&) noexcept;
+  ~Refiner();
+
+  /// Inserts the sample with the largest error (ties: lowest row, then lowest column). Returns false, without change, once
+  /// every sample is reproduced exactly. Cost: expected O(log vertices + samples rescanned).
+  bool insert_worst();
+  /// Largest error of the current mesh over all samples; 0 if none is left.
+  double max_error() const;
+  std::uint64_t vertex_count() const;
+  std::uint64_t triangle_count() const;
+  /// The current mesh, in the field's frame, rounded as for writing.
+  Mesh mesh() const;
+
+ private:
+  struct Impl;
+  explicit Refiner(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace scarp
