@@ -35,8 +35,8 @@ struct Frame {
   Kind kind = Kind::kGrid;
   std::array<double, 6> affine{0, 1, 0, 0, 0, -1};
   std::shared_ptr<const PointTransform> transform;  ///< null where the frame is affine
-  std::string crs;          ///< of x and y: "EPSG:32611", WKT, or empty where there is none
-  std::string description;  ///< one line for reports: what x and y are, and in which unit
+  std::string crs;                                  ///< of x and y: "EPSG:32611", WKT, or empty where there is none
+  std::string description;                          ///< one line for reports: what x and y are, and in which unit
 
   bool is_affine() const { return transform == nullptr; }
   /// Affine part only: the position of the (fractional) sample (col, row).

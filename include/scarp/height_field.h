@@ -21,7 +21,7 @@ struct HeightField {
   int cols = 0;                    ///< at least 2
   int rows = 0;                    ///< at least 2
   std::optional<float> nodata;     ///< DEFAULT: none besides NaN and ±infinity
-  Frame frame;                     ///< where samples lie in the mesh. DEFAULT: cell size 1, first row at y = 0, going down
+  Frame frame;  ///< where samples lie in the mesh. DEFAULT: cell size 1, first row at y = 0, going down
   /// Largest |given value − float32 sample| of a source that does not fit float32 (int32, float64). A promise
   /// about the source keeps this much in reserve. DEFAULT: 0.
   double sample_rounding = 0;
@@ -30,19 +30,19 @@ struct HeightField {
 /// What a reader found out about a raster besides its samples.
 struct RasterInfo {
   std::string path;
-  std::string format;         ///< "GTiff", "PGM", "STM", …
-  std::string sample_type;    ///< type in the file: "Int16", "Float32", …
-  std::string crs;            ///< of the file, "EPSG:4326" where an authority is known, else WKT; empty if none
-  bool is_geographic = false; ///< x and y of the file are degrees
-  std::string unit;           ///< of z where the file says so; else empty
-  std::optional<double> nodata;            ///< the value that was taken as nodata
+  std::string format;            ///< "GTiff", "PGM", "STM", …
+  std::string sample_type;       ///< type in the file: "Int16", "Float32", …
+  std::string crs;               ///< of the file, "EPSG:4326" where an authority is known, else WKT; empty if none
+  bool is_geographic = false;    ///< x and y of the file are degrees
+  std::string unit;              ///< of z where the file says so; else empty
+  std::optional<double> nodata;  ///< the value that was taken as nodata
   std::array<double, 6> geotransform{0, 1, 0, 0, 0, 1};  ///< GDAL's, of the pixel *corner*; identity if none
   bool has_georeference = false;
-  double cell_x = 1, cell_y = 1;           ///< size of a cell in the units of the file's CRS
-  double cell_x_m = 0, cell_y_m = 0;       ///< the same in metres at the centre; 0 if unknown
-  std::uint64_t valid = 0;                 ///< samples that are heights
-  double min = 0, max = 0;                 ///< of the valid samples
-  std::vector<std::string> warnings;       ///< sentences for the user: infinities taken as nodata, …
+  double cell_x = 1, cell_y = 1;      ///< size of a cell in the units of the file's CRS
+  double cell_x_m = 0, cell_y_m = 0;  ///< the same in metres at the centre; 0 if unknown
+  std::uint64_t valid = 0;            ///< samples that are heights
+  double min = 0, max = 0;            ///< of the valid samples
+  std::vector<std::string> warnings;  ///< sentences for the user: infinities taken as nodata, …
 };
 
 /// A height field that owns its samples. nodata samples are NaN.

@@ -24,8 +24,8 @@ struct MeasureOptions {
   bool topology = true;
   /// Collect `Measurement::offenders`: samples whose error is above this. DEFAULT: do not.
   std::optional<double> collect_above;
-  /// If set, called once for each row in ascending order with the signed error (mesh − sample) of every sample; NaN where the sample
-  /// is void or uncovered. The span is valid during the call only.
+  /// If set, called once for each row in ascending order with the signed error (mesh − sample) of every sample; NaN
+  /// where the sample is void or uncovered. The span is valid during the call only.
   std::function<void(int row, std::span<const float> errors)> on_row;
   int threads = 1;  ///< worker threads, 0 = all cores. Never changes the result. DEFAULT: 1.
   ProgressCallback progress;
@@ -42,31 +42,34 @@ struct Offender {
 struct Measurement {
   std::uint64_t vertices = 0, triangles = 0;
 
-  std::uint64_t samples = 0;     ///< valid samples judged (covered)
-  std::uint64_t uncovered = 0;   ///< valid samples of valid cells that no triangle covers
-  std::uint64_t stray = 0;       ///< valid samples outside every valid cell (no three valid corners): outside the domain
-  std::uint64_t void_cells_covered = 0;  ///< cells (or half cells) without valid corners that the mesh covers at their centre
+  std::uint64_t samples = 0;    ///< valid samples judged (covered)
+  std::uint64_t uncovered = 0;  ///< valid samples of valid cells that no triangle covers
+  std::uint64_t stray = 0;      ///< valid samples outside every valid cell (no three valid corners): outside the domain
+  std::uint64_t void_cells_covered =
+      0;  ///< cells (or half cells) without valid corners that the mesh covers at their centre
 
-  double max_error = 0;          ///< largest |error|
+  double max_error = 0;                              ///< largest |error|
   std::array<std::int32_t, 2> max_error_at{-1, -1};  ///< its sample (col, row); lowest row, then column, among equals
   double rmse = 0, mean_error = 0, mean_abs_error = 0;
   /// |error| below which 50, 95, 99, 99.9 % of the samples lie; from a histogram, rounded up by at most 0.05 %.
   double p50 = 0, p95 = 0, p99 = 0, p999 = 0;
 
   // Topology and shape; zero where MeasureOptions::topology is off.
-  double min_angle = 0;               ///< degrees, smallest angle of any triangle seen from above
+  double min_angle = 0;                       ///< degrees, smallest angle of any triangle seen from above
   std::array<double, 3> angle_percentiles{};  ///< P1, P5, P50 of the triangles' smallest angles, degrees
-  std::uint64_t down_facing = 0;      ///< triangles clockwise from above (in an open mesh: flipped)
-  std::uint64_t degenerate = 0;       ///< triangles without area in 3-D
-  std::uint64_t misoriented_edges = 0;  ///< edges whose two triangles run along them in the same direction
-  std::uint64_t non_manifold_edges = 0; ///< edges with more than two triangles
-  std::uint64_t open_edges = 0;       ///< edges with one triangle
-  std::uint64_t border_loops = 0;     ///< closed loops that the open edges form
-  std::uint64_t t_junctions = 0;      ///< vertices inside an open edge of another triangle
-  std::uint64_t overlaps = 0;         ///< pairs of triangles whose interiors overlap seen from above (up-facing only if closed)
-  bool closed = false;                ///< no open edges: a solid; heights are judged on its up-facing triangles
+  std::uint64_t down_facing = 0;              ///< triangles clockwise from above (in an open mesh: flipped)
+  std::uint64_t degenerate = 0;               ///< triangles without area in 3-D
+  std::uint64_t misoriented_edges = 0;        ///< edges whose two triangles run along them in the same direction
+  std::uint64_t non_manifold_edges = 0;       ///< edges with more than two triangles
+  std::uint64_t open_edges = 0;               ///< edges with one triangle
+  std::uint64_t border_loops = 0;             ///< closed loops that the open edges form
+  std::uint64_t t_junctions = 0;              ///< vertices inside an open edge of another triangle
+  std::uint64_t overlaps =
+      0;                ///< pairs of triangles whose interiors overlap seen from above (up-facing only if closed)
+  bool closed = false;  ///< no open edges: a solid; heights are judged on its up-facing triangles
 
-  std::vector<Offender> offenders;    ///< see MeasureOptions::collect_above: the worst of each triangle, all uncovered ones
+  std::vector<Offender>
+      offenders;  ///< see MeasureOptions::collect_above: the worst of each triangle, all uncovered ones
 
   /// The mesh is a single-valued terrain (or closed solid) without cracks: no flipped, overlapping, degenerate
   /// triangles, no T-junctions, no non-manifold edges.

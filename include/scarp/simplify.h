@@ -17,15 +17,15 @@ namespace scarp {
 
 /// What to reach. At least one goal; the first that is reached ends the run.
 struct SimplifyOptions {
-  /// Vertical error bound in z units, at least 0: |mesh − sample| <= max_error at every valid sample. 0 reproduces every
-  /// sample. DEFAULT: none.
+  /// Vertical error bound in z units, at least 0: |mesh − sample| <= max_error at every valid sample. 0 reproduces
+  /// every sample. DEFAULT: none.
   std::optional<double> max_error;
-  /// Upper bounds. Without max_error, the result is the mesh with the smallest max error among the last 5 % of the
-  /// insertions that fit (max error is not monotone in the number of points). DEFAULT: none.
+  /// Upper bounds. If one of them ends the run, the result is the mesh with the smallest max error among those with at
+  /// least 95 % of the budget (max error is not monotone in the number of points). DEFAULT: none.
   std::optional<std::uint64_t> max_triangles;
   std::optional<std::uint64_t> max_vertices;
-  /// How far, in samples, the outline of the valid data may be simplified, at least 0. It only moves outwards, over void
-  /// samples: no valid sample is cut off. DEFAULT: 0, the exact outline.
+  /// How far, in samples, the outline of the valid data may be simplified, at least 0. It only moves outwards, over
+  /// void samples: no valid sample is cut off. DEFAULT: 0, the exact outline.
   double outline_tolerance = 0;
   /// Vertex normals from the full-resolution samples. DEFAULT: false.
   bool normals = false;
@@ -39,7 +39,8 @@ enum class StopReason { kMaxError, kMaxTriangles, kMaxVertices, kExact };
 struct Simplified {
   Mesh mesh;
   StopReason stop = StopReason::kMaxError;
-  /// The proof: `mesh` as it stands (rounded positions), judged against all samples by measure(). Its topology part is filled in.
+  /// The proof: `mesh` as it stands (rounded positions), judged against all samples by measure(). The topology part is
+  /// left out in affine frames, where it holds by construction.
   Measurement measurement;
   double seconds_refine = 0;   ///< outline, refinement and freezing
   double seconds_measure = 0;  ///< the proof
@@ -56,8 +57,8 @@ struct Simplified {
 /// (4) the result depends on the field and the options only, not on threads or machine.
 /// Budgets are upper bounds. Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex.
 ///
-/// Fails with kUsage (no goal, a goal out of range, a budget below what the outline needs), kInput (fewer than 2×2 samples, no
-/// valid cell), kPromise (a bound that float32 positions or samples cannot keep), kCancelled.
+/// Fails with kUsage (no goal, a goal out of range, a budget below what the outline needs), kInput (fewer than 2×2
+/// samples, no valid cell), kPromise (a bound that float32 positions or samples cannot keep), kCancelled.
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& options);
 
 /// The same engine, one vertex at a time. Works on a copy of nothing: `field` must stay alive.
@@ -69,8 +70,8 @@ class Refiner {
   Refiner& operator=(Refiner&&) noexcept;
   ~Refiner();
 
-  /// Inserts the sample with the largest error (ties: lowest row, then lowest column). Returns false, without change, once
-  /// every sample is reproduced exactly. Cost: expected O(log vertices + samples rescanned).
+  /// Inserts the sample with the largest error (ties: lowest row, then lowest column). Returns false, without change,
+  /// once every sample is reproduced exactly. Cost: expected O(log vertices + samples rescanned).
   bool insert_worst();
   /// Largest error of the current mesh over all samples; 0 if none is left.
   double max_error() const;
