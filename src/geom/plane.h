@@ -1,0 +1,58 @@
+// The plane of a triangle over the lattice, and how far its arithmetic can be trusted.
+//
+// height_at() is the one formula by which every algorithm of the engine, textbook or fast, judges a sample: the corners
+// are put into raster order first, so the result depends on the triangle and the sample only, not on ids or on the path
+// of the scan. Double, no contraction: each operation rounds once. guard() bounds the sum of these roundings, so that a
+// comparison with a threshold is certain outside threshold ± guard; inside, exact_error.h decides.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "geom/predicates.h"
+
+namespace scarp {
+
+struct Plane {
+  Point base;                       ///< first corner in raster order
+  double height = 0;                ///< at base
+  double slope_x = 0, slope_y = 0;  ///< per sample
+  double guard = 0;  ///< |computed − exact| of height_at(p) − sample, for p in the triangle; 0 if level
+
+  /// REQUIRES: orient(corners) != 0; heights finite.
+  static Plane through(std::array<Point, 3> corners, std::array<float, 3> heights) {
+    const auto order = [&](int i, int j) {
+      if (before(corners[j], corners[i])) {
+        std::swap(corners[i], corners[j]);
+        std::swap(heights[i], heights[j]);
+      }
+    };
+    order(0, 1);
+    order(1, 2);
+    order(0, 1);
+    const auto [p, q, r] = corners;
+    const double qx = q.x - p.x, qy = q.y - p.y, rx = r.x - p.x, ry = r.y - p.y;
+    const double qz = double{heights[1]} - double{heights[0]}, rz = double{heights[2]} - double{heights[0]};
+    Plane plane;
+    plane.base = p;
+    plane.height = heights[0];
+    if (qz == 0 && rz == 0) return plane;
+    const auto area = static_cast<double>(orient(p, q, r));
+    plane.slope_x = (qz * ry - rz * qy) / area;
+    plane.slope_y = (rz * qx - qz * rx) / area;
+    const double width = std::max({p.x, q.x, r.x}) - std::min({p.x, q.x, r.x});
+    const double reach_x = (std::abs(qz * ry) + std::abs(rz * qy)) / std::abs(area) * width;
+    const double reach_y = (std::abs(rz * qx) + std::abs(qz * rx)) / std::abs(area) * (r.y - p.y);
+    const double size = std::max({std::abs(heights[0]), std::abs(heights[1]), std::abs(heights[2])});
+    plane.guard = 0x1p-49 * (size + reach_x + reach_y);
+    return plane;
+  }
+
+  /// Part of the height that is common to a row; height_at() = row_height(y) + slope_x · (x − base.x).
+  double row_height(std::int32_t y) const { return height + slope_y * static_cast<double>(y - base.y); }
+  double height_at(Point p) const { return row_height(p.y) + slope_x * static_cast<double>(p.x - base.x); }
+};
+
+}  // namespace scarp
