@@ -1,0 +1,117 @@
+// The workbench: a constrained Delaunay triangulation of lattice points that grows one point at a time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/array.h"
+#include "geom/predicates.h"
+
+namespace scarp {
+
+using Vertex = std::uint32_t;
+using Triangle = std::uint32_t;
+using HalfEdge = std::uint32_t;  ///< 3·triangle + corner: runs from that corner to the next
+inline constexpr std::uint32_t kNone = 0xffffffffu;
+
+/// Flat arrays, 32-bit ids; half-edge 3t + k runs from corner k of triangle t to corner k + 1, all triangles positive
+/// (orient() > 0). The triangulation always covers the rectangle that it was made with. It knows points and
+/// constraints, no heights: what an edge or a triangle means is the business of those who ask.
+///
+/// Constrained edges are never flipped; every other edge between two triangles is locally Delaunay (no
+/// corner strictly inside the neighbour's circle; cocircular ties keep the edge that is there). No recursion, no
+/// tolerance, no randomness: the same insertions in the same order give the same arrays.
+///
+/// Triangle slots are reused: inserting a point changes the triangles around it and no others; at most two (on an
+/// interior edge or inside a triangle) ids are new, and they are the highest.
+class Triangulation {
+ public:
+  /// The rectangle [0, cols − 1] × [0, rows − 1] as two triangles, the diagonal from (0, 0) to the opposite corner.
+  /// REQUIRES: cols, rows in 2 … kMaxCoordinate + 1.
+  Triangulation(std::int32_t cols, std::int32_t rows);
+
+  std::size_t vertex_count() const { return points_.size(); }
+  std::size_t triangle_count() const { return flags_.size(); }
+  Point point(Vertex v) const { return points_[v]; }
+  Vertex origin(HalfEdge h) const { return corners_[h]; }
+  HalfEdge twin(HalfEdge h) const { return twins_[h]; }  ///< kNone on the rectangle's border
+  std::array<Point, 3> corners(Triangle t) const {
+    return {points_[corners_[3 * t]], points_[corners_[3 * t + 1]], points_[corners_[3 * t + 2]]};
+  }
+  static Triangle triangle_of(HalfEdge h) { return h / 3; }
+  static HalfEdge next(HalfEdge h) { return h % 3 == 2 ? h - 2 : h + 1; }
+  static HalfEdge previous(HalfEdge h) { return h % 3 == 0 ? h + 2 : h - 1; }
+
+  bool is_constrained(HalfEdge h) const { return (flags_[h / 3] >> (h % 3)) & 1; }
+  /// Triangles marked outside are not part of the domain. Insertion hands the mark on.
+  bool is_outside(Triangle t) const { return (flags_[t] & kOutside) != 0; }
+  void set_outside(Triangle t, bool outside);
+
+  /// Where a point lies.
+  struct Location {
+    enum class Kind { kInside, kOnEdge, kOnVertex } kind = Kind::kInside;
+    HalfEdge edge = 0;  ///< kInside: any half-edge of the triangle; kOnEdge: the edge (its lower half-edge); kOnVertex:
+                        ///< starts there
+  };
+  /// Walks from `hint` (any triangle) to the point. REQUIRES: p in the rectangle. Cost: expected O(√triangles), O(1)
+  /// near the hint.
+  Location locate(Point p, Triangle hint) const;
+  /// The same where t is known to contain p (closed).
+  Location locate_in(Point p, Triangle t) const;
+
+  /// Inserts p at its location and restores the Delaunay property. Returns the new vertex; for kOnVertex the one that
+  /// is there. Constraints on a split edge hold on both halves. Cost: expected O(1).
+  Vertex insert(Point p, Location location);
+
+  /// Triangles with v as a corner, in cyclic order (from border to border where v lies on the rectangle's border).
+  void star(Vertex v, std::vector<Triangle>& triangles) const;
+
+  /// Makes the segment between two vertices a chain of constrained edges; vertices on the segment become part of the
+  /// chain. Returns false, without change, if it would cross a constrained edge. REQUIRES: a != b.
+  bool constrain(Vertex a, Vertex b);
+
+  /// A triangle at the vertex that was inserted last: a good hint for locate().
+  Triangle last_touched() const { return last_; }
+
+  /// The half-edge from a to b, kNone if they are not neighbours. Cost: a walk to a, O(1) if it was touched last.
+  HalfEdge find_edge(Vertex a, Vertex b) const;
+
+ private:
+  static constexpr std::uint8_t kOutside = 8;
+
+  /// What a segment meets on its way from a vertex: the edges it crosses (each from its right end to its left end),
+  /// then the vertex it comes to first.
+  struct Passage {
+    std::vector<HalfEdge> crossed;
+    Vertex reached = kNone;
+  };
+
+  Triangle new_triangle();
+  void set_triangle(Triangle t, Vertex a, Vertex b, Vertex c, bool outside);
+  void link(HalfEdge h, HalfEdge g);
+  /// Gives h the neighbour and the constraint of an edge that is being replaced.
+  struct Side {
+    HalfEdge twin;
+    bool constrained;
+  };
+  Side side(HalfEdge h) const { return {twins_[h], is_constrained(h)}; }
+  void attach(HalfEdge h, Side side);
+  void set_constrained(HalfEdge h);
+  bool should_flip(HalfEdge h) const;
+  void flip(HalfEdge h);
+  void legalize_star();
+  HalfEdge edge_out_of(Vertex v) const;
+  Passage passage(Vertex from, Vertex to) const;
+  void force_edge(Vertex a, Vertex b, const std::vector<HalfEdge>& crossed);
+
+  std::int32_t cols_, rows_;
+  Array<Point> points_;
+  Array<Vertex> corners_;          // 3 per triangle
+  Array<HalfEdge> twins_;          // 3 per triangle
+  Array<std::uint8_t> flags_;      // bits 0..2: edge k constrained; bit 3: outside
+  std::vector<HalfEdge> pending_;  // explicit stack of edges to test
+  Triangle last_ = 0;              // a triangle at the vertex that was touched last
+};
+
+}  // namespace scarp
