@@ -1,0 +1,123 @@
+#include "grid/outline.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+namespace scarp {
+
+namespace {
+
+constexpr Point kCorner[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};  // positive order
+// The cell beyond side k (from corner k to corner k + 1), and that cell's own name for the side's two corners.
+constexpr Point kBeyond[4] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
+
+struct DirectedEdge {
+  Point from, to;
+};
+
+bool is_surface_cell(unsigned corners) { return std::popcount(corners) >= 3; }
+
+/// Side k of a surface cell belongs to its surface if both its ends are heights.
+bool has_side(unsigned corners, unsigned k) {
+  return is_surface_cell(corners) && (corners >> k & 1) && (corners >> (k + 1) % 4 & 1);
+}
+
+std::vector<DirectedEdge> border_edges(const Raster& raster) {
+  std::vector<DirectedEdge> edges;
+  const auto corners_of = [&](std::int32_t x, std::int32_t y) {
+    const bool exists = x >= 0 && y >= 0 && x + 1 < raster.cols && y + 1 < raster.rows;
+    return exists ? valid_corners(raster, x, y) : 0u;
+  };
+  for (std::int32_t y = 0; y + 1 < raster.rows; ++y) {
+    for (std::int32_t x = 0; x + 1 < raster.cols; ++x) {
+      const unsigned corners = corners_of(x, y);
+      if (!is_surface_cell(corners)) continue;
+      const auto at = [&](unsigned k) { return Point{x + kCorner[k % 4].x, y + kCorner[k % 4].y}; };
+      for (unsigned k = 0; k < 4; ++k) {
+        // The side's ends are the same samples in both cells, so the cell beyond has the side exactly if it is surface.
+        const unsigned beyond = corners_of(x + kBeyond[k].x, y + kBeyond[k].y);
+        if (has_side(corners, k) && !is_surface_cell(beyond)) edges.push_back({at(k), at(k + 1)});
+        if (!(corners >> k & 1)) edges.push_back({at(k + 3), at(k + 1)});  // the diagonal of a half cell
+      }
+    }
+  }
+  std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
+    return a.from == b.from ? before(a.to, b.to) : before(a.from, b.from);
+  });
+  return edges;
+}
+
+/// Orders the turn from `in` to `out`: larger means farther to the left, from just above −180° to +180°.
+double left_turn(Point in, Point out) {
+  const int cross = in.x * out.y - in.y * out.x, dot = in.x * out.x + in.y * out.y;
+  // Unit steps of a lattice: the eight turns have exact, distinct keys without trigonometry.
+  const double along = static_cast<double>(dot) / (std::abs(dot) + std::abs(cross));
+  return cross >= 0 ? 1 - along : along - 1;
+}
+
+Point step(const DirectedEdge& e) { return {e.to.x - e.from.x, e.to.y - e.from.y}; }
+
+}  // namespace
+
+bool is_whole(const Raster& raster) {
+  const std::size_t count = static_cast<std::size_t>(raster.cols) * static_cast<std::size_t>(raster.rows);
+  return std::none_of(raster.samples, raster.samples + count, [](float z) { return std::isnan(z); });
+}
+
+Outline trace_outline(const Raster& raster) {
+  const std::vector<DirectedEdge> edges = border_edges(raster);
+  std::vector<bool> used(edges.size(), false);
+  Outline outline;
+  for (std::size_t start = 0; start < edges.size(); ++start) {
+    if (used[start]) continue;
+    std::vector<Point> polygon;
+    std::size_t e = start;
+    do {
+      used[e] = true;
+      auto out = static_cast<std::size_t>(
+          std::lower_bound(edges.begin(), edges.end(), edges[e].to,
+                           [](const DirectedEdge& edge, Point p) { return before(edge.from, p); }) -
+          edges.begin());
+      // Where polygons touch, the sharpest left turn stays with the same wedge of surface. The start is still on offer
+      // although used: it closes the polygon.
+      std::size_t next = edges.size();
+      for (; out < edges.size() && edges[out].from == edges[e].to; ++out) {
+        if (used[out] && out != start) continue;
+        if (next == edges.size() ||
+            left_turn(step(edges[e]), step(edges[out])) > left_turn(step(edges[e]), step(edges[next])))
+          next = out;
+      }
+      if (!(step(edges[e]) == step(edges[next]))) polygon.push_back(edges[e].to);
+      e = next;
+    } while (e != start);
+    outline.push_back(std::move(polygon));
+  }
+  return outline;
+}
+
+bool centroid_is_surface(const Raster& raster, const std::array<Point, 3>& corners) {
+  // Three times the centroid, relative to the cell that holds it. A centroid on a cell's border may be asked of either
+  // cell.
+  const std::int64_t x3 = std::int64_t{corners[0].x} + corners[1].x + corners[2].x;
+  const std::int64_t y3 = std::int64_t{corners[0].y} + corners[1].y + corners[2].y;
+  const auto x = static_cast<std::int32_t>(std::min<std::int64_t>(x3 / 3, raster.cols - 2));
+  const auto y = static_cast<std::int32_t>(std::min<std::int64_t>(y3 / 3, raster.rows - 2));
+  const std::int64_t u = x3 - 3 * std::int64_t{x}, v = y3 - 3 * std::int64_t{y};  // 0 … 3
+  switch (valid_corners(raster, x, y)) {
+    case 0b1111:
+      return true;
+    case 0b1110:  // (x, y) is void
+      return u + v >= 3;
+    case 0b1101:  // (x + 1, y)
+      return u <= v;
+    case 0b1011:  // (x + 1, y + 1)
+      return u + v <= 3;
+    case 0b0111:  // (x, y + 1)
+      return u >= v;
+    default:
+      return false;
+  }
+}
+
+}  // namespace scarp

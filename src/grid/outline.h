@@ -1,0 +1,41 @@
+// The domain: which part of the grid is surface.
+//
+// A grid cell whose four corner samples are heights is surface; one with three such corners is surface on the half
+// between them; any other cell is void. The outline of the union is a set of closed lattice polygons.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "grid/raster.h"
+
+namespace scarp {
+
+/// Closed polygons with the domain on their left (positive orientation: outer borders positive, holes negative),
+/// without collinear points. Polygons may touch themselves and each other in single vertices; they never cross.
+using Outline = std::vector<std::vector<Point>>;
+
+/// True if every sample is a height. Cost: O(samples).
+bool is_whole(const Raster& raster);
+
+/// Traces the outline. Empty if no cell is surface. Deterministic. Cost: O(samples + L log L) for an outline of L unit
+/// edges.
+Outline trace_outline(const Raster& raster);
+
+/// Which corners of the cell [x, x+1] × [y, y+1] are heights: bit k for corner k of (x,y), (x+1,y), (x+1,y+1), (x,y+1).
+inline unsigned valid_corners(const Raster& raster, std::int32_t x, std::int32_t y) {
+  const auto bit = [&](std::int32_t i, std::int32_t j, unsigned k) { return raster.is_valid({i, j}) ? 1u << k : 0u; };
+  return bit(x, y, 0) | bit(x + 1, y, 1) | bit(x + 1, y + 1, 2) | bit(x, y + 1, 3);
+}
+
+/// True if the centroid of the triangle lies in the domain. For a triangle that lies wholly inside or wholly outside
+/// this decides which. Exact.
+bool centroid_is_surface(const Raster& raster, const std::array<Point, 3>& corners);
+
+/// Simplifies the polygons so that each point of the old outline lies within `tolerance` samples of the new one. The
+/// domain only grows, over void samples: no valid sample is cut off or newly enclosed, and polygons still do not cross.
+/// Vertices are a subset of the old ones. Where two simplified polygons would touch in more than
+/// vertices the caller falls back to the exact outline. Cost: O(L · tolerance) on typical outlines.
+Outline simplify_outline(const Raster& raster, const Outline& outline, double tolerance);
+
+}  // namespace scarp

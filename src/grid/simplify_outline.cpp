@@ -1,0 +1,106 @@
+// Fewer vertices on ragged outlines, without losing a sample.
+//
+// From a kept vertex the polygon runs as far ahead as one straight segment may replace the chain between. It may if
+// the chain lies on the segment's domain side (left) within the tolerance, so that the domain only grows, and if the
+// area between chain and segment holds no other height, so that nothing is newly enclosed. The second condition also
+// keeps segments from crossing: whatever crossed one would have to end in that area, on a sample.
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "grid/outline.h"
+
+namespace scarp {
+
+namespace {
+
+constexpr std::size_t kLongestChain = 200;  // vertices replaced by one segment
+constexpr int kPatience = 8;                // failures in a row before giving up on a longer segment
+
+/// Chain within `tolerance` of the segment from its first to its last point, and to the left of it or on it.
+bool hugs_segment(std::span<const Point> chain, double tolerance) {
+  const Point a = chain.front(), b = chain.back();
+  const std::int64_t dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
+  for (Point p : chain.subspan(1, chain.size() - 2)) {
+    const std::int64_t side = orient(a, b, p), along = dx * (p.x - a.x) + dy * (p.y - a.y);
+    const double distance2 = static_cast<double>(side) * static_cast<double>(side) / static_cast<double>(length2);
+    if (side < 0 || along < 0 || along > length2 || distance2 > tolerance * tolerance) return false;
+  }
+  return true;
+}
+
+/// p in the closed polygon (crossing number; points on the border are found first).
+bool encloses(std::span<const Point> polygon, Point p) {
+  bool inside = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    const std::int64_t side = orient(a, b, p);
+    const bool in_box = std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
+                        p.y <= std::max(a.y, b.y);
+    if (side == 0 && in_box) return true;
+    if ((a.y > p.y) != (b.y > p.y) && (side > 0) == (b.y > a.y)) inside = !inside;
+  }
+  return inside;
+}
+
+bool on_chain(std::span<const Point> chain, Point p) {
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+    const Point a = chain[i], b = chain[i + 1];
+    const bool in_box = std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
+                        p.y <= std::max(a.y, b.y);
+    if (in_box && orient(a, b, p) == 0) return true;
+  }
+  return false;
+}
+
+/// No height lies between the chain and the segment that closes it, but those of the chain itself.
+bool area_is_void(const Raster& raster, std::span<const Point> chain) {
+  Point low = chain[0], high = chain[0];
+  for (Point p : chain) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  for (std::int32_t y = low.y; y <= high.y; ++y) {
+    for (std::int32_t x = low.x; x <= high.x; ++x) {
+      const Point p{x, y};
+      if (raster.is_valid(p) && orient(chain.front(), chain.back(), p) >= 0 && !on_chain(chain, p) &&
+          encloses(chain, p))
+        return false;
+    }
+  }
+  return true;
+}
+
+std::vector<Point> simplify_polygon(const Raster& raster, const std::vector<Point>& polygon, double tolerance) {
+  const std::size_t n = polygon.size();
+  std::vector<Point> kept, chain;
+  for (std::size_t i = 0; i < n;) {
+    kept.push_back(polygon[i]);
+    std::size_t best = i + 1;
+    chain = {polygon[i], polygon[(i + 1) % n]};
+    int failures = 0;
+    for (std::size_t j = i + 2; j <= n && j - i <= kLongestChain && failures < kPatience; ++j) {
+      chain.push_back(polygon[j % n]);
+      // A segment back to the start would close a polygon of fewer than three corners.
+      if (j == n && kept.size() < 3) break;
+      if (hugs_segment(chain, tolerance) && area_is_void(raster, chain)) {
+        best = j;
+        failures = 0;
+      } else {
+        ++failures;
+      }
+    }
+    i = best;
+  }
+  return kept.size() >= 3 ? kept : polygon;
+}
+
+}  // namespace
+
+Outline simplify_outline(const Raster& raster, const Outline& outline, double tolerance) {
+  Outline simplified;
+  for (const auto& polygon : outline) simplified.push_back(simplify_polygon(raster, polygon, tolerance));
+  return simplified;
+}
+
+}  // namespace scarp
