@@ -1,0 +1,129 @@
+#include "refine/domain.h"
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace scarp {
+
+namespace {
+
+Vertex insert_point(Triangulation& tin, Point p) { return tin.insert(p, tin.locate(p, tin.last_touched())); }
+
+/// False if two edges cross.
+bool constrain_outline(Triangulation& tin, const Outline& outline) {
+  for (const auto& polygon : outline) {
+    for (Point p : polygon) insert_point(tin, p);
+  }
+  for (const auto& polygon : outline) {
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vertex a = insert_point(tin, polygon[i]), b = insert_point(tin, polygon[(i + 1) % polygon.size()]);
+      if (!tin.constrain(a, b)) return false;
+    }
+  }
+  return true;
+}
+
+/// Marks what lies outside: what no path without a constrained edge connects with a triangle of surface.
+void mark_outside(const Raster& raster, Triangulation& tin) {
+  std::vector<Triangle> stack;
+  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+    tin.set_outside(t, !centroid_is_surface(raster, tin.corners(t)));
+    if (!tin.is_outside(t)) stack.push_back(t);
+  }
+  while (!stack.empty()) {
+    const Triangle t = stack.back();
+    stack.pop_back();
+    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+      const HalfEdge g = tin.twin(h);
+      if (g == kNone || tin.is_constrained(h) || !tin.is_outside(g / 3)) continue;
+      tin.set_outside(g / 3, false);
+      stack.push_back(g / 3);
+    }
+  }
+}
+
+/// Splits border edges of the domain whose chord in the frame strays from the samples under it.
+void follow_curved_border(Triangulation& tin, const Frame& frame) {
+  constexpr double kStray = 1.0 / 512;
+  struct Segment {
+    Point a, b;
+  };
+  std::vector<Segment> stack;
+  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    const HalfEdge g = tin.twin(h);
+    if (tin.is_outside(h / 3) || (g != kNone && !tin.is_outside(g / 3))) continue;
+    stack.push_back({tin.point(tin.origin(h)), tin.point(tin.origin(Triangulation::next(h)))});
+  }
+  std::vector<double> xs, ys;
+  while (!stack.empty()) {
+    const auto [a, b] = stack.back();
+    stack.pop_back();
+    const std::int32_t steps = std::gcd(std::abs(b.x - a.x), std::abs(b.y - a.y));
+    if (steps < 2) continue;
+    const Point unit{(b.x - a.x) / steps, (b.y - a.y) / steps};
+    xs.clear();
+    ys.clear();
+    for (std::int32_t i = 0; i <= steps; ++i) {
+      const auto [x, y] = frame.apply_affine(a.x + i * unit.x, a.y + i * unit.y);
+      xs.push_back(x);
+      ys.push_back(y);
+    }
+    frame.transform->apply(xs, ys);
+    const double dx = xs.back() - xs.front(), dy = ys.back() - ys.front(), length = std::hypot(dx, dy);
+    // Across the chord only: a shift along it moves no sample off the mesh.
+    double worst = kStray * length / steps;
+    std::int32_t split = 0;
+    for (std::int32_t i = 1; i < steps; ++i) {
+      const double stray = std::abs(dx * (ys[i] - ys.front()) - dy * (xs[i] - xs.front())) / length;
+      if (stray > worst) {
+        worst = stray;
+        split = i;
+      }
+    }
+    if (split == 0) continue;
+    const Point p{a.x + split * unit.x, a.y + split * unit.y};
+    insert_point(tin, p);
+    stack.push_back({a, p});
+    stack.push_back({p, b});
+  }
+}
+
+std::uint32_t count_unused_corners(const Triangulation& tin) {
+  std::uint32_t unused = 0;
+  std::vector<Triangle> star;
+  for (Vertex v = 0; v < 4; ++v) {
+    tin.star(v, star);
+    bool used = false;
+    for (Triangle t : star) used = used || !tin.is_outside(t);
+    unused += !used;
+  }
+  return unused;
+}
+
+}  // namespace
+
+Result<Domain> build_domain(const Raster& raster, double outline_tolerance, const Frame& frame) {
+  Domain domain{Triangulation(raster.cols, raster.rows)};
+  domain.whole = is_whole(raster);
+  if (!domain.whole) {
+    const Outline outline = trace_outline(raster);
+    if (outline.empty())
+      return fail(
+          ErrorKind::kInput,
+          "the raster has no grid cell with three valid corners, so there is no surface to simplify; check nodata");
+    const bool simplified =
+        outline_tolerance > 0 && constrain_outline(domain.tin, simplify_outline(raster, outline, outline_tolerance));
+    if (!simplified) {
+      domain.tin = Triangulation(raster.cols, raster.rows);
+      if (!constrain_outline(domain.tin, outline))
+        return fail(ErrorKind::kInternal, "two edges of the outline of the valid data cross");
+    }
+    mark_outside(raster, domain.tin);
+  }
+  if (!frame.is_affine()) follow_curved_border(domain.tin, frame);
+  domain.unused = count_unused_corners(domain.tin);
+  return domain;
+}
+
+}  // namespace scarp

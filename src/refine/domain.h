@@ -1,0 +1,26 @@
+// Seeding: the triangulation of the domain before any refinement.
+#pragma once
+
+#include <cstdint>
+
+#include "grid/outline.h"
+#include "grid/raster.h"
+#include "scarp/frame.h"
+#include "scarp/result.h"
+#include "tin/triangulation.h"
+
+namespace scarp {
+
+struct Domain {
+  Triangulation tin;
+  bool whole = true;         ///< every sample is a height: the domain is the rectangle
+  std::uint32_t unused = 0;  ///< rectangle corners that are no vertex of the domain (void or stray)
+};
+
+/// The rectangle as two triangles if every sample is a height; else the outline's vertices, its edges constrained, all
+/// else marked outside. In frames that are not affine, border samples are added until each border edge runs within
+/// 1/512 sample of the samples under it.
+/// Fails with kInput if no cell is surface.
+Result<Domain> build_domain(const Raster& raster, double outline_tolerance, const Frame& frame);
+
+}  // namespace scarp

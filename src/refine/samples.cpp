@@ -1,0 +1,32 @@
+#include "refine/samples.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace scarp {
+
+Result<Samples> Samples::of(const HeightField& field) {
+  if (field.samples == nullptr || field.cols < 2 || field.rows < 2)
+    return fail(ErrorKind::kInput,
+                fmt::format("a height field needs at least 2 x 2 samples, not {} x {}", field.cols, field.rows));
+  if (field.cols > kMaxCoordinate || field.rows > kMaxCoordinate)
+    return fail(ErrorKind::kInput, fmt::format("a height field of {} x {} samples is too large: at most {} a side",
+                                               field.cols, field.rows, kMaxCoordinate));
+  Samples samples;
+  samples.raster_ = {field.samples, field.cols, field.rows};
+  const std::size_t count = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
+  const auto must_change = [&](float z) { return std::isinf(z) || (field.nodata && z == *field.nodata); };
+  if (std::any_of(field.samples, field.samples + count, must_change)) {
+    samples.cleaned_.assign(field.samples, field.samples + count);
+    for (float& z : samples.cleaned_) {
+      if (must_change(z)) z = std::numeric_limits<float>::quiet_NaN();
+    }
+    samples.raster_.samples = samples.cleaned_.data();
+  }
+  return samples;
+}
+
+}  // namespace scarp

@@ -1,0 +1,25 @@
+// A caller's samples made fit for the engine.
+#pragma once
+
+#include <vector>
+
+#include "grid/raster.h"
+#include "scarp/height_field.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+/// Borrows the field's samples where void is NaN already (as readers deliver them); else owns a cleaned copy, 4 bytes a
+/// sample.
+class Samples {
+ public:
+  /// Fails with kInput if the field is smaller than 2×2 or larger than the lattice.
+  static Result<Samples> of(const HeightField& field);
+  Raster raster() const { return raster_; }
+
+ private:
+  std::vector<float> cleaned_;
+  Raster raster_;
+};
+
+}  // namespace scarp

@@ -1,0 +1,250 @@
+// The main job as a list of passes. Milestones: after `build_domain` the outline is fixed; after `refine` and
+// `take_best_prefix` no vertex is added; after `freeze` nothing moves; what `prove` has seen is what is returned.
+#include "scarp/simplify.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "grid/raster.h"
+#include "refine/domain.h"
+#include "refine/freeze.h"
+#include "refine/refinement.h"
+#include "refine/samples.h"
+
+namespace scarp {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+Result<void> check_goals(const HeightField& field, const SimplifyOptions& options) {
+  if (!options.max_error && !options.max_triangles && !options.max_vertices)
+    return fail(ErrorKind::kUsage, "no goal given: set max_error, max_triangles or max_vertices");
+  if (options.max_error && !(*options.max_error >= 0 && std::isfinite(*options.max_error)))
+    return fail(ErrorKind::kUsage,
+                fmt::format("max_error must be a finite number of at least 0, not {}", *options.max_error));
+  if (!(options.outline_tolerance >= 0 && std::isfinite(options.outline_tolerance)))
+    return fail(ErrorKind::kUsage, fmt::format("outline_tolerance must be a finite number of at least 0, not {}",
+                                               options.outline_tolerance));
+  if (options.max_error && *options.max_error < field.sample_rounding)
+    return fail(
+        ErrorKind::kPromise,
+        fmt::format(
+            "a max error of {} cannot be kept: the raster's values do not fit float32 and are rounded by up to {}; "
+            "ask for at least that much",
+            *options.max_error, field.sample_rounding));
+  return {};
+}
+
+Result<void> check_budget(const Domain& domain, std::uint64_t triangles, const SimplifyOptions& options) {
+  const std::uint64_t vertices = domain.tin.vertex_count() - domain.unused;
+  const char* advice = domain.whole ? "" : ", or simplify the outline with an outline tolerance";
+  if (options.max_vertices && *options.max_vertices < vertices)
+    return fail(ErrorKind::kUsage,
+                fmt::format("max_vertices is {}, but the outline of the valid data alone needs {} vertices: raise it{}",
+                            *options.max_vertices, vertices, advice));
+  if (options.max_triangles && *options.max_triangles < triangles)
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("max_triangles is {}, but the outline of the valid data alone needs {} triangles: raise it{}",
+                    *options.max_triangles, triangles, advice));
+  return {};
+}
+
+/// Reports progress at most ten times a second; false once the callback has said so.
+class Reporter {
+ public:
+  explicit Reporter(const ProgressCallback& callback) : callback_(callback) {}
+  bool due() const { return callback_ && seconds_since(last_) > 0.1; }
+  bool report(std::string_view pass, double fraction, std::uint64_t vertices, double error) {
+    last_ = Clock::now();
+    fraction_ = std::max(fraction_, std::min(fraction, 1.0));
+    return !callback_ || callback_({pass, fraction_, vertices, error});
+  }
+
+ private:
+  const ProgressCallback& callback_;
+  Clock::time_point last_ = Clock::now();
+  double fraction_ = 0;
+};
+
+/// One run of the engine towards the goals.
+class Run {
+ public:
+  Run(const HeightField& field, const Raster& raster, const SimplifyOptions& options, Domain domain)
+      : field_(field),
+        raster_(raster),
+        options_(options),
+        bound_(options.max_error ? *options.max_error - field.sample_rounding : 0),
+        domain_(std::move(domain)),
+        seeds_(domain_->tin.vertex_count()),
+        refinement_(std::in_place, raster, domain_->tin, bound_),
+        reporter_(options.progress) {}
+
+  Result<Simplified> execute() {
+    const auto start = Clock::now();
+    if (auto fits = check_budget(*domain_, refinement_->triangle_count(), options_); !fits)
+      return tl::unexpected(fits.error());
+    Simplified result;
+    if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
+    take_best_prefix();
+    // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
+    // proof.
+    const bool final =
+        result.stop != StopReason::kMaxError || offsets_are_exact(field_.frame, field_.cols, field_.rows);
+    if (final) refinement_.reset();
+    result.mesh = freeze(raster_, domain_->tin, field_.frame);
+    if (options_.normals) result.mesh.normals = sample_normals(raster_, field_.frame, frozen_samples(domain_->tin));
+    if (final) domain_.reset();
+    optimize_order(result.mesh);
+    result.seconds_refine = seconds_since(start);
+    if (auto proven = prove(result); !proven) return tl::unexpected(proven.error());
+    return result;
+  }
+
+ private:
+  std::uint64_t vertices() const { return domain_->tin.vertex_count() - domain_->unused; }
+
+  std::optional<StopReason> reached() const {
+    if (refinement_->done()) return options_.max_error ? StopReason::kMaxError : StopReason::kExact;
+    if (options_.max_vertices && vertices() + 1 > *options_.max_vertices) return StopReason::kMaxVertices;
+    if (options_.max_triangles && refinement_->triangle_count() + refinement_->next_gain() > *options_.max_triangles)
+      return StopReason::kMaxTriangles;
+    return std::nullopt;
+  }
+
+  Result<void> refine(StopReason& stop) {
+    const double first_error = refinement_->worst_error();
+    best_ = {domain_->tin.vertex_count(), first_error};
+    for (std::uint64_t step = 0;; ++step) {
+      if (const auto reason = reached()) {
+        stop = *reason;
+        return {};
+      }
+      if (refinement_->is_full())
+        return fail(ErrorKind::kInput, "the mesh would have more than 1,431 million triangles: allow a larger error");
+      if (step % 256 == 0 && reporter_.due() &&
+          !reporter_.report("refine", fraction(first_error), vertices(), refinement_->worst_error()))
+        return fail(ErrorKind::kCancelled, "cancelled while refining");
+      refinement_->insert_worst();
+      if (in_last_stretch() && refinement_->worst_error() <= best_.error)
+        best_ = {domain_->tin.vertex_count(), refinement_->worst_error()};
+    }
+  }
+
+  double fraction(double first_error) const {
+    double fraction = 0;
+    if (options_.max_vertices) fraction = static_cast<double>(vertices()) / static_cast<double>(*options_.max_vertices);
+    if (options_.max_triangles)
+      fraction = std::max(
+          fraction, static_cast<double>(refinement_->triangle_count()) / static_cast<double>(*options_.max_triangles));
+    // The error falls about as the square root of the vertices grows: work done is a ratio of squares.
+    const double error = refinement_->worst_error();
+    if (options_.max_error && bound_ > 0 && first_error > bound_)
+      fraction = std::max(fraction, bound_ * bound_ / (error * error));
+    return fraction;
+  }
+
+  /// The last 5 % of what the budget allows: where the best prefix is looked for.
+  bool in_last_stretch() const {
+    const auto last = [](std::uint64_t count, const std::optional<std::uint64_t>& most) {
+      return most && static_cast<double>(count) >= 0.95 * static_cast<double>(*most);
+    };
+    return last(vertices(), options_.max_vertices) || last(refinement_->triangle_count(), options_.max_triangles);
+  }
+
+  /// Max error is not monotone: a budget may stop on a spike. Insertion is deterministic, so an earlier mesh is had by
+  /// inserting the same points again, without looking at a sample.
+  void take_best_prefix() {
+    if (refinement_->done() || best_.vertices == domain_->tin.vertex_count() || best_.vertices == seeds_) return;
+    std::vector<Point> points;
+    for (std::size_t v = seeds_; v < best_.vertices; ++v) points.push_back(domain_->tin.point(static_cast<Vertex>(v)));
+    refinement_.reset();
+    domain_ = *build_domain(raster_, options_.outline_tolerance, field_.frame);
+    for (Point p : points) domain_->tin.insert(p, domain_->tin.locate(p, domain_->tin.last_touched()));
+  }
+
+  /// Judges the mesh as it will be written. Where float32 positions or the frame's curvature cost the bound, the
+  /// samples that break it are inserted and refinement goes on.
+  Result<void> prove(Simplified& result) {
+    MeasureOptions judge;
+    judge.topology = !field_.frame.is_affine();
+    judge.threads = options_.threads;
+    judge.progress = options_.progress;
+    if (options_.max_error) judge.collect_above = bound_;
+    for (;;) {
+      const auto start = Clock::now();
+      auto measurement = measure(field_, result.mesh, judge);
+      if (!measurement) return tl::unexpected(measurement.error());
+      result.measurement = std::move(*measurement);
+      result.seconds_measure += seconds_since(start);
+      if (result.stop != StopReason::kMaxError || keeps_promise(result.measurement)) return {};
+      if (!refinement_) return fail(ErrorKind::kInternal, broken_promise(result.measurement));
+      std::uint64_t inserted = 0;
+      for (const Offender& o : result.measurement.offenders) inserted += refinement_->insert({o.col, o.row});
+      if (inserted == 0)
+        return fail(ErrorKind::kPromise,
+                    broken_promise(result.measurement) +
+                        ": positions in the mesh are float32 offsets, and their rounding alone costs that much; "
+                        "ask for a larger error, or use the local or grid frame");
+      const auto again = Clock::now();
+      if (auto refined = refine(result.stop); !refined) return refined;
+      result.mesh = freeze(raster_, domain_->tin, field_.frame);
+      if (options_.normals) result.mesh.normals = sample_normals(raster_, field_.frame, frozen_samples(domain_->tin));
+      optimize_order(result.mesh);
+      result.seconds_refine += seconds_since(again);
+    }
+  }
+
+  bool keeps_promise(const Measurement& m) const {
+    // The judge's own double arithmetic rounds: the exact proof is the engine's, this is the independent check of it.
+    const HeightRange range = height_range(field_);
+    const double rounding = 1e-12 * (bound_ + std::max(std::abs(range.min), std::abs(range.max)));
+    return m.max_error <= bound_ + rounding && m.uncovered == 0;
+  }
+
+  std::string broken_promise(const Measurement& m) const {
+    if (m.uncovered > 0) return fmt::format("{} valid samples are not covered by the mesh", m.uncovered);
+    return fmt::format("a max error of {} cannot be kept: at sample ({}, {}) the mesh is off by {}",
+                       *options_.max_error, m.max_error_at[0], m.max_error_at[1], m.max_error);
+  }
+
+  struct Prefix {
+    std::size_t vertices;
+    double error;
+  };
+
+  const HeightField& field_;
+  const Raster& raster_;
+  const SimplifyOptions& options_;
+  double bound_;
+  std::optional<Domain> domain_;  // the workbench: given back as soon as nothing can need it any more
+  std::size_t seeds_;
+  std::optional<Refinement> refinement_;
+  Reporter reporter_;
+  Prefix best_{0, std::numeric_limits<double>::infinity()};
+};
+
+}  // namespace
+
+Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& options) try {
+  if (auto goals = check_goals(field, options); !goals) return tl::unexpected(goals.error());
+  auto samples = Samples::of(field);
+  if (!samples) return tl::unexpected(samples.error());
+  auto domain = build_domain(samples->raster(), options.outline_tolerance, field.frame);
+  if (!domain) return tl::unexpected(domain.error());
+  return Run(field, samples->raster(), options, std::move(*domain)).execute();
+} catch (const std::bad_alloc&) {
+  return fail(ErrorKind::kInput, "not enough memory for this raster and goal: allow a larger error or fewer triangles");
+}
+
+}  // namespace scarp
