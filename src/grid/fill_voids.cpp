@@ -1,0 +1,135 @@
+// Filling voids.
+//
+// Problem: a void sample needs a height from the valid samples around it, near ones first, in time that does not grow
+// with the size of the void.
+//
+// Idea: look along the eight compass directions only. "The nearest valid sample to the north-west" of a sample is the
+// one of its north-western neighbour, unless that neighbour is valid itself: one sweep down the rows carries the
+// answers for W, N, NW and NE, one sweep up those for E, S, SW and SE. Each void sample gathers Σ w and
+// Σ w·(z − reference), w = 1 / distance², in two passes over the raster. The reference is the first height found: over
+// a flat surround the result is that height exactly, and float sums are precise enough. Heights are written at the end,
+// so that no filled sample feeds another.
+//
+// Source: the sweeps are those of distance transforms (Rosenfeld & Pfaltz 1966); the weights are Shepard's (1968).
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "scarp/height_field.h"
+
+namespace scarp {
+namespace {
+
+/// The nearest valid sample along one direction.
+struct Seen {
+  float height = 0;
+  int steps = -1;  ///< away; -1: there is none
+};
+
+/// Sums of one void sample: 12 bytes.
+struct Gathered {
+  float reference = 0;
+  float weight = 0;
+  float weighted = 0;  ///< Σ w·(z − reference)
+};
+
+class Sweeper {
+ public:
+  Sweeper(const OwnedHeightField& field, std::vector<Gathered>& gathered, double max_distance)
+      : field_(field), gathered_(gathered), max_squared_(max_distance * max_distance) {}
+
+  /// Visits rows downwards (`step` = +1) or upwards (−1), columns in the same sense, and lets each void gather along
+  /// the four directions that lie behind the sweep.
+  void sweep(int step) {
+    const int cols = field_.cols, rows = field_.rows;
+    const std::size_t width = static_cast<std::size_t>(cols);
+    // Seen from the previous row and from this one: straight ahead, to the left, to the right. Spare columns for the
+    // border.
+    std::vector<Seen> straight(width + 2), left(width + 2), right(width + 2);
+    std::vector<Seen> next_straight(width + 2), next_left(width + 2), next_right(width + 2);
+    std::size_t slot = step > 0 ? 0 : gathered_.size();
+    for (int r = 0; r < rows; ++r) {
+      const int row = step > 0 ? r : rows - 1 - r;
+      const float* line = field_.samples.data() + static_cast<std::size_t>(row) * width;
+      Seen beside;
+      for (int c = 0; c < cols; ++c) {
+        const int col = step > 0 ? c : cols - 1 - c;
+        const std::size_t at = static_cast<std::size_t>(col) + 1;
+        const float height = line[col];
+        if (std::isfinite(height)) {
+          beside = next_straight[at] = next_left[at] = next_right[at] = {height, 0};
+          continue;
+        }
+        beside = farther(beside);
+        next_straight[at] = farther(straight[at]);
+        next_left[at] = farther(left[at - 1]);
+        next_right[at] = farther(right[at + 1]);
+        Gathered& sums = gathered_[step > 0 ? slot++ : --slot];
+        gather(sums, beside, 1);
+        gather(sums, next_straight[at], 1);
+        gather(sums, next_left[at], 2);
+        gather(sums, next_right[at], 2);
+      }
+      straight.swap(next_straight);
+      left.swap(next_left);
+      right.swap(next_right);
+    }
+  }
+
+ private:
+  static Seen farther(Seen seen) {
+    if (seen.steps >= 0) ++seen.steps;
+    return seen;
+  }
+
+  /// `squared_step`: squared length of one step along the direction.
+  void gather(Gathered& sums, const Seen& seen, double squared_step) const {
+    if (seen.steps < 0) return;
+    const double squared = squared_step * seen.steps * seen.steps;
+    if (squared > max_squared_) return;
+    if (sums.weight == 0) sums.reference = seen.height;
+    const double weight = 1 / squared;
+    const double rise = static_cast<double>(seen.height) - static_cast<double>(sums.reference);
+    sums.weight = static_cast<float>(sums.weight + weight);
+    sums.weighted = static_cast<float>(sums.weighted + weight * rise);
+  }
+
+  const OwnedHeightField& field_;
+  std::vector<Gathered>& gathered_;
+  double max_squared_;
+};
+
+}  // namespace
+
+std::uint64_t fill_voids(OwnedHeightField& field, double max_distance) {
+  std::size_t voids = 0;
+  for (const float z : field.samples) voids += std::isfinite(z) ? 0 : 1;
+  if (voids == 0) return 0;
+  std::vector<Gathered> gathered(voids);
+  Sweeper sweeper(field, gathered, max_distance);
+  sweeper.sweep(1);
+  sweeper.sweep(-1);
+  std::uint64_t filled = 0;
+  std::size_t slot = 0;
+  for (float& z : field.samples) {
+    if (std::isfinite(z)) continue;
+    const Gathered& sums = gathered[slot++];
+    if (sums.weight == 0) continue;
+    z = static_cast<float>(static_cast<double>(sums.reference) +
+                           static_cast<double>(sums.weighted) / static_cast<double>(sums.weight));
+    ++filled;
+  }
+  return filled;
+}
+
+std::uint64_t fill_background(OwnedHeightField& field, float value) {
+  std::uint64_t filled = 0;
+  for (float& z : field.samples) {
+    if (std::isfinite(z)) continue;
+    z = value;
+    ++filled;
+  }
+  return filled;
+}
+
+}  // namespace scarp

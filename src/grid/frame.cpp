@@ -1,0 +1,71 @@
+// Frames: where samples lie.
+#include "scarp/frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "grid/local_frame.h"
+
+namespace scarp {
+namespace {
+
+bool is_float32(double value) {
+  return std::abs(value) <= std::numeric_limits<float>::max() &&
+         static_cast<double>(static_cast<float>(value)) == value;
+}
+
+/// step·k is a float32 for every k in [first, last].
+bool multiples_are_float32(double step, int first, int last) {
+  for (int k = first; k <= last; ++k) {
+    if (!is_float32(step * k)) return false;
+  }
+  return true;
+}
+
+/// p·i + q·j is a float32 for |i| <= reach_i, |j| <= reach_j, because both are multiples of one power of two and the
+/// sum stays within 24 bits of it.
+bool sums_are_float32(double p, double q, int reach_i, int reach_j) {
+  const double span = std::abs(p) * reach_i + std::abs(q) * reach_j;
+  if (span == 0) return true;
+  if (!std::isfinite(span) || span > std::numeric_limits<float>::max()) return false;
+  int exponent = std::ilogb(span) - 23;
+  if (span == std::ldexp(1.0, exponent + 23)) --exponent;  // 2^24 itself is a float32
+  const double unit = std::ldexp(1.0, exponent);
+  return std::fmod(p, unit) == 0 && std::fmod(q, unit) == 0;
+}
+
+}  // namespace
+
+Frame grid_frame(int rows) {
+  Frame frame;
+  frame.kind = Frame::Kind::kGrid;
+  frame.affine = {0, 1, 0, static_cast<double>(rows) - 1, 0, -1};
+  frame.description = "grid coordinates: x = column, y = rows - 1 - row, 1 unit a cell";
+  return frame;
+}
+
+std::array<double, 2> frame_origin(const Frame& frame, int cols, int rows) {
+  auto [x, y] = frame.apply_affine(cols / 2, rows / 2);
+  if (frame.transform && !frame.transform->apply({&x, 1}, {&y, 1})) {
+    x = y = std::numeric_limits<double>::quiet_NaN();
+  }
+  if (!std::isfinite(x) || !std::isfinite(y)) x = y = std::numeric_limits<double>::quiet_NaN();
+  return {x, y};
+}
+
+bool offsets_are_exact(const Frame& frame, int cols, int rows) {
+  if (!frame.is_affine()) return false;
+  const auto& a = frame.affine;
+  const int reach_col = centre_reach(cols), reach_row = centre_reach(rows);
+  // An offset is affine[1]·(col − cols/2) + affine[2]·(row − rows/2): the constant terms play no part in it.
+  if (!multiples_are_float32(a[1], -(cols / 2), cols - 1 - cols / 2)) return false;
+  if (!multiples_are_float32(a[4], -(cols / 2), cols - 1 - cols / 2)) return false;
+  if (!multiples_are_float32(a[2], -(rows / 2), rows - 1 - rows / 2)) return false;
+  if (!multiples_are_float32(a[5], -(rows / 2), rows - 1 - rows / 2)) return false;
+  const bool sums_x = a[1] == 0 || a[2] == 0 || sums_are_float32(a[1], a[2], reach_col, reach_row);
+  const bool sums_y = a[4] == 0 || a[5] == 0 || sums_are_float32(a[4], a[5], reach_col, reach_row);
+  return sums_x && sums_y;
+}
+
+}  // namespace scarp

@@ -1,0 +1,30 @@
+// The local metric frame: metres around the centre sample, exact in float32.
+#pragma once
+
+#include <array>
+
+namespace scarp {
+
+struct Ellipsoid {
+  double semi_major = 0;          ///< metres
+  double inverse_flattening = 0;  ///< 0 = a sphere
+};
+
+/// Metres along the ground for one radian of longitude (east) and of latitude (north).
+struct MetresPerRadian {
+  double east = 0, north = 0;
+};
+
+/// REQUIRES: |latitude| < π/2 (radians, geodetic).
+MetresPerRadian metres_per_radian(const Ellipsoid& ellipsoid, double latitude);
+
+/// Largest |index − size / 2| over the indices 0 … size − 1.
+constexpr int centre_reach(int size) { return size / 2; }
+
+/// The affine map with the linear part {x per col, x per row, y per col, y per row}, moved so that sample
+/// (cols / 2, rows / 2) is at exactly (0, 0), its four coefficients rounded to multiples of a power of two so coarse
+/// that every sample's x and y is exactly a float32. The rounding changes a cell by less than
+/// reach / 2^23 of itself for an axis-aligned map (0.03 % for 5,000 samples from the centre to the border).
+std::array<double, 6> centred_affine(const std::array<double, 4>& linear, int cols, int rows);
+
+}  // namespace scarp

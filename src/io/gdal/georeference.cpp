@@ -1,0 +1,265 @@
+#include "io/gdal/georeference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "grid/local_frame.h"
+#include "io/raster_finish.h"
+
+namespace scarp::gdal {
+namespace {
+
+bool is_degenerate(const std::array<double, 6>& a) {
+  const double determinant = a[1] * a[5] - a[2] * a[4];
+  return determinant == 0 || !std::isfinite(determinant) || !std::isfinite(a[0]) || !std::isfinite(a[3]);
+}
+
+/// GDAL's terms are of pixel corners, a Frame's of pixel centres.
+std::array<double, 6> at_centres(const std::array<double, 6>& gt) {
+  return {gt[0] + gt[1] / 2 + gt[2] / 2, gt[1], gt[2], gt[3] + gt[4] / 2 + gt[5] / 2, gt[4], gt[5]};
+}
+
+struct Position {
+  double x = 0, y = 0;
+};
+
+Position centre_of(const Georeference& geo) {
+  const double col = geo.cols / 2, row = geo.rows / 2;
+  const auto& a = geo.samples;
+  return {a[0] + a[1] * col + a[2] * row, a[3] + a[4] * col + a[5] * row};
+}
+
+Ellipsoid ellipsoid_of(const Crs& crs) {
+  OGRErr error = OGRERR_NONE;
+  const double semi_major = OSRGetSemiMajor(crs.get(), &error);
+  return {semi_major, OSRGetInvFlattening(crs.get(), &error)};
+}
+
+/// Metres for one unit of x and one of y at the centre sample; zeros where nothing sensible can be said.
+MetresPerRadian metres_per_unit(const Georeference& geo) {
+  if (!geo.crs) return {};
+  if (!geo.geographic) return {geo.unit_in_metres, geo.unit_in_metres};
+  const double latitude = centre_of(geo).y * geo.unit_in_metres;
+  if (!(std::abs(latitude) < std::acos(0.0))) return {};
+  const auto per_radian = metres_per_radian(ellipsoid_of(geo.crs), latitude);
+  return {per_radian.east * geo.unit_in_metres, per_radian.north * geo.unit_in_metres};
+}
+
+/// "EPSG:32611", or the name in the WKT: short enough for a sentence.
+std::string short_name(const Crs& crs) {
+  const std::string name = crs_name(crs);
+  if (name.size() < 40) return name;
+  const char* title = OSRGetName(crs.get());
+  return title != nullptr ? title : "unnamed CRS";
+}
+
+Frame source_frame(const Georeference& geo) {
+  Frame frame;
+  frame.kind = Frame::Kind::kSource;
+  frame.affine = geo.samples;
+  frame.crs = crs_name(geo.crs);
+  frame.description = geo.crs ? fmt::format("coordinates in {} ({})", short_name(geo.crs), geo.unit_name)
+                              : "the raster's own coordinates (no CRS)";
+  return frame;
+}
+
+void warn_of_degrees(RasterInfo& info) {
+  info.warnings.push_back(
+      "x and y are degrees while z is a length: the mesh is no shape in space; leave the CRS out for a "
+      "local frame in metres");
+}
+
+/// East–west lengths in the local frame are true on the centre's parallel only.
+void warn_of_distortion(const Georeference& geo, RasterInfo& info) {
+  const double centre = std::cos(centre_of(geo).y * geo.unit_in_metres);
+  double worst = 0;
+  for (const double col : {0.0, geo.cols - 1.0}) {
+    for (const double row : {0.0, geo.rows - 1.0}) {
+      const double y = geo.samples[3] + geo.samples[4] * col + geo.samples[5] * row;
+      worst = std::max(worst, std::abs(centre / std::max(std::cos(y * geo.unit_in_metres), 1e-9) - 1));
+    }
+  }
+  constexpr double kWorthSaying = 0.05;
+  if (worst > kWorthSaying) {
+    info.warnings.push_back(
+        fmt::format("the raster spans so many degrees of latitude that east-west lengths in the local frame "
+                    "are off by up to {:.0f} % at its edge; choose a projected CRS if shapes matter",
+                    std::min(worst, 9.99) * 100));
+  }
+}
+
+Result<Frame> local_frame(const Georeference& geo, RasterInfo& info) {
+  const Position centre = centre_of(geo);
+  const auto metres = metres_per_unit(geo);
+  constexpr double kFlat = 1e-3;  // cos φ nearer to the pole than this is no scale to build on
+  if (!(metres.north > 0) || !(metres.east > kFlat * metres.north)) {
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("{}: its centre lies at {:.9g}, {:.9g}, at or beyond a pole, where no local frame exists; choose a "
+                    "polar CRS such as EPSG:3413 or EPSG:3031",
+                    info.path, centre.x, centre.y));
+  }
+  const auto& a = geo.samples;
+  Frame frame;
+  frame.kind = Frame::Kind::kLocal;
+  frame.affine = centred_affine({a[1] * metres.east, a[2] * metres.east, a[4] * metres.north, a[5] * metres.north},
+                                geo.cols, geo.rows);
+  if (is_degenerate(frame.affine)) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("{}: its cells are too unequal for a local frame in float32; choose the frame "
+                            "'source'",
+                            info.path));
+  }
+  frame.description = fmt::format("local metres east and north of {:.9g}, {:.9g} ({}), {:.6g} m x {:.6g} m a cell",
+                                  centre.x, centre.y, short_name(geo.crs), std::hypot(frame.affine[1], frame.affine[4]),
+                                  std::hypot(frame.affine[2], frame.affine[5]));
+  if (geo.geographic) warn_of_distortion(geo, info);
+  return frame;
+}
+
+/// kUsage unless a net of points over the raster, its edges included, has finite images that neither fold nor tear: all
+/// its triangles keep one orientation.
+Result<void> verify_transform(const Frame& frame, const Georeference& geo, const std::string& path) {
+  constexpr int kNet = 32;
+  const int across = std::min(kNet, geo.cols - 1), down = std::min(kNet, geo.rows - 1);
+  const auto stride = static_cast<std::size_t>(across) + 1;
+  std::vector<double> x, y;
+  for (int j = 0; j <= down; ++j) {
+    for (int i = 0; i <= across; ++i) {
+      const auto at = frame.apply_affine((geo.cols - 1.0) * i / across, (geo.rows - 1.0) * j / down);
+      x.push_back(at[0]);
+      y.push_back(at[1]);
+    }
+  }
+  const std::string from = short_name(geo.crs);
+  if (!frame.transform->apply(x, y) || !std::isfinite(frame_origin(frame, geo.cols, geo.rows)[0])) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("{}: parts of the raster have no place in {} (from {}); choose a CRS that covers "
+                            "all of it",
+                            path, frame.crs.size() < 40 ? frame.crs : "that CRS", from));
+  }
+  int positive = 0, negative = 0;
+  for (int j = 0; j < down; ++j) {
+    for (int i = 0; i < across; ++i) {
+      const std::size_t a = static_cast<std::size_t>(j) * stride + static_cast<std::size_t>(i);
+      for (const auto& [p, q, r] : {std::array{a, a + 1, a + stride}, std::array{a + 1, a + stride + 1, a + stride}}) {
+        const double area = (x[q] - x[p]) * (y[r] - y[p]) - (x[r] - x[p]) * (y[q] - y[p]);
+        positive += area > 0 ? 1 : 0;
+        negative += area < 0 ? 1 : 0;
+      }
+    }
+  }
+  const int all = 2 * across * down;
+  if (positive != all && negative != all) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("{}: the raster would fold or tear in {} (from {}), as across the 180th meridian or "
+                            "a pole; choose a CRS that is smooth over all of it",
+                            path, frame.crs.size() < 40 ? frame.crs : "that CRS", from));
+  }
+  return {};
+}
+
+Result<Frame> projected_frame(const Georeference& geo, const std::string& wanted, RasterInfo& info) {
+  const Crs target = find_crs(wanted);
+  if (!target) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("'{}' is no coordinate reference system that GDAL knows; give 'source', 'local', "
+                            "'grid', a code such as EPSG:32633, WKT or a PROJ string",
+                            wanted));
+  }
+  if (OSRIsGeographic(target.get())) warn_of_degrees(info);
+  if (same_crs(geo.crs, target)) return source_frame(geo);
+  Frame frame = source_frame(geo);
+  frame.kind = Frame::Kind::kProjected;
+  frame.crs = crs_name(target);
+  frame.description = fmt::format("coordinates in {}, transformed from {}", short_name(target), short_name(geo.crs));
+  frame.transform = build_transform(geo.crs, target);
+  if (!frame.transform) {
+    return fail(ErrorKind::kUsage, fmt::format("{}: there is no way from {} to {}; choose another CRS", info.path,
+                                               short_name(geo.crs), short_name(target)));
+  }
+  if (auto verified = verify_transform(frame, geo, info.path); !verified) return tl::unexpected(verified.error());
+  return frame;
+}
+
+/// No CRS, but a geotransform that a world in degrees would have.
+bool looks_like_degrees(const Georeference& geo) {
+  const auto& gt = geo.pixels;
+  if (!geo.located || geo.crs || std::hypot(gt[1], gt[4]) > 0.1) return false;
+  const double x = gt[0] + gt[1] * geo.cols, y = gt[3] + gt[5] * geo.rows;
+  return std::abs(gt[0]) <= 360 && std::abs(x) <= 360 && std::abs(gt[3]) <= 90.1 && std::abs(y) <= 90.1 && gt[0] != 0 &&
+         gt[3] != 0;
+}
+
+}  // namespace
+
+Result<Georeference> read_georeference(GDALDatasetH dataset, const std::string& path) {
+  Georeference geo;
+  geo.cols = GDALGetRasterXSize(dataset);
+  geo.rows = GDALGetRasterYSize(dataset);
+  geo.located = GDALGetGeoTransform(dataset, geo.pixels.data()) == CE_None;
+  if (!geo.located) geo.pixels = {0, 1, 0, 0, 0, 1};
+  geo.samples = at_centres(geo.pixels);
+  if (geo.located && is_degenerate(geo.samples)) {
+    return fail(ErrorKind::kInput, path +
+                                       ": its geotransform maps the raster to a line or to infinity; repair it with "
+                                       "gdal_edit -a_ullr");
+  }
+  geo.crs = crs_of(dataset);
+  if (geo.crs) {
+    char* name = nullptr;  // owned by the CRS
+    geo.geographic = OSRIsGeographic(geo.crs.get()) != 0;
+    geo.unit_in_metres =
+        geo.geographic ? OSRGetAngularUnits(geo.crs.get(), &name) : OSRGetLinearUnits(geo.crs.get(), &name);
+    geo.unit_name = name != nullptr ? name : "unknown unit";
+  }
+  return geo;
+}
+
+void describe_georeference(const Georeference& geo, RasterInfo& info) {
+  info.has_georeference = geo.located;
+  info.geotransform = geo.pixels;
+  info.crs = crs_name(geo.crs);
+  info.is_geographic = geo.geographic;
+  const auto& gt = geo.pixels;
+  info.cell_x = std::hypot(gt[1], gt[4]);
+  info.cell_y = std::hypot(gt[2], gt[5]);
+  if (geo.located && geo.crs) {
+    const auto metres = metres_per_unit(geo);
+    info.cell_x_m = std::hypot(gt[1] * metres.east, gt[4] * metres.north);
+    info.cell_y_m = std::hypot(gt[2] * metres.east, gt[5] * metres.north);
+  }
+}
+
+Result<Frame> choose_frame(const Georeference& geo, const std::string& wanted, RasterInfo& info) {
+  if (!geo.located) {
+    auto frame = ungeoreferenced_frame(info.path, geo.rows, wanted);
+    if (frame && geo.crs) {
+      info.warnings.push_back(info.path + " has a CRS but no position in it: x and y are columns and rows");
+    }
+    return frame;
+  }
+  if (wanted == "grid") return grid_frame(geo.rows);
+  if (looks_like_degrees(geo)) {
+    info.warnings.push_back(
+        "the raster has no CRS, but its coordinates look like degrees, which do not mix with heights: if so, "
+        "say so with gdal_edit -a_srs EPSG:4326");
+  }
+  if (wanted.empty()) return geo.geographic ? local_frame(geo, info) : source_frame(geo);
+  if (wanted == "source") {
+    if (geo.geographic) warn_of_degrees(info);
+    return source_frame(geo);
+  }
+  if (!geo.crs) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} has no CRS, so its coordinates cannot be given in '{}': ask for 'source' or "
+                            "'grid', or give it its CRS first (gdal_edit -a_srs)",
+                            info.path, wanted));
+  }
+  return wanted == "local" ? local_frame(geo, info) : projected_frame(geo, wanted, info);
+}
+
+}  // namespace scarp::gdal

@@ -1,0 +1,33 @@
+// From a raster's geotransform and CRS to the frame of its mesh.
+#pragma once
+
+#include <string>
+
+#include "io/gdal/crs.h"
+#include "scarp/height_field.h"
+
+namespace scarp::gdal {
+
+/// Where a raster says that it lies.
+struct Georeference {
+  int cols = 0, rows = 0;
+  bool located = false;                             ///< it has a geotransform
+  std::array<double, 6> pixels{0, 1, 0, 0, 0, 1};   ///< GDAL's geotransform, of pixel corners
+  std::array<double, 6> samples{0, 1, 0, 0, 0, 1};  ///< the same in a Frame's terms: integer (col, row) are centres
+  Crs crs;                                          ///< null if unknown
+  bool geographic = false;
+  double unit_in_metres = 1;  ///< of x and y; in radians if geographic
+  std::string unit_name;      ///< "metre", "degree", …; empty if there is no CRS
+};
+
+/// Fails with kInput if the geotransform maps all samples to a line or is not finite.
+Result<Georeference> read_georeference(GDALDatasetH dataset, const std::string& path);
+
+/// Fills in the CRS, cell sizes and warnings of `info`.
+void describe_georeference(const Georeference& georeference, RasterInfo& info);
+
+/// The frame that ReadOptions::crs asks for. Warnings go to `info`. kUsage if the CRS is unknown or cannot be reached
+/// from every part of the raster.
+Result<Frame> choose_frame(const Georeference& georeference, const std::string& wanted, RasterInfo& info);
+
+}  // namespace scarp::gdal

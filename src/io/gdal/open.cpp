@@ -1,0 +1,147 @@
+#include "io/gdal/open.h"
+
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+namespace scarp::gdal {
+namespace {
+
+struct Scheme {
+  std::string_view url, vsi;
+  bool keeps_url;  // /vsicurl/ takes the whole URL, the object stores what follows "s3://"
+};
+constexpr std::array<Scheme, 6> kSchemes{{{"http://", "/vsicurl/", true},
+                                          {"https://", "/vsicurl/", true},
+                                          {"ftp://", "/vsicurl/", true},
+                                          {"s3://", "/vsis3/", false},
+                                          {"gs://", "/vsigs/", false},
+                                          {"az://", "/vsiaz/", false}}};
+
+bool ends_with_zip(const std::string& path) { return path.size() > 4 && EQUAL(path.c_str() + path.size() - 4, ".zip"); }
+
+std::vector<std::string> list_of(CSLConstList strings) {
+  std::vector<std::string> list;
+  for (; strings != nullptr && *strings != nullptr; ++strings) list.emplace_back(*strings);
+  return list;
+}
+
+Dataset open_quietly(const std::string& name, unsigned kind) {
+  return Dataset(GDALOpenEx(name.c_str(), kind | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr, nullptr));
+}
+
+/// The files in a zip that a raster driver claims, as names for GDAL.
+std::vector<std::string> find_rasters_in_zip(const std::string& vsi) {
+  const std::string root = "/vsizip/{" + vsi + "}/";
+  char** entries = VSIReadDirRecursive(root.c_str());
+  std::vector<std::string> rasters;
+  for (const std::string& entry : list_of(entries)) {
+    if (entry.empty() || entry.back() == '/') continue;
+    const std::string name = root + entry;
+    if (GDALIdentifyDriverEx(name.c_str(), GDAL_OF_RASTER, nullptr, nullptr) != nullptr) rasters.push_back(name);
+  }
+  CSLDestroy(entries);
+  return rasters;
+}
+
+/// The subdataset names that a container (netCDF, HDF, GeoPackage, …) offers.
+std::vector<std::string> find_subdatasets(GDALDatasetH dataset) {
+  std::vector<std::string> names;
+  for (const std::string& entry : list_of(GDALGetMetadata(dataset, "SUBDATASETS"))) {
+    const auto equals = entry.find("_NAME=");
+    if (equals != std::string::npos) names.push_back(entry.substr(equals + 6));
+  }
+  return names;
+}
+
+std::string join(const std::vector<std::string>& names, std::size_t most) {
+  std::string text;
+  for (std::size_t k = 0; k < names.size() && k < most; ++k) text += (k == 0 ? "" : ", ") + names[k];
+  if (names.size() > most) text += ", …";
+  return text;
+}
+
+Result<Dataset> open_in_zip(Session& session, const std::string& path, const std::string& vsi) {
+  const auto rasters = find_rasters_in_zip(vsi);
+  session.clear();
+  if (rasters.empty()) return fail(ErrorKind::kInput, path + ": the zip holds no raster that GDAL can read");
+  if (rasters.size() > 1) {
+    return fail(ErrorKind::kInput, fmt::format("{}: the zip holds {} rasters; name one of them: {}", path,
+                                               rasters.size(), join(rasters, 4)));
+  }
+  Dataset dataset = open_quietly(rasters.front(), GDAL_OF_RASTER);
+  if (!dataset) {
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: {} in the zip cannot be read: {}", path, rasters.front(), session.reason()));
+  }
+  return dataset;
+}
+
+/// What to say of a name that no raster driver opens.
+tl::unexpected<Error> explain(Session& session, const std::string& path, const std::string& vsi) {
+  const std::string reason = session.reason();
+  const bool gave_reason = session.failed();
+  VSIStatBufL status{};
+  const bool exists = VSIStatL(vsi.c_str(), &status) == 0;
+  if (is_remote(path)) return fail(ErrorKind::kInput, fmt::format("{}: cannot be read: {}", path, reason));
+  if (!exists) return fail(ErrorKind::kInput, path + ": no such file");
+  if (VSI_ISDIR(status.st_mode)) return fail(ErrorKind::kInput, path + ": a directory, not a raster");
+  if (status.st_size == 0 && VSI_ISREG(status.st_mode)) return fail(ErrorKind::kInput, path + ": the file is empty");
+  VSILFILE* file = VSIFOpenL(vsi.c_str(), "rb");
+  if (file == nullptr) return fail(ErrorKind::kInput, path + ": the file cannot be opened for reading (permissions?)");
+  VSIFCloseL(file);
+  if (const Dataset vector = open_quietly(vsi, GDAL_OF_VECTOR); vector && GDALDatasetGetLayerCount(vector.get()) > 0) {
+    return fail(ErrorKind::kInput, fmt::format("{}: holds vector data ({}), not a raster", path,
+                                               GDALGetDriverShortName(GDALGetDatasetDriver(vector.get()))));
+  }
+  // A driver that knows the file and still fails (a truncated TIFF) has the better words.
+  if (GDALDriverH driver = GDALIdentifyDriverEx(vsi.c_str(), GDAL_OF_RASTER, nullptr, nullptr); driver && gave_reason) {
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: a damaged or truncated {} raster: {}", path, GDALGetDriverShortName(driver), reason));
+  }
+  return fail(ErrorKind::kInput, path + ": not a raster that GDAL can read, nor PGM or STM");
+}
+
+}  // namespace
+
+std::string vsi_path(const std::string& path) {
+  for (const Scheme& scheme : kSchemes) {
+    if (path.size() > scheme.url.size() && EQUALN(path.c_str(), scheme.url.data(), scheme.url.size())) {
+      return std::string(scheme.vsi) + (scheme.keeps_url ? path : path.substr(scheme.url.size()));
+    }
+  }
+  return path;
+}
+
+bool is_remote(const std::string& path) {
+  const std::string vsi = vsi_path(path);
+  for (const char* part :
+       {"/vsicurl", "/vsis3", "/vsigs", "/vsiaz", "/vsiadls", "/vsioss", "/vsiswift", "/vsiwebhdfs"}) {
+    if (vsi.find(part) != std::string::npos) return true;
+  }
+  return false;
+}
+
+Result<Dataset> open_raster(Session& session, const std::string& path) {
+  const std::string vsi = vsi_path(path);
+  session.clear();
+  Dataset dataset = open_quietly(vsi, GDAL_OF_RASTER);
+  if (!dataset && ends_with_zip(vsi)) {
+    VSIStatBufL status{};
+    if (VSIStatL(vsi.c_str(), &status) == 0) return open_in_zip(session, path, vsi);
+  }
+  if (!dataset) return explain(session, path, vsi);
+  if (GDALGetRasterCount(dataset.get()) == 0) {
+    const auto parts = find_subdatasets(dataset.get());
+    if (parts.empty()) return fail(ErrorKind::kInput, path + ": holds no raster band");
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: holds {} rasters; name one of them: {}", path, parts.size(), join(parts, 4)));
+  }
+  return dataset;
+}
+
+}  // namespace scarp::gdal

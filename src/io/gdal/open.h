@@ -1,0 +1,31 @@
+// Opening rasters.
+#pragma once
+
+#include <gdal.h>
+
+#include <memory>
+#include <string>
+
+#include "io/gdal/session.h"
+#include "scarp/result.h"
+
+namespace scarp::gdal {
+
+struct CloseDataset {
+  void operator()(void* dataset) const { GDALClose(dataset); }
+};
+using Dataset = std::unique_ptr<void, CloseDataset>;
+
+/// True for URLs and the /vsi… names of files that lie on another machine.
+bool is_remote(const std::string& path);
+
+/// The name under which GDAL's virtual file systems know `path`: http://…, https:// and ftp:// become /vsicurl/…,
+/// s3://, gs:// and az:// their own file systems. Everything else is left alone.
+std::string vsi_path(const std::string& path);
+
+/// Opens `path` for reading: a file, a URL, a /vsi… name, a zip that holds one raster, a driver's own syntax
+/// ("NETCDF:file.nc:z"). Fails with kInput in one sentence: no such file; a directory; vector data; several rasters;
+/// not a raster.
+Result<Dataset> open_raster(Session& session, const std::string& path);
+
+}  // namespace scarp::gdal

@@ -1,0 +1,81 @@
+#include "io/gdal/session.h"
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <gdal.h>
+
+#include <algorithm>
+#include <mutex>
+
+namespace scarp::gdal {
+namespace {
+
+constexpr GIntBig kBlockCacheBytes = 64 << 20;
+constexpr std::size_t kMessagesKept = 8;
+
+void CPL_STDCALL collect(CPLErr severity, CPLErrorNum, const char* message) {
+  auto* session = static_cast<Session*>(CPLGetErrorHandlerUserData());
+  if (severity == CE_Failure || severity == CE_Fatal) session->note(true, message);
+  if (severity == CE_Warning) session->note(false, message);
+}
+
+void start_gdal_once() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    GDALAllRegister();
+    if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr) == nullptr) GDALSetCacheMax64(kBlockCacheBytes);
+  });
+}
+
+/// One line without a full stop at its end.
+std::string tidy(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+Session::Session(bool remote) {
+  CPLPushErrorHandlerEx(collect, this);
+  start_gdal_once();
+  if (!remote) return;
+  set_default("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");  // no requests for side files that are not there
+  set_default("CPL_VSIL_CURL_USE_HEAD", "NO");
+  set_default("GDAL_HTTP_CONNECTTIMEOUT", "20");
+  set_default("GDAL_HTTP_LOW_SPEED_TIME", "60");
+  set_default("GDAL_HTTP_LOW_SPEED_LIMIT", "1");
+  set_default("GDAL_HTTP_MAX_RETRY", "3");
+  set_default("GDAL_HTTP_RETRY_DELAY", "1");
+  set_default("GDAL_HTTP_MERGE_CONSECUTIVE_RANGES", "YES");
+}
+
+Session::~Session() {
+  for (auto saved = saved_options_.rbegin(); saved != saved_options_.rend(); ++saved) {
+    const auto& [was_set, value] = saved->second;
+    CPLSetThreadLocalConfigOption(saved->first.c_str(), was_set ? value.c_str() : nullptr);
+  }
+  CPLPopErrorHandler();
+}
+
+std::string Session::reason() const { return failures_.empty() ? "no reason given" : failures_.front(); }
+
+void Session::note(bool is_failure, const char* message) {
+  auto& list = is_failure ? failures_ : warnings_;
+  std::string text = tidy(message);
+  if (list.size() < kMessagesKept && std::find(list.begin(), list.end(), text) == list.end()) {
+    list.push_back(std::move(text));
+  }
+}
+
+void Session::set_option(const char* key, const char* value) {
+  const char* before = CPLGetThreadLocalConfigOption(key, nullptr);
+  saved_options_.push_back({key, {before != nullptr, before != nullptr ? before : ""}});
+  CPLSetThreadLocalConfigOption(key, value);
+}
+
+void Session::set_default(const char* key, const char* value) {
+  if (CPLGetConfigOption(key, nullptr) == nullptr) set_option(key, value);
+}
+
+}  // namespace scarp::gdal

@@ -1,0 +1,41 @@
+// GDAL's global state, kept at bay.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace scarp::gdal {
+
+/// While a Session lives, what GDAL and PROJ have to say in this thread is collected instead of printed, and, for
+/// remote files, options that make range requests cheap and finite are set for this thread wherever the user has not
+/// set them. The first Session of a process registers GDAL's drivers and limits its block cache to 64 MB unless
+/// GDAL_CACHEMAX is set. Sessions may be nested; one must end in the thread that began it.
+class Session {
+ public:
+  explicit Session(bool remote = false);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  bool failed() const { return !failures_.empty(); }
+  /// GDAL's own words for what failed since clear(), for the end of a sentence; "no reason given" if it said nothing.
+  std::string reason() const;
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  /// Forgets failures, keeps warnings.
+  void clear() { failures_.clear(); }
+
+  /// Sets one of GDAL's options for this thread until the Session ends.
+  void set_option(const char* key, const char* value);
+
+  /// Called by GDAL's error handler.
+  void note(bool is_failure, const char* message);
+
+ private:
+  void set_default(const char* key, const char* value);
+
+  std::vector<std::string> failures_, warnings_;
+  std::vector<std::pair<std::string, std::pair<bool, std::string>>> saved_options_;  // key, (was set, value)
+};
+
+}  // namespace scarp::gdal

@@ -1,0 +1,73 @@
+// Going through a raster window by window.
+#pragma once
+
+#include <fmt/format.h>
+#include <gdal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+#include "io/gdal/session.h"
+#include "scarp/height_field.h"
+#include "scarp/progress.h"
+#include "scarp/result.h"
+
+namespace scarp::gdal {
+
+struct Window {
+  int col = 0, row = 0, cols = 0, rows = 0;
+};
+
+constexpr int kWindowSamples = 1 << 20;  // 8 MB of doubles
+
+/// A window's size that reads each of the file's blocks once: whole blocks, as many as kWindowSamples hold, and full
+/// rows where blocks are full rows. Blocks larger than that are read in slices, one after the other.
+inline Window window_size(GDALRasterBandH band, int cols, int rows) {
+  int block_cols = 1, block_rows = 1;
+  GDALGetBlockSize(band, &block_cols, &block_rows);
+  block_cols = std::clamp(block_cols, 1, cols);
+  block_rows = std::clamp(block_rows, 1, rows);
+  Window window;
+  window.cols = block_cols == cols ? cols : std::max(block_cols, kWindowSamples / block_rows / block_cols * block_cols);
+  window.cols = std::min(window.cols, cols);
+  const int most_rows = std::max(1, kWindowSamples / window.cols);
+  window.rows =
+      block_rows > most_rows ? most_rows : (block_cols == cols ? most_rows / block_rows * block_rows : block_rows);
+  window.rows = std::min(window.rows, rows);
+  return window;
+}
+
+/// Calls read(window) -> bool for all windows, rows of windows from the top. Fails with kInput if `read` returns false
+/// or GDAL has reported a failure meanwhile (a driver may report one and still hand out zeros), with kCancelled if the
+/// callback says so; calls the callback at most ten times a second.
+template <class Read>
+Result<void> for_each_window(Session& session, GDALRasterBandH band, const OwnedHeightField& field,
+                             const ProgressCallback& progress, Read read) {
+  using Clock = std::chrono::steady_clock;
+  const Window size = window_size(band, field.cols, field.rows);
+  auto last = Clock::now();
+  session.clear();
+  for (int row = 0; row < field.rows; row += size.rows) {
+    const int rows = std::min(size.rows, field.rows - row);
+    for (int col = 0; col < field.cols; col += size.cols) {
+      const Window window{col, row, std::min(size.cols, field.cols - col), rows};
+      if (!read(window) || session.failed()) {
+        return fail(ErrorKind::kInput,
+                    fmt::format("{}: rows {} to {} cannot be read, the file is truncated or damaged: {}",
+                                field.info.path, row, row + rows - 1, session.reason()));
+      }
+      if (progress && Clock::now() - last > std::chrono::milliseconds(100)) {
+        last = Clock::now();
+        Progress now;
+        now.pass = "read";
+        now.fraction = (row + static_cast<double>(rows) * (col + window.cols) / field.cols) / field.rows;
+        if (!progress(now)) return fail(ErrorKind::kCancelled, field.info.path + ": reading was cancelled");
+      }
+    }
+    if (row > field.rows - size.rows) break;  // row + size.rows may overflow
+  }
+  return {};
+}
+
+}  // namespace scarp::gdal

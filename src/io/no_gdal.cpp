@@ -1,0 +1,26 @@
+// The doors that GDAL stands behind, in a build without it.
+#ifndef SCARP_WITH_GDAL
+
+#include "io/raster_source.h"
+
+namespace scarp {
+namespace {
+
+tl::unexpected<Error> refuse(const std::string& path) {
+  return fail(ErrorKind::kInput,
+              path + ": neither PGM nor STM, and this build of Scarp reads nothing else: it was built without GDAL");
+}
+
+}  // namespace
+
+Result<OwnedHeightField> read_gdal_raster(const std::string& path, const ReadOptions&) { return refuse(path); }
+
+Result<RasterInfo> read_gdal_info(const std::string& path, const ReadOptions&, int&, int&) { return refuse(path); }
+
+Result<std::vector<std::uint8_t>> encode_png(const Picture&) {
+  return fail(ErrorKind::kOutput, "pictures cannot be written: this build of Scarp has no GDAL, which encodes PNG");
+}
+
+}  // namespace scarp
+
+#endif

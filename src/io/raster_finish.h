@@ -1,0 +1,29 @@
+// What every raster reader does before and after it reads samples.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "scarp/io.h"
+
+namespace scarp {
+
+/// kInput if the size is below 2×2, or needs more memory than `options` or the machine allow. The message has the
+/// figures.
+Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std::uint64_t rows,
+                               const ReadOptions& options);
+
+/// Memory for the samples; kInput if the machine refuses it. Call check_raster_size() first.
+Result<void> allocate_samples(const std::string& name, OwnedHeightField& field);
+
+/// Fills in valid, min and max; warns of `infinities` samples that became nodata; kInput if no sample is a height.
+Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities);
+
+/// The frame of a raster without georeference: kUsage if options.crs asks for anything but the grid.
+Result<Frame> ungeoreferenced_frame(const std::string& name, int rows, const std::string& crs);
+
+/// "1.5 GiB", "37.0 MiB".
+std::string format_bytes(std::uint64_t bytes);
+
+}  // namespace scarp

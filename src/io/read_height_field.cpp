@@ -1,0 +1,50 @@
+// One door for all rasters: the file's first bytes say whose reader it goes to.
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "io/pgm.h"
+#include "io/raster_source.h"
+#include "io/stm.h"
+
+namespace scarp {
+namespace {
+
+enum class Reader { kPgm, kStm, kGdal };
+
+/// Names that are no local file, devices and pipes go to GDAL unopened.
+Reader find_reader(const std::string& path, std::vector<std::uint8_t>& head) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return Reader::kGdal;
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 4096> bytes{};
+  file.read(bytes.data(), bytes.size());
+  head.assign(bytes.begin(), bytes.begin() + file.gcount());
+  if (is_pgm(head)) return Reader::kPgm;
+  if (is_stm(head)) return Reader::kStm;
+  return Reader::kGdal;
+}
+
+}  // namespace
+
+Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options) {
+  std::vector<std::uint8_t> head;
+  const Reader reader = find_reader(path, head);
+  if (reader == Reader::kGdal) return read_gdal_raster(path, options);
+  auto bytes = read_file(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return reader == Reader::kPgm ? decode_pgm(*bytes, path, options) : decode_stm(*bytes, path, options);
+}
+
+Result<RasterInfo> read_raster_info(const std::string& path, const ReadOptions& options, int& cols, int& rows) {
+  std::vector<std::uint8_t> head;
+  const Reader reader = find_reader(path, head);
+  if (reader == Reader::kGdal) return read_gdal_info(path, options, cols, rows);
+  auto info =
+      reader == Reader::kPgm ? decode_pgm_info(head, path, cols, rows) : decode_stm_info(head, path, cols, rows);
+  if (info && options.nodata) info->nodata = options.nodata;
+  return info;
+}
+
+}  // namespace scarp
