@@ -1,0 +1,63 @@
+// What must hold of every triangulation, said once.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+#include "tin/triangulation.h"
+
+namespace scarp::testing {
+
+/// The first law that is broken, "" if none: (1) twins point at each other along the same edge, constraints agree; (2)
+/// triangles are positive; (3) Euler: the areas add up to the rectangle and V − E + F = 1; (4) locally Delaunay but
+/// across constraints; (5) the mark "outside" changes only across constraints.
+inline std::string verify_triangulation(const Triangulation& tin, std::int32_t cols, std::int32_t rows) {
+  std::int64_t area2 = 0;
+  std::size_t border = 0;
+  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+    const auto [a, b, c] = tin.corners(t);
+    if (orient(a, b, c) <= 0) return fmt::format("triangle {} is not positive", t);
+    area2 += orient(a, b, c);
+    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+      const HalfEdge g = tin.twin(h);
+      if (g == kNone) {
+        ++border;
+        continue;
+      }
+      if (tin.twin(g) != h || tin.origin(g) != tin.origin(Triangulation::next(h)) ||
+          tin.origin(h) != tin.origin(Triangulation::next(g)))
+        return fmt::format("half-edges {} and {} do not match", h, g);
+      if (tin.is_constrained(h) != tin.is_constrained(g))
+        return fmt::format("edge {} is constrained on one side only", h);
+      if (tin.is_constrained(h)) continue;
+      if (tin.is_outside(t) != tin.is_outside(g / 3)) return fmt::format("outside changes across the free edge {}", h);
+      if (in_circle(a, b, c, tin.point(tin.origin(Triangulation::previous(g)))) > 0)
+        return fmt::format("edge {} is not Delaunay", h);
+    }
+  }
+  if (area2 != 2 * std::int64_t{cols - 1} * (rows - 1)) return "the areas do not add up to the rectangle";
+  const std::size_t edges = (3 * tin.triangle_count() + border) / 2;
+  if (tin.vertex_count() + tin.triangle_count() != edges + 1) return "Euler's formula does not hold";
+  return "";
+}
+
+/// The segment from a to b is a chain of constrained edges.
+inline bool is_constrained_chain(const Triangulation& tin, Vertex a, Vertex b) {
+  for (Vertex v = a; v != b;) {
+    Vertex next = kNone;
+    for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+      for (const auto& [from, to] : {std::pair{tin.origin(h), tin.origin(Triangulation::next(h))},
+                                     {tin.origin(Triangulation::next(h)), tin.origin(h)}}) {
+        const Point p = tin.point(v), q = tin.point(to), end = tin.point(b);
+        const bool ahead = std::int64_t{q.x - p.x} * (end.x - p.x) + std::int64_t{q.y - p.y} * (end.y - p.y) > 0;
+        if (from == v && tin.is_constrained(h) && orient(p, end, q) == 0 && ahead) next = to;
+      }
+    }
+    if (next == kNone) return false;
+    v = next;
+  }
+  return true;
+}
+
+}  // namespace scarp::testing

@@ -1,0 +1,113 @@
+#include "grid/outline.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <bit>
+
+#include "laws/fields.h"
+
+namespace scarp {
+namespace {
+
+/// 'x' is a height, '.' a void.
+testing::Field field_of(const std::vector<std::string>& picture) {
+  testing::Field field{static_cast<std::int32_t>(picture[0].size()), static_cast<std::int32_t>(picture.size()), {}};
+  for (const auto& row : picture)
+    for (char c : row) field.samples.push_back(c == 'x' ? 1.0f : std::numeric_limits<float>::quiet_NaN());
+  return field;
+}
+
+std::int64_t twice_area(const std::vector<Point>& polygon) {
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) sum += orient({0, 0}, polygon[i], polygon[(i + 1) % polygon.size()]);
+  return sum;
+}
+
+std::int64_t twice_area(const Outline& outline) {
+  std::int64_t sum = 0;
+  for (const auto& polygon : outline) sum += twice_area(polygon);
+  return sum;
+}
+
+TEST(outline, a_whole_raster_is_its_rectangle) {
+  const auto field = field_of({"xxx", "xxx"});
+  EXPECT_TRUE(is_whole(field.raster()));
+  const Outline outline = trace_outline(field.raster());
+  ASSERT_EQ(outline.size(), 1u);
+  EXPECT_EQ(outline[0].size(), 4u);
+  EXPECT_EQ(twice_area(outline), 4);
+}
+
+TEST(outline, a_void_corner_leaves_half_a_cell) {
+  const Outline outline = trace_outline(field_of({".x", "xx"}).raster());
+  ASSERT_EQ(outline.size(), 1u);
+  EXPECT_EQ(outline[0].size(), 3u);
+  EXPECT_EQ(twice_area(outline), 1);
+}
+
+TEST(outline, a_void_sample_inside_makes_a_hole_of_half_cells) {
+  const Outline outline = trace_outline(field_of({"xxxxx", "xxxxx", "xx.xx", "xxxxx", "xxxxx"}).raster());
+  ASSERT_EQ(outline.size(), 2u);
+  EXPECT_EQ(twice_area(outline[0]), 32);
+  EXPECT_EQ(twice_area(outline[1]), -4) << "a diamond, negative";
+}
+
+TEST(outline, parts_that_touch_in_a_sample_are_polygons_of_their_own) {
+  const Outline outline = trace_outline(field_of({"xxx", "x.x", "xxx"}).raster());
+  ASSERT_EQ(outline.size(), 4u) << "four half cells that meet in the middles of the sides";
+  for (const auto& polygon : outline) EXPECT_EQ(twice_area(polygon), 1);
+}
+
+TEST(outline, samples_without_a_cell_have_none) {
+  EXPECT_TRUE(trace_outline(field_of({"x.x", ".x.", "x.x"}).raster()).empty());
+}
+
+RC_GTEST_PROP(outline, encloses_exactly_the_cells, ()) {
+  const auto field =
+      testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(2, 30), *rc::gen::inRange(2, 30),
+                            testing::Relief::kTies, *rc::gen::element(0.05, 0.3, 0.7));
+  const Raster raster = field.raster();
+  std::int64_t cells = 0;
+  for (std::int32_t y = 0; y + 1 < raster.rows; ++y) {
+    for (std::int32_t x = 0; x + 1 < raster.cols; ++x) {
+      const int valid = std::popcount(valid_corners(raster, x, y));
+      cells += valid == 4 ? 2 : valid == 3 ? 1 : 0;
+    }
+  }
+  const Outline outline = trace_outline(raster);
+  RC_ASSERT(twice_area(outline) == cells);
+  for (const auto& polygon : outline) {
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+      RC_ASSERT(orient(polygon[i], polygon[(i + 1) % polygon.size()], polygon[(i + 2) % polygon.size()]) != 0);
+  }
+}
+
+RC_GTEST_PROP(outline, simplified_grows_and_has_no_more_vertices, ()) {
+  const auto field = testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), 40, 40, testing::Relief::kTies,
+                                           *rc::gen::element(0.05, 0.3));
+  const Outline exact = trace_outline(field.raster());
+  const Outline simple = simplify_outline(field.raster(), exact, *rc::gen::element(0.5, 1.0, 2.5));
+  RC_ASSERT(simple.size() == exact.size());
+  for (std::size_t k = 0; k < exact.size(); ++k) {
+    RC_ASSERT(simple[k].size() <= exact[k].size());
+    RC_ASSERT(simple[k].size() >= 3u);
+    RC_ASSERT(twice_area(simple[k]) >= twice_area(exact[k]));
+  }
+}
+
+TEST(outline, a_diagonal_staircase_becomes_one_edge) {
+  // Steps of two by one: the exact outline turns at every step.
+  testing::Field field{41, 21, std::vector<float>(41 * 21, 1.0f)};
+  for (std::int32_t y = 0; y < 21; ++y)
+    for (std::int32_t x = 2 * y + 1; x < 41; ++x)
+      field.samples[static_cast<std::size_t>(41 * y + x)] = std::numeric_limits<float>::quiet_NaN();
+  const Outline exact = trace_outline(field.raster());
+  const Outline simple = simplify_outline(field.raster(), exact, 1);
+  ASSERT_EQ(simple.size(), 1u);
+  EXPECT_GT(exact[0].size(), 20u);
+  EXPECT_LE(simple[0].size(), 6u);
+}
+
+}  // namespace
+}  // namespace scarp

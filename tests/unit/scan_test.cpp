@@ -1,0 +1,59 @@
+#include "geom/scan.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <numeric>
+#include <set>
+
+namespace scarp {
+namespace {
+
+using Lattice = std::set<std::pair<std::int32_t, std::int32_t>>;
+
+Lattice scanned(const std::array<Point, 3>& corners) {
+  Lattice points;
+  std::int32_t last_row = -1;
+  scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    EXPECT_GT(y, last_row);
+    last_row = y;
+    for (std::int32_t x = first; x <= last; ++x) EXPECT_TRUE(points.emplace(x, y).second);
+  });
+  return points;
+}
+
+RC_GTEST_PROP(scan, visits_exactly_the_closed_triangle, ()) {
+  const auto side = *rc::gen::element(3, 8, 40);
+  const auto point = [&] { return Point{*rc::gen::inRange(0, side), *rc::gen::inRange(0, side)}; };
+  std::array<Point, 3> corners{point(), point(), point()};
+  if (orient(corners[0], corners[1], corners[2]) < 0) std::swap(corners[1], corners[2]);
+  RC_PRE(orient(corners[0], corners[1], corners[2]) > 0);
+  Lattice expected;
+  for (std::int32_t y = 0; y < side; ++y) {
+    for (std::int32_t x = 0; x < side; ++x) {
+      const Point p{x, y};
+      if (orient(corners[0], corners[1], p) >= 0 && orient(corners[1], corners[2], p) >= 0 &&
+          orient(corners[2], corners[0], p) >= 0)
+        expected.emplace(x, y);
+    }
+  }
+  RC_ASSERT(scanned(corners) == expected);
+}
+
+// Pick's theorem: 2·area = 2·inside + border − 2, so a wrong count cannot hide at sizes where an oracle is too slow.
+RC_GTEST_PROP(scan, counts_what_pick_says_at_any_size, ()) {
+  const std::int32_t side = 60000;
+  const auto point = [&] { return Point{*rc::gen::inRange(0, side), *rc::gen::inRange(0, side)}; };
+  std::array<Point, 3> corners{point(), point(), point()};
+  const std::int64_t area2 = std::abs(orient(corners[0], corners[1], corners[2]));
+  RC_PRE(area2 != 0);
+  std::int64_t count = 0, border = 0;
+  scan_rows(corners, [&](std::int32_t, std::int32_t first, std::int32_t last) { count += last - first + 1; });
+  for (int k = 0; k < 3; ++k)
+    border += std::gcd(std::int64_t{corners[k].x} - corners[(k + 1) % 3].x,
+                       std::int64_t{corners[k].y} - corners[(k + 1) % 3].y);
+  RC_ASSERT(2 * count == area2 + border + 2);
+}
+
+}  // namespace
+}  // namespace scarp
