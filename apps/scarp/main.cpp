@@ -1,0 +1,98 @@
+// scarp VERB [OPTIONS] …: picks the verb, prints its one sentence if it fails, and turns the error into an exit code.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include "info_command.h"
+#include "measure_command.h"
+#include "scarp/version.h"
+#include "signals.h"
+#include "simplify_command.h"
+#include "text.h"
+
+namespace {
+
+using namespace scarp::cli;
+using scarp::Error;
+using scarp::ErrorKind;
+
+std::string join_command_line(int argc, char** argv) {
+  std::string line = "scarp";
+  for (int k = 1; k < argc; ++k) line += " " + shell_word(argv[k]);
+  return line;
+}
+
+/// What CLI11 objects to, as one sentence that ends with where to read more.
+Error describe(const CLI::ParseError& error, const CLI::App& program) {
+  std::string verb, sentence;
+  for (const CLI::App* chosen : program.get_subcommands()) verb = " " + chosen->get_name();
+  const std::vector<std::string> unknown = program.remaining(true);
+  if (verb.empty() && !unknown.empty() && unknown.front().rfind('-', 0) != 0) {
+    sentence = fmt::format("there is no verb {}: choose simplify, measure or info", shell_word(unknown.front()));
+  } else if (verb.empty() && unknown.empty()) {
+    sentence = "no verb is given: choose simplify, measure or info";
+  } else if (!unknown.empty()) {
+    const bool is_option = unknown.front().rfind('-', 0) == 0;
+    sentence = fmt::format("{} {} is unknown", is_option ? "option" : "argument", shell_word(unknown.front()));
+  } else {
+    sentence = error.what();
+  }
+  return {ErrorKind::kUsage, fmt::format("{}; see scarp{} --help", sentence, verb)};
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App program("Height fields to triangle meshes with a proven error bound.", "scarp");
+  program.set_version_flag("--version", fmt::format("scarp {}", scarp::version()), "Print the version");
+  program.set_help_flag("-h,--help", "Print this help");
+  program.get_formatter()->column_width(34);
+  program.footer(
+      "Try:\n"
+      "  scarp info dem.tif                                what is in it, and which errors suit it\n"
+      "  scarp simplify dem.tif hills.glb -e 1             a mesh within 1 m of every sample\n"
+      "  scarp measure dem.tif hills.glb --fail-above 1    check it independently\n"
+      "'scarp VERB --help' lists a verb's options.");
+  program.require_subcommand(1);
+  SimplifyCommand simplify(program);
+  MeasureCommand measure(program);
+  InfoCommand info(program);
+  for (CLI::App* verb : program.get_subcommands(nullptr)) {
+    verb->set_version_flag("--version", fmt::format("scarp {}", scarp::version()), "Print the version");
+  }
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return program.exit(error);
+    const Error sentence = describe(error, program);
+    print_error(sentence);
+    return exit_code(sentence.kind);
+  }
+
+  const std::string command_line = join_command_line(argc, argv);
+  const scarp::Result<void> result = simplify.is_chosen()  ? simplify.run(command_line)
+                                     : measure.is_chosen() ? measure.run(command_line)
+                                                           : info.run(command_line);
+  if (result) return 0;
+  const bool cancelled = result.error().kind == ErrorKind::kCancelled;
+  print_error(cancelled ? Error{ErrorKind::kCancelled, "interrupted; nothing was written"} : result.error());
+  return exit_code(result.error().kind);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  install_signal_handlers();
+  try {
+    return run_program(argc, argv);
+  } catch (const std::bad_alloc&) {
+    print_error({ErrorKind::kInput, "not enough memory for this raster; nothing was written"});
+    return exit_code(ErrorKind::kInput);
+  } catch (const std::exception& error) {
+    print_error({ErrorKind::kInternal, fmt::format("internal error: {}; please report it", error.what())});
+    return exit_code(ErrorKind::kInternal);
+  }
+}

@@ -1,0 +1,30 @@
+// scarp measure: judge a mesh file against its raster.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "options.h"
+
+namespace scarp::cli {
+
+class MeasureCommand {
+ public:
+  /// Adds the verb to the program. This object must stay alive and in place until run() is done.
+  explicit MeasureCommand(CLI::App& program);
+  MeasureCommand(const MeasureCommand&) = delete;
+  MeasureCommand& operator=(const MeasureCommand&) = delete;
+
+  bool is_chosen() const { return verb_->parsed(); }
+  /// `command_line` is what the user typed, for the report.
+  Result<void> run(const std::string& command_line) const;
+
+ private:
+  CLI::App* verb_;
+  RasterArguments raster_;
+  std::string mesh_;
+  Given map_, fail_above_, threads_;
+  bool json_ = false, overwrite_ = false, quiet_ = false, json_progress_ = false;
+};
+
+}  // namespace scarp::cli

@@ -1,0 +1,99 @@
+// Checks of output files before any work is done: nobody should wait an hour to learn that a folder does not exist.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "options.h"
+#include "text.h"
+
+namespace scarp::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_device(const fs::file_status& status) {
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+bool are_same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error) && !error) return true;
+  const fs::path full_a = fs::weakly_canonical(a, error);
+  if (error) return false;
+  const fs::path full_b = fs::weakly_canonical(b, error);
+  return !error && full_a == full_b;
+}
+
+Result<void> check_output(const PlannedOutput& output, bool overwrite) {
+  if (output.path.empty()) return fail(ErrorKind::kUsage, fmt::format("the name of {} is empty", output.option));
+  if (is_stdout(output.path)) return {};
+  std::error_code error;
+  const fs::file_status status = fs::status(output.path, error);
+  if (fs::is_directory(status)) {
+    return fail(ErrorKind::kOutput, fmt::format("{} {} is a folder: name a file in it", output.option, output.path));
+  }
+  if (is_device(status)) return {};
+  if (fs::exists(status) && !overwrite) {
+    return fail(ErrorKind::kOutput, fmt::format("{} exists already: --overwrite replaces it", output.path));
+  }
+  if (fs::exists(status) && access(output.path.c_str(), W_OK) != 0) {
+    return fail(ErrorKind::kOutput, fmt::format("{} cannot be replaced: {}", output.path, std::strerror(errno)));
+  }
+  fs::path target = output.path;
+  if (fs::is_symlink(target, error)) target = fs::weakly_canonical(target, error);
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, error)) {
+    return fail(ErrorKind::kOutput,
+                fmt::format("{} cannot be written: there is no folder {}", output.path, folder.string()));
+  }
+  if (access(folder.c_str(), W_OK | X_OK) != 0) {
+    return fail(ErrorKind::kOutput,
+                fmt::format("{} cannot be written: folder {}: {}", output.path, folder.string(), std::strerror(errno)));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<std::string>& inputs,
+                           bool overwrite) {
+  for (std::size_t k = 0; k < outputs.size(); ++k) {
+    const PlannedOutput& output = outputs[k];
+    std::error_code error;
+    const bool device = is_stdout(output.path) || is_device(fs::status(output.path, error));
+    for (const std::string& input : inputs) {
+      if (!device && are_same_file(output.path, input)) {
+        return fail(ErrorKind::kUsage,
+                    fmt::format("{} {} is an input file: choose another name", output.option, output.path));
+      }
+    }
+    for (std::size_t earlier = 0; earlier < k; ++earlier) {
+      if (!device && are_same_file(output.path, outputs[earlier].path)) {
+        return fail(ErrorKind::kUsage, fmt::format("{} and {} name the same file, {}", outputs[earlier].option,
+                                                   output.option, output.path));
+      }
+    }
+    const Result<void> checked = check_output(output, overwrite);
+    if (!checked) return checked;
+  }
+  return {};
+}
+
+Result<void> check_png_name(const PlannedOutput& output) {
+  std::error_code error;
+  if (is_stdout(output.path) || is_device(fs::status(output.path, error))) return {};
+  std::string extension = fs::path(output.path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension == ".png") return {};
+  return fail(ErrorKind::kUsage,
+              fmt::format("{} {} does not end in .png, the only picture format", output.option, output.path));
+}
+
+bool is_stdout(const std::string& path) { return path == "/dev/stdout"; }
+
+}  // namespace scarp::cli

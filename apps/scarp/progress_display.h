@@ -1,0 +1,56 @@
+// What a running command says about itself.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "scarp/progress.h"
+
+namespace scarp::cli {
+
+/// Shows a run's progress on stderr and turns Ctrl-C into cancellation.
+///
+/// kLine: one line that is rewritten, from one second into the run on: pass, percent, vertices, current error, time
+/// left in this pass. kJson: one object a line, at most five a second plus one at the end of each pass; keys pass,
+/// fraction, vertices, max_error, seconds (since the display was made).
+class ProgressDisplay {
+ public:
+  enum class Style { kSilent, kLine, kJson };
+
+  explicit ProgressDisplay(Style style);
+  /// Erases the line.
+  ~ProgressDisplay();
+  ProgressDisplay(const ProgressDisplay&) = delete;
+  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
+
+  /// For the library's options. The display must outlive the call that uses it.
+  ProgressCallback callback();
+  /// Ends the last pass and erases the line. Call when the work has succeeded; nothing is shown afterwards.
+  void finish();
+
+  /// The style for the given flags: kJson if asked for, else kLine where stderr is a terminal and `quiet` is false.
+  static Style choose(bool json, bool quiet);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool show(const Progress& progress);
+  void end_pass();
+  void print_line(double pass_seconds);
+  void print_json(double fraction) const;
+  void erase_line();
+
+  Style style_;
+  Clock::time_point start_;
+  Clock::time_point pass_start_;
+  Clock::time_point last_shown_;
+  bool has_pass_ = false;
+  bool line_shown_ = false;
+  std::string pass_;
+  double fraction_ = 0;
+  std::uint64_t vertices_ = 0;
+  double max_error_ = 0;
+};
+
+}  // namespace scarp::cli

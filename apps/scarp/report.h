@@ -1,0 +1,26 @@
+// Reports as JSON. simplify, measure and info give the same things the same names; docs/cli.md lists them.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "scarp/height_field.h"
+#include "scarp/measure.h"
+
+namespace scarp::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// The "input" object: the raster as it was read.
+Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, int band);
+/// The "frame" object: what the mesh's x and y are.
+Json describe_frame(const Frame& frame);
+/// Triangles of the full grid: 2·(cols − 1)·(rows − 1).
+std::uint64_t full_grid_triangles(const HeightField& field);
+/// Adds max_error … void_cells_covered and the "topology" object.
+void add_measurement(Json& report, const Measurement& measured);
+/// The report as text, two spaces a level, with a newline at the end. Bytes that are not UTF-8 become U+FFFD.
+std::string to_text(const Json& report);
+
+}  // namespace scarp::cli

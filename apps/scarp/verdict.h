@@ -1,0 +1,24 @@
+// Does a measured mesh keep a bound?
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "scarp/height_field.h"
+#include "scarp/measure.h"
+
+namespace scarp::cli {
+
+/// What the judge's max error may exceed `bound` by: the rounding of its own double arithmetic,
+/// 1e-12·bound + 1e-12·max|z|.
+double judging_allowance(double bound, const HeightRange& heights);
+
+/// The sentence that says why the mesh does not keep `bound`: too large an error and where, samples that no triangle
+/// covers (`uncovered_sample` names one), a fault of its topology. Nothing if it keeps it.
+std::optional<std::string> find_broken_promise(const Measurement& measured, double bound, const HeightRange& heights,
+                                               const std::string& uncovered_sample = {});
+
+/// "1 flipped triangle, 2 overlaps": what is_sound() objects to; empty if it is sound.
+std::string list_faults(const Measurement& measured);
+
+}  // namespace scarp::cli
