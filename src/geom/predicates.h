@@ -1,36 +1,18 @@
-// The two questions a triangulation asks, answered exactly on the integer lattice.
+// The in-circle question of a triangulation, answered exactly on the integer lattice (orient() is in base/point.h).
 //
-// Handedness: positive means counter-clockwise where x goes right and y goes up. Rasters count rows downwards, so on
-// the screen a positive triangle runs clockwise; what matters is that everybody uses one sign.
-//
-// Sizes: coordinates lie in [0, kMaxCoordinate], so a difference fits 30 bits. orient() needs 2·30 + 1 bits.
-// in_circle() is of degree 4: with all differences at most d its terms add up to less than 12 d⁴, which is below 2⁶³
-// for d <= 29,609; beyond, 128-bit integers answer (12·2¹²⁰ < 2¹²⁷).
+// Sizes: in_circle() is of degree 4: with all differences at most d its terms add up to less than 12 d⁴, which is below
+// 2⁶³ for d <= 29,609; beyond, 128-bit integers answer (12·2¹²⁰ < 2¹²⁷).
 #pragma once
 
 #include <cstdint>
 #include <cstdlib>
 
 #include "base/int128.h"
+#include "base/point.h"
 
 namespace scarp {
 
-inline constexpr std::int32_t kMaxCoordinate = (1 << 30) - 1;
 inline constexpr std::int32_t kMaxInCircle64 = 29609;
-
-/// A point of the sample lattice: column and row.
-struct Point {
-  std::int32_t x = 0, y = 0;
-  friend bool operator==(Point, Point) = default;
-};
-
-/// Raster order: lowest row first, then lowest column. Every tie in Scarp is broken by it.
-inline bool before(Point a, Point b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
-
-/// Twice the signed area of (a, b, c). (1) orient(a,b,c) = orient(b,c,a); (2) orient(a,b,c) = −orient(b,a,c).
-inline std::int64_t orient(Point a, Point b, Point c) {
-  return std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
-}
 
 namespace detail {
 

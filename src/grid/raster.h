@@ -3,8 +3,9 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
-#include "geom/predicates.h"
+#include "base/point.h"
 
 namespace scarp {
 
