@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstdlib>
+#include <utility>
 
 namespace scarp {
 
 namespace {
 
 constexpr Point kCorner[4] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};  // positive order
-// The cell beyond side k (from corner k to corner k + 1), and that cell's own name for the side's two corners.
-constexpr Point kBeyond[4] = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
 
 struct DirectedEdge {
   Point from, to;
@@ -23,24 +23,36 @@ bool has_side(unsigned corners, unsigned k) {
   return is_surface_cell(corners) && (corners >> k & 1) && (corners >> (k + 1) % 4 & 1);
 }
 
+/// valid_corners() of the cells of row y with an empty cell before the first and after the last; all empty beyond the
+/// raster.
+void fill_cell_row(const Raster& raster, std::int32_t y, std::vector<unsigned char>& cells) {
+  cells.assign(static_cast<std::size_t>(raster.cols) + 1, 0);
+  if (y < 0 || y + 1 >= raster.rows) return;
+  for (std::int32_t x = 0; x + 1 < raster.cols; ++x)
+    cells[static_cast<std::size_t>(x) + 1] = static_cast<unsigned char>(valid_corners(raster, x, y));
+}
+
 std::vector<DirectedEdge> border_edges(const Raster& raster) {
   std::vector<DirectedEdge> edges;
-  const auto corners_of = [&](std::int32_t x, std::int32_t y) {
-    const bool exists = x >= 0 && y >= 0 && x + 1 < raster.cols && y + 1 < raster.rows;
-    return exists ? valid_corners(raster, x, y) : 0u;
-  };
+  std::vector<unsigned char> above, here, below;
+  fill_cell_row(raster, -1, above);
+  fill_cell_row(raster, 0, here);
   for (std::int32_t y = 0; y + 1 < raster.rows; ++y) {
+    fill_cell_row(raster, y + 1, below);
     for (std::int32_t x = 0; x + 1 < raster.cols; ++x) {
-      const unsigned corners = corners_of(x, y);
+      const auto i = static_cast<std::size_t>(x) + 1;
+      const unsigned corners = here[i];
       if (!is_surface_cell(corners)) continue;
       const auto at = [&](unsigned k) { return Point{x + kCorner[k % 4].x, y + kCorner[k % 4].y}; };
+      const unsigned beyond[4] = {above[i], here[i + 1], below[i], here[i - 1]};
       for (unsigned k = 0; k < 4; ++k) {
-        // The side's ends are the same samples in both cells, so the cell beyond has the side exactly if it is surface.
-        const unsigned beyond = corners_of(x + kBeyond[k].x, y + kBeyond[k].y);
-        if (has_side(corners, k) && !is_surface_cell(beyond)) edges.push_back({at(k), at(k + 1)});
+        // A side's ends are the same samples in both cells, so the cell beyond has the side exactly if it is surface.
+        if (has_side(corners, k) && !is_surface_cell(beyond[k])) edges.push_back({at(k), at(k + 1)});
         if (!(corners >> k & 1)) edges.push_back({at(k + 3), at(k + 1)});  // the diagonal of a half cell
       }
     }
+    std::swap(above, here);
+    std::swap(here, below);
   }
   std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
     return a.from == b.from ? before(a.to, b.to) : before(a.from, b.from);
