@@ -1,0 +1,177 @@
+// The problem: a floor for a solid needs the outline of the terrain and nothing inside it. Triangulating an outline
+// with holes from scratch asks for a polygon triangulator; but we already hold a triangulation, with too many vertices.
+//
+// The idea: take the inner vertices out, one at a time. Taking out v leaves a star-shaped hole, the ring of its
+// neighbours. Three neighbours p, q, r in sequence are an ear that may be cut off if they turn left and v lies strictly
+// left of p→r: what remains is still star-shaped around v, and the test looks at these four points only, so that
+// cutting an ear changes the answer for its two neighbours and nobody else. While more than four neighbours are left
+// there is always such an ear (of the ears of any triangulation of the ring, two or more, one does not touch v); of the
+// last four, v may lie on a diagonal. Vertices with few neighbours go first, which keeps rings short. With exact
+// orientation nothing can go wrong; the border and all edges along it are never touched, so the result fits the walls.
+//
+// This is vertex deletion by ear queue without its Delaunay priority (Devillers 2002, "On deletion in Delaunay
+// triangulations"): a floor may have long thin triangles.
+
+#include "mesh/flat_base.h"
+
+#include <functional>
+#include <queue>
+#include <utility>
+
+#include "mesh/exact_orient.h"
+#include "mesh/half_edges.h"
+
+namespace scarp {
+namespace {
+
+class FlatBase {
+ public:
+  FlatBase(std::span<const double> positions, std::vector<std::uint32_t> triangles, std::vector<std::uint32_t> twins)
+      : positions_(positions), triangles_(std::move(triangles)), twins_(std::move(twins)) {}
+
+  std::vector<std::uint32_t> build() {
+    for (std::size_t t = 0; t < triangles_.size(); t += 3) {
+      if (!turns_left(triangles_[t], triangles_[t + 1], triangles_[t + 2])) return std::move(triangles_);
+    }
+    remove_inner_vertices();
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < triangles_.size(); t += 3) {
+      if (triangles_[t] == triangles_[t + 1]) continue;  // a slot given back
+      for (std::size_t k = 0; k < 3; ++k) triangles_[kept++] = triangles_[t + k];
+    }
+    triangles_.resize(kept);
+    return std::move(triangles_);
+  }
+
+ private:
+  struct RingEdge {
+    std::uint32_t start;   // the vertex from which the edge goes to the next ring vertex
+    std::uint32_t across;  // the half-edge that runs back along it, or kNoHalfEdge
+    std::uint32_t previous, next;
+  };
+  struct Ear {
+    std::uint32_t corners[3];
+    std::uint32_t across[2];  // of the edges 0→1 and 1→2; a later ear links the third
+  };
+
+  int orient(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    const auto point = [&](std::size_t v) { return Point2{positions_[3 * v], positions_[3 * v + 1]}; };
+    return exact_orient(point(a), point(b), point(c));
+  }
+  bool turns_left(std::uint32_t a, std::uint32_t b, std::uint32_t c) const { return orient(a, b, c) > 0; }
+
+  void remove_inner_vertices() {
+    const std::size_t vertices = positions_.size() / 3;
+    std::vector<std::uint32_t> degrees(vertices, 0);
+    outgoing_.assign(vertices, kNoHalfEdge);
+    std::vector<bool> on_border(vertices, false);
+    for (std::uint32_t h = 0; h < triangles_.size(); ++h) {
+      outgoing_[triangles_[h]] = h;
+      ++degrees[triangles_[h]];
+      if (twins_[h] == kNoHalfEdge) on_border[triangles_[h]] = on_border[triangles_[next_half_edge(h)]] = true;
+    }
+    using Entry = std::pair<std::uint32_t, std::uint32_t>;  // neighbours, vertex
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    for (std::uint32_t v = 0; v < vertices; ++v) {
+      if (degrees[v] > 0 && !on_border[v]) queue.push({degrees[v], v});
+    }
+    while (!queue.empty()) {
+      const auto [degree, v] = queue.top();
+      queue.pop();
+      if (degree != degrees[v]) continue;  // an entry of the past
+      collect_ring(v);
+      if (ring_.size() != degree || !cut_ears(v)) continue;
+      for (const RingEdge& edge : ring_) degrees[edge.start] -= 2;
+      for (const Ear& ear : ears_) {
+        for (const std::uint32_t corner : ear.corners) ++degrees[corner];
+      }
+      degrees[v] = 0;
+      replace_star();
+      for (const RingEdge& edge : ring_) {
+        if (!on_border[edge.start]) queue.push({degrees[edge.start], edge.start});
+      }
+    }
+  }
+
+  /// The neighbours of v, counter-clockwise, and the triangles around it.
+  void collect_ring(std::uint32_t v) {
+    ring_.clear();
+    star_.clear();
+    std::uint32_t h = outgoing_[v];
+    do {
+      const std::uint32_t opposite = next_half_edge(h);
+      const auto at = static_cast<std::uint32_t>(ring_.size());
+      ring_.push_back({triangles_[opposite], twins_[opposite], at - 1, at + 1});
+      star_.push_back(h / 3);
+      h = twins_[previous_half_edge(h)];
+    } while (h != outgoing_[v] && h != kNoHalfEdge);
+    ring_.front().previous = static_cast<std::uint32_t>(ring_.size() - 1);
+    ring_.back().next = 0;
+  }
+
+  /// Fills ears_ with the triangles that fill the ring of v; ear number e will take the place of triangle star_[e].
+  /// Returns false if there is no way, which happens only if the triangles given overlap.
+  bool cut_ears(std::uint32_t v) {
+    ears_.clear();
+    if (ring_.size() < 3) return false;
+    std::size_t left = ring_.size(), misses = 0;
+    std::uint32_t at = 0;
+    while (left >= 3) {
+      const std::uint32_t before = ring_[at].previous, after = ring_[at].next;
+      const std::uint32_t a = ring_[before].start, b = ring_[at].start, c = ring_[after].start;
+      const int side = !turns_left(a, b, c) ? -1 : left == 3 ? 1 : orient(a, c, v);
+      if (side > 0 || (side == 0 && left == 4)) {
+        ears_.push_back({{a, b, c}, {ring_[before].across, ring_[at].across}});
+        ring_[before].across = 3 * star_[ears_.size() - 1] + 2;
+        ring_[before].next = after;
+        ring_[after].previous = before;
+        --left;
+        misses = 0;
+        at = before;
+      } else {
+        if (++misses > left) return false;
+        at = after;
+      }
+    }
+    last_across_ = ring_[ring_[at].next].across;
+    return true;
+  }
+
+  void replace_star() {
+    for (std::size_t e = 0; e < ears_.size(); ++e) {
+      const std::uint32_t h = 3 * star_[e];
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        triangles_[h + k] = ears_[e].corners[k];
+        outgoing_[ears_[e].corners[k]] = h + k;
+      }
+      link(h, ears_[e].across[0]);
+      link(h + 1, ears_[e].across[1]);
+    }
+    link(3 * star_[ears_.size() - 1] + 2, last_across_);
+    for (std::size_t e = ears_.size(); e < star_.size(); ++e) {
+      triangles_[3 * star_[e] + 1] = triangles_[3 * star_[e]];  // two triangles fewer
+    }
+  }
+
+  void link(std::uint32_t h, std::uint32_t twin) {
+    twins_[h] = twin;
+    if (twin != kNoHalfEdge) twins_[twin] = h;
+  }
+
+  std::span<const double> positions_;
+  std::vector<std::uint32_t> triangles_, twins_;
+  std::vector<std::uint32_t> outgoing_;  // one half-edge that starts at each vertex
+  std::vector<RingEdge> ring_;           // as indexed by ring position; a linked list while ears are cut
+  std::vector<std::uint32_t> star_;
+  std::vector<Ear> ears_;
+  std::uint32_t last_across_ = kNoHalfEdge;  // of the last ear's third edge
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> build_flat_base(std::span<const double> positions, std::vector<std::uint32_t> triangles,
+                                           std::vector<std::uint32_t> twins) {
+  return FlatBase(positions, std::move(triangles), std::move(twins)).build();
+}
+
+}  // namespace scarp

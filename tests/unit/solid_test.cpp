@@ -1,0 +1,204 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+
+#include "mesh/exact_orient.h"
+#include "mesh/half_edges.h"
+#include "mesh_samples.h"
+
+namespace scarp {
+namespace {
+
+using test::grid_mesh;
+
+/// Every directed edge once, and its reverse once; every vertex used, with one fan of triangles around it.
+void expect_closed_manifold(const Mesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (std::uint32_t h = 0; h < mesh.triangles.size(); ++h) {
+    ++edges[{mesh.triangles[h], mesh.triangles[next_half_edge(h)]}];
+  }
+  for (const auto& [ends, count] : edges) {
+    ASSERT_NE(ends.first, ends.second);
+    ASSERT_EQ(count, 1) << ends.first << "→" << ends.second;
+    ASSERT_TRUE(edges.contains({ends.second, ends.first})) << ends.first << "→" << ends.second << " is open";
+  }
+  std::vector<std::size_t> corners(mesh.vertex_count(), 0);
+  std::vector<std::uint32_t> first(mesh.vertex_count(), kNoHalfEdge);
+  for (std::uint32_t h = 0; h < mesh.triangles.size(); ++h) {
+    ++corners[mesh.triangles[h]];
+    first[mesh.triangles[h]] = h;
+  }
+  const auto twins = build_twins(mesh.triangles);
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    ASSERT_NE(first[v], kNoHalfEdge) << "vertex " << v << " is unused";
+    std::size_t turned = 0;
+    std::uint32_t h = first[v];
+    do {
+      ++turned;
+      h = twins[previous_half_edge(h)];
+    } while (h != first[v]);
+    ASSERT_EQ(turned, corners[v]) << "vertex " << v << " joins two fans";
+  }
+}
+
+double signed_volume(const Mesh& mesh) {
+  double six = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const double* a = &mesh.positions[3 * std::size_t{mesh.triangles[t]}];
+    const double* b = &mesh.positions[3 * std::size_t{mesh.triangles[t + 1]}];
+    const double* c = &mesh.positions[3 * std::size_t{mesh.triangles[t + 2]}];
+    six += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+  }
+  return six / 6;
+}
+
+/// Volume between an open mesh and the plane z = base.
+double volume_above(const Mesh& mesh, double base) {
+  double volume = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const double* a = &mesh.positions[3 * std::size_t{mesh.triangles[t]}];
+    const double* b = &mesh.positions[3 * std::size_t{mesh.triangles[t + 1]}];
+    const double* c = &mesh.positions[3 * std::size_t{mesh.triangles[t + 2]}];
+    const double area = ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2;
+    volume += area * ((a[2] + b[2] + c[2]) / 3 - base);
+  }
+  return volume;
+}
+
+std::size_t border_edges(const Mesh& mesh) {
+  const auto twins = build_twins(mesh.triangles);
+  return static_cast<std::size_t>(std::count(twins.begin(), twins.end(), kNoHalfEdge));
+}
+
+/// Adds a base at −3.5 and checks closedness and volume. Returns the number of triangles in the floor.
+std::size_t check_solid(Mesh mesh, double tolerance = 1e-9) {
+  const std::size_t top = mesh.triangle_count(), border = border_edges(mesh);
+  const double expected = volume_above(mesh, -3.5);
+  mesh.origin = {1000, 2000, 16};
+  EXPECT_TRUE(add_base(mesh, 12.5));
+  expect_closed_manifold(mesh);
+  EXPECT_NEAR(signed_volume(mesh), expected, tolerance * expected);
+  EXPECT_GT(signed_volume(mesh), 0);
+  return mesh.triangle_count() - top - 2 * border;
+}
+
+TEST(Solid, RectangleHasAFloorOfItsBorderOnly) {
+  const Mesh mesh = grid_mesh(7, 5, [](int, int) { return true; });
+  EXPECT_EQ(check_solid(mesh), border_edges(mesh) - 2);
+}
+
+TEST(Solid, SingleTriangle) {
+  Mesh mesh;
+  mesh.positions = {0, 0, 1, 1, 0, 2, 0, 1, 3};
+  mesh.triangles = {0, 1, 2};
+  EXPECT_EQ(check_solid(mesh), 1u);
+}
+
+TEST(Solid, HolesAndParts) {
+  const Mesh ring = grid_mesh(9, 9, [](int i, int j) { return !(i >= 3 && i < 6 && j >= 2 && j < 7); });
+  EXPECT_EQ(check_solid(ring), border_edges(ring) + 2 - 2);
+  const Mesh parts = grid_mesh(9, 9, [](int i, int j) { return i != 4 && j != 4; });
+  EXPECT_EQ(check_solid(parts), border_edges(parts) - 4 * 2);
+}
+
+TEST(Solid, Checkerboards) {
+  const Mesh board = grid_mesh(8, 8, [](int i, int j) { return (i + j) % 2 == 0; });
+  EXPECT_EQ(check_solid(board), board.triangle_count());  // 32 loose squares: four walls and two floor triangles each
+  const Mesh coarse = grid_mesh(12, 12, [](int i, int j) { return (i / 3 + j / 3) % 2 == 0; });
+  EXPECT_EQ(check_solid(coarse), 8 * (12 - 2u));
+  // A frame of cells whose hole touches the hole beside it in a point, and the outer border too.
+  const Mesh touching =
+      grid_mesh(6, 6, [](int i, int j) { return !((i == 1 && j == 1) || (i == 2 && j == 2) || (i == 0 && j == 3)); });
+  check_solid(touching);
+}
+
+TEST(Solid, RandomDomains) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 300; ++round) {
+    const int cols = 1 + static_cast<int>(random() % 14), rows = 1 + static_cast<int>(random() % 14);
+    const auto share = random() % 11;
+    std::vector<bool> cells(static_cast<std::size_t>(cols * rows));
+    for (std::size_t c = 0; c < cells.size(); ++c) cells[c] = random() % 10 < share;
+    cells[0] = true;
+    const Mesh mesh =
+        grid_mesh(cols, rows, [&](int i, int j) { return cells[static_cast<std::size_t>(j * cols + i)]; });
+    // By Euler: a triangulation without inner vertices of n border vertices, p parts and h holes has n + 2h − 2p
+    // triangles. Every part's floor must have the Euler number of its top.
+    const auto twins = build_twins(mesh.triangles);
+    check_solid(mesh);
+    if (HasFatalFailure() || HasNonfatalFailure()) FAIL() << "round " << round;
+  }
+}
+
+TEST(Solid, LargeFloorIsFastAndMinimal) {
+  const Mesh mesh = grid_mesh(400, 400, [](int i, int j) { return !(i == 200 && j == 200); });
+  EXPECT_EQ(check_solid(mesh), border_edges(mesh) + 2 - 2);
+}
+
+TEST(Solid, UnevenPositionsStillTriangulate) {
+  // Positions that are not a lattice: a fan of nearly collinear points far from the origin.
+  Mesh mesh;
+  mesh.positions = {0, 0, 1};
+  for (int i = 0; i < 40; ++i) {
+    const double angle = 6.283185307179586 * i / 40, r = i % 2 == 0 ? 1e-3 : 1e7;
+    mesh.positions.insert(mesh.positions.end(), {static_cast<double>(static_cast<float>(r * std::cos(angle))),
+                                                 static_cast<double>(static_cast<float>(r * std::sin(angle))), 1});
+    mesh.triangles.insert(mesh.triangles.end(),
+                          {0, 1 + static_cast<std::uint32_t>(i), 1 + static_cast<std::uint32_t>((i + 1) % 40)});
+  }
+  EXPECT_EQ(check_solid(mesh, 1e-6), 38u);  // its volume is the difference of large terms
+}
+
+TEST(Solid, OverlappingInputStaysClosed) {
+  Mesh mesh = grid_mesh(3, 3, [](int, int) { return true; });
+  mesh.positions[3 * 5] += 70;  // pulls a vertex across its neighbours: some triangles turn over
+  EXPECT_EQ(check_solid(mesh), mesh.triangle_count());
+}
+
+TEST(Solid, RefusesABaseThatIsNotBelow) {
+  Mesh mesh = grid_mesh(
+      2, 2, [](int, int) { return true; }, true);
+  const Mesh before = mesh;
+  const double lowest = mesh.positions[2];
+  for (const double base :
+       {3.5, lowest, static_cast<double>(NAN), static_cast<double>(-INFINITY), std::nextafter(1.0, 2.0) + 1}) {
+    EXPECT_FALSE(add_base(mesh, base)) << base;
+    EXPECT_TRUE(test::same_geometry(mesh, before));
+  }
+  EXPECT_TRUE(add_base(mesh, 0));
+  EXPECT_TRUE(mesh.normals.empty());
+}
+
+TEST(ExactOrient, AgreesWithIntegersAndItsLaws) {
+  std::mt19937_64 random(3);
+  int flat = 0;
+  for (int round = 0; round < 200000; ++round) {
+    // Nearly collinear: c lies on the line a→b at t, plus a step of at most one unit.
+    const auto number = [&](int bits) {
+      return static_cast<std::int64_t>(random() >> (64 - bits)) - (std::int64_t{1} << (bits - 1));
+    };
+    const std::int64_t ax = number(50), ay = number(50), dx = number(24), dy = number(24), t = number(24);
+    const std::int64_t cx = ax + t * dx + number(2) / 2, cy = ay + t * dy + number(2) / 2;
+    __extension__ using Wide = __int128;
+    const Wide exact = static_cast<Wide>(dx) * (cy - ay) - static_cast<Wide>(dy) * (cx - ax);
+    const int sign = (exact > 0) - (exact < 0);
+    const auto point = [](std::int64_t x, std::int64_t y) {
+      return Point2{static_cast<double>(x), static_cast<double>(y)};
+    };
+    const Point2 a = point(ax, ay), b = point(ax + dx, ay + dy), c = point(cx, cy);
+    flat += sign == 0;
+    ASSERT_EQ(exact_orient(a, b, c), sign);
+    ASSERT_EQ(exact_orient(b, c, a), sign);
+    ASSERT_EQ(exact_orient(b, a, c), -sign);
+  }
+  EXPECT_GT(flat, 1000);
+  // One unit in the last place decides, far below what the rounded determinant can tell.
+  EXPECT_EQ(exact_orient({0.5, 0.5}, {12, 12}, {24, 24}), 0);
+  EXPECT_EQ(exact_orient({0.5, std::nextafter(0.5, 1)}, {12, 12}, {24, 24}), 1);
+  EXPECT_EQ(exact_orient({0.5, std::nextafter(0.5, 0)}, {12, 12}, {24, 24}), -1);
+}
+
+}  // namespace
+}  // namespace scarp
