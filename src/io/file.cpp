@@ -1,0 +1,213 @@
+// Whole files, written so that a reader sees the old file or the new one and never a part of it.
+//
+// The bytes go to a temporary name in the same folder (so that the rename stays inside one file system), are forced to
+// disk, and only then take the name asked for. Every step that can fail is checked, close() included: network file
+// systems report a full disk there.
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <system_error>
+
+#include "scarp/io.h"
+
+namespace scarp {
+namespace {
+
+constexpr std::size_t kPendingSize = 4096 + 64;  // the longest path that open() takes, and our suffix
+char pending_name[kPendingSize];
+std::atomic<bool> pending_taken{false};
+std::atomic<unsigned> next_serial{0};
+
+/// Holds the name for pending_output() while it lives. The first character is set last and cleared first, so that a
+/// handler that interrupts us sees a whole name or none.
+class PendingName {
+ public:
+  explicit PendingName(const std::string& name) {
+    if (name.empty() || name.size() >= kPendingSize || pending_taken.exchange(true)) return;
+    owner_ = true;
+    for (std::size_t i = 1; i <= name.size(); ++i) pending_name[i] = name.c_str()[i];
+    std::atomic_signal_fence(std::memory_order_seq_cst);
+    pending_name[0] = name[0];
+  }
+  PendingName(const PendingName&) = delete;
+  PendingName& operator=(const PendingName&) = delete;
+  ~PendingName() {
+    if (!owner_) return;
+    pending_name[0] = '\0';
+    std::atomic_signal_fence(std::memory_order_seq_cst);
+    pending_taken = false;
+  }
+
+ private:
+  bool owner_ = false;
+};
+
+std::string reason(int error) {
+  switch (error) {
+    case ENOSPC:
+      return "the disk is full";
+    case EDQUOT:
+      return "the disk quota is used up";
+    case EFBIG:
+      return "it would exceed the file-size limit";
+    case EACCES:
+    case EPERM:
+      return "permission is denied";
+    case EROFS:
+      return "the file system is read-only";
+    case EISDIR:
+      return "it is a folder";
+    case ENAMETOOLONG:
+      return "the name is too long";
+    default:
+      return std::generic_category().message(error);
+  }
+}
+
+tl::unexpected<Error> fail_writing(const std::string& path, const std::string& why) {
+  return fail(ErrorKind::kOutput, fmt::format("cannot write {}: {}", path, why));
+}
+
+/// 0 or an errno.
+int write_all(int fd, std::span<const std::uint8_t> bytes) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    constexpr std::size_t kChunk = std::size_t{1} << 30;
+    const std::size_t size = bytes.size() - done < kChunk ? bytes.size() - done : kChunk;
+    const ssize_t written = ::write(fd, bytes.data() + done, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    if (written == 0) return EIO;
+    done += static_cast<std::size_t>(written);
+  }
+  return 0;
+}
+
+int sync_file(int fd) {
+  while (::fsync(fd) != 0) {
+    if (errno == EINTR) continue;
+    return errno == EINVAL ? 0 : errno;  // file systems without fsync answer EINVAL
+  }
+  return 0;
+}
+
+/// Devices, pipes and standard output have no old content to protect and no name to take.
+Result<void> write_directly(const std::string& path, int fd, std::span<const std::uint8_t> bytes) {
+  if (fd < 0) return fail_writing(path, reason(errno));
+  int error = write_all(fd, bytes);
+  if (::close(fd) != 0 && error == 0) error = errno;
+  if (error != 0) return fail_writing(path, reason(error));
+  return {};
+}
+
+int take_name(const std::string& temporary, const std::string& target, bool overwrite) {
+#ifdef RENAME_NOREPLACE
+  if (!overwrite) {
+    if (::renameat2(AT_FDCWD, temporary.c_str(), AT_FDCWD, target.c_str(), RENAME_NOREPLACE) == 0) return 0;
+    if (errno != EINVAL && errno != ENOSYS) return errno;  // else: a file system that cannot refuse
+  }
+#else
+  (void)overwrite;
+#endif
+  return ::rename(temporary.c_str(), target.c_str()) == 0 ? 0 : errno;
+}
+
+std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "" : path.substr(0, slash + 1);
+}
+
+}  // namespace
+
+const char* pending_output() { return pending_name; }
+
+Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes, bool overwrite) {
+  if (path.empty()) return fail(ErrorKind::kOutput, "cannot write a file without a name");
+  if (path == "/dev/stdout") return write_directly(path, ::dup(STDOUT_FILENO), bytes);
+
+  std::string target = path;
+  struct stat old {};
+  const bool exists = ::stat(path.c_str(), &old) == 0;
+  if (exists) {
+    if (S_ISDIR(old.st_mode)) return fail_writing(path, "it is a folder; name a file in it");
+    if (!S_ISREG(old.st_mode)) return write_directly(path, ::open(path.c_str(), O_WRONLY | O_CLOEXEC), bytes);
+    if (!overwrite) return fail(ErrorKind::kOutput, fmt::format("{} exists; use --overwrite to replace it", path));
+    if (::access(path.c_str(), W_OK) != 0) return fail_writing(path, "the existing file may not be written");
+    if (char* real = ::realpath(path.c_str(), nullptr)) {
+      target = real;
+      std::free(real);
+    }
+  }
+
+  const std::string temporary =
+      fmt::format("{}.scarp-{}-{}.tmp", folder_of(target), ::getpid(), next_serial.fetch_add(1));
+  const PendingName pending(temporary);
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
+  int fd = ::open(temporary.c_str(), kFlags, 0666);
+  if (fd < 0 && errno == EEXIST && ::unlink(temporary.c_str()) == 0) {
+    fd = ::open(temporary.c_str(), kFlags, 0666);  // was left by a killed process that had our number
+  }
+  if (fd < 0) {
+    if (errno == ENOENT || errno == ENOTDIR) return fail_writing(path, "its folder does not exist; create it first");
+    if (errno == EACCES || errno == EPERM) return fail_writing(path, "its folder may not be written");
+    return fail_writing(path, reason(errno));
+  }
+  int error = write_all(fd, bytes);
+  if (error == 0 && exists && ::fchmod(fd, old.st_mode & 07777) != 0 && errno != EPERM) error = errno;
+  if (error == 0) error = sync_file(fd);
+  if (::close(fd) != 0 && error == 0) error = errno;
+  if (error == 0) error = take_name(temporary, target, overwrite);
+  if (error != 0) {
+    ::unlink(temporary.c_str());
+    if (error == EEXIST) return fail(ErrorKind::kOutput, fmt::format("{} exists; use --overwrite to replace it", path));
+    return fail_writing(path, reason(error));
+  }
+  return {};
+}
+
+Result<std::vector<std::uint8_t>> read_file(const std::string& path) {
+  const auto cannot = [&](const std::string& why) {
+    return fail(ErrorKind::kInput, fmt::format("cannot read {}: {}", path, why));
+  };
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) return cannot(errno == ENOENT ? "there is no such file" : reason(errno));
+  struct Closer {
+    int fd;
+    ~Closer() { ::close(fd); }
+  } const closer{fd};
+  struct stat info {};
+  if (::fstat(fd, &info) != 0) return cannot(reason(errno));
+  if (S_ISDIR(info.st_mode)) return cannot("it is a folder");
+
+  std::vector<std::uint8_t> bytes;
+  try {
+    // A size is a hint: pipes have none, files may grow. One byte more lets the last read() say that it is the last.
+    std::size_t room = S_ISREG(info.st_mode) ? static_cast<std::size_t>(info.st_size) + 1 : 65536;
+    std::size_t size = 0;
+    for (;;) {
+      bytes.resize(room);
+      const ssize_t got = ::read(fd, bytes.data() + size, room - size);
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) return cannot(reason(errno));
+      if (got == 0) break;
+      size += static_cast<std::size_t>(got);
+      if (size == room) room *= 2;
+    }
+    bytes.resize(size);
+  } catch (const std::exception&) {
+    return cannot("it does not fit into memory");
+  }
+  return bytes;
+}
+
+}  // namespace scarp

@@ -1,0 +1,249 @@
+#include "io/mesh_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <new>
+
+#include "io/mesh_file_text.h"
+#include "scarp/io.h"
+
+namespace scarp {
+namespace {
+
+constexpr char kHexDigits[] = "0123456789ABCDEF";
+
+std::string escape(const std::string& text, bool key) {
+  std::string line;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 32 || c == '%' || c == '\\' || (key && c == ':')) {
+      line += {'%', kHexDigits[byte >> 4], kHexDigits[byte & 15]};
+    } else {
+      line += c;
+    }
+  }
+  return line;
+}
+
+int hex_value(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+  return -1;
+}
+
+std::string unescape(std::string_view line) {
+  std::string text;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '%' && i + 2 < line.size() && hex_value(line[i + 1]) >= 0 && hex_value(line[i + 2]) >= 0) {
+      text += static_cast<char>(hex_value(line[i + 1]) * 16 + hex_value(line[i + 2]));
+      i += 2;
+    } else {
+      text += line[i];
+    }
+  }
+  return text;
+}
+
+bool starts_with(std::span<const std::uint8_t> bytes, std::string_view text) {
+  if (bytes.size() < text.size()) return false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (static_cast<char>(bytes[i]) != text[i]) return false;
+  }
+  return true;
+}
+
+bool looks_like_text(std::span<const std::uint8_t> bytes) {
+  for (const std::uint8_t byte : bytes.first(std::min<std::size_t>(bytes.size(), 4096))) {
+    if (byte < 32 && !(byte >= 9 && byte <= 13)) return false;
+  }
+  return true;
+}
+
+std::string lower_extension(const std::string& name_or_path) {
+  const std::size_t start = name_or_path.find_last_of("./");
+  std::string extension = start == std::string::npos   ? name_or_path
+                          : name_or_path[start] == '.' ? name_or_path.substr(start + 1)
+                                                       : std::string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return extension;
+}
+
+/// By content; the name decides only where bytes alone do not, as in an STL file that was cut off.
+std::optional<MeshFormat> recognise(std::span<const std::uint8_t> bytes, const std::string& name) {
+  if (starts_with(bytes, "glTF")) return MeshFormat::kGlb;
+  if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return MeshFormat::kPly;
+  if (is_binary_stl(bytes)) return MeshFormat::kStl;
+  if (!looks_like_text(bytes)) {
+    const auto named = find_mesh_format(name);
+    return named == MeshFormat::kStl ? named : std::nullopt;
+  }
+  if (starts_with(bytes, "solid")) return MeshFormat::kStl;
+  TextCursor cursor(bytes);
+  for (int line = 0; line < 10000 && !cursor.at_end(); ++line) {
+    const std::string_view word = cursor.word();
+    if (word == "v" || word == "f" || word == "vn" || word == "vt" || word == "mtllib" || word == "o" || word == "g") {
+      return MeshFormat::kObj;
+    }
+    cursor.rest_of_line();
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string find_unwritable(const Mesh& mesh, bool as_float) {
+  const std::size_t count = mesh.vertex_count();
+  if (mesh.triangles.empty()) return "the mesh has no triangles";
+  if (mesh.positions.size() % 3 != 0 || mesh.triangles.size() % 3 != 0 ||
+      (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())) {
+    return "the sizes of the mesh's arrays do not agree";
+  }
+  if (count > std::numeric_limits<std::uint32_t>::max()) return "the mesh has more vertices than 32 bits can number";
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (mesh.triangles[i] >= count) {
+      return fmt::format("triangle {} names vertex {}, and the mesh has {}", i / 3, mesh.triangles[i], count);
+    }
+  }
+  const double limit =
+      as_float ? static_cast<double>(std::numeric_limits<float>::max()) : std::numeric_limits<double>::max() / 4;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (!(std::fabs(mesh.positions[i]) <= limit)) {
+      return fmt::format("vertex {} has the coordinate {}, which the format cannot hold", i / 3, mesh.positions[i]);
+    }
+  }
+  for (const double coordinate : mesh.origin) {
+    if (!(std::fabs(coordinate) <= std::numeric_limits<double>::max() / 4)) return "the mesh's origin is not finite";
+  }
+  return {};
+}
+
+std::string find_unreadable(const Mesh& mesh) {
+  const std::size_t count = mesh.vertex_count();
+  if (count > std::numeric_limits<std::uint32_t>::max()) return "it has more vertices than 32 bits can number";
+  if (mesh.triangles.empty()) return "it holds no triangles";
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (mesh.triangles[i] >= count) {
+      return fmt::format("triangle {} names vertex {}, but there are only {} (counting from 0)", i / 3,
+                         mesh.triangles[i], count);
+    }
+  }
+  for (std::size_t v = 0; v < count; ++v) {
+    for (const double coordinate : mesh.vertex(v)) {
+      if (!std::isfinite(coordinate)) return fmt::format("vertex {} is not a finite number (counting from 0)", v);
+    }
+  }
+  return {};
+}
+
+std::string metadata_line(const std::string& key, const std::string& value) {
+  return escape(key, true) + ": " + escape(value, false);
+}
+
+bool parse_metadata_line(std::string_view line, std::map<std::string, std::string>& metadata) {
+  const std::size_t separator = line.find(": ");
+  if (separator == std::string_view::npos || separator == 0) return false;
+  metadata[unescape(line.substr(0, separator))] = unescape(line.substr(separator + 2));
+  return true;
+}
+
+std::string origin_text(const std::array<double, 3>& origin) {
+  return fmt::format("{} {} {}", origin[0], origin[1], origin[2]);
+}
+
+std::optional<std::array<double, 3>> parse_origin(std::string_view text) {
+  TextCursor cursor({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  std::array<double, 3> origin{};
+  for (double& coordinate : origin) {
+    if (!cursor.number(coordinate) || !std::isfinite(coordinate)) return {};
+  }
+  return origin;
+}
+
+void set_origin(Mesh& mesh, const std::array<double, 3>& origin) {
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const double base = origin[i % 3], absolute = mesh.positions[i];
+    if (base + (absolute - base) != absolute) return;
+  }
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) mesh.positions[i] -= origin[i % 3];
+  mesh.origin = origin;
+}
+
+void append_fan(std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& triangles) {
+  for (std::size_t k = 2; k < corners.size(); ++k) {
+    triangles.insert(triangles.end(), {corners[0], corners[k - 1], corners[k]});
+  }
+}
+
+std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path) {
+  const std::string extension = lower_extension(name_or_path);
+  if (extension == "glb") return MeshFormat::kGlb;
+  if (extension == "obj") return MeshFormat::kObj;
+  if (extension == "ply") return MeshFormat::kPly;
+  if (extension == "stl") return MeshFormat::kStl;
+  return {};
+}
+
+Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format) {
+  const bool as_float = format == MeshFormat::kGlb || format == MeshFormat::kStl;
+  if (std::string why = find_unwritable(mesh, as_float); !why.empty()) return fail(ErrorKind::kOutput, std::move(why));
+  try {
+    switch (format) {
+      case MeshFormat::kGlb:
+        return encode_glb(mesh);
+      case MeshFormat::kObj:
+        return encode_obj(mesh);
+      case MeshFormat::kPly:
+        return encode_ply(mesh);
+      case MeshFormat::kStl:
+        return encode_stl(mesh);
+    }
+  } catch (const std::exception&) {
+    return fail(ErrorKind::kOutput, "the encoded mesh does not fit into memory");
+  }
+  return fail(ErrorKind::kInternal, "encode_mesh() was given no format");
+}
+
+Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors) {
+  const auto unusable = [&](const std::string& why) {
+    return fail(ErrorKind::kInput, fmt::format("{} is not a usable mesh: {}", name_for_errors, why));
+  };
+  if (bytes.empty()) return unusable("the file is empty");
+  const auto format = recognise(bytes, name_for_errors);
+  if (!format) return unusable("it is neither GLB nor OBJ, PLY or STL");
+  try {
+    Result<Mesh> mesh = *format == MeshFormat::kGlb   ? decode_glb(bytes)
+                        : *format == MeshFormat::kObj ? decode_obj(bytes)
+                        : *format == MeshFormat::kPly ? decode_ply(bytes)
+                                                      : decode_stl(bytes);
+    if (!mesh) return unusable(mesh.error().message);
+    if (const std::string why = find_unreadable(*mesh); !why.empty()) return unusable(why);
+    return mesh;
+  } catch (const std::exception&) {
+    return unusable("it does not fit into memory");
+  }
+}
+
+Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional<MeshFormat> format, bool overwrite) {
+  if (!format) format = find_mesh_format(path);
+  if (!format) {
+    return fail(ErrorKind::kOutput,
+                fmt::format("the name {} does not tell a mesh format: end it in .glb, .obj, .ply or "
+                            ".stl, or name the format",
+                            path));
+  }
+  auto bytes = encode_mesh(mesh, *format);
+  if (!bytes) return fail(bytes.error().kind, fmt::format("cannot write {}: {}", path, bytes.error().message));
+  return write_file(path, *bytes, overwrite);
+}
+
+Result<Mesh> read_mesh(const std::string& path) {
+  auto bytes = read_file(path);
+  if (!bytes) return tl::unexpected<Error>(bytes.error());
+  return decode_mesh(*bytes, path);
+}
+
+}  // namespace scarp

@@ -1,0 +1,59 @@
+// What the mesh formats share: checks before writing, metadata as lines of text, the origin, polygons.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scarp/mesh.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+/// The sentence that refuses a mesh no format can hold: no triangles, arrays whose sizes disagree, an index out of
+/// range, a position that is not finite (or, with `as_float`, beyond float32). Empty if all is well.
+std::string find_unwritable(const Mesh& mesh, bool as_float);
+
+/// Metadata as one line of text: "KEY: VALUE". Bytes below 32, '%', '\' and, in keys, ':' become %XX, so that no reader
+/// takes them for line ends, continuations or separators.
+std::string metadata_line(const std::string& key, const std::string& value);
+/// The reverse of metadata_line(). Returns false if there is no separator.
+bool parse_metadata_line(std::string_view line, std::map<std::string, std::string>& metadata);
+
+/// "x y z", each the shortest text that reads back to the same double.
+std::string origin_text(const std::array<double, 3>& origin);
+/// Three finite numbers, or nothing.
+std::optional<std::array<double, 3>> parse_origin(std::string_view text);
+
+/// Takes absolute positions and expresses them relative to `origin`, if then vertex(v) is exactly what it was for every
+/// v; else leaves them absolute.
+void set_origin(Mesh& mesh, const std::array<double, 3>& origin);
+
+/// Appends the polygon as a fan from its first corner.
+void append_fan(std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& triangles);
+
+/// The last check of every reader: at least one triangle, all indices in range, all positions finite.
+/// Returns the sentence, empty if all is well.
+std::string find_unreadable(const Mesh& mesh);
+
+// One reader and one writer for each format. Writers expect find_unwritable() to be empty; readers fail with a sentence
+// that the caller completes with the file's name, and may throw std::bad_alloc or std::length_error.
+Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh);
+Result<std::vector<std::uint8_t>> encode_obj(const Mesh& mesh);
+Result<std::vector<std::uint8_t>> encode_ply(const Mesh& mesh);
+Result<std::vector<std::uint8_t>> encode_stl(const Mesh& mesh);
+Result<Mesh> decode_glb(std::span<const std::uint8_t> bytes);
+Result<Mesh> decode_obj(std::span<const std::uint8_t> bytes);
+Result<Mesh> decode_ply(std::span<const std::uint8_t> bytes);
+Result<Mesh> decode_stl(std::span<const std::uint8_t> bytes);
+
+/// Bytes of a GLB file but its JSON text: whether it stays below 4 GiB is known before it is made.
+std::uint64_t glb_binary_size(std::uint64_t vertices, std::uint64_t triangles, bool normals);
+/// Whether the bytes have the length that a binary STL file's own count asks for.
+bool is_binary_stl(std::span<const std::uint8_t> bytes);
+
+}  // namespace scarp

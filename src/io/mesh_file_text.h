@@ -1,0 +1,43 @@
+// Words and numbers in text that may be anything.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace scarp {
+
+/// The whole word as a number, correctly rounded and independent of the locale ("nan" and "inf" are numbers too).
+/// Returns false if the word is none.
+bool parse_number(std::string_view word, double& value);
+/// The whole word as a decimal integer. Returns false if it is none or beyond 64 bits.
+bool parse_integer(std::string_view word, std::int64_t& value);
+
+/// Walks over text word by word, line by line. Lines end with LF, CR or both.
+class TextCursor {
+ public:
+  explicit TextCursor(std::span<const std::uint8_t> bytes)
+      : at_(reinterpret_cast<const char*>(bytes.data())), end_(at_ + bytes.size()) {}
+
+  bool at_end() const { return at_ == end_; }
+  std::size_t line() const { return line_; }  ///< 1-based
+  const char* position() const { return at_; }
+  std::size_t remaining() const { return static_cast<std::size_t>(end_ - at_); }
+
+  /// The next word of this line; empty at its end. A backslash at the end of a line continues it.
+  std::string_view word();
+  /// The next word of this or a later line; empty at the end of the text.
+  std::string_view word_anywhere();
+  /// What is left of this line, without its end; the cursor moves to the next line.
+  std::string_view rest_of_line();
+  /// The next word of this line as a number.
+  bool number(double& value) { return parse_number(word(), value); }
+
+ private:
+  const char* at_;
+  const char* end_;
+  std::size_t line_ = 1;
+};
+
+}  // namespace scarp

@@ -1,0 +1,163 @@
+// OBJ: text. Positions are absolute, each number the shortest text that reads back to the same double.
+//
+// Text that was cut off may still be text: the file therefore announces its counts at the top and ends with a mark, and
+// the reader insists on both where it finds the announcement.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "io/mesh_file.h"
+#include "io/mesh_file_text.h"
+
+namespace scarp {
+namespace {
+
+constexpr std::string_view kCounts = "scarp.counts: ", kOrigin = "scarp.origin: ", kEnd = "scarp.end", kKey = "scarp ";
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  return text;
+}
+
+struct ObjReader {
+  explicit ObjReader(std::span<const std::uint8_t> bytes) : cursor(bytes) {}
+
+  TextCursor cursor;
+  Mesh mesh;
+  std::vector<float> normals;          // in file order
+  bool normals_match = true;           // every corner's normal has its vertex's number
+  std::vector<std::uint32_t> corners;  // of the face at hand
+  std::optional<std::array<double, 3>> origin;
+  std::int64_t announced_vertices = -1, announced_triangles = -1;
+  bool ended = false;
+
+  void read_comment(std::string_view text) {
+    text = trim(text);
+    if (text.starts_with(kCounts)) {
+      TextCursor words(
+          {reinterpret_cast<const std::uint8_t*>(text.data()) + kCounts.size(), text.size() - kCounts.size()});
+      std::int64_t vertices = 0, triangles = 0;
+      if (parse_integer(words.word(), vertices) && parse_integer(words.word(), triangles)) {
+        announced_vertices = vertices;
+        announced_triangles = triangles;
+      }
+    } else if (text.starts_with(kOrigin)) {
+      origin = parse_origin(text.substr(kOrigin.size()));
+    } else if (text == kEnd) {
+      ended = true;
+    } else if (text.starts_with(kKey)) {
+      parse_metadata_line(text.substr(kKey.size()), mesh.metadata);
+    }
+  }
+
+  /// Reads "7", "7/1", "7//3" or "7/1/3". Numbers are 1-based; negative ones count back from the newest.
+  bool read_corner(std::string_view word) {
+    const std::size_t slash = word.find('/');
+    std::int64_t number = 0, normal = 0;
+    if (!parse_integer(word.substr(0, slash), number)) return false;
+    const auto count = static_cast<std::int64_t>(mesh.vertex_count());
+    if (number < 0) number += count + 1;
+    if (number < 1 || number > 0xFFFFFFFF) return false;
+    const std::size_t second = slash == std::string_view::npos ? slash : word.find('/', slash + 1);
+    if (second == std::string_view::npos || !parse_integer(word.substr(second + 1), normal)) {
+      normals_match = false;
+    } else {
+      if (normal < 0) normal += static_cast<std::int64_t>(normals.size() / 3) + 1;
+      normals_match = normals_match && normal == number;
+    }
+    corners.push_back(static_cast<std::uint32_t>(number - 1));
+    return true;
+  }
+
+  /// Returns the complaint about this line; empty if there is none.
+  std::string read_line() {
+    const std::string_view word = cursor.word();
+    if (word == "v") {
+      for (int k = 0; k < 3; ++k) {
+        double value = 0;
+        if (!cursor.number(value) || !std::isfinite(value)) return "a vertex needs three finite numbers";
+        mesh.positions.push_back(value);
+      }
+    } else if (word == "vn") {
+      for (int k = 0; k < 3; ++k) {
+        double value = 0;
+        if (!cursor.number(value) || !(std::fabs(value) <= std::numeric_limits<float>::max())) {
+          return "a normal needs three finite numbers";
+        }
+        normals.push_back(static_cast<float>(value));
+      }
+    } else if (word == "f") {
+      corners.clear();
+      for (std::string_view corner = cursor.word(); !corner.empty(); corner = cursor.word()) {
+        if (!read_corner(corner)) return fmt::format("a face has the corner '{}'", corner.substr(0, 40));
+      }
+      if (corners.size() < 3) return "a face needs at least three corners";
+      append_fan(corners, mesh.triangles);
+    } else if (word == "#") {
+      read_comment(cursor.rest_of_line());
+      return {};
+    }
+    cursor.rest_of_line();
+    return {};
+  }
+
+  std::string read() {
+    while (!cursor.at_end()) {
+      const std::size_t line = cursor.line();
+      if (std::string complaint = read_line(); !complaint.empty()) return fmt::format("line {}: {}", line, complaint);
+    }
+    const auto vertices = static_cast<std::int64_t>(mesh.vertex_count());
+    const auto triangles = static_cast<std::int64_t>(mesh.triangle_count());
+    if (announced_vertices >= 0 && (vertices != announced_vertices || triangles != announced_triangles || !ended)) {
+      return fmt::format("it announces {} vertices and {} triangles and holds {} and {}{}: it was cut off or changed",
+                         announced_vertices, announced_triangles, vertices, triangles,
+                         ended ? "" : " without an end mark");
+    }
+    if (normals_match && normals.size() == mesh.positions.size()) mesh.normals = std::move(normals);
+    // Positions must be sound before they are moved; the caller repeats this check for every format.
+    if (origin && find_unreadable(mesh).empty()) set_origin(mesh, *origin);
+    return {};
+  }
+};
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> encode_obj(const Mesh& mesh) {
+  std::vector<std::uint8_t> bytes;
+  bytes.reserve(mesh.positions.size() * 14 + mesh.normals.size() * 12 + mesh.triangles.size() * 8);
+  auto out = std::back_inserter(bytes);
+  fmt::format_to(out, "# Terrain by Scarp. Right-handed, x east, y north, z up; faces counter-clockwise from above.\n");
+  fmt::format_to(out, "# {}{} {}\n", kCounts, mesh.vertex_count(), mesh.triangle_count());
+  if (mesh.origin != std::array<double, 3>{}) fmt::format_to(out, "# {}{}\n", kOrigin, origin_text(mesh.origin));
+  for (const auto& [key, value] : mesh.metadata) fmt::format_to(out, "# {}{}\n", kKey, metadata_line(key, value));
+  fmt::format_to(out, "o terrain\n");
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const auto p = mesh.vertex(v);
+    fmt::format_to(out, "v {} {} {}\n", p[0], p[1], p[2]);
+  }
+  for (std::size_t i = 0; i < mesh.normals.size(); i += 3) {
+    fmt::format_to(out, "vn {} {} {}\n", mesh.normals[i], mesh.normals[i + 1], mesh.normals[i + 2]);
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    const std::uint64_t a = std::uint64_t{mesh.triangles[i]} + 1, b = std::uint64_t{mesh.triangles[i + 1]} + 1,
+                        c = std::uint64_t{mesh.triangles[i + 2]} + 1;
+    if (mesh.normals.empty()) {
+      fmt::format_to(out, "f {} {} {}\n", a, b, c);
+    } else {
+      fmt::format_to(out, "f {}//{} {}//{} {}//{}\n", a, a, b, b, c, c);
+    }
+  }
+  fmt::format_to(out, "# {}\n", kEnd);
+  return bytes;
+}
+
+Result<Mesh> decode_obj(std::span<const std::uint8_t> bytes) {
+  ObjReader reader(bytes);
+  if (std::string why = reader.read(); !why.empty()) return fail(ErrorKind::kInput, std::move(why));
+  return std::move(reader.mesh);
+}
+
+}  // namespace scarp

@@ -1,0 +1,205 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "io/mesh_file.h"
+#include "mesh_samples.h"
+#include "scarp/io.h"
+
+namespace scarp {
+namespace {
+
+using nlohmann::json;
+using test::sample_mesh;
+
+std::uint32_t load_u32(const std::vector<std::uint8_t>& bytes, std::size_t at) {
+  return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | static_cast<std::uint32_t>(bytes[at + 3]) << 24;
+}
+
+json json_of(const std::vector<std::uint8_t>& bytes) {
+  return json::parse(bytes.begin() + 20, bytes.begin() + 20 + load_u32(bytes, 12));
+}
+
+/// The same file with another JSON chunk.
+std::vector<std::uint8_t> with_json(const std::vector<std::uint8_t>& bytes, const json& changed) {
+  std::string text = changed.dump();
+  text.resize((text.size() + 3) / 4 * 4, ' ');
+  const std::size_t old_end = 20 + load_u32(bytes, 12);
+  std::vector<std::uint8_t> result(20 + text.size() + bytes.size() - old_end);
+  std::memcpy(result.data(), bytes.data(), 20);
+  std::memcpy(result.data() + 20, text.data(), text.size());
+  std::memcpy(result.data() + 20 + text.size(), bytes.data() + old_end, bytes.size() - old_end);
+  const auto size = static_cast<std::uint32_t>(text.size()), total = static_cast<std::uint32_t>(result.size());
+  std::memcpy(&result[12], &size, 4);
+  std::memcpy(&result[8], &total, 4);
+  return result;
+}
+
+TEST(Glb, RoundTripKeepsEveryBit) {
+  for (const bool normals : {false, true}) {
+    const Mesh mesh = sample_mesh(normals);
+    const auto bytes = encode_mesh(mesh, MeshFormat::kGlb);
+    ASSERT_TRUE(bytes) << bytes.error().message;
+    const auto back = decode_mesh(*bytes, "x.glb");
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_TRUE(test::same_geometry(mesh, *back));
+    EXPECT_EQ(back->metadata, mesh.metadata);
+    EXPECT_EQ(*encode_mesh(*back, MeshFormat::kGlb), *bytes);
+  }
+}
+
+TEST(Glb, IsYUpWithExactBoundsAndEmbeddedReport) {
+  const auto bytes = encode_mesh(sample_mesh(), MeshFormat::kGlb);
+  const json j = json_of(*bytes);
+  EXPECT_EQ(j["asset"]["generator"], "Scarp 0.1.0");
+  EXPECT_EQ(j["asset"]["extras"]["report"]["max_error"], 4.9375);
+  EXPECT_EQ(j["asset"]["extras"]["number"], "1.50");
+  EXPECT_EQ(j["nodes"][0]["name"], "terrain");
+  EXPECT_EQ(j["nodes"][0]["translation"], json({512345.625, 0.0, -4023456.0625}));
+  // y of ours runs from −3·29.875 to 0, so z of glTF from 0 to 89.625.
+  EXPECT_EQ(j["accessors"][0]["min"][0], 0.0);
+  EXPECT_EQ(j["accessors"][0]["min"][2], 0.0);
+  EXPECT_EQ(j["accessors"][0]["max"][0], 121.0);
+  EXPECT_EQ(j["accessors"][0]["max"][2], 89.625);
+  EXPECT_EQ(j["accessors"][1]["componentType"], 5123);
+}
+
+TEST(Glb, UsesLongIndicesFromTheRestartValueOn) {
+  for (const int cols : {32766, 32767}) {
+    const Mesh mesh = test::grid_mesh(cols, 1, [](int, int) { return true; });
+    const auto bytes = encode_mesh(mesh, MeshFormat::kGlb);
+    ASSERT_TRUE(bytes);
+    ASSERT_EQ(mesh.vertex_count(), cols == 32766 ? 65534u : 65536u);
+    EXPECT_EQ(json_of(*bytes)["accessors"][1]["componentType"], cols == 32766 ? 5123 : 5125);
+    const auto back = decode_mesh(*bytes, "x.glb");
+    ASSERT_TRUE(back);
+    EXPECT_TRUE(test::same_geometry(mesh, *back));
+  }
+}
+
+TEST(Glb, KnowsItsSizeBeforeItIsMade) {
+  const Mesh mesh = sample_mesh(true);
+  const auto bytes = encode_mesh(mesh, MeshFormat::kGlb);
+  EXPECT_EQ(glb_binary_size(mesh.vertex_count(), mesh.triangle_count(), true) + load_u32(*bytes, 12), bytes->size());
+  // 200 million vertices with normals: 4.8 GB of vertices alone.
+  EXPECT_GT(glb_binary_size(200'000'000, 400'000'000, true), std::numeric_limits<std::uint32_t>::max());
+}
+
+TEST(Glb, HonoursTheNodeTree) {
+  const Mesh mesh = sample_mesh();
+  const auto bytes = *encode_mesh(mesh, MeshFormat::kGlb);
+  json j = json_of(bytes);
+  // The node moves below a parent that turns by 90° about glTF's y (our z), doubles, and shifts by (1, 2, 3).
+  const double half = std::sqrt(0.5);
+  j["nodes"] = json::array(
+      {{{"children", {1}}, {"rotation", {0, half, 0, half}}, {"scale", {2, 2, 2}}, {"translation", {1, 2, 3}}},
+       {{"mesh", 0}, {"translation", {10, 20, 30}}}});
+  const auto back = decode_mesh(with_json(bytes, j), "x.glb");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->triangles, mesh.triangles);
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const double x = mesh.positions[3 * v] + 10, up = mesh.positions[3 * v + 2] + 20,
+                 south = 30 - mesh.positions[3 * v + 1];
+    const auto p = back->vertex(v);
+    EXPECT_NEAR(p[0], 2 * south + 1, 1e-9);  // rotation about y: (x, z) → (z, −x)
+    EXPECT_NEAR(p[1], -(-2 * x + 3), 1e-9);
+    EXPECT_NEAR(p[2], 2 * up + 2, 1e-9);
+  }
+}
+
+TEST(Glb, ReadsTwoNodesAndMirrors) {
+  const Mesh mesh = sample_mesh();
+  const auto bytes = *encode_mesh(mesh, MeshFormat::kGlb);
+  json j = json_of(bytes);
+  j["scenes"][0]["nodes"] = {0, 1};
+  j["nodes"].push_back({{"mesh", 0}, {"matrix", {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 0, 0, 1}}});
+  const auto back = decode_mesh(with_json(bytes, j), "x.glb");
+  ASSERT_TRUE(back) << back.error().message;
+  const std::size_t count = mesh.vertex_count();
+  ASSERT_EQ(back->vertex_count(), 2 * count);
+  ASSERT_EQ(back->triangle_count(), 2 * mesh.triangle_count());
+  EXPECT_EQ(back->vertex(count + 1)[0], 5 - mesh.positions[3]);
+  // A mirror turns triangles over; the reader turns them back.
+  const std::size_t t = mesh.triangles.size();
+  EXPECT_EQ(back->triangles[t], mesh.triangles[0] + count);
+  EXPECT_EQ(back->triangles[t + 1], mesh.triangles[2] + count);
+  EXPECT_EQ(back->triangles[t + 2], mesh.triangles[1] + count);
+}
+
+TEST(Glb, RefusesWhatItCannotHonourByName) {
+  const auto bytes = *encode_mesh(sample_mesh(), MeshFormat::kGlb);
+  const json good = json_of(bytes);
+  const auto message = [&](const json& changed) {
+    const auto result = decode_mesh(with_json(bytes, changed), "x.glb");
+    return result ? std::string("accepted") : result.error().message;
+  };
+  const auto expect_says = [&](const json& changed, const char* words) {
+    EXPECT_NE(message(changed).find(words), std::string::npos) << message(changed) << " lacks: " << words;
+  };
+  EXPECT_EQ(message(good), "accepted");
+  json j = good;
+  j["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+  expect_says(j, "KHR_draco_mesh_compression");
+  j = good;
+  j["meshes"][0]["primitives"][0]["mode"] = 1;
+  expect_says(j, "mode 1");
+  j = good;
+  j["accessors"][0]["sparse"] = json::object();
+  expect_says(j, "sparse");
+  j = good;
+  j["accessors"][0]["count"] = 1000000000000;
+  expect_says(j, "accessor 0 reaches beyond");
+  j = good;
+  j["accessors"][0]["count"] = -1;
+  expect_says(j, "'count'");
+  j = good;
+  j["accessors"][0]["byteOffset"] = std::numeric_limits<std::uint64_t>::max() - 3;
+  expect_says(j, "accessor 0 reaches beyond");
+  j = good;
+  j["bufferViews"][1]["byteOffset"] = std::numeric_limits<std::uint64_t>::max() - 3;
+  expect_says(j, "buffer view 1 reaches beyond");
+  j = good;
+  j["accessors"][0]["count"] = 3;
+  expect_says(j, "names vertex");
+  j = good;
+  j["nodes"][0]["children"] = {0};
+  expect_says(j, "more than one parent");
+  j = good;
+  j["nodes"][0]["mesh"] = 7;
+  expect_says(j, "meshes 7");
+  j = good;
+  j["buffers"][0]["uri"] = "hills.bin";
+  expect_says(j, "outside of the file");
+  j = good;
+  j["meshes"][0]["primitives"] = json::array();
+  expect_says(j, "no triangles");
+}
+
+TEST(Glb, SurvivesDeepAndWideJson) {
+  const auto bytes = *encode_mesh(sample_mesh(), MeshFormat::kGlb);
+  json j = json_of(bytes);
+  json wide = json::object();
+  for (int i = 0; i < 20000; ++i) wide[std::to_string(i)] = i;
+  j["extras"] = wide;
+  EXPECT_FALSE(decode_mesh(with_json(bytes, j), "x.glb"));
+  // A deep value in metadata stays the string that it was.
+  Mesh mesh = sample_mesh();
+  mesh.metadata["deep"] = std::string(100000, '[') + std::string(100000, ']');
+  const auto back = decode_mesh(*encode_mesh(mesh, MeshFormat::kGlb), "x.glb");
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->metadata, mesh.metadata);
+}
+
+TEST(Glb, RefusesPositionsBeyondFloat) {
+  Mesh mesh = sample_mesh();
+  mesh.positions[4] = 1e39;
+  const auto bytes = encode_mesh(mesh, MeshFormat::kGlb);
+  ASSERT_FALSE(bytes);
+  EXPECT_EQ(bytes.error().kind, ErrorKind::kOutput);
+  EXPECT_NE(bytes.error().message.find("vertex 1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace scarp

@@ -1,0 +1,126 @@
+// What all mesh formats promise: damage is noticed or harmless, never a crash, and an error is one sentence with the
+// name.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "mesh_samples.h"
+#include "scarp/io.h"
+
+namespace scarp {
+namespace {
+
+constexpr MeshFormat kFormats[] = {MeshFormat::kGlb, MeshFormat::kObj, MeshFormat::kPly, MeshFormat::kStl};
+constexpr const char* kNames[] = {"x.glb", "x.obj", "x.ply", "x.stl"};
+
+/// An error with a sentence, or a mesh whose parts agree.
+void expect_sound(const Result<Mesh>& mesh, const char* name, std::size_t place) {
+  if (!mesh) {
+    EXPECT_EQ(mesh.error().kind, ErrorKind::kInput);
+    EXPECT_NE(mesh.error().message.find(name), std::string::npos) << mesh.error().message;
+    return;
+  }
+  ASSERT_FALSE(mesh->triangles.empty()) << name << " at " << place;
+  for (const std::uint32_t vertex : mesh->triangles) ASSERT_LT(vertex, mesh->vertex_count());
+  for (const double coordinate : mesh->positions) ASSERT_TRUE(std::isfinite(coordinate));
+  ASSERT_TRUE(mesh->normals.empty() || mesh->normals.size() == mesh->positions.size());
+}
+
+class MeshFile : public testing::TestWithParam<int> {
+ protected:
+  const char* name() const { return kNames[GetParam()]; }
+  std::vector<std::uint8_t> good(bool normals) const {
+    return *encode_mesh(test::sample_mesh(normals), kFormats[GetParam()]);
+  }
+};
+
+TEST_P(MeshFile, EveryCutFails) {
+  const auto bytes = good(true);
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    // An exact copy of the cut, so that a sanitizer sees any read beyond it.
+    const std::vector<std::uint8_t> cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
+    const auto mesh = decode_mesh(cut, name());
+    expect_sound(mesh, name(), size);
+    const bool only_line_end_missing = GetParam() == 1 && size + 1 == bytes.size();
+    EXPECT_EQ(mesh.has_value(), only_line_end_missing) << name() << " cut to " << size << " bytes";
+  }
+}
+
+TEST_P(MeshFile, NoMutationCrashes) {
+  std::mt19937 random(20260721);  // the standard fixes its sequence
+  const auto bytes = good(true);
+  for (int round = 0; round < 6000; ++round) {
+    auto changed = bytes;
+    const unsigned faults = 1 + random() % 4;
+    for (unsigned f = 0; f < faults; ++f) {
+      const std::size_t at = random() % changed.size();
+      switch (random() % 4) {
+        case 0:
+          changed[at] = static_cast<std::uint8_t>(random());
+          break;
+        case 1:
+          changed[at] = static_cast<std::uint8_t>(changed[at] ^ (1u << random() % 8));
+          break;
+        case 2:
+          changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(at));
+          break;
+        default:
+          changed.insert(changed.begin() + static_cast<std::ptrdiff_t>(at), changed[random() % changed.size()]);
+      }
+    }
+    expect_sound(decode_mesh(changed, name()), name(), static_cast<std::size_t>(round));
+  }
+}
+
+TEST_P(MeshFile, IsDeterministic) { EXPECT_EQ(good(true), good(true)); }
+
+TEST_P(MeshFile, IsRecognisedWithoutItsName) {
+  const auto mesh = decode_mesh(good(false), "nameless");
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_EQ(mesh->triangle_count(), 24u);
+}
+
+TEST_P(MeshFile, BrokenMeshesAreRefused) {
+  const MeshFormat format = kFormats[GetParam()];
+  const auto refused = [&](const Mesh& mesh) {
+    const auto bytes = encode_mesh(mesh, format);
+    return !bytes && bytes.error().kind == ErrorKind::kOutput && !bytes.error().message.empty();
+  };
+  EXPECT_TRUE(refused(Mesh{}));
+  Mesh mesh = test::sample_mesh(true);
+  mesh.triangles[5] = 20;
+  EXPECT_TRUE(refused(mesh));
+  mesh = test::sample_mesh(true);
+  mesh.positions[7] = NAN;
+  EXPECT_TRUE(refused(mesh));
+  mesh = test::sample_mesh(true);
+  mesh.normals.pop_back();
+  EXPECT_TRUE(refused(mesh));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MeshFile, testing::Range(0, 4),
+                         [](const auto& format) { return std::string(kNames[format.param] + 2); });
+
+TEST(MeshFormats, AreFoundByNameAndExtension) {
+  EXPECT_EQ(find_mesh_format("GLB"), MeshFormat::kGlb);
+  EXPECT_EQ(find_mesh_format("/a.b/hills.Obj"), MeshFormat::kObj);
+  EXPECT_EQ(find_mesh_format("hills.tar.ply"), MeshFormat::kPly);
+  EXPECT_EQ(find_mesh_format("stl"), MeshFormat::kStl);
+  EXPECT_FALSE(find_mesh_format("hills"));
+  EXPECT_FALSE(find_mesh_format("/x.glb/hills"));
+  EXPECT_FALSE(find_mesh_format("/folder/glb"));
+  EXPECT_FALSE(find_mesh_format(""));
+}
+
+TEST(MeshFormats, OtherFilesAreRefused) {
+  for (const char* text : {"", "\x89PNG\r\n", "hello\n", "II*"}) {
+    const auto mesh = decode_mesh(test::to_bytes(text), "x.tif");
+    ASSERT_FALSE(mesh);
+    EXPECT_EQ(mesh.error().kind, ErrorKind::kInput);
+  }
+}
+
+}  // namespace
+}  // namespace scarp
