@@ -1,0 +1,41 @@
+#!/bin/bash
+# The floors of docs/design.md hold in this tree, and the script that says so notices planted violations.
+set -euo pipefail
+source_tree=${SCARP_SOURCE:?}
+python=$(command -pv python3 || command -v python3) || { echo "skipped: python3 is missing"; exit 77; }
+check="$source_tree/tools/check_floors.py"
+
+"$python" "$check" "$source_tree"
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+# expect_fault FILE LINE WORDS: a copy of the tree where LINE is added to FILE is refused with WORDS.
+expect_fault() {
+  rm -rf "$scratch/tree"
+  mkdir "$scratch/tree"
+  cp -r "$source_tree/include" "$source_tree/src" "$source_tree/apps" "$scratch/tree"
+  printf '%b\n' "$2" >>"$scratch/tree/$1"
+  if "$python" "$check" "$scratch/tree" >"$scratch/out"; then
+    echo "not noticed: $2 in $1"
+    exit 1
+  fi
+  grep -F -- "$1" "$scratch/out" | grep -qF -- "$3" || { echo "wrong sentence for $2 in $1:"; cat "$scratch/out"; exit 1; }
+}
+
+expect_fault src/tin/triangulation.h '#include "refine/refinement.h"' 'a step upwards from tin (floor 2) to refine (floor 3)'
+expect_fault src/geom/plane.h '#include "grid/raster.h"' 'strangers on floor 1'
+expect_fault src/tin/triangulation.cpp '#include "scarp/height_field.h"' 'must not know scarp/height_field.h'
+expect_fault src/tin/triangulation.cpp '#  include <scarp/height_field.h>' 'must not know scarp/height_field.h'
+expect_fault src/tin/triangulation.h '#include "grid/raster.h"' 'must not know the room grid'
+expect_fault src/base/array.h '#include "geom/plane.h"' 'a step upwards from base'
+expect_fault include/scarp/mesh.h '#include "base/array.h"' 'public headers only'
+expect_fault apps/scarp/main.cpp '#include "grid/raster.h"' 'apps may include'
+expect_fault src/io/stm.cpp '#include <gdal.h>' 'GDAL'
+expect_fault src/refine/freeze.cpp '#include <thread>' 'threads'
+expect_fault src/geom/scan.h '#include <immintrin.h>' 'instruction set'
+expect_fault src/io/stl.cpp '#include "io/no_such.h"' 'there is no src/io/no_such.h'
+expect_fault src/geom/plane.h "$(printf '// line\\n%.0s' $(seq 600))" 'more than 600'
+mkdir -p "$scratch/empty"
+if "$python" "$check" "$scratch/empty" 2>/dev/null; then echo "an empty tree passed"; exit 1; fi
+echo "floors hold, planted violations are noticed"

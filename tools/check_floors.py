@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+"""Reads every #include of the library and the program and fails on a step upwards or sideways between rooms.
+
+A room is a folder of src/ (or the passes src/*.cpp, the door include/scarp, the program apps/). ROOMS below is the
+table of docs/design.md, "Rooms and floors": whoever changes one changes the other (`--table` prints it as Markdown).
+
+usage: check_floors.py [TREE] [--table]
+"""
+
+import pathlib
+import re
+import sys
+
+MAX_LINES = 600
+
+# room: (floor, rooms it may include, public headers it may include, what it holds).
+# Rooms on one floor are strangers: none includes another.
+ANY = None
+ROOMS = {
+    "door": (0, [], ANY, "`include/scarp`: the public headers, each a manual"),
+    "base": (0, [], ["result", "progress"], "lattice points, 128-bit integers, arrays, the parallel loop"),
+    "grid": (1, ["base"], ["frame", "height_field", "result", "progress"], "rasters: mask, outline, frames, voids"),
+    "geom": (1, ["base"], ["result"], "predicates, planes, the scan of a triangle"),
+    "mesh": (1, ["base"], ["mesh", "result"], "the Mesh value: order, solid base, half-edges"),
+    "tin": (2, ["base", "geom"], ["result"], "the triangulation: ids and predicates, no heights"),
+    "io": (2, ["base", "grid", "mesh"], ["frame", "height_field", "io", "mesh", "progress", "result", "version"],
+           "bytes to values and back"),
+    "refine": (3, ["base", "grid", "geom", "mesh", "tin"], ["frame", "height_field", "mesh", "progress", "result"],
+               "greedy insertion and its textbook twins"),
+    "measure": (3, ["base", "grid", "geom", "mesh"],
+                ["frame", "height_field", "measure", "mesh", "progress", "result"],
+                "judging a mesh, without knowing how it was made"),
+    "draw": (3, ["base", "grid", "geom", "mesh"], ["frame", "height_field", "io", "mesh", "picture", "result"],
+             "pictures of fields, meshes and errors"),
+    "passes": (5, ["base", "grid", "geom", "mesh", "tin", "io", "refine", "measure", "draw"], ANY,
+               "`src/*.cpp`: the lists of passes"),
+    "apps": (6, [], ANY, "the command line; knows `include/scarp` only"),
+}
+
+# What only some files may include: (pattern of the header, files that may, why).
+RESERVED = [
+    (r"(gdal|ogr|cpl|osr|vrt)[a-z_0-9]*\.h$|gdal/.*", [r"src/io/gdal/"], "GDAL is known to src/io/gdal only"),
+    (r"(thread|mutex|shared_mutex|condition_variable|future|semaphore|latch|barrier|stop_token)$",
+     [r"src/base/parallel\.(h|cpp)$", r"src/io/gdal/"],
+     "threads belong to src/base/parallel, locks besides to src/io/gdal where a transform serves several threads"),
+    (r"atomic$",
+     [r"src/base/parallel\.(h|cpp)$", r"src/io/gdal/", r"src/io/file\.cpp$", r"apps/"],
+     "atomics belong to src/base/parallel, src/io/gdal and what a signal handler reads (src/io/file.cpp, apps)"),
+    (r"hwy/.*|[a-z]*mmintrin\.h$|immintrin\.h$|x86intrin\.h$|arm_neon\.h$|wasm_simd128\.h$", [],
+     "no file knows an instruction set yet"),
+    (r"CLI/.*", [r"apps/"], "command lines are known to apps only"),
+    (r"(format|ranges)$", [r"src/io/gdal/", r"apps/"], "the core builds without std::format and range views"),
+]
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+def room_of(path):
+    """The room of a file given by its path in the tree."""
+    parts = path.parts
+    if parts[0] == "include":
+        return "door"
+    if parts[0] == "apps":
+        return "apps"
+    return parts[1] if len(parts) > 2 else "passes"
+
+
+def judge_project_include(path, room, header, tree):
+    """What is wrong with `#include "header"` in this file, or None."""
+    floor, may_include, public, _ = ROOMS[room]
+    top = header.split("/")[0]
+    if top == "scarp":
+        name = pathlib.PurePath(header).stem
+        if not (tree / "include" / header).is_file():
+            return f"there is no include/{header}"
+        if public is not ANY and name not in public:
+            return f"the room {room} must not know {header}"
+        return None
+    if room == "apps":
+        if (tree / path.parent / header).is_file():
+            return None
+        return "apps may include scarp/*.h and headers of their own folder only"
+    if room == "door":
+        return "a public header may include public headers only"
+    if top not in ROOMS or "/" not in header or not (tree / "src" / header).is_file():
+        return f"there is no src/{header}"
+    if top == room or top in may_include:
+        return None
+    if ROOMS[top][0] == floor:
+        return f"{room} and {top} are strangers on floor {floor}"
+    if ROOMS[top][0] > floor:
+        return f"a step upwards from {room} (floor {floor}) to {top} (floor {ROOMS[top][0]})"
+    return f"the room {room} must not know the room {top}"
+
+
+def judge_reserved(path, header):
+    for pattern, allowed, why in RESERVED:
+        if re.match(pattern, header) and not any(re.match(place, path.as_posix()) for place in allowed):
+            return why
+    return None
+
+
+def judge_file(path, tree):
+    """Sentences about one file."""
+    room = room_of(path)
+    if room not in ROOMS:
+        yield f"{path}: the room {room} is not in the table of tools/check_floors.py"
+        return
+    lines = (tree / path).read_text(encoding="utf-8").splitlines()
+    if len(lines) > MAX_LINES:
+        yield f"{path}: {len(lines)} lines, more than {MAX_LINES}: split it by concept"
+    for number, line in enumerate(lines, 1):
+        match = INCLUDE.match(line)
+        if not match:
+            continue
+        quoted, header = match.group(1) == '"', match.group(2)
+        wrong = judge_reserved(path, header)
+        if not wrong and (quoted or header.split("/")[0] in ROOMS or header.startswith("scarp/")):
+            wrong = judge_project_include(path, room, header, tree)
+        if wrong:
+            yield f"{path}:{number}: includes {header}: {wrong}"
+
+
+def sources(tree):
+    for top in ("include", "src", "apps"):
+        for path in sorted((tree / top).rglob("*")):
+            if path.suffix in (".h", ".hpp", ".inc", ".cpp", ".cc", ".c") and path.is_file():
+                yield path.relative_to(tree)
+
+
+def print_table():
+    print("| floor | room | holds | may include |")
+    print("|---|---|---|---|")
+    for room, (floor, may_include, public, holds) in reversed(ROOMS.items()):
+        doors = "any public header" if public is ANY else ", ".join(f"`{name}.h`" for name in public)
+        rooms = ", ".join(f"`{name}`" for name in may_include)
+        print(f"| {floor} | `{room}` | {holds} | {'; '.join(filter(None, [rooms, doors]))} |")
+
+
+def main(arguments):
+    if "--table" in arguments:
+        print_table()
+        return 0
+    tree = pathlib.Path(arguments[0] if arguments else pathlib.Path(__file__).resolve().parent.parent)
+    files = list(sources(tree))
+    if not files:
+        print(f"check_floors: no sources under {tree}", file=sys.stderr)
+        return 2
+    faults = [fault for path in files for fault in judge_file(path, tree)]
+    for fault in faults:
+        print(fault)
+    print(f"check_floors: {len(files)} files, {len(faults)} faults")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
