@@ -19,15 +19,15 @@ enum class Decode { kNone, kTerrarium, kMapbox };
 
 struct ReadOptions {
   int band = 1;                   ///< 1-based
-  std::optional<double> nodata;   ///< overrides the file's value, which then is an ordinary height
+  std::optional<double> nodata = std::nullopt;   ///< overrides the file's value, which then is an ordinary height
   Decode decode = Decode::kNone;  ///< heights packed into red, green, blue (8 bit each); alpha 0 is nodata
   /// Frame of the mesh. Empty (DEFAULT): the local metric frame for geographic rasters, the raster's own CRS for
   /// projected ones, the grid frame without georeference. "source": the raster's own coordinates. "local": the local
   /// metric frame. "grid": columns and rows. Anything else is a CRS for GDAL ("EPSG:32611", WKT, PROJ string).
-  std::string crs;
+  std::string crs = {};
   /// Refuse to read a raster that needs more memory than this, in bytes; 0 = the machine's memory. DEFAULT: 0.
   std::uint64_t memory_limit = 0;
-  ProgressCallback progress;
+  ProgressCallback progress = {};
 };
 
 /// Reads one raster. PGM (P2, P5) and Scape's STM by readers of our own; all else, with any path or URL that GDAL opens

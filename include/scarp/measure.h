@@ -23,12 +23,12 @@ struct MeasureOptions {
   /// Also check angles, orientation, overlaps, open edges and T-junctions. DEFAULT: true.
   bool topology = true;
   /// Collect `Measurement::offenders`: samples whose error is above this. DEFAULT: do not.
-  std::optional<double> collect_above;
+  std::optional<double> collect_above = std::nullopt;
   /// If set, called once for each row in ascending order with the signed error (mesh − sample) of every sample; NaN
   /// where the sample is void or uncovered. The span is valid during the call only.
-  std::function<void(int row, std::span<const float> errors)> on_row;
+  std::function<void(int row, std::span<const float> errors)> on_row = {};
   int threads = 1;  ///< worker threads, 0 = all cores. Never changes the result. DEFAULT: 1.
-  ProgressCallback progress;
+  ProgressCallback progress = {};
 };
 
 /// A sample that breaks the bound.

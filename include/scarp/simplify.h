@@ -19,18 +19,18 @@ namespace scarp {
 struct SimplifyOptions {
   /// Vertical error bound in z units, at least 0: |mesh − sample| <= max_error at every valid sample. 0 reproduces
   /// every sample. DEFAULT: none.
-  std::optional<double> max_error;
+  std::optional<double> max_error = std::nullopt;
   /// Upper bounds. If one of them ends the run, the result is the mesh with the smallest max error among those with at
   /// least 95 % of the budget (max error is not monotone in the number of points). DEFAULT: none.
-  std::optional<std::uint64_t> max_triangles;
-  std::optional<std::uint64_t> max_vertices;
+  std::optional<std::uint64_t> max_triangles = std::nullopt;
+  std::optional<std::uint64_t> max_vertices = std::nullopt;
   /// How far, in samples, the outline of the valid data may be simplified, at least 0. It only moves outwards, over
   /// void samples: no valid sample is cut off. DEFAULT: 0, the exact outline.
   double outline_tolerance = 0;
   /// Vertex normals from the full-resolution samples. DEFAULT: false.
   bool normals = false;
   int threads = 0;  ///< 0 = all cores. Never changes the result. DEFAULT: 0.
-  ProgressCallback progress;
+  ProgressCallback progress = {};
 };
 
 /// Which goal ended the run.
