@@ -87,20 +87,21 @@ Outline trace_outline(const Raster& raster) {
     std::size_t e = start;
     do {
       used[e] = true;
-      auto out = static_cast<std::size_t>(
+      const auto first = static_cast<std::size_t>(
           std::lower_bound(edges.begin(), edges.end(), edges[e].to,
                            [](const DirectedEdge& edge, Point p) { return before(edge.from, p); }) -
           edges.begin());
       // Where polygons touch, the sharpest left turn stays with the same wedge of surface. The start is still on offer
       // although used: it closes the polygon.
-      std::size_t next = edges.size();
-      for (; out < edges.size() && edges[out].from == edges[e].to; ++out) {
-        if (used[out] && out != start) continue;
+      std::size_t next = edges.size(), end = first;
+      for (; end < edges.size() && edges[end].from == edges[e].to; ++end) {
+        if (used[end] && end != start) continue;
         if (next == edges.size() ||
-            left_turn(step(edges[e]), step(edges[out])) > left_turn(step(edges[e]), step(edges[next])))
-          next = out;
+            left_turn(step(edges[e]), step(edges[end])) > left_turn(step(edges[e]), step(edges[next])))
+          next = end;
       }
-      if (!(step(edges[e]) == step(edges[next]))) polygon.push_back(edges[e].to);
+      const bool touches = end - first > 1;
+      if (touches || !(step(edges[e]) == step(edges[next]))) polygon.push_back(edges[e].to);
       e = next;
     } while (e != start);
     outline.push_back(std::move(polygon));

@@ -11,8 +11,9 @@
 
 namespace scarp {
 
-/// Closed polygons with the domain on their left (positive orientation: outer borders positive, holes negative),
-/// without collinear points. Polygons may touch themselves and each other in single vertices; they never cross.
+/// Closed polygons with the domain on their left (positive orientation: outer borders positive, holes negative).
+/// Polygons may touch themselves and each other in single vertices, which then are vertices of all of them; they never
+/// cross. There are no other collinear points.
 using Outline = std::vector<std::vector<Point>>;
 
 /// True if every sample is a height. Cost: O(samples).
@@ -34,8 +35,7 @@ bool centroid_is_surface(const Raster& raster, const std::array<Point, 3>& corne
 
 /// Simplifies the polygons so that each point of the old outline lies within `tolerance` samples of the new one. The
 /// domain only grows, over void samples: no valid sample is cut off or newly enclosed, and polygons still do not cross.
-/// Vertices are a subset of the old ones. Where two simplified polygons would touch in more than
-/// vertices the caller falls back to the exact outline. Cost: O(L · tolerance) on typical outlines.
+/// Vertices are a subset of the old ones, those where polygons touch stay. Cost: O(L · tolerance) on typical outlines.
 Outline simplify_outline(const Raster& raster, const Outline& outline, double tolerance);
 
 }  // namespace scarp

@@ -71,7 +71,20 @@ bool area_is_void(const Raster& raster, std::span<const Point> chain) {
   return true;
 }
 
-std::vector<Point> simplify_polygon(const Raster& raster, const std::vector<Point>& polygon, double tolerance) {
+/// Vertices that occur more than once, in raster order.
+std::vector<Point> touching_vertices(const Outline& outline) {
+  std::vector<Point> all;
+  for (const auto& polygon : outline) all.insert(all.end(), polygon.begin(), polygon.end());
+  std::sort(all.begin(), all.end(), before);
+  std::vector<Point> touching;
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (all[i] == all[i - 1]) touching.push_back(all[i]);
+  }
+  return touching;
+}
+
+std::vector<Point> simplify_polygon(const Raster& raster, const std::vector<Point>& polygon,
+                                    const std::vector<Point>& touching, double tolerance) {
   const std::size_t n = polygon.size();
   std::vector<Point> kept, chain;
   for (std::size_t i = 0; i < n;) {
@@ -80,9 +93,10 @@ std::vector<Point> simplify_polygon(const Raster& raster, const std::vector<Poin
     chain = {polygon[i], polygon[(i + 1) % n]};
     int failures = 0;
     for (std::size_t j = i + 2; j <= n && j - i <= kLongestChain && failures < kPatience; ++j) {
-      chain.push_back(polygon[j % n]);
       // A segment back to the start would close a polygon of fewer than three corners.
       if (j == n && kept.size() < 3) break;
+      if (std::binary_search(touching.begin(), touching.end(), chain.back(), before)) break;
+      chain.push_back(polygon[j % n]);
       if (hugs_segment(chain, tolerance) && area_is_void(raster, chain)) {
         best = j;
         failures = 0;
@@ -98,8 +112,9 @@ std::vector<Point> simplify_polygon(const Raster& raster, const std::vector<Poin
 }  // namespace
 
 Outline simplify_outline(const Raster& raster, const Outline& outline, double tolerance) {
+  const std::vector<Point> touching = touching_vertices(outline);
   Outline simplified;
-  for (const auto& polygon : outline) simplified.push_back(simplify_polygon(raster, polygon, tolerance));
+  for (const auto& polygon : outline) simplified.push_back(simplify_polygon(raster, polygon, touching, tolerance));
   return simplified;
 }
 
