@@ -1,0 +1,48 @@
+# Short names for what one does here; each does what its line in `make help` says and nothing else.
+# BUILD: build folder (the other kinds get BUILD-asan, BUILD-tsan, BUILD-fuzz). JOBS: compilers at once.
+# CMAKE_FLAGS: more options for configuring, such as -DBUILD_SHARED_LIBS=ON.
+BUILD ?= build
+PREFIX ?= /usr/local
+JOBS ?= $(shell nproc 2>/dev/null || echo 2)
+CMAKE_FLAGS ?=
+export BUILD JOBS
+
+.PHONY: build demo test install clean format tidy help
+
+build:
+	@tools/install_packages.sh build
+	@tools/configure.sh $(BUILD) $(CMAKE_FLAGS)
+	@cmake --build $(BUILD) -j $(JOBS) --target scarp scarp_program
+
+demo:
+	@tools/install_packages.sh build run
+	@$(MAKE) --no-print-directory build
+	@tools/demo.sh $(BUILD)/bin/scarp
+
+test:
+	@tools/install_packages.sh build run test
+	@tools/test.sh
+
+install: build
+	DESTDIR="$(DESTDIR)" cmake --install $(BUILD) --prefix "$(PREFIX)"
+
+clean:
+	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz $(BUILD)-debug demo
+
+format:
+	@tools/install_packages.sh lint
+	git ls-files -co --exclude-standard '*.h' '*.cpp' | xargs clang-format -i
+
+tidy:
+	@tools/install_packages.sh build test lint
+	@tools/configure.sh $(BUILD) --preset release
+	git ls-files -co --exclude-standard 'src/*.cpp' 'apps/*.cpp' | xargs -P $(JOBS) -n 1 clang-tidy --quiet -p $(BUILD)
+
+help:
+	@echo 'make          build $(BUILD)/bin/scarp (Release), installing missing packages'
+	@echo 'make demo     build, simplify a bundled DEM into demo/, check the result'
+	@echo 'make test     everything: tests, sanitizers, a short run of the fuzzers'
+	@echo 'make install  program, library, headers, man page into PREFIX (now $(PREFIX)); DESTDIR is honoured'
+	@echo 'make format   clang-format on all sources'
+	@echo 'make tidy     clang-tidy on src/ and apps/'
+	@echo 'make clean    remove the build folders and demo/'

@@ -1,0 +1,56 @@
+# What `cmake --install` puts where: program, library, headers, CMake package, pkg-config file, man page, completions.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS scarp EXPORT scarpTargets)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/scarp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# find_package(scarp): the library's dependencies are looked for again on the consumer's side.
+set(scarp_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/scarp)
+get_target_property(scarp_type scarp TYPE)
+if(scarp_type STREQUAL "STATIC_LIBRARY")
+  set(SCARP_IS_STATIC ON)
+else()
+  set(SCARP_IS_STATIC OFF)
+endif()
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/scarpConfig.cmake.in ${PROJECT_BINARY_DIR}/scarpConfig.cmake
+                              INSTALL_DESTINATION ${scarp_package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/scarpConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(EXPORT scarpTargets NAMESPACE scarp:: DESTINATION ${scarp_package_dir})
+install(FILES ${PROJECT_BINARY_DIR}/scarpConfig.cmake ${PROJECT_BINARY_DIR}/scarpConfigVersion.cmake
+        DESTINATION ${scarp_package_dir})
+
+# pkg-config: paths relative to the file itself, so that `--prefix` at install time is right too. A static library
+# hands its own libraries on.
+set(scarp_requires fmt)
+if(SCARP_WITH_GDAL)
+  string(APPEND scarp_requires ", gdal")
+endif()
+set(scarp_libs "-lmeshoptimizer -pthread")
+if(SCARP_IS_STATIC)
+  set(scarp_requires_fields "Requires: ${scarp_requires}\nLibs: -L\${libdir} -lscarp ${scarp_libs}")
+else()
+  set(scarp_requires_fields "Requires.private: ${scarp_requires}\nLibs: -L\${libdir} -lscarp\nLibs.private: ${scarp_libs}")
+endif()
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
+  set(SCARP_PC_PREFIX ${CMAKE_INSTALL_PREFIX})
+else()
+  file(RELATIVE_PATH scarp_pc_up "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+  string(REGEX REPLACE "/$" "" scarp_pc_up "${scarp_pc_up}")
+  set(SCARP_PC_PREFIX "\${pcfiledir}/${scarp_pc_up}")
+endif()
+configure_file(${CMAKE_CURRENT_LIST_DIR}/scarp.pc.in ${PROJECT_BINARY_DIR}/scarp.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/scarp.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+
+if(SCARP_BUILD_APPS)
+  # The program finds a shared library beside it, wherever the prefix is moved to.
+  file(RELATIVE_PATH scarp_bin_to_lib "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
+  set_target_properties(scarp_program PROPERTIES INSTALL_RPATH "$ORIGIN/${scarp_bin_to_lib}")
+  install(TARGETS scarp_program)
+  install(FILES ${PROJECT_SOURCE_DIR}/docs/man/scarp.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${PROJECT_SOURCE_DIR}/completions/scarp.bash
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME scarp)
+  install(FILES ${PROJECT_SOURCE_DIR}/completions/_scarp DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+  install(FILES ${PROJECT_SOURCE_DIR}/completions/scarp.fish
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+endif()

@@ -1,0 +1,11 @@
+#!/bin/bash
+# Configures a build folder: with Ninja where it is there, Release unless a preset or option says otherwise.
+#
+# usage: tools/configure.sh FOLDER [cmake arguments, such as --preset asan]
+set -euo pipefail
+folder=$1
+shift
+if [ ! -f "$folder/CMakeCache.txt" ] && [ -z "${CMAKE_GENERATOR-}" ] && command -v ninja >/dev/null; then
+  export CMAKE_GENERATOR=Ninja
+fi
+exec cmake --log-level=WARNING -S "$(dirname "$0")/.." -B "$folder" "$@"

@@ -1,0 +1,22 @@
+#!/bin/bash
+# The demonstration: a bundled DEM becomes a mesh in two formats, a picture and a report in demo/; the mesh file is read
+# back and judged; a table tells what came out.
+#
+# usage: tools/demo.sh PROGRAM
+set -euo pipefail
+scarp=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+cd "$(dirname "$0")/.."
+dem=data/jacksboro_fault.tif
+goal=20
+python=$(command -pv python3 || command -v python3)
+
+mkdir -p demo
+echo "scarp simplify $dem demo/jacksboro.glb -e $goal"
+"$scarp" simplify "$dem" demo/jacksboro.glb -e $goal --normals --quiet --overwrite \
+  --preview demo/jacksboro.png --report demo/jacksboro.json
+"$scarp" simplify "$dem" demo/jacksboro.obj -e $goal --quiet --overwrite
+echo "scarp measure $dem demo/jacksboro.glb --fail-above $goal"
+"$scarp" measure "$dem" demo/jacksboro.glb --fail-above $goal --json --quiet >demo/measured.json
+"$scarp" measure "$dem" demo/jacksboro.obj --fail-above $goal --quiet >/dev/null
+exec "$python" tools/demo_table.py demo/jacksboro.json demo/measured.json demo/jacksboro.glb demo/jacksboro.obj \
+  demo/jacksboro.png demo/jacksboro.json

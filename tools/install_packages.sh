@@ -1,0 +1,58 @@
+#!/bin/bash
+# Installs the Debian packages of one or more purposes (see tools/packages.txt), if they are missing.
+#
+# usage: tools/install_packages.sh PURPOSE...      PURPOSE: build run test bench lint
+#
+# A machine that has them all is left alone: no network, no rights. Otherwise apt-get runs once, as root or through
+# sudo without a password; where neither is possible, the line to run is printed and the exit code is 1.
+# On a machine without apt the packages are named and the build goes on: CMake tells what it does not find.
+set -euo pipefail
+list=$(dirname "$0")/packages.txt
+
+if [ $# -eq 0 ]; then
+  echo "usage: $0 PURPOSE... (build run test bench lint)" >&2
+  exit 1
+fi
+
+is_installed() {
+  [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
+needed=()
+for purpose in "$@"; do
+  known=no
+  while read -r word package command; do
+    [ "$word" = "$purpose" ] || continue
+    known=yes
+    case " ${needed[*]-} " in *" $package "*) continue ;; esac
+    if [ -n "$command" ] && command -v "$command" >/dev/null; then continue; fi
+    needed+=("$package")
+  done <"$list"
+  [ $known = yes ] || { echo "$0: unknown purpose $purpose (build run test bench lint)" >&2; exit 1; }
+done
+
+if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+  echo "This is not a Debian machine. Needed, by Debian's names: ${needed[*]-}"
+  exit 0
+fi
+
+missing=()
+for package in ${needed[@]+"${needed[@]}"}; do
+  is_installed "$package" || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+install="apt-get -o DPkg::Lock::Timeout=300 install -y --no-install-recommends ${missing[*]}"
+if [ "$(id -u)" -eq 0 ]; then
+  as_root=()
+elif command -v sudo >/dev/null && sudo -n true 2>/dev/null; then
+  as_root=(sudo -n)
+else
+  echo "Missing packages: ${missing[*]}. Please run this line, then the same make command again:" >&2
+  echo "  sudo apt-get update && sudo $install" >&2
+  exit 1
+fi
+echo "Installing ${missing[*]}"
+"${as_root[@]+"${as_root[@]}"}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 update -q </dev/null
+# shellcheck disable=SC2086  # one word for each package
+"${as_root[@]+"${as_root[@]}"}" env DEBIAN_FRONTEND=noninteractive $install -q </dev/null
