@@ -1,0 +1,43 @@
+# bash completion for scarp: verbs, options, and what an option takes.
+
+_scarp() {
+  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} verb='' word
+  COMPREPLY=()
+  for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
+    case $word in simplify | measure | info) verb=$word && break ;; esac
+  done
+
+  if [[ -z $verb ]]; then
+    COMPREPLY=($(compgen -W 'simplify measure info --help --version' -- "$current"))
+    return
+  fi
+
+  case $previous in
+    --of) COMPREPLY=($(compgen -W 'glb obj ply stl' -- "$current")) && return ;;
+    --decode) COMPREPLY=($(compgen -W 'terrarium mapbox' -- "$current")) && return ;;
+    --nodata-policy) COMPREPLY=($(compgen -W 'hole fill background' -- "$current")) && return ;;
+    --crs) COMPREPLY=($(compgen -W 'source local grid EPSG:' -- "$current")) && return ;;
+    --preview | --report | --map) COMPREPLY=($(compgen -f -- "$current")) && return ;;
+    -e | --max-error | -t | --max-triangles | -p | --max-points | --band | --nodata | --fill-distance | --background | \
+      --outline-tolerance | --base | -j | --num-threads | --fail-above)
+      return
+      ;;
+  esac
+
+  if [[ $current == -* ]]; then
+    local options='--help --version --band --nodata --decode --crs --quiet --json-progress'
+    case $verb in
+      simplify)
+        options+=' --max-error --max-triangles --max-points --nodata-policy --fill-distance --background'
+        options+=' --outline-tolerance --of --normals --base --preview --report --overwrite --num-threads'
+        ;;
+      measure) options+=' --fail-above --json --map --overwrite --num-threads' ;;
+      info) options+=' --json' ;;
+    esac
+    COMPREPLY=($(compgen -W "$options" -- "$current"))
+    return
+  fi
+  COMPREPLY=($(compgen -f -- "$current"))
+}
+
+complete -o filenames -o bashdefault -F _scarp scarp
