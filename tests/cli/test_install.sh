@@ -1,0 +1,70 @@
+#!/bin/bash
+# What `make install` installs is complete and usable from outside the tree: by find_package, by pkg-config, by hand.
+# Scarp inside another project (add_subdirectory) works without GDAL; illegal options fail to configure.
+set -euo pipefail
+source_tree=${SCARP_SOURCE:?}
+build=${SCARP_BUILD:?}
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+export CMAKE_GENERATOR="Unix Makefiles"
+
+fail() { echo "FAILED: $1"; exit 1; }
+
+# 1. Every file in its place, DESTDIR honoured.
+prefix=$scratch/prefix
+DESTDIR="$scratch/stage" cmake --install "$build" --prefix /opt/scarp >/dev/null
+[ -x "$scratch/stage/opt/scarp/bin/scarp" ] || fail "DESTDIR was not honoured"
+cmake --install "$build" --prefix "$prefix" >"$scratch/install.log"
+for file in bin/scarp include/scarp/scarp.h share/man/man1/scarp.1 share/doc/scarp/LICENSE \
+  share/bash-completion/completions/scarp share/zsh/site-functions/_scarp share/fish/vendor_completions.d/scarp.fish; do
+  [ -s "$prefix/$file" ] || fail "not installed: $file"
+done
+for header in "$source_tree"/include/scarp/*.h; do
+  [ -s "$prefix/include/scarp/$(basename "$header")" ] || fail "not installed: $(basename "$header")"
+done
+package=$(dirname "$(find "$prefix" -name scarpConfig.cmake)")
+pkgconfig=$(dirname "$(find "$prefix" -name scarp.pc)")
+[ -n "$package" ] && [ -n "$pkgconfig" ] || fail "no CMake package or no scarp.pc"
+grep -rlF -e "$source_tree" -e "$build" "$package" "$pkgconfig" "$prefix/include" && fail "installed files name the build"
+"$prefix/bin/scarp" --version | grep -q '[0-9]\.[0-9]' || fail "the installed program does not run"
+
+# 2. Each public header compiles alone.
+for header in "$prefix"/include/scarp/*.h; do
+  echo "#include <scarp/$(basename "$header")>" | c++ -std=c++20 -Wall -Wextra -Werror -fsyntax-only -I"$prefix/include" -x c++ - ||
+    fail "$(basename "$header") does not compile alone"
+done
+
+# 3. find_package, after the prefix has been moved.
+mv "$prefix" "$scratch/moved prefix"
+prefix="$scratch/moved prefix"
+cmake -S "$source_tree/tests/consume/find_package" -B "$scratch/find" -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
+cmake --build "$scratch/find" >/dev/null
+"$scratch/find/consumer" || fail "find_package"
+
+# 4. pkg-config; its paths follow the prefix too (pkg-config wants one without blanks).
+mv "$prefix" "$scratch/moved"
+prefix=$scratch/moved
+if command -v pkg-config >/dev/null; then
+  export PKG_CONFIG_PATH="$prefix/${pkgconfig#"$scratch/prefix/"}"
+  # shellcheck disable=SC2046
+  c++ -std=c++20 "$source_tree/tests/consume/main.cpp" -o "$scratch/by_pkg_config" $(pkg-config --cflags --libs scarp)
+  LD_LIBRARY_PATH="$prefix/lib" "$scratch/by_pkg_config" || fail "pkg-config"
+  [ "$(pkg-config --modversion scarp)" = "$("$prefix/bin/scarp" --version | grep -o '[0-9][0-9.]*' | head -n 1)" ] ||
+    fail "scarp.pc and the program disagree about the version"
+else
+  echo "pkg-config is missing: that part is skipped"
+fi
+
+# 5. add_subdirectory, core only.
+cmake -S "$source_tree/tests/consume/add_subdirectory" -B "$scratch/sub" -DSCARP_SOURCE="$source_tree" \
+  -DSCARP_WITH_GDAL=OFF >/dev/null
+cmake --build "$scratch/sub" -j 2 >"$scratch/sub.log" 2>&1 || { cat "$scratch/sub.log"; fail "add_subdirectory without GDAL"; }
+"$scratch/sub/consumer" || fail "add_subdirectory"
+if ldd "$scratch/sub/consumer" | grep -q libgdal; then fail "the core build is linked to GDAL"; fi
+
+# 6. An illegal combination of options is refused, with a sentence.
+if cmake -S "$source_tree" -B "$scratch/illegal" -DSCARP_BUILD_APPS=ON -DSCARP_WITH_GDAL=OFF >"$scratch/illegal.log" 2>&1; then
+  fail "SCARP_BUILD_APPS=ON with SCARP_WITH_GDAL=OFF was configured"
+fi
+tr -s ' \n' ' ' <"$scratch/illegal.log" | grep -q "SCARP_BUILD_APPS needs SCARP_WITH_GDAL=ON" || fail "no sentence for illegal options"
+echo "installed, found and used"
