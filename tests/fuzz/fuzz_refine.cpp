@@ -1,0 +1,113 @@
+// Any small raster and any goal: the promise holds, every sample of the domain is covered, and the mesh is sound; or an
+// error with words. The bytes choose the size, the goals, how steep the heights are, and then one height each: a few
+// values stand for voids and infinities, and few levels make ties the rule.
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <vector>
+
+#include "scarp/measure.h"
+#include "scarp/simplify.h"
+
+namespace {
+
+/// Reads bytes one after the other; zeros after the end.
+class Bytes {
+ public:
+  Bytes(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
+  std::uint8_t next() {
+    if (left_ == 0) return 0;
+    --left_;
+    return *data_++;
+  }
+
+ private:
+  const std::uint8_t* data_;
+  std::size_t left_;
+};
+
+constexpr int kMaxSide = 24;
+
+float decode_height(std::uint8_t byte, int levels, float step) {
+  if (byte >= 250)
+    return byte == 255 ? std::numeric_limits<float>::infinity() : std::numeric_limits<float>::quiet_NaN();
+  return static_cast<float>(byte % levels) * step;
+}
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+void check_simplify(const scarp::HeightField& field, const scarp::SimplifyOptions& options) {
+  const auto result = scarp::simplify(field, options);
+  if (!result) {
+    require(!result.error().message.empty());
+    require(result.error().kind != scarp::ErrorKind::kInternal);
+    return;
+  }
+  const scarp::Measurement& proof = result->measurement;
+  if (result->stop == scarp::StopReason::kMaxError) require(options.max_error && proof.max_error <= *options.max_error);
+  if (result->stop == scarp::StopReason::kExact) require(proof.max_error == 0);
+  if (options.max_triangles) require(result->mesh.triangle_count() <= *options.max_triangles);
+  if (options.max_vertices) require(result->mesh.vertex_count() <= *options.max_vertices);
+  require(proof.uncovered == 0);
+
+  const auto judged = scarp::measure(field, result->mesh);
+  require(judged.has_value());
+  require(judged->is_sound());
+  require(judged->max_error == proof.max_error && judged->rmse == proof.rmse && judged->uncovered == 0);
+  require(judged->void_cells_covered == 0 || options.outline_tolerance > 0);
+}
+
+void check_refiner(const scarp::HeightField& field, double outline_tolerance, int steps) {
+  auto refiner = scarp::Refiner::create(field, outline_tolerance);
+  if (!refiner) {
+    require(!refiner.error().message.empty());
+    return;
+  }
+  for (int step = 0; step < steps; ++step) {
+    const std::uint64_t vertices = refiner->vertex_count();
+    const bool exact = refiner->max_error() == 0;
+    const bool inserted = refiner->insert_worst();
+    require(inserted == !exact);
+    require(refiner->vertex_count() == vertices + (inserted ? 1 : 0));
+    if (!inserted) break;
+  }
+  const scarp::Mesh mesh = refiner->mesh();
+  require(mesh.vertex_count() == refiner->vertex_count() && mesh.triangle_count() == refiner->triangle_count());
+  const auto judged = scarp::measure(field, mesh);
+  require(judged && judged->is_sound() && judged->uncovered == 0);
+  require(std::abs(judged->max_error - refiner->max_error()) <= 1e-9 * (1 + refiner->max_error()));
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Bytes bytes(data, size);
+  const int cols = bytes.next() % kMaxSide + 1, rows = bytes.next() % kMaxSide + 1;
+  const int levels = bytes.next() % 250 + 1;
+  const float step = std::ldexp(1.0F, bytes.next() % 24 - 12);
+  const std::uint8_t goals = bytes.next();
+  scarp::SimplifyOptions options;
+  if (goals & 1) options.max_error = static_cast<double>(bytes.next()) * static_cast<double>(step) / 16;
+  if (goals & 2) options.max_triangles = bytes.next();
+  if (goals & 4) options.max_vertices = bytes.next();
+  if (goals & 8) options.outline_tolerance = bytes.next() / 32.0;
+  options.normals = (goals & 16) != 0;
+  options.threads = 1;
+  const int steps = bytes.next() % 32;
+
+  std::vector<float> samples(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows));
+  for (float& sample : samples) sample = decode_height(bytes.next(), levels, step);
+  scarp::HeightField field;
+  field.samples = samples.data();
+  field.cols = cols;
+  field.rows = rows;
+  if (goals & 32) field.nodata = 0.0F;
+  field.frame = scarp::grid_frame(rows);
+
+  check_simplify(field, options);
+  check_refiner(field, options.outline_tolerance, steps);
+  return 0;
+}
