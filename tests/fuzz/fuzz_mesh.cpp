@@ -1,0 +1,35 @@
+// Any bytes: a mesh whose parts agree and which can be written again, or an error with words.
+#include <cmath>
+#include <cstdlib>
+
+#include "scarp/io.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto mesh = scarp::decode_mesh({data, size}, "fuzz.stl");  // the name lets damaged STL through to its reader
+  if (!mesh) {
+    if (mesh.error().message.empty() || mesh.error().kind != scarp::ErrorKind::kInput) std::abort();
+    return 0;
+  }
+  if (mesh->triangles.empty() || mesh->triangles.size() % 3 != 0) std::abort();
+  for (const std::uint32_t vertex : mesh->triangles) {
+    if (vertex >= mesh->vertex_count()) std::abort();
+  }
+  for (const double coordinate : mesh->positions) {
+    if (!std::isfinite(coordinate)) std::abort();
+  }
+  if (!mesh->normals.empty() && mesh->normals.size() != mesh->positions.size()) std::abort();
+  // What was read can be written; what PLY keeps, which is everything, reads back the same.
+  for (const auto format : {scarp::MeshFormat::kGlb, scarp::MeshFormat::kObj, scarp::MeshFormat::kStl}) {
+    const auto bytes = scarp::encode_mesh(*mesh, format);
+    if (!bytes && bytes.error().kind != scarp::ErrorKind::kOutput) std::abort();
+    if (bytes && !scarp::decode_mesh(*bytes, "fuzz")) std::abort();
+  }
+  const auto bytes = scarp::encode_mesh(*mesh, scarp::MeshFormat::kPly);
+  if (!bytes) return 0;
+  const auto back = scarp::decode_mesh(*bytes, "fuzz");
+  if (!back || back->triangles != mesh->triangles || back->vertex_count() != mesh->vertex_count()) std::abort();
+  for (std::size_t v = 0; v < mesh->vertex_count(); ++v) {
+    if (back->vertex(v) != mesh->vertex(v)) std::abort();
+  }
+  return 0;
+}
