@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""Peak memory, fitted as a bytes per sample + b bytes per vertex, and held against 5 and 120; writes memory.md.
+
+First domain and refinement alone (speed_memory: its own baseline taken off), then, where the program is built, a whole
+`scarp simplify` run from GeoTIFF to GLB (peak of the process less that of `scarp --version`).
+
+  memory.py --bin build/bin
+"""
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from rasters import HERE, make_raw
+from run import ERRORS
+
+CASES = ("fuji", "essen_dom", "everest", "sierra_3601", "moon_4096")
+PER_SAMPLE, PER_VERTEX = 5, 120
+
+
+def peak_of(command):
+    """Peak resident bytes of a child process; it must succeed."""
+    child = subprocess.Popen([str(part) for part in command], stdout=subprocess.DEVNULL)
+    _, status, usage = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    if child.returncode != 0:
+        raise SystemExit(f"{' '.join(map(str, command))} ended with {child.returncode}")
+    return 1024 * usage.ru_maxrss
+
+
+def fit(points):
+    """Least squares of relative residuals: bytes = a samples + b vertices."""
+    saa = sab = sbb = sa = sb = 0.0
+    for samples, vertices, size in points:
+        a, b = samples / size, vertices / size
+        saa, sab, sbb, sa, sb = saa + a * a, sab + a * b, sbb + b * b, sa + a, sb + b
+    determinant = saa * sbb - sab * sab
+    return (sa * sbb - sb * sab) / determinant, (sb * saa - sa * sab) / determinant
+
+
+def table(title, points):
+    lines = [f"## {title}", "", "| raster | samples | vertices | peak MB | bytes ÷ (5·samples + 120·vertices) |",
+             "|---|---|---|---|---|"]
+    for name, samples, vertices, size in points:
+        share = size / (PER_SAMPLE * samples + PER_VERTEX * vertices)
+        lines.append(f"| {name} | {samples} | {vertices} | {size / 1e6:.1f} | {share:.2f} |")
+    a, b = fit([point[1:] for point in points])
+    lines += ["", f"Fitted: **{a:.2f} bytes a sample + {b:.0f} bytes a vertex**.", ""]
+    return lines
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bin", type=Path, required=True, help="folder of the built programs")
+    options = parser.parse_args()
+    program = options.bin / "scarp"
+    engine, whole = [], []
+    with tempfile.TemporaryDirectory() as scratch:
+        baseline = peak_of([program, "--version"]) if program.exists() else 0
+        for name in CASES:
+            raster = make_raw(name, scratch)
+            if raster is None:
+                continue
+            raw, cols, rows = raster
+            tif = Path(scratch) / f"{name}.tif"
+            subprocess.run(["gdal_translate", "-q", "-co", "TILED=YES", raw, tif], check=True)
+            # Beyond 5 % kept the vertices dominate: a quarter of the finest error.
+            for error in (*ERRORS[name], ERRORS[name][-1] / 4):
+                run = subprocess.run([options.bin / "speed_memory", *map(str, raster), str(error)], check=True,
+                                     stdout=subprocess.PIPE)
+                report = json.loads(run.stdout)
+                engine.append((name, report["samples"], report["vertices"], report["bytes"]))
+                print(*engine[-1], flush=True)
+                if program.exists():
+                    peak = peak_of([program, "simplify", tif, Path(scratch) / "mesh.glb", "-e", error, "-q",
+                                    "--overwrite"])
+                    whole.append((name, report["samples"], report["vertices"], peak - baseline))
+                    print("  simplify", *whole[-1], flush=True)
+            tif.unlink()
+            raw.unlink()
+    lines = ["# Memory", "",
+             "Written by `memory.py` (see `bench/README.md`). Peak resident memory, samples included; at most "
+             f"{PER_SAMPLE} bytes a", f"sample plus {PER_VERTEX} bytes a vertex are allowed.", ""]
+    lines += table("Domain and refinement", engine)
+    if whole:
+        lines += table("`scarp simplify` from GeoTIFF to GLB", whole)
+        lines[-1:] = [f"Less the program's own {baseline / 1e6:.1f} MB (`scarp --version`).", ""]
+    (HERE / "memory.md").write_text("\n".join(lines).rstrip() + "\n")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,61 @@
+"""The rasters of bench/speed, all without voids, and how they become raw float32 files."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+PROJECT = HERE.parent.parent
+SHARED = Path(os.environ.get("SCARP_SHARED", PROJECT.parent / "shared")) / "data"
+
+# name: (file, window of gdal_translate -srcwin or none)
+RASTERS = {
+    "jacksboro": ("jacksboro_fault.tif", None),
+    "fuji": ("fuji.tif", None),
+    "crater": ("crater.tif", None),
+    "puget_1k": ("puget_sound_1k.tif", None),
+    "baltoro": ("baltoro_srtm.tif", None),
+    "essen_dom": ("nrw_dom1_essen.tif", None),
+    "everest": ("N27E086.hgt", None),
+    "sierra_3601": ("srtm3_sierra_nevada_basin_range.tif", (3600, 0, 3601, 3601)),
+    "moon_4096": ("moon_gld100_caucasus_4096.tif", None),
+}
+
+
+def find_file(name):
+    """The project's own copy of a raster, else the one beside the project; None if neither is there."""
+    for folder in (PROJECT / "data", SHARED):
+        if (folder / name).is_file():
+            return folder / name
+    return None
+
+
+def make_raw(name, folder):
+    """(path, cols, rows) of the raw raster, made by gdal_translate; None if its source is not there."""
+    file, window = RASTERS[name]
+    source = find_file(file)
+    if source is None:
+        print(f"{name}: skipped, {file} is not there", file=sys.stderr)
+        return None
+    raw = Path(folder) / f"{name}.f32"
+    command = ["gdal_translate", "-q", "-of", "ENVI", "-ot", "Float32"]
+    if window:
+        command += ["-srcwin", *map(str, window)]
+    if not raw.exists():
+        subprocess.run([*command, str(source), str(raw)], check=True)
+    size = {}
+    for line in raw.with_suffix(".hdr").read_text().splitlines():
+        key, _, value = line.partition("=")
+        if key.strip() in ("samples", "lines", "byte order"):
+            size[key.strip()] = int(value)
+    if size["byte order"] != (0 if sys.byteorder == "little" else 1):
+        raise SystemExit(f"{raw} is not in this machine's byte order")
+    return raw, size["samples"], size["lines"]
+
+
+def cpu_model():
+    for line in Path("/proc/cpuinfo").read_text().splitlines():
+        if line.startswith("model name"):
+            return line.partition(":")[2].strip()
+    return "unknown"
