@@ -17,11 +17,11 @@ namespace scarp {
 /// Sample (col, row) stands for the height at its pixel's centre. NaN and the infinities are never heights; nor
 /// is any sample equal to `nodata`.
 struct HeightField {
-  const float* samples = nullptr;  ///< cols·rows values, owned by the caller, alive while this is used
-  int cols = 0;                    ///< at least 2
-  int rows = 0;                    ///< at least 2
-  std::optional<float> nodata;     ///< DEFAULT: none besides NaN and ±infinity
-  Frame frame;  ///< where samples lie in the mesh. DEFAULT: cell size 1, first row at y = 0, going down
+  const float* samples = nullptr;              ///< cols·rows values, owned by the caller, alive while this is used
+  int cols = 0;                                ///< at least 2
+  int rows = 0;                                ///< at least 2
+  std::optional<float> nodata = std::nullopt;  ///< DEFAULT: none besides NaN and ±infinity
+  Frame frame = {};  ///< where samples lie in the mesh. DEFAULT: cell size 1, first row at y = 0, going down
   /// Largest |given value − float32 sample| of a source that does not fit float32 (int32, float64). A promise
   /// about the source keeps this much in reserve. DEFAULT: 0.
   double sample_rounding = 0;
