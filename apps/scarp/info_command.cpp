@@ -99,7 +99,9 @@ std::string make_table(const OwnedHeightField& field, const Suggestions& suggest
 
 InfoCommand::InfoCommand(CLI::App& program)
     : verb_(program.add_subcommand("info", "Describe a raster and suggest errors for it")) {
-  verb_->add_option("RASTER", raster_.path, "Raster of heights: a file or URL that GDAL opens, PGM or STM")->required();
+  verb_->add_option("RASTER", raster_.path, "Raster of heights: a file or URL that GDAL opens, PGM or STM")
+      ->type_name("")
+      ->required();
   raster_.add_to(*verb_, "Coordinates that a mesh would have: source, local, grid\nor a CRS such as EPSG:32611");
   verb_->add_flag("--json", json_, "The report as JSON on stdout")->group("Output");
   verb_->add_flag("-q,--quiet", quiet_, "No progress, no warnings")->group("Run");

@@ -26,6 +26,25 @@ std::string join_command_line(int argc, char** argv) {
   return line;
 }
 
+/// The verb's help, or the program's, without CLI11's runs of empty lines.
+std::string help_text(const CLI::App& program) {
+  const CLI::App* chosen = &program;
+  for (const CLI::App* verb : program.get_subcommands()) chosen = verb;
+  std::string text;
+  for (const char c : chosen->help(chosen == &program ? "" : program.get_name())) {
+    const bool third = c == '\n' && text.size() >= 2 && text.compare(text.size() - 2, 2, "\n\n") == 0;
+    if (!third) text += c;
+  }
+  return text;
+}
+
+/// CLI11's complaint about the number of values, in words.
+std::string describe_mismatch(const std::string& message) {
+  const std::string option = message.substr(0, message.find(':'));
+  const bool is_missing = message.find("missing") != std::string::npos;
+  return option + (is_missing ? " needs a value" : " is given more than once");
+}
+
 /// What CLI11 objects to, as one sentence that ends with where to read more.
 Error describe(const CLI::ParseError& error, const CLI::App& program) {
   std::string verb, sentence;
@@ -38,10 +57,20 @@ Error describe(const CLI::ParseError& error, const CLI::App& program) {
   } else if (!unknown.empty()) {
     const bool is_option = unknown.front().rfind('-', 0) == 0;
     sentence = fmt::format("{} {} is unknown", is_option ? "option" : "argument", shell_word(unknown.front()));
+  } else if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ArgumentMismatch)) {
+    sentence = describe_mismatch(error.what());
   } else {
     sentence = error.what();
   }
   return {ErrorKind::kUsage, fmt::format("{}; see scarp{} --help", sentence, verb)};
+}
+
+/// Prints the error, if there is one, and returns the exit code.
+int report_end(const scarp::Result<void>& result) {
+  if (result) return 0;
+  const bool cancelled = result.error().kind == ErrorKind::kCancelled;
+  print_error(cancelled ? Error{ErrorKind::kCancelled, "interrupted; nothing was written"} : result.error());
+  return exit_code(result.error().kind);
 }
 
 int run_program(int argc, char** argv) {
@@ -49,6 +78,8 @@ int run_program(int argc, char** argv) {
   program.set_version_flag("--version", fmt::format("scarp {}", scarp::version()), "Print the version");
   program.set_help_flag("-h,--help", "Print this help");
   program.get_formatter()->column_width(34);
+  program.get_formatter()->label("SUBCOMMAND", "VERB");
+  program.get_formatter()->label("REQUIRED", "");
   program.footer(
       "Try:\n"
       "  scarp info dem.tif                                what is in it, and which errors suit it\n"
@@ -60,26 +91,24 @@ int run_program(int argc, char** argv) {
   MeasureCommand measure(program);
   InfoCommand info(program);
   for (CLI::App* verb : program.get_subcommands(nullptr)) {
+    verb->group("Verbs");
     verb->set_version_flag("--version", fmt::format("scarp {}", scarp::version()), "Print the version");
   }
 
   try {
     program.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return report_end(print_to_stdout(help_text(program)));
+  } catch (const CLI::CallForVersion& version) {
+    return report_end(print_to_stdout(std::string(version.what()) + "\n"));
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return program.exit(error);
-    const Error sentence = describe(error, program);
-    print_error(sentence);
-    return exit_code(sentence.kind);
+    return report_end(tl::unexpected(describe(error, program)));
   }
 
   const std::string command_line = join_command_line(argc, argv);
-  const scarp::Result<void> result = simplify.is_chosen()  ? simplify.run(command_line)
-                                     : measure.is_chosen() ? measure.run(command_line)
-                                                           : info.run(command_line);
-  if (result) return 0;
-  const bool cancelled = result.error().kind == ErrorKind::kCancelled;
-  print_error(cancelled ? Error{ErrorKind::kCancelled, "interrupted; nothing was written"} : result.error());
-  return exit_code(result.error().kind);
+  return report_end(simplify.is_chosen()  ? simplify.run(command_line)
+                    : measure.is_chosen() ? measure.run(command_line)
+                                          : info.run(command_line));
 }
 
 }  // namespace

@@ -148,8 +148,12 @@ std::string make_table(const Judged& judged, const std::string& raster_path, con
 
 MeasureCommand::MeasureCommand(CLI::App& program)
     : verb_(program.add_subcommand("measure", "Judge a mesh file against its raster, sample by sample")) {
-  verb_->add_option("RASTER", raster_.path, "Raster of heights: a file or URL that GDAL opens, PGM or STM")->required();
-  verb_->add_option("MESH", mesh_, "Mesh to judge: GLB, OBJ, PLY or STL, recognised by content")->required();
+  verb_->add_option("RASTER", raster_.path, "Raster of heights: a file or URL that GDAL opens, PGM or STM")
+      ->type_name("")
+      ->required();
+  verb_->add_option("MESH", mesh_, "Mesh to judge: GLB, OBJ, PLY or STL, recognised by content")
+      ->type_name("")
+      ->required();
   raster_.add_to(
       *verb_,
       "Coordinates of the mesh: source, local, grid or a CRS\nsuch as EPSG:32611. Default: what the mesh file "

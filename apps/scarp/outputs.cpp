@@ -23,9 +23,9 @@ bool is_device(const fs::file_status& status) {
 bool are_same_file(const std::string& a, const std::string& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error) && !error) return true;
-  const fs::path full_a = fs::weakly_canonical(a, error);
+  const fs::path full_a = fs::weakly_canonical(fs::absolute(a, error), error);
   if (error) return false;
-  const fs::path full_b = fs::weakly_canonical(b, error);
+  const fs::path full_b = fs::weakly_canonical(fs::absolute(b, error), error);
   return !error && full_a == full_b;
 }
 

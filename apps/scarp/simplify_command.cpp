@@ -258,8 +258,9 @@ SimplifyCommand::SimplifyCommand(CLI::App& program)
     : verb_(
           program.add_subcommand("simplify", "Turn a raster of heights into a small mesh with a proven error bound")) {
   verb_->add_option("INPUT", given_.raster.path, "Raster of heights: a file or URL that GDAL opens, PGM or STM")
+      ->type_name("")
       ->required();
-  verb_->add_option("OUTPUT", given_.output, "Mesh to write: .glb, .obj, .ply or .stl")->required();
+  verb_->add_option("OUTPUT", given_.output, "Mesh to write: .glb, .obj, .ply or .stl")->type_name("")->required();
 
   verb_
       ->add_option(
