@@ -1,0 +1,81 @@
+# What the tests of the program share. Source it first; the test then runs in an empty scratch folder.
+#
+#   $scarp   the program          $dem    the bundled raster (403 x 344, int16, 236 .. 1076 m, EPSG:4326)
+#   $data    the project's data   $logs   stdout and stderr of the last `try`, outside the scratch folder
+set -euo pipefail
+scarp=$SCARP_BUILD/bin/scarp
+data=$SCARP_SOURCE/data
+dem=$data/jacksboro_fault.tif
+root=$(mktemp -d)
+logs=$root/logs
+mkdir "$root/run" "$logs"
+trap 'rm -rf "$root"' EXIT
+cd "$root/run"
+
+fail() {
+  echo "FAILED: $*" >&2
+  if [ -s "$logs/err" ]; then sed 's/^/  stderr: /' "$logs/err" >&2; fi
+  exit 1
+}
+
+skip() {
+  echo "skipped: $*"
+  exit 77
+}
+
+need() {
+  local tool
+  for tool in "$@"; do
+    command -v "$tool" > /dev/null || skip "needs $tool"
+  done
+}
+
+# Runs a command; its exit code goes to $code, its output to $logs.
+try() {
+  code=0
+  "$@" > "$logs/out" 2> "$logs/err" || code=$?
+}
+
+# succeeds COMMAND...
+succeeds() {
+  try "$@"
+  [ "$code" = 0 ] || fail "exit code $code instead of 0: $*"
+}
+
+# refuses CODE WORDS COMMAND...: the exit code, exactly one line on stderr, which begins with "scarp: " and holds WORDS,
+# nothing on stdout, and not one file more, less or changed.
+refuses() {
+  local want=$1 words=$2 before after
+  shift 2
+  before=$(find . -type f -exec cksum {} + | sort -k 3; find . | sort)
+  try "$@"
+  after=$(find . -type f -exec cksum {} + | sort -k 3; find . | sort)
+  [ "$code" = "$want" ] || fail "exit code $code instead of $want: $*"
+  [ "$(wc -l < "$logs/err")" = 1 ] || fail "not exactly one line on stderr: $*"
+  grep -q '^scarp: [^ ]' "$logs/err" || fail "the line does not begin with 'scarp: ': $*"
+  grep -qF -- "$words" "$logs/err" || fail "the line does not hold '$words': $*"
+  [ ! -s "$logs/out" ] || fail "something on stdout: $*"
+  [ "$before" = "$after" ] || fail "files have changed: $*"
+}
+
+# json FILE KEY...: the value in a JSON file, as JSON ("5.0", "\"x\"", "null"); fails where a key is missing.
+json() {
+  python3 - "$@" <<'PYTHON'
+import json, sys
+value = json.load(open(sys.argv[1]))
+for key in sys.argv[2:]:
+    value = value[int(key)] if isinstance(value, list) else value[key]
+print(json.dumps(value))
+PYTHON
+}
+
+# holds EXPRESSION: a comparison of numbers, by awk.
+holds() {
+  awk "BEGIN { exit !($1) }" || fail "does not hold: $1"
+}
+
+# Makes a raster that takes the engine some seconds: the bundled one, enlarged 10 x 10.
+make_big_raster() {
+  need gdal_translate
+  gdal_translate -q -r cubic -ot Float32 -outsize 1000% 1000% "$dem" "$1"
+}

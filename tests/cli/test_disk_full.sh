@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# A full disk and a file-size limit: exit code 4, one sentence, no half file.
+source "$(dirname "$0")/lib.sh"
+
+# 8 blocks of 1024 bytes: less than these files need. The logs of the test stay below it.
+limited() { bash -c 'ulimit -f 8; exec "$@"' - "$@"; }
+for format in glb obj ply stl; do
+  refuses 4 "out.$format" limited "$scarp" simplify "$dem" "out.$format" -e 20
+done
+echo mine > old.glb
+refuses 4 "old.glb" limited "$scarp" simplify "$dem" old.glb -e 20 --overwrite
+
+# The first file fits and the second does not: the first stays, whole; nothing of the second does.
+try limited "$scarp" simplify "$dem" tiny.ply -p 20 --preview big.png
+[ "$code" = 4 ] || fail "exit code $code instead of 4 for the preview"
+[ "$(wc -l < "$logs/err")" = 1 ] || fail "not one line on stderr"
+grep -q big.png "$logs/err" || fail "the sentence does not name the preview"
+[ "$(find . -type f | sort | tr '\n' ' ')" = "./old.glb ./tiny.ply " ] || fail "files are left: $(find . -type f)"
+succeeds "$scarp" measure "$dem" tiny.ply
+
+# A tiny file system, where this user may mount one.
+mkdir disk
+if mount -t tmpfs -o size=64k none disk 2> /dev/null; then
+  trap 'cd /; umount "$root/run/disk"; rm -rf "$root"' EXIT
+  for format in glb obj ply stl; do
+    refuses 4 "full" "$scarp" simplify "$dem" "disk/out.$format" -e 10
+  done
+  [ -z "$(ls -A disk)" ] || fail "something is left on the full disk"
+else
+  echo "no tmpfs here: only the file-size limit was tried"
+fi

@@ -1,0 +1,137 @@
+#!/usr/bin/env bash
+# Bad input and bad options: one clear sentence, the right exit code, and no output.
+source "$(dirname "$0")/lib.sh"
+need gdal_translate gdal_create python3
+
+# Options.
+refuses 1 "no verb" "$scarp"
+refuses 1 "there is no verb simplfy" "$scarp" simplfy "$dem" out.glb
+refuses 1 "scarp info" "$scarp" simplify "$dem" out.glb
+refuses 1 "INPUT" "$scarp" simplify
+refuses 1 "OUTPUT" "$scarp" simplify "$dem" -e 1
+refuses 1 "option --frobnicate is unknown" "$scarp" simplify "$dem" out.glb -e 1 --frobnicate
+refuses 1 "scarp simplify --help" "$scarp" simplify "$dem" out.glb -e 1 --frobnicate
+refuses 1 "argument more.glb is unknown" "$scarp" simplify "$dem" out.glb more.glb -e 1
+refuses 1 "--max-error needs a value" "$scarp" simplify "$dem" out.glb -e
+refuses 1 "--max-error is given more than once" "$scarp" simplify "$dem" out.glb -e 1 -e 2
+for bad in -5 -0.1% nan NaN inf -inf garbage 5m 1e999 % "" "5 %" 0x10; do
+  refuses 1 "" "$scarp" simplify "$dem" out.glb "--max-error=$bad"
+done
+refuses 1 "--max-error -5 is negative" "$scarp" simplify "$dem" out.glb -e -5
+refuses 1 "--max-error nan" "$scarp" simplify "$dem" out.glb -e nan
+refuses 1 "--max-error 5m" "$scarp" simplify "$dem" out.glb -e 5m
+for bad in 0 -1 nan 1.5 1e6 many 99999999999999999999; do
+  refuses 1 "--max-triangles $bad" "$scarp" simplify "$dem" out.glb -t "$bad"
+  refuses 1 "--max-points $bad" "$scarp" simplify "$dem" out.glb -p "$bad"
+done
+refuses 1 "--band 0" "$scarp" simplify "$dem" out.glb -e 1 --band 0
+refuses 1 "--band two" "$scarp" simplify "$dem" out.glb -e 1 --band two
+refuses 1 "--nodata none" "$scarp" simplify "$dem" out.glb -e 1 --nodata none
+refuses 1 "--decode png" "$scarp" simplify "$dem" out.glb -e 1 --decode png
+refuses 1 "--decode and --band" "$scarp" simplify "$dem" out.glb -e 1 --decode mapbox --band 2
+refuses 1 "--nodata-policy ignore" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy ignore
+refuses 1 "--fill-distance" "$scarp" simplify "$dem" out.glb -e 1 --fill-distance 5
+refuses 1 "--fill-distance 0" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy fill --fill-distance 0
+refuses 1 "--background" "$scarp" simplify "$dem" out.glb -e 1 --background 0
+refuses 1 "--background V" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy background
+refuses 1 "--background nan" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy background --background nan
+refuses 1 "--outline-tolerance -1" "$scarp" simplify "$dem" out.glb -e 1 --outline-tolerance -1
+refuses 1 "--num-threads -1" "$scarp" simplify "$dem" out.glb -e 1 -j -1
+refuses 1 "--base nan" "$scarp" simplify "$dem" out.glb -e 1 --base nan
+refuses 1 "--normals and --base" "$scarp" simplify "$dem" out.glb -e 1 --base 0 --normals
+refuses 1 "--base 2000" "$scarp" simplify "$dem" out.glb -e 50 --base 2000
+grep -Eq 'lowest vertex, which is at [0-9]+' "$logs/err" || fail "--base does not name the lowest vertex"
+refuses 1 "EPSG:999999" "$scarp" simplify "$dem" out.glb -e 1 --crs EPSG:999999
+refuses 1 "--fail-above -1" "$scarp" measure "$dem" out.glb --fail-above -1
+refuses 1 "--fail-above nan" "$scarp" measure "$dem" out.glb --fail-above nan
+
+# Names of outputs, before anything is read: the raster here does not even exist.
+refuses 1 "out.xyz" "$scarp" simplify missing.tif out.xyz -e 1
+refuses 1 "out" "$scarp" simplify missing.tif out -e 1
+refuses 1 "--of fbx" "$scarp" simplify missing.tif out.glb -e 1 --of fbx
+refuses 1 "hills.jpg" "$scarp" simplify missing.tif out.glb -e 1 --preview hills.jpg
+refuses 1 "--preview" "$scarp" measure missing.tif missing.glb --preview p.png
+refuses 1 "map.jpg" "$scarp" measure missing.tif missing.glb --map map.jpg
+refuses 1 "same file" "$scarp" simplify missing.tif out.glb -e 1 --report ./out.glb
+refuses 1 "same file" "$scarp" simplify missing.tif out.glb -e 1 --report p.png --preview "$PWD/p.png"
+refuses 4 "no folder" "$scarp" simplify missing.tif nowhere/out.glb -e 1
+refuses 4 "no folder" "$scarp" simplify missing.tif out.glb -e 1 --report nowhere/r.json
+refuses 4 "no folder" "$scarp" measure missing.tif missing.glb --map nowhere/m.png
+mkdir folder.glb
+refuses 4 "is a folder" "$scarp" simplify missing.tif folder.glb -e 1
+cp "$dem" copy.glb
+refuses 1 "input file" "$scarp" simplify copy.glb ./copy.glb -e 1 --overwrite
+ln -s copy.glb link.glb
+refuses 1 "input file" "$scarp" simplify copy.glb link.glb -e 1 --overwrite
+refuses 1 "input file" "$scarp" simplify copy.glb out.glb -e 1 --report copy.glb --overwrite
+cp "$dem" raster.png
+refuses 1 "input file" "$scarp" measure raster.png mesh.glb --map raster.png --overwrite
+
+# Rasters.
+refuses 2 "missing.tif" "$scarp" simplify missing.tif out.glb -e 1
+refuses 2 "missing.tif" "$scarp" info missing.tif
+echo "this is no raster" > text.tif
+refuses 2 "text.tif" "$scarp" simplify text.tif out.glb -e 1
+: > empty.tif
+refuses 2 "empty.tif" "$scarp" simplify empty.tif out.glb -e 1
+refuses 2 "" "$scarp" simplify . out.glb -e 1
+gdal_translate -q -co TILED=YES "$dem" whole.tif
+head -c 100000 whole.tif > cut.tif
+refuses 2 "cut.tif" "$scarp" simplify cut.tif out.glb -e 1
+head -c 60 whole.tif > stub.tif
+refuses 2 "stub.tif" "$scarp" simplify stub.tif out.glb -e 1
+gdal_translate -q -co COMPRESS=DEFLATE "$dem" packed.tif
+size=$(wc -c < packed.tif)
+{ head -c $((size / 2)) packed.tif; head -c 3000 /dev/zero | tr '\0' 'x'; tail -c +$((size / 2 + 3001)) packed.tif; } > corrupt.tif
+refuses 2 "corrupt.tif" "$scarp" simplify corrupt.tif out.glb -e 1
+gdal_create -q -of GTiff -outsize 1 50 -bands 1 -burn 7 narrow.tif
+refuses 2 "narrow.tif" "$scarp" simplify narrow.tif out.glb -e 1
+gdal_create -q -of GTiff -outsize 50 1 -bands 1 -burn 7 flat.tif
+refuses 2 "flat.tif" "$scarp" simplify flat.tif out.glb -e 1
+gdal_create -q -of GTiff -outsize 1 1 -bands 1 -burn 7 point.tif
+refuses 2 "point.tif" "$scarp" info point.tif
+gdal_create -q -of GTiff -outsize 20 20 -bands 1 -burn 7 -a_nodata 7 void.tif
+refuses 2 "void.tif" "$scarp" simplify void.tif out.glb -e 1
+refuses 2 "void.tif" "$scarp" info void.tif
+refuses 2 "band 2" "$scarp" simplify "$dem" out.glb -e 1 --band 2
+printf 'P5 0 0 255\n' > empty.pgm
+refuses 2 "empty.pgm" "$scarp" simplify empty.pgm out.glb -e 1
+printf 'P2 3 3 255\n1 2 3 4 5\n' > cut.pgm
+refuses 2 "cut.pgm" "$scarp" simplify cut.pgm out.glb -e 1
+printf 'P2 3 3 255\n1 2 3 4 x 6 7 8 9\n' > letters.pgm
+refuses 2 "letters.pgm" "$scarp" simplify letters.pgm out.glb -e 1
+refuses 2 "" "$scarp" simplify "$dem" out.glb -e 1 --decode terrarium
+
+# Meshes.
+refuses 2 "missing.glb" "$scarp" measure "$dem" missing.glb
+for format in glb obj ply stl; do
+  succeeds "$scarp" simplify "$dem" "mesh.$format" -e 100 -q
+  size=$(wc -c < "mesh.$format")
+  head -c $((size / 2)) "mesh.$format" > "half.$format"
+  if [ "$format" != obj ]; then refuses 2 "half.$format" "$scarp" measure "$dem" "half.$format"; fi
+done
+refuses 2 "text.tif" "$scarp" measure "$dem" text.tif
+refuses 2 "empty.tif" "$scarp" measure "$dem" empty.tif
+
+# An OBJ file that was cut has no mark of its end; what is left of it cannot pass for the whole.
+try "$scarp" measure "$dem" half.obj --fail-above 100
+[ "$code" = 2 ] || [ "$code" = 3 ] || fail "half an OBJ file passes"
+
+# A write that fails is told, not lost.
+if [ -w /dev/full ]; then
+  try bash -c '"$1" info "$2" > /dev/full' - "$scarp" "$dem"
+  [ "$code" = 4 ] || fail "a full standard output ends with $code instead of 4"
+fi
+# A folder that may not be written (root may write all: then as somebody else).
+mkdir locked
+chmod 555 locked
+if [ "$(id -u)" != 0 ]; then
+  refuses 4 "locked" "$scarp" simplify "$dem" locked/out.glb -e 100
+elif command -v setpriv > /dev/null; then
+  chmod 755 "$root" "$root/run"
+  nobody=(setpriv --reuid=65534 --regid=65534 --clear-groups)
+  if "${nobody[@]}" test -x "$scarp" -a -r "$dem"; then
+    refuses 4 "locked" "${nobody[@]}" "$scarp" simplify "$dem" locked/out.glb -e 100
+  fi
+fi
+echo "every bad input gets its sentence"

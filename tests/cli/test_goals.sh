@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# Goals: which one ends the run, and that budgets are upper bounds.
+source "$(dirname "$0")/lib.sh"
+need python3 gdal_create
+
+# run ARGUMENTS...: the report in r.json, the last line in $last.
+run() {
+  succeeds "$scarp" simplify "$dem" out.glb --report r.json --overwrite "$@"
+  last=$(tail -n 1 "$logs/out")
+}
+
+run -e 20
+by_error=$(json r.json triangles)
+[ "$(json r.json stopped_by)" = '"max_error"' ] || fail "-e 20 is stopped by $(json r.json stopped_by)"
+
+# A percentage is of the relief, 840.
+run -e 2.5%
+[ "$(json r.json goal max_error)" = 21.0 ] || fail "2.5% of 840 is $(json r.json goal max_error)"
+[ "$(json r.json goal percent_of_relief)" = 2.5 ] || fail "percent_of_relief"
+holds "$(json r.json max_error) <= 21"
+grep -q '(asked 21)' <<< "$last" || fail "the last line is: $last"
+
+run -t 3000
+[ "$(json r.json stopped_by)" = '"max_triangles"' ] || fail "-t is stopped by $(json r.json stopped_by)"
+holds "$(json r.json triangles) <= 3000 && $(json r.json triangles) >= 2800"
+grep -q '^Reached the triangle budget of 3000: max error ' <<< "$last" || fail "the last line is: $last"
+
+run -p 1000
+[ "$(json r.json stopped_by)" = '"max_points"' ] || fail "-p is stopped by $(json r.json stopped_by)"
+holds "$(json r.json vertices) <= 1000 && $(json r.json vertices) >= 930"
+grep -q '^Reached the point budget of 1000: max error ' <<< "$last" || fail "the last line is: $last"
+
+# The first that is reached ends the run.
+run -e 20 -t 500
+[ "$(json r.json stopped_by)" = '"max_triangles"' ] || fail "-e 20 -t 500 is stopped by $(json r.json stopped_by)"
+holds "$(json r.json triangles) <= 500 && $(json r.json max_error) > 20"
+grep -q '(asked 20, not reached)' <<< "$last" || fail "the last line is: $last"
+run -e 20 -t 1000000 -p 1000000
+[ "$(json r.json stopped_by)" = '"max_error"' ] || fail "a large budget stops the run"
+[ "$(json r.json triangles)" = "$by_error" ] || fail "a large budget changes the mesh"
+
+# More triangles than there are samples for: every sample is reproduced.
+gdal_create -q -of GTiff -outsize 30 20 -bands 1 -burn 7 plain.tif
+succeeds "$scarp" simplify plain.tif plain.obj -t 100000 --report r.json --overwrite
+[ "$(json r.json stopped_by)" = '"exact"' ] || fail "a plain is stopped by $(json r.json stopped_by)"
+[ "$(json r.json triangles)" = 2 ] || fail "a plain has $(json r.json triangles) triangles"
+tail -n 1 "$logs/out" | grep -q '^Reproduced every sample: max error 0' || fail "the last line is: $(tail -n 1 "$logs/out")"
+succeeds "$scarp" simplify plain.tif plain.obj -e 1% --overwrite
+
+# A budget below what the outline needs.
+refuses 1 "" "$scarp" simplify "$dem" small.glb -t 1
+refuses 1 "" "$scarp" simplify "$dem" small.glb -p 3

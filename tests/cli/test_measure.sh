@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# The judge: its report, its map, its verdict, and that it sees planted faults.
+source "$(dirname "$0")/lib.sh"
+need python3 awk
+
+succeeds "$scarp" simplify "$dem" good.obj -e 20
+succeeds "$scarp" measure "$dem" good.obj --fail-above 20
+grep -q '^Passed: max error' "$logs/out" || fail "no verdict in the table"
+grep -q 'sound; [0-9,]* open edges in 1 border loop' "$logs/out" || fail "no topology in the table"
+succeeds "$scarp" measure "$dem" good.obj --fail-above 20 -q
+[ ! -s "$logs/out" ] && [ ! -s "$logs/err" ] || fail "-q is not quiet"
+
+succeeds "$scarp" measure "$dem" good.obj --json --map map.png
+cp "$logs/out" good.json
+python3 - good.json <<'PYTHON'
+import json, sys
+r = json.load(open(sys.argv[1]))
+assert list(r) == ["scarp", "command", "input", "frame", "mesh", "vertices", "triangles", "full_triangles", "max_error",
+                   "max_error_at", "rmse", "mean_error", "mean_abs_error", "p50", "p95", "p99", "p999", "samples", "uncovered",
+                   "stray", "void_cells_covered", "topology", "fail_above", "passed", "seconds", "warnings"], list(r)
+assert r["fail_above"] is None and r["passed"] is None
+assert list(r["seconds"]) == ["read", "measure", "total"]
+PYTHON
+[ "$(head -c 4 map.png | tail -c 3)" = PNG ] || fail "map.png is no PNG"
+
+# fails WORDS MESH [BOUND]: the verdict is exit code 3 and one line that holds WORDS; the table is still printed.
+fails() {
+  try "$scarp" measure "$dem" "$2" --fail-above "${3:-20}"
+  [ "$code" = 3 ] || fail "exit code $code instead of 3 for $2"
+  [ "$(wc -l < "$logs/err")" = 1 ] || fail "not one line on stderr for $2"
+  grep -q "^scarp: $2: " "$logs/err" || fail "the line does not name $2"
+  grep -qE -- "$1" "$logs/err" || fail "the line does not hold '$1'"
+  grep -q '^Failed: ' "$logs/out" || fail "no verdict in the table for $2"
+  try "$scarp" measure "$dem" "$2" --fail-above "${3:-20}" --json
+  [ "$code" = 3 ] && [ "$(json "$logs/out" passed)" = false ] || fail "--json passes $2"
+  succeeds "$scarp" measure "$dem" "$2"
+}
+
+fails 'max error [0-9.]+ at column [0-9]+, row [0-9]+ exceeds 10' good.obj 10
+
+# One vertex in the middle of the file, 100 m up.
+vertices=$(grep -c '^v ' good.obj)
+awk -v n=$((vertices / 2)) '$1 == "v" && ++k == n { $4 += 100 } { print }' good.obj > moved.obj
+fails 'max error (1[0-2]|9)[0-9.]+ at column [0-9]+, row [0-9]+ exceeds 20' moved.obj
+# The same, sideways: the heights fit no longer, or the mesh folds.
+awk -v n=$((vertices / 2)) '$1 == "v" && ++k == n { $2 += 3000 } { print }' good.obj > shifted.obj
+fails '' shifted.obj
+# One triangle dropped, flipped, doubled.
+faces=$(grep -c '^f ' good.obj)
+awk -v n=$((faces / 2)) '!($1 == "f" && ++k == n) { print }' good.obj > dropped.obj
+try "$scarp" measure "$dem" dropped.obj --json
+holds "$(json "$logs/out" topology border_loops) == 2"
+awk -v n=$((faces / 2)) '$1 == "f" && ++k == n { t = $3; $3 = $4; $4 = t } { print }' good.obj > flipped.obj
+fails 'flipped triangle' flipped.obj
+awk -v n=$((faces / 2)) '{ print } $1 == "f" && ++k == n { print }' good.obj > doubled.obj
+fails 'overlap' doubled.obj
+# A triangle with samples inside is missed: the largest of the mesh is dropped.
+python3 - good.obj <<'PYTHON' > hole.obj
+import sys
+lines = open(sys.argv[1]).read().splitlines()
+v = [tuple(map(float, l.split()[1:4])) for l in lines if l.startswith("v ")]
+def area(line):
+    a, b, c = (v[int(w.split("/")[0]) - 1] for w in line.split()[1:4])
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+largest = max((l for l in lines if l.startswith("f ")), key=area)
+print("\n".join(l for l in lines if l is not largest))
+PYTHON
+fails 'covered by no triangle, the first at column [0-9]+, row [0-9]+' hole.obj
+# The table of a mesh of another place says so.
+awk '$1 == "v" { $2 += 1e7 } { print }' good.obj > away.obj
+fails 'covered by no triangle|exceeds' away.obj || true

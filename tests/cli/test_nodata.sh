@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# Missing samples: never a height; holes by default, filled or given a height on request.
+source "$(dirname "$0")/lib.sh"
+need python3 gdal_translate awk
+
+# A 60 x 40 hill with a rectangular void (columns 20..29, rows 10..19), one lone valid sample in it, and a void corner.
+awk 'BEGIN {
+  print "ncols 60\nnrows 40\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999";
+  for (r = 0; r < 40; ++r) {
+    line = "";
+    for (c = 0; c < 60; ++c) {
+      hole = (c >= 20 && c < 30 && r >= 10 && r < 20 && !(c == 25 && r == 15)) || (c < 3 && r < 3);
+      line = line (hole ? "-9999 " : sprintf("%.3f ", 50 + 40 * sin(c / 9) * cos(r / 7)));
+    }
+    print line;
+  }
+}' > hill.asc
+voids=$((100 - 1 + 9))
+
+succeeds "$scarp" simplify hill.asc hole.obj -e 1 --report r.json
+[ "$(json r.json input void)" = $voids ] || fail "$(json r.json input void) voids instead of $voids"
+[ "$(json r.json stray)" = 1 ] || fail "the lone sample is not stray"
+[ "$(json r.json samples)" = $((2400 - voids - 1)) ] || fail "judged $(json r.json samples)"
+[ "$(json r.json void_cells_covered)" = 0 ] || fail "the mesh covers voids"
+[ "$(json r.json topology border_loops)" = 2 ] || fail "no hole"
+grep -q '1 outside every cell' "$logs/out" || fail "the stray sample is not told"
+succeeds "$scarp" measure hill.asc hole.obj --fail-above 1
+holds "$(json r.json input min) > 0"
+
+# A value that the file does not declare.
+sed 's/^NODATA_value.*$/NODATA_value -1/' hill.asc > undeclared.asc
+succeeds "$scarp" simplify undeclared.asc a.obj -e 1 --nodata -9999 --report a.json
+[ "$(json a.json input void)" = $voids ] || fail "--nodata is not used"
+grep -v '^#' a.obj > a.txt
+grep -v '^#' hole.obj > hole.txt
+cmp a.txt hole.txt || fail "--nodata and a declared value differ"
+
+succeeds "$scarp" simplify hill.asc fill.obj -e 1 --nodata-policy fill --report f.json
+[ "$(json f.json input filled)" = $voids ] || fail "filled $(json f.json input filled)"
+[ "$(json f.json samples)" = 2400 ] || fail "filled samples are not judged"
+[ "$(json f.json topology border_loops)" = 1 ] || fail "a hole is left"
+grep -q "filled  *$voids void samples" "$logs/out" || fail "the summary does not tell what was filled"
+succeeds "$scarp" simplify hill.asc near.obj -e 1 --nodata-policy fill --fill-distance 1 --report n.json
+holds "$(json n.json input filled) > 0 && $(json n.json input filled) < $voids"
+
+succeeds "$scarp" simplify hill.asc back.obj -e 1 --nodata-policy background --background -20 --report b.json
+[ "$(json b.json input filled)" = $voids ] || fail "background filled $(json b.json input filled)"
+[ "$(json b.json samples)" = 2400 ] || fail "background samples are not judged"
+# The relief that percentages are of is the terrain's own.
+holds "$(json b.json input min) > 0"
+grep -Eq '^v [^ ]+ [^ ]+ -20(\.0*)?$' back.obj || fail "no vertex at the background's height"
+
+# An outline that may move outwards gets simpler, and loses no sample. The void is a disc here.
+awk 'BEGIN {
+  print "ncols 80\nnrows 80\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999";
+  for (r = 0; r < 80; ++r) {
+    line = "";
+    for (c = 0; c < 80; ++c) {
+      line = line ((c - 40) * (c - 40) + (r - 40) * (r - 40) > 1400 ? "-9999 " : sprintf("%.3f ", 50 + c + r));
+    }
+    print line;
+  }
+}' > disc.asc
+succeeds "$scarp" simplify disc.asc exact.obj -e 1 --report e.json
+succeeds "$scarp" simplify disc.asc loose.obj -e 1 --outline-tolerance 2 --report l.json
+holds "$(json l.json vertices) < 0.7 * $(json e.json vertices)"
+[ "$(json l.json uncovered)" = 0 ] && [ "$(json e.json uncovered)" = 0 ] || fail "samples are lost"
+holds "$(json l.json samples) >= $(json e.json samples)"
+
+# Infinities are nodata, with a warning that counts them.
+python3 -c "
+import struct
+z = [float(c + r) for r in range(10) for c in range(10)]
+z[55] = float('inf')
+open('inf.bil', 'wb').write(struct.pack('<100f', *z))"
+printf 'nrows 10\nncols 10\nnbands 1\nnbits 32\npixeltype float\nbyteorder I\nlayout bil\n' > inf.hdr
+succeeds "$scarp" simplify inf.bil inf.glb -e 1 --report i.json
+grep -q '^scarp: warning: .*1.*infinit' "$logs/err" || grep -qi '^scarp: warning: .*inf' "$logs/err" || fail "no warning"
+[ "$(json i.json input valid)" = 99 ] || fail "an infinity is a height"
+holds "$(python3 -c "import json; print(len(json.load(open('i.json'))['warnings']))") == 1"
+succeeds "$scarp" simplify inf.bil inf.glb -e 1 -q --overwrite
+[ ! -s "$logs/err" ] || fail "-q warns"
