@@ -7,9 +7,9 @@
 
 namespace scarp {
 
-std::string format_bytes(std::uint64_t bytes) {
+std::string format_bytes(double bytes) {
   constexpr const char* kUnits[] = {"KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
-  double value = static_cast<double>(bytes) / 1024;
+  double value = bytes / 1024;
   std::size_t unit = 0;
   while (value >= 1024 && unit + 1 < std::size(kUnits)) {
     value /= 1024;
@@ -36,7 +36,8 @@ Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std:
         ErrorKind::kInput,
         fmt::format("{}: {} x {} samples need {} of memory, but only {} {}; read a part of it (gdal_translate -srcwin) "
                     "or a coarser copy (gdal_translate -outsize 50% 50%)",
-                    name, cols, rows, format_bytes(cols * rows * 5), format_bytes(limit * 5),
+                    name, cols, rows, format_bytes(5.0 * static_cast<double>(cols * rows)),
+                    format_bytes(5.0 * static_cast<double>(limit)),
                     options.memory_limit != 0 ? "are allowed" : "are available"));
   }
   return {};
@@ -47,8 +48,9 @@ Result<void> allocate_samples(const std::string& name, OwnedHeightField& field) 
   try {
     field.samples.resize(count);
   } catch (const std::exception&) {
-    return fail(ErrorKind::kInput, fmt::format("{}: the machine refuses the {} of memory that {} x {} samples need",
-                                               name, format_bytes(count * sizeof(float)), field.cols, field.rows));
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: the machine refuses the {} of memory that {} x {} samples need", name,
+                            format_bytes(4.0 * static_cast<double>(count)), field.cols, field.rows));
   }
   return {};
 }

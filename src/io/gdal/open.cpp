@@ -22,7 +22,9 @@ constexpr std::array<Scheme, 6> kSchemes{{{"http://", "/vsicurl/", true},
                                           {"gs://", "/vsigs/", false},
                                           {"az://", "/vsiaz/", false}}};
 
-bool ends_with_zip(const std::string& path) { return path.size() > 4 && EQUAL(path.c_str() + path.size() - 4, ".zip"); }
+bool ends_with(const std::string& path, std::string_view end) {
+  return path.size() > end.size() && EQUAL(path.c_str() + path.size() - end.size(), end.data());
+}
 
 std::vector<std::string> list_of(CSLConstList strings) {
   std::vector<std::string> list;
@@ -34,18 +36,16 @@ Dataset open_quietly(const std::string& name, unsigned kind) {
   return Dataset(GDALOpenEx(name.c_str(), kind | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr, nullptr));
 }
 
-/// The files in a zip that a raster driver claims, as names for GDAL.
-std::vector<std::string> find_rasters_in_zip(const std::string& vsi) {
+/// The files in a zip, as names for GDAL; empty if it cannot be read.
+std::vector<std::string> list_zip(const std::string& vsi) {
   const std::string root = "/vsizip/{" + vsi + "}/";
   char** entries = VSIReadDirRecursive(root.c_str());
-  std::vector<std::string> rasters;
+  std::vector<std::string> names;
   for (const std::string& entry : list_of(entries)) {
-    if (entry.empty() || entry.back() == '/') continue;
-    const std::string name = root + entry;
-    if (GDALIdentifyDriverEx(name.c_str(), GDAL_OF_RASTER, nullptr, nullptr) != nullptr) rasters.push_back(name);
+    if (!entry.empty() && entry.back() != '/') names.push_back(root + entry);
   }
   CSLDestroy(entries);
-  return rasters;
+  return names;
 }
 
 /// The subdataset names that a container (netCDF, HDF, GeoPackage, …) offers.
@@ -66,7 +66,12 @@ std::string join(const std::vector<std::string>& names, std::size_t most) {
 }
 
 Result<Dataset> open_in_zip(Session& session, const std::string& path, const std::string& vsi) {
-  const auto rasters = find_rasters_in_zip(vsi);
+  const auto files = list_zip(vsi);
+  if (files.empty()) return fail(ErrorKind::kInput, path + ": the zip is damaged, truncated or empty");
+  std::vector<std::string> rasters;
+  for (const std::string& name : files) {
+    if (GDALIdentifyDriverEx(name.c_str(), GDAL_OF_RASTER, nullptr, nullptr) != nullptr) rasters.push_back(name);
+  }
   session.clear();
   if (rasters.empty()) return fail(ErrorKind::kInput, path + ": the zip holds no raster that GDAL can read");
   if (rasters.size() > 1) {
@@ -83,6 +88,7 @@ Result<Dataset> open_in_zip(Session& session, const std::string& path, const std
 
 /// What to say of a name that no raster driver opens.
 tl::unexpected<Error> explain(Session& session, const std::string& path, const std::string& vsi) {
+  if (path.empty()) return fail(ErrorKind::kInput, "the name of the raster is empty");
   const std::string reason = session.reason();
   const bool gave_reason = session.failed();
   VSIStatBufL status{};
@@ -102,6 +108,12 @@ tl::unexpected<Error> explain(Session& session, const std::string& path, const s
   if (GDALDriverH driver = GDALIdentifyDriverEx(vsi.c_str(), GDAL_OF_RASTER, nullptr, nullptr); driver && gave_reason) {
     return fail(ErrorKind::kInput,
                 fmt::format("{}: a damaged or truncated {} raster: {}", path, GDALGetDriverShortName(driver), reason));
+  }
+  if (ends_with(vsi, ".hgt")) {
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: no .hgt tile has {} bytes, or none has such a name: the file is truncated or was "
+                            "renamed (N41E001.hgt is the pattern)",
+                            path, static_cast<std::uint64_t>(status.st_size)));
   }
   return fail(ErrorKind::kInput, path + ": not a raster that GDAL can read, nor PGM or STM");
 }
@@ -130,7 +142,7 @@ Result<Dataset> open_raster(Session& session, const std::string& path) {
   const std::string vsi = vsi_path(path);
   session.clear();
   Dataset dataset = open_quietly(vsi, GDAL_OF_RASTER);
-  if (!dataset && ends_with_zip(vsi)) {
+  if (!dataset && ends_with(vsi, ".zip")) {
     VSIStatBufL status{};
     if (VSIStatL(vsi.c_str(), &status) == 0) return open_in_zip(session, path, vsi);
   }

@@ -13,10 +13,10 @@ namespace {
 constexpr GIntBig kBlockCacheBytes = 64 << 20;
 constexpr std::size_t kMessagesKept = 8;
 
-void CPL_STDCALL collect(CPLErr severity, CPLErrorNum, const char* message) {
+void CPL_STDCALL collect(CPLErr severity, CPLErrorNum number, const char* message) {
   auto* session = static_cast<Session*>(CPLGetErrorHandlerUserData());
-  if (severity == CE_Failure || severity == CE_Fatal) session->note(true, message);
-  if (severity == CE_Warning) session->note(false, message);
+  if (severity == CE_Failure || severity == CE_Fatal) session->note(true, number == CPLE_OutOfMemory, message);
+  if (severity == CE_Warning) session->note(false, false, message);
 }
 
 void start_gdal_once() {
@@ -60,7 +60,8 @@ Session::~Session() {
 
 std::string Session::reason() const { return failures_.empty() ? "no reason given" : failures_.front(); }
 
-void Session::note(bool is_failure, const char* message) {
+void Session::note(bool is_failure, bool is_memory, const char* message) {
+  out_of_memory_ = out_of_memory_ || is_memory;
   auto& list = is_failure ? failures_ : warnings_;
   std::string text = tidy(message);
   if (list.size() < kMessagesKept && std::find(list.begin(), list.end(), text) == list.end()) {

@@ -21,6 +21,8 @@ class Session {
   bool failed() const { return !failures_.empty(); }
   /// GDAL's own words for what failed since clear(), for the end of a sentence; "no reason given" if it said nothing.
   std::string reason() const;
+  /// True if memory was what failed.
+  bool out_of_memory() const { return out_of_memory_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
   /// Forgets failures, keeps warnings.
   void clear() { failures_.clear(); }
@@ -29,12 +31,13 @@ class Session {
   void set_option(const char* key, const char* value);
 
   /// Called by GDAL's error handler.
-  void note(bool is_failure, const char* message);
+  void note(bool is_failure, bool is_memory, const char* message);
 
  private:
   void set_default(const char* key, const char* value);
 
   std::vector<std::string> failures_, warnings_;
+  bool out_of_memory_ = false;
   std::vector<std::pair<std::string, std::pair<bool, std::string>>> saved_options_;  // key, (was set, value)
 };
 

@@ -38,6 +38,16 @@ inline Window window_size(GDALRasterBandH band, int cols, int rows) {
   return window;
 }
 
+/// The first row of a window that could not be read, found by reading it again row by row; for a message.
+template <class Read>
+std::string name_damaged_rows(Session& session, const Window& window, Read read) {
+  for (int row = window.row; row < window.row + window.rows; ++row) {
+    session.clear();
+    if (!read(Window{window.col, row, window.cols, 1}) || session.failed()) return fmt::format("row {}", row);
+  }
+  return fmt::format("rows {} to {}", window.row, window.row + window.rows - 1);
+}
+
 /// Calls read(window) -> bool for all windows, rows of windows from the top. Fails with kInput if `read` returns false
 /// or GDAL has reported a failure meanwhile (a driver may report one and still hand out zeros), with kCancelled if the
 /// callback says so; calls the callback at most ten times a second.
@@ -53,9 +63,13 @@ Result<void> for_each_window(Session& session, GDALRasterBandH band, const Owned
     for (int col = 0; col < field.cols; col += size.cols) {
       const Window window{col, row, std::min(size.cols, field.cols - col), rows};
       if (!read(window) || session.failed()) {
-        return fail(ErrorKind::kInput,
-                    fmt::format("{}: rows {} to {} cannot be read, the file is truncated or damaged: {}",
-                                field.info.path, row, row + rows - 1, session.reason()));
+        const std::string reason = session.reason();
+        if (session.out_of_memory()) {
+          return fail(ErrorKind::kInput, fmt::format("{}: the machine refuses the memory that reading it needs ({})",
+                                                     field.info.path, reason));
+        }
+        return fail(ErrorKind::kInput, fmt::format("{}: {} cannot be read, the file is truncated or damaged: {}",
+                                                   field.info.path, name_damaged_rows(session, window, read), reason));
       }
       if (progress && Clock::now() - last > std::chrono::milliseconds(100)) {
         last = Clock::now();

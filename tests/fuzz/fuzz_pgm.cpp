@@ -1,0 +1,18 @@
+// Any bytes: a height field of the size it claims, or an error with words.
+#include <cstdlib>
+
+#include "io/pgm.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::span<const std::uint8_t> bytes(data, size);
+  scarp::ReadOptions options;
+  options.memory_limit = 64 << 20;
+  const auto field = scarp::decode_pgm(bytes, "fuzz.pgm", options);
+  if (!field && field.error().message.empty()) std::abort();
+  if (field && field->samples.size() != static_cast<std::size_t>(field->cols) * static_cast<std::size_t>(field->rows))
+    std::abort();
+  int cols = 0, rows = 0;
+  const auto info = scarp::decode_pgm_info(bytes, "fuzz.pgm", cols, rows);
+  if (field && (!info || cols != field->cols || rows != field->rows)) std::abort();
+  return 0;
+}
