@@ -187,6 +187,11 @@ class Run {
       if (!measurement) return tl::unexpected(measurement.error());
       result.measurement = std::move(*measurement);
       result.seconds_measure += seconds_since(start);
+      if (judge.topology && !result.measurement.is_sound())
+        return fail(
+            ErrorKind::kPromise,
+            "the mesh folds over itself in the output CRS: its edges are straight where the grid's are curved; ask "
+            "for a smaller error, or write in the raster's own CRS");
       if (result.stop != StopReason::kMaxError || keeps_promise(result.measurement)) return {};
       if (!refinement_) return fail(ErrorKind::kInternal, broken_promise(result.measurement));
       std::uint64_t inserted = 0;
