@@ -1,0 +1,137 @@
+// Everything that runs on several threads: the loop, the judge, and callers who use the library from threads of their
+// own. Also built alone, as scarp_thread_tests, to be run under ThreadSanitizer.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <future>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "base/parallel.h"
+#include "scarp/io.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+namespace {
+
+/// Waves with a hole and a cliff, large enough for several blocks of work.
+OwnedHeightField make_waves(int cols, int rows) {
+  OwnedHeightField field;
+  field.cols = cols;
+  field.rows = rows;
+  field.frame = grid_frame(rows);
+  for (int row = 0; row < rows; ++row) {
+    for (int col = 0; col < cols; ++col) {
+      const bool hole = std::hypot(col - cols / 3, row - rows / 2) < 20;
+      const double height = 30 * std::sin(col * 0.05) * std::cos(row * 0.07) + (col > 2 * cols / 3 ? 25 : 0);
+      field.samples.push_back(hole ? std::nanf("") : static_cast<float>(height));
+    }
+  }
+  return field;
+}
+
+void expect_same(const Measurement& a, const Measurement& b) {
+  EXPECT_EQ(a.samples, b.samples);
+  EXPECT_EQ(a.uncovered, b.uncovered);
+  EXPECT_EQ(a.max_error, b.max_error);
+  EXPECT_EQ(a.max_error_at, b.max_error_at);
+  EXPECT_EQ(a.rmse, b.rmse);
+  EXPECT_EQ(a.mean_error, b.mean_error);
+  EXPECT_EQ(a.p50, b.p50);
+  EXPECT_EQ(a.overlaps, b.overlaps);
+  EXPECT_EQ(a.t_junctions, b.t_junctions);
+  EXPECT_EQ(a.min_angle, b.min_angle);
+}
+
+TEST(Threads, ParallelForCallsEachTaskOnce) {
+  for (const int threads : {1, 2, 3, 8}) {
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{7}, std::size_t{1000}}) {
+      std::vector<int> calls(count, 0);
+      parallel_for(count, threads, [&](std::size_t i) { ++calls[i]; });
+      EXPECT_EQ(calls, std::vector<int>(count, 1)) << count << " tasks on " << threads << " threads";
+    }
+  }
+}
+
+TEST(Threads, NeverChangeWhatIsMeasured) {
+  const OwnedHeightField field = make_waves(400, 300);
+  const Result<Simplified> result = simplify(field, {.max_error = 1.0});
+  ASSERT_TRUE(result) << result.error().message;
+  Mesh broken = result->mesh;
+  broken.triangles.resize(broken.triangles.size() - 9);
+  broken.positions[2] += 5;
+  for (const Mesh* mesh : {&result->mesh, static_cast<const Mesh*>(&broken)}) {
+    const Result<Measurement> one = measure(field, *mesh, {.threads = 1});
+    ASSERT_TRUE(one) << one.error().message;
+    for (const int threads : {2, 5}) {
+      const Result<Measurement> many = measure(field, *mesh, {.threads = threads});
+      ASSERT_TRUE(many) << many.error().message;
+      expect_same(*one, *many);
+    }
+  }
+}
+
+TEST(Threads, NeverChangeTheMesh) {
+  const OwnedHeightField field = make_waves(300, 200);
+  const Result<Simplified> one = simplify(field, {.max_error = 0.5, .threads = 1});
+  const Result<Simplified> many = simplify(field, {.max_error = 0.5, .threads = 4});
+  ASSERT_TRUE(one && many);
+  EXPECT_EQ(one->mesh.positions, many->mesh.positions);
+  EXPECT_EQ(one->mesh.triangles, many->mesh.triangles);
+}
+
+TEST(Threads, CallersMayUseTheLibraryFromTheirOwn) {
+  const OwnedHeightField field = make_waves(200, 150);
+  const auto make = [&] { return simplify(field, {.max_error = 0.7, .threads = 2}); };
+  auto first = std::async(std::launch::async, make), second = std::async(std::launch::async, make);
+  const Result<Simplified> a = first.get(), b = second.get();
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->mesh.positions, b->mesh.positions);
+  EXPECT_EQ(a->mesh.triangles, b->mesh.triangles);
+}
+
+TEST(Threads, FilesWrittenAtOnceAreEachWhole) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("scarp_threads_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  std::vector<std::future<bool>> writers;
+  for (int k = 0; k < 6; ++k) {
+    writers.push_back(std::async(std::launch::async, [&folder, k] {
+      const std::vector<std::uint8_t> bytes(100000, static_cast<std::uint8_t>(k));
+      const std::string path = (folder / ("file" + std::to_string(k % 3))).string();
+      for (int round = 0; round < 5; ++round) {
+        if (!write_file(path, bytes)) return false;
+      }
+      return true;
+    }));
+  }
+  for (std::future<bool>& writer : writers) EXPECT_TRUE(writer.get());
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    ++files;
+    const auto bytes = read_file(entry.path().string());
+    ASSERT_TRUE(bytes);
+    EXPECT_EQ(*bytes, std::vector<std::uint8_t>(100000, bytes->front())) << entry.path();
+  }
+  EXPECT_EQ(files, 3);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Threads, ReadersMayRunAtOnce) {
+  const std::string path = SCARP_SOURCE_DIR "/data/jacksboro_fault.tif";
+  const auto read = [&] { return read_height_field(path, {.crs = "EPSG:32616"}); };
+  auto first = std::async(std::launch::async, read), second = std::async(std::launch::async, read);
+  const Result<OwnedHeightField> a = first.get(), b = second.get();
+  if (!a && a.error().message.find("GDAL") != std::string::npos) GTEST_SKIP() << a.error().message;
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->samples, b->samples);
+  const Result<Simplified> mesh = simplify(*a, {.max_error = 40.0, .threads = 4});
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  EXPECT_LE(mesh->measurement.max_error, 40.0);
+}
+
+}  // namespace
+}  // namespace scarp
