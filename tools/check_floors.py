@@ -27,7 +27,7 @@ ROOMS = {
            "bytes to values and back"),
     "refine": (3, ["base", "grid", "geom", "mesh", "tin"], ["frame", "height_field", "mesh", "progress", "result"],
                "greedy insertion and its textbook twins"),
-    "measure": (3, ["base", "grid", "geom", "mesh"],
+    "measure": (3, ["base", "grid", "mesh"],
                 ["frame", "height_field", "measure", "mesh", "progress", "result"],
                 "judging a mesh, without knowing how it was made"),
     "draw": (3, ["base", "grid", "geom", "mesh"], ["frame", "height_field", "io", "mesh", "picture", "result"],

@@ -7,6 +7,10 @@ check="$source_tree/tools/check_floors.py"
 
 "$python" "$check" "$source_tree"
 
+while read -r row; do
+  grep -qxF -- "$row" "$source_tree/docs/design.md" || { echo "docs/design.md lacks this row of --table: $row"; exit 1; }
+done < <("$python" "$check" --table)
+
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
@@ -28,6 +32,7 @@ expect_fault src/geom/plane.h '#include "grid/raster.h"' 'strangers on floor 1'
 expect_fault src/tin/triangulation.cpp '#include "scarp/height_field.h"' 'must not know scarp/height_field.h'
 expect_fault src/tin/triangulation.cpp '#  include <scarp/height_field.h>' 'must not know scarp/height_field.h'
 expect_fault src/tin/triangulation.h '#include "grid/raster.h"' 'must not know the room grid'
+expect_fault src/measure/measure.cpp '#include "geom/scan.h"' 'measure must not know the room geom'
 expect_fault src/base/array.h '#include "geom/plane.h"' 'a step upwards from base'
 expect_fault include/scarp/mesh.h '#include "base/array.h"' 'public headers only'
 expect_fault apps/scarp/main.cpp '#include "grid/raster.h"' 'apps may include'
