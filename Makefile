@@ -7,7 +7,7 @@ JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 CMAKE_FLAGS ?=
 export BUILD JOBS
 
-.PHONY: build demo test install clean format tidy help
+.PHONY: build demo test bench install clean format tidy help
 
 build:
 	@tools/install_packages.sh build
@@ -22,6 +22,12 @@ demo:
 test:
 	@tools/install_packages.sh build run test
 	@tools/test.sh
+
+bench:
+	@tools/install_packages.sh build bench
+	@tools/configure.sh $(BUILD) -DSCARP_BUILD_BENCH=ON $(CMAKE_FLAGS)
+	@cmake --build $(BUILD) -j $(JOBS) --target scarp_program
+	@for what in reference quality memory speed; do cmake --build $(BUILD) -j $(JOBS) --target bench_$$what || exit 1; done
 
 install: build
 	DESTDIR="$(DESTDIR)" cmake --install $(BUILD) --prefix "$(PREFIX)"
@@ -42,6 +48,7 @@ help:
 	@echo 'make          build $(BUILD)/bin/scarp (Release), installing missing packages'
 	@echo 'make demo     build, simplify a bundled DEM into demo/, check the result'
 	@echo 'make test     everything: tests, sanitizers, a short run of the fuzzers'
+	@echo 'make bench    the benchmarks; their tables are under version control'
 	@echo 'make install  program, library, headers, man page into PREFIX (now $(PREFIX)); DESTDIR is honoured'
 	@echo 'make format   clang-format on all sources'
 	@echo 'make tidy     clang-tidy on src/ and apps/'
