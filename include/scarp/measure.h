@@ -18,7 +18,8 @@ namespace scarp {
 
 struct MeasureOptions {
   /// A sample farther than this from every triangle (in samples, horizontally) is uncovered; a nearer one is judged
-  /// against the plane of the nearest triangle. Absorbs the rounding of positions in the file. DEFAULT: 1/256.
+  /// against the plane of the nearest triangle (of one thinner than this, against its nearest point). Absorbs the rounding of
+  /// positions in the file. DEFAULT: 1/256.
   double coverage_tolerance = 1.0 / 256;
   /// Also check angles, orientation, overlaps, open edges and T-junctions. DEFAULT: true.
   bool topology = true;

@@ -1,0 +1,162 @@
+#include "measure/band.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace scarp::judge {
+namespace {
+
+/// 1 for each sample of the row that is a height. Rows outside the field have none.
+bool mark_heights(const HeightField& field, int row, std::vector<std::uint8_t>& marks) {
+  if (row < 0 || row >= field.rows) {
+    std::fill(marks.begin(), marks.end(), std::uint8_t{0});
+    return false;
+  }
+  const auto cols = static_cast<std::size_t>(field.cols);
+  const float* samples = field.samples + static_cast<std::size_t>(row) * cols;
+  bool all = true;
+  for (std::size_t i = 0; i < cols; ++i) {
+    const bool is_height = std::isfinite(samples[i]) && !(field.nodata && samples[i] == *field.nodata);
+    marks[i] = is_height;
+    all &= is_height;
+  }
+  return all;
+}
+
+}  // namespace
+
+Band::Band(const HeightField& field, int first, int rows, std::optional<double> collect_above, double guard)
+    : cols_(field.cols), first_(first), rows_(rows), limit_(collect_above.value_or(HUGE_VAL)), guard_(guard) {
+  const std::size_t size = static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols_);
+  const float* samples = field.samples + static_cast<std::size_t>(first) * static_cast<std::size_t>(cols_);
+  heights_.assign(samples, samples + size);
+  errors_.assign(size, std::numeric_limits<double>::quiet_NaN());
+  row_void_cells_.assign(static_cast<std::size_t>(rows), 0);
+  classify(field);
+}
+
+void Band::classify(const HeightField& field) {
+  const auto cols = static_cast<std::size_t>(cols_);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  // marks: rows r − 1, r, r + 1. counts[c]: heights among the four corners of a cell, above and below row r.
+  std::vector<std::uint8_t> before(cols), here(cols), after(cols), above(cols, 0), below(cols, 0);
+  const auto count_cells = [&](const std::vector<std::uint8_t>& top, const std::vector<std::uint8_t>& bottom,
+                               std::vector<std::uint8_t>& counts) {
+    for (std::size_t c = 0; c + 1 < cols; ++c) {
+      counts[c] = static_cast<std::uint8_t>(top[c] + top[c + 1] + bottom[c] + bottom[c + 1]);
+    }
+  };
+  mark_heights(field, first_ - 1, before);
+  bool here_is_whole = mark_heights(field, first_, here);
+  count_cells(before, here, above);
+  for (int row = first_; row < end(); ++row) {
+    const bool after_is_whole = mark_heights(field, row + 1, after);
+    if (here_is_whole && after_is_whole) {
+      std::fill(below.begin(), below.end(), std::uint8_t{4});
+    } else {
+      count_cells(here, after, below);
+    }
+    float* heights = &heights_[at(0, row)];
+    // A whole row below a whole row needs no look at single samples; both count arrays stay true for the next row.
+    const bool has_cells = row + 1 < field.rows;
+    if (!(here_is_whole && after_is_whole && has_cells)) {
+      for (std::size_t c = 0; c < cols; ++c) {
+        if (!here[c]) {
+          heights[c] = nan;
+          continue;
+        }
+        const bool left = c > 0 && (above[c - 1] >= 3 || below[c - 1] >= 3);
+        const bool right = c + 1 < cols && (above[c] >= 3 || below[c] >= 3);
+        if (left || right) continue;
+        heights[c] = nan;
+        ++report_.stray;
+      }
+      for (std::size_t c = 0; has_cells && c + 1 < cols; ++c) {
+        if (below[c] == 4) continue;
+        if (cells_.empty()) cells_.assign(heights_.size(), kWhole);
+        std::uint8_t kind = kVoid;
+        if (below[c] == 3) {
+          const int missing = !here[c] ? 0 : !here[c + 1] ? 1 : !after[c] ? 2 : 3;
+          kind = static_cast<std::uint8_t>(kHalf + missing);
+        }
+        cells_[at(static_cast<int>(c), row)] = kind;
+        row_void_cells_[static_cast<std::size_t>(row - first_)] = 1;
+        has_void_cells_ = true;
+      }
+    }
+    std::swap(here, after);
+    std::swap(above, below);
+    here_is_whole = after_is_whole;
+  }
+}
+
+std::optional<std::array<double, 2>> Band::void_point(int col, int row) const {
+  const std::uint8_t kind = cells_[at(col, row)];
+  if (kind == kWhole || kind == kCounted) return std::nullopt;
+  if (kind == kVoid) return std::array<double, 2>{col + 0.5, row + 0.5};
+  // The void half is the triangle of the missing corner and its two neighbours.
+  const int missing = kind - kHalf;
+  return std::array<double, 2>{col + ((missing & 1) ? 2.0 : 1.0) / 3, row + ((missing & 2) ? 2.0 : 1.0) / 3};
+}
+
+void Band::count_void_cell(int col, int row) {
+  cells_[at(col, row)] = kCounted;
+  ++report_.void_cells_covered;
+}
+
+bool Band::find_missing() {
+  bool any = false;
+  row_missing_.assign(static_cast<std::size_t>(rows_), 0);
+  for (int row = first_; row < end(); ++row) {
+    const float* height = heights(row);
+    const double* error = errors(row);
+    for (int c = 0; c < cols_; ++c) {
+      if (!std::isnan(error[c]) || std::isnan(height[c])) continue;
+      if (!any) nearest_.assign(heights_.size(), {});
+      any = true;
+      row_missing_[static_cast<std::size_t>(row - first_)] = 1;
+      nearest_[at(c, row)].distance = HUGE_VAL;
+    }
+  }
+  return any;
+}
+
+void Band::offer_nearest(int col, int row, double distance, std::uint32_t triangle, double error) {
+  Nearest& nearest = nearest_[at(col, row)];
+  double& held = errors_[at(col, row)];
+  if (distance > nearest.distance || (distance == nearest.distance && std::abs(error) <= std::abs(held))) return;
+  nearest = {distance, triangle};
+  held = error;
+}
+
+BandReport Band::finish(Histogram& histogram, bool keep_errors) {
+  const auto cols = static_cast<std::size_t>(cols_);
+  report_.rows.reserve(static_cast<std::size_t>(rows_));
+  for (int row = first_; row < end(); ++row) {
+    const double* error = errors(row);
+    report_.rows.push_back(sum_row({error, cols}, histogram));
+    for (int c = 0; !nearest_.empty() && c < cols_; ++c) {
+      if (!is_missing(c, row)) continue;
+      if (std::isnan(error[c])) {
+        ++report_.uncovered;
+        if (std::isfinite(limit_)) report_.uncovered_offenders.push_back({c, row, HUGE_VAL});
+      } else if (is_offender(error[c])) {
+        add_offender(nearest_[at(c, row)].triangle, {c, row, error[c]});
+      }
+    }
+  }
+  // A triangle's worst sample only: the lowest row, then column, among equals.
+  auto& offenders = report_.offenders;
+  std::sort(offenders.begin(), offenders.end(), is_worse_of_triangle);
+  const auto same = [](const TriangleOffender& a, const TriangleOffender& b) { return a.triangle == b.triangle; };
+  offenders.erase(std::unique(offenders.begin(), offenders.end(), same), offenders.end());
+  if (keep_errors) {
+    report_.errors.resize(errors_.size());
+    std::transform(errors_.begin(), errors_.end(), report_.errors.begin(),
+                   [](double e) { return static_cast<float>(e); });
+  }
+  return std::move(report_);
+}
+
+}  // namespace scarp::judge

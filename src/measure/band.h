@@ -1,0 +1,115 @@
+// A band of rows: what must be covered, and the errors found so far.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "measure/error_summary.h"
+#include "scarp/height_field.h"
+#include "scarp/measure.h"
+
+namespace scarp::judge {
+
+/// Bound of the rounding of an error in double arithmetic, relative to the heights it was made from.
+constexpr double kRounding = 0x1p-48;
+
+/// The worst sample of one triangle in one band.
+struct TriangleOffender {
+  std::uint32_t triangle = 0;
+  Offender offender;
+};
+
+/// By triangle, the worst first; the lowest row, then column, among equals.
+inline bool is_worse_of_triangle(const TriangleOffender& a, const TriangleOffender& b) {
+  if (a.triangle != b.triangle) return a.triangle < b.triangle;
+  const double x = std::abs(a.offender.error), y = std::abs(b.offender.error);
+  if (x != y) return x > y;
+  return a.offender.row != b.offender.row ? a.offender.row < b.offender.row : a.offender.col < b.offender.col;
+}
+
+/// What one band says about the mesh. Depends on the band only.
+struct BandReport {
+  std::vector<RowSums> rows;
+  std::uint64_t uncovered = 0, stray = 0, void_cells_covered = 0;
+  std::vector<TriangleOffender> offenders;
+  std::vector<Offender> uncovered_offenders;
+  std::vector<float> errors;  ///< row-major; filled if asked for
+};
+
+/// Working copy of the rows [first, first + rows) of a field. Scanners read heights and cells, and write errors.
+class Band {
+ public:
+  static int rows_per_band(int cols) { return cols <= 4096 ? 32 : std::max(8, 32 * 4096 / cols); }
+
+  /// Copies the rows, with every sample that need not be covered (void or stray) as NaN, and finds the cells that must
+  /// not be covered.
+  Band(const HeightField& field, int first, int rows, std::optional<double> collect_above, double guard);
+
+  int first() const { return first_; }
+  int end() const { return first_ + rows_; }
+  int cols() const { return cols_; }
+  const float* heights(int row) const { return &heights_[at(0, row)]; }
+  double* errors(int row) { return &errors_[at(0, row)]; }
+
+  /// Takes `error` for a sample of errors() if it is larger than what is `held` there; among equals the positive.
+  void offer(double& held, double error) {
+    const double now = std::abs(error), before = std::abs(held);
+    if (now < before || (now == before && !(error > held))) return;  // false for the NaN of a sample not covered yet
+    held = error;
+    if (now > largest_) largest_ = now;
+  }
+  /// True if an error of about this size may become the band's largest or break the bound, so that its last bit counts.
+  bool is_critical(double error) const {
+    const double magnitude = std::abs(error);
+    const double upper = magnitude + (guard_ + kRounding * magnitude);
+    return upper >= largest_ || (upper >= limit_ && magnitude - (upper - magnitude) <= limit_);
+  }
+  bool is_offender(double error) const { return std::abs(error) > limit_; }
+  /// Notes a sample of `triangle` that breaks the bound.
+  void add_offender(std::uint32_t triangle, Offender offender) { report_.offenders.push_back({triangle, offender}); }
+
+  /// True if a sample of the row, or of the band, that must be covered is not. Valid after find_missing().
+  bool find_missing();
+  bool row_has_missing(int row) const { return row_missing_[static_cast<std::size_t>(row - first_)] != 0; }
+  bool is_missing(int col, int row) const { return nearest_[at(col, row)].distance >= 0; }
+  /// Offers a triangle at some distance to a missing sample: the nearest is taken, the larger error among equals.
+  void offer_nearest(int col, int row, double distance, std::uint32_t triangle, double error);
+
+  // Cells. Cell (col, row) lies between the samples (col, row) and (col + 1, row + 1).
+  bool has_void_cells() const { return has_void_cells_; }
+  bool row_has_void_cells(int row) const { return row_void_cells_[static_cast<std::size_t>(row - first_)] != 0; }
+  /// The point that shows whether the void part of the cell is covered; nothing if the cell is whole or already
+  /// counted.
+  std::optional<std::array<double, 2>> void_point(int col, int row) const;
+  void count_void_cell(int col, int row);
+
+  /// Sums up. Ends the band's life as a workplace.
+  BandReport finish(Histogram& histogram, bool keep_errors);
+
+ private:
+  struct Nearest {
+    double distance = -1;  ///< −1: not missing; infinite: nothing near yet
+    std::uint32_t triangle = 0;
+  };
+  static constexpr std::uint8_t kWhole = 0, kVoid = 1, kHalf = 2, kCounted = 6;  // kHalf + missing corner
+  std::size_t at(int col, int row) const {
+    return static_cast<std::size_t>(row - first_) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(col);
+  }
+  void classify(const HeightField& field);
+
+  int cols_ = 0, first_ = 0, rows_ = 0;
+  double limit_ = HUGE_VAL, guard_ = 0, largest_ = 0;
+  bool has_void_cells_ = false;
+  std::vector<float> heights_;
+  std::vector<double> errors_;
+  std::vector<Nearest> nearest_;  // empty if nothing is missing
+  std::vector<std::uint8_t> cells_, row_void_cells_, row_missing_;
+  BandReport report_;
+};
+
+}  // namespace scarp::judge

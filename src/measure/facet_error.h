@@ -1,0 +1,18 @@
+// mesh − sample at one point of one triangle.
+#pragma once
+
+#include "measure/plan_triangle.h"
+
+namespace scarp::judge {
+
+/// Σ w[k]·z[k] / Σ w[k] − sample, correctly rounded but for ties closer than 2^-100: if the true error is at most some
+/// double, so is the result. The sums are free of rounding (error-free transformations: Dekker 1971, Shewchuk 1997), so
+/// with corners on the lattice a mesh that reproduces a sample exactly is found to do so. REQUIRES: w[k] >= 0, Σ w[k] >
+/// 0, all finite and far from overflow.
+double settle_error(const std::array<double, 3>& w, const std::array<double, 3>& z, double sample);
+
+/// Error of a sample at (x, y) outside the facet but near it: on the facet's plane, extrapolated. Of a facet thinner
+/// than `tolerance` the nearest point is taken, because its plane means nothing.
+double error_beside(const Facet& facet, double x, double y, double sample, double tolerance);
+
+}  // namespace scarp::judge

@@ -1,0 +1,234 @@
+// The judge: which triangles count, what every sample says, how the triangles hang together.
+//
+// The field is judged in bands of rows. Bands are independent of each other and are worked on at once, a window of them
+// at a time; their reports are added up in order, so the result never depends on threads.
+#include "scarp/measure.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "measure/band.h"
+#include "measure/progress_gate.h"
+#include "measure/scanner.h"
+#include "measure/topology.h"
+
+namespace scarp {
+namespace {
+
+using judge::Band;
+using judge::BandReport;
+using judge::Histogram;
+using judge::kRounding;
+using judge::ProgressGate;
+using judge::Sum;
+
+Result<void> check_input(const HeightField& field, const Mesh& mesh, const MeasureOptions& options) {
+  if (field.cols < 2 || field.rows < 2 || field.samples == nullptr) {
+    return fail(ErrorKind::kInput,
+                fmt::format("the height field has {}×{} samples; a mesh can be judged against at least 2×2", field.cols,
+                            field.rows));
+  }
+  const auto& a = field.frame.affine;
+  if (!std::all_of(a.begin(), a.end(), [](double term) { return std::isfinite(term); }) ||
+      field.frame.determinant() == 0 || !std::isfinite(field.frame.determinant())) {
+    return fail(ErrorKind::kInput, "the height field's frame puts all samples on one line; give it a cell size");
+  }
+  if (mesh.triangles.empty()) return fail(ErrorKind::kInput, "the mesh has no triangles");
+  if (mesh.triangles.size() % 3 != 0 || mesh.positions.size() % 3 != 0) {
+    return fail(ErrorKind::kInput, "the mesh is cut off: its indices or coordinates are not a multiple of 3");
+  }
+  if (mesh.triangles.size() >= std::uint64_t{1} << 32 || mesh.positions.size() / 3 >= std::uint64_t{1} << 32) {
+    return fail(ErrorKind::kInput,
+                fmt::format("the mesh has {} triangles; the judge holds up to 1,431,655,765", mesh.triangle_count()));
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (mesh.triangles[i] < mesh.vertex_count()) continue;
+    return fail(ErrorKind::kInput, fmt::format("triangle {} of the mesh names vertex {}, but there are only {}", i / 3,
+                                               mesh.triangles[i], mesh.vertex_count()));
+  }
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (std::isfinite(mesh.positions[i])) continue;
+    return fail(ErrorKind::kInput,
+                fmt::format("vertex {} of the mesh has a coordinate that is not a finite number", i / 3));
+  }
+  if (!std::all_of(mesh.origin.begin(), mesh.origin.end(), [](double term) { return std::isfinite(term); })) {
+    return fail(ErrorKind::kInput, "the mesh's origin is not a finite point");
+  }
+  if (!(options.coverage_tolerance >= 0) || !std::isfinite(options.coverage_tolerance)) {
+    return fail(ErrorKind::kUsage, "coverage_tolerance must be zero or a positive number of samples");
+  }
+  return {};
+}
+
+/// 1 for counter-clockwise seen from above, −1 for clockwise, 0 without area.
+int facing(const Mesh& mesh, std::size_t t) {
+  const double* a = &mesh.positions[3 * std::size_t{mesh.triangles[3 * t]}];
+  const double* b = &mesh.positions[3 * std::size_t{mesh.triangles[3 * t + 1]}];
+  const double* c = &mesh.positions[3 * std::size_t{mesh.triangles[3 * t + 2]}];
+  const double area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  return (area > 0) - (area < 0);
+}
+
+/// Adds up the bands' reports, in order.
+class Verdict {
+ public:
+  Verdict(const MeasureOptions& options, int cols, Measurement& result)
+      : options_(options), cols_(cols), result_(result) {}
+
+  void add(int first_row, BandReport& report) {
+    result_.uncovered += report.uncovered;
+    result_.stray += report.stray;
+    result_.void_cells_covered += report.void_cells_covered;
+    for (std::size_t i = 0; i < report.rows.size(); ++i) {
+      const judge::RowSums& row = report.rows[i];
+      result_.samples += row.samples;
+      error_.add(row.error);
+      magnitude_.add(row.magnitude);
+      square_.add(row.square);
+      if (row.largest > largest_) {
+        largest_ = row.largest;
+        result_.max_error_at = {row.largest_at, first_row + static_cast<int>(i)};
+      }
+      if (options_.on_row) {
+        const auto cols = static_cast<std::size_t>(cols_);
+        options_.on_row(first_row + static_cast<int>(i), {report.errors.data() + i * cols, cols});
+      }
+    }
+    offenders_.insert(offenders_.end(), report.offenders.begin(), report.offenders.end());
+    result_.offenders.insert(result_.offenders.end(), report.uncovered_offenders.begin(),
+                             report.uncovered_offenders.end());
+  }
+  double max_error() const { return std::max(0.0, largest_); }
+
+  void finish(const Histogram& histogram) {
+    result_.max_error = max_error();
+    if (result_.samples > 0) {
+      const auto count = static_cast<double>(result_.samples);
+      result_.mean_error = error_.value() / count;
+      result_.mean_abs_error = magnitude_.value() / count;
+      result_.rmse = std::sqrt(square_.value() / count);
+    }
+    const auto percentile = [&](unsigned permille) {
+      return std::min(histogram.percentile(permille), result_.max_error);
+    };
+    result_.p50 = percentile(500);
+    result_.p95 = percentile(950);
+    result_.p99 = percentile(990);
+    result_.p999 = percentile(999);
+    merge_offenders();
+  }
+
+ private:
+  /// A triangle in several bands has one offender, and so have two triangles that share a sample.
+  void merge_offenders() {
+    std::sort(offenders_.begin(), offenders_.end(), judge::is_worse_of_triangle);
+    for (std::size_t i = 0; i < offenders_.size(); ++i) {
+      if (i == 0 || offenders_[i].triangle != offenders_[i - 1].triangle)
+        result_.offenders.push_back(offenders_[i].offender);
+    }
+    auto& all = result_.offenders;
+    std::sort(all.begin(), all.end(), [](const Offender& a, const Offender& b) {
+      if (a.row != b.row) return a.row < b.row;
+      if (a.col != b.col) return a.col < b.col;
+      return std::abs(a.error) != std::abs(b.error) ? std::abs(a.error) > std::abs(b.error) : a.error > b.error;
+    });
+    const auto same = [](const Offender& a, const Offender& b) { return a.row == b.row && a.col == b.col; };
+    all.erase(std::unique(all.begin(), all.end(), same), all.end());
+  }
+
+  const MeasureOptions& options_;
+  int cols_;
+  Measurement& result_;
+  Sum error_, magnitude_, square_;
+  double largest_ = -1;
+  std::vector<judge::TriangleOffender> offenders_;
+};
+
+/// Rounding that an error in plain double arithmetic may carry, with room to spare; the part that comes from the mesh's
+/// heights.
+double error_guard(const Mesh& mesh) {
+  double size = 0;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    size = std::max(size, std::abs(mesh.origin[2] + mesh.positions[3 * v + 2]));
+  }
+  return kRounding * size;
+}
+
+/// Fills all that concerns heights. Returns false if the caller stopped it.
+bool judge_heights(const HeightField& field, const Mesh& mesh, const judge::Scanner& scanner,
+                   const MeasureOptions& options, ProgressGate& gate, Measurement& result) {
+  const double guard = error_guard(mesh);
+  const int height = Band::rows_per_band(field.cols);
+  const int bands = (field.rows + height - 1) / height;
+  const int window = 2 * thread_count(options.threads);
+  // Histograms stay with their place in the window: counts add up to the same whoever made them.
+  std::vector<Histogram> histograms(static_cast<std::size_t>(std::min(window, bands)));
+  Verdict verdict(options, field.cols, result);
+  for (int first = 0; first < bands; first += window) {
+    if (!gate.go_on("measure", static_cast<double>(first) / bands, verdict.max_error())) return false;
+    std::vector<BandReport> reports(static_cast<std::size_t>(std::min(window, bands - first)));
+    parallel_for(reports.size(), options.threads, [&](std::size_t i) {
+      const int row = (first + static_cast<int>(i)) * height;
+      Band band(field, row, std::min(height, field.rows - row), options.collect_above, guard);
+      scanner.scan(band);
+      reports[i] = band.finish(histograms[i], static_cast<bool>(options.on_row));
+    });
+    for (std::size_t i = 0; i < reports.size(); ++i) verdict.add((first + static_cast<int>(i)) * height, reports[i]);
+  }
+  for (std::size_t i = 1; i < histograms.size(); ++i) histograms[0].merge(histograms[i]);
+  verdict.finish(histograms[0]);
+  return true;
+}
+
+}  // namespace
+
+Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const MeasureOptions& options) {
+  if (auto checked = check_input(field, mesh, options); !checked) return tl::unexpected<Error>(checked.error());
+  ProgressGate gate(options.progress);
+  const auto cancelled = [] { return fail(ErrorKind::kCancelled, "measuring was cancelled"); };
+
+  Measurement result;
+  result.vertices = mesh.vertex_count();
+  result.triangles = mesh.triangle_count();
+  std::vector<std::uint32_t> all, upward;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    all.push_back(static_cast<std::uint32_t>(t));
+    if (facing(mesh, t) > 0) upward.push_back(all.back());
+  }
+  // A solid has walls and a bottom: where all triangles look up, the edges matter for the topology only.
+  std::vector<std::uint32_t> welded;
+  judge::EdgeReport edges;
+  if (options.topology || upward.size() < all.size()) {
+    welded = judge::weld_vertices(mesh);
+    edges = judge::check_edges(mesh, welded);
+    result.closed = edges.open.empty();
+  }
+  const std::vector<std::uint32_t>& judged = result.closed ? upward : all;
+
+  const double tolerance = options.coverage_tolerance;
+  const auto scanner = field.frame.is_affine() ? judge::make_grid_scanner(field, mesh, judged, tolerance)
+                                               : judge::make_frame_scanner(field, mesh, judged, tolerance);
+  if (!judge_heights(field, mesh, *scanner, options, gate, result)) return cancelled();
+
+  if (options.topology) {
+    if (!gate.go_on("topology", 0)) return cancelled();
+    result.open_edges = edges.open.size();
+    result.misoriented_edges = edges.misoriented;
+    result.non_manifold_edges = edges.non_manifold;
+    result.border_loops = edges.loops;
+    judge::measure_shape(mesh, judged, result);
+    result.t_junctions = judge::count_t_junctions(mesh, welded, edges.open);
+    bool is_stopped = false;
+    result.overlaps = judge::count_overlaps(mesh, judged, options.threads, [&](double fraction) {
+      is_stopped = !gate.go_on("topology", fraction);
+      return !is_stopped;
+    });
+    if (is_stopped) return cancelled();
+  }
+  return result;
+}
+
+}  // namespace scarp

@@ -1,0 +1,50 @@
+// How triangles hang together.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "scarp/measure.h"
+#include "scarp/mesh.h"
+
+namespace scarp::judge {
+
+/// For each vertex the first one at exactly the same position: files without shared vertices (STL) become connected.
+std::vector<std::uint32_t> weld_vertices(const Mesh& mesh);
+
+/// An edge with one triangle, in the direction of that triangle; welded vertex ids.
+struct OpenEdge {
+  std::uint32_t from = 0, to = 0, triangle = 0;
+};
+
+struct EdgeReport {
+  std::vector<OpenEdge> open;  ///< ordered by smaller, then larger vertex id
+  std::uint64_t misoriented = 0, non_manifold = 0, loops = 0;
+};
+
+/// `welded`: from weld_vertices(). Triangles with two corners in one place have no edges. In a mesh without open edges
+/// four triangles may meet in an edge, two in each direction: there two solids touch. Cost: O(triangles).
+EdgeReport check_edges(const Mesh& mesh, std::span<const std::uint32_t> welded);
+
+/// Vertices in the interior of an open edge, seen from above, up to rounding: 1e-9 of the edge's length and what the
+/// positions' precision (float32, or double) leaves in doubt. Cost: O(vertices) for edges of ordinary shape.
+std::uint64_t count_t_junctions(const Mesh& mesh, std::span<const std::uint32_t> welded,
+                                std::span<const OpenEdge> open);
+
+/// Pairs among the triangles `ids` whose interiors overlap seen from above by more than rounding; at most kMostOverlaps
+/// are counted. `go_on` is called from this thread from time to time; false ends the search. Cost: O(triangles · log)
+/// for meshes without overlaps and without vertices of huge degree.
+constexpr std::uint64_t kMostOverlaps = 1000000;
+std::uint64_t count_overlaps(const Mesh& mesh, std::span<const std::uint32_t> ids, int threads,
+                             const std::function<bool(double fraction)>& go_on);
+
+/// Rounding of a position seen from above: half a unit in the last place of the largest coordinate, times four; float32
+/// if all positions are float32 values.
+double position_noise(const Mesh& mesh);
+
+/// Fills angles (of `judged` triangles), down_facing and degenerate.
+void measure_shape(const Mesh& mesh, std::span<const std::uint32_t> judged, Measurement& result);
+
+}  // namespace scarp::judge
