@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Peak memory, fitted as a bytes per sample + b bytes per vertex, and held against 5 and 120; writes memory.md.
+"""Peak memory, fitted as bytes per sample, bytes per vertex and a constant, held against 5 and 120; writes memory.md.
 
 First domain and refinement alone (speed_memory: its own baseline taken off), then, where the program is built, a whole
 `scarp simplify` run from GeoTIFF to GLB (peak of the process less that of `scarp --version`).
@@ -33,13 +33,16 @@ def peak_of(command):
 
 
 def fit(points):
-    """Least squares of relative residuals: bytes = a samples + b vertices."""
-    saa = sab = sbb = sa = sb = 0.0
-    for samples, vertices, size in points:
-        a, b = samples / size, vertices / size
-        saa, sab, sbb, sa, sb = saa + a * a, sab + a * b, sbb + b * b, sa + a, sb + b
-    determinant = saa * sbb - sab * sab
-    return (sa * sbb - sb * sab) / determinant, (sb * saa - sa * sab) / determinant
+    """Least squares of relative residuals: bytes = constant + a samples + b vertices."""
+    rows = [(1 / size, samples / size, vertices / size, 1.0) for samples, vertices, size in points]
+    # Normal equations, solved by elimination.
+    matrix = [[sum(row[i] * row[j] for row in rows) for j in range(4)] for i in range(3)]
+    for i in range(3):
+        matrix[i] = [value / matrix[i][i] for value in matrix[i]]
+        for k in range(3):
+            if k != i:
+                matrix[k] = [x - matrix[k][i] * y for x, y in zip(matrix[k], matrix[i])]
+    return [row[3] for row in matrix]
 
 
 def table(title, points):
@@ -48,8 +51,8 @@ def table(title, points):
     for name, samples, vertices, size in points:
         share = size / (PER_SAMPLE * samples + PER_VERTEX * vertices)
         lines.append(f"| {name} | {samples} | {vertices} | {size / 1e6:.1f} | {share:.2f} |")
-    a, b = fit([point[1:] for point in points])
-    lines += ["", f"Fitted: **{a:.2f} bytes a sample + {b:.0f} bytes a vertex**.", ""]
+    constant, a, b = fit([point[1:] for point in points])
+    lines += ["", f"Fitted: **{a:.2f} bytes a sample + {b:.0f} bytes a vertex** + {constant / 1e6:.1f} MB.", ""]
     return lines
 
 

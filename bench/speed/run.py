@@ -150,7 +150,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=Path, required=True, help="folder of the built programs")
     parser.add_argument("--compiler", default="not told", help="for the record")
-    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--rounds", type=int, help="instead of 5, or 3 above 2 million samples")
     parser.add_argument("--only", nargs="*", choices=RASTERS, help="these rasters; nothing is kept")
     parser.add_argument("--find", action="store_true", help="print the errors for SHARES instead")
     options = parser.parse_args()
@@ -166,8 +166,9 @@ def main():
                 errors = [call([options.bin / "speed_scarp", *raster, "--find", share]) for share in SHARES]
                 print(f'    "{name}": ({", ".join(f"{error:.3g}" for error in errors)}),', flush=True)
                 continue
+            rounds = options.rounds or (5 if raster[1] * raster[2] <= 2_000_000 else 3)
             for error in ERRORS[name]:
-                cases = time_case(programs(options.bin), options.bin / "speed_judge", raster, error, options.rounds,
+                cases = time_case(programs(options.bin), options.bin / "speed_judge", raster, error, rounds,
                                   scratch)
                 versions.update((program, case["version"]) for program, case in cases.items())
                 for row in rows_of(name, raster, error, cases):
