@@ -1,0 +1,55 @@
+// Colours, lines and digits on a Picture.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "scarp/io.h"
+
+namespace scarp::draw {
+
+/// Red, green, blue, 0 … 255.
+using Colour = std::array<double, 3>;
+
+/// The colour at `t` (0 … 1, clamped) of a ramp whose stops are equally far apart.
+template <std::size_t N>
+Colour ramp(const std::array<Colour, N>& stops, double t) {
+  const double at = (t > 0 ? (t < 1 ? t : 1) : 0) * (N - 1);
+  const auto i = at < N - 2 ? static_cast<std::size_t>(at) : N - 2;
+  Colour out{};
+  for (std::size_t k = 0; k < 3; ++k)
+    out[k] = stops[i][k] + (at - static_cast<double>(i)) * (stops[i + 1][k] - stops[i][k]);
+  return out;
+}
+
+/// A white picture.
+Picture blank(int width, int height);
+void set_pixel(Picture& picture, int x, int y, const Colour& colour);
+
+/// How much of each pixel lines cover, 0 … 1. A pixel takes the darkest of its lines, so drawing one twice changes
+/// nothing.
+class LineLayer {
+ public:
+  LineLayer(int width, int height)
+      : width_(width), height_(height), cover_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {}
+  /// An anti-aliased line of the given width and darkness (0 … 1); coordinates in pixels, (0, 0) is the first pixel's
+  /// centre.
+  void add_line(double x0, double y0, double x1, double y1, double line_width, double darkness);
+  /// Lays the lines over the picture.
+  void blend_into(Picture& picture, const Colour& ink) const;
+
+ private:
+  int width_, height_;
+  std::vector<float> cover_;
+};
+
+/// Writes digits, '.', '-', '+' and 'e' in glyphs of 5 × 7 squares of `size` pixels; other characters are spaces. The
+/// upper left corner is at (x, y); what lies outside is cut off.
+void write_number(Picture& picture, int x, int y, int size, std::string_view text, const Colour& ink);
+/// Pixels from one character to the next.
+constexpr int character_step(int size) { return 6 * size; }
+
+}  // namespace scarp::draw

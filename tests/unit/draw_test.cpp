@@ -1,0 +1,149 @@
+// Pictures: sizes, colours that mean something, lines where the mesh is.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "draw/canvas.h"
+#include "draw/grid_positions.h"
+#include "scarp/picture.h"
+#include "unit/measure_meshes.h"
+
+namespace scarp::testing {
+namespace {
+
+std::array<int, 3> pixel(const Picture& picture, int x, int y) {
+  const std::size_t at = 3 * static_cast<std::size_t>(y * picture.width + x);
+  return {picture.rgb[at], picture.rgb[at + 1], picture.rgb[at + 2]};
+}
+int brightness(const std::array<int, 3>& colour) { return colour[0] + colour[1] + colour[2]; }
+
+TEST(DrawPreview, KeepsToTheSizeAskedFor) {
+  for (const auto& [cols, rows, side] :
+       {std::array{40, 30, 1400}, {400, 30, 100}, {3, 900, 1400}, {2, 2, 1}, {701, 702, 1400}}) {
+    const Terrain terrain = wavy_terrain(cols, rows);
+    const Picture picture = draw_preview(terrain.view(), Mesh{}, side);
+    EXPECT_LE(std::max(picture.width, picture.height), side);
+    EXPECT_GE(std::min(picture.width, picture.height), 1);
+    EXPECT_EQ(picture.rgb.size(), 3u * static_cast<std::size_t>(picture.width * picture.height));
+  }
+  EXPECT_EQ(draw_preview(wavy_terrain(40, 30).view(), Mesh{}).width % 40, 0);
+}
+
+TEST(DrawPreview, LightsSlopesFromTheUpperLeft) {
+  Terrain terrain = wavy_terrain(41, 41);
+  for (int r = 0; r < 41; ++r) {
+    for (int c = 0; c < 41; ++c)
+      terrain.at(c, r) = static_cast<float>(-std::abs(c - 20));  // a ridge from top to bottom
+  }
+  const Picture picture = draw_preview(terrain.view(), Mesh{}, 41);
+  EXPECT_GT(brightness(pixel(picture, 10, 20)), brightness(pixel(picture, 30, 20)) + 60);
+}
+
+TEST(DrawPreview, LeavesVoidsWhite) {
+  Terrain terrain = wavy_terrain(30, 30);
+  for (int r = 5; r < 15; ++r) {
+    for (int c = 5; c < 15; ++c) terrain.at(c, r) = NAN;
+  }
+  const Picture picture = draw_preview(terrain.view(), Mesh{}, 30);
+  EXPECT_EQ(pixel(picture, 9, 9), (std::array<int, 3>{255, 255, 255}));
+  EXPECT_NE(pixel(picture, 20, 20), (std::array<int, 3>{255, 255, 255}));
+}
+
+TEST(DrawPreview, DrawsTheMeshOnTheSamples) {
+  for (const bool dressed : {false, true}) {
+    Terrain terrain = wavy_terrain(41, 41);
+    std::fill(terrain.samples.begin(), terrain.samples.end(), 7.0f);
+    terrain.frame.affine = {500000, 10, 0, 4000000, 0, -10};
+    if (dressed) terrain.frame = dress_up(terrain.frame);
+    Mesh mesh;
+    mesh.origin = {500000, 4000000, 0};
+    for (const auto& [c, r] : {std::array{0, 0}, {0, 40}, {40, 0}, {40, 40}}) {
+      mesh.positions.insert(mesh.positions.end(), {c * 10.0, r * -10.0, 7.0});
+    }
+    mesh.triangles = {0, 1, 2, 2, 1, 3};
+    const Picture plain = draw_preview(terrain.view(), Mesh{}, 41), drawn = draw_preview(terrain.view(), mesh, 41);
+    for (int i = 0; i < 41; ++i) {
+      EXPECT_LT(brightness(pixel(drawn, i, 40 - i)), brightness(pixel(plain, i, 40 - i)) - 150);  // the diagonal
+      EXPECT_LT(brightness(pixel(drawn, i, 0)), brightness(pixel(plain, i, 0)) - 150);
+    }
+    EXPECT_EQ(pixel(drawn, 10, 10), pixel(plain, 10, 10));
+    EXPECT_EQ(pixel(drawn, 30, 30), pixel(plain, 30, 30));
+  }
+}
+
+/// A map that bends: no affine map comes near it.
+class Bend : public PointTransform {
+ public:
+  bool apply(std::span<double> x, std::span<double> y) const override {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const double radius = 5000 + y[i], angle = x[i] / 4000;
+      x[i] = radius * std::sin(angle);
+      y[i] = radius * std::cos(angle);
+    }
+    return true;
+  }
+};
+
+TEST(GridPositions, AreFoundInAFrameThatIsNotAffine) {
+  Frame frame;
+  frame.affine = {-2000, 10, 0, 1500, 0, -10};
+  frame.transform = std::make_shared<Bend>();
+  Mesh mesh;
+  for (const auto& [c, r] : {std::array{0.0, 0.0}, {399.0, 0.0}, {399.0, 299.0}, {123.25, 77.5}}) {
+    auto [x, y] = frame.apply_affine(c, r);
+    ASSERT_TRUE(frame.transform->apply({&x, 1}, {&y, 1}));
+    mesh.positions.insert(mesh.positions.end(), {x, y, 0});
+  }
+  const draw::GridPositions at = draw::find_grid_positions(frame, 400, 300, mesh);
+  EXPECT_NEAR(at.cols[0], 0, 0.02);
+  EXPECT_NEAR(at.rows[0], 0, 0.02);
+  EXPECT_NEAR(at.cols[2], 399, 0.02);
+  EXPECT_NEAR(at.rows[2], 299, 0.02);
+  EXPECT_NEAR(at.cols[3], 123.25, 0.02);
+  EXPECT_NEAR(at.rows[3], 77.5, 0.02);
+}
+
+TEST(DrawErrorMap, ShowsSignAndSizeAndVoids) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<float> errors{-2, 0, 2, nan};
+  const Picture picture = draw_error_map(errors, 4, 1, 2);
+  const int cell = picture.width / 4;
+  const auto blue = pixel(picture, cell / 2, 0), white = pixel(picture, cell + cell / 2, 0);
+  const auto red = pixel(picture, 2 * cell + cell / 2, 0), grey = pixel(picture, 3 * cell + cell / 2, 0);
+  EXPECT_GT(blue[2], blue[0] + 50);
+  EXPECT_GT(red[0], red[2] + 50);
+  EXPECT_GT(brightness(white), 740);
+  EXPECT_EQ(grey, (std::array<int, 3>{150, 150, 150}));
+  EXPECT_GT(picture.height, cell);  // the scale below
+}
+
+TEST(DrawErrorMap, KeepsASinglePeakWhenItShrinks) {
+  std::vector<float> errors(1000 * 1000, 0.0f);
+  errors[500 * 1000 + 500] = 5;
+  const Picture picture = draw_error_map(errors, 1000, 1000, 0, 200);
+  EXPECT_LE(std::max(picture.width, picture.height), 200);
+  int red = 0;
+  const int map_height = picture.height - 24;
+  for (int y = 0; y < map_height; ++y) {
+    for (int x = 0; x < picture.width; ++x) red += pixel(picture, x, y)[1] < 50;
+  }
+  EXPECT_EQ(red, 1);
+}
+
+TEST(DrawErrorMap, DrawsAMapWithoutErrors) {
+  const Picture picture = draw_error_map(std::vector<float>(100, 0.0f), 10, 10);
+  EXPECT_GT(brightness(pixel(picture, 5, 5)), 740);
+}
+
+TEST(Canvas, WritesNumbers) {
+  Picture picture = draw::blank(60, 9);
+  draw::write_number(picture, 1, 1, 1, "1-", {0, 0, 0});
+  EXPECT_EQ(brightness(pixel(picture, 3, 1)), 0);  // tip of the 1
+  EXPECT_EQ(brightness(pixel(picture, 1, 4)), 765);
+  EXPECT_EQ(brightness(pixel(picture, 7, 4)), 0);  // the minus
+  EXPECT_EQ(brightness(pixel(picture, 7, 3)), 765);
+  draw::write_number(picture, 55, 5, 3, "88", {0, 0, 0});  // partly outside: cut off
+}
+
+}  // namespace
+}  // namespace scarp::testing
