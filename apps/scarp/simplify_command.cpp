@@ -382,6 +382,9 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   }
 
   const Clock::time_point write_start = Clock::now();
+  const bool go_on = display.callback()(
+      {"write", 0, outcome.simplified.mesh.vertex_count(), outcome.simplified.measurement.max_error});
+  if (!go_on) return fail(ErrorKind::kCancelled, "interrupted");
   const Result<std::vector<ReadyFile>> files = encode_files(*plan, outcome);
   if (!files) return tl::unexpected(files.error());
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");

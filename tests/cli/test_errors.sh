@@ -102,6 +102,11 @@ printf 'P2 3 3 255\n1 2 3 4 x 6 7 8 9\n' > letters.pgm
 refuses 2 "letters.pgm" "$scarp" simplify letters.pgm out.glb -e 1
 refuses 2 "" "$scarp" simplify "$dem" out.glb -e 1 --decode terrarium
 
+# More than the machine's memory: refused with the figure, before the work.
+echo '<VRTDataset rasterXSize="2000000" rasterYSize="2000000"><VRTRasterBand dataType="Float32" band="1"/></VRTDataset>' > huge.vrt
+refuses 2 "TiB of memory" "$scarp" simplify huge.vrt out.glb -e 1
+refuses 2 "TiB of memory" "$scarp" info huge.vrt
+
 # Meshes.
 refuses 2 "missing.glb" "$scarp" measure "$dem" missing.glb
 for format in glb obj ply stl; do

@@ -29,6 +29,22 @@ for signal in INT TERM; do
   done
 done
 
+# The second signal does not wait for the run to notice the first; it may still come too late to matter.
+for wait in 0 0.01 0.05; do
+  set -m
+  "$scarp" simplify big.tif out.glb -e 0 > "$logs/out" 2> "$logs/err" &
+  pid=$!
+  set +m
+  sleep 1
+  kill -INT "$pid"
+  sleep "$wait"
+  kill -INT "$pid" 2> /dev/null || true
+  code=0
+  wait "$pid" 2> /dev/null || code=$?
+  [ "$code" = 5 ] || [ "$code" = 130 ] || fail "exit code $code after two signals"
+  [ "$(find . -type f)" = ./big.tif ] || fail "files are left after two signals: $(find . -type f)"
+done
+
 # An old file survives.
 echo mine > out.glb
 interrupt_after INT 1 "$scarp" simplify big.tif out.glb -e 0 --overwrite
