@@ -85,7 +85,9 @@ announce "2/4 address and undefined behaviour sanitizers: unit tests and laws"
 if build_stage "$build-asan" asan scarp_tests; then run_ctest "$build-asan" -E '^cli\.'; fi
 
 announce "3/4 thread sanitizer: tests that use threads"
-if build_stage "$build-tsan" tsan scarp_thread_tests; then run_gtest "$build-tsan/bin/scarp_thread_tests"; fi
+if build_stage "$build-tsan" tsan scarp_thread_tests; then
+  TSAN_OPTIONS="suppressions=$PWD/tools/tsan.supp ${TSAN_OPTIONS-}" run_gtest "$build-tsan/bin/scarp_thread_tests"
+fi
 
 announce "4/4 fuzzers"
 if ! command -v clang++ >/dev/null; then
