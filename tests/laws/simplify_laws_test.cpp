@@ -275,7 +275,11 @@ TEST(simplify, normals_are_those_of_the_samples) {
 }
 
 TEST(simplify, a_simplified_outline_loses_no_sample) {
-  const Field field = testing::random_field(15, 80, 80, Relief::kRidges, 0.3);
+  // Smooth ground, so that the outline is what costs triangles.
+  Field field = testing::random_field(15, 80, 80, Relief::kRidges, 0.3);
+  for (std::size_t k = 0; k < field.samples.size(); ++k) {
+    if (!std::isnan(field.samples[k])) field.samples[k] = static_cast<float>(k % 80) / 4;
+  }
   const auto exact = simplify(field.view(), {.max_error = 5.0}),
              loose = simplify(field.view(), {.max_error = 5.0, .outline_tolerance = 2.0});
   ASSERT_TRUE(exact && loose);
