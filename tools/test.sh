@@ -45,13 +45,17 @@ run_ctest() {
   junit=$(cd "$folder" && pwd)/tests.xml
   rm -f "$junit"
   ctest --test-dir "$folder" -j "$jobs" --output-on-failure --no-tests=error --output-junit "$junit" "$@" || status=$?
-  attribute() { grep -o "\b$1=\"[0-9]*\"" "$junit" 2>/dev/null | head -n 1 | tr -dc 0-9; }
+  attribute() {
+    local value
+    value=$(grep -o "\b$1=\"[0-9]*\"" "$junit" 2>/dev/null | head -n 1 | tr -dc 0-9)
+    echo "${value:-0}"
+  }
   local tests failed skipped
   tests=$(attribute tests)
   failed=$(attribute failures)
   skipped=$(($(attribute skipped) + $(attribute disabled)))
-  if [ "$status" -ne 0 ] && [ "${failed:-0}" -eq 0 ]; then failed=1 tests=$((${tests:-0} + 1)); fi
-  add $((${tests:-0} - ${failed:-0} - skipped)) "${failed:-0}" "$skipped"
+  if [ "$status" -ne 0 ] && [ "$failed" -eq 0 ]; then failed=1 tests=$((tests + 1)); fi
+  add $((tests - failed - skipped)) "$failed" "$skipped"
 }
 
 # run_gtest PROGRAM: one process for all its tests.
