@@ -2,12 +2,14 @@
 #
 #   $scarp   the program          $dem    the bundled raster (403 x 344, int16, 236 .. 1076 m, EPSG:4326)
 #   $data    the project's data   $logs   stdout and stderr of the last `try`, outside the scratch folder
+#   $scratch the scratch folder
 set -euo pipefail
 scarp=$SCARP_BUILD/bin/scarp
 data=$SCARP_SOURCE/data
 dem=$data/jacksboro_fault.tif
 root=$(mktemp -d)
 logs=$root/logs
+scratch=$root/run
 mkdir "$root/run" "$logs"
 trap 'rm -rf "$root"' EXIT
 cd "$root/run"
