@@ -142,6 +142,11 @@ TEST(Canvas, WritesNumbers) {
   EXPECT_EQ(brightness(pixel(picture, 1, 4)), 765);
   EXPECT_EQ(brightness(pixel(picture, 7, 4)), 0);  // the minus
   EXPECT_EQ(brightness(pixel(picture, 7, 3)), 765);
+  draw::write_number(picture, 20, 1, 1, "+", {0, 0, 0});
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(brightness(pixel(picture, 20 + i, 4)), 0);
+    EXPECT_EQ(brightness(pixel(picture, 22, 2 + i)), 0);
+  }
   draw::write_number(picture, 55, 5, 3, "88", {0, 0, 0});  // partly outside: cut off
 }
 
