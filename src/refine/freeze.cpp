@@ -97,18 +97,22 @@ Mesh freeze(const Raster& raster, const Triangulation& tin, const Frame& frame) 
     if (tin.is_outside(t)) continue;
     for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) mesh.triangles.push_back(ids[tin.origin(h)]);
   }
-  const std::vector<Point> points = frozen_samples(tin);
+  const auto used =
+      static_cast<std::size_t>(std::count_if(ids.begin(), ids.end(), [](auto id) { return id != kNone; }));
+  mesh.positions.reserve(3 * used);
   const OffsetMap offsets(raster, frame);
+  std::vector<Point> chunk;
   std::vector<double> x, y;
-  mesh.positions.reserve(3 * points.size());
-  for (std::size_t begin = 0; begin < points.size(); begin += kChunk) {
-    const auto chunk = std::span(points).subspan(begin, std::min(kChunk, points.size() - begin));
+  for (Vertex v = 0; v < tin.vertex_count(); ++v) {
+    if (ids[v] != kNone) chunk.push_back(tin.point(v));
+    if (chunk.size() < kChunk && v + 1 < tin.vertex_count()) continue;
     offsets.map(chunk, x, y);
     for (std::size_t k = 0; k < chunk.size(); ++k) {
       mesh.positions.push_back(static_cast<float>(x[k]));
       mesh.positions.push_back(static_cast<float>(y[k]));
       mesh.positions.push_back(raster.at(chunk[k]));
     }
+    chunk.clear();
   }
   mesh.origin = {offsets.origin()[0], offsets.origin()[1], 0};
   if (twice_area(mesh) < 0) {
