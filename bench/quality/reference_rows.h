@@ -2,11 +2,7 @@
 // fields, measured with the original program. Vertices include the four corners, RMSE is over all samples.
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdint>
-
-#include "scarp/height_field.h"
 
 namespace bench {
 
@@ -29,17 +25,6 @@ inline constexpr ReferenceRow kReferenceRows[] = {
     {"westUS", 10486, 20820, 57.828, 16.858},  {"westUS", 52429, 104488, 17.75, 5.8399},
     {"westUS", 104858, 209144, 11.00, 3.5810}, {"westUS", 524288, 1046717, 1.50, 0.5278},
 };
-
-/// Puts the rows in the order in which Scape holds them, the southernmost first. The first diagonal and the order of
-/// ties follow the rows, and small meshes follow the first diagonal (ashby at 156 vertices: RMSE 18.578 in Scape's
-/// order of rows, as in Scape itself, 18.989 in the file's).
-inline void reverse_rows(scarp::OwnedHeightField& field) {
-  const auto cols = static_cast<std::ptrdiff_t>(field.cols);
-  for (std::ptrdiff_t top = 0, bottom = field.rows - 1; top < bottom; ++top, --bottom) {
-    const auto row = field.samples.begin() + top * cols;
-    std::swap_ranges(row, row + cols, field.samples.begin() + bottom * cols);
-  }
-}
 
 /// What is asked of every row: the max error is left out, since ties and the first diagonal set it.
 inline constexpr double kRmseTolerance = 0.01, kTriangleTolerance = 0.005;

@@ -8,9 +8,9 @@ Triangulation::Triangulation(std::int32_t cols, std::int32_t rows) {
   assert(cols >= 2 && rows >= 2 && cols <= kMaxCoordinate + 1 && rows <= kMaxCoordinate + 1);
   for (Point p : {Point{0, 0}, Point{cols - 1, 0}, Point{cols - 1, rows - 1}, Point{0, rows - 1}}) points_.push_back(p);
   const Triangle t = new_triangle(), u = new_triangle();
-  set_triangle(t, 0, 1, 2, false);
-  set_triangle(u, 2, 3, 0, false);
-  link(3 * t + 2, 3 * u + 2);
+  set_triangle(t, 0, 1, 3, false);
+  set_triangle(u, 1, 2, 3, false);
+  link(3 * t + 1, 3 * u + 2);
 }
 
 void Triangulation::set_outside(Triangle t, bool outside) {

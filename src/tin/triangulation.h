@@ -27,7 +27,8 @@ inline constexpr std::uint32_t kNone = 0xffffffffu;
 /// interior edge or inside a triangle) ids are new, and they are the highest.
 class Triangulation {
  public:
-  /// The rectangle [0, cols − 1] × [0, rows − 1] as two triangles, the diagonal from (0, 0) to the opposite corner.
+  /// The rectangle [0, cols − 1] × [0, rows − 1] as two triangles, the diagonal from the last
+  /// row's first sample to the first row's last: from south-west to north-east, as in the report's program.
   /// REQUIRES: cols, rows in 2 … kMaxCoordinate + 1.
   Triangulation(std::int32_t cols, std::int32_t rows);
 

@@ -20,7 +20,6 @@ TEST_P(ReferenceRows, HaveScapesErrorAndTriangles) {
   if (!path) GTEST_SKIP() << file << " is not in ../shared/data";
   auto field = scarp::read_height_field(*path);
   ASSERT_TRUE(field) << field.error().message;
-  bench::reverse_rows(*field);
   auto refiner = scarp::Refiner::create(*field);
   ASSERT_TRUE(refiner) << refiner.error().message;
   int rows = 0;

@@ -12,10 +12,10 @@ using testing::verify_triangulation;
 
 Vertex insert_point(Triangulation& tin, Point p) { return tin.insert(p, tin.locate(p, tin.last_touched())); }
 
-TEST(triangulation, starts_with_two_triangles_along_the_main_diagonal) {
+TEST(triangulation, starts_with_two_triangles_from_south_west_to_north_east) {
   const Triangulation tin(7, 5);
   EXPECT_EQ(tin.triangle_count(), 2u);
-  EXPECT_NE(tin.find_edge(0, 2), kNone) << "from (0, 0) to (6, 4)";
+  EXPECT_NE(tin.find_edge(1, 3), kNone) << "from (6, 0) to (0, 4)";
   EXPECT_EQ(verify_triangulation(tin, 7, 5), "");
 }
 
