@@ -10,7 +10,7 @@
 namespace scarp::gdal {
 namespace {
 
-constexpr GIntBig kBlockCacheBytes = 16 << 20;
+constexpr GIntBig kBlockCacheBytes = 8 << 20;
 constexpr std::size_t kMessagesKept = 8;
 
 void CPL_STDCALL collect(CPLErr severity, CPLErrorNum number, const char* message) {

@@ -9,7 +9,7 @@ namespace scarp::gdal {
 
 /// While a Session lives, what GDAL and PROJ have to say in this thread is collected instead of printed, and, for
 /// remote files, options that make range requests cheap and finite are set for this thread wherever the user has not
-/// set them. The first Session of a process registers GDAL's drivers and limits its block cache to 16 MB unless
+/// set them. The first Session of a process registers GDAL's drivers and limits its block cache to 8 MB unless
 /// GDAL_CACHEMAX is set. Sessions may be nested; one must end in the thread that began it.
 class Session {
  public:

@@ -19,7 +19,7 @@ struct Window {
   int col = 0, row = 0, cols = 0, rows = 0;
 };
 
-constexpr int kWindowSamples = 1 << 20;  // 8 MB of doubles
+constexpr int kWindowSamples = 1 << 18;  // 2 MB of doubles
 
 /// A window's size that reads each of the file's blocks once: whole blocks, as many as kWindowSamples hold, and full
 /// rows where blocks are full rows. Blocks larger than that are read in slices, one after the other.
