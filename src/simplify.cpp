@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <new>
 #include <optional>
@@ -77,6 +78,11 @@ class Reporter {
   double fraction_ = 0;
 };
 
+/// goal − reserve, rounded down.
+double tightened(double goal, double reserve) {
+  return reserve > 0 ? std::max(0.0, std::nextafter(goal - reserve, 0.0)) : goal;
+}
+
 /// One run of the engine towards the goals.
 class Run {
  public:
@@ -84,10 +90,11 @@ class Run {
       : field_(field),
         raster_(raster),
         options_(options),
-        bound_(options.max_error ? *options.max_error - field.sample_rounding : 0),
+        bound_(options.max_error ? tightened(*options.max_error, field.sample_rounding) : 0),
         domain_(std::move(domain)),
         seeds_(domain_->tin.vertex_count()),
         refinement_(std::in_place, raster, domain_->tin, bound_),
+        exact_(offsets_are_exact(field.frame, field.cols, field.rows)),
         reporter_(options.progress) {}
 
   Result<Simplified> execute() {
@@ -99,11 +106,9 @@ class Run {
     take_best_prefix();
     // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
     // proof.
-    const bool final =
-        result.stop != StopReason::kMaxError || offsets_are_exact(field_.frame, field_.cols, field_.rows);
+    const bool final = result.stop != StopReason::kMaxError || exact_;
     if (final) refinement_.reset();
-    result.mesh = freeze(raster_, domain_->tin, field_.frame);
-    if (options_.normals) result.mesh.normals = sample_normals(raster_, field_.frame, frozen_samples(domain_->tin));
+    freeze_into(result);
     if (final) domain_.reset();
     optimize_order(result.mesh);
     result.seconds_refine = seconds_since(start);
@@ -114,17 +119,22 @@ class Run {
  private:
   std::uint64_t vertices() const { return domain_->tin.vertex_count() - domain_->unused; }
 
-  std::optional<StopReason> reached() const {
-    if (refinement_->done()) return options_.max_error ? StopReason::kMaxError : StopReason::kExact;
+  /// The budget that one more vertex with `gain` more triangles would break.
+  std::optional<StopReason> exceeded(std::uint32_t gain) const {
     if (options_.max_vertices && vertices() + 1 > *options_.max_vertices) return StopReason::kMaxVertices;
-    if (options_.max_triangles && refinement_->triangle_count() + refinement_->next_gain() > *options_.max_triangles)
+    if (options_.max_triangles && refinement_->triangle_count() + gain > *options_.max_triangles)
       return StopReason::kMaxTriangles;
     return std::nullopt;
   }
 
+  std::optional<StopReason> reached() const {
+    if (refinement_->done()) return options_.max_error ? StopReason::kMaxError : StopReason::kExact;
+    return exceeded(refinement_->next_gain());
+  }
+
   Result<void> refine(StopReason& stop) {
     const double first_error = refinement_->worst_error();
-    best_ = {domain_->tin.vertex_count(), first_error};
+    best_ = {domain_->tin.vertex_count(), in_last_stretch() ? first_error : std::numeric_limits<double>::infinity()};
     for (std::uint64_t step = 0;; ++step) {
       if (const auto reason = reached()) {
         stop = *reason;
@@ -132,7 +142,7 @@ class Run {
       }
       if (refinement_->is_full())
         return fail(ErrorKind::kInput, "the mesh would have more than 1,431 million triangles: allow a larger error");
-      if (step % 256 == 0 && reporter_.due() &&
+      if ((step < 1024 || step % 256 == 0) && reporter_.due() &&
           !reporter_.report("refine", fraction(first_error), vertices(), refinement_->worst_error()))
         return fail(ErrorKind::kCancelled, "cancelled while refining");
       refinement_->insert_worst();
@@ -165,7 +175,7 @@ class Run {
   /// Max error is not monotone: a budget may stop on a spike. Insertion is deterministic, so an earlier mesh is had by
   /// inserting the same points again, without looking at a sample.
   void take_best_prefix() {
-    if (refinement_->done() || best_.vertices == domain_->tin.vertex_count() || best_.vertices == seeds_) return;
+    if (refinement_->done() || std::isinf(best_.error) || best_.vertices == domain_->tin.vertex_count()) return;
     std::vector<Point> points;
     for (std::size_t v = seeds_; v < best_.vertices; ++v) points.push_back(domain_->tin.point(static_cast<Vertex>(v)));
     refinement_.reset();
@@ -173,11 +183,39 @@ class Run {
     for (Point p : points) domain_->tin.insert(p, domain_->tin.locate(p, domain_->tin.last_touched()));
   }
 
+  void freeze_into(Simplified& result) const {
+    result.mesh = freeze(raster_, domain_->tin, field_.frame);
+    if (options_.normals) result.mesh.normals = sample_normals(raster_, field_.frame, frozen_samples(domain_->tin));
+  }
+
+  /// Inserts the samples that break the bound in the judge's eyes, as far as the budgets allow, and refines on. Returns
+  /// false if there was none to insert.
+  Result<bool> mend(Simplified& result) {
+    bool mended = false;
+    std::optional<StopReason> budget;
+    for (const Offender& o : result.measurement.offenders) {
+      const std::uint32_t gain = refinement_->gain_at({o.col, o.row});
+      if (gain == 0) continue;
+      budget = exceeded(gain);
+      if (budget) break;
+      refinement_->insert({o.col, o.row});
+      mended = true;
+    }
+    if (budget) {
+      result.stop = *budget;
+      return true;
+    }
+    if (!mended) return false;
+    if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
+    take_best_prefix();
+    return true;
+  }
+
   /// Judges the mesh as it will be written. Where float32 positions or the frame's curvature cost the bound, the
   /// samples that break it are inserted and refinement goes on.
   Result<void> prove(Simplified& result) {
     MeasureOptions judge;
-    judge.topology = !field_.frame.is_affine();
+    judge.topology = !exact_;
     judge.threads = options_.threads;
     judge.progress = options_.progress;
     if (options_.max_error) judge.collect_above = bound_;
@@ -188,23 +226,20 @@ class Run {
       result.measurement = std::move(*measurement);
       result.seconds_measure += seconds_since(start);
       if (judge.topology && !result.measurement.is_sound())
-        return fail(
-            ErrorKind::kPromise,
-            "the mesh folds over itself in the output CRS: its edges are straight where the grid's are curved; ask "
-            "for a smaller error, or write in the raster's own CRS");
+        return fail(ErrorKind::kPromise,
+                    "the mesh folds over itself: in this frame positions are rounded to float32, or edges are straight "
+                    "where the grid's are curved; ask for a smaller error, or write in the local or grid frame");
       if (result.stop != StopReason::kMaxError || keeps_promise(result.measurement)) return {};
       if (!refinement_) return fail(ErrorKind::kInternal, broken_promise(result.measurement));
-      std::uint64_t inserted = 0;
-      for (const Offender& o : result.measurement.offenders) inserted += refinement_->insert({o.col, o.row});
-      if (inserted == 0)
+      const auto again = Clock::now();
+      const auto mended = mend(result);
+      if (!mended) return tl::unexpected(mended.error());
+      if (!*mended)
         return fail(ErrorKind::kPromise,
                     broken_promise(result.measurement) +
                         ": positions in the mesh are float32 offsets, and their rounding alone costs that much; "
                         "ask for a larger error, or use the local or grid frame");
-      const auto again = Clock::now();
-      if (auto refined = refine(result.stop); !refined) return refined;
-      result.mesh = freeze(raster_, domain_->tin, field_.frame);
-      if (options_.normals) result.mesh.normals = sample_normals(raster_, field_.frame, frozen_samples(domain_->tin));
+      freeze_into(result);
       optimize_order(result.mesh);
       result.seconds_refine += seconds_since(again);
     }
@@ -235,6 +270,7 @@ class Run {
   std::optional<Domain> domain_;  // the workbench: given back as soon as nothing can need it any more
   std::size_t seeds_;
   std::optional<Refinement> refinement_;
+  bool exact_;  // every vertex can lie exactly on its sample
   Reporter reporter_;
   Prefix best_{0, std::numeric_limits<double>::infinity()};
 };
@@ -250,6 +286,8 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& opt
   return Run(field, samples->raster(), options, std::move(*domain)).execute();
 } catch (const std::bad_alloc&) {
   return fail(ErrorKind::kInput, "not enough memory for this raster and goal: allow a larger error or fewer triangles");
+} catch (const std::exception& e) {
+  return fail(ErrorKind::kInternal, fmt::format("an exception while simplifying: {}", e.what()));
 }
 
 }  // namespace scarp

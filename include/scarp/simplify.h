@@ -40,25 +40,26 @@ struct Simplified {
   Mesh mesh;
   StopReason stop = StopReason::kMaxError;
   /// The proof: `mesh` as it stands (rounded positions), judged against all samples by measure(). The topology part is
-  /// left out in affine frames, where it holds by construction.
+  /// left out where offsets_are_exact() holds for the frame: there it holds by construction.
   Measurement measurement;
   double seconds_refine = 0;   ///< outline, refinement and freezing
   double seconds_measure = 0;  ///< the proof
-  std::vector<std::string> warnings;
 };
 
 /// Greedy insertion (Garland & Heckbert 1995, Algorithm III) on a constrained Delaunay triangulation of the valid data.
 ///
 /// Guarantees, for every input:
-/// (1) if max_error is given and no budget ended the run, measurement.max_error <= max_error, in exact arithmetic, for
-///     the positions in `mesh`, and no valid sample of the domain is uncovered;
+/// (1) if max_error is given and no budget ended the run, every valid sample of the domain is covered and lies within
+///     max_error − field.sample_rounding of `mesh`, positions as they are in it. Where offsets_are_exact() this holds
+///     in exact arithmetic; else as far as measure()'s double arithmetic sees (10⁻¹² of the largest height);
 /// (2) the domain is the union of grid cells whose corners are all valid, and of half cells where three are;
 /// (3) vertices are samples; triangles are counter-clockwise from above and share whole edges;
 /// (4) the result depends on the field and the options only, not on threads or machine.
 /// Budgets are upper bounds. Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex.
 ///
 /// Fails with kUsage (no goal, a goal out of range, a budget below what the outline needs), kInput (fewer than 2×2
-/// samples, no valid cell), kPromise (a bound that float32 positions or samples cannot keep), kCancelled.
+/// samples, no valid cell), kPromise (a bound that float32 positions or samples cannot keep, a mesh that rounding or a
+/// projection folds over), kCancelled.
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& options);
 
 /// The same engine, one vertex at a time. Works on a copy of nothing: `field` must stay alive.

@@ -19,7 +19,8 @@ struct Plane {
   Point base;                       ///< first corner in raster order
   double height = 0;                ///< at base
   double slope_x = 0, slope_y = 0;  ///< per sample
-  double guard = 0;  ///< |computed − exact| of height_at(p) − sample, for p in the triangle; 0 if level
+  double guard = 0;  ///< bound of |computed − exact| of height_at(p) − sample, for p in the triangle; 0 if level, where
+                     ///< only that subtraction rounds
 
   /// REQUIRES: orient(corners) != 0; heights finite.
   static Plane through(std::array<Point, 3> corners, std::array<float, 3> heights) {

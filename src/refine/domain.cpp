@@ -43,8 +43,9 @@ void mark_outside(const Raster& raster, Triangulation& tin) {
   }
 }
 
-/// Splits border edges of the domain whose chord in the frame strays from the samples under it.
-void follow_curved_border(Triangulation& tin, const Frame& frame) {
+/// Splits border edges of the domain whose chord in the frame strays from the samples under it. Void samples, over
+/// which a simplified outline may run, need no cover.
+void follow_curved_border(const Raster& raster, Triangulation& tin, const Frame& frame) {
   constexpr double kStray = 1.0 / 512;
   struct Segment {
     Point a, b;
@@ -76,7 +77,7 @@ void follow_curved_border(Triangulation& tin, const Frame& frame) {
     std::int32_t split = 0;
     for (std::int32_t i = 1; i < steps; ++i) {
       const double stray = std::abs(dx * (ys[i] - ys.front()) - dy * (xs[i] - xs.front())) / length;
-      if (stray > worst) {
+      if (stray > worst && raster.is_valid({a.x + i * unit.x, a.y + i * unit.y})) {
         worst = stray;
         split = i;
       }
@@ -121,7 +122,7 @@ Result<Domain> build_domain(const Raster& raster, double outline_tolerance, cons
     }
     mark_outside(raster, domain.tin);
   }
-  if (!frame.is_affine()) follow_curved_border(domain.tin, frame);
+  if (!frame.is_affine()) follow_curved_border(raster, domain.tin, frame);
   domain.unused = count_unused_corners(domain.tin);
   return domain;
 }

@@ -52,7 +52,9 @@ std::optional<Candidate> find_candidate(const Raster& raster, const std::array<P
   const Plane plane = Plane::through(corners, heights_at(raster, corners));
   const Candidate worst = scan_worst(raster, corners, plane);
   if (worst.error > threshold + plane.guard) return worst;
-  if (worst.error < threshold - plane.guard || plane.guard == 0) return std::nullopt;
+  if (worst.error < threshold - plane.guard) return std::nullopt;
+  // A level plane has no guard: one subtraction rounds, monotonely, so that only equality is in doubt.
+  if (plane.guard == 0 && (threshold == 0 || worst.error != threshold)) return std::nullopt;
   return scan_worst_exactly(raster, corners, plane, threshold);
 }
 
@@ -75,17 +77,16 @@ void Refinement::rescan(Triangle t) {
 }
 
 std::uint32_t Refinement::gain(const Triangulation::Location& location) const {
+  const auto counts = [this](HalfEdge h) { return h != kNone && !tin_.is_outside(h / 3) ? 1u : 0u; };
   switch (location.kind) {
     case Triangulation::Location::Kind::kInside:
-      return 2;
-    case Triangulation::Location::Kind::kOnVertex:
-      return 0;
+      return 2 * counts(location.edge);
     case Triangulation::Location::Kind::kOnEdge:
+      return counts(location.edge) + counts(tin_.twin(location.edge));
+    case Triangulation::Location::Kind::kOnVertex:
       break;
   }
-  const HalfEdge other = tin_.twin(location.edge);
-  const auto counts = [this](HalfEdge h) { return h != kNone && !tin_.is_outside(h / 3) ? 1u : 0u; };
-  return counts(location.edge) + counts(other);
+  return 0;
 }
 
 std::uint32_t Refinement::next_gain() const {
@@ -97,15 +98,6 @@ void Refinement::insert_worst() {
   const Triangle t = queue_.worst();
   const Point p = queue_.candidate(t).at;
   insert_at(p, tin_.locate_in(p, t));
-}
-
-bool Refinement::insert(Point p) {
-  const auto location = tin_.locate(p, tin_.last_touched());
-  if (gain(location) == 0 ||
-      (location.kind == Triangulation::Location::Kind::kInside && tin_.is_outside(location.edge / 3)))
-    return false;
-  insert_at(p, location);
-  return true;
 }
 
 void Refinement::insert_at(Point p, Triangulation::Location location) {

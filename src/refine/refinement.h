@@ -41,9 +41,10 @@ class Refinement {
   std::uint32_t next_gain() const;
   /// REQUIRES: !done().
   void insert_worst();
-  /// Inserts a given sample (of the domain, not a vertex yet, or nothing happens) and rescans around it. Returns true
-  /// if inserted.
-  bool insert(Point p);
+  /// How many triangles of the domain the insertion of p would add; 0 if p is a vertex or outside the domain.
+  std::uint32_t gain_at(Point p) const { return gain(tin_.locate(p, tin_.last_touched())); }
+  /// Inserts a given sample and rescans around it. REQUIRES: gain_at(p) > 0.
+  void insert(Point p) { insert_at(p, tin_.locate(p, tin_.last_touched())); }
 
   std::uint64_t triangle_count() const { return inside_; }
 

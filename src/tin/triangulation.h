@@ -106,7 +106,6 @@ class Triangulation {
   Passage passage(Vertex from, Vertex to) const;
   void force_edge(Vertex a, Vertex b, const std::vector<HalfEdge>& crossed);
 
-  std::int32_t cols_, rows_;
   Array<Point> points_;
   Array<Vertex> corners_;          // 3 per triangle
   Array<HalfEdge> twins_;          // 3 per triangle

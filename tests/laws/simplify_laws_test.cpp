@@ -260,6 +260,68 @@ TEST(simplify, a_curved_frame_keeps_the_promise_and_covers_its_border) {
   }
 }
 
+HeightField bent(const Field& field) {
+  HeightField view = field.view();
+  view.frame.kind = Frame::Kind::kProjected;
+  view.frame.transform = std::make_shared<Bend>();
+  return view;
+}
+
+TEST(simplify, budgets_hold_where_the_judge_asks_for_more_vertices) {
+  const Field field = testing::random_field(16, 120, 90, Relief::kRidges);
+  const auto free_run = simplify(bent(field), {.max_error = 12.0});
+  ASSERT_TRUE(free_run);
+  const std::uint64_t triangles = free_run->mesh.triangle_count();
+  for (std::uint64_t budget = triangles - 60; budget < triangles + 4; budget += 3) {
+    const auto result = simplify(bent(field), {.max_error = 12.0, .max_triangles = budget});
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_LE(result->mesh.triangle_count(), budget);
+    if (result->stop == StopReason::kMaxError) EXPECT_LE(result->measurement.max_error, 12.0);
+  }
+}
+
+TEST(simplify, a_simplified_outline_in_a_curved_frame_has_no_void_vertices) {
+  Field field = testing::random_field(17, 90, 90, Relief::kRidges);
+  for (std::int32_t y = 0; y < 90; ++y)
+    for (std::int32_t x = 0; x < 90; ++x)
+      if (3 * x + y % 3 > 200 - y) field.samples[static_cast<std::size_t>(90 * y + x)] = std::nanf("");
+  const auto result = simplify(bent(field), {.max_error = 10.0, .outline_tolerance = 2.0});
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(judge(bent(field), result->mesh).uncovered, 0u);
+}
+
+TEST(simplify, the_best_prefix_may_be_the_outline_alone) {
+  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+    const Field field = testing::random_field(seed, 20, 20, Relief::kReal, 0.3);
+    Refiner refiner = *Refiner::create(field.view());
+    const std::uint64_t seeds = refiner.vertex_count();
+    const double outline_error = refiner.max_error();
+    if (!refiner.insert_worst()) continue;
+    const auto result = simplify(field.view(), {.max_vertices = seeds + 1});
+    ASSERT_TRUE(result);
+    EXPECT_NEAR(result->measurement.max_error, std::min(outline_error, refiner.max_error()), 1e-9) << seed;
+  }
+}
+
+TEST(simplify, a_level_plane_is_judged_exactly) {
+  // 2^24 − (−10⁻¹⁰) is more than 2^24, but not in double.
+  std::vector<float> samples(9, 16777216.0f);
+  samples[4] = -1e-10f;
+  const auto result = simplify({samples.data(), 3, 3}, {.max_error = 16777216.0});
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->mesh.vertex_count(), 5u);
+}
+
+TEST(simplify, values_that_were_rounded_keep_their_reserve) {
+  const Field field = testing::random_field(18, 60, 60, Relief::kRidges);
+  HeightField view = field.view();
+  view.sample_rounding = 0.25;
+  const auto result = simplify(view, {.max_error = 2.0});
+  ASSERT_TRUE(result);
+  EXPECT_LE(result->measurement.max_error, 1.75);
+  EXPECT_EQ(simplify(view, {.max_error = 0.2}).error().kind, ErrorKind::kPromise);
+}
+
 TEST(simplify, normals_are_those_of_the_samples) {
   Field field{20, 20, std::vector<float>(400)};
   for (std::size_t y = 0; y < 20; ++y)
