@@ -1,4 +1,5 @@
 // The engine one vertex at a time: thin over refine/.
+#include "base/caught.h"
 #include "grid/raster.h"
 #include "refine/domain.h"
 #include "refine/freeze.h"
@@ -27,12 +28,14 @@ Refiner::Refiner(Refiner&&) noexcept = default;
 Refiner& Refiner::operator=(Refiner&&) noexcept = default;
 Refiner::~Refiner() = default;
 
-Result<Refiner> Refiner::create(const HeightField& field, double outline_tolerance) {
+Result<Refiner> Refiner::create(const HeightField& field, double outline_tolerance) try {
   auto samples = Samples::of(field);
   if (!samples) return tl::unexpected(samples.error());
   auto domain = build_domain(samples->raster(), outline_tolerance, field.frame);
   if (!domain) return tl::unexpected(domain.error());
   return Refiner(std::make_unique<Impl>(field, std::move(*samples), std::move(*domain)));
+} catch (...) {
+  return caught(ErrorKind::kInput, "triangulate this raster");
 }
 
 bool Refiner::insert_worst() {
@@ -44,6 +47,6 @@ bool Refiner::insert_worst() {
 double Refiner::max_error() const { return impl_->refinement.worst_error(); }
 std::uint64_t Refiner::vertex_count() const { return impl_->domain.tin.vertex_count() - impl_->domain.unused; }
 std::uint64_t Refiner::triangle_count() const { return impl_->refinement.triangle_count(); }
-Mesh Refiner::mesh() const { return freeze(impl_->raster, impl_->domain.tin, impl_->field.frame); }
+Mesh Refiner::mesh() const { return freeze(impl_->raster, impl_->domain.tin, impl_->field.frame, true); }
 
 }  // namespace scarp

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/caught.h"
 #include "base/parallel.h"
 #include "measure/band.h"
 #include "measure/progress_gate.h"
@@ -185,7 +186,7 @@ bool judge_heights(const HeightField& field, const Mesh& mesh, const judge::Scan
 
 }  // namespace
 
-Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const MeasureOptions& options) {
+Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const MeasureOptions& options) try {
   if (auto checked = check_input(field, mesh, options); !checked) return tl::unexpected<Error>(checked.error());
   ProgressGate gate(options.progress);
   const auto cancelled = [] { return fail(ErrorKind::kCancelled, "measuring was cancelled"); };
@@ -221,6 +222,7 @@ Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const Me
     result.border_loops = edges.loops;
     judge::measure_shape(mesh, judged, result);
     result.t_junctions = judge::count_t_junctions(mesh, welded, edges.open);
+    result.gaps = judge::count_gaps(field, mesh, welded, edges.open, tolerance);
     bool is_stopped = false;
     result.overlaps = judge::count_overlaps(mesh, judged, options.threads, [&](double fraction) {
       is_stopped = !gate.go_on("topology", fraction);
@@ -229,6 +231,8 @@ Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const Me
     if (is_stopped) return cancelled();
   }
   return result;
+} catch (...) {
+  return caught(ErrorKind::kInput, "measure the mesh");
 }
 
 }  // namespace scarp

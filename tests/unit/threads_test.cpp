@@ -6,7 +6,9 @@
 #include <cmath>
 #include <filesystem>
 #include <future>
+#include <new>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -54,6 +56,35 @@ TEST(Threads, ParallelForCallsEachTaskOnce) {
       EXPECT_EQ(calls, std::vector<int>(count, 1)) << count << " tasks on " << threads << " threads";
     }
   }
+}
+
+TEST(Threads, TheExceptionOfTheLowestIndexComesThrough) {
+  for (const int threads : {1, 2, 8}) {
+    for (int round = 0; round < 50; ++round) {
+      std::string thrown;
+      try {
+        parallel_for(100, threads, [&](std::size_t i) {
+          if (i % 10 == 7) throw std::runtime_error(std::to_string(i));
+        });
+      } catch (const std::runtime_error& error) {
+        thrown = error.what();
+      }
+      EXPECT_EQ(thrown, "7") << threads << " threads";
+    }
+  }
+}
+
+TEST(Threads, MemoryThatRunsOutIsAnError) {
+  const OwnedHeightField field = make_waves(60, 60);
+  Mesh mesh;
+  mesh.positions = {0, 0, 0, 59, 0, 0, 0, 59, 0};
+  mesh.triangles = {0, 1, 2};
+  MeasureOptions options;
+  options.on_row = [](int, std::span<const float>) { throw std::bad_alloc(); };
+  const auto measured = measure(field, mesh, options);
+  ASSERT_FALSE(measured);
+  EXPECT_EQ(measured.error().kind, ErrorKind::kInput);
+  EXPECT_EQ(measured.error().message, "not enough memory to measure the mesh");
 }
 
 TEST(Threads, NeverChangeWhatIsMeasured) {
