@@ -37,9 +37,6 @@ struct ReadOptions {
 /// kUsage for a CRS that is unknown or cannot be reached.
 Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options = {});
 
-/// Size and type of a raster, its CRS, cell size: everything but the samples (min, max, valid stay 0).
-Result<RasterInfo> read_raster_info(const std::string& path, const ReadOptions& options, int& cols, int& rows);
-
 /// Largest number of samples that fit `memory_limit` bytes at 5 bytes a sample; 0 = the machine's memory.
 std::uint64_t max_samples(std::uint64_t memory_limit);
 
@@ -62,9 +59,9 @@ Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional
                         bool overwrite = true);
 Result<Mesh> read_mesh(const std::string& path);
 
-/// Writes bytes to a temporary name beside `path` (".scarp-PID-N.tmp") and renames it. kOutput on any failure, with
-/// nothing left behind; also if `path` exists and `overwrite` is false. A symbolic link is followed, an existing file
-/// keeps its permissions. /dev/stdout, and existing devices and pipes, are written directly. A program that wants "file
+/// Writes bytes to a temporary name beside `path` (".scarp-R.tmp", R: 16 random hexadecimal digits) and renames it.
+/// kOutput on any failure, with nothing left behind; also if `path` exists and `overwrite` is false. A symbolic link is
+/// followed, also to a file that does not exist yet; an existing file keeps its permissions. /dev/stdout, and existing devices and pipes, are written directly. A program that wants "file
 /// too large" as an error rather than as its end ignores SIGXFSZ.
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes, bool overwrite = true);
 /// The whole file (or pipe). kInput if it cannot be read.

@@ -11,13 +11,14 @@
 
 #include <atomic>
 #include <cerrno>
-#include <climits>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <new>
+#include <filesystem>
+#include <optional>
+#include <random>
 #include <system_error>
+#include <utility>
 
+#include "base/caught.h"
 #include "scarp/io.h"
 
 namespace scarp {
@@ -26,7 +27,6 @@ namespace {
 constexpr std::size_t kPendingSize = 4096 + 64;  // the longest path that open() takes, and our suffix
 char pending_name[kPendingSize];
 std::atomic<bool> pending_taken{false};
-std::atomic<unsigned> next_serial{0};
 
 /// Holds the name for pending_output() while it lives. The first character is set last and cleared first, so that a
 /// handler that interrupts us sees a whole name or none.
@@ -127,52 +127,104 @@ std::string folder_of(const std::string& path) {
   return slash == std::string::npos ? "" : path.substr(0, slash + 1);
 }
 
+/// Where a chain of symbolic links ends, whether something is there or not; the path itself if it is no link.
+std::string follow_links(const std::string& path) {
+  constexpr int kMostLinks = 40;  // as many as Linux follows
+  std::filesystem::path target = path;
+  for (int links = 0; links < kMostLinks; ++links) {
+    std::error_code error;
+    const std::filesystem::path next = std::filesystem::read_symlink(target, error);
+    if (error) break;
+    target = next.is_absolute() ? next : target.parent_path() / next;
+  }
+  return target.string();
+}
+
+/// A new, empty file in a folder, with a name that nobody else has.
+class TemporaryFile {
+ public:
+  /// Random names, because processes in two containers that share a folder may have the same number. A name that is
+  /// taken is somebody else's and is left alone.
+  explicit TemporaryFile(const std::string& folder) {
+    constexpr int kMostTries = 100;
+    std::random_device random;
+    for (int k = 0; k < kMostTries; ++k) {
+      name_ = fmt::format("{}.scarp-{:08x}{:08x}.tmp", folder, random(), random());
+      pending_.emplace(name_);
+      fd_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      is_ours_ = fd_ >= 0;
+      if (is_ours_) return;
+      error_ = errno;
+      pending_.reset();
+      if (error_ != EEXIST) return;
+    }
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    close();
+    if (is_ours_) ::unlink(name_.c_str());
+  }
+
+  const std::string& name() const { return name_; }
+  int fd() const { return fd_; }
+  /// Why there is none; an errno.
+  int error() const { return error_; }
+  /// 0 or an errno.
+  int close() {
+    if (fd_ < 0) return 0;
+    return ::close(std::exchange(fd_, -1)) == 0 ? 0 : errno;
+  }
+  /// It has another name now.
+  void let_go() { is_ours_ = false; }
+
+ private:
+  std::string name_;
+  std::optional<PendingName> pending_;
+  int fd_ = -1, error_ = 0;
+  bool is_ours_ = false;
+};
+
 }  // namespace
 
 const char* pending_output() { return pending_name; }
 
-Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes, bool overwrite) {
+Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes, bool overwrite) try {
   if (path.empty()) return fail(ErrorKind::kOutput, "cannot write a file without a name");
   if (path == "/dev/stdout") return write_directly(path, ::dup(STDOUT_FILENO), bytes);
 
-  std::string target = path;
+  const auto taken = [&] {
+    return fail(ErrorKind::kOutput, fmt::format("{} exists; use --overwrite to replace it", path));
+  };
   struct stat old {};
   const bool exists = ::stat(path.c_str(), &old) == 0;
+  if (!exists && errno == ELOOP) return fail_writing(path, "its symbolic links lead in a circle");
   if (exists) {
     if (S_ISDIR(old.st_mode)) return fail_writing(path, "it is a folder; name a file in it");
     if (!S_ISREG(old.st_mode)) return write_directly(path, ::open(path.c_str(), O_WRONLY | O_CLOEXEC), bytes);
-    if (!overwrite) return fail(ErrorKind::kOutput, fmt::format("{} exists; use --overwrite to replace it", path));
+    if (!overwrite) return taken();
     if (::access(path.c_str(), W_OK) != 0) return fail_writing(path, "the existing file may not be written");
-    if (char* real = ::realpath(path.c_str(), nullptr)) {
-      target = real;
-      std::free(real);
-    }
   }
 
-  const std::string temporary =
-      fmt::format("{}.scarp-{}-{}.tmp", folder_of(target), ::getpid(), next_serial.fetch_add(1));
-  const PendingName pending(temporary);
-  constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
-  int fd = ::open(temporary.c_str(), kFlags, 0666);
-  if (fd < 0 && errno == EEXIST && ::unlink(temporary.c_str()) == 0) {
-    fd = ::open(temporary.c_str(), kFlags, 0666);  // was left by a killed process that had our number
+  const std::string target = follow_links(path);
+  TemporaryFile temporary(folder_of(target));
+  if (temporary.fd() < 0) {
+    const int why = temporary.error();
+    if (why == ENOENT || why == ENOTDIR) return fail_writing(path, "its folder does not exist; create it first");
+    if (why == EACCES || why == EPERM) return fail_writing(path, "its folder may not be written");
+    return fail_writing(path, reason(why));
   }
-  if (fd < 0) {
-    if (errno == ENOENT || errno == ENOTDIR) return fail_writing(path, "its folder does not exist; create it first");
-    if (errno == EACCES || errno == EPERM) return fail_writing(path, "its folder may not be written");
-    return fail_writing(path, reason(errno));
-  }
-  int error = write_all(fd, bytes);
-  if (error == 0 && exists && ::fchmod(fd, old.st_mode & 07777) != 0 && errno != EPERM) error = errno;
-  if (error == 0) error = sync_file(fd);
-  if (::close(fd) != 0 && error == 0) error = errno;
-  if (error == 0) error = take_name(temporary, target, overwrite);
-  if (error != 0) {
-    ::unlink(temporary.c_str());
-    if (error == EEXIST) return fail(ErrorKind::kOutput, fmt::format("{} exists; use --overwrite to replace it", path));
-    return fail_writing(path, reason(error));
-  }
+  int error = write_all(temporary.fd(), bytes);
+  if (error == 0 && exists && ::fchmod(temporary.fd(), old.st_mode & 07777) != 0 && errno != EPERM) error = errno;
+  if (error == 0) error = sync_file(temporary.fd());
+  if (const int closing = temporary.close(); error == 0) error = closing;
+  if (error == 0) error = take_name(temporary.name(), target, overwrite);
+  if (error == EEXIST) return taken();
+  if (error != 0) return fail_writing(path, reason(error));
+  temporary.let_go();
   return {};
+} catch (...) {
+  return caught(ErrorKind::kOutput, "write " + path);
 }
 
 Result<std::vector<std::uint8_t>> read_file(const std::string& path) {
@@ -204,8 +256,8 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path) {
       if (size == room) room *= 2;
     }
     bytes.resize(size);
-  } catch (const std::exception&) {
-    return cannot("it does not fit into memory");
+  } catch (...) {
+    return caught(ErrorKind::kInput, "read " + path);
   }
   return bytes;
 }

@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <limits>
-#include <new>
 
+#include "base/caught.h"
 #include "io/mesh_file_text.h"
 #include "scarp/io.h"
 
@@ -201,8 +201,8 @@ Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat forma
       case MeshFormat::kStl:
         return encode_stl(mesh);
     }
-  } catch (const std::exception&) {
-    return fail(ErrorKind::kOutput, "the encoded mesh does not fit into memory");
+  } catch (...) {
+    return caught(ErrorKind::kOutput, "encode the mesh");
   }
   return fail(ErrorKind::kInternal, "encode_mesh() was given no format");
 }
@@ -222,8 +222,8 @@ Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string&
     if (!mesh) return unusable(mesh.error().message);
     if (const std::string why = find_unreadable(*mesh); !why.empty()) return unusable(why);
     return mesh;
-  } catch (const std::exception&) {
-    return unusable("it does not fit into memory");
+  } catch (...) {
+    return caught(ErrorKind::kInput, "decode " + name_for_errors);
   }
 }
 

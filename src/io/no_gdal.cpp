@@ -15,8 +15,6 @@ tl::unexpected<Error> refuse(const std::string& path) {
 
 Result<OwnedHeightField> read_gdal_raster(const std::string& path, const ReadOptions&) { return refuse(path); }
 
-Result<RasterInfo> read_gdal_info(const std::string& path, const ReadOptions&, int&, int&) { return refuse(path); }
-
 Result<std::vector<std::uint8_t>> encode_png(const Picture&) {
   return fail(ErrorKind::kOutput, "pictures cannot be written: this build of Scarp has no GDAL, which encodes PNG");
 }

@@ -111,10 +111,11 @@ struct ObjReader {
     }
     const auto vertices = static_cast<std::int64_t>(mesh.vertex_count());
     const auto triangles = static_cast<std::int64_t>(mesh.triangle_count());
-    if (announced_vertices >= 0 && (vertices != announced_vertices || triangles != announced_triangles || !ended)) {
-      return fmt::format("it announces {} vertices and {} triangles and holds {} and {}{}: it was cut off or changed",
-                         announced_vertices, announced_triangles, vertices, triangles,
-                         ended ? "" : " without an end mark");
+    if (announced_vertices >= 0 && !ended) {
+      return fmt::format(
+          "it announces {} vertices and {} triangles and ends without an end mark after {} and {}: it was "
+          "cut off",
+          announced_vertices, announced_triangles, vertices, triangles);
     }
     if (normals_match && normals.size() == mesh.positions.size()) mesh.normals = std::move(normals);
     // Positions must be sound before they are moved; the caller repeats this check for every format.

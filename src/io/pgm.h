@@ -19,7 +19,4 @@ bool is_pgm(std::span<const std::uint8_t> bytes);
 Result<OwnedHeightField> decode_pgm(std::span<const std::uint8_t> bytes, const std::string& name,
                                     const ReadOptions& options = {});
 
-/// The header only: `bytes` may end with it.
-Result<RasterInfo> decode_pgm_info(std::span<const std::uint8_t> bytes, const std::string& name, int& cols, int& rows);
-
 }  // namespace scarp

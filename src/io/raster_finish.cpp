@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <new>
-#include <stdexcept>
+#include <exception>
 
 namespace scarp {
 

@@ -7,9 +7,8 @@
 
 namespace scarp {
 
-/// read_height_field() and read_raster_info() for everything that has no reader of our own. In a build without GDAL
-/// both fail with kInput and say so.
+/// read_height_field() for everything that has no reader of our own; may throw std::bad_alloc. In a build without GDAL
+/// it fails with kInput and says so.
 Result<OwnedHeightField> read_gdal_raster(const std::string& path, const ReadOptions& options);
-Result<RasterInfo> read_gdal_info(const std::string& path, const ReadOptions& options, int& cols, int& rows);
 
 }  // namespace scarp

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "base/caught.h"
 #include "io/pgm.h"
 #include "io/raster_source.h"
 #include "io/stm.h"
@@ -28,23 +29,15 @@ Reader find_reader(const std::string& path, std::vector<std::uint8_t>& head) {
 
 }  // namespace
 
-Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options) {
+Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options) try {
   std::vector<std::uint8_t> head;
   const Reader reader = find_reader(path, head);
   if (reader == Reader::kGdal) return read_gdal_raster(path, options);
   auto bytes = read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
   return reader == Reader::kPgm ? decode_pgm(*bytes, path, options) : decode_stm(*bytes, path, options);
-}
-
-Result<RasterInfo> read_raster_info(const std::string& path, const ReadOptions& options, int& cols, int& rows) {
-  std::vector<std::uint8_t> head;
-  const Reader reader = find_reader(path, head);
-  if (reader == Reader::kGdal) return read_gdal_info(path, options, cols, rows);
-  auto info =
-      reader == Reader::kPgm ? decode_pgm_info(head, path, cols, rows) : decode_stm_info(head, path, cols, rows);
-  if (info && options.nodata) info->nodata = options.nodata;
-  return info;
+} catch (...) {
+  return caught(ErrorKind::kInput, "read " + path);
 }
 
 }  // namespace scarp

@@ -109,12 +109,4 @@ Result<OwnedHeightField> decode_stm(std::span<const std::uint8_t> bytes, const s
   return field;
 }
 
-Result<RasterInfo> decode_stm_info(std::span<const std::uint8_t> bytes, const std::string& name, int& cols, int& rows) {
-  auto header = decode_header(bytes, name);
-  if (!header) return tl::unexpected(header.error());
-  cols = static_cast<int>(header->cols);
-  rows = static_cast<int>(header->rows);
-  return describe(name, kMissing);
-}
-
 }  // namespace scarp

@@ -19,7 +19,4 @@ bool is_stm(std::span<const std::uint8_t> bytes);
 Result<OwnedHeightField> decode_stm(std::span<const std::uint8_t> bytes, const std::string& name,
                                     const ReadOptions& options = {});
 
-/// The header only: `bytes` may end with it.
-Result<RasterInfo> decode_stm_info(std::span<const std::uint8_t> bytes, const std::string& name, int& cols, int& rows);
-
 }  // namespace scarp

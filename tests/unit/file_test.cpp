@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -67,6 +68,28 @@ TEST_F(FileTest, FollowsSymbolicLinks) {
   ASSERT_TRUE(write_file(path("link"), to_bytes("new")));
   EXPECT_TRUE(fs::is_symlink(path("link")));
   EXPECT_EQ(content(path("real/a")), "new");
+}
+
+TEST_F(FileTest, FollowsALinkToWhatDoesNotExistYet) {
+  fs::create_directory(path("real"));
+  fs::create_symlink("real/b", path("second"));
+  fs::create_symlink("second", path("first"));
+  ASSERT_TRUE(write_file(path("first"), to_bytes("new"), false));
+  EXPECT_TRUE(fs::is_symlink(path("first")));
+  EXPECT_TRUE(fs::is_symlink(path("second")));
+  EXPECT_EQ(content(path("real/b")), "new");
+  fs::create_symlink("circle", path("circle"));
+  const auto written = write_file(path("circle"), to_bytes("x"));
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().message, "cannot write " + path("circle") + ": its symbolic links lead in a circle");
+}
+
+TEST_F(FileTest, LeavesTemporaryFilesOfOthersAlone) {
+  const std::string others = fmt::format(".scarp-{}-0.tmp", ::getpid());
+  ASSERT_TRUE(write_file(path(others), to_bytes("theirs")));
+  for (int k = 0; k < 20; ++k) ASSERT_TRUE(write_file(path(std::to_string(k)), to_bytes("mine")));
+  EXPECT_EQ(content(path(others)), "theirs");
+  EXPECT_EQ(files(), 21u);
 }
 
 TEST_F(FileTest, OneSentenceForEachFailure) {

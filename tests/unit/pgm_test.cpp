@@ -138,14 +138,5 @@ TEST(Pgm, SurvivesCutsAndMutations) {
   EXPECT_GT(read_count, 100) << "mutations of samples must still read";
 }
 
-TEST(Pgm, InfoNeedsTheHeaderOnly) {
-  int cols = 0, rows = 0;
-  const auto info = decode_pgm_info(bytes_of("P5 640 480 1023\n"), "hill.pgm", cols, rows);
-  ASSERT_TRUE(info);
-  EXPECT_EQ(cols, 640);
-  EXPECT_EQ(rows, 480);
-  EXPECT_EQ(info->sample_type, "UInt16");
-}
-
 }  // namespace
 }  // namespace scarp

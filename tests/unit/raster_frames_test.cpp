@@ -204,21 +204,5 @@ TEST_F(RasterFrames, UnitsThatDoNotMix) {
   EXPECT_TRUE(warns(read_height_field(placed("", "10.5, 0.001, 0, 45, 0, -0.001"))->info, "look like degrees"));
 }
 
-TEST_F(RasterFrames, InfoAgreesWithReading) {
-  const std::string path = placed("EPSG:32611", "500000, 30, 0, 4100000, 0, -30", "<NoDataValue>7</NoDataValue>");
-  int cols = 0, rows = 0;
-  const auto info = read_raster_info(path, {}, cols, rows);
-  ASSERT_TRUE(info) << info.error().message;
-  EXPECT_EQ(cols, kCols);
-  EXPECT_EQ(rows, kRows);
-  const auto read = read_height_field(path);
-  EXPECT_EQ(info->crs, read->info.crs);
-  EXPECT_EQ(info->nodata, read->info.nodata);
-  EXPECT_EQ(info->geotransform, read->info.geotransform);
-  EXPECT_EQ(info->cell_x_m, read->info.cell_x_m);
-  EXPECT_EQ(info->sample_type, "Float32");
-  EXPECT_EQ(info->valid, 0u);
-}
-
 }  // namespace
 }  // namespace scarp

@@ -170,6 +170,12 @@ Result<Frame> projected_frame(const Georeference& geo, const std::string& wanted
                             "'grid', a code such as EPSG:32633, WKT or a PROJ string",
                             wanted));
   }
+  if (!OSRIsGeographic(target.get()) && !OSRIsProjected(target.get()) && !OSRIsLocal(target.get())) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} is not a CRS of positions on a map (vertical and geocentric ones are not); choose a "
+                            "projected or geographic CRS",
+                            short_name(target)));
+  }
   if (OSRIsGeographic(target.get())) warn_of_degrees(info);
   if (same_crs(geo.crs, target)) return source_frame(geo);
   Frame frame = source_frame(geo);

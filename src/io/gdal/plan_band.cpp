@@ -94,6 +94,9 @@ Result<BandPlan> plan_band(GDALDatasetH dataset, const std::string& path, const 
         "this is a colour picture, and its red is taken as height: heights packed into colours need to be "
         "decoded as terrarium or mapbox");
   }
+  if (GDALGetRasterColorInterpretation(plan.band) == GCI_PaletteIndex) {
+    info.warnings.push_back("this is a picture with a palette, and the numbers of its colours are taken as heights");
+  }
   return plan;
 }
 

@@ -6,6 +6,7 @@
 
 #include <atomic>
 
+#include "base/caught.h"
 #include "io/gdal/open.h"
 #include "io/gdal/session.h"
 #include "scarp/io.h"
@@ -19,7 +20,7 @@ tl::unexpected<Error> refuse(const std::string& why) {
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>> encode_png(const Picture& picture) {
+Result<std::vector<std::uint8_t>> encode_png(const Picture& picture) try {
   const int width = picture.width, height = picture.height;
   const auto pixels = static_cast<std::size_t>(std::max(width, 0)) * static_cast<std::size_t>(std::max(height, 0));
   if (pixels == 0 || picture.rgb.size() != pixels * 3) {
@@ -46,6 +47,8 @@ Result<std::vector<std::uint8_t>> encode_png(const Picture& picture) {
   VSIFree(bytes);
   if (encoded.empty()) return refuse(session.reason());
   return encoded;
+} catch (...) {
+  return caught(ErrorKind::kOutput, "encode the picture");
 }
 
 }  // namespace scarp

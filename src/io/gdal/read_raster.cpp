@@ -101,25 +101,7 @@ Result<OwnedHeightField> read(const std::string& path, const ReadOptions& option
 }  // namespace gdal
 
 Result<OwnedHeightField> read_gdal_raster(const std::string& path, const ReadOptions& options) {
-  try {
-    return gdal::read(path, options);
-  } catch (const std::exception& error) {
-    return fail(ErrorKind::kInput, fmt::format("{}: cannot be read: {}", path, error.what()));
-  }
-}
-
-Result<RasterInfo> read_gdal_info(const std::string& path, const ReadOptions& options, int& cols, int& rows) {
-  try {
-    gdal::Session session(gdal::is_remote(path));
-    auto plan = gdal::plan_raster(session, path, options);
-    if (!plan) return tl::unexpected(plan.error());
-    cols = plan->georeference.cols;
-    rows = plan->georeference.rows;
-    gdal::add_gdal_warnings(session, plan->info);
-    return std::move(plan->info);
-  } catch (const std::exception& error) {
-    return fail(ErrorKind::kInput, fmt::format("{}: cannot be read: {}", path, error.what()));
-  }
+  return gdal::read(path, options);
 }
 
 }  // namespace scarp
