@@ -1,5 +1,7 @@
 // scarp VERB [OPTIONS] …: picks the verb, prints its one sentence if it fails, and turns the error into an exit code.
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <exception>
@@ -111,17 +113,28 @@ int run_program(int argc, char** argv) {
                                           : info.run(command_line));
 }
 
+/// A standard stream that the caller has closed would lend its number to the next file that is opened, which messages
+/// would then be written into. /dev/null, opened for reading, takes its place: writing to it fails as it should.
+void occupy_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDONLY) != stream) return;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  occupy_closed_streams();
   install_signal_handlers();
   try {
     return run_program(argc, argv);
   } catch (const std::bad_alloc&) {
-    print_error({ErrorKind::kInput, "not enough memory for this raster; nothing was written"});
+    print_to_stderr("scarp: not enough memory for this run\n");  // without asking for more of it
     return exit_code(ErrorKind::kInput);
   } catch (const std::exception& error) {
     print_error({ErrorKind::kInternal, fmt::format("internal error: {}; please report it", error.what())});
-    return exit_code(ErrorKind::kInternal);
+  } catch (...) {
+    print_error({ErrorKind::kInternal, "internal error: an unknown exception; please report it"});
   }
+  return exit_code(ErrorKind::kInternal);
 }

@@ -263,7 +263,7 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
   } else if (!quiet_) {
     const std::string table = make_table(judged, raster_.path, mesh_);
     if (map_ && is_stdout(*map_)) {
-      fmt::print(stderr, "{}", table);
+      print_to_stderr(table);
     } else {
       const Result<void> printed = print_to_stdout(table);
       if (!printed) return printed;

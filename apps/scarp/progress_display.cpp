@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "signals.h"
@@ -95,8 +94,7 @@ void ProgressDisplay::print_line(double pass_seconds) {
     line += fmt::format("  {} left", format_duration(pass_seconds * (1 - fraction_) / fraction_));
   }
   line.resize(std::min(line.size(), terminal_width() - 1));
-  fmt::print(stderr, "\r{}\x1b[K", line);
-  std::fflush(stderr);
+  print_to_stderr(fmt::format("\r{}\x1b[K", line));
   line_shown_ = true;
 }
 
@@ -107,13 +105,12 @@ void ProgressDisplay::print_json(double fraction) const {
   line["vertices"] = vertices_;
   line["max_error"] = max_error_;
   line["seconds"] = seconds_between(start_, Clock::now());
-  fmt::print(stderr, "{}\n", line.dump());
+  print_to_stderr(line.dump() + "\n");
 }
 
 void ProgressDisplay::erase_line() {
   if (!line_shown_) return;
-  fmt::print(stderr, "\r\x1b[K");
-  std::fflush(stderr);
+  print_to_stderr("\r\x1b[K");
   line_shown_ = false;
 }
 

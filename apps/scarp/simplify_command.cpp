@@ -374,9 +374,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   const Result<void> promise = check_promise(outcome);
   if (!promise) return promise;
   outcome.warnings = plan->warnings;
-  for (const std::vector<std::string>* more : {&outcome.as_read.warnings, &outcome.simplified.warnings}) {
-    outcome.warnings.insert(outcome.warnings.end(), more->begin(), more->end());
-  }
+  outcome.warnings.insert(outcome.warnings.end(), outcome.as_read.warnings.begin(), outcome.as_read.warnings.end());
   if (const std::string faults = list_faults(outcome.simplified.measurement); !faults.empty()) {
     outcome.warnings.push_back("the mesh keeps its error bound but is not sound: " + faults);
   }
@@ -408,7 +406,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   const bool stdout_is_data =
       is_stdout(plan->output) || is_stdout(plan->preview.value_or("")) || is_stdout(plan->report.value_or(""));
   if (stdout_is_data) {
-    fmt::print(stderr, "{}", summary);
+    print_to_stderr(summary);
     return {};
   }
   return print_to_stdout(summary);

@@ -74,10 +74,15 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-void print_error(const Error& error) { fmt::print(stderr, "scarp: {}\n", one_line(error.message)); }
+void print_to_stderr(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+void print_error(const Error& error) { print_to_stderr(fmt::format("scarp: {}\n", one_line(error.message))); }
 
 void print_warnings(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) fmt::print(stderr, "scarp: warning: {}\n", one_line(warning));
+  for (const std::string& warning : warnings) print_to_stderr(fmt::format("scarp: warning: {}\n", one_line(warning)));
 }
 
 Result<void> print_to_stdout(const std::string& text) {

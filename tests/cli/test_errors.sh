@@ -126,7 +126,19 @@ try "$scarp" measure "$dem" half.obj --fail-above 100
 if [ -w /dev/full ]; then
   try bash -c '"$1" info "$2" > /dev/full' - "$scarp" "$dem"
   [ "$code" = 4 ] || fail "a full standard output ends with $code instead of 4"
+  grep -q '^scarp: standard output cannot be written: ' "$logs/err" || fail "a full standard output is not told"
+  try bash -c '"$1" info missing.tif 2> /dev/full' - "$scarp"
+  [ "$code" = 2 ] || fail "a full stderr turns exit code 2 into $code"
+  try bash -c '"$1" simplify "$2" full.glb -e 100 --json-progress 2> /dev/full' - "$scarp" "$dem"
+  [ "$code" = 0 ] || fail "a full stderr ends a good run with $code"
 fi
+try bash -c '"$1" info missing.tif 2>&-' - "$scarp"
+[ "$code" = 2 ] || fail "a closed stderr turns exit code 2 into $code"
+try bash -c '"$1" info "$2" >&-' - "$scarp" "$dem"
+[ "$code" = 4 ] || fail "a closed standard output ends with $code instead of 4"
+try bash -c '"$1" simplify "$2" closed.glb -e 100 --json-progress <&- >&- 2>&-' - "$scarp" "$dem"
+[ "$code" = 4 ] || fail "closed streams end with $code instead of 4"
+succeeds "$scarp" measure "$dem" closed.glb --fail-above 100 -q
 # A folder that may not be written (root may write all: then as somebody else).
 mkdir locked
 chmod 555 locked
