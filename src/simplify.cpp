@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -51,13 +52,12 @@ Result<void> check_budget(const Domain& domain, std::uint64_t triangles, const S
   const char* advice = domain.whole ? "" : ", or simplify the outline with an outline tolerance";
   if (options.max_vertices && *options.max_vertices < vertices)
     return fail(ErrorKind::kUsage,
-                fmt::format("max_vertices is {}, but the outline of the valid data alone needs {} vertices: raise it{}",
+                fmt::format("{} vertices are too few: the outline of the valid data alone needs {}; allow more{}",
                             *options.max_vertices, vertices, advice));
   if (options.max_triangles && *options.max_triangles < triangles)
-    return fail(
-        ErrorKind::kUsage,
-        fmt::format("max_triangles is {}, but the outline of the valid data alone needs {} triangles: raise it{}",
-                    *options.max_triangles, triangles, advice));
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} triangles are too few: the outline of the valid data alone needs {}; allow more{}",
+                            *options.max_triangles, triangles, advice));
   return {};
 }
 
@@ -94,7 +94,8 @@ class Run {
         domain_(std::move(domain)),
         seeds_(domain_->tin.vertex_count()),
         refinement_(std::in_place, raster, domain_->tin, bound_),
-        exact_(offsets_are_exact(field.frame, field.cols, field.rows)),
+        exact_(field.frame.is_affine() &&
+               (!options.float32_positions || offsets_are_exact(field.frame, field.cols, field.rows))),
         reporter_(options.progress) {}
 
   Result<Simplified> execute() {
@@ -184,28 +185,29 @@ class Run {
   }
 
   void freeze_into(Simplified& result) const {
-    result.mesh = freeze(raster_, domain_->tin, field_.frame);
+    result.mesh = freeze(raster_, domain_->tin, field_.frame, options_.float32_positions);
     if (options_.normals) result.mesh.normals = sample_normals(raster_, field_.frame, frozen_samples(domain_->tin));
   }
 
   /// Inserts the samples that break the bound in the judge's eyes, as far as the budgets allow, and refines on. Returns
-  /// false if there was none to insert.
+  /// false if that cannot help.
   Result<bool> mend(Simplified& result) {
-    bool mended = false;
+    const std::vector<Offender>& offenders = result.measurement.offenders;
+    // A vertex among them: its own rounding breaks the bound, and no other vertex can mend that.
+    const auto is_vertex = [this](const Offender& o) { return refinement_->gain_at({o.col, o.row}) == 0; };
+    if (offenders.empty() || std::any_of(offenders.begin(), offenders.end(), is_vertex)) return false;
     std::optional<StopReason> budget;
-    for (const Offender& o : result.measurement.offenders) {
+    for (const Offender& o : offenders) {
       const std::uint32_t gain = refinement_->gain_at({o.col, o.row});
-      if (gain == 0) continue;
+      if (gain == 0) continue;  // named by two triangles
       budget = exceeded(gain);
       if (budget) break;
       refinement_->insert({o.col, o.row});
-      mended = true;
     }
     if (budget) {
       result.stop = *budget;
       return true;
     }
-    if (!mended) return false;
     if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
     take_best_prefix();
     return true;
@@ -237,8 +239,9 @@ class Run {
       if (!*mended)
         return fail(ErrorKind::kPromise,
                     broken_promise(result.measurement) +
-                        ": positions in the mesh are float32 offsets, and their rounding alone costs that much; "
-                        "ask for a larger error, or use the local or grid frame");
+                        ": positions in the mesh are rounded to float32, which alone costs that much; ask for a larger "
+                        "error, or "
+                        "write OBJ or PLY, whose positions are double, or use the local or grid frame");
       freeze_into(result);
       optimize_order(result.mesh);
       result.seconds_refine += seconds_since(again);

@@ -12,8 +12,8 @@ namespace scarp {
 
 /// A triangle mesh. Vertex v lies at origin + (positions[3v], positions[3v+1], positions[3v+2]); x east, y north, z up.
 ///
-/// Meshes made by simplify() have positions that are exactly float32 values (z offsets from an origin whose z is 0,
-/// so z is the sample itself). Meshes read from files keep the file's precision, so that a judge does not
+/// Meshes made by simplify() have an origin whose z is 0, so z is the sample itself, and x, y that are exactly float32
+/// values unless double ones were asked for. Meshes read from files keep the file's precision, so that a judge does not
 /// round what it judges.
 struct Mesh {
   std::array<double, 3> origin{0, 0, 0};
@@ -37,10 +37,10 @@ struct Mesh {
 void optimize_order(Mesh& mesh);
 
 /// Closes an open terrain mesh into a solid: a flat base at z = `base` (absolute) and vertical walls along every border
-/// edge, outward-oriented, so that each edge has exactly two triangles. The base uses the border's vertices only: a part
-/// with n border vertices and h holes gets n + 2h − 2 triangles for its base and 2n for its walls. Vertices where two parts
-/// of the domain meet in a single point are duplicated, one for each part: the solid is closed in its indices, though
-/// formats that know places only (STL) show four walls along that vertical edge. Normals are dropped.
+/// edge, outward-oriented, so that each edge has exactly two triangles. The base uses the border's vertices only: a
+/// part with n border vertices and h holes gets n + 2h − 2 triangles for its base and 2n for its walls. Vertices where
+/// two parts of the domain meet in a single point are duplicated, one for each part: the solid is closed in its
+/// indices, though formats that know places only (STL) show four walls along that vertical edge. Normals are dropped.
 /// REQUIRES: every edge has one or two triangles, all counter-clockwise from above; base below every vertex.
 /// Returns false (mesh unchanged) if the base is not below every vertex, in float32 offsets too. Cost: O(n log n).
 bool add_base(Mesh& mesh, double base);

@@ -27,6 +27,9 @@ struct SimplifyOptions {
   /// How far, in samples, the outline of the valid data may be simplified, at least 0. It only moves outwards, over
   /// void samples: no valid sample is cut off. DEFAULT: 0, the exact outline.
   double outline_tolerance = 0;
+  /// Round positions to float32, as GLB and STL hold them, so that what is proven is what is written. False: positions
+  /// are double, as OBJ and PLY hold them, and vertices lie on their samples in every affine frame. DEFAULT: true.
+  bool float32_positions = true;
   /// Vertex normals from the full-resolution samples. DEFAULT: false.
   bool normals = false;
   int threads = 0;  ///< 0 = all cores. Never changes the result. DEFAULT: 0.
@@ -39,8 +42,8 @@ enum class StopReason { kMaxError, kMaxTriangles, kMaxVertices, kExact };
 struct Simplified {
   Mesh mesh;
   StopReason stop = StopReason::kMaxError;
-  /// The proof: `mesh` as it stands (rounded positions), judged against all samples by measure(). The topology part is
-  /// left out where offsets_are_exact() holds for the frame: there it holds by construction.
+  /// The proof: `mesh` as it stands, judged against all samples by measure(). The topology part is left out in affine
+  /// frames whose offsets are exact (offsets_are_exact()) or double: there it holds by construction.
   Measurement measurement;
   double seconds_refine = 0;   ///< outline, refinement and freezing
   double seconds_measure = 0;  ///< the proof

@@ -87,7 +87,7 @@ std::vector<Point> frozen_samples(const Triangulation& tin) {
   return points;
 }
 
-Mesh freeze(const Raster& raster, const Triangulation& tin, const Frame& frame) {
+Mesh freeze(const Raster& raster, const Triangulation& tin, const Frame& frame, bool round_to_float32) {
   Mesh mesh;
   const auto ids = number_vertices(tin);
   std::size_t count = 0;
@@ -108,8 +108,8 @@ Mesh freeze(const Raster& raster, const Triangulation& tin, const Frame& frame) 
     if (chunk.size() < kChunk && v + 1 < tin.vertex_count()) continue;
     offsets.map(chunk, x, y);
     for (std::size_t k = 0; k < chunk.size(); ++k) {
-      mesh.positions.push_back(static_cast<float>(x[k]));
-      mesh.positions.push_back(static_cast<float>(y[k]));
+      for (double offset : {x[k], y[k]})
+        mesh.positions.push_back(round_to_float32 ? static_cast<float>(offset) : offset);
       mesh.positions.push_back(raster.at(chunk[k]));
     }
     chunk.clear();

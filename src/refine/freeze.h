@@ -8,10 +8,10 @@
 
 namespace scarp {
 
-/// The triangles that are not outside, with the vertices they use, in the frame: offsets from frame_origin() rounded to
-/// float32, heights as they are. Counter-clockwise from above whatever way the frame turns. Ids follow the order of
-/// insertion.
-Mesh freeze(const Raster& raster, const Triangulation& tin, const Frame& frame);
+/// The triangles that are not outside, with the vertices they use, in the frame: offsets from frame_origin(), rounded
+/// to float32 if asked, heights as they are. Counter-clockwise from above whatever way the frame turns. Ids follow the
+/// order of insertion.
+Mesh freeze(const Raster& raster, const Triangulation& tin, const Frame& frame, bool round_to_float32);
 
 /// Unit normals of the full-resolution surface at lattice points, in the frame: central differences, one-sided beside
 /// voids and borders; 3 values a point, z > 0.

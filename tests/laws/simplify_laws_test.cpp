@@ -209,6 +209,20 @@ TEST(simplify, rounded_positions_keep_the_promise_too) {
   }
 }
 
+TEST(simplify, double_positions_reproduce_every_sample_at_any_cell_size) {
+  const Field field = testing::random_field(12, 100, 80, Relief::kRidges, 0.02);
+  SimplifyOptions options{.max_error = 0.0};
+  options.float32_positions = false;
+  const auto result = simplify(odd_cells(field, 6.7218131), options);
+  ASSERT_TRUE(result) << result.error().message;
+  for (const MeshFormat format : {MeshFormat::kObj, MeshFormat::kPly}) {
+    const Mesh read = *decode_mesh(*encode_mesh(result->mesh, format), "mesh");
+    const Measurement m = judge(odd_cells(field, 6.7218131), read);
+    EXPECT_LE(m.max_error, 1e-9);
+    EXPECT_EQ(m.uncovered, 0u);
+  }
+}
+
 TEST(simplify, a_bound_below_what_rounding_costs_is_refused_with_the_figure) {
   const Field field = testing::random_field(12, 300, 200, Relief::kRidges);
   const auto result = simplify(odd_cells(field, 6.7218131), {.max_error = 1e-9});
