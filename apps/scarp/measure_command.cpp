@@ -96,7 +96,7 @@ Json make_report(const Judged& judged, const std::string& mesh_path, const std::
   report["vertices"] = judged.measured.vertices;
   report["triangles"] = judged.measured.triangles;
   report["full_triangles"] = full_grid_triangles(judged.field);
-  add_measurement(report, judged.measured);
+  add_measurement(report, judged.measured, judged.field.sample_rounding);
   report["fail_above"] = judged.fail_above ? Json(*judged.fail_above) : Json(nullptr);
   report["passed"] = judged.fail_above ? Json(!judged.broken) : Json(nullptr);
   report["seconds"] =
@@ -113,6 +113,10 @@ std::string make_table(const Judged& judged, const std::string& raster_path, con
                                  judged.field.cols, judged.field.rows);
   text += line("max error", fmt::format("{}{} at column {}, row {}", format_number(m.max_error), unit,
                                         m.max_error_at[0], m.max_error_at[1]));
+  if (judged.field.sample_rounding > 0) {
+    text += line(
+        "", fmt::format("values rounded to float32 by up to {}{}", format_number(judged.field.sample_rounding), unit));
+  }
   text += line("RMSE", format_number(m.rmse) + unit);
   text += line("mean error", format_number(m.mean_error) + unit);
   text += line("mean |error|", format_number(m.mean_abs_error) + unit);
@@ -138,8 +142,9 @@ std::string make_table(const Judged& judged, const std::string& raster_path, con
   if (judged.fail_above) {
     text += judged.broken
                 ? fmt::format("Failed: {}\n", *judged.broken)
-                : fmt::format("Passed: max error {} is within {}, every sample is covered, the mesh is sound\n",
-                              format_number(m.max_error), format_number(*judged.fail_above));
+                : fmt::format("Passed: max error {}{} is within {}, every sample is covered, the mesh is sound\n",
+                              format_number(m.max_error), describe_rounding(judged.field.sample_rounding),
+                              format_number(*judged.fail_above));
   }
   return text;
 }
@@ -238,8 +243,8 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
   judged.measured = std::move(*measured);
   judged.seconds_measure = seconds_since(measure_start);
   if (judged.fail_above) {
-    judged.broken =
-        find_broken_promise(judged.measured, *judged.fail_above, height_range(view), watcher.uncovered_sample());
+    judged.broken = find_broken_promise(judged.measured, view.sample_rounding, *judged.fail_above, height_range(view),
+                                        watcher.uncovered_sample());
   }
   if (judged.measured.samples == 0) {
     judged.warnings.push_back(fmt::format(

@@ -76,9 +76,10 @@ std::uint64_t full_grid_triangles(const HeightField& field) {
   return 2 * static_cast<std::uint64_t>(field.cols - 1) * static_cast<std::uint64_t>(field.rows - 1);
 }
 
-void add_measurement(Json& report, const Measurement& measured) {
+void add_measurement(Json& report, const Measurement& measured, double sample_rounding) {
   report["max_error"] = measured.max_error;
   report["max_error_at"] = measured.max_error_at;
+  if (sample_rounding > 0) report["sample_rounding"] = sample_rounding;
   report["rmse"] = measured.rmse;
   report["mean_error"] = measured.mean_error;
   report["mean_abs_error"] = measured.mean_abs_error;

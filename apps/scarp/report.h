@@ -18,8 +18,8 @@ Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, in
 Json describe_frame(const Frame& frame);
 /// Triangles of the full grid: 2·(cols − 1)·(rows − 1).
 std::uint64_t full_grid_triangles(const HeightField& field);
-/// Adds max_error … void_cells_covered and the "topology" object.
-void add_measurement(Json& report, const Measurement& measured);
+/// Adds max_error … void_cells_covered and the "topology" object; sample_rounding, where it is not 0.
+void add_measurement(Json& report, const Measurement& measured, double sample_rounding);
 /// The report as text, two spaces a level, with a newline at the end. Bytes that are not UTF-8 become U+FFFD.
 std::string to_text(const Json& report);
 

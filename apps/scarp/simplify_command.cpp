@@ -63,12 +63,13 @@ Result<void> check_promise(const Outcome& outcome) {
   const Measurement& measured = outcome.simplified.measurement;
   const bool has_bound = outcome.asked && outcome.simplified.stop != StopReason::kMaxTriangles &&
                          outcome.simplified.stop != StopReason::kMaxVertices;
-  const double bound = has_bound ? *outcome.asked : measured.max_error;
-  const bool too_large = !(measured.max_error <= bound + judging_allowance(bound, outcome.heights));
+  const double rounding = outcome.field.sample_rounding;
+  const double bound = has_bound ? *outcome.asked : measured.max_error + rounding;
+  const bool too_large = !(measured.max_error + rounding <= bound + judging_allowance(bound, outcome.heights));
   if (!too_large && measured.uncovered == 0) return {};
   return fail(ErrorKind::kPromise,
               fmt::format("the mesh does not keep its promise and was not written; this is a bug in Scarp: {}",
-                          find_broken_promise(measured, bound, outcome.heights).value_or("")));
+                          find_broken_promise(measured, rounding, bound, outcome.heights).value_or("")));
 }
 
 /// simplify() leaves out the topology of meshes in affine frames, where it holds by construction; a report states what
@@ -113,6 +114,7 @@ void add_metadata(const SimplifyPlan& plan, Outcome& outcome) {
   Json error;
   error["asked"] = outcome.asked ? Json(*outcome.asked) : Json(nullptr);
   error["max_error"] = measured.max_error;
+  if (outcome.field.sample_rounding > 0) error["sample_rounding"] = outcome.field.sample_rounding;
   error["rmse"] = measured.rmse;
   error["samples"] = measured.samples;
   metadata["error"] = error.dump();
@@ -172,7 +174,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["vertices"] = outcome.vertices;
   report["triangles"] = outcome.triangles;
   report["full_triangles"] = full_grid_triangles(outcome.field);
-  add_measurement(report, outcome.simplified.measurement);
+  add_measurement(report, outcome.simplified.measurement, outcome.field.sample_rounding);
   if (plan.base) {
     report["solid"] =
         Json{{"base", *plan.base}, {"vertices", outcome.solid_vertices}, {"triangles", outcome.solid_triangles}};
@@ -216,7 +218,9 @@ std::string describe_end(const SimplifyPlan& plan, const Outcome& outcome) {
     case StopReason::kExact:
       break;
   }
-  return fmt::format("Reproduced every sample: max error {}{}, {}", error,
+  const bool is_exact = measured.max_error == 0 && outcome.field.sample_rounding == 0;
+  return fmt::format("{}: max error {}{}, {}",
+                     is_exact ? "Reproduced every sample" : "No vertex more would lower the error", error,
                      has_asked ? fmt::format(" (asked {})", format_number(*outcome.asked)) : "", numbers);
 }
 
@@ -248,6 +252,10 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
       line("max error", fmt::format("{}{} at column {}, row {}{}", format_number(measured.max_error), unit,
                                     measured.max_error_at[0], measured.max_error_at[1],
                                     outcome.asked ? fmt::format(" (asked {})", format_number(*outcome.asked)) : ""));
+  if (outcome.field.sample_rounding > 0) {
+    text += line(
+        "", fmt::format("values rounded to float32 by up to {}{}", format_number(outcome.field.sample_rounding), unit));
+  }
   text += line("RMSE", fmt::format("{}{}", format_number(measured.rmse), unit));
   text += line("judged", format_plural(measured.samples, "sample") + ", none uncovered" +
                              (measured.stray > 0 ? fmt::format(", {} outside every cell of the domain left out",

@@ -10,15 +10,19 @@
 #include "text.h"
 
 namespace scarp::cli {
+std::string describe_rounding(double sample_rounding) {
+  return sample_rounding > 0 ? fmt::format(", and values rounded to float32 by up to {:.3g},", sample_rounding) : "";
+}
+
 double judging_allowance(double bound, const HeightRange& heights) {
   return 1e-12 * bound + 1e-12 * std::max(std::abs(heights.min), std::abs(heights.max));
 }
 
-std::optional<std::string> find_broken_promise(const Measurement& measured, double bound, const HeightRange& heights,
-                                               const std::string& uncovered_sample) {
-  if (!(measured.max_error <= bound + judging_allowance(bound, heights))) {
-    return fmt::format("max error {:.10g} at column {}, row {} exceeds {:.10g}", measured.max_error,
-                       measured.max_error_at[0], measured.max_error_at[1], bound);
+std::optional<std::string> find_broken_promise(const Measurement& measured, double sample_rounding, double bound,
+                                               const HeightRange& heights, const std::string& uncovered_sample) {
+  if (!(measured.max_error + sample_rounding <= bound + judging_allowance(bound, heights))) {
+    return fmt::format("max error {:.10g} at column {}, row {}{} exceeds {:.10g}", measured.max_error,
+                       measured.max_error_at[0], measured.max_error_at[1], describe_rounding(sample_rounding), bound);
   }
   if (measured.uncovered > 0) {
     return fmt::format("{} covered by no triangle{}",

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Values that do not fit float32: what their rounding costs is told, and counts against every bound.
+source "$(dirname "$0")/lib.sh"
+need gdal_translate python3
+gdal_translate -q -srcwin 0 0 40 30 -ot Float64 -scale 236 1076 100000.1 100900.7 "$dem" fine.tif
+
+succeeds "$scarp" simplify fine.tif exact.glb -p 5000 --report exact.json
+rounding=$(json exact.json sample_rounding)
+holds "$rounding > 1e-5 && $rounding < 0.01"
+[ "$rounding" = "$(json exact.json input sample_rounding)" ] || fail "two figures for one rounding"
+holds "$(json exact.json max_error) == 0"
+grep -q 'values rounded to float32 by up to' "$logs/out" || fail "the summary hides the rounding"
+if grep -q 'Reproduced every sample' "$logs/out"; then fail "rounded values are called reproduced"; fi
+
+refuses_zero() {
+  try "$scarp" measure fine.tif exact.glb "$@"
+  [ "$code" = 3 ] || fail "exit code $code instead of 3: $*"
+  grep -q 'values rounded to float32 by up to' "$logs/err" || fail "the verdict hides the rounding"
+}
+refuses_zero --fail-above 0
+refuses_zero --fail-above "$(python3 -c "print(0.5 * $rounding)")"
+succeeds "$scarp" measure fine.tif exact.glb --fail-above "$rounding"
+grep -q 'values rounded to float32 by up to' "$logs/out" || fail "the table hides the rounding"
+succeeds "$scarp" measure fine.tif exact.glb --fail-above "$rounding" --json
+[ "$(json "$logs/out" sample_rounding)" = "$rounding" ] || fail "the judge's report has another rounding"
+[ "$(json "$logs/out" passed)" = true ] || fail "not passed"
+python3 - "$logs/out" <<'PYTHON' || fail "the mesh does not carry the rounding"
+import json, sys
+report = json.load(open(sys.argv[1]))
+assert json.loads(report["mesh"]["metadata"]["error"])["sample_rounding"] == report["sample_rounding"]
+PYTHON
+
+# A goal keeps the reserve.
+succeeds "$scarp" simplify fine.tif goal.glb -e 5 --report goal.json
+holds "$(json goal.json max_error) + $(json goal.json sample_rounding) <= 5"
+succeeds "$scarp" measure fine.tif goal.glb --fail-above 5 -q
+refuses 3 "rounded" "$scarp" simplify fine.tif none.glb -e 0
+
+# Where the samples are the values, nothing is said.
+succeeds "$scarp" simplify "$dem" plain.glb -e 0 --report plain.json
+if grep -q 'rounded' "$logs/out" || grep -q '^  "sample_rounding"' plain.json; then fail "a rounding that is none"; fi
+echo "roundings are told and counted"
