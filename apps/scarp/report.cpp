@@ -37,6 +37,7 @@ Json describe_topology(const Measurement& measured) {
   topology["open_edges"] = measured.open_edges;
   topology["border_loops"] = measured.border_loops;
   topology["t_junctions"] = measured.t_junctions;
+  topology["gaps"] = measured.gaps;
   topology["overlaps"] = measured.overlaps;
   return topology;
 }

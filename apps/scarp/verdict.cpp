@@ -41,6 +41,7 @@ std::string list_faults(const Measurement& measured) {
       {measured.misoriented_edges, "misoriented edge"},
       {measured.non_manifold_edges, "non-manifold edge"},
       {measured.t_junctions, "T-junction"},
+      {measured.gaps, "gap"},
   };
   std::string list;
   for (const auto& [count, noun] : faults) {

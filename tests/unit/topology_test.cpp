@@ -2,6 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
 
 #include "scarp/measure.h"
 #include "unit/measure_meshes.h"
@@ -59,6 +63,83 @@ TEST_F(Faults, TriangleDropped) {
   EXPECT_EQ(m.open_edges, 35u);
   EXPECT_EQ(m.border_loops, 2u);
   EXPECT_EQ(m.uncovered, 3u);  // the samples inside it
+  EXPECT_EQ(m.gaps, 3u);
+  EXPECT_FALSE(m.is_sound());
+}
+
+/// Drops each triangle in turn that shares an edge with another: a mesh with a hole never passes.
+void expect_every_hole_seen(const Terrain& terrain, const Mesh& whole) {
+  const auto sound = measure(terrain.view(), whole);
+  ASSERT_TRUE(sound);
+  EXPECT_TRUE(sound->is_sound()) << sound->gaps;
+  EXPECT_EQ(sound->gaps, 0u);
+  for (std::size_t t = 0; t < whole.triangle_count(); ++t) {
+    Mesh mesh = whole;
+    const auto at = mesh.triangles.begin() + static_cast<std::ptrdiff_t>(3 * t);
+    mesh.triangles.erase(at, at + 3);
+    const auto judged = measure(terrain.view(), mesh);
+    ASSERT_TRUE(judged);
+    if (judged->open_edges + 3 == sound->open_edges) continue;  // hung on the rest by its corners only
+    EXPECT_GT(judged->gaps, 0u) << t;
+    EXPECT_FALSE(judged->is_sound()) << t;
+  }
+}
+
+TEST(Holes, OfAnyTriangleOfTheFullGridAreSeen) {
+  Terrain terrain = wavy_terrain(7, 6);
+  expect_every_hole_seen(terrain, grid_mesh(terrain, 1));
+  const double c = std::cos(0.3), s = std::sin(0.3);
+  terrain.frame.affine = {5e5, 30 * c, 30 * s, 4e6, 30 * s, -30 * c};
+  expect_every_hole_seen(terrain, grid_mesh(terrain, 1));
+  terrain.frame.affine = {5e5, 30, 0, 4e6, 0, 30};  // south-up
+  expect_every_hole_seen(terrain, grid_mesh(terrain, 1));
+  const Mesh mesh = grid_mesh(terrain, 1);
+  terrain.frame = dress_up(terrain.frame);
+  expect_every_hole_seen(terrain, mesh);
+}
+
+TEST(Holes, BesideVoidsAndHalfCellsAreSeen) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 20; ++round) {
+    const Terrain terrain = random_terrain(9, 8, 0.12, random);
+    Mesh mesh;
+    for (int r = 0; r < terrain.rows; ++r) {
+      for (int c = 0; c < terrain.cols; ++c) {
+        const float sample = terrain.samples[static_cast<std::size_t>(r * terrain.cols + c)];
+        add_vertex(mesh, terrain.frame, c, r, std::isnan(sample) ? 0 : sample);
+      }
+    }
+    // Counter-clockwise around a cell, from its upper left corner; a missing one leaves three.
+    for (int r = 0; r + 1 < terrain.rows; ++r) {
+      for (int c = 0; c + 1 < terrain.cols; ++c) {
+        std::vector<std::uint32_t> ring;
+        for (const auto& [dc, dr] : {std::pair{0, 0}, {0, 1}, {1, 1}, {1, 0}}) {
+          const auto v = static_cast<std::uint32_t>((r + dr) * terrain.cols + c + dc);
+          if (!std::isnan(terrain.samples[v])) ring.push_back(v);
+        }
+        for (std::size_t k = 2; k < ring.size(); ++k) {
+          mesh.triangles.insert(mesh.triangles.end(), {ring[0], ring[k - 1], ring[k]});
+        }
+      }
+    }
+    expect_every_hole_seen(terrain, mesh);
+  }
+}
+
+TEST(Holes, OfSliversAndLongEdgesAreSeen) {
+  // Thinner than the step with which the judge looks beyond an edge.
+  const Terrain terrain = wavy_terrain(201, 3);
+  Mesh mesh;
+  for (int r = 0; r < 3; r += 2) {
+    add_vertex(mesh, terrain.frame, 0, r, 0);
+    add_vertex(mesh, terrain.frame, 200, r, 0);
+  }
+  add_vertex(mesh, terrain.frame, 99, 1, 0);
+  add_vertex(mesh, terrain.frame, 101, 1, 0);
+  add_vertex(mesh, terrain.frame, 100, 1, 0);
+  // Fans around the middle: 0 and 1 above, 2 and 3 below, 4 6 5 from left to right.
+  mesh.triangles = {0, 4, 1, 4, 6, 1, 6, 5, 1, 0, 2, 4, 2, 3, 4, 4, 3, 6, 6, 3, 5, 5, 3, 1};
+  expect_every_hole_seen(terrain, mesh);
 }
 
 TEST_F(Faults, TriangleFlipped) {
@@ -175,7 +256,8 @@ TEST(Topology, CountsLoopsThatTouchInAVertex) {
   EXPECT_EQ(m->open_edges, 16u + 8);
   EXPECT_EQ(m->uncovered, 0u);
   EXPECT_EQ(m->border_loops, 2u);
-  EXPECT_TRUE(m->is_sound());
+  EXPECT_EQ(m->gaps, 8u);
+  EXPECT_FALSE(m->is_sound());
 }
 
 class Solids : public ::testing::Test {
