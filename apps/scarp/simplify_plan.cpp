@@ -103,6 +103,12 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (given.base) {
     const Result<double> base = parse_number("--base", *given.base);
     if (!base) return tl::unexpected(base.error());
+    constexpr double kFarthest = 1e30;  // differences to heights must fit float32
+    if (std::abs(*base) > kFarthest) {
+      return fail(ErrorKind::kUsage, fmt::format("--base {} is out of the range of float32 heights: choose one between "
+                                                 "-1e30 and 1e30",
+                                                 *given.base));
+    }
     plan.base = *base;
   }
   if (given.normals && given.base) {

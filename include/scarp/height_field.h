@@ -69,7 +69,7 @@ HeightRange height_range(const HeightField& field);
 /// Gives voids heights by interpolation: each void sample within `max_distance` samples (Euclidean, along the eight
 /// compass directions) of a valid one becomes the mean of the nearest valid samples in those directions, weighted by
 /// inverse squared distance. Samples farther away stay void. Returns the number of samples filled.
-/// REQUIRES: max_distance > 0. Cost: O(cols·rows), 12 extra bytes for each void sample.
+/// REQUIRES: max_distance > 0. Cost: O(cols·rows), 16 extra bytes for each void sample.
 std::uint64_t fill_voids(OwnedHeightField& field, double max_distance);
 
 /// Gives every void sample the height `value`. Returns the number of samples filled.

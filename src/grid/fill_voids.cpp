@@ -7,12 +7,14 @@
 // one of its north-western neighbour, unless that neighbour is valid itself: one sweep down the rows carries the
 // answers for W, N, NW and NE, one sweep up those for E, S, SW and SE. Each void sample gathers Σ w and
 // Σ w·(z − reference), w = 1 / distance², in two passes over the raster. The reference is the first height found: over
-// a flat surround the result is that height exactly, and float sums are precise enough. Heights are written at the end,
-// so that no filled sample feeds another.
+// a flat surround the result is that height exactly. Σ w is a float, for memory; Σ w·(z − reference) may be beyond
+// float's range. Heights are written at the end, so that no filled sample feeds another.
 //
 // Source: the sweeps are those of distance transforms (Rosenfeld & Pfaltz 1966); the weights are Shepard's (1968).
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "scarp/height_field.h"
@@ -26,11 +28,11 @@ struct Seen {
   int steps = -1;  ///< away; -1: there is none
 };
 
-/// Sums of one void sample: 12 bytes.
+/// Sums of one void sample: 16 bytes.
 struct Gathered {
   float reference = 0;
   float weight = 0;
-  float weighted = 0;  ///< Σ w·(z − reference)
+  double weighted = 0;  ///< Σ w·(z − reference)
 };
 
 class Sweeper {
@@ -91,7 +93,7 @@ class Sweeper {
     const double weight = 1 / squared;
     const double rise = static_cast<double>(seen.height) - static_cast<double>(sums.reference);
     sums.weight = static_cast<float>(sums.weight + weight);
-    sums.weighted = static_cast<float>(sums.weighted + weight * rise);
+    sums.weighted += weight * rise;
   }
 
   const OwnedHeightField& field_;
@@ -109,14 +111,15 @@ std::uint64_t fill_voids(OwnedHeightField& field, double max_distance) {
   Sweeper sweeper(field, gathered, max_distance);
   sweeper.sweep(1);
   sweeper.sweep(-1);
+  constexpr double kLargest = std::numeric_limits<float>::max();  // which a rounded mean of such heights may exceed
   std::uint64_t filled = 0;
   std::size_t slot = 0;
   for (float& z : field.samples) {
     if (std::isfinite(z)) continue;
     const Gathered& sums = gathered[slot++];
     if (sums.weight == 0) continue;
-    z = static_cast<float>(static_cast<double>(sums.reference) +
-                           static_cast<double>(sums.weighted) / static_cast<double>(sums.weight));
+    const double mean = static_cast<double>(sums.reference) + sums.weighted / static_cast<double>(sums.weight);
+    z = static_cast<float>(std::clamp(mean, -kLargest, kLargest));
     ++filled;
   }
   return filled;

@@ -38,6 +38,7 @@ refuses 1 "--background nan" "$scarp" simplify "$dem" out.glb -e 1 --nodata-poli
 refuses 1 "--outline-tolerance -1" "$scarp" simplify "$dem" out.glb -e 1 --outline-tolerance -1
 refuses 1 "--num-threads -1" "$scarp" simplify "$dem" out.glb -e 1 -j -1
 refuses 1 "--base nan" "$scarp" simplify "$dem" out.glb -e 1 --base nan
+refuses 1 "--base -1e300 is out of the range" "$scarp" simplify "$dem" out.glb -e 1 --base -1e300
 refuses 1 "--normals and --base" "$scarp" simplify "$dem" out.glb -e 1 --base 0 --normals
 refuses 1 "--base 2000" "$scarp" simplify "$dem" out.glb -e 50 --base 2000
 grep -Eq 'lowest vertex, which is at [0-9]+' "$logs/err" || fail "--base does not name the lowest vertex"

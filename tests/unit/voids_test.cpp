@@ -109,6 +109,24 @@ TEST(Voids, FarVoidsStay) {
   EXPECT_EQ(field.samples[4], 9);
 }
 
+TEST(Voids, TheLargestHeightsFillToo) {
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  auto field = field_of(5, 5, std::vector<float>(25, kVoid));
+  for (int col = 0; col < 5; ++col) {
+    field.samples[static_cast<std::size_t>(col)] = -kLargest;
+    field.samples[static_cast<std::size_t>(20 + col)] = kLargest;
+  }
+  EXPECT_EQ(fill_voids(field, 100), 15u);
+  for (const float z : field.samples) EXPECT_TRUE(std::isfinite(z));
+  EXPECT_LT(field.samples[7], -kLargest / 4);
+  EXPECT_GT(field.samples[17], kLargest / 4);
+  auto high = field_of(3, 3, std::vector<float>(9, kLargest));
+  high.samples[0] = 0;
+  high.samples[4] = kVoid;
+  EXPECT_EQ(fill_voids(high, 100), 1u);
+  EXPECT_GT(high.samples[4], kLargest / 2);
+}
+
 TEST(Voids, BackgroundFillsTheRest) {
   auto field = field_of(2, 2, {kVoid, 1, std::numeric_limits<float>::infinity(), 2});
   EXPECT_EQ(fill_background(field, -3), 2u);
