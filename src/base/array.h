@@ -50,12 +50,6 @@ class Array {
     if (size > capacity_) grow(size);
     size_ = size;
   }
-  void clear() { size_ = 0; }
-  /// Gives the memory back.
-  void release() {
-    std::free(std::exchange(data_, nullptr));
-    size_ = capacity_ = 0;
-  }
 
  private:
   void grow(std::size_t least) {

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "base/exact_arithmetic.h"
+
 namespace scarp::judge {
 namespace {
 
@@ -13,23 +15,17 @@ struct ExactSum {
   void add(double value) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      const double sum = value + parts[i];
-      const double back = sum - value;
-      const double lost = (value - (sum - back)) + (parts[i] - back);
-      if (lost != 0) parts[kept++] = lost;
-      value = sum;
+      const ExactPair sum = exact_sum(value, parts[i]);
+      if (sum.low != 0) parts[kept++] = sum.low;
+      value = sum.high;
     }
     if (value != 0) parts[kept++] = value;
     count = kept;
   }
   void add_product(double a, double b) {
-    constexpr double kSplit = 134217729.0;  // 2^27 + 1
-    const double product = a * b;
-    const double at = kSplit * a, bt = kSplit * b;
-    const double ah = at - (at - a), bh = bt - (bt - b);
-    const double al = a - ah, bl = b - bh;
-    add(((ah * bh - product) + ah * bl + al * bh) + al * bl);
-    add(product);
+    const ExactPair product = exact_product(a, b);
+    add(product.low);
+    add(product.high);
   }
   double rounded() const {
     double sum = 0;

@@ -7,27 +7,9 @@
 
 #include <cmath>
 
+#include "base/exact_arithmetic.h"
+
 namespace scarp {
-namespace {
-
-struct Pair {
-  double high, low;  // high + low is the exact result, |low| <= ulp(high) / 2
-};
-
-Pair exact_sum(double a, double b) {
-  const double high = a + b, virtual_b = high - a;
-  return {high, (a - (high - virtual_b)) + (b - virtual_b)};
-}
-
-Pair exact_product(double a, double b) {
-  constexpr double kSplitter = 134217729;  // 2^27 + 1
-  const double a_big = kSplitter * a, a_high = a_big - (a_big - a), a_low = a - a_high;
-  const double b_big = kSplitter * b, b_high = b_big - (b_big - b), b_low = b - b_high;
-  const double high = a * b;
-  return {high, ((a_high * b_high - high) + a_high * b_low + a_low * b_high) + a_low * b_low};
-}
-
-}  // namespace
 
 int exact_orient(const Point2& a, const Point2& b, const Point2& c) {
   const double left = (a[0] - c[0]) * (b[1] - c[1]), right = (a[1] - c[1]) * (b[0] - c[0]);
@@ -36,13 +18,13 @@ int exact_orient(const Point2& a, const Point2& b, const Point2& c) {
   if (std::fabs(rounded) > (3 + 16 * kEpsilon) * kEpsilon * (std::fabs(left) + std::fabs(right))) {
     return rounded > 0 ? 1 : -1;
   }
-  const Pair products[6] = {exact_product(a[0], b[1]),  exact_product(-a[1], b[0]), exact_product(b[0], c[1]),
-                            exact_product(-b[1], c[0]), exact_product(c[0], a[1]),  exact_product(-c[1], a[0])};
+  const ExactPair products[6] = {exact_product(a[0], b[1]),  exact_product(-a[1], b[0]), exact_product(b[0], c[1]),
+                                 exact_product(-b[1], c[0]), exact_product(c[0], a[1]),  exact_product(-c[1], a[0])};
   double expansion[12] = {};  // non-overlapping, increasing in size
   for (int count = 0; count < 12; ++count) {
     double carry = count % 2 == 0 ? products[count / 2].low : products[count / 2].high;
     for (int i = 0; i < count; ++i) {
-      const Pair sum = exact_sum(carry, expansion[i]);
+      const ExactPair sum = exact_sum(carry, expansion[i]);
       expansion[i] = sum.low;
       carry = sum.high;
     }
