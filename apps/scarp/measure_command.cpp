@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "clock.h"
 #include "progress_display.h"
 #include "report.h"
 #include "scarp/picture.h"
@@ -17,10 +17,6 @@
 
 namespace scarp::cli {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Watches the rows that the judge hands out: keeps the errors for the map, and finds the first uncovered sample.
 class RowWatcher {

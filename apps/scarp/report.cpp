@@ -17,11 +17,6 @@ const char* kind_name(Frame::Kind kind) {
   return "projected";
 }
 
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
 Json describe_topology(const Measurement& measured) {
   Json topology;
   topology["sound"] = measured.is_sound();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,12 @@
 namespace scarp::cli {
 
 using Json = nlohmann::ordered_json;
+
+/// The value, or JSON's null.
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
 
 /// The "input" object: the raster as it was read.
 Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, int band);

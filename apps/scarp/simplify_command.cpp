@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
+#include "clock.h"
 #include "progress_display.h"
 #include "report.h"
 #include "scarp/picture.h"
@@ -16,10 +16,6 @@
 
 namespace scarp::cli {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// A file of this run and its bytes, ready to be written.
 struct ReadyFile {
@@ -72,8 +68,8 @@ Result<void> check_promise(const Outcome& outcome) {
                           find_broken_promise(measured, rounding, bound, outcome.heights).value_or("")));
 }
 
-/// simplify() leaves out the topology of meshes in affine frames, where it holds by construction; a report states what
-/// was looked at, not what must be so.
+/// simplify() leaves out the topology where it holds by construction; a report states what was looked at, not what must
+/// be so.
 Result<void> judge_topology(const ProgressCallback& progress, int threads, Outcome& outcome) {
   MeasureOptions options;
   options.threads = threads;
@@ -149,11 +145,6 @@ const char* stop_name(StopReason stop) {
       break;
   }
   return "exact";
-}
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
 }
 
 Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::vector<ReadyFile>& files,
@@ -375,7 +366,10 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   Result<Simplified> simplified = simplify(outcome.field, options);
   if (!simplified) return tl::unexpected(std::move(simplified.error()));
   outcome.simplified = std::move(*simplified);
-  if (plan->report && outcome.field.frame.is_affine()) {
+  const OwnedHeightField& field = outcome.field;
+  const bool by_construction =
+      options.float32_positions ? offsets_are_exact(field.frame, field.cols, field.rows) : field.frame.is_affine();
+  if (plan->report && by_construction) {
     const Result<void> judged = judge_topology(display.callback(), plan->simplify.threads, outcome);
     if (!judged) return judged;
   }

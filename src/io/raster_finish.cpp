@@ -6,7 +6,7 @@
 
 namespace scarp {
 
-std::string format_bytes(double bytes) {
+std::string format_memory(double bytes) {
   constexpr const char* kUnits[] = {"KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
   double value = bytes / 1024;
   std::size_t unit = 0;
@@ -35,8 +35,8 @@ Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std:
         ErrorKind::kInput,
         fmt::format("{}: {} x {} samples need {} of memory, but only {} {}; read a part of it (gdal_translate -srcwin) "
                     "or a coarser copy (gdal_translate -outsize 50% 50%)",
-                    name, cols, rows, format_bytes(5.0 * static_cast<double>(cols * rows)),
-                    format_bytes(5.0 * static_cast<double>(limit)),
+                    name, cols, rows, format_memory(5.0 * static_cast<double>(cols * rows)),
+                    format_memory(5.0 * static_cast<double>(limit)),
                     options.memory_limit != 0 ? "are allowed" : "are available"));
   }
   return {};
@@ -49,7 +49,7 @@ Result<void> allocate_samples(const std::string& name, OwnedHeightField& field) 
   } catch (const std::exception&) {
     return fail(ErrorKind::kInput,
                 fmt::format("{}: the machine refuses the {} of memory that {} x {} samples need", name,
-                            format_bytes(4.0 * static_cast<double>(count)), field.cols, field.rows));
+                            format_memory(4.0 * static_cast<double>(count)), field.cols, field.rows));
   }
   return {};
 }

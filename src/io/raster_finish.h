@@ -24,6 +24,6 @@ Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities);
 Result<Frame> ungeoreferenced_frame(const std::string& name, int rows, const std::string& crs);
 
 /// "1.5 GiB", "37.0 MiB".
-std::string format_bytes(double bytes);
+std::string format_memory(double bytes);
 
 }  // namespace scarp
