@@ -18,7 +18,7 @@ interrupt_after() {
   wait "$pid" || code=$?
 }
 
-for signal in INT TERM; do
+for signal in INT TERM HUP; do
   for seconds in 0.2 1 2; do
     interrupt_after "$signal" "$seconds" "$scarp" simplify big.tif out.glb -e 0 --preview p.png --report r.json
     [ "$code" = 5 ] || fail "exit code $code instead of 5 after $signal at $seconds s"
