@@ -86,7 +86,8 @@ struct Measurement {
 };
 
 /// Judges `mesh` against every valid sample of `field`, in the field's frame. Shares no scan code with simplify().
-/// Fails with kInput if the mesh has an index out of range, a position that is not finite, or no triangles; with
+/// Fails with kInput if the mesh has an index out of range, a position that is not finite or beyond 1e100 (in its own
+/// coordinates or, in affine frames, in cells), or no triangles; with
 /// kCancelled if the callback says so. Cost: O(samples + triangles).
 Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const MeasureOptions& options = {});
 

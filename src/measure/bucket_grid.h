@@ -24,8 +24,8 @@ struct Box {
 
 class BucketGrid {
  public:
-  /// Buckets over `box`, about `buckets` in number and nearly square. A point outside is looked up in the nearest
-  /// bucket; what lies wholly outside may be in no bucket.
+  /// Buckets over `box`, about `buckets` in number and nearly square. The outermost ones go on without end: a point
+  /// outside is looked up in the nearest bucket, and shapes outside are in it.
   BucketGrid(const Box& box, std::size_t buckets) : box_(box) {
     const double width = std::max(box.x1 - box.x0, 0.0), height = std::max(box.y1 - box.y0, 0.0);
     const double count = static_cast<double>(std::clamp<std::size_t>(buckets, 1, std::size_t{1} << 28));
@@ -40,8 +40,8 @@ class BucketGrid {
 
   int cols() const { return cols_; }
   int rows() const { return rows_; }
-  int col_of(double x) const { return static_cast<int>(std::clamp((x - box_.x0) / step_x_, 0.0, cols_ - 1.0)); }
-  int row_of(double y) const { return static_cast<int>(std::clamp((y - box_.y0) / step_y_, 0.0, rows_ - 1.0)); }
+  int col_of(double x) const { return whole((x - box_.x0) / step_x_, cols_ - 1); }
+  int row_of(double y) const { return whole((y - box_.y0) / step_y_, rows_ - 1); }
   std::span<const std::uint32_t> bucket(int col, int row) const {
     const std::size_t b = index(col, row);
     return {entries_.data() + starts_[b], starts_[b + 1] - starts_[b]};
@@ -64,6 +64,7 @@ class BucketGrid {
   }
 
  private:
+  static int whole(double value, int most) { return value > 0 ? static_cast<int>(std::min<double>(value, most)) : 0; }
   std::size_t index(int col, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(col);
   }
@@ -76,8 +77,8 @@ class BucketGrid {
     const int first = row_of(along.lo - hair_y), last = row_of(along.hi + hair_y);
     for (int row = first; row <= last; ++row) {
       const double y = box_.y0 + row * step_y_;
-      const Interval across = shape.x_range(y - hair_y, y + step_y_ + hair_y);
-      if (across.hi < box_.x0 - hair_x || across.lo > box_.x1 + hair_x) continue;
+      const Interval across =
+          shape.x_range(row == 0 ? -HUGE_VAL : y - hair_y, row == rows_ - 1 ? HUGE_VAL : y + step_y_ + hair_y);
       const int begin = col_of(across.lo - hair_x), end = col_of(across.hi + hair_x);
       for (int col = begin; col <= end; ++col) visit(index(col, row));
     }

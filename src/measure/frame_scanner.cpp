@@ -1,7 +1,7 @@
 // Judging in any frame.
 //
 // A frame with a transform (a map projection) cannot be inverted here, so the samples go to the mesh instead: each
-// row's positions are transformed, and a grid of buckets over the mesh, about one triangle to a bucket, names the
+// row's positions are transformed, and a grid of buckets over the field's image, one for each triangle, names the
 // triangles that may lie over a position. Tolerances are given in samples; near a sample the frame is taken as affine,
 // and triangles are brought into grid coordinates around the sample by the inverse of that affine map.
 #include <cmath>
@@ -44,7 +44,7 @@ class FrameScanner : public Scanner {
       : frame_(field.frame),
         mesh_(mesh),
         tolerance_(tolerance),
-        grid_(bounds(mesh), std::max<std::size_t>(1, ids.size())) {
+        grid_(bounds(field), std::max<std::size_t>(1, ids.size())) {
     facets_.mesh = &mesh;
     facets_.ids = std::move(ids);
     facets_.x.resize(mesh.vertex_count());
@@ -72,10 +72,28 @@ class FrameScanner : public Scanner {
   }
 
  private:
-  static Box bounds(const Mesh& mesh) {
+  /// Where the field lies, from its border and some lines across it, with a margin; triangles elsewhere cost nothing.
+  /// A sample that is missed by it still finds its triangles, if slowly.
+  Box bounds(const HeightField& field) const {
+    std::vector<double> cols, rows;
+    const double last_col = field.cols - 1, last_row = field.rows - 1;
+    constexpr int kLines = 16, kPoints = 256;
+    for (int line = 0; line <= kLines; ++line) {
+      for (int point = 0; point <= kPoints; ++point) {
+        const double across = double(line) / kLines, along = double(point) / kPoints;
+        cols.insert(cols.end(), {along * last_col, across * last_col});
+        rows.insert(rows.end(), {across * last_row, along * last_row});
+      }
+    }
+    Points points;
+    locate(cols, rows, 0, 0, points);
     Box box;
-    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) box.include(mesh.positions[3 * v], mesh.positions[3 * v + 1]);
-    return box;
+    for (std::size_t i = 0; i < cols.size(); ++i) {
+      if (std::isfinite(points.x[i]) && std::isfinite(points.y[i])) box.include(points.x[i], points.y[i]);
+    }
+    if (!(box.x0 <= box.x1)) return {0, 0, 0, 0};
+    const double margin_x = 0.02 * (box.x1 - box.x0), margin_y = 0.02 * (box.y1 - box.y0);
+    return {box.x0 - margin_x, box.y0 - margin_y, box.x1 + margin_x, box.y1 + margin_y};
   }
 
   /// Where grid points lie; NaN where they have no image.

@@ -1,14 +1,15 @@
 // Judging in an affine frame.
 //
 // The vertices are mapped back to grid coordinates, where sample (col, row) is the point (col, row). The inverse map
-// leaves noise of some 1e-16 of the coordinates; what is that near to a lattice point is put onto it, so that a vertex
-// on a sample is judged there and the sums below are exact for it. Each triangle is cut into rows; for a row the
-// samples between its left and right side are visited. Samples on a side belong to both triangles. A sample's error is
-// the barycentric mean of (corner height − sample): all weights are positive, so nothing cancels that was not equal
-// before.
+// leaves noise of some 1e-16 of the coordinates; what is that near to a lattice line is put onto it (see GridMap), so
+// that a vertex on a sample is judged there and the sums below are exact for it. Each triangle is cut into rows; for a
+// row the samples between its left and right side are visited. Samples on a side belong to both triangles. A sample's
+// error is the barycentric mean of (corner height − sample): all weights are positive, so nothing cancels that was not
+// equal before.
 #include <cmath>
 
 #include "measure/facet_error.h"
+#include "measure/grid_map.h"
 #include "measure/scanner.h"
 
 namespace scarp::judge {
@@ -43,21 +44,13 @@ class GridScanner : public Scanner {
 
  private:
   void map_to_grid(const HeightField& field, const Mesh& mesh) {
-    const auto& a = field.frame.affine;
-    using Long = long double;
-    const Long det = Long{a[1]} * a[5] - Long{a[2]} * a[4];
-    const Long shift_x = Long{mesh.origin[0]} - a[0], shift_y = Long{mesh.origin[1]} - a[3];
-    const double near = 1e-9 * (static_cast<double>(field.cols) + field.rows);
-    const auto snap = [near](Long value) {
-      const Long whole = std::round(value);
-      return static_cast<double>(std::abs(value - whole) <= near ? whole : value);
-    };
+    const GridMap to_grid(field, mesh.origin);
     facets_.x.resize(mesh.vertex_count());
     facets_.y.resize(mesh.vertex_count());
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
-      const Long dx = shift_x + mesh.positions[3 * v], dy = shift_y + mesh.positions[3 * v + 1];
-      facets_.x[v] = snap((a[5] * dx - a[2] * dy) / det);
-      facets_.y[v] = snap((a[1] * dy - a[4] * dx) / det);
+      const auto [col, row] = to_grid(mesh.positions[3 * v], mesh.positions[3 * v + 1]);
+      facets_.x[v] = col;
+      facets_.y[v] = row;
     }
   }
 
@@ -69,7 +62,7 @@ class GridScanner : public Scanner {
   }
 
   void sort_into_bands() {
-    const auto bands = static_cast<std::size_t>((rows_ + rows_per_band_ - 1) / rows_per_band_);
+    const auto bands = static_cast<std::size_t>((rows_ - 1) / rows_per_band_ + 1);
     const auto each_entry = [&](auto&& visit) {
       for (const std::uint32_t id : facets_.ids) {
         Facet facet;

@@ -12,6 +12,7 @@
 #include "base/caught.h"
 #include "base/parallel.h"
 #include "measure/band.h"
+#include "measure/grid_map.h"
 #include "measure/progress_gate.h"
 #include "measure/scanner.h"
 #include "measure/topology.h"
@@ -25,6 +26,9 @@ using judge::Histogram;
 using judge::kRounding;
 using judge::ProgressGate;
 using judge::Sum;
+
+/// Coordinates of this size can be multiplied three times before they are infinite.
+bool is_in_reach(double coordinate) { return std::abs(coordinate) <= 1e100; }
 
 Result<void> check_input(const HeightField& field, const Mesh& mesh, const MeasureOptions& options) {
   if (field.cols < 2 || field.rows < 2 || field.samples == nullptr) {
@@ -51,12 +55,24 @@ Result<void> check_input(const HeightField& field, const Mesh& mesh, const Measu
                                                mesh.triangles[i], mesh.vertex_count()));
   }
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    if (std::isfinite(mesh.positions[i])) continue;
+    if (is_in_reach(mesh.positions[i])) continue;
     return fail(ErrorKind::kInput,
-                fmt::format("vertex {} of the mesh has a coordinate that is not a finite number", i / 3));
+                fmt::format("vertex {} of the mesh has a coordinate that is {}", i / 3,
+                            std::isfinite(mesh.positions[i]) ? "beyond 1e100; only nearer ones can be judged"
+                                                             : "not a finite number"));
   }
-  if (!std::all_of(mesh.origin.begin(), mesh.origin.end(), [](double term) { return std::isfinite(term); })) {
-    return fail(ErrorKind::kInput, "the mesh's origin is not a finite point");
+  if (!std::all_of(mesh.origin.begin(), mesh.origin.end(), is_in_reach)) {
+    return fail(ErrorKind::kInput, "the mesh's origin is not a finite point within 1e100");
+  }
+  const judge::GridMap to_grid(field, mesh.origin);
+  for (std::size_t v = 0; field.frame.is_affine() && v < mesh.vertex_count(); ++v) {
+    const auto [col, row] = to_grid(mesh.positions[3 * v], mesh.positions[3 * v + 1]);
+    if (is_in_reach(col) && is_in_reach(row)) continue;
+    return fail(
+        ErrorKind::kInput,
+        fmt::format("vertex {} of the mesh lies more than 1e100 cells from the height field; only nearer ones can "
+                    "be judged",
+                    v));
   }
   if (!(options.coverage_tolerance >= 0) || !std::isfinite(options.coverage_tolerance)) {
     return fail(ErrorKind::kUsage, "coverage_tolerance must be zero or a positive number of samples");
@@ -163,8 +179,8 @@ bool judge_heights(const HeightField& field, const Mesh& mesh, const judge::Scan
                    const MeasureOptions& options, ProgressGate& gate, Measurement& result) {
   const double guard = error_guard(mesh);
   const int height = Band::rows_per_band(field.cols);
-  const int bands = (field.rows + height - 1) / height;
-  const int window = 2 * thread_count(options.threads);
+  const int bands = (field.rows - 1) / height + 1;
+  const int window = 2 * std::min(thread_count(options.threads), 1024);
   // Histograms stay with their place in the window: counts add up to the same whoever made them.
   std::vector<Histogram> histograms(static_cast<std::size_t>(std::min(window, bands)));
   Verdict verdict(options, field.cols, result);

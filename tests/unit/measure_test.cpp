@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <optional>
 
@@ -443,6 +444,19 @@ TEST(Measure, FailsCleanly) {
   mesh = good;
   mesh.positions[4] = NAN;
   EXPECT_EQ(kind(terrain.view(), mesh), ErrorKind::kInput);
+  for (const double huge : {1e101, -1e160, 1e300}) {
+    mesh = good;
+    mesh.positions[3] = huge;
+    EXPECT_EQ(kind(terrain.view(), mesh), ErrorKind::kInput);
+    mesh = good;
+    mesh.origin[1] = huge;
+    EXPECT_EQ(kind(terrain.view(), mesh), ErrorKind::kInput);
+  }
+  HeightField tiny = terrain.view();
+  tiny.frame.affine = {0, 1e-150, 0, 0, 0, -1e-150};
+  const auto far = measure(tiny, good);
+  ASSERT_FALSE(far);
+  EXPECT_NE(far.error().message.find("vertex 0 of the mesh lies more than 1e100 cells"), std::string::npos);
   mesh = good;
   mesh.triangles.clear();
   EXPECT_EQ(kind(terrain.view(), mesh), ErrorKind::kInput);
@@ -452,6 +466,55 @@ TEST(Measure, FailsCleanly) {
   HeightField flat = terrain.view();
   flat.frame.affine = {0, 1, 1, 0, 1, 1};
   EXPECT_EQ(kind(flat, good), ErrorKind::kInput);
+}
+
+TEST(Measure, TakesCoordinatesUpToItsLimit) {
+  const Terrain terrain = wavy_terrain(5, 5);
+  for (const bool dressed : {false, true}) {
+    HeightField field = terrain.view();
+    if (dressed) field.frame = dress_up(field.frame);
+    for (const double huge : {1e16, 1e60, 1e100}) {
+      Mesh mesh = grid_mesh(terrain, 4);
+      for (int k = 0; k < 3; ++k) mesh.positions[3 + k] = huge;
+      const auto result = measure(field, mesh);
+      ASSERT_TRUE(result);
+      EXPECT_EQ(result->samples + result->uncovered, 25u);
+    }
+  }
+}
+
+TEST(Measure, SeesAShiftFarBelowACell) {
+  // A slope of 1000 per cell turns a shift of 1.9e-6 cells into an error of 0.0019.
+  Terrain terrain{{}, 1500, 500, grid_frame(500)};
+  for (int i = 0; i < 1500 * 500; ++i) terrain.samples.push_back(static_cast<float>(i % 1500) * 1000);
+  for (const double cell : {1.0, 30.0}) {
+    terrain.frame.affine = {5e5, cell, 0, 4e6, 0, -cell};
+    Mesh mesh;
+    mesh.origin = {5e5, 4e6, 0};
+    for (int k = 0; k < 4; ++k) add_vertex(mesh, terrain.frame, (k % 2) * 1499, (k / 2) * 499, (k % 2) * 1499e3);
+    mesh.triangles = {0, 2, 1, 1, 2, 3};
+    EXPECT_EQ(measure(terrain.view(), mesh)->max_error, 0);
+    for (std::size_t v = 0; v < 4; ++v) mesh.positions[3 * v] -= 1.9e-6 * cell;
+    MeasureOptions heights_only;
+    heights_only.topology = false;
+    const auto shifted = measure(terrain.view(), mesh, heights_only);
+    EXPECT_NEAR(shifted->max_error, 0.0019, 1e-5);
+  }
+}
+
+TEST(Measure, IsNotSlowedDownByAVertexFarAway) {
+  const Terrain terrain = wavy_terrain(129, 129);
+  HeightField field = terrain.view();
+  Mesh mesh = grid_mesh(terrain, 1);
+  field.frame = dress_up(field.frame);
+  const auto near = measure(field, mesh);
+  mesh.positions.insert(mesh.positions.end(), {1e7, 1e7, 0});
+  const auto start = std::chrono::steady_clock::now();
+  const auto far = measure(field, mesh);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));  // 0.05 s; in one bucket minutes
+  EXPECT_EQ(far->max_error, near->max_error);
+  EXPECT_EQ(far->uncovered, 0u);
+  EXPECT_TRUE(far->is_sound());
 }
 
 TEST(Measure, CanBeCancelled) {

@@ -1,0 +1,60 @@
+// From the mesh back to the grid, for affine frames.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "scarp/height_field.h"
+
+namespace scarp::judge {
+
+/// The inverse of an affine frame, in plain double arithmetic: the same on all machines. What comes as near to a whole
+/// number as rounding may have moved it is put onto it: four units in the last place of the coordinates that the vertex
+/// was made from (the frame's, the origin, its own), in samples, and what the inverse itself loses.
+class GridMap {
+ public:
+  GridMap(const HeightField& field, const std::array<double, 3>& origin) : a_(field.frame.affine), origin_(origin) {
+    det_ = a_[1] * a_[5] - a_[2] * a_[4];
+    size_x_ =
+        std::max({std::abs(a_[0]), std::abs(origin[0]), std::abs(a_[1]) * field.cols, std::abs(a_[2]) * field.rows});
+    size_y_ =
+        std::max({std::abs(a_[3]), std::abs(origin[1]), std::abs(a_[4]) * field.cols, std::abs(a_[5]) * field.rows});
+  }
+
+  /// The column and row of a position relative to the origin.
+  std::array<double, 2> operator()(double x, double y) const {
+    const double dx = sum_of(origin_[0], -a_[0], x), dy = sum_of(origin_[1], -a_[3], y);
+    const double noise_x = 4 * kUlp * std::max(size_x_, std::abs(origin_[0] + x)),
+                 noise_y = 4 * kUlp * std::max(size_y_, std::abs(origin_[1] + y));
+    return {quotient(a_[5], dx, noise_x, -a_[2], dy, noise_y), quotient(-a_[4], dx, noise_x, a_[1], dy, noise_y)};
+  }
+
+ private:
+  static constexpr double kUlp = 0x1p-52;
+
+  /// a + b + c, rounded once or twice: the difference of large coordinates loses nothing.
+  static double sum_of(double a, double b, double c) {
+    const auto lost = [](double p, double q, double sum) {
+      const double back = sum - p;
+      return (p - (sum - back)) + (q - back);
+    };
+    const double first = a + b, second = first + c;
+    return second + (lost(a, b, first) + lost(first, c, second));
+  }
+
+  double quotient(double p, double dx, double noise_x, double q, double dy, double noise_y) const {
+    const double value = (p * dx + q * dy) / det_;
+    const double near = (std::abs(p) * noise_x + std::abs(q) * noise_y) / std::abs(det_) +
+                        4 * kUlp * (std::abs(p * dx) + std::abs(q * dy)) / std::abs(det_);
+    const double whole = std::round(value);
+    return std::abs(value - whole) <= std::min(near, kMostNear) ? whole : value;
+  }
+  static constexpr double kMostNear = 1.0 / 256;
+
+  std::array<double, 6> a_;
+  std::array<double, 3> origin_;
+  double det_ = 1, size_x_ = 0, size_y_ = 0;
+};
+
+}  // namespace scarp::judge
