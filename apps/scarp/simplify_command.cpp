@@ -364,7 +364,11 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   options.max_error = outcome.asked;
   options.progress = display.callback();
   Result<Simplified> simplified = simplify(outcome.field, options);
-  if (!simplified) return tl::unexpected(std::move(simplified.error()));
+  if (!simplified) {
+    Error error = std::move(simplified.error());
+    if (error.kind == ErrorKind::kInput) error.message = fmt::format("{}: {}", plan->input, error.message);
+    return tl::unexpected(std::move(error));
+  }
   outcome.simplified = std::move(*simplified);
   const OwnedHeightField& field = outcome.field;
   const bool by_construction =

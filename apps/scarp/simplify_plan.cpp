@@ -12,6 +12,9 @@ namespace scarp::cli {
 namespace {
 
 Result<MeshFormat> choose_format(const SimplifyArguments& given) {
+  if (given.output == "-") {
+    return fail(ErrorKind::kUsage, "- is no output: for standard output give /dev/stdout and a format with --of");
+  }
   if (given.format) {
     const std::optional<MeshFormat> named = find_mesh_format(*given.format);
     if (named && given.format->find_first_of("./") == std::string::npos) return *named;
@@ -100,6 +103,7 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (!format) return tl::unexpected(format.error());
   plan.format = *format;
   plan.simplify.normals = given.normals;
+  plan.simplify.float32_positions = plan.format == MeshFormat::kGlb || plan.format == MeshFormat::kStl;
   if (given.base) {
     const Result<double> base = parse_number("--base", *given.base);
     if (!base) return tl::unexpected(base.error());

@@ -290,7 +290,9 @@ TEST(simplify, budgets_hold_where_the_judge_asks_for_more_vertices) {
     const auto result = simplify(bent(field), {.max_error = 12.0, .max_triangles = budget});
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_LE(result->mesh.triangle_count(), budget);
-    if (result->stop == StopReason::kMaxError) EXPECT_LE(result->measurement.max_error, 12.0);
+    if (result->stop == StopReason::kMaxError) {
+      EXPECT_LE(result->measurement.max_error, 12.0);
+    }
   }
 }
 
