@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <optional>
 
@@ -502,6 +501,7 @@ TEST(Measure, SeesAShiftFarBelowACell) {
   }
 }
 
+// Were the buckets laid over the far vertex too, all triangles would share one, and this would take minutes.
 TEST(Measure, IsNotSlowedDownByAVertexFarAway) {
   const Terrain terrain = wavy_terrain(129, 129);
   HeightField field = terrain.view();
@@ -509,9 +509,7 @@ TEST(Measure, IsNotSlowedDownByAVertexFarAway) {
   field.frame = dress_up(field.frame);
   const auto near = measure(field, mesh);
   mesh.positions.insert(mesh.positions.end(), {1e7, 1e7, 0});
-  const auto start = std::chrono::steady_clock::now();
   const auto far = measure(field, mesh);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));  // 0.05 s; in one bucket minutes
   EXPECT_EQ(far->max_error, near->max_error);
   EXPECT_EQ(far->uncovered, 0u);
   EXPECT_TRUE(far->is_sound());
