@@ -28,7 +28,8 @@ std::optional<Candidate> find_candidate(const Raster& raster, const std::array<P
 
 class Refinement {
  public:
-  /// Scans every triangle that is not outside. `raster` and `tin` stay alive and are changed by nobody else.
+  /// Scans every triangle that is not outside. The samples and `tin` stay alive and are
+  /// changed by nobody else.
   Refinement(const Raster& raster, Triangulation& tin, double threshold);
 
   /// No sample exceeds the threshold any more.
@@ -53,7 +54,7 @@ class Refinement {
   void rescan(Triangle t);
   std::uint32_t gain(const Triangulation::Location& location) const;
 
-  const Raster& raster_;
+  Raster raster_;
   Triangulation& tin_;
   double threshold_;
   CandidateQueue queue_;
