@@ -165,14 +165,8 @@ Result<OwnedHeightField> decode_pgm(std::span<const std::uint8_t> bytes, const s
                                     const ReadOptions& options) {
   auto header = decode_header(bytes, name);
   if (!header) return tl::unexpected(header.error());
-  auto frame = ungeoreferenced_frame(name, static_cast<int>(header->rows), options.crs);
+  auto frame = bare_grid_frame(name, "a PGM", static_cast<int>(header->rows), options);
   if (!frame) return tl::unexpected(frame.error());
-  if (options.band != 1)
-    return fail(ErrorKind::kInput, fmt::format("{} has 1 band; there is no band {}", name, options.band));
-  if (options.decode != Decode::kNone) {
-    return fail(ErrorKind::kInput,
-                name + ": heights packed into colours need 3 or 4 bands of bytes; a PGM has one band");
-  }
 
   // The file itself must be long enough before its header's size is believed. A plain sample takes a digit and a space.
   const std::uint64_t there = bytes.size() - header->samples_at;

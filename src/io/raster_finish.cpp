@@ -79,4 +79,16 @@ Result<Frame> ungeoreferenced_frame(const std::string& name, int rows, const std
                   name, crs));
 }
 
+Result<Frame> bare_grid_frame(const std::string& name, const char* kind, int rows, const ReadOptions& options) {
+  auto frame = ungeoreferenced_frame(name, rows, options.crs);
+  if (!frame) return frame;
+  if (options.band != 1)
+    return fail(ErrorKind::kInput, fmt::format("{} has 1 band; there is no band {}", name, options.band));
+  if (options.decode != Decode::kNone) {
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: heights packed into colours need 3 or 4 bands of bytes; {} has one band", name, kind));
+  }
+  return frame;
+}
+
 }  // namespace scarp

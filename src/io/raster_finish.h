@@ -23,6 +23,10 @@ Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities);
 /// The frame of a raster without georeference: kUsage if options.crs asks for anything but the grid.
 Result<Frame> ungeoreferenced_frame(const std::string& name, int rows, const std::string& crs);
 
+/// The same for a format of one band and nothing else (`kind`: "a PGM", …), which also refuses (kInput) options that
+/// ask for another band or for packed colours.
+Result<Frame> bare_grid_frame(const std::string& name, const char* kind, int rows, const ReadOptions& options);
+
 /// "1.5 GiB", "37.0 MiB".
 std::string format_memory(double bytes);
 

@@ -73,14 +73,8 @@ Result<OwnedHeightField> decode_stm(std::span<const std::uint8_t> bytes, const s
                                     const ReadOptions& options) {
   auto header = decode_header(bytes, name);
   if (!header) return tl::unexpected(header.error());
-  auto frame = ungeoreferenced_frame(name, static_cast<int>(header->rows), options.crs);
+  auto frame = bare_grid_frame(name, "an STM", static_cast<int>(header->rows), options);
   if (!frame) return tl::unexpected(frame.error());
-  if (options.band != 1)
-    return fail(ErrorKind::kInput, fmt::format("{} has 1 band; there is no band {}", name, options.band));
-  if (options.decode != Decode::kNone) {
-    return fail(ErrorKind::kInput,
-                name + ": heights packed into colours need 3 or 4 bands of bytes; an STM has one band");
-  }
   const std::uint64_t count = static_cast<std::uint64_t>(header->cols) * header->rows;
   const std::uint64_t there = bytes.size() - header->samples_at;
   if (there != count * 2) {
