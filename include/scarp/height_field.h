@@ -11,6 +11,12 @@
 
 namespace scarp {
 
+/// A further value at each sample, such as a colour: borrowed, on the same grid as the heights.
+struct Channel {
+  const float* samples = nullptr;  ///< cols·rows values; NaN and infinities count as no value: no error there
+  double scale = 1;                ///< its error times this is comparable with an error in z units; at least 0
+};
+
 /// A height field that borrows its samples.
 ///
 /// Samples are row-major, `cols` to a row without padding, the first row at the top (north) of the raster.
@@ -25,7 +31,13 @@ struct HeightField {
   /// Largest |given value − float32 sample| of a source that does not fit float32 (int32, float64). A promise
   /// about the source keeps this much in reserve. DEFAULT: 0.
   double sample_rounding = 0;
+  /// At most kMaxChannels. With channels, the error of a sample is the norm of (height_scale · |height error|, scale₁ ·
+  /// |error₁|, …). DEFAULT: none.
+  std::vector<Channel> channels = {};
+  double height_scale = 1;  ///< weight of the height error in that norm, at least 0. DEFAULT: 1.
 };
+
+inline constexpr int kMaxChannels = 64;
 
 /// What a reader found out about a raster besides its samples.
 struct RasterInfo {
@@ -55,7 +67,7 @@ struct OwnedHeightField {
   RasterInfo info;
 
   /// Borrows this object's samples: valid while it is alive and `samples` is not resized.
-  HeightField view() const { return {samples.data(), cols, rows, std::nullopt, frame, sample_rounding}; }
+  HeightField view() const { return {samples.data(), cols, rows, std::nullopt, frame, sample_rounding, {}, 1}; }
   operator HeightField() const { return view(); }  // NOLINT: the door takes both
 };
 

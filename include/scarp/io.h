@@ -12,14 +12,15 @@
 #include "scarp/mesh.h"
 #include "scarp/progress.h"
 #include "scarp/result.h"
+#include "scarp/strategy.h"
 
 namespace scarp {
 
 enum class Decode { kNone, kTerrarium, kMapbox };
 
 struct ReadOptions {
-  int band = 1;                   ///< 1-based
-  std::optional<double> nodata = std::nullopt;   ///< overrides the file's value, which then is an ordinary height
+  int band = 1;                                 ///< 1-based
+  std::optional<double> nodata = std::nullopt;  ///< overrides the file's value, which then is an ordinary height
   Decode decode = Decode::kNone;  ///< heights packed into red, green, blue (8 bit each); alpha 0 is nodata
   /// Frame of the mesh. Empty (DEFAULT): the local metric frame for geographic rasters, the raster's own CRS for
   /// projected ones, the grid frame without georeference. "source": the raster's own coordinates. "local": the local
@@ -37,20 +38,60 @@ struct ReadOptions {
 /// kUsage for a CRS that is unknown or cannot be reached.
 Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options = {});
 
+/// The bands of an image as channels: one value a sample and band.
+struct OwnedChannels {
+  int cols = 0, rows = 0;
+  std::vector<std::vector<float>> bands;  ///< each row-major, cols·rows; nodata is NaN
+  bool is_8bit = false;                   ///< bytes in the file
+  bool is_color = false;                  ///< three bands, red green blue
+  Frame frame;
+  RasterInfo info;
+};
+
+/// Reads all bands of an image (or `band` of the options alone, if `all_bands` is false) by GDAL, PGM also without it;
+/// palettes become red, green, blue. Fails with kInput as read_height_field(), and for more than kMaxChannels bands
+/// and for an alpha band.
+Result<OwnedChannels> read_channels(const std::string& path, const ReadOptions& options = {}, bool all_bands = true);
+
+/// Nothing if two rasters lie on the same grid; else what differs, as the second half of a sentence ("is 10 x 20
+/// samples instead of 30 x 40", "is in EPSG:32611 instead of EPSG:4326", "begins at …"). A raster without georeference
+/// fits any of its size.
+std::optional<std::string> find_grid_difference(const RasterInfo& raster, int cols, int rows, const RasterInfo& other,
+                                                int other_cols, int other_rows);
+
+/// Steps of a script for the engine (Terra's -s): a line each, "s x y" inserts, "i x y" ignores, "u x y" says that the
+/// height is unknown (as i); x and y are column and row from the top left. Empty lines and # comments are skipped.
+/// Fails with kInput for an unknown word, a number missing, a place outside cols × rows (names the line).
+Result<std::vector<ScriptStep>> read_script(const std::string& path, int cols, int rows);
+
+/// A raster to be written: row-major, NaN is nodata.
+struct RasterImage {
+  std::span<const float> samples;
+  int cols = 0, rows = 0;
+  const RasterInfo* like = nullptr;  ///< georeference, CRS and unit are taken from it; may be null
+};
+enum class RasterFormat { kGeoTiff, kPgm };
+/// The file's bytes. GeoTIFF: float32, DEFLATE, nodata NaN. PGM: P5 of 16 bits, samples rounded to whole numbers, which
+/// must lie in 0 … 65535 (kOutput otherwise), 65535 for NaN.
+Result<std::vector<std::uint8_t>> encode_raster(const RasterImage& raster, RasterFormat format);
+
 /// Largest number of samples that fit `memory_limit` bytes at 5 bytes a sample; 0 = the machine's memory.
 std::uint64_t max_samples(std::uint64_t memory_limit);
 
-enum class MeshFormat { kGlb, kObj, kPly, kStl };
+/// kTin is Scape's and Terra's: one line a triangle, "t" and nine numbers, no shared vertices.
+enum class MeshFormat { kGlb, kObj, kPly, kStl, kTin };
 
 /// From a name ("glb", "OBJ", …) or from a path's extension; nothing if unknown.
 std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
 
 /// The file's bytes. GLB: y up (x, z, −y), float32, origin as node translation, metadata in asset.extras. OBJ: text,
 /// absolute coordinates that read back to the same doubles, metadata as comments. PLY: binary little-endian, double,
-/// absolute. STL: binary, float32 offsets from the origin, z up. Deterministic. Fails with kOutput where the format
-/// cannot hold the mesh.
+/// absolute. STL: binary, float32 offsets from the origin, z up. TIN: text, absolute coordinates that read back to the
+/// same doubles. Colours, uvs and channels where the format has a place: GLB (COLOR_0 as linear float, TEXCOORD_0,
+/// _CHANNEL_n where colours do not say it all), PLY (red green blue uchar, s t float, channel_n float), OBJ (vt,
+/// colours behind the coordinates). Deterministic. Fails with kOutput where the format cannot hold the mesh.
 Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format);
-/// Reads any of the four formats; recognises the format by content. Never trusts a length or an index in the file.
+/// Reads any of the five formats; recognises the format by content. Never trusts a length or an index in the file.
 Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
 
 /// encode_mesh() to a temporary name beside `path`, then renamed; nothing is left behind on failure.
@@ -61,8 +102,9 @@ Result<Mesh> read_mesh(const std::string& path);
 
 /// Writes bytes to a temporary name beside `path` (".scarp-R.tmp", R: 16 random hexadecimal digits) and renames it.
 /// kOutput on any failure, with nothing left behind; also if `path` exists and `overwrite` is false. A symbolic link is
-/// followed, also to a file that does not exist yet; an existing file keeps its permissions. /dev/stdout, and existing devices and pipes, are written directly. A program that wants "file
-/// too large" as an error rather than as its end ignores SIGXFSZ.
+/// followed, also to a file that does not exist yet; an existing file keeps its permissions. /dev/stdout, and existing
+/// devices and pipes, are written directly. A program that wants "file too large" as an error rather than as its end
+/// ignores SIGXFSZ.
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes, bool overwrite = true);
 /// The whole file (or pipe). kInput if it cannot be read.
 Result<std::vector<std::uint8_t>> read_file(const std::string& path);

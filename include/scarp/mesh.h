@@ -20,6 +20,11 @@ struct Mesh {
   std::vector<double> positions;         ///< 3 per vertex: x, y, z offsets from origin
   std::vector<std::uint32_t> triangles;  ///< 3 vertex ids per triangle, counter-clockwise seen from +z
   std::vector<float> normals;            ///< empty, or 3 per vertex, unit length, z > 0
+  std::vector<float>
+      uvs;  ///< empty, or 2 per vertex: place in the raster's image, (0, 0) top left, (1, 1) bottom right
+  std::vector<std::uint8_t> colors;  ///< empty, or red, green, blue per vertex, sRGB as in an image
+  int channel_count = 0;             ///< further values per vertex
+  std::vector<float> channels;       ///< channel_count per vertex, as they are in HeightField::channels
   /// What the mesh is, for file headers: "generator", "command", "frame", "crs", … Written by every writer whose
   /// format has a place for it, and read back.
   std::map<std::string, std::string> metadata;

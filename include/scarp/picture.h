@@ -1,7 +1,9 @@
 // Pictures of height fields, meshes and errors.
 #pragma once
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "scarp/height_field.h"
 #include "scarp/io.h"
@@ -16,5 +18,26 @@ Picture draw_preview(const HeightField& field, const Mesh& mesh, int max_side = 
 /// Map of signed errors (row-major, cols·rows, NaN = void or uncovered) in diverging colours, blue below and red above
 /// the samples, with a scale bar from −limit to +limit in z units. `limit` <= 0: the largest |error|.
 Picture draw_error_map(std::span<const float> errors, int cols, int rows, double limit = 0, int max_side = 1400);
+
+/// The approximation as an image of one pixel a sample, Gouraud-shaded: the mesh's colours, interpolated in each
+/// triangle; without colours its hillshade. White where the mesh is not. The mesh lies in the field's frame.
+Picture draw_gouraud(const HeightField& field, const Mesh& mesh);
+
+/// Channels as a picture: three as red, green, blue, else the first as grey; 8-bit values as they are, others stretched
+/// over their range.
+Picture draw_channels(const OwnedChannels& channels);
+
+/// Colours of a mesh from its channels, as draw_channels() would paint their samples: fills mesh.colors.
+void color_by_channels(Mesh& mesh, const OwnedChannels& channels);
+
+/// Peak signal-to-noise ratio in dB over all pixels and colours; +infinity if equal. REQUIRES: equal sizes.
+double find_psnr(const Picture& a, const Picture& b);
+
+/// Pictures side by side, tops aligned, a white gap between them.
+Picture place_side_by_side(std::span<const Picture> pictures, int gap = 8);
+
+/// The mesh seen from above as lines, to scale, north up: every edge once. Text; deterministic.
+std::vector<std::uint8_t> encode_svg(const Mesh& mesh);
+std::vector<std::uint8_t> encode_eps(const Mesh& mesh);
 
 }  // namespace scarp

@@ -22,8 +22,9 @@ struct Error {
   std::string message;
 };
 
-/// A value or an Error. Nothing in the library throws for bad data, prints, or aborts. Where memory runs out, a function
-/// that returns a Result returns an Error; one that does not (drawing, filling, a Refiner's steps) throws std::bad_alloc.
+/// A value or an Error. Nothing in the library throws for bad data, prints, or aborts. Where memory runs out, a
+/// function that returns a Result returns an Error; one that does not (drawing, filling, a Refiner's steps) throws
+/// std::bad_alloc.
 template <class T>
 using Result = tl::expected<T, Error>;
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "scarp/mesh.h"
 #include "scarp/progress.h"
 #include "scarp/result.h"
+#include "scarp/strategy.h"
 
 namespace scarp {
 
@@ -30,6 +32,22 @@ struct SimplifyOptions {
   /// Round positions to float32, as GLB and STL hold them, so that what is proven is what is written. False: positions
   /// are double, as OBJ and PLY hold them, and vertices lie on their samples in every affine frame. DEFAULT: true.
   bool float32_positions = true;
+
+  /// Weights, one a sample, at least 0 (Terra's importance mask): weight · |error| is what is ranked and what max_error
+  /// bounds. Where the weight is 0 there is no bound. Borrowed. DEFAULT: empty, all 1.
+  std::span<const float> mask = {};
+  /// Bounds, one a sample, at least 0, in z units; +infinity: none. |error| <= tolerance at every valid sample, beside
+  /// max_error if that is given; |error| / tolerance is ranked. A goal of its own. Not together with a mask. Borrowed.
+  /// DEFAULT: empty.
+  std::span<const float> tolerance = {};
+  std::vector<ScriptStep> script = {};  ///< carried out in order before the first scan. DEFAULT: nothing.
+  Importance importance = {};           ///< DEFAULT: global error
+  Algorithm algorithm = Algorithm::kHeap;
+  Batch batch = {};        ///< DEFAULT: one at a time
+  EdgeRule edges = {};     ///< DEFAULT: Delaunay
+  Norm norm = Norm::kSum;  ///< over heights and channels, where the field has channels. DEFAULT: L1, as the report.
+  bool uvs = false;        ///< fill Mesh::uvs. DEFAULT: false.
+
   /// Vertex normals from the full-resolution samples. DEFAULT: false.
   bool normals = false;
   int threads = 0;  ///< 0 = all cores. Never changes the result. DEFAULT: 0.
@@ -45,8 +63,14 @@ struct Simplified {
   /// The proof: `mesh` as it stands, judged against all samples by measure(). The topology part is left out in affine
   /// frames whose offsets are exact (offsets_are_exact()) or double: there it holds by construction.
   Measurement measurement;
-  double seconds_refine = 0;   ///< outline, refinement and freezing
-  double seconds_measure = 0;  ///< the proof
+  std::uint64_t ignored = 0;      ///< valid samples without a bound: by the script, by weight 0, by infinite tolerance
+  double weighted_max_error = 0;  ///< largest weight · |error| (with a mask), |error| / tolerance (with tolerances)
+  double weighted_rmse = 0;       ///< root of the mean square of the same
+  std::vector<Measurement> channel_measurements;  ///< of each channel, in its own units; without topology
+  double combined_max_error = 0;                  ///< with channels: the largest norm
+  Effort effort;                                  ///< what the engine did
+  double seconds_refine = 0;                      ///< outline, refinement and freezing
+  double seconds_measure = 0;                     ///< the proof
 };
 
 /// Greedy insertion (Garland & Heckbert 1995, Algorithm III) on a constrained Delaunay triangulation of the valid data.
@@ -56,13 +80,18 @@ struct Simplified {
 ///     max_error − field.sample_rounding of `mesh`, positions as they are in it. Where offsets_are_exact() this holds
 ///     in exact arithmetic; else as far as measure()'s double arithmetic sees (10⁻¹² of the largest height);
 /// (2) the domain is the union of grid cells whose corners are all valid, and of half cells where three are;
-/// (3) vertices are samples; triangles are counter-clockwise from above and share whole edges;
-/// (4) the result depends on the field and the options only, not on threads or machine.
-/// Budgets are upper bounds. Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex.
+/// With channels, max_error bounds the norm of HeightField::channels instead (so the heights too where height_scale >=
+/// 1); with a mask the weighted error; every tolerance is kept. Samples that are `ignored` have no bound. (3) vertices
+/// are samples; triangles are counter-clockwise from above and share whole edges; (4) the result depends on the field
+/// and the options only, not on threads or machine. Budgets are upper bounds. Memory: at most 5 bytes a sample (the
+/// caller's included) plus 120 bytes a vertex.
 ///
-/// Fails with kUsage (no goal, a goal out of range, a budget below what the outline needs), kInput (fewer than 2×2
-/// samples, no valid cell), kPromise (a bound that float32 positions or samples cannot keep, a mesh that rounding or a
-/// projection folds over), kCancelled.
+/// Strategies (strategy.h) change which samples become vertices, never what is promised.
+///
+/// Fails with kUsage (no goal, a script step outside the raster, strategies that contradict each other, a mask,
+/// tolerance or channel out of range, a goal out of range, a budget below what the outline needs), kInput (fewer than
+/// 2×2 samples, no valid cell), kPromise (a bound that float32 positions or samples cannot keep, a mesh that rounding
+/// or a projection folds over), kCancelled.
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& options);
 
 /// The same engine, one vertex at a time. Works on a copy of nothing: `field` must stay alive.

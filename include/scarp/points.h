@@ -1,0 +1,72 @@
+// Scattered samples: the same job where the heights do not lie on a grid.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scarp/measure.h"
+#include "scarp/mesh.h"
+#include "scarp/progress.h"
+#include "scarp/result.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+
+/// Samples anywhere: z over (x, y), in one plane coordinate system. x east, y north.
+struct PointSet {
+  std::vector<double> x, y, z;  ///< of equal size; all finite
+  std::string path;             ///< where they come from, for messages
+  std::string format;           ///< "CSV", "GPKG", …
+  std::string crs;              ///< of x and y: "EPSG:32611", WKT, or empty
+  std::string description;      ///< one line for reports: what x and y are, and in which unit
+  std::vector<std::string> warnings;
+
+  std::size_t size() const { return x.size(); }
+};
+
+/// What becomes of several points at one place (after snapping, see simplify_points()).
+enum class DuplicatePolicy { kFirst, kLast, kHighest, kLowest, kMean };
+
+struct ReadPointsOptions {
+  std::string layer = {};  ///< of a vector file. DEFAULT: the first one with points.
+  std::string z_field =
+      {};  ///< column or attribute with the height. DEFAULT: the third coordinate; else z, height, elevation, elev, h.
+  std::string crs =
+      {};  ///< as ReadOptions::crs, "source" and "local" and a CRS; DEFAULT: local metres for degrees, else source
+  ProgressCallback progress = {};
+};
+
+/// Reads points: text of columns (CSV, XYZ: separated by commas, semicolons, tabs or blanks; a header line names them,
+/// else the first three are x, y, z; lines that begin with # are comments), by a reader of our own; all else
+/// (GeoPackage, GeoJSON, Shapefile, …) by GDAL. Fails with kInput: missing, empty, a line without three numbers, a
+/// value that is not finite (names the line or feature), no points in the layer.
+Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options = {});
+
+struct SimplifiedPoints {
+  Simplified simplified;         ///< measurement: errors at the points as given; `samples` counts points
+  std::uint64_t points = 0;      ///< as given
+  std::uint64_t duplicates = 0;  ///< of them not alone at their place and given up for another
+  std::uint64_t on_hull = 0;     ///< vertices of the convex hull
+  double lattice_step = 0;       ///< of the integer lattice, in units of x and y
+};
+
+/// Greedy insertion on scattered samples (the report's section 2 names it, without doing it). The domain is the convex
+/// hull. Each triangle keeps the list of the points in it. Coordinates are snapped to an integer lattice: a power of
+/// ten on which the given decimals lie exactly if there is one, else the finest power of two that the lattice holds.
+///
+/// Guarantees that |mesh − z| <= max_error at every point that is not given up as a duplicate, at its coordinates as
+/// given, for the positions as they are in the mesh. Vertices are points.
+/// Honours max_error, max_triangles, max_vertices, float32_positions, edges (Delaunay only), threads, progress of the
+/// options; fails with kUsage if another strategy is asked for, with kInput (fewer than 3 places, all on one line),
+/// with kPromise where float32 positions cannot keep the bound, kCancelled. Cost: expected O(n log m) for n points;
+/// about 60 bytes a point.
+Result<SimplifiedPoints> simplify_points(const PointSet& points, const SimplifyOptions& options,
+                                         DuplicatePolicy duplicates = DuplicatePolicy::kFirst);
+
+/// Judges a mesh against points by brute force, without knowing how it was made: Measurement::samples counts points,
+/// max_error_at is {index of the point, 0}. Duplicates are given up by the same policy first.
+Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates,
+                                   const MeasureOptions& options = {});
+
+}  // namespace scarp

@@ -1,0 +1,108 @@
+// How greedy insertion goes about its work: what is worth inserting, how it is found, and which edges are kept.
+//
+// Everything of the report "Fast Polygonal Approximation of Terrains and Height Fields" (Garland & Heckbert,
+// CMU-CS-95-181, 1995) and of its programs Scape and Terra. Whatever is chosen here, the promise is the same: no sample
+// breaks its bound when the run ends at its error goal.
+#pragma once
+
+#include <cstdint>
+
+namespace scarp {
+
+/// What makes a sample worth inserting (the report's section 3). Among the samples that break their bound the one with
+/// the largest importance is inserted. The errors that are promised and reported are always the true ones.
+///
+/// importance = |error| (if `global`) · feature (if any, damped), where the features are measured on the raster and do
+/// not depend on the mesh:
+///   kLocal4, kLocal8   |z − mean of the 4 or 8 neighbours|
+///   kCurvature         √(z_xx² + 2 z_xy² + z_yy²) by central differences
+/// Neighbours that are void or beyond the border are left out of the mean; a second difference that lacks one is 0.
+struct Importance {
+  enum class Feature { kNoFeature, kLocal4, kLocal8, kCurvature };
+  enum class Damping {
+    kUndamped,     ///< f
+    kPlusOne,      ///< f + 1
+    kSqrtPlusOne,  ///< √(f + 1)
+  };
+  bool global = true;
+  Feature feature = Feature::kNoFeature;
+  Damping damping = Damping::kUndamped;
+  /// One pass: rank all samples by the feature, insert the best in that order until a goal is reached, never look back.
+  /// REQUIRES: a feature, and global = false.
+  bool one_pass = false;
+
+  friend bool operator==(const Importance&, const Importance&) = default;
+};
+
+/// How the next candidate is found (section 4). All three insert the same samples in the same order.
+enum class Algorithm {
+  kBruteForce,  ///< I: scan everything before each insertion. O(m n)
+  kLocal,       ///< II: rescan what changed, look through all triangles. O(n log m + m²)
+  kHeap,        ///< III: rescan what changed, keep triangles in a heap. O((n + m) log m)
+};
+
+/// Inserting many samples between two looks at the mesh ("parallel" insertion of the report; Scape's thresholds).
+struct Batch {
+  enum class Rule {
+    kSequential,   ///< one at a time: the best meshes
+    kConstant,     ///< per pass all candidates that break their bound
+    kFraction,     ///< per pass all candidates of at least `fraction` times the largest importance
+    kIndependent,  ///< per pass all candidates whose triangle this pass has not changed yet, worst first
+  };
+  Rule rule = Rule::kSequential;
+  double fraction = 1;  ///< in (0, 1], for kFraction
+
+  friend bool operator==(const Batch&, const Batch&) = default;
+};
+
+/// Score of a diagonal in data-dependent triangulation: the smaller one is kept (Scape's -sum, -max, -sqerr, -abn).
+enum class EdgeScore {
+  kSum,      ///< sum of the two triangles' largest errors
+  kMax,      ///< the larger of them
+  kSquares,  ///< sum of squared errors over both triangles
+  kNormals,  ///< angle between the two triangles' normals (Dyn, Levin, Rippa 1990), in samples and units of z
+  kTight,    ///< kMax under a rule of shape of its own: the fewest triangles at equal max error (docs/algorithm.md)
+};
+
+/// Which diagonal of a quadrilateral is kept.
+struct EdgeRule {
+  bool data_dependent = false;  ///< false: Delaunay
+  EdgeScore score = EdgeScore::kSum;
+  /// In [0, 1]. Quality of a diagonal: product over its triangles of area / longer side of the bounding box. If the
+  /// worse of the two diagonals has more than `shape_threshold` times the quality of the better one, the score
+  /// decides; else the shape. 0: purely data-dependent; 1: purely by shape. For kTight: the least 2·area / longest
+  /// side² of a triangle at which the score may decide. Negative: the score's default, 0.5 (kTight: 0.2).
+  double shape_threshold = -1;
+  /// Finer lattice for triangles that hold few samples: errors for the *score* are then measured against the bilinear
+  /// interpolant, ⌈(width + height) / (2 · area · supersample)⌉ times finer. 0: off. Scape calls 0.8 moderate.
+  double supersample = 0;
+
+  friend bool operator==(const EdgeRule&, const EdgeRule&) = default;
+};
+
+/// How a sample's errors in heights and channels are combined into one.
+enum class Norm {
+  kSum,      ///< L1
+  kSquares,  ///< L2
+  kMax,      ///< L∞
+};
+
+/// An instruction on one sample, before the first scan (Terra's scripts).
+struct ScriptStep {
+  enum class Action {
+    kInsert,  ///< becomes a vertex
+    kIgnore,  ///< never becomes a vertex by its error, and no bound holds for it
+  };
+  Action action = Action::kInsert;
+  std::int32_t col = 0, row = 0;
+};
+
+/// What a run did.
+struct Effort {
+  std::uint64_t samples_scanned = 0;    ///< samples compared with a plane
+  std::uint64_t triangles_scanned = 0;  ///< triangles looked at
+  std::uint64_t queue_moves = 0;        ///< entries moved in the queue (kHeap) or looked through (kLocal)
+  std::uint64_t passes = 0;             ///< looks at the mesh: insertions, or batches
+};
+
+}  // namespace scarp
