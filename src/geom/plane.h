@@ -22,8 +22,8 @@ struct Plane {
   double guard = 0;  ///< bound of |computed − exact| of height_at(p) − sample, for p in the triangle; 0 if level, where
                      ///< only that subtraction rounds
 
-  /// REQUIRES: orient(corners) != 0; heights finite.
-  static Plane through(std::array<Point, 3> corners, std::array<double, 3> heights) {
+  /// REQUIRES: orient(corners) != 0; heights finite and far from overflow.
+  static Plane through_double(std::array<Point, 3> corners, std::array<double, 3> heights) {
     const auto order = [&](int i, int j) {
       if (before(corners[j], corners[i])) {
         std::swap(corners[i], corners[j]);
@@ -51,7 +51,7 @@ struct Plane {
     return plane;
   }
   static Plane through(const std::array<Point, 3>& corners, const std::array<float, 3>& heights) {
-    return through(corners, std::array<double, 3>{heights[0], heights[1], heights[2]});
+    return through_double(corners, {heights[0], heights[1], heights[2]});
   }
 
   /// Part of the height that is common to a row; height_at() = row_height(y) + slope_x · (x − base.x).

@@ -158,14 +158,15 @@ Result<void> check(const PointSet& points) {
 
 Result<PointPlaces> find_places(const PointSet& points, DuplicatePolicy policy) {
   if (auto checked = check(points); !checked) return tl::unexpected(checked.error());
-  Extent x, y;
+  Extent x, y, z;
   for (std::size_t i = 0; i < points.size(); ++i) {
     x.include(points.x[i]);
     y.include(points.y[i]);
+    z.include(points.z[i]);
   }
-  constexpr double kReach = 1e100;  // as far as the judge's arithmetic goes
-  if (std::max(x.reach(), y.reach()) > kReach)
-    return fail(ErrorKind::kInput, "a point lies beyond 1e100; only nearer ones can be triangulated");
+  constexpr double kReach = 1e100;  // as far as the arithmetic of planes goes
+  if (std::max({x.reach(), y.reach(), z.reach()}) > kReach)
+    return fail(ErrorKind::kInput, "a point has a coordinate beyond 1e100; only smaller ones can be triangulated");
   Snapped snapped;
   if (auto decimal = snap_to_decimals(points, x, y)) {
     snapped = std::move(*decimal);

@@ -106,7 +106,7 @@ ScatteredRefinement::Wedge ScatteredRefinement::wedge_of(Triangle t, Vertex apex
     wedge.corners[k] = domain_.tin.point(v);
     wedge.heights[k] = heights_[domain_.place_of[v]];
   }
-  wedge.plane = Plane::through(wedge.corners, wedge.heights);
+  wedge.plane = Plane::through_double(wedge.corners, wedge.heights);
   return wedge;
 }
 
