@@ -167,6 +167,7 @@ class Run {
 
   /// The last 5 % of what the budget allows: where the best prefix is looked for.
   bool in_last_stretch() const {
+    if (!options_.best_prefix) return false;
     const auto last = [](std::uint64_t count, const std::optional<std::uint64_t>& most) {
       return most && static_cast<double>(count) >= 0.95 * static_cast<double>(*most);
     };

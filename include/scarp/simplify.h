@@ -26,6 +26,9 @@ struct SimplifyOptions {
   /// least 95 % of the budget (max error is not monotone in the number of points). DEFAULT: none.
   std::optional<std::uint64_t> max_triangles = std::nullopt;
   std::optional<std::uint64_t> max_vertices = std::nullopt;
+  /// False: a budget that ends the run gives the mesh as it then is, of exactly max_vertices vertices, as Scape does.
+  /// DEFAULT: true, the best mesh near it, see above.
+  bool best_prefix = true;
   /// How far, in samples, the outline of the valid data may be simplified, at least 0. It only moves outwards, over
   /// void samples: no valid sample is cut off. DEFAULT: 0, the exact outline.
   double outline_tolerance = 0;
