@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "find_raster.h"
-#include "reference_rows.h"
+#include "../../apps/scarp/paper/reference_rows.h"
 #include "scarp/scarp.h"
 
 namespace {
@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
   std::string table = kHeader, field_name;
   Run run;
   double worst_rmse = 0, worst_triangles = 0;
-  for (const auto& row : bench::kReferenceRows) {
+  for (const auto& row : scarp::paper::kReferenceRows) {
     if (field_name != row.field) {
       field_name = row.field;
       const std::string file = fmt::format("scape_{}.stm", row.field);
@@ -100,6 +100,6 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "cannot write {}\n", argv[2]);
     return 4;
   }
-  const bool kept = worst_rmse <= 100 * bench::kRmseTolerance && worst_triangles <= 100 * bench::kTriangleTolerance;
+  const bool kept = worst_rmse <= 100 * scarp::paper::kRmseTolerance && worst_triangles <= 100 * scarp::paper::kTriangleTolerance;
   return kept ? 0 : 3;
 }
