@@ -70,9 +70,7 @@ void place(OwnedHeightField& field, double size) {
 
 GenerateCommand::GenerateCommand(CLI::App& program)
     : verb_(program.add_subcommand("generate", "Make a synthetic raster of heights")) {
-  verb_->add_option("STYLE", style_, "What to make, by name or by genstm's letter (below)")
-      ->type_name("")
-      ->required();
+  verb_->add_option("STYLE", style_, "What to make, by name or by genstm's letter (below)")->type_name("")->required();
   verb_->add_option("COLS", cols_, "Columns, at least 2")->type_name("")->required();
   verb_->add_option("ROWS", rows_, "Rows, at least 2")->type_name("")->required();
   verb_->add_option("OUTPUT", output_, "Raster to write: .tif (GeoTIFF, float32) or .pgm (16-bit)")
@@ -136,9 +134,9 @@ Result<void> GenerateCommand::run() const {
   }
   const Result<void> written = write_file(output_, *bytes, overwrite_);
   if (!written || quiet_) return written;
-  const std::string summary = fmt::format(
-      "{}: {} columns x {} rows, heights {} to {}\n{}: {}\n", field->info.path, field->cols, field->rows,
-      format_number(field->info.min), format_number(field->info.max), output_, format_bytes(bytes->size()));
+  const std::string summary =
+      fmt::format("{}: {} columns x {} rows, heights {} to {}\n{}: {}\n", field->info.path, field->cols, field->rows,
+                  format_number(field->info.min), format_number(field->info.max), output_, format_bytes(bytes->size()));
   if (is_stdout(output_)) {
     print_to_stderr(summary);
     return {};

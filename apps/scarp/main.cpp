@@ -121,7 +121,7 @@ int run_program(int argc, char** argv) {
   }
 
   const std::string command_line = join_command_line(argc, argv);
-  return report_end(simplify.is_chosen()  ? simplify.run(command_line)
+  return report_end(simplify.is_chosen()   ? simplify.run(command_line)
                     : measure.is_chosen()  ? measure.run(command_line)
                     : info.is_chosen()     ? info.run(command_line)
                     : generate.is_chosen() ? generate.run()

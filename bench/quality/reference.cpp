@@ -10,8 +10,8 @@
 #include <optional>
 #include <utility>
 
-#include "find_raster.h"
 #include "../../apps/scarp/paper/reference_rows.h"
+#include "find_raster.h"
 #include "scarp/scarp.h"
 
 namespace {
@@ -100,6 +100,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "cannot write {}\n", argv[2]);
     return 4;
   }
-  const bool kept = worst_rmse <= 100 * scarp::paper::kRmseTolerance && worst_triangles <= 100 * scarp::paper::kTriangleTolerance;
+  const bool kept =
+      worst_rmse <= 100 * scarp::paper::kRmseTolerance && worst_triangles <= 100 * scarp::paper::kTriangleTolerance;
   return kept ? 0 : 3;
 }

@@ -26,9 +26,6 @@ struct SimplifyOptions {
   /// least 95 % of the budget (max error is not monotone in the number of points). DEFAULT: none.
   std::optional<std::uint64_t> max_triangles = std::nullopt;
   std::optional<std::uint64_t> max_vertices = std::nullopt;
-  /// False: a budget that ends the run gives the mesh as it then is, of exactly max_vertices vertices, as Scape does.
-  /// DEFAULT: true, the best mesh near it, see above.
-  bool best_prefix = true;
   /// How far, in samples, the outline of the valid data may be simplified, at least 0. It only moves outwards, over
   /// void samples: no valid sample is cut off. DEFAULT: 0, the exact outline.
   double outline_tolerance = 0;
@@ -49,7 +46,10 @@ struct SimplifyOptions {
   Batch batch = {};        ///< DEFAULT: one at a time
   EdgeRule edges = {};     ///< DEFAULT: Delaunay
   Norm norm = Norm::kSum;  ///< over heights and channels, where the field has channels. DEFAULT: L1, as the report.
-  bool uvs = false;        ///< fill Mesh::uvs. DEFAULT: false.
+  /// False: a budget that ends the run leaves the last mesh, as Scape does, though an earlier one may have been better.
+  /// DEFAULT: true. Always so where importance is not an error: one pass, products.
+  bool best_of_budget = true;
+  bool uvs = false;  ///< fill Mesh::uvs. DEFAULT: false.
 
   /// Vertex normals from the full-resolution samples. DEFAULT: false.
   bool normals = false;

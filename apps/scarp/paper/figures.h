@@ -91,11 +91,13 @@ struct SyntheticFigures {
   const char* style;
   std::array<double, 4> max_error;
 };
-inline constexpr SyntheticFigures kSynthetic[] = {
-    {"parabola", {2.34, 0.91, 1.00, 0.89}},         {"step", {14.4, 3.35, 2.63, 2.00}},
-    {"sharp-step", {81.4, 49.0, 19.5, 3.00}},       {"diagonal-step", {41.4, 1.20, 0.83, 2.50}},
-    {"sharp-diagonal-step", {163, 0.98, 0.92, 2.79}}, {"cliff", {967, 965, 965, 963}},
-    {"paraboloid", {256, 256, 256, 1088}}};
+inline constexpr SyntheticFigures kSynthetic[] = {{"parabola", {2.34, 0.91, 1.00, 0.89}},
+                                                  {"step", {14.4, 3.35, 2.63, 2.00}},
+                                                  {"sharp-step", {81.4, 49.0, 19.5, 3.00}},
+                                                  {"diagonal-step", {41.4, 1.20, 0.83, 2.50}},
+                                                  {"sharp-diagonal-step", {163, 0.98, 0.92, 2.79}},
+                                                  {"cliff", {967, 965, 965, 963}},
+                                                  {"paraboloid", {256, 256, 256, 1088}}};
 /// 3.7: vertices that reproduce the pyramids exactly: Delaunay, sum at 0.5, sum at 0; normals at 0: 11 to 12.
 inline constexpr std::array<std::uint64_t, 3> kPyramidVertices{9, 9, 9};
 

@@ -41,8 +41,8 @@ std::string number(double value) { return fmt::format("{:.4g}", value); }
 std::string percent_of_change(double ours, double theirs) {
   const double change = 100 * (ours / theirs - 1);
   if (std::abs(change) < 0.05) return "0 %";
-  const std::string digits = std::abs(change) < 10 ? fmt::format("{:.1f}", std::abs(change))
-                                                   : fmt::format("{:.0f}", std::abs(change));
+  const std::string digits =
+      std::abs(change) < 10 ? fmt::format("{:.1f}", std::abs(change)) : fmt::format("{:.0f}", std::abs(change));
   return (change < 0 ? "−" : "+") + digits + " %";
 }
 

@@ -136,7 +136,8 @@ Result<void> find_gnuplot() {
 Result<std::vector<std::uint8_t>> draw_plot(const Plot& plot) {
   const ScratchFolder folder;
   if (!folder.exists()) {
-    return fail(ErrorKind::kOutput, "no temporary folder can be made for gnuplot: set TMPDIR to one that can be written");
+    return fail(ErrorKind::kOutput,
+                "no temporary folder can be made for gnuplot: set TMPDIR to one that can be written");
   }
   const std::string data = folder.file("data"), script = folder.file("script"), png = folder.file("plot.png"),
                     log = folder.file("log");

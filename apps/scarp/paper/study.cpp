@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "../signals.h"
 #include "../text.h"
@@ -60,18 +59,22 @@ const Field* Study::find(const std::string& key) const {
   return nullptr;
 }
 
-Result<Trial> Study::reach(const Field& field, SimplifyOptions options) const {
+Result<Simplified> Study::run(const HeightField& field, const std::string& name, SimplifyOptions options) const {
   options.progress = [](const Progress&) { return !cli::interrupted(); };
-  const Result<Simplified> run = simplify(field.heights, options);
-  if (!run) return fail(run.error().kind, fmt::format("{}: {}", field.file, run.error().message));
+  Result<Simplified> result = simplify(field, options);
   if (cli::interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
-  return summarize(*run);
+  if (!result) return fail(result.error().kind, fmt::format("{}: {}", name, result.error().message));
+  return result;
+}
+
+Result<Trial> Study::reach(const Field& field, SimplifyOptions options) const {
+  const Result<Simplified> result = run(field.heights, field.file, std::move(options));
+  if (!result) return tl::unexpected(result.error());
+  return summarize(*result);
 }
 
 Result<Trial> Study::refine(const Field& field, std::uint64_t vertices, SimplifyOptions options) const {
-  options.max_vertices = std::max<std::uint64_t>(vertices, 4);
-  options.best_prefix = false;
-  return reach(field, std::move(options));
+  return reach(field, exactly(vertices, std::move(options)));
 }
 
 Result<Trial> Study::delaunay(const Field& field, std::uint64_t vertices) {
@@ -94,6 +97,12 @@ Result<void> Study::add_plot(const std::string& name, const Plot& plot) {
   return add_picture(name, plot.title, std::move(*png));
 }
 
+SimplifyOptions exactly(std::uint64_t vertices, SimplifyOptions options) {
+  options.max_vertices = std::max<std::uint64_t>(vertices, 4);
+  options.best_of_budget = false;
+  return options;
+}
+
 SimplifyOptions data_dependent(EdgeScore score, double shape_threshold) {
   SimplifyOptions options;
   options.edges = {true, score, shape_threshold, 0};
@@ -110,8 +119,8 @@ UniformGrid uniform_grid(int field_cols, int field_rows, std::uint64_t vertices)
   };
   for (int j = 0; j < grid.rows; ++j) {
     for (int i = 0; i < grid.cols; ++i) {
-      grid.steps.push_back({ScriptStep::Action::kInsert, spread(i, grid.cols, field_cols),
-                            spread(j, grid.rows, field_rows)});
+      grid.steps.push_back(
+          {ScriptStep::Action::kInsert, spread(i, grid.cols, field_cols), spread(j, grid.rows, field_rows)});
     }
   }
   return grid;

@@ -49,6 +49,8 @@ class Study {
     return chosen;
   }
 
+  /// simplify(), which Ctrl-C ends; its complaints begin with `name`.
+  Result<Simplified> run(const HeightField& field, const std::string& name, SimplifyOptions options) const;
   /// Greedy insertion up to exactly `vertices` vertices.
   Result<Trial> refine(const Field& field, std::uint64_t vertices, SimplifyOptions options = {}) const;
   /// The same towards the goals in `options`.
@@ -72,6 +74,8 @@ class Study {
   std::vector<File> pictures_;
 };
 
+/// Options for exactly that many vertices.
+SimplifyOptions exactly(std::uint64_t vertices, SimplifyOptions options = {});
 /// Options for data-dependent triangulation.
 SimplifyOptions data_dependent(EdgeScore score, double shape_threshold);
 
