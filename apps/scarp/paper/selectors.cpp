@@ -67,9 +67,8 @@ Result<Trial> run(Study& study, const Field& field, const Selector& selector) {
     return study.refine(field, options.script.size(), options);
   }
   if (selector.choice == Selector::Choice::kUniform) {
-    UniformGrid grid = uniform_grid(field.heights.cols, field.heights.rows, vertices);
-    options.script = std::move(grid.steps);
-    return study.refine(field, grid.vertices(), options);
+    options.script = uniform_grid(field.heights.cols, field.heights.rows, vertices).steps;
+    return study.refine(field, options.script.size(), options);
   }
   if (selector.importance == Importance{}) return study.delaunay(field, vertices);
   options.importance = selector.importance;
