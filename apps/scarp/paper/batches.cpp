@@ -20,6 +20,8 @@ constexpr std::array<Rule, 7> kRules{{{"sequential", {Batch::Rule::kSequential, 
                                       {"constant = bound", {Batch::Rule::kConstant, 1}, &kConstantBound},
                                       {"independent", {Batch::Rule::kIndependent, 1}, nullptr}}};
 
+constexpr std::size_t kIndependentRule = kRules.size() - 1;
+
 }  // namespace
 
 Result<void> add_batches(Study& study) {
@@ -76,20 +78,22 @@ Result<void> add_batches(Study& study) {
   study.page.table(header, cells);
   bool sequential_best = true, independent_better = true;
   for (std::size_t f = 0; f < fields.size(); ++f) {
-    for (std::size_t r = 1; r < kRules.size(); ++r)
+    for (std::size_t r = 1; r < kIndependentRule; ++r) {
       sequential_best = sequential_best && trials[r][f].vertices >= trials[0][f].vertices;
-    independent_better = independent_better && trials[6][f].vertices < trials[5][f].vertices;
+      independent_better = independent_better && trials[kIndependentRule][f].vertices < trials[r][f].vertices;
+    }
   }
   std::vector<std::string> remarks{
       sequential_best
-          ? "One at a time makes the smallest meshes on every field: a batch inserts samples whose error its "
-            "earlier insertions have already mended."
-          : "One at a time is not the smallest on every field here."};
-  remarks.push_back(independent_better
-                        ? "Independent candidates need fewer vertices than the constant threshold on every "
-                          "field: none of them is stale when it is inserted."
-                        : "Independent candidates do not always need fewer vertices than the constant "
-                          "threshold: not being stale is not all that counts.");
+          ? "Of the report's rules, one at a time makes the smallest meshes on every field: a batch inserts "
+            "samples whose error its own earlier insertions have already mended."
+          : "One at a time is not the smallest of the report's rules on every field here."};
+  if (independent_better) {
+    remarks.push_back(
+        "Independent candidates need fewer vertices than any threshold on every field: none of them is stale when it "
+        "is "
+        "inserted.");
+  }
   if (!vertices.empty()) {
     remarks.push_back(vertices.sentence("counts of vertices"));
     remarks.push_back(passes.sentence("counts of passes") +

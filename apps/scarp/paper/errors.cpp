@@ -63,14 +63,16 @@ Result<void> add_reference_rows(Study& study) {
 
 namespace {
 
-/// Numbers of vertices, `steps` to a factor of ten.
+/// Numbers of vertices, `steps` to a factor of ten, and the last.
 std::vector<std::uint64_t> stations(double first, double last, int steps) {
   std::vector<std::uint64_t> list;
   for (int k = 0;; ++k) {
     const double m = first * std::pow(10.0, static_cast<double>(k) / steps);
-    if (m > last) return list;
+    if (m >= last) break;
     list.push_back(static_cast<std::uint64_t>(std::llround(m)));
   }
+  list.push_back(static_cast<std::uint64_t>(std::llround(last)));
+  return list;
 }
 
 struct Curves {

@@ -62,7 +62,7 @@ Result<bool> add_image(Study& study, const Image& known, const std::string& path
     const Result<Painted> painted = paint(study, field, known.file, *image, exactly(vertices, greedy));
     if (!painted) return tl::unexpected(painted.error());
     rows.push_back({"", treatment.name, fmt::format("{}", painted->run.mesh.vertex_count()), format_psnr(painted->psnr),
-                    fmt::format("{:+.2f} dB", painted->psnr - uniform->psnr)});
+                    with_sign(painted->psnr - uniform->psnr, 2) + " dB"});
     better = better && painted->psnr > uniform->psnr;
     beside.push_back(painted->picture);
   }

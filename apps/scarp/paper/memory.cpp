@@ -64,8 +64,7 @@ Result<void> add_memory(Study& study) {
   study.page.table({"field", "m", "MB", "bytes a vertex"}, rows);
   study.page.paragraph(fmt::format(
       "Scape in a 64-bit build: about {:g} bytes a vertex, samples included; counted from its structures with 4-byte "
-      "pointers: {:g}; named for the report: about {:g}. Arrays grow by doubling, so the figure depends on where in a "
-      "doubling the run ends.",
+      "pointers: {:g}; named for the report: about {:g}.",
       kScapeBytesMeasured, kScapeBytesCounted, kReportBytes));
   return {};
 }

@@ -38,12 +38,15 @@ void Page::picture(const std::string& path, const std::string& caption) {
 
 std::string number(double value) { return fmt::format("{:.4g}", value); }
 
+std::string with_sign(double value, int digits) {
+  const std::string size = fmt::format("{:.{}f}", std::abs(value), digits);
+  if (size.find_first_not_of("0.") == std::string::npos) return "0";
+  return (value < 0 ? "−" : "+") + size;
+}
+
 std::string percent_of_change(double ours, double theirs) {
   const double change = 100 * (ours / theirs - 1);
-  if (std::abs(change) < 0.05) return "0 %";
-  const std::string digits =
-      std::abs(change) < 10 ? fmt::format("{:.1f}", std::abs(change)) : fmt::format("{:.0f}", std::abs(change));
-  return (change < 0 ? "−" : "+") + digits + " %";
+  return with_sign(change, std::abs(change) < 9.95 ? 1 : 0) + " %";
 }
 
 std::string beside(double ours, std::optional<double> theirs) {
@@ -68,9 +71,8 @@ void Differences::add(const std::string& what, double ours, std::optional<double
 double Differences::largest() const { return std::max(std::abs(least_), std::abs(most_)); }
 
 std::string Differences::sentence(const std::string& noun) const {
-  if (count_ == 1) return fmt::format("The {} differs from Scape's by {:+.1f} %.", noun, least_);
-  return fmt::format("{} {} differ from Scape's by {:+.1f} % to {:+.1f} %; the farthest is {}.", count_, noun, least_,
-                     most_, farthest_);
+  return fmt::format("{} {} differ from Scape's by {} % to {} %; the farthest is {}.", count_, noun,
+                     with_sign(least_, 1), with_sign(most_, 1), farthest_);
 }
 
 }  // namespace scarp::paper

@@ -30,6 +30,8 @@ std::string number(double value);
 std::string beside(double ours, std::optional<double> theirs);
 /// The same for whole numbers.
 std::string beside_count(std::uint64_t ours, std::optional<double> theirs);
+/// "+3.1", "−3.1", "0": so many digits behind the point, the sign always there.
+std::string with_sign(double value, int digits);
 /// "+3.1 %"
 std::string percent_of_change(double ours, double theirs);
 
@@ -40,7 +42,7 @@ class Differences {
   bool empty() const { return count_ == 0; }
   /// In percent, absolute.
   double largest() const;
-  /// "12 figures lie −0.5 % to +2.1 % beside Scape's (the farthest: random, ashby)."
+  /// "12 figures differ from Scape's by −0.5 % to +2.1 %; the farthest is …". REQUIRES: not empty.
   std::string sentence(const std::string& noun) const;
 
  private:

@@ -107,15 +107,16 @@ std::string make_data(const Plot& plot) {
 
 std::string make_script(const Plot& plot, const std::string& data, const std::string& png) {
   std::string script =
-      "set terminal png size 900,540\nset encoding utf8\nset grid lc rgb '#dddddd'\nset border 3\nset tics nomirror\n"
+      "set terminal pngcairo size 900,540\nset encoding utf8\nset grid lc rgb '#dddddd'\nset border 3\nset tics "
+      "nomirror\n"
       "set linetype 1 lc rgb '#1f5fa8'\nset linetype 2 lc rgb '#d1611f'\nset linetype 3 lc rgb '#2d8a4e'\n"
       "set linetype 4 lc rgb '#a2318f'\nset linetype 5 lc rgb '#7a6a2a'\nset linetype 6 lc rgb '#555555'\n"
       "set linetype 7 lc rgb '#c02b3c'\nset linetype 8 lc rgb '#1798a3'\n";
   script += fmt::format("set output {}\nset title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\n",
                         quoted(png), quoted(plot.title), quoted(plot.x_label), quoted(plot.y_label));
   script += fmt::format("set key {} noenhanced\n", plot.key_place);
-  if (plot.log_x) script += "set logscale x\n";
-  if (plot.log_y) script += "set logscale y\n";
+  if (plot.log_x) script += "set logscale x\nset format x '10^{%L}'\n";
+  if (plot.log_y) script += "set logscale y\nset format y '10^{%L}'\n";
   script += "plot ";
   for (std::size_t k = 0; k < plot.curves.size(); ++k) {
     const Curve& curve = plot.curves[k];

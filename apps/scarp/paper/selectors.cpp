@@ -142,11 +142,11 @@ Result<void> add_selectors(Study& study) {
   study.page.table(header, cells);
   std::vector<std::string> remarks = find_remarks(rows, fields);
   if (!greedy.empty()) {
-    remarks.push_back(greedy.sentence("RMS of plain global error"));
-    remarks.push_back(drawn.sentence("RMS of uniform and random points") +
+    remarks.push_back(greedy.sentence("RMS errors of plain global error"));
+    remarks.push_back(drawn.sentence("RMS errors of uniform and random points") +
                       " Where they differ the points do: other random numbers, another rounding of the sub-grid's "
                       "rows and columns.");
-    remarks.push_back(ranked.sentence("RMS of one pass and of products") +
+    remarks.push_back(ranked.sentence("RMS errors of one pass and of products") +
                       (ranked.largest() > 5
                            ? " Both depend on how border samples and ties are ranked, of which fields of whole metres "
                              "have many; here equal samples come in raster order, second differences that lack a "

@@ -89,7 +89,9 @@ Result<void> add_synthetic(Study& study) {
       {differences.sentence("max errors"),
        "These fields are full of ties, whole heights in straight rows, and a max error at one number of "
        "vertices is set by how ties are decided (here by raster order): figures for the same field may lie "
-       "far apart in percent, and still tell the same story.",
+       "far apart in percent, and still tell the same story. At q 0 Scape may besides have lost samples on the edges "
+       "of "
+       "slivers, and have kept errors that it did not see.",
        "The cliff has a jump of 1000 between two columns: no edge rule helps as long as fewer vertices than "
        "rows are allowed."});
   return {};
