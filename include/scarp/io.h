@@ -48,9 +48,10 @@ struct OwnedChannels {
   RasterInfo info;
 };
 
-/// Reads all bands of an image (or `band` of the options alone, if `all_bands` is false) by GDAL, PGM also without it;
-/// palettes become red, green, blue. Fails with kInput as read_height_field(), and for more than kMaxChannels bands
-/// and for an alpha band.
+/// Reads all bands of an image (or `band` of the options alone, if `all_bands` is false) by GDAL, PGM and STM also
+/// without it; palettes become red, green, blue. `info` counts as valid the samples that have a value in every band;
+/// its range is over all bands. Fails as read_height_field(), of which options.crs "grid" asks for nothing, and with
+/// kInput for more than kMaxChannels bands, for an alpha band among them, and for packed heights (options.decode).
 Result<OwnedChannels> read_channels(const std::string& path, const ReadOptions& options = {}, bool all_bands = true);
 
 /// Nothing if two rasters lie on the same grid; else what differs, as the second half of a sentence ("is 10 x 20
