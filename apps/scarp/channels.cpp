@@ -31,9 +31,9 @@ Result<std::vector<double>> parse_weights(const std::string& text) {
 
 Result<void> check_weight_count(const ChannelPlan& plan, std::size_t channels) {
   if (plan.weights.empty() || plan.weights.size() == channels) return {};
-  return fail(ErrorKind::kUsage, fmt::format("--channel-weights has {} for {}: give one a band",
-                                             format_plural(plan.weights.size(), "weight"),
-                                             format_plural(channels, "band")));
+  return fail(ErrorKind::kUsage,
+              fmt::format("--channel-weights has {} for {}: give one a band",
+                          format_plural(plan.weights.size(), "weight"), format_plural(channels, "band")));
 }
 
 /// Largest minus smallest value; 0 if there are none.
@@ -69,6 +69,33 @@ std::vector<std::string> name_bands(const OwnedChannels& channels) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < channels.bands.size(); ++k) names.push_back(fmt::format("band {}", k + 1));
   return names;
+}
+
+void set_magnitude(Channels& channels) {
+  for (std::size_t k = 0; k < channels.count(); ++k) {
+    double largest = 0;
+    for (const float value : channels.bands.bands[k]) {
+      if (std::isfinite(value)) largest = std::max(largest, std::abs(static_cast<double>(value)));
+    }
+    channels.magnitude += channels.scales[k] * largest;
+  }
+}
+
+/// Fails where a height has no texture.
+Result<void> check_coverage(const OwnedChannels& texture, const OwnedHeightField& heights) {
+  for (std::size_t band = 0; band < texture.bands.size(); ++band) {
+    const std::vector<float>& values = texture.bands[band];
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (std::isfinite(values[k]) || !std::isfinite(heights.samples[k])) continue;
+      const std::size_t cols = static_cast<std::size_t>(heights.cols);
+      return fail(
+          ErrorKind::kInput,
+          fmt::format("--texture {}: band {} has no value at column {}, row {}, where {} has a height: fill it, "
+                      "for example with gdal_fillnodata.py",
+                      texture.info.path, band + 1, k % cols, k / cols, heights.info.path));
+    }
+  }
+  return {};
 }
 
 /// The bands of `more` behind those of `channels`.
@@ -178,9 +205,11 @@ Result<Channels> read_textures(const ChannelPlan& plan, const OwnedHeightField& 
       texture.error().message = fmt::format("--texture: {}", texture.error().message);
       return tl::unexpected(std::move(texture.error()));
     }
-    const Result<void> fits = check_grid(heights.info, heights.cols, heights.rows, "--texture", texture->info,
-                                         texture->cols, texture->rows);
+    const Result<void> fits =
+        check_grid(heights.info, heights.cols, heights.rows, "--texture", texture->info, texture->cols, texture->rows);
     if (!fits) return tl::unexpected(fits.error());
+    const Result<void> covers = check_coverage(*texture, heights);
+    if (!covers) return tl::unexpected(covers.error());
     append(channels.bands, std::move(*texture));
   }
   if (channels.count() > kMaxChannels) {
@@ -200,6 +229,7 @@ Result<Channels> read_textures(const ChannelPlan& plan, const OwnedHeightField& 
     const double range = range_of(channels.bands.bands[k]);
     channels.scales.push_back(range > 0 ? emphasis * relief * weights[k] / range : 0);
   }
+  set_magnitude(channels);
   return channels;
 }
 
@@ -229,17 +259,16 @@ Result<Image> read_image(const ChannelPlan& plan, const std::string& path, const
   field.rows = channels.bands.rows;
   field.frame = channels.bands.frame;
   field.info = channels.bands.info;
-  field.samples.assign(channels.bands.bands.front().size(), std::numeric_limits<float>::quiet_NaN());
+  field.samples.assign(channels.bands.bands.front().size(), 0);
   for (const std::vector<float>& band : channels.bands.bands) {
     for (std::size_t k = 0; k < band.size(); ++k) {
-      if (std::isfinite(band[k])) field.samples[k] = 0;
+      if (!std::isfinite(band[k])) field.samples[k] = std::numeric_limits<float>::quiet_NaN();
     }
   }
-  const HeightRange range = height_range(field);
-  if (range.valid == 0) {
-    return fail(ErrorKind::kInput, fmt::format("{} has no valid sample: all are nodata or not finite", path));
+  if (height_range(field).valid == 0) {
+    return fail(ErrorKind::kInput, fmt::format("{} has no sample with a value in every band", path));
   }
-  field.info.valid = range.valid;
+  set_magnitude(channels);
   return image;
 }
 

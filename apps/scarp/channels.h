@@ -40,7 +40,8 @@ struct Channels {
   std::vector<std::string> names;  ///< "red", "band 4", …
   std::vector<double> scales;      ///< Channel::scale of each band
   double height_scale = 1;
-  double relief = 0;  ///< what a percentage is of, with --image: the largest range of a band, 255 if all are bytes
+  double relief = 0;     ///< what a percentage is of, with --image: the largest range of a band, 255 if all are bytes
+  double magnitude = 0;  ///< largest norm of the scaled values, at most: what the judge's rounding is relative to
 
   std::size_t count() const { return bands.bands.size(); }
   bool empty() const { return bands.bands.empty(); }
@@ -48,12 +49,13 @@ struct Channels {
   void attach_to(HeightField& field) const;
 };
 
-/// The textures of the plan, which must lie on the grid of `heights`. The error of a sample is then the norm of |height
-/// error| and of w/(1 − w) · relief · |error| / range of each channel, all channels together counting once.
+/// The textures of the plan, which must lie on the grid of `heights` and have a value wherever it has. The error of a
+/// sample is then the norm of |height error| and of w/(1 − w) · relief · |error| / range of each channel, all channels
+/// together counting once.
 Result<Channels> read_textures(const ChannelPlan& plan, const OwnedHeightField& heights,
                                const ProgressCallback& progress);
 
-/// An image as a height field of zeros, void where no band has a value, and its bands as channels. The error of a
+/// An image as a height field of zeros, void where a band has no value, and its bands as channels. The error of a
 /// sample is the norm of weight · |error| of each band, in grey levels; bands that are not bytes are brought to the
 /// largest range of any of them.
 struct Image {

@@ -45,8 +45,8 @@ Result<std::vector<float>> make_mask(OwnedHeightField values) {
     largest = std::max(largest, weight);
   }
   if (largest == 0) {
-    return fail(ErrorKind::kInput, fmt::format("--mask {}: no weight is above 0, so no sample would have a bound",
-                                               values.info.path));
+    return fail(ErrorKind::kInput,
+                fmt::format("--mask {}: no weight is above 0, so no sample would have a bound", values.info.path));
   }
   if (largest > 1) {
     for (float& weight : values.samples) weight /= largest;

@@ -30,6 +30,7 @@ struct Companions {
   std::vector<ScriptStep> script;
   std::vector<std::string> warnings;
 
+  bool has_weights() const { return !mask.empty() || !tolerance.empty(); }
   /// weight · error, or error / tolerance (0 / 0 is 0); the error itself where neither was given.
   double weigh(std::size_t sample, double error) const;
   /// True if the sample has no bound: weight 0, or an infinite tolerance.

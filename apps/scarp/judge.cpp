@@ -84,8 +84,7 @@ class ChannelJudge {
     for (std::size_t v = 0; v < shape_.vertex_count(); ++v) {
       shape_.positions[3 * v + 2] = static_cast<double>(mesh_.channels[count * v + channel]);
     }
-    const HeightField field{
-        samples_.data(), heights_.cols, heights_.rows, std::nullopt, heights_.frame, 0, {}, 1};
+    const HeightField field{samples_.data(), heights_.cols, heights_.rows, std::nullopt, heights_.frame, 0, {}, 1};
     return measure(field, shape_, options);
   }
 
@@ -95,20 +94,6 @@ class ChannelJudge {
   Mesh shape_;
   std::vector<float> samples_;
 };
-
-/// The largest value that an error of a sample is the difference of.
-double largest_magnitude(const HeightField& heights, const Channels& channels) {
-  const HeightRange range = height_range(heights);
-  double magnitude = std::max(std::abs(range.min), std::abs(range.max));
-  for (std::size_t k = 0; k < channels.count(); ++k) {
-    double largest = 0;
-    for (const float value : channels.bands.bands[k]) {
-      if (std::isfinite(value)) largest = std::max(largest, std::abs(static_cast<double>(value)));
-    }
-    magnitude += channels.scales[k] * largest;
-  }
-  return magnitude;
-}
 
 }  // namespace
 
@@ -156,6 +141,15 @@ Result<Judgement> judge(const HeightField& heights, const Mesh& mesh, const Chan
   return judgement;
 }
 
+std::vector<float> take_error_raster(Judgement judgement, ErrorsOf of) {
+  std::vector<float> errors = std::move(judgement.height_errors);
+  if (of == ErrorsOf::kHeights) return errors;
+  for (std::size_t k = 0; k < judgement.norms.size(); ++k) {
+    if (!std::isnan(errors[k])) errors[k] = static_cast<float>(judgement.norms[k]);
+  }
+  return errors;
+}
+
 Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::string& path) {
   const std::size_t bands = channels.count();
   if (mesh.channel_count > 0 && static_cast<std::size_t>(mesh.channel_count) == bands) return {};
@@ -171,8 +165,7 @@ Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::s
   if (mesh.channel_count == 0) {
     return fail(ErrorKind::kInput,
                 fmt::format("{} holds {} to compare with {}: write it as .glb, .ply or .obj of the same image", path,
-                            mesh.colors.empty() ? "no colours" : "8-bit colours only",
-                            format_plural(bands, "band")));
+                            mesh.colors.empty() ? "no colours" : "8-bit colours only", format_plural(bands, "band")));
   }
   return fail(ErrorKind::kInput,
               fmt::format("{} has {} but {} to compare with: give the files it was made from, in the same order", path,
@@ -184,7 +177,8 @@ WeighedErrors weigh_errors(const Judgement& judgement, const HeightField& height
                            const Companions& companions, double bound) {
   WeighedErrors weighed;
   const double reserve = heights.sample_rounding * (channels.empty() ? 1 : channels.height_scale);
-  const double allowance = 1e-12 * largest_magnitude(heights, channels);
+  const HeightRange range = height_range(heights);
+  const double allowance = 1e-12 * (std::max(std::abs(range.min), std::abs(range.max)) + channels.magnitude);
   const double limit = bound * (1 + std::ldexp(1.0, -23));
   double sum_of_squares = 0;
   std::uint64_t bounded = 0;
@@ -197,7 +191,7 @@ WeighedErrors weigh_errors(const Judgement& judgement, const HeightField& height
     ++bounded;
     const double error =
         judgement.norms.empty() ? std::abs(static_cast<double>(judgement.height_errors[k])) : judgement.norms[k];
-    const double value = companions.weigh(k, error + reserve);
+    const double value = companions.weigh(k, error);
     sum_of_squares += value * value;
     if (value > weighed.max || weighed.max_at[0] < 0) {
       weighed.max = value;

@@ -31,17 +31,21 @@ struct JudgeOptions {
 Result<Judgement> judge(const HeightField& heights, const Mesh& mesh, const Channels& channels, Norm norm,
                         const JudgeOptions& options);
 
+/// The kept errors as a raster: signed errors of the heights, or the norms over heights and channels.
+enum class ErrorsOf { kHeights, kNorms };
+std::vector<float> take_error_raster(Judgement judgement, ErrorsOf of);
+
 /// Fills mesh.channels from its 8-bit colours where the file holds nothing else, and checks their number. `path` is
 /// the mesh's, for the sentence.
 Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::string& path);
 
 /// What a bound is compared with: heights' errors or norms, under a mask or tolerances.
 struct WeighedErrors {
-  double max = 0;                           ///< largest; with the rounding of the samples counted
+  double max = 0;  ///< largest, without the rounding of the samples
   std::array<std::int32_t, 2> max_at{-1, -1};
-  double rmse = 0;                          ///< over the samples that have a bound
-  std::uint64_t free = 0;                   ///< judged samples without a bound
-  std::uint64_t over = 0;                   ///< samples above `bound`
+  double rmse = 0;         ///< over the samples that have a bound
+  std::uint64_t free = 0;  ///< judged samples without a bound
+  std::uint64_t over = 0;  ///< samples above `bound`, the rounding of the samples counted
 };
 
 /// REQUIRES: the errors were kept. A sample is above `bound` by more than the rounding of the judge: 1e-12 of the

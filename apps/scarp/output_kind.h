@@ -12,8 +12,8 @@ enum class OutputKind { kMesh, kSvg, kEps, kDem };
 
 struct OutputFormat {
   OutputKind kind = OutputKind::kMesh;
-  MeshFormat mesh = MeshFormat::kGlb;              ///< of a kMesh
-  RasterFormat raster = RasterFormat::kGeoTiff;    ///< of a kDem
+  MeshFormat mesh = MeshFormat::kGlb;            ///< of a kMesh
+  RasterFormat raster = RasterFormat::kGeoTiff;  ///< of a kDem
 
   /// "glb", "svg", "dem", …
   const char* name() const;

@@ -103,8 +103,8 @@ Result<void> check_png_name(const PlannedOutput& output) {
 Result<void> check_tiff_name(const PlannedOutput& output) {
   const std::string extension = lower_extension(output.path);
   if (names_device(output.path) || extension == ".tif" || extension == ".tiff") return {};
-  return fail(ErrorKind::kUsage, fmt::format("{} {} does not end in .tif: it is written as GeoTIFF", output.option,
-                                             output.path));
+  return fail(ErrorKind::kUsage,
+              fmt::format("{} {} does not end in .tif: it is written as GeoTIFF", output.option, output.path));
 }
 
 bool is_stdout(const std::string& path) { return path == "/dev/stdout"; }

@@ -43,9 +43,9 @@ Result<Batch> parse_batch(const std::string& text) {
     return batch;
   }
   if (text.rfind("frac:", 0) != 0) {
-    return fail(ErrorKind::kUsage,
-                fmt::format("--batch {} is unknown: choose const, frac:A such as frac:0.9, or independent",
-                            shell_word(text)));
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("--batch {} is unknown: choose const, frac:A such as frac:0.9, or independent", shell_word(text)));
   }
   const Result<double> fraction = parse_number("--batch frac:", text.substr(5));
   if (!fraction) return tl::unexpected(fraction.error());
@@ -166,8 +166,9 @@ void StrategyArguments::add_to(CLI::App& verb) {
                   "data: 0 looks at the data alone, 1 at the shape\nalone (default 0.5; tight: 0.2)")
       ->type_name("Q")
       ->group(group);
-  verb.add_option("--supersample", supersample,
-                  "data: judge thin triangles on a finer lattice of\nbilinear heights; 0.8 is moderate (default 0, off)")
+  verb.add_option(
+          "--supersample", supersample,
+          "data: judge thin triangles on a finer lattice of\nbilinear heights; 0.8 is moderate (default 0, off)")
       ->type_name("F")
       ->group(group);
 }
@@ -179,8 +180,9 @@ Result<void> StrategyArguments::parse_into(SimplifyOptions& options) const {
     options.importance = *parsed;
   }
   if (one_pass && (options.importance.feature == Importance::Feature::kNoFeature || options.importance.global)) {
-    return fail(ErrorKind::kUsage, "--one-pass ranks by a feature of the raster, without the mesh: give it "
-                                   "--importance local, local8 or curvature");
+    return fail(ErrorKind::kUsage,
+                "--one-pass ranks by a feature of the raster, without the mesh: give it "
+                "--importance local, local8 or curvature");
   }
   options.importance.one_pass = one_pass;
   if (algorithm) {
