@@ -16,7 +16,8 @@ namespace scarp {
 /// not depend on the mesh:
 ///   kLocal4, kLocal8   |z − mean of the 4 or 8 neighbours|
 ///   kCurvature         √(z_xx² + 2 z_xy² + z_yy²) by central differences
-/// Neighbours that are void or beyond the border are left out of the mean; a second difference that lacks one is 0.
+/// Opposite neighbours count in pairs: a pair that is not complete (void, beyond the border) is left out, so that a
+/// plane has no feature on its border either.
 struct Importance {
   enum class Feature { kNoFeature, kLocal4, kLocal8, kCurvature };
   enum class Damping {
