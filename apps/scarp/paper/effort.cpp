@@ -70,8 +70,7 @@ Plot make_plot(const Study& study, const std::vector<Series>& all) {
     ++color;
     const auto n = static_cast<double>(series.field->samples());
     Curve measured{series.field->key, Curve::Style::kPoints, {}, color};
-    Curve fitted{
-        fmt::format("{:.2f} ln m {:+.1f}", series.line.slope, series.line.offset), Curve::Style::kLine, {}, color};
+    Curve fitted{describe(series.line), Curve::Style::kLine, {}, color};
     for (std::size_t k = 0; k < series.vertices.size(); ++k) {
       const auto m = static_cast<double>(series.vertices[k]);
       measured.points.push_back({m, scans(series.trials[k]) / n});
