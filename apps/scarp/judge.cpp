@@ -181,14 +181,11 @@ WeighedErrors weigh_errors(const Judgement& judgement, const HeightField& height
   const double allowance = 1e-12 * (std::max(std::abs(range.min), std::abs(range.max)) + channels.magnitude);
   const double limit = bound * (1 + std::ldexp(1.0, -23));
   double sum_of_squares = 0;
-  std::uint64_t bounded = 0;
+  std::uint64_t judged = 0;
   for (std::size_t k = 0; k < judgement.height_errors.size(); ++k) {
     if (std::isnan(judgement.height_errors[k])) continue;
-    if (companions.is_free(k)) {
-      ++weighed.free;
-      continue;
-    }
-    ++bounded;
+    ++judged;
+    if (companions.is_free(k)) ++weighed.free;
     const double error =
         judgement.norms.empty() ? std::abs(static_cast<double>(judgement.height_errors[k])) : judgement.norms[k];
     const double value = companions.weigh(k, error);
@@ -200,7 +197,7 @@ WeighedErrors weigh_errors(const Judgement& judgement, const HeightField& height
     }
     if (companions.weigh(k, std::max(0.0, error + reserve - allowance)) > limit) ++weighed.over;
   }
-  if (bounded > 0) weighed.rmse = std::sqrt(sum_of_squares / static_cast<double>(bounded));
+  if (judged > 0) weighed.rmse = std::sqrt(sum_of_squares / static_cast<double>(judged));
   return weighed;
 }
 

@@ -43,7 +43,7 @@ Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::s
 struct WeighedErrors {
   double max = 0;  ///< largest, without the rounding of the samples
   std::array<std::int32_t, 2> max_at{-1, -1};
-  double rmse = 0;         ///< over the samples that have a bound
+  double rmse = 0;         ///< over all judged samples
   std::uint64_t free = 0;  ///< judged samples without a bound
   std::uint64_t over = 0;  ///< samples above `bound`, the rounding of the samples counted
 };

@@ -47,8 +47,9 @@ struct Outcome {
 
 /// What the goal bounds, and how large it came out.
 struct GoalError {
-  double value = 0;       ///< compared with the bound, without the rounding of samples
-  const char* name = "";  ///< "max error", "weighted max error", …
+  double value = 0;         ///< compared with the bound, without the rounding of samples
+  const char* name = "";    ///< "max error", "weighted max error", …
+  bool is_rounded = false;  ///< to float32, by which it may exceed the bound
 };
 GoalError find_goal_error(const Outcome& outcome);
 

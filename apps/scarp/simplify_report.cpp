@@ -54,7 +54,7 @@ std::string describe_errors(const SimplifyPlan& plan, const Outcome& outcome) {
   const std::string unit = outcome.as_read.unit.empty() ? "" : " " + outcome.as_read.unit;
   const std::string asked = outcome.asked ? fmt::format(" (asked {})", format_number(*outcome.asked)) : "";
   const GoalError goal = find_goal_error(outcome);
-  const bool bounds_heights = outcome.channels.empty() && !outcome.companions.has_weights();
+  const bool bounds_heights = outcome.channels.empty() && outcome.companions.mask.empty();
   std::string text;
   if (!plan.channels.image) {
     text +=
@@ -78,8 +78,10 @@ std::string describe_errors(const SimplifyPlan& plan, const Outcome& outcome) {
                                          norm_name(plan.channels.norm), outcome.companions.has_weights() ? "" : asked));
   }
   if (outcome.companions.has_weights()) {
-    text += line("weighted", fmt::format("{} {}, RMS {}{}", goal.name, format_number(goal.value),
-                                         format_number(simplified.weighted_rmse), asked));
+    const bool has_mask = !outcome.companions.mask.empty();
+    text +=
+        line("weighted", fmt::format("{} {}, RMS {}{}", has_mask ? "max error" : goal.name, format_number(goal.value),
+                                     format_number(simplified.weighted_rmse), has_mask ? asked : ""));
   }
   if (simplified.ignored > 0) text += line("ignored", format_plural(simplified.ignored, "sample") + " without a bound");
   return text;
@@ -122,11 +124,12 @@ std::string describe_end(const SimplifyPlan& plan, const Outcome& outcome) {
 
 GoalError find_goal_error(const Outcome& outcome) {
   const Simplified& simplified = outcome.simplified;
-  if (!outcome.companions.tolerance.empty()) return {simplified.weighted_max_error, "largest error / tolerance"};
-  if (!outcome.companions.mask.empty()) return {simplified.weighted_max_error, "weighted max error"};
-  if (!outcome.channels.empty()) return {simplified.combined_max_error, "combined max error"};
-  if (simplified.ignored > 0) return {simplified.weighted_max_error, "max error of the samples not ignored"};
-  return {simplified.measurement.max_error, "max error"};
+  if (!outcome.companions.tolerance.empty()) {
+    return {simplified.weighted_max_error, "largest error / tolerance", true};
+  }
+  if (!outcome.companions.mask.empty()) return {simplified.weighted_max_error, "weighted max error", true};
+  if (!outcome.channels.empty()) return {simplified.combined_max_error, "combined max error", true};
+  return {simplified.measurement.max_error, "max error", false};
 }
 
 Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::vector<ReadyFile>& files,
