@@ -25,7 +25,7 @@ struct Treatment {
   EdgeRule edges;
 };
 const std::array<Treatment, 2> kGreedy{
-    {{"greedy, Delaunay", {}}, {"greedy, data-dependent (sum, q 0.5)", {true, EdgeScore::kSum, 0.5, 0}}}};
+    {{"greedy, Delaunay", {}}, {"greedy, data-dependent (sum, q 0.5)", scape_edges(EdgeScore::kSum, 0.5)}}};
 
 Result<OwnedChannels> read_small(const std::string& path) {
   Result<OwnedChannels> image = read_channels(path);
@@ -57,9 +57,8 @@ Result<bool> add_image(Study& study, const Image& known, const std::string& path
   std::vector<Picture> beside{draw_channels(*image), uniform->picture};
   bool better = true;
   for (const Treatment& treatment : kGreedy) {
-    SimplifyOptions greedy;
-    greedy.edges = treatment.edges;
-    const Result<Painted> painted = paint(study, field, known.file, *image, exactly(vertices, greedy));
+    const Result<Painted> painted =
+        paint(study, field, known.file, *image, exactly(vertices, with_edges(treatment.edges)));
     if (!painted) return tl::unexpected(painted.error());
     rows.push_back({"", treatment.name, fmt::format("{}", painted->run.mesh.vertex_count()), format_psnr(painted->psnr),
                     with_sign(painted->psnr - uniform->psnr, 2) + " dB"});

@@ -103,9 +103,11 @@ SimplifyOptions exactly(std::uint64_t vertices, SimplifyOptions options) {
   return options;
 }
 
-SimplifyOptions data_dependent(EdgeScore score, double shape_threshold) {
+EdgeRule scape_edges(EdgeScore score, double shape_threshold) { return {true, score, shape_threshold, 0, false}; }
+
+SimplifyOptions with_edges(const EdgeRule& edges) {
   SimplifyOptions options;
-  options.edges = {true, score, shape_threshold, 0};
+  options.edges = edges;
   return options;
 }
 

@@ -76,8 +76,10 @@ class Study {
 
 /// Options for exactly that many vertices.
 SimplifyOptions exactly(std::uint64_t vertices, SimplifyOptions options = {});
-/// Options for data-dependent triangulation.
-SimplifyOptions data_dependent(EdgeScore score, double shape_threshold);
+/// Data-dependent triangulation as the report's program does it: edges are not settled after the last insertion.
+EdgeRule scape_edges(EdgeScore score, double shape_threshold);
+/// A rule for the options.
+SimplifyOptions with_edges(const EdgeRule& edges);
 
 /// `cols` × `rows` samples spread evenly, borders included, for a field of that shape and about `vertices` of them.
 struct UniformGrid {

@@ -17,9 +17,9 @@ struct Column {
   EdgeRule edges;
 };
 const std::array<Column, 4> kColumns{{{"Delaunay", {}},
-                                      {"sum, q 0.5", {true, EdgeScore::kSum, 0.5, 0}},
-                                      {"sum, q 0", {true, EdgeScore::kSum, 0, 0}},
-                                      {"normals, q 0", {true, EdgeScore::kNormals, 0, 0}}}};
+                                      {"sum, q 0.5", scape_edges(EdgeScore::kSum, 0.5)},
+                                      {"sum, q 0", scape_edges(EdgeScore::kSum, 0)},
+                                      {"normals, q 0", scape_edges(EdgeScore::kNormals, 0)}}};
 
 Result<Field> make_field(const std::string& name) {
   Result<OwnedHeightField> heights = generate_field(*find_field_style(name), kSide, kSide);
@@ -33,9 +33,7 @@ Result<std::vector<std::string>> measure_errors(Study& study, const SyntheticFig
   if (!field) return tl::unexpected(field.error());
   std::vector<std::string> row{figures.style};
   for (std::size_t k = 0; k < kColumns.size(); ++k) {
-    SimplifyOptions options;
-    options.edges = kColumns[k].edges;
-    const Result<Trial> trial = study.refine(*field, kVertices, options);
+    const Result<Trial> trial = study.refine(*field, kVertices, with_edges(kColumns[k].edges));
     if (!trial) return tl::unexpected(trial.error());
     row.push_back(beside(trial->max_error, figures.max_error[k]));
     differences.add(fmt::format("{}, {}", figures.style, kColumns[k].name), trial->max_error, figures.max_error[k]);
@@ -48,8 +46,7 @@ Result<std::vector<std::string>> count_vertices(Study& study, const char* style)
   if (!field) return tl::unexpected(field.error());
   std::vector<std::string> row{style};
   for (std::size_t k = 0; k < kColumns.size(); ++k) {
-    SimplifyOptions options;
-    options.edges = kColumns[k].edges;
+    SimplifyOptions options = with_edges(kColumns[k].edges);
     options.max_error = 0;
     const Result<Trial> trial = study.reach(*field, options);
     if (!trial) return tl::unexpected(trial.error());
