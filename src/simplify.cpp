@@ -21,6 +21,7 @@
 #include "refine/freeze.h"
 #include "refine/refinement.h"
 #include "refine/samples.h"
+#include "refine/settle_edges.h"
 
 namespace scarp {
 
@@ -104,8 +105,7 @@ class Run {
     Simplified result;
     result.ignored = criterion_.ignored();
     if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
-    result.effort = refinement_->effort();
-    take_best_prefix();
+    finish_edges(result);
     // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
     // proof.
     const bool final = result.stop != StopReason::kMaxError || exact_;
@@ -245,7 +245,19 @@ class Run {
     std::optional<DataDependentRule> rule;
     if (options_.edges.data_dependent) rule.emplace(criterion_.judge(), options_.edges);
     Triangulation& tin = domain_->tin;
-    for (Point p : points) tin.insert(p, tin.locate(p, tin.last_touched()), rule ? &*rule : nullptr);
+    for (Point p : points) {
+      const auto location = tin.locate(p, tin.last_touched());
+      rule ? rule->insert(tin, p, location) : tin.insert(p, location);
+    }
+  }
+
+  void finish_edges(Simplified& result) {
+    result.effort = refinement_->effort();
+    take_best_prefix();
+    const Effort settling =
+        settle_edges(domain_->tin, criterion_.judge(), options_.edges, result.stop == StopReason::kMaxError);
+    result.effort.samples_scanned += settling.samples_scanned;
+    result.effort.triangles_scanned += settling.triangles_scanned;
   }
 
   void freeze_into(Simplified& result) const {
@@ -282,8 +294,7 @@ class Run {
       return true;
     }
     if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
-    result.effort = refinement_->effort();
-    take_best_prefix();
+    finish_edges(result);
     return true;
   }
 

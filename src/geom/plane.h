@@ -22,8 +22,8 @@ struct Plane {
   double guard = 0;  ///< bound of |computed − exact| of height_at(p) − sample, for p in the triangle; 0 if level, where
                      ///< only that subtraction rounds
 
-  /// REQUIRES: orient(corners) != 0; heights finite.
-  static Plane through(std::array<Point, 3> corners, std::array<float, 3> heights) {
+  /// REQUIRES: orient(corners) != 0; heights finite and far from overflow.
+  static Plane through_double(std::array<Point, 3> corners, std::array<double, 3> heights) {
     const auto order = [&](int i, int j) {
       if (before(corners[j], corners[i])) {
         std::swap(corners[i], corners[j]);
@@ -35,7 +35,7 @@ struct Plane {
     order(0, 1);
     const auto [p, q, r] = corners;
     const double qx = q.x - p.x, qy = q.y - p.y, rx = r.x - p.x, ry = r.y - p.y;
-    const double qz = double{heights[1]} - double{heights[0]}, rz = double{heights[2]} - double{heights[0]};
+    const double qz = heights[1] - heights[0], rz = heights[2] - heights[0];
     Plane plane;
     plane.base = p;
     plane.height = heights[0];
@@ -49,6 +49,9 @@ struct Plane {
     const double size = std::max({std::abs(heights[0]), std::abs(heights[1]), std::abs(heights[2])});
     plane.guard = 0x1p-49 * (size + reach_x + reach_y);
     return plane;
+  }
+  static Plane through(const std::array<Point, 3>& corners, const std::array<float, 3>& heights) {
+    return through_double(corners, {heights[0], heights[1], heights[2]});
   }
 
   /// Part of the height that is common to a row; height_at() = row_height(y) + slope_x · (x − base.x).

@@ -4,107 +4,104 @@
 #include <cmath>
 #include <limits>
 
-#include "refine/fine_lattice.h"
+#include "refine/quadrilateral.h"
 
 namespace scarp {
 
 namespace {
 
-using Corners = std::array<Point, 3>;
+/// Each flip of an improvement lowers the total score, so a chain of them ends; a long one is not worth its scans.
+constexpr std::size_t kMostFlips = 64;
 
-double twice_area(const Corners& t) { return static_cast<double>(orient(t[0], t[1], t[2])); }
-
-/// Scape's quality: area / larger side of the bounding box (twice, as only ratios matter).
-double box_quality(const Corners& t) {
-  const auto [low_x, high_x] = std::minmax({t[0].x, t[1].x, t[2].x});
-  const auto [low_y, high_y] = std::minmax({t[0].y, t[1].y, t[2].y});
-  return twice_area(t) / std::max(high_x - low_x, high_y - low_y);
-}
-
-/// 2 · area / longest side².
-double fatness(const Corners& t) {
-  double longest = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double dx = t[(k + 1) % 3].x - t[k].x, dy = t[(k + 1) % 3].y - t[k].y;
-    longest = std::max(longest, dx * dx + dy * dy);
-  }
-  return twice_area(t) / longest;
-}
-
-std::array<Vertex, 3> ascending(std::array<Vertex, 3> v) {
-  if (v[1] < v[0]) std::swap(v[0], v[1]);
-  if (v[2] < v[1]) std::swap(v[1], v[2]);
-  if (v[1] < v[0]) std::swap(v[0], v[1]);
-  return v;
-}
+double default_threshold(EdgeScore score) { return score == EdgeScore::kTight ? 0.1 : 0.5; }
 
 }  // namespace
 
-DataDependentRule::DataDependentRule(const Judge& judge, const EdgeRule& rule) : judge_(judge), rule_(rule) {
-  const double usual = rule.score == EdgeScore::kTight ? 0.2 : 0.5;
-  threshold_ = rule.shape_threshold < 0 ? usual : rule.shape_threshold;
-}
+/// Flips by score alone, where that makes no triangle too thin.
+struct DataDependentRule::Improver final : public FlipRule {
+  explicit Improver(DataDependentRule& owner_) : owner(owner_) {}
+  bool should_flip(const Triangulation& tin, HalfEdge h) override {
+    const Quadrilateral quad(tin, h);
+    if (!quad.can_flip() || tin.is_outside(quad.t) || fatness(quad.other) < owner.threshold_) return false;
+    if (!owner.is_better(tin, h)) return false;
+    owner.changed_.push_back(quad.t);
+    owner.changed_.push_back(quad.u);
+    return true;
+  }
+  DataDependentRule& owner;
+};
 
-Fit DataDependentRule::look(const Corners& corners, double give_up) {
-  FitQuestion question;
-  question.squares = rule_.score == EdgeScore::kSquares;
-  question.lattice = find_lattice(corners, rule_.supersample);
-  // On the finer lattice the score may turn out smaller than on the samples: it is never given up early.
-  if (question.lattice == 1) (question.squares ? question.give_up_squares : question.give_up_max) = give_up;
-  const Fit fit = judge_.fit(corners, question);
-  samples_ += fit.scanned;
-  ++triangles_;
-  return fit;
-}
+DataDependentRule::DataDependentRule(const Judge& judge, const EdgeRule& rule)
+    : judge_(judge),
+      rule_(rule),
+      threshold_(rule.shape_threshold < 0 ? default_threshold(rule.score) : rule.shape_threshold),
+      cache_(judge, rule.score == EdgeScore::kSquares, rule.supersample) {}
 
-void DataDependentRule::remember(Triangle t, std::array<Vertex, 3> corners, const Fit& fit) {
-  if (t >= known_.size()) known_.resize(t + 1);
-  known_[t] = {ascending(corners), fit};
-}
-
-const Fit& DataDependentRule::fit_of(const Triangulation& tin, Triangle t) {
-  const std::array<Vertex, 3> ids{tin.origin(3 * t), tin.origin(3 * t + 1), tin.origin(3 * t + 2)};
-  if (t >= known_.size() || known_[t].corners != ascending(ids))
-    remember(t, ids, look(tin.corners(t), std::numeric_limits<double>::infinity()));
-  return known_[t].fit;
-}
-
-double DataDependentRule::part(const Fit& fit) const {
-  return rule_.score == EdgeScore::kSquares ? fit.sum_squares : fit.max_error;
+Vertex DataDependentRule::insert(Triangulation& tin, Point p, Triangulation::Location location) {
+  const Vertex v = tin.insert(p, location, this);
+  tin.star(v, changed_);
+  if (rule_.score != EdgeScore::kTight) return v;
+  std::vector<HalfEdge> edges;
+  for (Triangle t : changed_) {
+    if (tin.is_outside(t)) continue;
+    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) edges.push_back(h);
+  }
+  Improver improver(*this);
+  tin.improve(edges, improver, kMostFlips);
+  std::sort(changed_.begin(), changed_.end());
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  return v;
 }
 
 bool DataDependentRule::should_flip(const Triangulation& tin, HalfEdge h) {
-  const HalfEdge g = tin.twin(h);
-  const Triangle t = h / 3, u = g / 3;
-  const Vertex va = tin.origin(h), vb = tin.origin(g), vc = tin.origin(Triangulation::previous(h)),
-               vd = tin.origin(Triangulation::previous(g));
-  const Point a = tin.point(va), b = tin.point(vb), c = tin.point(vc), d = tin.point(vd);
-  const Corners kept[2] = {{a, b, c}, {b, a, d}}, other[2] = {{c, d, b}, {d, c, a}};
-  if (twice_area(other[0]) <= 0 || twice_area(other[1]) <= 0) return false;
-  if (tin.is_outside(t)) return in_circle(a, b, c, d) > 0;
-
-  if (rule_.score == EdgeScore::kTight) {
-    const double kept_shape = std::min(fatness(kept[0]), fatness(kept[1]));
-    const double other_shape = std::min(fatness(other[0]), fatness(other[1]));
-    if (std::min(kept_shape, other_shape) < threshold_) return other_shape > kept_shape;
-  } else {
-    const double kept_shape = box_quality(kept[0]) * box_quality(kept[1]);
-    const double other_shape = box_quality(other[0]) * box_quality(other[1]);
-    const double worse = std::min(kept_shape, other_shape), better = std::max(kept_shape, other_shape);
-    if (!(worse > threshold_ * better)) return other_shape > kept_shape;
+  const Quadrilateral quad(tin, h);
+  if (!quad.can_flip()) return false;
+  if (tin.is_outside(quad.t)) {
+    const auto [a, b, c] = quad.kept[0];
+    return in_circle(a, b, c, quad.kept[1][2]) > 0;
   }
+  if (rule_.score == EdgeScore::kTight) {
+    const double kept = fatness(quad.kept), other = fatness(quad.other);
+    if (std::min(kept, other) < threshold_) return other > kept;
+  } else {
+    const double kept = box_quality(quad.kept[0]) * box_quality(quad.kept[1]);
+    const double other = box_quality(quad.other[0]) * box_quality(quad.other[1]);
+    if (!(std::min(kept, other) > threshold_ * std::max(kept, other))) return other > kept;
+  }
+  return is_better(tin, h);
+}
 
-  if (rule_.score == EdgeScore::kNormals) return judge_.bend(other[0], other[1]) < judge_.bend(kept[0], kept[1]);
-  const bool adds = rule_.score == EdgeScore::kSum || rule_.score == EdgeScore::kSquares;
-  const double first_kept = part(fit_of(tin, t)), second_kept = part(fit_of(tin, u));
-  const double score = adds ? first_kept + second_kept : std::max(first_kept, second_kept);
-  const Fit first = look(other[0], score);
+double DataDependentRule::part(const Fit& fit) const {
+  switch (rule_.score) {
+    case EdgeScore::kSquares:
+      return fit.sum_squares;
+    case EdgeScore::kTight:
+      return fit.max_error * fit.max_error;
+    default:
+      return fit.max_error;
+  }
+}
+
+double DataDependentRule::combine(double first, double second) const {
+  return rule_.score == EdgeScore::kMax ? std::max(first, second) : first + second;
+}
+
+bool DataDependentRule::is_better(const Triangulation& tin, HalfEdge h) {
+  const Quadrilateral quad(tin, h);
+  if (rule_.score == EdgeScore::kNormals)
+    return judge_.bend(quad.other[0], quad.other[1]) < judge_.bend(quad.kept[0], quad.kept[1]);
+  const double first_kept = part(cache_.fit_of(tin, quad.t)), second_kept = part(cache_.fit_of(tin, quad.u));
+  const double score = combine(first_kept, second_kept);
+  // A scan may stop where its triangle alone loses.
+  const auto look = [&](const Quadrilateral::Corners& corners, double most) {
+    return cache_.look(corners, rule_.score == EdgeScore::kTight ? std::sqrt(most) : most);
+  };
+  const Fit first = look(quad.other[0], score);
   if (!first.complete || !(part(first) < score)) return false;
-  const Fit second = look(other[1], adds ? score - part(first) : score);
-  if (!second.complete || !((adds ? part(first) + part(second) : std::max(part(first), part(second))) < score))
-    return false;
-  remember(t, {vc, vd, vb}, first);
-  remember(u, {vd, vc, va}, second);
+  const Fit second = look(quad.other[1], rule_.score == EdgeScore::kMax ? score : score - part(first));
+  if (!second.complete || !(combine(part(first), part(second)) < score)) return false;
+  cache_.remember(quad.t, quad.first_vertices, first);
+  cache_.remember(quad.u, quad.second_vertices, second);
   return true;
 }
 

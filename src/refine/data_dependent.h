@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "refine/fit_cache.h"
 #include "refine/judge.h"
 #include "scarp/strategy.h"
 #include "tin/triangulation.h"
@@ -19,27 +20,29 @@ class DataDependentRule final : public FlipRule {
   /// The judge stays alive.
   DataDependentRule(const Judge& judge, const EdgeRule& rule);
 
+  /// The rule for edges that face a new vertex: the score decides, or the shape.
   bool should_flip(const Triangulation& tin, HalfEdge h) override;
-  /// The fit of a triangle that is not outside: remembered, or looked at now.
-  const Fit& fit_of(const Triangulation& tin, Triangle t);
+  /// Inserts p under this rule; for EdgeScore::kTight the edges around it are then tried by score until none improves.
+  Vertex insert(Triangulation& tin, Point p, Triangulation::Location location);
+  /// Triangles that the last insert() changed: those around the new vertex, and where edges beyond them were flipped.
+  const std::vector<Triangle>& changed() const { return changed_; }
+  /// The fit of a triangle that is not outside.
+  const Fit& fit_of(const Triangulation& tin, Triangle t) { return cache_.fit_of(tin, t); }
 
-  std::uint64_t samples_scanned() const { return samples_; }
-  std::uint64_t triangles_scanned() const { return triangles_; }
+  std::uint64_t samples_scanned() const { return cache_.samples_scanned(); }
+  std::uint64_t triangles_scanned() const { return cache_.triangles_scanned(); }
 
  private:
-  struct Known {
-    std::array<Vertex, 3> corners{kNone, kNone, kNone};  // ascending
-    Fit fit;
-  };
-  Fit look(const std::array<Point, 3>& corners, double give_up);
-  void remember(Triangle t, std::array<Vertex, 3> corners, const Fit& fit);
+  struct Improver;
+  bool is_better(const Triangulation& tin, HalfEdge h);
+  double combine(double first, double second) const;
   double part(const Fit& fit) const;
 
   const Judge& judge_;
   EdgeRule rule_;
   double threshold_;
-  std::vector<Known> known_;
-  std::uint64_t samples_ = 0, triangles_ = 0;
+  FitCache cache_;
+  std::vector<Triangle> changed_;
 };
 
 }  // namespace scarp

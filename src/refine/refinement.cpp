@@ -66,12 +66,15 @@ void Refinement::insert_worst() {
 
 void Refinement::insert(Point p) { insert_at(p, tin_.locate(p, tin_.last_touched())); }
 
-Vertex Refinement::add(Point p, Triangulation::Location location) {
+void Refinement::add(Point p, Triangulation::Location location) {
   inside_ += gain(location);
-  const Vertex v = tin_.insert(p, location, rule_.get());
+  if (rule_) {
+    rule_->insert(tin_, p, location);
+    star_ = rule_->changed();
+  } else {
+    tin_.star(tin_.insert(p, location), star_);
+  }
   candidates_->grow(tin_.triangle_count());
-  tin_.star(v, star_);
-  return v;
 }
 
 void Refinement::insert_at(Point p, Triangulation::Location location) {

@@ -64,7 +64,7 @@ class Refinement {
 
  private:
   void insert_at(Point p, Triangulation::Location location);
-  Vertex add(Point p, Triangulation::Location location);
+  void add(Point p, Triangulation::Location location);
   void rescan(Triangle t);
   void rescan_all();
   std::uint32_t gain(const Triangulation::Location& location) const;
@@ -74,7 +74,7 @@ class Refinement {
   Algorithm algorithm_;
   std::unique_ptr<DataDependentRule> rule_;  // null: Delaunay
   std::unique_ptr<CandidateStore> candidates_;
-  std::vector<Triangle> star_, unseen_;
+  std::vector<Triangle> star_, unseen_;  // changed by the last insertion, by those not rescanned yet
   std::vector<std::uint8_t> changed_;
   std::uint64_t inside_ = 0, samples_ = 0, triangles_ = 0, passes_ = 0;
 };

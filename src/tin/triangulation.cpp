@@ -177,6 +177,19 @@ void Triangulation::legalize_star(FlipRule* rule) {
   }
 }
 
+void Triangulation::improve(std::vector<HalfEdge>& edges, FlipRule& rule, std::size_t most) {
+  for (std::size_t flips = 0; !edges.empty() && flips < most;) {
+    const HalfEdge h = edges.back();
+    edges.pop_back();
+    if (!is_free(h) || !rule.should_flip(*this, h)) continue;
+    const Triangle t = h / 3, u = twins_[h] / 3;
+    flip(h);
+    ++flips;
+    for (HalfEdge around : {3 * t + 1, 3 * t + 2, 3 * u + 1, 3 * u + 2}) edges.push_back(around);
+  }
+  edges.clear();
+}
+
 HalfEdge Triangulation::edge_out_of(Vertex v) const {
   for (HalfEdge h = 3 * last_; h < 3 * last_ + 3; ++h) {
     if (corners_[h] == v) return h;

@@ -17,8 +17,7 @@ inline constexpr std::uint32_t kNone = 0xffffffffu;
 
 class Triangulation;
 
-/// Decides about edges in the place of the Delaunay property. Asked about edges that face a vertex that has just been
-/// inserted; each flip adds a spoke to that vertex, so the questions end.
+/// Decides about edges in the place of the Delaunay property.
 class FlipRule {
  public:
   virtual ~FlipRule() = default;
@@ -75,9 +74,14 @@ class Triangulation {
   /// The same where t is known to contain p (closed).
   Location locate_in(Point p, Triangle t) const;
 
-  /// Inserts p at its location and restores the Delaunay property, or what `rule` holds for one. Returns the new
+  /// Inserts p at its location and restores the Delaunay property, or what `rule` holds for one: it is asked about
+  /// edges that face the new vertex, and each flip adds a spoke to that vertex, so the questions end. Returns the new
   /// vertex; for kOnVertex the one that is there. Constraints on a split edge hold on both halves. Cost: expected O(1).
   Vertex insert(Point p, Location location, FlipRule* rule = nullptr);
+
+  /// Asks the rule about the edges of the list, and again about the four edges around each one that it flips, until it
+  /// wants no more or has flipped `most`. Empties the list.
+  void improve(std::vector<HalfEdge>& edges, FlipRule& rule, std::size_t most);
 
   /// Triangles with v as a corner, in cyclic order (from border to border where v lies on the rectangle's border).
   void star(Vertex v, std::vector<Triangle>& triangles) const;
