@@ -14,7 +14,7 @@ _scarp() {
 
   case $previous in
     --of)
-      local formats='glb obj ply stl'
+      local formats='glb obj ply stl tin svg eps dem'
       [[ $verb == generate ]] && formats='tif pgm'
       COMPREPLY=($(compgen -W "$formats" -- "$current")) && return
       ;;
@@ -22,9 +22,22 @@ _scarp() {
     --decode) COMPREPLY=($(compgen -W 'terrarium mapbox' -- "$current")) && return ;;
     --nodata-policy) COMPREPLY=($(compgen -W 'hole fill background' -- "$current")) && return ;;
     --crs) COMPREPLY=($(compgen -W 'source local grid EPSG:' -- "$current")) && return ;;
-    --preview | --report | --map) COMPREPLY=($(compgen -f -- "$current")) && return ;;
+    --importance)
+      COMPREPLY=($(compgen -W 'global local local8 curvature global*local global*local8 global*curvature' -- "$current"))
+      return
+      ;;
+    --algorithm) COMPREPLY=($(compgen -W 'brute local heap' -- "$current")) && return ;;
+    --batch) COMPREPLY=($(compgen -W 'const frac: independent' -- "$current")) && return ;;
+    --edges) COMPREPLY=($(compgen -W 'delaunay data' -- "$current")) && return ;;
+    --edge-score) COMPREPLY=($(compgen -W 'sum max sqerr abn tight' -- "$current")) && return ;;
+    --norm) COMPREPLY=($(compgen -W 'l1 l2 linf' -- "$current")) && return ;;
+    --preview | --render | --error-raster | --report | --map | --mask | --tolerance | --script | --texture)
+      COMPREPLY=($(compgen -f -- "$current"))
+      return
+      ;;
     -e | --max-error | -t | --max-triangles | -p | --max-points | --band | --nodata | --fill-distance | --background | \
-      --outline-tolerance | --base | -j | --num-threads | --fail-above | --seed | --range | --size)
+      --outline-tolerance | --base | --shape-threshold | --supersample | --texture-weight | --channel-weights | -j | \
+      --num-threads | --fail-above | --seed | --range | --size)
       return
       ;;
   esac
@@ -37,8 +50,14 @@ _scarp() {
       simplify)
         options+=' --max-error --max-triangles --max-points --nodata-policy --fill-distance --background'
         options+=' --outline-tolerance --of --normals --base --preview --report --overwrite --num-threads'
+        options+=' --mask --tolerance --script --image --texture --texture-weight --norm --channel-weights'
+        options+=' --importance --one-pass --algorithm --batch --edges --edge-score --shape-threshold --supersample'
+        options+=' --uvs --render --error-raster'
         ;;
-      measure) options+=' --fail-above --json --map --overwrite --num-threads' ;;
+      measure)
+        options+=' --fail-above --json --map --error-raster --overwrite --num-threads'
+        options+=' --mask --tolerance --image --texture --texture-weight --norm --channel-weights'
+        ;;
       info) options+=' --json' ;;
     esac
     COMPREPLY=($(compgen -W "$options" -- "$current"))

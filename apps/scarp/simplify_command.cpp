@@ -17,7 +17,7 @@
 namespace scarp::cli {
 namespace {
 
-const std::string kBroken = "the mesh does not keep its promise and was not written; this is a bug in Scarp: ";
+constexpr const char* kBroken = "the mesh does not keep its promise and was not written; this is a bug in Scarp: ";
 
 Result<void> read_heights(const SimplifyPlan& plan, const ReadOptions& options, Outcome& outcome) {
   Result<OwnedHeightField> field = read_height_field(plan.input, options);

@@ -90,9 +90,11 @@ make_raster() {
 import math, sys
 cols, rows, nan = 403, 344, math.nan
 f = compile(sys.argv[1], "expression", "eval")
-print(f"ncols {cols}\nnrows {rows}\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999")
-for row in range(rows):
-    values = (eval(f) for col in range(cols))
+grid = [[eval(f) for col in range(cols)] for row in range(rows)]
+print(f"ncols {cols}\nnrows {rows}\nxllcorner 0\nyllcorner 0\ncellsize 1")
+if any(v != v for values in grid for v in values):
+    print("NODATA_value -9999")
+for values in grid:
     print(" ".join("-9999" if v != v else repr(float(v)) for v in values))
 PYTHON
   gdal_translate -q -ot "${3:-Float32}" $(corners_of "$dem") "$1.asc" "$1"

@@ -27,6 +27,8 @@ struct Treatment {
 const std::array<Treatment, 2> kGreedy{
     {{"greedy, Delaunay", {}}, {"greedy, data-dependent (sum, q 0.5)", scape_edges(EdgeScore::kSum, 0.5)}}};
 
+Picture middle(const Picture& picture) { return crop(picture, kShorterSide, kShorterSide); }
+
 Result<OwnedChannels> read_small(const std::string& path) {
   Result<OwnedChannels> image = read_channels(path);
   if (!image) return image;
@@ -54,7 +56,7 @@ Result<bool> add_image(Study& study, const Image& known, const std::string& path
   if (!uniform) return tl::unexpected(uniform.error());
   rows.push_back({known.file, fmt::format("uniform grid, {} × {}", grid.cols, grid.rows), fmt::format("{}", vertices),
                   format_psnr(uniform->psnr), ""});
-  std::vector<Picture> beside{draw_channels(*image), uniform->picture};
+  std::vector<Picture> beside{middle(draw_channels(*image)), middle(uniform->picture)};
   bool better = true;
   for (const Treatment& treatment : kGreedy) {
     const Result<Painted> painted =
@@ -63,7 +65,7 @@ Result<bool> add_image(Study& study, const Image& known, const std::string& path
     rows.push_back({"", treatment.name, fmt::format("{}", painted->run.mesh.vertex_count()), format_psnr(painted->psnr),
                     with_sign(painted->psnr - uniform->psnr, 2) + " dB"});
     better = better && painted->psnr > uniform->psnr;
-    beside.push_back(painted->picture);
+    beside.push_back(middle(painted->picture));
   }
   Result<std::vector<std::uint8_t>> png = encode_beside(std::move(beside));
   if (!png) return tl::unexpected(std::move(png.error()));
@@ -99,7 +101,7 @@ Result<void> add_images(Study& study) {
         std::find_if(kImages.begin(), kImages.end(), [&](const Image& i) { return picture.path == i.file; });
     const Result<void> added = study.add_picture(
         "image_" + picture.path.substr(0, picture.path.find('.')),
-        fmt::format("The image, the uniform grid, greedy insertion with Delaunay and with data-dependent edges ({})",
+        fmt::format("The middle of the image, the uniform grid, greedy insertion with Delaunay and with data-dependent edges ({})",
                     known->source),
         std::move(picture.bytes));
     if (!added) return added;

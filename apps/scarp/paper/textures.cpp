@@ -9,7 +9,7 @@ namespace scarp::paper {
 namespace {
 
 constexpr const char *kHeights = "santa_barbara_elev.tif", *kPhotograph = "santa_barbara_aerial.tif";
-constexpr int kPictureSide = 256;
+constexpr int kPictureSide = 224;
 
 struct Emphasis {
   const char* name;
