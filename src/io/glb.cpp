@@ -22,6 +22,14 @@ namespace {
 constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr int kFloat = 5126, kUint16 = 5123, kUint32 = 5125, kArrayBuffer = 34962, kIndexBuffer = 34963;
 
+/// A PNG of one white pixel: places in an image mean something only where there is a texture, and this one stands in
+/// for the user's.
+constexpr std::uint8_t kWhitePng[] = {
+    0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
+    0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00, 0x00, 0x90, 0x77, 0x53, 0xDE, 0x00, 0x00, 0x00,
+    0x0C, 0x49, 0x44, 0x41, 0x54, 0x78, 0xDA, 0x63, 0xF8, 0xFF, 0xFF, 0x3F, 0x00, 0x05, 0xFE, 0x02, 0xFE, 0x33,
+    0x12, 0x95, 0x14, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
+
 std::uint64_t pad4(std::uint64_t size) { return (size + 3) / 4 * 4; }
 // 65535 itself would restart a primitive.
 std::size_t index_size(std::uint64_t vertices) { return vertices < 65535 ? 2 : 4; }
@@ -133,12 +141,21 @@ Json describe(const Mesh& mesh, const std::vector<Attribute>& attributes, const 
   const std::uint64_t size = index_size(vertices);
   add(size * corners, kIndexBuffer, size == 2 ? kUint16 : kUint32, corners, "SCALAR");
   json["meshes"] = Json::array({{{"name", "terrain"}, {"primitives", Json::array({primitive})}}});
-  // Colours of vertices are multiplied with the material's.
-  const Json base = mesh.colors.empty() ? Json{0.47, 0.42, 0.33, 1.0} : Json{1.0, 1.0, 1.0, 1.0};
+  if (!mesh.uvs.empty()) {
+    offset = pad4(offset);
+    views.push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", sizeof kWhitePng}});
+    offset += sizeof kWhitePng;
+    json["images"] = Json::array({{{"bufferView", views.size() - 1}, {"mimeType", "image/png"}}});
+    json["textures"] = Json::array({{{"source", 0}}});
+  }
+  // Colours of vertices and textures are multiplied with the material's.
+  const bool is_plain = mesh.colors.empty() && mesh.uvs.empty();
+  const Json base = is_plain ? Json{0.47, 0.42, 0.33, 1.0} : Json{1.0, 1.0, 1.0, 1.0};
   json["materials"] = Json::array(
-      {{{"name", mesh.colors.empty() ? "earth" : "white"},
+      {{{"name", is_plain ? "earth" : "white"},
         {"pbrMetallicRoughness", {{"baseColorFactor", base}, {"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}},
         {"doubleSided", false}}});
+  if (!mesh.uvs.empty()) json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
   json["accessors"] = std::move(accessors);
   json["bufferViews"] = std::move(views);
   json["buffers"] = Json::array({{{"byteLength", offset}}});
@@ -170,7 +187,8 @@ Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh) {
       high[k] = std::max(high[k], coordinate);
     }
   }
-  const std::uint64_t binary_part = glb_binary_size(vertices, mesh.triangle_count(), count_floats(attributes));
+  const std::uint64_t binary_part = glb_binary_size(vertices, mesh.triangle_count(), count_floats(attributes)) +
+                                    (mesh.uvs.empty() ? 0 : pad4(sizeof kWhitePng));
   if (binary_part > std::numeric_limits<std::uint32_t>::max()) {
     return fail(ErrorKind::kOutput,
                 fmt::format("a GLB file holds less than 4 GiB, and this mesh needs {:.1f} GiB; write PLY instead",
@@ -207,6 +225,9 @@ Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh) {
     } else {
       store_number(at, vertex);
     }
+  }
+  if (!mesh.uvs.empty()) {
+    std::memcpy(bytes.data() + (bytes.size() - pad4(sizeof kWhitePng)), kWhitePng, sizeof kWhitePng);
   }
   return bytes;
 }
