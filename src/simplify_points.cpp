@@ -92,8 +92,7 @@ class PointRun {
     for (double z : places.z) largest_height_ = std::max(largest_height_, std::abs(z));
   }
 
-  Result<Simplified> execute() {
-    const auto start = Clock::now();
+  Result<Simplified> execute(Clock::time_point start) {
     if (auto fits = check_budget(); !fits) return tl::unexpected(fits.error());
     Simplified result;
     if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
@@ -314,6 +313,7 @@ class PointRun {
 
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const SimplifyOptions& options,
                                          DuplicatePolicy duplicates) try {
+  const auto start = Clock::now();
   if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
   const auto places = find_places(points, duplicates);
   if (!places) return tl::unexpected(places.error());
@@ -332,7 +332,7 @@ Result<SimplifiedPoints> simplify_points(const PointSet& points, const SimplifyO
   result.lattice_step = places->lattice.step;
   PointRun run(points, *places, options.float32_positions ? std::span<const double>(rounded) : places->z, options,
                std::move(*domain));
-  auto simplified = run.execute();
+  auto simplified = run.execute(start);
   if (!simplified) return tl::unexpected(simplified.error());
   result.simplified = std::move(*simplified);
   return result;

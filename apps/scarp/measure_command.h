@@ -5,6 +5,7 @@
 #include <string>
 
 #include "options.h"
+#include "points_command.h"
 
 namespace scarp::cli {
 
@@ -22,6 +23,7 @@ class MeasureCommand {
  private:
   CLI::App* verb_;
   RasterArguments raster_;
+  PointsArguments points_;
   std::string mesh_;
   Given map_, fail_above_, threads_;
   bool json_ = false, overwrite_ = false, quiet_ = false, json_progress_ = false;

@@ -295,6 +295,7 @@ SimplifyCommand::SimplifyCommand(CLI::App& program)
       "(columns and\nrows) or a CRS such as EPSG:32611. Default: local for\ndegrees, else source, else "
       "grid");
 
+  points_.add_to(*verb_);
   verb_
       ->add_option(
           "--nodata-policy", given_.nodata_policy,
@@ -346,12 +347,15 @@ SimplifyCommand::SimplifyCommand(CLI::App& program)
       "  scarp simplify dem.tif hills.glb -t 5000 --preview hills.png --report hills.json\n"
       "  scarp simplify dem.tif print.stl -e 1 --base 0   a solid for a 3-D printer\n"
       "  scarp simplify tile.png tile.glb -e 1 --decode terrarium\n"
+      "  scarp simplify survey.csv hills.glb -e 0.5       scattered points: x, y, z\n"
       "'scarp info dem.tif' suggests errors. 'scarp measure dem.tif hills.glb' checks a mesh.\n"
       "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.");
 }
 
 Result<void> SimplifyCommand::run(const std::string& command_line) const {
   const Clock::time_point start = Clock::now();
+  if (points_.are_meant(given_.raster.path)) return run_simplify_points(*verb_, given_, points_, command_line);
+  if (auto unused = points_.check_unused(given_.raster.path); !unused) return unused;
   Result<SimplifyPlan> plan = plan_simplify(given_);
   if (!plan) return tl::unexpected(std::move(plan.error()));
 
