@@ -16,6 +16,7 @@
 
 #include "grid/point_places.h"
 #include "measure/point_judge.h"
+#include "mesh/thin_triangles.h"
 #include "refine/scattered.h"
 #include "scarp/points.h"
 
@@ -207,12 +208,23 @@ class PointRun {
       if (tin.is_outside(t)) continue;
       for (const HalfEdge h : {3 * t, 3 * t + 2, 3 * t + 1}) mesh.triangles.push_back(ids[tin.origin(h)]);
     }
+    remove_thin_triangles(mesh, 4 * position_rounding(mesh));
     optimize_order(mesh);
     if (refinement_) {
       result.effort.samples_scanned = refinement_->places_judged();
       result.effort.triangles_scanned = refinement_->lists_dealt();
     }
     result.effort.passes = insertions_;
+  }
+
+  /// How far vertices may lie from their places on the lattice, along x or y.
+  double position_rounding(const Mesh& mesh) const {
+    double reach = 0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      if (i % 3 != 2) reach = std::max(reach, std::abs(mesh.positions[i]));
+    }
+    const double snapping = places_.is_exact ? 0 : places_.lattice.step / 2;
+    return std::max(snapping, reach * (options_.float32_positions ? 0x1p-24 : 0x1p-53));
   }
 
   std::uint32_t place_of_point(std::int32_t point) {
