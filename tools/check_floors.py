@@ -19,7 +19,8 @@ ANY = None
 ROOMS = {
     "door": (0, [], ANY, "`include/scarp`: the public headers, each a manual"),
     "base": (0, [], ["result", "progress"], "lattice points, 128-bit integers, arrays, the parallel loop"),
-    "grid": (1, ["base"], ["frame", "generate", "height_field", "result", "progress"], "rasters: mask, outline, frames, voids"),
+    "grid": (1, ["base"], ["frame", "generate", "height_field", "points", "result", "progress"],
+             "rasters: mask, outline, frames, voids; the lattice of scattered points"),
     "geom": (1, ["base"], ["result"], "predicates, planes, the scan of a triangle"),
     "mesh": (1, ["base"], ["mesh", "result"], "the Mesh value: order, solid base, half-edges"),
     "tin": (2, ["base", "geom"], ["result"], "the triangulation: ids and predicates, no heights"),

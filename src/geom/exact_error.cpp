@@ -27,10 +27,10 @@ int bits(std::int64_t value) { return static_cast<int>(std::bit_width(static_cas
 
 }  // namespace
 
-bool exceeds_exactly(const std::array<Point, 3>& corners, const std::array<float, 3>& heights, Point p, float sample,
+bool exceeds_exactly(const std::array<Point, 3>& corners, const std::array<double, 3>& heights, Point p, double sample,
                      double threshold) {
   for (int k = 0; k < 3; ++k) {
-    if (corners[k] == p) return std::abs(double{heights[k]} - double{sample}) > threshold;
+    if (corners[k] == p) return std::abs(heights[k] - sample) > threshold;
   }
   const Dyadic values[5] = {dyadic(heights[0]), dyadic(heights[1]), dyadic(heights[2]), dyadic(sample),
                             dyadic(threshold)};

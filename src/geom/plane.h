@@ -22,8 +22,8 @@ struct Plane {
   double guard = 0;  ///< bound of |computed − exact| of height_at(p) − sample, for p in the triangle; 0 if level, where
                      ///< only that subtraction rounds
 
-  /// REQUIRES: orient(corners) != 0; heights finite.
-  static Plane through(std::array<Point, 3> corners, std::array<float, 3> heights) {
+  /// REQUIRES: orient(corners) != 0; heights finite and far from overflow.
+  static Plane through_double(std::array<Point, 3> corners, std::array<double, 3> heights) {
     const auto order = [&](int i, int j) {
       if (before(corners[j], corners[i])) {
         std::swap(corners[i], corners[j]);
@@ -35,7 +35,7 @@ struct Plane {
     order(0, 1);
     const auto [p, q, r] = corners;
     const double qx = q.x - p.x, qy = q.y - p.y, rx = r.x - p.x, ry = r.y - p.y;
-    const double qz = double{heights[1]} - double{heights[0]}, rz = double{heights[2]} - double{heights[0]};
+    const double qz = heights[1] - heights[0], rz = heights[2] - heights[0];
     Plane plane;
     plane.base = p;
     plane.height = heights[0];
@@ -50,10 +50,21 @@ struct Plane {
     plane.guard = 0x1p-49 * (size + reach_x + reach_y);
     return plane;
   }
+  static Plane through(const std::array<Point, 3>& corners, const std::array<float, 3>& heights) {
+    return through_double(corners, {heights[0], heights[1], heights[2]});
+  }
 
   /// Part of the height that is common to a row; height_at() = row_height(y) + slope_x · (x − base.x).
   double row_height(std::int32_t y) const { return height + slope_y * static_cast<double>(y - base.y); }
   double height_at(Point p) const { return row_height(p.y) + slope_x * static_cast<double>(p.x - base.x); }
 };
+
+/// |n − m|² of the planes' unit normals: grows with the angle between them.
+inline double bend_of(const Plane& a, const Plane& b) {
+  const double la = std::sqrt(1 + a.slope_x * a.slope_x + a.slope_y * a.slope_y);
+  const double lb = std::sqrt(1 + b.slope_x * b.slope_x + b.slope_y * b.slope_y);
+  const double x = a.slope_x / la - b.slope_x / lb, y = a.slope_y / la - b.slope_y / lb, z = 1 / la - 1 / lb;
+  return x * x + y * y + z * z;
+}
 
 }  // namespace scarp

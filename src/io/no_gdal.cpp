@@ -1,6 +1,7 @@
 // The doors that GDAL stands behind, in a build without it.
 #ifndef SCARP_WITH_GDAL
 
+#include "io/point_source.h"
 #include "io/raster_source.h"
 
 namespace scarp {
@@ -23,6 +24,11 @@ Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage&) {
 }
 
 bool is_same_crs(const std::string& a, const std::string& b) { return a == b; }
+
+Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptions&) {
+  return fail(ErrorKind::kInput,
+              path + ": not text of columns, and this build of Scarp reads no other points: it was built without GDAL");
+}
 
 Result<std::vector<std::uint8_t>> encode_png(const Picture&) {
   return fail(ErrorKind::kOutput, "pictures cannot be written: this build of Scarp has no GDAL, which encodes PNG");

@@ -91,8 +91,9 @@ class ProjTransform final : public PointTransform {
 
 }  // namespace
 
-Crs crs_of(GDALDatasetH dataset) {
-  OGRSpatialReferenceH borrowed = GDALGetSpatialRef(dataset);
+Crs crs_of(GDALDatasetH dataset) { return copy_crs(GDALGetSpatialRef(dataset)); }
+
+Crs copy_crs(OGRSpatialReferenceH borrowed) {
   if (borrowed == nullptr || OSRGetName(borrowed) == nullptr) return nullptr;
   return flattened(OSRClone(borrowed));
 }

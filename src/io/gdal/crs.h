@@ -21,6 +21,8 @@ using Crs = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, Destroy
 
 /// The raster's CRS; null if it has none.
 Crs crs_of(GDALDatasetH dataset);
+/// Null for null and for a CRS without a name.
+Crs copy_crs(OGRSpatialReferenceH borrowed);
 
 /// From an option: "EPSG:32611", WKT, a PROJ string. Null if GDAL does not know it.
 Crs find_crs(const std::string& definition);

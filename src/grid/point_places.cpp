@@ -1,0 +1,196 @@
+#include "grid/point_places.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace scarp {
+
+namespace {
+
+struct Extent {
+  double least = std::numeric_limits<double>::infinity(), most = -std::numeric_limits<double>::infinity();
+  void include(double value) {
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  double size() const { return most - least; }
+  double reach() const { return std::max(std::abs(least), std::abs(most)); }
+};
+
+/// Coordinates as whole multiples of a power of ten, 10^-digits.
+struct Decimals {
+  int digits = 0;
+  double power = 1;  ///< 10^|digits|, which a double holds exactly up to 10^22
+
+  /// The multiple that is nearest, and whether it is the coordinate itself: the double nearest to the decimal.
+  bool read(double value, std::int64_t& multiple) const {
+    const double nearest = std::nearbyint(digits >= 0 ? value * power : value / power);
+    multiple = static_cast<std::int64_t>(nearest);
+    return (digits >= 0 ? nearest / power : nearest * power) == value;
+  }
+};
+
+/// The finest decimals whose multiples are exact in a double and span no more than the lattice.
+std::optional<Decimals> finest_decimals(const Extent& x, const Extent& y) {
+  constexpr int kMostDigits = 22;
+  const double reach = std::max(x.reach(), y.reach()), size = std::max(x.size(), y.size());
+  for (int digits = kMostDigits; digits >= -kMostDigits; --digits) {
+    const Decimals decimals{digits, std::pow(10.0, std::abs(digits))};
+    const auto count = [&](double length) { return digits >= 0 ? length * decimals.power : length / decimals.power; };
+    if (count(size) < kMaxCoordinate && count(reach) < 0x1p52) return decimals;
+  }
+  return std::nullopt;
+}
+
+struct Snapped {
+  PointLattice lattice;
+  std::vector<Point> at;  ///< by point
+};
+
+/// Nothing if the points do not lie on a lattice of decimals.
+std::optional<Snapped> snap_to_decimals(const PointSet& points, const Extent& x, const Extent& y) {
+  const auto decimals = finest_decimals(x, y);
+  if (!decimals) return std::nullopt;
+  std::int64_t west = 0, east = 0, south = 0, north = 0;
+  for (const auto& [value, multiple] :
+       {std::pair{x.least, &west}, std::pair{x.most, &east}, std::pair{y.least, &south}, std::pair{y.most, &north}}) {
+    if (!decimals->read(value, *multiple)) return std::nullopt;
+  }
+  Snapped snapped;
+  snapped.at.reserve(points.size());
+  std::int64_t common = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::int64_t u = 0, v = 0;
+    if (!decimals->read(points.x[i], u) || !decimals->read(points.y[i], v)) return std::nullopt;
+    if (common != 1) common = std::gcd(common, std::gcd(u - west, north - v));
+    snapped.at.push_back({static_cast<std::int32_t>(u - west), static_cast<std::int32_t>(north - v)});
+  }
+  if (common == 0) common = 1;  // one place
+  const auto stride = static_cast<std::int32_t>(common);
+  for (Point& p : snapped.at) p = {p.x / stride, p.y / stride};
+  const auto multiple = static_cast<double>(common);
+  snapped.lattice = {decimals->digits >= 0 ? multiple / decimals->power : multiple * decimals->power,
+                     static_cast<std::int32_t>((east - west) / common) + 1,
+                     static_cast<std::int32_t>((north - south) / common) + 1};
+  return snapped;
+}
+
+Snapped snap_to_power_of_two(const PointSet& points, const Extent& x, const Extent& y) {
+  const double size = std::max(x.size(), y.size());
+  int exponent = std::ilogb(size) - 30;
+  while (std::ldexp(size, -exponent) > kMaxCoordinate) ++exponent;
+  const auto whole = [exponent](double length) {
+    return static_cast<std::int32_t>(std::nearbyint(std::ldexp(length, -exponent)));
+  };
+  Snapped snapped{{std::ldexp(1.0, exponent), whole(x.size()) + 1, whole(y.size()) + 1}, {}};
+  snapped.at.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    snapped.at.push_back({whole(points.x[i] - x.least), whole(y.most - points.y[i])});
+  return snapped;
+}
+
+/// Every other bit of the result is one of the value's 30.
+std::uint64_t spread(std::int32_t value) {
+  auto bits = static_cast<std::uint64_t>(value);
+  bits = (bits | bits << 16) & 0x0000ffff0000ffffu;
+  bits = (bits | bits << 8) & 0x00ff00ff00ff00ffu;
+  bits = (bits | bits << 4) & 0x0f0f0f0f0f0f0f0fu;
+  bits = (bits | bits << 2) & 0x3333333333333333u;
+  return (bits | bits << 1) & 0x5555555555555555u;
+}
+
+struct Keyed {
+  std::uint64_t key;
+  std::uint32_t point;
+};
+
+/// The point that stands for the equal keys [first, last), which are in input order, and its height.
+std::pair<std::uint32_t, double> choose(const PointSet& points, DuplicatePolicy policy, const Keyed* first,
+                                        const Keyed* last) {
+  const auto height = [&](const Keyed& k) { return points.z[k.point]; };
+  const auto lower = [&](const Keyed& a, const Keyed& b) { return height(a) < height(b); };
+  const Keyed* chosen = first;
+  switch (policy) {
+    case DuplicatePolicy::kFirst:
+      break;
+    case DuplicatePolicy::kLast:
+      chosen = last - 1;
+      break;
+    case DuplicatePolicy::kHighest:
+      chosen = std::max_element(first, last, lower);
+      break;
+    case DuplicatePolicy::kLowest:
+      chosen = std::min_element(first, last, lower);
+      break;
+    case DuplicatePolicy::kMean: {
+      // Differences from the first: their sum does not overflow where the heights' would, and equal heights stay.
+      double sum = 0;
+      for (const Keyed* k = first; k != last; ++k)
+        sum += (height(*k) - height(*first)) / static_cast<double>(last - first);
+      return {first->point, height(*first) + sum};
+    }
+  }
+  return {chosen->point, height(*chosen)};
+}
+
+Result<void> check(const PointSet& points) {
+  if (points.x.size() != points.y.size() || points.x.size() != points.z.size())
+    return fail(ErrorKind::kUsage, fmt::format("the points have {} x, {} y and {} z: give one of each for every point",
+                                               points.x.size(), points.y.size(), points.z.size()));
+  if (points.size() == 0) return fail(ErrorKind::kInput, "there are no points");
+  if (points.size() > std::numeric_limits<std::int32_t>::max())
+    return fail(ErrorKind::kInput,
+                fmt::format("there are {} points; Scarp holds up to 2,147,483,647: thin them out", points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!std::isfinite(points.x[i]) || !std::isfinite(points.y[i]) || !std::isfinite(points.z[i]))
+      return fail(ErrorKind::kInput, fmt::format("point {} (counted from 0) has a coordinate that is not finite", i));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<PointPlaces> find_places(const PointSet& points, DuplicatePolicy policy) {
+  if (auto checked = check(points); !checked) return tl::unexpected(checked.error());
+  Extent x, y, z;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    x.include(points.x[i]);
+    y.include(points.y[i]);
+    z.include(points.z[i]);
+  }
+  constexpr double kReach = 1e100;  // as far as the arithmetic of planes goes
+  if (std::max({x.reach(), y.reach(), z.reach()}) > kReach)
+    return fail(ErrorKind::kInput, "a point has a coordinate beyond 1e100; only smaller ones can be triangulated");
+  Snapped snapped;
+  if (auto decimal = snap_to_decimals(points, x, y)) {
+    snapped = std::move(*decimal);
+  } else {
+    snapped = snap_to_power_of_two(points, x, y);
+  }
+
+  std::vector<Keyed> keys;
+  keys.reserve(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    keys.push_back({spread(snapped.at[i].x) | spread(snapped.at[i].y) << 1, i});
+  std::sort(keys.begin(), keys.end(),
+            [](const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.point < b.point; });
+  PointPlaces places;
+  places.lattice = snapped.lattice;
+  for (std::size_t i = 0, end = 0; i < keys.size(); i = end) {
+    while (end < keys.size() && keys[end].key == keys[i].key) ++end;
+    const auto [point, height] = choose(points, policy, &keys[i], &keys[i] + (end - i));
+    places.at.push_back(snapped.at[point]);
+    places.source.push_back(point);
+    places.z.push_back(height);
+  }
+  places.duplicates = points.size() - places.size();
+  return places;
+}
+
+}  // namespace scarp

@@ -1,0 +1,287 @@
+// Points of a vector layer.
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+#include <ogr_api.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "grid/local_frame.h"
+#include "io/gdal/crs.h"
+#include "io/gdal/open.h"
+#include "io/point_source.h"
+
+namespace scarp::gdal {
+namespace {
+
+struct DestroyFeature {
+  void operator()(OGRFeatureH feature) const { OGR_F_Destroy(feature); }
+};
+using Feature = std::unique_ptr<std::remove_pointer_t<OGRFeatureH>, DestroyFeature>;
+
+Result<Dataset> open_vector(Session& session, const std::string& path) {
+  const std::string vsi = vsi_path(path);
+  session.clear();
+  Dataset dataset(
+      GDALOpenEx(vsi.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr, nullptr));
+  if (dataset) return dataset;
+  if (path.empty()) return fail(ErrorKind::kInput, "the name of the points is empty");
+  if (is_remote(path)) return fail(ErrorKind::kInput, fmt::format("{}: cannot be read: {}", path, session.reason()));
+  VSIStatBufL status{};
+  if (VSIStatL(vsi.c_str(), &status) != 0) return fail(ErrorKind::kInput, path + ": no such file");
+  if (status.st_size == 0 && VSI_ISREG(status.st_mode)) return fail(ErrorKind::kInput, path + ": the file is empty");
+  if (GDALDriverH driver = GDALIdentifyDriverEx(vsi.c_str(), GDAL_OF_VECTOR, nullptr, nullptr); driver)
+    return fail(ErrorKind::kInput, fmt::format("{}: a damaged or truncated {} file: {}", path,
+                                               GDALGetDriverShortName(driver), session.reason()));
+  return fail(ErrorKind::kInput, path + ": neither text of columns nor vector data that GDAL can read");
+}
+
+bool may_hold_points(OGRLayerH layer) {
+  const OGRwkbGeometryType type = wkbFlatten(OGR_L_GetGeomType(layer));
+  return type == wkbPoint || type == wkbMultiPoint || type == wkbUnknown || type == wkbGeometryCollection;
+}
+
+Result<OGRLayerH> find_layer(GDALDatasetH dataset, const std::string& path, const std::string& wanted) {
+  const int count = GDALDatasetGetLayerCount(dataset);
+  std::string names;
+  for (int i = 0; i < count; ++i) {
+    OGRLayerH layer = GDALDatasetGetLayer(dataset, i);
+    if (wanted.empty() ? may_hold_points(layer) : wanted == OGR_L_GetName(layer)) return layer;
+    names += (names.empty() ? "" : ", ") + std::string(OGR_L_GetName(layer));
+  }
+  if (wanted.empty()) return fail(ErrorKind::kInput, path + ": holds no layer of points");
+  return fail(ErrorKind::kInput, fmt::format("{}: holds no layer '{}', only {}", path, wanted, names));
+}
+
+/// Where heights come from: an attribute, or the third coordinate.
+Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string& path, const std::string& wanted) {
+  OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer);
+  if (!wanted.empty()) {
+    const int index = OGR_FD_GetFieldIndex(definition, wanted.c_str());
+    if (index >= 0) return index;
+    std::string names;
+    for (int i = 0; i < OGR_FD_GetFieldCount(definition); ++i)
+      names += (i == 0 ? "" : ", ") + std::string(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i)));
+    return fail(ErrorKind::kInput, fmt::format("{}: the layer {} has no attribute '{}'{}", path, OGR_L_GetName(layer),
+                                               wanted, names.empty() ? "" : ", only " + names));
+  }
+  // The type of a layer may be silent on the third coordinate; the first point is not.
+  OGR_L_ResetReading(layer);
+  while (const Feature feature{OGR_L_GetNextFeature(layer)}) {
+    OGRGeometryH geometry = OGR_F_GetGeometryRef(feature.get());
+    if (geometry == nullptr || OGR_G_IsEmpty(geometry) != 0) continue;
+    if (OGR_G_Is3D(geometry) != 0) return std::nullopt;
+    break;
+  }
+  for (const char* name : {"z", "height", "elevation", "elev", "h"}) {
+    const int index = OGR_FD_GetFieldIndex(definition, name);
+    if (index >= 0) return index;
+  }
+  return fail(ErrorKind::kInput,
+              fmt::format("{}: the points of the layer {} have no third coordinate, and no attribute z, height, "
+                          "elevation, elev or h: name the one that holds heights with --z-field",
+                          path, OGR_L_GetName(layer)));
+}
+
+/// Collects the points of features.
+class Collector {
+ public:
+  Collector(const std::string& path, std::optional<int> height_field, PointSet& points)
+      : path_(path), height_field_(height_field), points_(points) {}
+
+  Result<void> add(OGRFeatureH feature) {
+    id_ = OGR_F_GetFID(feature);
+    OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
+    if (geometry == nullptr || OGR_G_IsEmpty(geometry) != 0) {
+      ++without_geometry_;
+      return {};
+    }
+    std::optional<double> height;
+    if (height_field_) {
+      if (OGR_F_IsFieldSetAndNotNull(feature, *height_field_) == 0)
+        return fail(ErrorKind::kInput, fmt::format("{}: feature {} has no height: its attribute {} is empty", path_,
+                                                   id_, field_name(feature)));
+      height = OGR_F_GetFieldAsDouble(feature, *height_field_);
+    }
+    return add_geometry(geometry, height);
+  }
+  std::uint64_t without_geometry() const { return without_geometry_; }
+
+ private:
+  const char* field_name(OGRFeatureH feature) const {
+    return OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, *height_field_));
+  }
+
+  Result<void> add_geometry(OGRGeometryH geometry, std::optional<double> height) {
+    const OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(geometry));
+    if (type == wkbMultiPoint) {
+      for (int i = 0; i < OGR_G_GetGeometryCount(geometry); ++i) {
+        const auto added = add_geometry(OGR_G_GetGeometryRef(geometry, i), height);
+        if (!added) return added;
+      }
+      return {};
+    }
+    if (type != wkbPoint)
+      return fail(ErrorKind::kInput, fmt::format("{}: feature {} is a {}, not a point", path_, id_,
+                                                 OGRGeometryTypeToName(OGR_G_GetGeometryType(geometry))));
+    if (OGR_G_IsEmpty(geometry) != 0) {
+      ++without_geometry_;
+      return {};
+    }
+    if (!height && OGR_G_Is3D(geometry) == 0)
+      return fail(ErrorKind::kInput, fmt::format("{}: feature {} has no third coordinate, as others have", path_, id_));
+    const double x = OGR_G_GetX(geometry, 0), y = OGR_G_GetY(geometry, 0);
+    const double z = height ? *height : OGR_G_GetZ(geometry, 0);
+    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
+      return fail(ErrorKind::kInput,
+                  fmt::format("{}: feature {} has x {}, y {}, height {}, which are not all finite: remove that point",
+                              path_, id_, x, y, z));
+    points_.x.push_back(x);
+    points_.y.push_back(y);
+    points_.z.push_back(z);
+    return {};
+  }
+
+  const std::string& path_;
+  std::optional<int> height_field_;
+  PointSet& points_;
+  GIntBig id_ = 0;
+  std::uint64_t without_geometry_ = 0;
+};
+
+std::string short_name(const Crs& crs) {
+  const std::string name = crs_name(crs);
+  if (name.size() < 40) return name;
+  const char* title = OSRGetName(crs.get());
+  return title != nullptr ? title : "unnamed CRS";
+}
+
+double centre_of(const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return *least + (*most - *least) / 2;
+}
+
+/// Degrees to metres by the two constants of the ellipsoid at the middle of the points; see grid/local_frame.cpp.
+Result<void> make_local(const Crs& crs, PointSet& points) {
+  const double x = centre_of(points.x), y = centre_of(points.y);
+  MetresPerRadian metres{1, 1};
+  if (OSRIsGeographic(crs.get()) != 0) {
+    OGRErr error = OGRERR_NONE;
+    const Ellipsoid ellipsoid{OSRGetSemiMajor(crs.get(), &error), OSRGetInvFlattening(crs.get(), &error)};
+    const double radians = OSRGetAngularUnits(crs.get(), nullptr), latitude = y * radians;
+    const auto [low, high] = std::minmax_element(points.y.begin(), points.y.end());
+    if (!(std::max(std::abs(*low), std::abs(*high)) * radians <= std::acos(0.0) + 1e-9) || !(std::cos(latitude) > 1e-3))
+      return fail(
+          ErrorKind::kUsage,
+          fmt::format("{}: the middle of the points lies at {:.9g}, {:.9g}, at or beyond a pole, where no local "
+                      "frame exists; choose a polar CRS such as EPSG:3413 or EPSG:3031",
+                      points.path, x, y));
+    metres = metres_per_radian(ellipsoid, latitude);
+    metres = {metres.east * radians, metres.north * radians};
+    const double widest = std::max(std::cos(*low * radians), std::cos(*high * radians)) / std::cos(latitude),
+                 narrowest = std::min(std::cos(*low * radians), std::cos(*high * radians)) / std::cos(latitude);
+    if (widest > 1.05 || narrowest < 0.95)
+      points.warnings.push_back(
+          "the points span so many degrees of latitude that east-west lengths in the local frame are off by more than "
+          "5 % at their edge; choose a projected CRS if shapes matter");
+  } else {
+    const double unit = OSRGetLinearUnits(crs.get(), nullptr);
+    metres = {unit, unit};
+  }
+  for (double& value : points.x) value = (value - x) * metres.east;
+  for (double& value : points.y) value = (value - y) * metres.north;
+  points.description = fmt::format("local metres east and north of {:.9g}, {:.9g} ({})", x, y, short_name(crs));
+  points.crs.clear();
+  return {};
+}
+
+Result<void> project(const Crs& from, const std::string& wanted, PointSet& points) {
+  const Crs to = find_crs(wanted);
+  if (!to || (!OSRIsGeographic(to.get()) && !OSRIsProjected(to.get()) && !OSRIsLocal(to.get())))
+    return fail(ErrorKind::kUsage,
+                fmt::format("'{}' is no coordinate reference system of positions on a map that GDAL knows; give "
+                            "'source', 'local', a code such as EPSG:32633, WKT or a PROJ string",
+                            wanted));
+  if (!same_crs(from, to)) {
+    const auto transform = build_transform(from, to);
+    if (!transform || !transform->apply(points.x, points.y))
+      return fail(ErrorKind::kUsage, fmt::format("{}: some points have no place in {} (from {}); choose a CRS that "
+                                                 "covers all of them",
+                                                 points.path, short_name(to), short_name(from)));
+    points.description = fmt::format("coordinates in {}, transformed from {}", short_name(to), short_name(from));
+  }
+  points.crs = crs_name(to);
+  return {};
+}
+
+Result<void> place(const Crs& crs, const std::string& wanted, PointSet& points) {
+  if (wanted == "grid")
+    return fail(ErrorKind::kUsage, points.path + ": scattered points have no grid: ask for 'source' or 'local'");
+  points.crs = crs_name(crs);
+  points.description = crs ? fmt::format("coordinates in {}", short_name(crs)) : "the points' own coordinates (no CRS)";
+  const bool is_geographic = crs && OSRIsGeographic(crs.get()) != 0;
+  if (wanted.empty() && !is_geographic) return {};
+  if (wanted == "source") {
+    if (is_geographic)
+      points.warnings.push_back(
+          "x and y are degrees while z is a length: the mesh is no shape in space; leave the CRS out for a local frame "
+          "in metres");
+    return {};
+  }
+  if (!crs)
+    return fail(ErrorKind::kUsage, fmt::format("{} has no CRS, so its coordinates cannot be given in '{}': ask for "
+                                               "'source', or give it its CRS first (ogr2ogr -a_srs)",
+                                               points.path, wanted));
+  return wanted.empty() || wanted == "local" ? make_local(crs, points) : project(crs, wanted, points);
+}
+
+Result<PointSet> read(const std::string& path, const ReadPointsOptions& options) {
+  Session session(is_remote(path));
+  const auto dataset = open_vector(session, path);
+  if (!dataset) return tl::unexpected(dataset.error());
+  const auto layer = find_layer(dataset->get(), path, options.layer);
+  if (!layer) return tl::unexpected(layer.error());
+  const auto height_field = find_height_field(*layer, path, options.z_field);
+  if (!height_field) return tl::unexpected(height_field.error());
+
+  PointSet points;
+  points.path = path;
+  points.format = GDALGetDriverShortName(GDALGetDatasetDriver(dataset->get()));
+  Collector collector(path, *height_field, points);
+  const auto count = static_cast<double>(std::max<GIntBig>(1, OGR_L_GetFeatureCount(*layer, 0)));
+  std::uint64_t features = 0;
+  OGR_L_ResetReading(*layer);
+  session.clear();
+  while (const Feature feature{OGR_L_GetNextFeature(*layer)}) {
+    const auto added = collector.add(feature.get());
+    if (!added) return tl::unexpected(added.error());
+    if (++features % 65536 != 0 || !options.progress) continue;
+    if (!options.progress({"read", std::min(1.0, static_cast<double>(features) / count), 0, 0}))
+      return fail(ErrorKind::kCancelled, "cancelled while reading");
+  }
+  if (session.failed())
+    return fail(ErrorKind::kInput, fmt::format("{}: the layer {} cannot be read to its end: {}", path,
+                                               OGR_L_GetName(*layer), session.reason()));
+  if (points.size() == 0)
+    return fail(ErrorKind::kInput, fmt::format("{}: the layer {} holds no points", path, OGR_L_GetName(*layer)));
+  if (collector.without_geometry() > 0)
+    points.warnings.push_back(
+        fmt::format("{} features of {} have no point and were left out", collector.without_geometry(), path));
+  const Crs crs = copy_crs(OGR_L_GetSpatialRef(*layer));
+  if (auto placed = place(crs, options.crs, points); !placed) return tl::unexpected(placed.error());
+  for (const std::string& warning : session.warnings()) points.warnings.push_back("GDAL: " + warning);
+  return points;
+}
+
+}  // namespace
+}  // namespace scarp::gdal
+
+namespace scarp {
+
+Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptions& options) {
+  return gdal::read(path, options);
+}
+
+}  // namespace scarp

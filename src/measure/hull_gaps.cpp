@@ -1,0 +1,65 @@
+#include "measure/hull_gaps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace scarp::judge {
+namespace {
+
+struct Spot {
+  double x = 0, y = 0;
+};
+
+double turn(const Spot& a, const Spot& b, const Spot& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// The lower or the upper chain of the hull, from west to east; `sign` 1 or −1.
+std::vector<Spot> chain_of(const std::vector<Spot>& sorted, double sign) {
+  std::vector<Spot> chain;
+  for (const Spot& p : sorted) {
+    while (chain.size() >= 2 && sign * turn(chain[chain.size() - 2], chain.back(), p) <= 0) chain.pop_back();
+    chain.push_back(p);
+  }
+  return chain;
+}
+
+/// How far p lies on the inner side of the chain; negative outside.
+double depth(const std::vector<Spot>& chain, double sign, const Spot& p) {
+  const auto after = std::upper_bound(chain.begin(), chain.end(), p.x, [](double x, const Spot& s) { return x < s.x; });
+  if (after == chain.begin() || after == chain.end()) return -HUGE_VAL;
+  const Spot &a = *(after - 1), &b = *after;
+  return sign * turn(a, b, p) / std::hypot(b.x - a.x, b.y - a.y);
+}
+
+}  // namespace
+
+std::uint64_t count_hull_gaps(const PointSet& points, const PointPlaces& places, const Mesh& mesh,
+                              std::span<const OpenEdge> open, double tolerance) {
+  if (open.empty()) return 0;
+  std::vector<Spot> spots;
+  spots.reserve(places.size());
+  for (const std::uint32_t i : places.source)
+    spots.push_back({points.x[i] - mesh.origin[0], points.y[i] - mesh.origin[1]});
+  std::sort(spots.begin(), spots.end(),
+            [](const Spot& a, const Spot& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  const auto lower = chain_of(spots, 1), upper = chain_of(spots, -1);
+  const double step = std::max(4 * tolerance, 4 * position_noise(mesh));
+  std::uint64_t count = 0;
+  for (const OpenEdge& edge : open) {
+    const auto at = [&](std::uint32_t v) {
+      return Spot{mesh.positions[3 * std::size_t{v}], mesh.positions[3 * std::size_t{v} + 1]};
+    };
+    const Spot a = at(edge.from), b = at(edge.to);
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(length > 0)) continue;
+    // Triangles lie to the left of their edges.
+    const Spot beside{(a.x + b.x) / 2 + step * (b.y - a.y) / length, (a.y + b.y) / 2 - step * (b.x - a.x) / length};
+    count += depth(lower, 1, beside) > 0 && depth(upper, -1, beside) > 0;
+  }
+  return count;
+}
+
+}  // namespace scarp::judge

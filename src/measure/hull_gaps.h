@@ -1,0 +1,17 @@
+// Holes in a surface over scattered points, whose domain is their convex hull.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "grid/point_places.h"
+#include "measure/topology.h"
+
+namespace scarp::judge {
+
+/// Open edges beside whose middle, 4 `tolerance` outside of it, lies the inside of the points' convex hull, and deeper
+/// than that: the mesh has a hole or an inlet there. Cost: O(open edges · log hull), and a sort of the points.
+std::uint64_t count_hull_gaps(const PointSet& points, const PointPlaces& places, const Mesh& mesh,
+                              std::span<const OpenEdge> open, double tolerance);
+
+}  // namespace scarp::judge

@@ -1,0 +1,282 @@
+// The judge of scattered points: each point looks up the triangles that may lie over it in a grid of buckets.
+//
+// Points are judged where they were given, not where the lattice has them. Near their own order in the plane they are
+// worked on in chunks at once; every error has its own place in one array, which is summed up in input order, so the
+// result never depends on threads.
+#include "measure/point_judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/caught.h"
+#include "base/parallel.h"
+#include "measure/bucket_grid.h"
+#include "measure/error_summary.h"
+#include "measure/facet_error.h"
+#include "measure/hull_gaps.h"
+#include "measure/progress_gate.h"
+#include "measure/topology.h"
+
+namespace scarp::judge {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+Result<void> check(const Mesh& mesh, const MeasureOptions& options) {
+  if (mesh.triangles.empty()) return fail(ErrorKind::kInput, "the mesh has no triangles");
+  if (mesh.triangles.size() % 3 != 0 || mesh.positions.size() % 3 != 0)
+    return fail(ErrorKind::kInput, "the mesh is cut off: its indices or coordinates are not a multiple of 3");
+  if (mesh.triangles.size() >= std::uint64_t{1} << 32 || mesh.positions.size() / 3 >= std::uint64_t{1} << 32)
+    return fail(ErrorKind::kInput,
+                fmt::format("the mesh has {} triangles; the judge holds up to 1,431,655,765", mesh.triangle_count()));
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (mesh.triangles[i] >= mesh.vertex_count())
+      return fail(ErrorKind::kInput, fmt::format("triangle {} of the mesh names vertex {}, but there are only {}",
+                                                 i / 3, mesh.triangles[i], mesh.vertex_count()));
+  }
+  const auto is_in_reach = [](double coordinate) { return std::abs(coordinate) <= 1e100; };
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (!is_in_reach(mesh.positions[i]))
+      return fail(
+          ErrorKind::kInput,
+          fmt::format("vertex {} of the mesh has a coordinate that is not a finite number within 1e100", i / 3));
+  }
+  if (!std::all_of(mesh.origin.begin(), mesh.origin.end(), is_in_reach))
+    return fail(ErrorKind::kInput, "the mesh's origin is not a finite point within 1e100");
+  if (!(options.coverage_tolerance >= 0) || !std::isfinite(options.coverage_tolerance))
+    return fail(ErrorKind::kUsage, "coverage_tolerance must be zero or a positive number of mean point distances");
+  if (!options.tolerance.empty())
+    return fail(ErrorKind::kUsage,
+                "scattered points have no tolerances of their own: leave MeasureOptions::tolerance out");
+  return {};
+}
+
+struct Verdict {
+  double error = kNone;  ///< NaN: uncovered
+  std::uint32_t triangle = 0;
+};
+
+class Judge {
+ public:
+  Judge(const PointSet& points, const PointPlaces& places, const Mesh& mesh, std::span<const std::uint32_t> judged,
+        const Box& box, double tolerance)
+      : points_(points), places_(places), mesh_(mesh), tolerance_(tolerance), grid_(box, judged.size()) {
+    grid_.fill([&](const auto& visit) {
+      for (const std::uint32_t t : judged) {
+        Facet facet;
+        if (get(t, facet)) visit(t, facet.plan);
+      }
+    });
+  }
+
+  Verdict judge(std::size_t place) const {
+    const std::size_t source = places_.source[place];
+    const double x = points_.x[source] - mesh_.origin[0], y = points_.y[source] - mesh_.origin[1];
+    const double z = places_.z[place];
+    Verdict verdict;
+    Facet facet;
+    for (const std::uint32_t t : grid_.bucket(grid_.col_of(x), grid_.row_of(y))) {
+      get(t, facet);
+      if (!facet.plan.contains(x, y)) continue;
+      std::array<double, 3> weights;
+      for (int k = 0; k < 3; ++k) weights[k] = std::max(0.0, facet.plan.weight(k, x, y));
+      take(verdict, settle_error(weights, facet.z, z), t);
+    }
+    if (std::isnan(verdict.error)) judge_beside(x, y, z, verdict);
+    return verdict;
+  }
+
+ private:
+  /// False if the triangle has no area seen from above.
+  bool get(std::uint32_t t, Facet& facet) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double* p = &mesh_.positions[3 * std::size_t{mesh_.triangles[3 * std::size_t{t} + k]}];
+      facet.plan.x[k] = p[0];
+      facet.plan.y[k] = p[1];
+      facet.z[k] = mesh_.origin[2] + p[2];
+    }
+    return make_counter_clockwise(facet);
+  }
+  /// The larger error counts; that of the lower triangle among equals.
+  static void take(Verdict& verdict, double error, std::uint32_t t) {
+    if (std::abs(error) <= std::abs(verdict.error)) return;
+    verdict = {error, t};
+  }
+  void judge_beside(double x, double y, double z, Verdict& verdict) const {
+    double nearest = tolerance_;
+    Facet facet;
+    for (int row = grid_.row_of(y - tolerance_); row <= grid_.row_of(y + tolerance_); ++row) {
+      for (int col = grid_.col_of(x - tolerance_); col <= grid_.col_of(x + tolerance_); ++col) {
+        for (const std::uint32_t t : grid_.bucket(col, row)) {
+          get(t, facet);
+          const double distance = facet.plan.distance(x, y);
+          if (!(distance <= nearest)) continue;
+          const Verdict beside{error_beside(facet, x, y, z, tolerance_), t};
+          if (distance == nearest && std::abs(beside.error) <= std::abs(verdict.error)) continue;
+          nearest = distance;
+          verdict = beside;
+        }
+      }
+    }
+  }
+
+  const PointSet& points_;
+  const PointPlaces& places_;
+  const Mesh& mesh_;
+  double tolerance_;
+  BucketGrid grid_;
+};
+
+/// The worst point of each triangle, and what is uncovered, in input order.
+class Offenders {
+ public:
+  void add(std::uint32_t triangle, std::uint32_t point, double error) { found_.push_back({triangle, point, error}); }
+  void add_uncovered(std::uint32_t point) { all_.push_back({static_cast<std::int32_t>(point), 0, HUGE_VAL}); }
+  std::vector<Offender> finish() {
+    std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
+      if (a.triangle != b.triangle) return a.triangle < b.triangle;
+      return std::abs(a.error) != std::abs(b.error) ? std::abs(a.error) > std::abs(b.error) : a.point < b.point;
+    });
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      if (i > 0 && found_[i].triangle == found_[i - 1].triangle) continue;
+      all_.push_back({static_cast<std::int32_t>(found_[i].point), 0, found_[i].error});
+    }
+    std::sort(all_.begin(), all_.end(), [](const Offender& a, const Offender& b) { return a.col < b.col; });
+    return std::move(all_);
+  }
+
+ private:
+  struct Found {
+    std::uint32_t triangle, point;
+    double error;
+  };
+  std::vector<Found> found_;
+  std::vector<Offender> all_;
+};
+
+void summarize(std::span<const double> errors, Measurement& result) {
+  Histogram histogram;
+  const RowSums sums = sum_row(errors, histogram);
+  result.samples = sums.samples;
+  result.max_error = std::max(0.0, sums.largest);
+  result.max_error_at = {sums.largest_at, sums.largest_at < 0 ? -1 : 0};
+  if (sums.samples > 0) {
+    const auto count = static_cast<double>(sums.samples);
+    result.mean_error = sums.error / count;
+    result.mean_abs_error = sums.magnitude / count;
+    result.rmse = std::sqrt(sums.square / count);
+  }
+  const auto percentile = [&](unsigned permille) { return std::min(histogram.percentile(permille), result.max_error); };
+  result.p50 = percentile(500);
+  result.p95 = percentile(950);
+  result.p99 = percentile(990);
+  result.p999 = percentile(999);
+}
+
+}  // namespace
+
+Result<Measurement> judge_points(const PointSet& points, const PointPlaces& places, const Mesh& mesh,
+                                 const MeasureOptions& options) {
+  if (auto checked = check(mesh, options); !checked) return tl::unexpected(checked.error());
+  ProgressGate gate(options.progress);
+  const auto cancelled = [] { return fail(ErrorKind::kCancelled, "measuring was cancelled"); };
+
+  Measurement result;
+  result.vertices = mesh.vertex_count();
+  result.triangles = mesh.triangle_count();
+  std::vector<std::uint32_t> all, upward;
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+    const double* a = &mesh.positions[3 * std::size_t{mesh.triangles[3 * std::size_t{t}]}];
+    const double* b = &mesh.positions[3 * std::size_t{mesh.triangles[3 * std::size_t{t} + 1]}];
+    const double* c = &mesh.positions[3 * std::size_t{mesh.triangles[3 * std::size_t{t} + 2]}];
+    all.push_back(t);
+    if ((b[0] - a[0]) * (c[1] - a[1]) > (b[1] - a[1]) * (c[0] - a[0])) upward.push_back(t);
+  }
+  std::vector<std::uint32_t> welded;
+  EdgeReport edges;
+  if (options.topology || upward.size() < all.size()) {
+    welded = weld_vertices(mesh);
+    edges = check_edges(mesh, welded);
+    result.closed = edges.open.empty();
+  }
+  const std::vector<std::uint32_t>& judged = result.closed ? upward : all;
+
+  Box box;
+  for (const std::uint32_t source : places.source)
+    box.include(points.x[source] - mesh.origin[0], points.y[source] - mesh.origin[1]);
+  const double area = (box.x1 - box.x0) * (box.y1 - box.y0);
+  const double tolerance = options.coverage_tolerance * std::sqrt(area / static_cast<double>(places.size()));
+  const Judge judge(points, places, mesh, judged, box, tolerance);
+
+  std::vector<double> errors(points.size(), kNone);
+  std::vector<std::uint32_t> triangles(options.collect_above ? places.size() : 0);
+  constexpr std::size_t kChunk = 1 << 14;
+  const std::size_t chunks = (places.size() + kChunk - 1) / kChunk;
+  const std::size_t window = 4 * static_cast<std::size_t>(std::min(thread_count(options.threads), 1024));
+  for (std::size_t first = 0; first < chunks; first += window) {
+    if (!gate.go_on("measure", static_cast<double>(first) / static_cast<double>(chunks))) return cancelled();
+    parallel_for(std::min(window, chunks - first), options.threads, [&](std::size_t i) {
+      const std::size_t begin = (first + i) * kChunk, end = std::min(places.size(), begin + kChunk);
+      for (std::size_t place = begin; place < end; ++place) {
+        const Verdict verdict = judge.judge(place);
+        errors[places.source[place]] = verdict.error;
+        if (options.collect_above) triangles[place] = verdict.triangle;
+      }
+    });
+  }
+  Offenders offenders;
+  for (std::size_t place = 0; place < places.size(); ++place) {
+    const std::uint32_t source = places.source[place];
+    const double error = errors[source];
+    result.uncovered += std::isnan(error);
+    if (!options.collect_above) continue;
+    if (std::isnan(error)) {
+      offenders.add_uncovered(source);
+    } else if (std::abs(error) > *options.collect_above) {
+      offenders.add(triangles[place], source, error);
+    }
+  }
+  result.offenders = offenders.finish();
+  summarize(errors, result);
+  if (options.on_row) {
+    const std::vector<float> row(errors.begin(), errors.end());
+    options.on_row(0, row);
+  }
+
+  if (options.topology) {
+    if (!gate.go_on("topology", 0)) return cancelled();
+    result.open_edges = edges.open.size();
+    result.misoriented_edges = edges.misoriented;
+    result.non_manifold_edges = edges.non_manifold;
+    result.border_loops = edges.loops;
+    measure_shape(mesh, judged, result);
+    result.t_junctions = count_t_junctions(mesh, welded, edges.open);
+    result.gaps = count_hull_gaps(points, places, mesh, edges.open, tolerance);
+    bool is_stopped = false;
+    result.overlaps = count_overlaps(mesh, judged, options.threads, [&](double fraction) {
+      is_stopped = !gate.go_on("topology", fraction);
+      return !is_stopped;
+    });
+    if (is_stopped) return cancelled();
+  }
+  return result;
+}
+
+}  // namespace scarp::judge
+
+namespace scarp {
+
+Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates,
+                                   const MeasureOptions& options) try {
+  auto places = find_places(points, duplicates);
+  if (!places) return tl::unexpected(places.error());
+  return judge::judge_points(points, *places, mesh, options);
+} catch (...) {
+  return caught(ErrorKind::kInput, "measure the mesh");
+}
+
+}  // namespace scarp

@@ -1,0 +1,16 @@
+// Judging a mesh at scattered points.
+#pragma once
+
+#include "grid/point_places.h"
+#include "scarp/measure.h"
+#include "scarp/mesh.h"
+#include "scarp/points.h"
+#include "scarp/result.h"
+
+namespace scarp::judge {
+
+/// measure_points() where duplicates are given up already.
+Result<Measurement> judge_points(const PointSet& points, const PointPlaces& places, const Mesh& mesh,
+                                 const MeasureOptions& options);
+
+}  // namespace scarp::judge

@@ -1,0 +1,252 @@
+// Laws of scattered points: the promise, the oracle, the judge, and the raster that is a set of points.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "grid/point_places.h"
+#include "laws/fields.h"
+#include "laws/point_sets.h"
+#include "refine/scattered.h"
+#include "scarp/points.h"
+
+namespace scarp {
+namespace {
+
+using testing::Heights;
+using testing::Scatter;
+
+Scatter any_scatter() {
+  return *rc::gen::elementOf(std::vector<Scatter>(std::begin(testing::kScatters), std::end(testing::kScatters)));
+}
+
+PointSet any_points(int most, Scatter scatter, Heights heights) {
+  return testing::random_points(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(3, most), scatter, heights);
+}
+
+/// False where all places lie on one line: nothing can be promised there.
+bool has_area(const PointSet& points) {
+  const auto places = find_places(points, DuplicatePolicy::kFirst);
+  return places && build_domain(*places).has_value();
+}
+
+/// Largest |mesh − z| over the points, by the textbook: every point against every triangle, in barycentric coordinates.
+/// `missed` counts points in no triangle.
+double naive_error(const PointSet& points, const PointPlaces& places, const Mesh& mesh, int& missed) {
+  double worst = 0;
+  missed = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double x = points.x[places.source[i]] - mesh.origin[0], y = points.y[places.source[i]] - mesh.origin[1];
+    double error = -1;
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+      const double* p[3];
+      for (std::size_t k = 0; k < 3; ++k) p[k] = &mesh.positions[3 * std::size_t{mesh.triangles[3 * t + k]}];
+      const auto area = [](double ax, double ay, double bx, double by, double cx, double cy) {
+        return (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
+      };
+      const double whole = area(p[0][0], p[0][1], p[1][0], p[1][1], p[2][0], p[2][1]);
+      const double u = area(x, y, p[1][0], p[1][1], p[2][0], p[2][1]) / whole,
+                   v = area(p[0][0], p[0][1], x, y, p[2][0], p[2][1]) / whole, w = 1 - u - v;
+      if (std::min({u, v, w}) < -1e-9) continue;
+      error = std::max(error, std::abs(u * p[0][2] + v * p[1][2] + w * p[2][2] - places.z[i]));
+    }
+    missed += error < 0;
+    worst = std::max(worst, error);
+  }
+  return worst;
+}
+
+RC_GTEST_PROP(points, keep_the_promise_in_the_eyes_of_the_textbook, ()) {
+  const Scatter scatter = any_scatter();
+  const PointSet points = any_points(120, scatter, *rc::gen::element(Heights::kReal, Heights::kSteps));
+  RC_PRE(has_area(points));
+  const double goal = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
+  const auto policy = *rc::gen::element(DuplicatePolicy::kFirst, DuplicatePolicy::kLast, DuplicatePolicy::kHighest,
+                                        DuplicatePolicy::kLowest, DuplicatePolicy::kMean);
+  const auto result = simplify_points(points, {.max_error = goal, .float32_positions = false}, policy);
+  if (!result) RC_FAIL(result.error().message);
+  const Measurement& m = result->simplified.measurement;
+  const auto places = *find_places(points, policy);
+  RC_ASSERT(m.is_sound());
+  RC_ASSERT(m.border_loops == 1u);
+  RC_ASSERT(m.uncovered == 0u);
+  RC_ASSERT(m.samples + result->duplicates == points.size());
+  RC_ASSERT(m.max_error <= goal + 1e-12 * (goal + 50));
+  int missed = 0;
+  const double naive = naive_error(points, places, result->simplified.mesh, missed);
+  RC_ASSERT(missed == 0);
+  RC_ASSERT(std::abs(naive - m.max_error) < 1e-5);
+}
+
+RC_GTEST_PROP(points, are_the_vertices_and_no_vertex_is_anything_else, ()) {
+  const PointSet points = any_points(120, any_scatter(), Heights::kReal);
+  RC_PRE(has_area(points));
+  const auto result = simplify_points(points, {.max_error = 5.0, .float32_positions = false});
+  if (!result) RC_FAIL(result.error().message);
+  const Mesh& mesh = result->simplified.mesh;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    bool is_point = false;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double off = std::hypot(mesh.vertex(v)[0] - points.x[i], mesh.vertex(v)[1] - points.y[i]);
+      is_point =
+          is_point || (off <= 1e-15 * std::hypot(points.x[i], points.y[i]) + 1e-16 && mesh.vertex(v)[2] == points.z[i]);
+    }
+    RC_ASSERT(is_point);
+  }
+}
+
+RC_GTEST_PROP(points, keep_the_promise_in_float32_or_say_that_they_cannot, ()) {
+  const PointSet points = any_points(120, any_scatter(), *rc::gen::element(Heights::kReal, Heights::kSteps));
+  RC_PRE(has_area(points));
+  const double goal = *rc::gen::element(0.0, 0.5, 3.0, 20.0);
+  const auto result = simplify_points(points, {.max_error = goal});
+  if (!result) {
+    RC_ASSERT(result.error().kind == ErrorKind::kPromise);
+    return;
+  }
+  const auto judged = *measure_points(points, result->simplified.mesh, DuplicatePolicy::kFirst);
+  RC_ASSERT(judged.max_error <= goal + 1e-12 * (goal + 50));
+  RC_ASSERT(judged.is_sound());
+  for (const double position : result->simplified.mesh.positions)
+    RC_ASSERT(double{static_cast<float>(position)} == position);
+}
+
+/// Algorithm I: look at everything before each insertion.
+std::vector<std::uint32_t> insert_by_brute_force(const PointPlaces& places, double threshold) {
+  ScatteredDomain domain = *build_domain(places);
+  for (;;) {
+    Candidate worst{-1, {}};
+    std::uint32_t worst_place = kNone;
+    for (Triangle t = 0; t < domain.tin.triangle_count(); ++t) {
+      if (domain.tin.is_outside(t)) continue;
+      const auto corners = domain.tin.corners(t);
+      std::array<double, 3> heights;
+      for (std::uint32_t k = 0; k < 3; ++k) heights[k] = places.z[domain.place_of[domain.tin.origin(3 * t + k)]];
+      const Plane plane = Plane::through_double(corners, heights);
+      for (std::uint32_t place = 0; place < places.size(); ++place) {
+        const Point p = places.at[place];
+        bool is_inside = true;
+        for (int k = 0; k < 3; ++k) is_inside = is_inside && orient(corners[k], corners[(k + 1) % 3], p) >= 0;
+        const bool is_corner = p == corners[0] || p == corners[1] || p == corners[2];
+        const Candidate candidate{std::abs(plane.height_at(p) - places.z[place]), p};
+        if (!is_inside || is_corner || !(candidate.error > threshold) || !is_worse(candidate, worst)) continue;
+        worst = candidate;
+        worst_place = place;
+      }
+    }
+    if (worst_place == kNone) return domain.place_of;
+    domain.insert(worst_place, worst.at, domain.tin.locate(worst.at, 0));
+  }
+}
+
+RC_GTEST_PROP(points, are_inserted_in_the_order_of_brute_force, ()) {
+  const PointSet points = any_points(70, any_scatter(), Heights::kReal);
+  RC_PRE(has_area(points));
+  const double goal = *rc::gen::element(0.0, 1.0, 10.0);
+  const auto places = *find_places(points, DuplicatePolicy::kFirst);
+  ScatteredDomain domain = *build_domain(places);
+  ScatteredRefinement refinement(places, places.z, domain, goal);
+  std::uint64_t triangles = refinement.triangle_count();
+  while (!refinement.done()) {
+    triangles += refinement.next_gain();
+    refinement.insert_worst();
+    RC_ASSERT(refinement.triangle_count() == triangles);
+  }
+  const auto expected = insert_by_brute_force(places, goal);
+  if (goal > 0) {
+    RC_ASSERT(domain.place_of == expected);
+  } else {
+    // Points that a plane explains up to rounding are told apart exactly by the engine only.
+    const std::size_t common = std::min(domain.place_of.size(), expected.size());
+    RC_ASSERT(
+        std::equal(expected.begin(), expected.begin() + static_cast<std::ptrdiff_t>(common), domain.place_of.begin()));
+  }
+}
+
+RC_GTEST_PROP(points, keep_their_budgets, ()) {
+  const PointSet points = any_points(200, any_scatter(), Heights::kReal);
+  RC_PRE(has_area(points));
+  const std::uint64_t budget = *rc::gen::inRange<std::uint64_t>(3, 120);
+  const auto by_vertices = simplify_points(points, {.max_vertices = budget, .float32_positions = false});
+  if (by_vertices) RC_ASSERT(by_vertices->simplified.mesh.vertex_count() <= budget);
+  if (!by_vertices) RC_ASSERT(by_vertices.error().kind == ErrorKind::kUsage);
+  const auto by_triangles = simplify_points(points, {.max_triangles = budget, .float32_positions = false});
+  if (by_triangles) RC_ASSERT(by_triangles->simplified.mesh.triangle_count() <= budget);
+  if (!by_triangles) RC_ASSERT(by_triangles.error().kind == ErrorKind::kUsage);
+}
+
+RC_GTEST_PROP(points, give_the_same_mesh_in_any_order_and_on_any_number_of_threads, ()) {
+  const PointSet points = any_points(150, any_scatter(), *rc::gen::element(Heights::kReal, Heights::kSteps));
+  RC_PRE(has_area(points));
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
+  std::shuffle(order.begin(), order.end(), random);
+  PointSet shuffled;
+  for (const std::size_t i : order) {
+    shuffled.x.push_back(points.x[i]);
+    shuffled.y.push_back(points.y[i]);
+    shuffled.z.push_back(points.z[i]);
+  }
+  const SimplifyOptions one{.max_error = 1.0, .float32_positions = false, .threads = 1};
+  const SimplifyOptions four{.max_error = 1.0, .float32_positions = false, .threads = 4};
+  const auto a = simplify_points(points, one, DuplicatePolicy::kHighest);
+  const auto b = simplify_points(shuffled, four, DuplicatePolicy::kHighest);
+  if (!a || !b) RC_FAIL("not simplified");
+  RC_ASSERT(a->simplified.mesh.positions == b->simplified.mesh.positions);
+  RC_ASSERT(a->simplified.mesh.triangles == b->simplified.mesh.triangles);
+  RC_ASSERT(a->duplicates == b->duplicates);
+}
+
+RC_GTEST_PROP(points, that_differ_keep_places_of_their_own, ()) {
+  const Scatter scatter = any_scatter();
+  const PointSet points = any_points(300, scatter, Heights::kReal);
+  std::map<std::pair<double, double>, int> distinct;
+  for (std::size_t i = 0; i < points.size(); ++i) ++distinct[{points.x[i], points.y[i]}];
+  const auto places = *find_places(points, DuplicatePolicy::kFirst);
+  RC_ASSERT(places.size() == distinct.size());
+  RC_ASSERT(places.duplicates == points.size() - distinct.size());
+  const auto [west, east] = std::minmax_element(points.x.begin(), points.x.end());
+  const double extent = std::max(*east - *west, *std::max_element(points.y.begin(), points.y.end()) -
+                                                    *std::min_element(points.y.begin(), points.y.end()));
+  const double off = scatter == Scatter::kUtm ? 1e-9 : 0.51 * places.lattice.step + 1e-15 * extent;
+  const double north = *std::max_element(points.y.begin(), points.y.end());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Point p = places.at[i];
+    RC_ASSERT(p.x >= 0 && p.y >= 0 && p.x < places.lattice.cols && p.y < places.lattice.rows);
+    RC_ASSERT(std::abs(*west + p.x * places.lattice.step - points.x[places.source[i]]) <= off);
+    RC_ASSERT(std::abs(north - p.y * places.lattice.step - points.y[places.source[i]]) <= off);
+  }
+}
+
+RC_GTEST_PROP(points, of_a_raster_give_the_mesh_of_the_raster, ()) {
+  const auto cols = *rc::gen::inRange(2, 30), rows = *rc::gen::inRange(2, 30);
+  const auto field = testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), cols, rows,
+                                           *rc::gen::element(testing::Relief::kReal, testing::Relief::kRidges));
+  const double spacing = *rc::gen::element(1.0, 0.25, 30.0);
+  PointSet points;
+  for (std::int32_t y = 0; y < rows; ++y) {
+    for (std::int32_t x = 0; x < cols; ++x) {
+      points.x.push_back(500015 + spacing * x);
+      points.y.push_back(spacing * (rows - 1 - y));
+      points.z.push_back(field.samples[static_cast<std::size_t>(y * cols + x)]);
+    }
+  }
+  const SimplifyOptions options{.max_error = *rc::gen::element(0.5, 5.0, 20.0), .float32_positions = false};
+  const auto scattered = simplify_points(points, options);
+  const auto raster = simplify(field.view(), options);
+  if (!scattered) RC_FAIL(scattered.error().message);
+  RC_ASSERT(scattered->lattice_step == spacing);
+  std::set<std::array<double, 3>> a, b;
+  const Mesh &m = scattered->simplified.mesh, &n = raster->mesh;
+  for (std::size_t v = 0; v < m.vertex_count(); ++v)
+    a.insert({(m.vertex(v)[0] - 500015) / spacing, m.vertex(v)[1] / spacing, m.vertex(v)[2]});
+  for (std::size_t v = 0; v < n.vertex_count(); ++v) b.insert(n.vertex(v));
+  RC_ASSERT(a == b);
+}
+
+}  // namespace
+}  // namespace scarp
