@@ -4,16 +4,21 @@ _scarp() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} verb='' word
   COMPREPLY=()
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
-    case $word in simplify | measure | info) verb=$word && break ;; esac
+    case $word in simplify | measure | info | generate | paper) verb=$word && break ;; esac
   done
 
   if [[ -z $verb ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure info --help --version' -- "$current"))
+    COMPREPLY=($(compgen -W 'simplify measure info generate paper --help --version' -- "$current"))
     return
   fi
 
   case $previous in
-    --of) COMPREPLY=($(compgen -W 'glb obj ply stl tin svg eps dem' -- "$current")) && return ;;
+    --of)
+      local formats='glb obj ply stl tin svg eps dem'
+      [[ $verb == generate ]] && formats='tif pgm'
+      COMPREPLY=($(compgen -W "$formats" -- "$current")) && return
+      ;;
+    --data | --out) COMPREPLY=($(compgen -d -- "$current")) && return ;;
     --decode) COMPREPLY=($(compgen -W 'terrarium mapbox' -- "$current")) && return ;;
     --nodata-policy) COMPREPLY=($(compgen -W 'hole fill background' -- "$current")) && return ;;
     --crs) COMPREPLY=($(compgen -W 'source local grid EPSG:' -- "$current")) && return ;;
@@ -31,7 +36,8 @@ _scarp() {
       return
       ;;
     -e | --max-error | -t | --max-triangles | -p | --max-points | --band | --nodata | --fill-distance | --background | \
-      --outline-tolerance | --base | --shape-threshold | --supersample | --texture-weight | --channel-weights | -j | --num-threads | --fail-above)
+      --outline-tolerance | --base | --shape-threshold | --supersample | --texture-weight | --channel-weights | -j | \
+      --num-threads | --fail-above | --seed | --range | --size)
       return
       ;;
   esac
@@ -39,6 +45,8 @@ _scarp() {
   if [[ $current == -* ]]; then
     local options='--help --version --band --nodata --decode --crs --quiet --json-progress'
     case $verb in
+      generate) options='--help --version --seed --range --size --of --overwrite --quiet' ;;
+      paper) options='--help --version --data --out --no-timing --overwrite --quiet' ;;
       simplify)
         options+=' --max-error --max-triangles --max-points --nodata-policy --fill-distance --background'
         options+=' --outline-tolerance --of --normals --base --preview --report --overwrite --num-threads'
@@ -53,6 +61,11 @@ _scarp() {
       info) options+=' --json' ;;
     esac
     COMPREPLY=($(compgen -W "$options" -- "$current"))
+    return
+  fi
+  if [[ $verb == generate && $COMP_CWORD -eq 2 ]]; then
+    COMPREPLY=($(compgen -W 'cliff step sharp-step diagonal-step sharp-diagonal-step parabola paraboloid
+      scaled-paraboloid pyramid diagonal-pyramid fractal' -- "$current"))
     return
   fi
   COMPREPLY=($(compgen -f -- "$current"))

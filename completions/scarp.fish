@@ -3,6 +3,8 @@
 complete -c scarp -n __fish_use_subcommand -f -a simplify -d 'Turn a raster into a small mesh with a proven error bound'
 complete -c scarp -n __fish_use_subcommand -f -a measure -d 'Judge a mesh file against its raster'
 complete -c scarp -n __fish_use_subcommand -f -a info -d 'Describe a raster and suggest errors for it'
+complete -c scarp -n __fish_use_subcommand -f -a generate -d 'Make a synthetic raster of heights'
+complete -c scarp -n __fish_use_subcommand -f -a paper -d 'Repeat the experiments of the report'
 
 complete -c scarp -s h -l help -d 'Print help'
 complete -c scarp -l version -d 'Print the version'
@@ -54,3 +56,14 @@ complete -c scarp -n '__fish_seen_subcommand_from simplify' -l report -r -d 'Num
 
 complete -c scarp -n '__fish_seen_subcommand_from measure' -l fail-above -x -d 'Exit code 3 if any error is above this'
 complete -c scarp -n '__fish_seen_subcommand_from measure' -l map -r -d 'Signed errors in colours (PNG)'
+
+complete -c scarp -n '__fish_seen_subcommand_from generate' -f -a 'cliff step sharp-step diagonal-step sharp-diagonal-step parabola paraboloid scaled-paraboloid pyramid diagonal-pyramid fractal'
+complete -c scarp -n '__fish_seen_subcommand_from generate' -l seed -x -d 'Which fractal'
+complete -c scarp -n '__fish_seen_subcommand_from generate' -l range -x -d 'Stretch the heights to 0 ... R'
+complete -c scarp -n '__fish_seen_subcommand_from generate' -l size -x -d 'Side of a cell'
+complete -c scarp -n '__fish_seen_subcommand_from generate' -l of -x -a 'tif pgm' -d 'Raster format'
+complete -c scarp -n '__fish_seen_subcommand_from paper' -l data -r -d 'Folder with the rasters'
+complete -c scarp -n '__fish_seen_subcommand_from paper' -l out -r -d 'Folder for paper.md and its pictures'
+complete -c scarp -n '__fish_seen_subcommand_from paper' -l no-timing -d 'Leave out times and memory'
+complete -c scarp -n '__fish_seen_subcommand_from generate paper' -l overwrite -d 'Replace files that exist'
+complete -c scarp -n '__fish_seen_subcommand_from generate paper' -s q -l quiet -d 'No summary'

@@ -1,11 +1,12 @@
 // Scripts: one step a line.
+#include "io/script.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "base/caught.h"
 #include "io/mesh_file_text.h"
-#include "scarp/io.h"
 
 namespace scarp {
 namespace {
@@ -48,19 +49,24 @@ std::string read_line(TextCursor& cursor, int cols, int rows, std::vector<Script
 
 }  // namespace
 
-Result<std::vector<ScriptStep>> read_script(const std::string& path, int cols, int rows) try {
-  auto bytes = read_file(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  TextCursor cursor(*bytes);
+Result<std::vector<ScriptStep>> decode_script(std::span<const std::uint8_t> bytes, const std::string& name, int cols,
+                                              int rows) {
+  TextCursor cursor(bytes);
   std::vector<ScriptStep> steps;
   while (!cursor.at_end()) {
     const std::size_t line = cursor.line();
     if (const std::string why = read_line(cursor, cols, rows, steps); !why.empty()) {
-      return fail(ErrorKind::kInput, fmt::format("{}: line {}: {}", path, line, why));
+      return fail(ErrorKind::kInput, fmt::format("{}: line {}: {}", name, line, why));
     }
     cursor.rest_of_line();
   }
   return steps;
+}
+
+Result<std::vector<ScriptStep>> read_script(const std::string& path, int cols, int rows) try {
+  auto bytes = read_file(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return decode_script(*bytes, path, cols, rows);
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + path);
 }
