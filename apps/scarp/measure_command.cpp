@@ -27,6 +27,7 @@ MeasureCommand::MeasureCommand(CLI::App& program)
       *verb_,
       "Coordinates of the mesh: source, local, grid or a CRS\nsuch as EPSG:32611. Default: what the mesh file "
       "says of\nitself, else what simplify does by default");
+  points_.add_to(*verb_);
   verb_
       ->add_option("--fail-above", fail_above_,
                    "End with exit code 3 if any error is above this (units\nof the heights; weighted, with a mask; "
@@ -161,6 +162,12 @@ Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judg
 
 Result<void> MeasureCommand::run(const std::string& command_line) const {
   const Clock::time_point start = Clock::now();
+  if (points_.are_meant(raster_.path)) {
+    return run_measure_points(*verb_,
+                              {raster_.path, mesh_, raster_.crs, fail_above_, threads_, json_, quiet_, json_progress_},
+                              points_, command_line);
+  }
+  if (auto unused = points_.check_unused(raster_.path); !unused) return unused;
   Judged judged;
   const Result<ReadOptions> read = raster_.parse();
   if (!read) return tl::unexpected(read.error());

@@ -8,6 +8,7 @@
 #include "companions.h"
 #include "measure_report.h"
 #include "options.h"
+#include "points_command.h"
 
 namespace scarp::cli {
 
@@ -30,6 +31,7 @@ class MeasureCommand {
 
   CLI::App* verb_;
   RasterArguments raster_;
+  PointsArguments points_;
   std::string mesh_;
   CompanionArguments companions_;
   ChannelArguments channels_;

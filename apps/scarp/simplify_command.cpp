@@ -110,10 +110,13 @@ SimplifyCommand::SimplifyCommand(CLI::App& program)
     : verb_(
           program.add_subcommand("simplify", "Turn a raster of heights into a small mesh with a proven error bound")) {
   given_.add_to(*verb_);
+  points_.add_to(*verb_);
 }
 
 Result<void> SimplifyCommand::run(const std::string& command_line) const {
   const Clock::time_point start = Clock::now();
+  if (points_.are_meant(given_.raster.path)) return run_simplify_points(*verb_, given_, points_, command_line);
+  if (auto unused = points_.check_unused(given_.raster.path); !unused) return unused;
   Result<SimplifyPlan> plan = plan_simplify(given_);
   if (!plan) return tl::unexpected(std::move(plan.error()));
 
