@@ -3,6 +3,7 @@
 #include "grid/raster.h"
 #include "refine/domain.h"
 #include "refine/freeze.h"
+#include "refine/height_judge.h"
 #include "refine/refinement.h"
 #include "refine/samples.h"
 #include "scarp/simplify.h"
@@ -15,11 +16,13 @@ struct Refiner::Impl {
         samples(std::move(samples_)),
         raster(samples.raster()),
         domain(std::move(domain_)),
-        refinement(raster, domain.tin, 0) {}
+        judge(raster, 0),
+        refinement(judge, domain.tin) {}
   HeightField field;
   Samples samples;
   Raster raster;
   Domain domain;
+  HeightJudge judge;
   Refinement refinement;
 };
 

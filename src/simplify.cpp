@@ -14,11 +14,14 @@
 #include <utility>
 #include <vector>
 
+#include "criterion.h"
 #include "grid/raster.h"
+#include "proof.h"
 #include "refine/domain.h"
 #include "refine/freeze.h"
 #include "refine/refinement.h"
 #include "refine/samples.h"
+#include "refine/settle_edges.h"
 
 namespace scarp {
 
@@ -29,8 +32,8 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 Result<void> check_goals(const HeightField& field, const SimplifyOptions& options) {
-  if (!options.max_error && !options.max_triangles && !options.max_vertices)
-    return fail(ErrorKind::kUsage, "no goal given: set max_error, max_triangles or max_vertices");
+  if (!options.max_error && !options.max_triangles && !options.max_vertices && options.tolerance.empty())
+    return fail(ErrorKind::kUsage, "no goal given: set max_error, max_triangles, max_vertices or tolerance");
   if (options.max_error && !(*options.max_error >= 0 && std::isfinite(*options.max_error)))
     return fail(ErrorKind::kUsage,
                 fmt::format("max_error must be a finite number of at least 0, not {}", *options.max_error));
@@ -78,33 +81,31 @@ class Reporter {
   double fraction_ = 0;
 };
 
-/// goal − reserve, rounded down.
-double tightened(double goal, double reserve) {
-  return reserve > 0 ? std::max(0.0, std::nextafter(goal - reserve, 0.0)) : goal;
-}
-
 /// One run of the engine towards the goals.
 class Run {
  public:
-  Run(const HeightField& field, const Raster& raster, const SimplifyOptions& options, Domain domain)
+  Run(const HeightField& field, const Raster& raster, const SimplifyOptions& options, const Criterion& criterion,
+      Domain domain)
       : field_(field),
         raster_(raster),
         options_(options),
-        bound_(options.max_error ? tightened(*options.max_error, field.sample_rounding) : 0),
+        criterion_(criterion),
         domain_(std::move(domain)),
-        seeds_(domain_->tin.vertex_count()),
-        refinement_(std::in_place, raster, domain_->tin, bound_),
         exact_(field.frame.is_affine() &&
                (!options.float32_positions || offsets_are_exact(field.frame, field.cols, field.rows))),
-        reporter_(options.progress) {}
+        reporter_(options.progress) {
+    follow_script();
+    refinement_.emplace(criterion.judge(), domain_->tin, options.algorithm, options.edges);
+  }
 
   Result<Simplified> execute() {
     const auto start = Clock::now();
     if (auto fits = check_budget(*domain_, refinement_->triangle_count(), options_); !fits)
       return tl::unexpected(fits.error());
     Simplified result;
+    result.ignored = criterion_.ignored();
     if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
-    take_best_prefix();
+    finish_edges(result);
     // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
     // proof.
     const bool final = result.stop != StopReason::kMaxError || exact_;
@@ -113,11 +114,26 @@ class Run {
     if (final) domain_.reset();
     optimize_order(result.mesh);
     result.seconds_refine = seconds_since(start);
-    if (auto proven = prove(result); !proven) return tl::unexpected(proven.error());
+    if (auto proven = prove_and_mend(result); !proven) return tl::unexpected(proven.error());
     return result;
   }
 
  private:
+  /// Inserts what the script wants; samples outside the domain cannot become vertices.
+  void follow_script() {
+    for (const ScriptStep& step : options_.script) {
+      if (step.action == ScriptStep::Action::kInsert) insert_seed({step.col, step.row});
+    }
+    seeds_ = domain_->tin.vertex_count();
+  }
+  void insert_seed(Point p) {
+    const Triangulation& tin = domain_->tin;
+    const auto location = tin.locate(p, tin.last_touched());
+    const HalfEdge twin = location.kind == Triangulation::Location::Kind::kOnEdge ? tin.twin(location.edge) : kNone;
+    const bool inside = !tin.is_outside(location.edge / 3) || (twin != kNone && !tin.is_outside(twin / 3));
+    if (inside && raster_.is_valid(p)) domain_->tin.insert(p, location);
+  }
+
   std::uint64_t vertices() const { return domain_->tin.vertex_count() - domain_->unused; }
 
   /// The budget that one more vertex with `gain` more triangles would break.
@@ -129,10 +145,12 @@ class Run {
   }
 
   std::optional<StopReason> reached() const {
-    if (refinement_->done()) return options_.max_error ? StopReason::kMaxError : StopReason::kExact;
+    if (refinement_->done()) return criterion_.has_error_goal() ? StopReason::kMaxError : StopReason::kExact;
     return exceeded(refinement_->next_gain());
   }
 
+  /// Every way of refinement is steps of one or more insertions, with a look at goals, progress and the best prefix
+  /// after each.
   Result<void> refine(StopReason& stop) {
     const double first_error = refinement_->worst_error();
     best_ = {domain_->tin.vertex_count(), in_last_stretch() ? first_error : std::numeric_limits<double>::infinity()};
@@ -143,13 +161,53 @@ class Run {
       }
       if (refinement_->is_full())
         return fail(ErrorKind::kInput, "the mesh would have more than 1,431 million triangles: allow a larger error");
-      if ((step < 1024 || step % 256 == 0) && reporter_.due() &&
+      if ((step < 1024 || step % 256 == 0 || options_.batch.rule != Batch::Rule::kSequential) && reporter_.due() &&
           !reporter_.report("refine", fraction(first_error), vertices(), refinement_->worst_error()))
         return fail(ErrorKind::kCancelled, "cancelled while refining");
-      refinement_->insert_worst();
+      if (const auto budget = take_step()) {
+        stop = *budget;
+        return {};
+      }
       if (in_last_stretch() && refinement_->worst_error() <= best_.error)
         best_ = {domain_->tin.vertex_count(), refinement_->worst_error()};
     }
+  }
+
+  /// Returns the budget that stopped it. REQUIRES: !reached().
+  std::optional<StopReason> take_step() {
+    if (options_.batch.rule != Batch::Rule::kSequential) return insert_batch();
+    if (options_.importance.one_pass) return insert_ranked();
+    refinement_->insert_worst();
+    return std::nullopt;
+  }
+
+  std::optional<StopReason> insert_batch() {
+    std::optional<StopReason> budget;
+    for (const auto& [candidate, triangle] : refinement_->collect(options_.batch)) {
+      if (options_.batch.rule == Batch::Rule::kIndependent && refinement_->has_changed(triangle)) continue;
+      const std::uint32_t gain = refinement_->gain_near(candidate.at, triangle);
+      if (gain == 0) continue;  // on an edge, named by both triangles
+      budget = exceeded(gain);
+      if (budget || refinement_->is_full()) break;
+      refinement_->insert_unseen(candidate.at, triangle);
+    }
+    refinement_->rescan_changed();
+    return budget;
+  }
+
+  std::optional<StopReason> insert_ranked() {
+    if (!ranking_) ranking_ = criterion_.ranking();
+    while (ranked_ < ranking_->size()) {
+      const Point p = (*ranking_)[ranked_];
+      const std::uint32_t gain = refinement_->gain_at(p);
+      if (const auto budget = gain == 0 ? std::nullopt : exceeded(gain)) return budget;
+      ++ranked_;
+      if (gain == 0) continue;
+      refinement_->insert(p);
+      return std::nullopt;
+    }
+    refinement_->insert_worst();
+    return std::nullopt;
   }
 
   double fraction(double first_error) const {
@@ -160,13 +218,15 @@ class Run {
           fraction, static_cast<double>(refinement_->triangle_count()) / static_cast<double>(*options_.max_triangles));
     // The error falls about as the square root of the vertices grows: work done is a ratio of squares.
     const double error = refinement_->worst_error();
-    if (options_.max_error && bound_ > 0 && first_error > bound_)
-      fraction = std::max(fraction, bound_ * bound_ / (error * error));
+    const double goal = criterion_.judge().goal();
+    if (criterion_.has_error_goal() && goal > 0 && first_error > goal)
+      fraction = std::max(fraction, goal * goal / (error * error));
     return fraction;
   }
 
   /// The last 5 % of what the budget allows: where the best prefix is looked for.
   bool in_last_stretch() const {
+    if (!options_.best_of_budget || !criterion_.importance_is_error() || options_.importance.one_pass) return false;
     const auto last = [](std::uint64_t count, const std::optional<std::uint64_t>& most) {
       return most && static_cast<double>(count) >= 0.95 * static_cast<double>(*most);
     };
@@ -181,18 +241,43 @@ class Run {
     for (std::size_t v = seeds_; v < best_.vertices; ++v) points.push_back(domain_->tin.point(static_cast<Vertex>(v)));
     refinement_.reset();
     domain_ = *build_domain(raster_, options_.outline_tolerance, field_.frame);
-    for (Point p : points) domain_->tin.insert(p, domain_->tin.locate(p, domain_->tin.last_touched()));
+    follow_script();
+    std::optional<DataDependentRule> rule;
+    if (options_.edges.data_dependent) rule.emplace(criterion_.judge(), options_.edges);
+    Triangulation& tin = domain_->tin;
+    for (Point p : points) {
+      const auto location = tin.locate(p, tin.last_touched());
+      rule ? rule->insert(tin, p, location) : tin.insert(p, location);
+    }
+  }
+
+  void finish_edges(Simplified& result) {
+    result.effort = refinement_->effort();
+    take_best_prefix();
+    const Effort settling =
+        settle_edges(domain_->tin, criterion_.judge(), options_.edges, result.stop == StopReason::kMaxError);
+    result.effort.samples_scanned += settling.samples_scanned;
+    result.effort.triangles_scanned += settling.triangles_scanned;
   }
 
   void freeze_into(Simplified& result) const {
     result.mesh = freeze(raster_, domain_->tin, field_.frame, options_.float32_positions);
-    if (options_.normals) result.mesh.normals = sample_normals(raster_, field_.frame, frozen_samples(domain_->tin));
+    const bool has_more = options_.normals || options_.uvs || !field_.channels.empty();
+    const std::vector<Point> samples = has_more ? frozen_samples(domain_->tin) : std::vector<Point>();
+    if (options_.normals) result.mesh.normals = sample_normals(raster_, field_.frame, samples);
+    if (options_.uvs) result.mesh.uvs = sample_uvs(raster_, samples);
+    result.mesh.channel_count = static_cast<int>(field_.channels.size());
+    for (Point p : samples) {
+      for (const Channel& channel : field_.channels)
+        result.mesh.channels.push_back(
+            channel.samples[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(raster_.cols) +
+                            static_cast<std::size_t>(p.x)]);
+    }
   }
 
   /// Inserts the samples that break the bound in the judge's eyes, as far as the budgets allow, and refines on. Returns
   /// false if that cannot help.
-  Result<bool> mend(Simplified& result) {
-    const std::vector<Offender>& offenders = result.measurement.offenders;
+  Result<bool> mend(const std::vector<Offender>& offenders, Simplified& result) {
     // A vertex among them: its own rounding breaks the bound, and no other vertex can mend that.
     const auto is_vertex = [this](const Offender& o) { return refinement_->gain_at({o.col, o.row}) == 0; };
     if (offenders.empty() || std::any_of(offenders.begin(), offenders.end(), is_vertex)) return false;
@@ -209,36 +294,30 @@ class Run {
       return true;
     }
     if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
-    take_best_prefix();
+    finish_edges(result);
     return true;
   }
 
   /// Judges the mesh as it will be written. Where float32 positions or the frame's curvature cost the bound, the
   /// samples that break it are inserted and refinement goes on.
-  Result<void> prove(Simplified& result) {
-    MeasureOptions judge;
-    judge.topology = !exact_;
-    judge.threads = options_.threads;
-    judge.progress = options_.progress;
-    if (options_.max_error) judge.collect_above = bound_;
+  Result<void> prove_and_mend(Simplified& result) {
     for (;;) {
       const auto start = Clock::now();
-      auto measurement = measure(field_, result.mesh, judge);
-      if (!measurement) return tl::unexpected(measurement.error());
-      result.measurement = std::move(*measurement);
+      const auto proof = prove(field_, options_, criterion_, exact_, result);
+      if (!proof) return tl::unexpected(proof.error());
       result.seconds_measure += seconds_since(start);
-      if (judge.topology && !result.measurement.is_sound())
+      if (!exact_ && !result.measurement.is_sound())
         return fail(ErrorKind::kPromise,
                     "the mesh folds over itself: in this frame positions are rounded to float32, or edges are straight "
                     "where the grid's are curved; ask for a smaller error, or write in the local or grid frame");
-      if (result.stop != StopReason::kMaxError || keeps_promise(result.measurement)) return {};
-      if (!refinement_) return fail(ErrorKind::kInternal, broken_promise(result.measurement));
+      if (result.stop != StopReason::kMaxError || proof->kept) return {};
+      if (!refinement_) return fail(ErrorKind::kInternal, proof->broken);
       const auto again = Clock::now();
-      const auto mended = mend(result);
+      const auto mended = mend(proof->offenders, result);
       if (!mended) return tl::unexpected(mended.error());
       if (!*mended)
         return fail(ErrorKind::kPromise,
-                    broken_promise(result.measurement) +
+                    proof->broken +
                         ": positions in the mesh are rounded to float32, which alone costs that much; ask for a larger "
                         "error, or "
                         "write OBJ or PLY, whose positions are double, or use the local or grid frame");
@@ -246,19 +325,6 @@ class Run {
       optimize_order(result.mesh);
       result.seconds_refine += seconds_since(again);
     }
-  }
-
-  bool keeps_promise(const Measurement& m) const {
-    // The judge's own double arithmetic rounds: the exact proof is the engine's, this is the independent check of it.
-    const HeightRange range = height_range(field_);
-    const double rounding = 1e-12 * (bound_ + std::max(std::abs(range.min), std::abs(range.max)));
-    return m.max_error <= bound_ + rounding && m.uncovered == 0;
-  }
-
-  std::string broken_promise(const Measurement& m) const {
-    if (m.uncovered > 0) return fmt::format("{} valid samples are not covered by the mesh", m.uncovered);
-    return fmt::format("a max error of {} cannot be kept: at sample ({}, {}) the mesh is off by {}",
-                       *options_.max_error, m.max_error_at[0], m.max_error_at[1], m.max_error);
   }
 
   struct Prefix {
@@ -269,12 +335,14 @@ class Run {
   const HeightField& field_;
   const Raster& raster_;
   const SimplifyOptions& options_;
-  double bound_;
+  const Criterion& criterion_;
   std::optional<Domain> domain_;  // the workbench: given back as soon as nothing can need it any more
-  std::size_t seeds_;
+  std::size_t seeds_ = 0;
   std::optional<Refinement> refinement_;
   bool exact_;  // every vertex can lie exactly on its sample
   Reporter reporter_;
+  std::optional<std::vector<Point>> ranking_;
+  std::size_t ranked_ = 0;
   Prefix best_{0, std::numeric_limits<double>::infinity()};
 };
 
@@ -284,9 +352,11 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& opt
   if (auto goals = check_goals(field, options); !goals) return tl::unexpected(goals.error());
   auto samples = Samples::of(field);
   if (!samples) return tl::unexpected(samples.error());
+  const auto criterion = Criterion::make(field, options, samples->raster());
+  if (!criterion) return tl::unexpected(criterion.error());
   auto domain = build_domain(samples->raster(), options.outline_tolerance, field.frame);
   if (!domain) return tl::unexpected(domain.error());
-  return Run(field, samples->raster(), options, std::move(*domain)).execute();
+  return Run(field, samples->raster(), options, *criterion, std::move(*domain)).execute();
 } catch (const std::bad_alloc&) {
   return fail(ErrorKind::kInput, "not enough memory for this raster and goal: allow a larger error or fewer triangles");
 } catch (const std::exception& e) {

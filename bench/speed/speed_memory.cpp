@@ -7,6 +7,7 @@
 
 #include "raw.h"
 #include "refine/domain.h"
+#include "refine/height_judge.h"
 #include "refine/refinement.h"
 
 namespace {
@@ -31,7 +32,8 @@ int main(int argc, char** argv) {
   const scarp::Raster raster{raw.samples.data(), raw.cols, raw.rows};
   auto domain = scarp::build_domain(raster, 0, scarp::grid_frame(raster.rows));
   if (!domain) bench::die(domain.error().message);
-  scarp::Refinement refinement(raster, domain->tin, std::atof(argv[4]));
+  const scarp::HeightJudge judge(raster, std::atof(argv[4]));
+  scarp::Refinement refinement(judge, domain->tin);
   while (!refinement.done()) refinement.insert_worst();
   std::printf("{\"samples\": %zu, \"vertices\": %zu, \"bytes\": %zu}\n", raw.samples.size(), domain->tin.vertex_count(),
               peak_memory() - before);

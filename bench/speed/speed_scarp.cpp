@@ -10,6 +10,7 @@
 
 #include "raw.h"
 #include "refine/domain.h"
+#include "refine/height_judge.h"
 #include "refine/refinement.h"
 #include "scarp/version.h"
 
@@ -24,7 +25,8 @@ scarp::Domain build(const scarp::Raster& raster) {
 scarp::Domain refine(const bench::RawRaster& raw, double error) {
   const scarp::Raster raster{raw.samples.data(), raw.cols, raw.rows};
   scarp::Domain domain = build(raster);
-  scarp::Refinement refinement(raster, domain.tin, error);
+  const scarp::HeightJudge judge(raster, error);
+  scarp::Refinement refinement(judge, domain.tin);
   while (!refinement.done()) refinement.insert_worst();
   return domain;
 }
@@ -33,7 +35,8 @@ scarp::Domain refine(const bench::RawRaster& raw, double error) {
 double find_error(const bench::RawRaster& raw, double share) {
   const scarp::Raster raster{raw.samples.data(), raw.cols, raw.rows};
   scarp::Domain domain = build(raster);
-  scarp::Refinement refinement(raster, domain.tin, 0);
+  const scarp::HeightJudge judge(raster, 0);
+  scarp::Refinement refinement(judge, domain.tin);
   const double most = share * static_cast<double>(raw.samples.size());
   double error = std::numeric_limits<double>::infinity();
   while (!refinement.done() && static_cast<double>(domain.tin.vertex_count()) < most) {

@@ -48,9 +48,10 @@ struct OwnedChannels {
   RasterInfo info;
 };
 
-/// Reads all bands of an image (or `band` of the options alone, if `all_bands` is false) by GDAL, PGM also without it;
-/// palettes become red, green, blue. Fails with kInput as read_height_field(), and for more than kMaxChannels bands
-/// and for an alpha band.
+/// Reads all bands of an image (or `band` of the options alone, if `all_bands` is false) by GDAL, PGM and STM also
+/// without it; palettes become red, green, blue. `info` counts as valid the samples that have a value in every band;
+/// its range is over all bands. Fails as read_height_field(), of which options.crs "grid" asks for nothing, and with
+/// kInput for more than kMaxChannels bands, for an alpha band among them, and for packed heights (options.decode).
 Result<OwnedChannels> read_channels(const std::string& path, const ReadOptions& options = {}, bool all_bands = true);
 
 /// Nothing if two rasters lie on the same grid; else what differs, as the second half of a sentence ("is 10 x 20
@@ -89,7 +90,8 @@ std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
 /// absolute. STL: binary, float32 offsets from the origin, z up. TIN: text, absolute coordinates that read back to the
 /// same doubles. Colours, uvs and channels where the format has a place: GLB (COLOR_0 as linear float, TEXCOORD_0,
 /// _CHANNEL_n where colours do not say it all), PLY (red green blue uchar, s t float, channel_n float), OBJ (vt,
-/// colours behind the coordinates). Deterministic. Fails with kOutput where the format cannot hold the mesh.
+/// colours behind the coordinates); they read back the same, but for PLY's t = 1 − v, rounded to float32.
+/// Deterministic. Fails with kOutput where the format cannot hold the mesh.
 Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format);
 /// Reads any of the five formats; recognises the format by content. Never trusts a length or an index in the file.
 Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);

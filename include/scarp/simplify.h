@@ -46,7 +46,10 @@ struct SimplifyOptions {
   Batch batch = {};        ///< DEFAULT: one at a time
   EdgeRule edges = {};     ///< DEFAULT: Delaunay
   Norm norm = Norm::kSum;  ///< over heights and channels, where the field has channels. DEFAULT: L1, as the report.
-  bool uvs = false;        ///< fill Mesh::uvs. DEFAULT: false.
+  /// False: a budget that ends the run leaves the last mesh, as Scape does, though an earlier one may have been better.
+  /// DEFAULT: true. Always so where importance is not an error: one pass, products.
+  bool best_of_budget = true;
+  bool uvs = false;  ///< fill Mesh::uvs. DEFAULT: false.
 
   /// Vertex normals from the full-resolution samples. DEFAULT: false.
   bool normals = false;

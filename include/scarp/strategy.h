@@ -16,7 +16,8 @@ namespace scarp {
 /// not depend on the mesh:
 ///   kLocal4, kLocal8   |z − mean of the 4 or 8 neighbours|
 ///   kCurvature         √(z_xx² + 2 z_xy² + z_yy²) by central differences
-/// Neighbours that are void or beyond the border are left out of the mean; a second difference that lacks one is 0.
+/// Opposite neighbours count in pairs: a pair that is not complete (void, beyond the border) is left out, so that a
+/// plane has no feature on its border either.
 struct Importance {
   enum class Feature { kNoFeature, kLocal4, kLocal8, kCurvature };
   enum class Damping {
@@ -61,7 +62,8 @@ enum class EdgeScore {
   kMax,      ///< the larger of them
   kSquares,  ///< sum of squared errors over both triangles
   kNormals,  ///< angle between the two triangles' normals (Dyn, Levin, Rippa 1990), in samples and units of z
-  kTight,    ///< kMax under a rule of shape of its own: the fewest triangles at equal max error (docs/algorithm.md)
+  kTight,    ///< sum of the squares of the two largest errors, under a rule of shape of its own, with the edges around
+             ///< each new vertex tried until none improves: the fewest triangles (docs/algorithm.md)
 };
 
 /// Which diagonal of a quadrilateral is kept.
@@ -71,11 +73,14 @@ struct EdgeRule {
   /// In [0, 1]. Quality of a diagonal: product over its triangles of area / longer side of the bounding box. If the
   /// worse of the two diagonals has more than `shape_threshold` times the quality of the better one, the score
   /// decides; else the shape. 0: purely data-dependent; 1: purely by shape. For kTight: the least 2·area / longest
-  /// side² of a triangle at which the score may decide. Negative: the score's default, 0.5 (kTight: 0.2).
+  /// side² of a triangle at which the score may decide. Negative: the score's default, 0.5 (kTight: 0.1).
   double shape_threshold = -1;
   /// Finer lattice for triangles that hold few samples: errors for the *score* are then measured against the bilinear
   /// interpolant, ⌈(width + height) / (2 · area · supersample)⌉ times finer. 0: off. Scape calls 0.8 moderate.
   double supersample = 0;
+  /// After the last insertion edges are flipped as long as that lowers the sum of squared errors and raises no largest
+  /// error. Not for kNormals. False: as the report's program.
+  bool settle = true;
 
   friend bool operator==(const EdgeRule&, const EdgeRule&) = default;
 };

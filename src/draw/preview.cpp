@@ -1,35 +1,21 @@
 // The preview: hillshade, tinted by height, under the mesh.
-//
-// Light comes from the picture's upper left (azimuth 315°, altitude 45°), whichever way the raster's rows run: lit from
-// below, hills look like holes. Slopes are true to the frame's cell size and then exaggerated until a steep place (the
-// slope that 80 % of the samples stay below) is clearly lit; that also makes degrees and other units without meaning
-// drawable.
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "draw/canvas.h"
 #include "draw/grid_positions.h"
+#include "draw/relief.h"
 #include "scarp/picture.h"
 
 namespace scarp {
 namespace {
 
 using draw::Colour;
+using draw::Relief;
 
-constexpr std::array<Colour, 4> kTints{Colour{176, 201, 170}, Colour{226, 222, 178}, Colour{222, 190, 148},
-                                       Colour{232, 216, 206}};
 constexpr Colour kInk{24, 28, 48};
 constexpr int kSmall = 700;  // rasters below this many samples a side are enlarged
-
-/// Heights by pixel, NaN = void.
-struct Relief {
-  int width = 0, height = 0;
-  std::vector<double> z;
-  double at(int x, int y) const {
-    return z[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
-  }
-};
 
 /// Means of the samples that fall into each pixel; void where more than half of them are.
 Relief reduce(const HeightField& field, int width, int height) {
@@ -54,61 +40,6 @@ Relief reduce(const HeightField& field, int width, int height) {
         2 * valid[i] < all[i] || valid[i] == 0 ? std::numeric_limits<double>::quiet_NaN() : relief.z[i] / valid[i];
   }
   return relief;
-}
-
-/// Rise per unit of ground to the right and up the picture; central differences, one-sided beside voids and borders.
-std::vector<std::array<double, 2>> find_slopes(const Relief& relief, double step_x, double step_y) {
-  std::vector<std::array<double, 2>> slopes(relief.z.size());
-  const auto valid = [&](int x, int y) {
-    return x >= 0 && y >= 0 && x < relief.width && y < relief.height && !std::isnan(relief.at(x, y));
-  };
-  const auto rise = [&](int x, int y, int dx, int dy) {
-    const int x0 = valid(x - dx, y - dy) ? x - dx : x, y0 = valid(x - dx, y - dy) ? y - dy : y;
-    const int x1 = valid(x + dx, y + dy) ? x + dx : x, y1 = valid(x + dx, y + dy) ? y + dy : y;
-    const int steps = (x1 - x0) + (y1 - y0);
-    return steps == 0 ? 0.0 : (relief.at(x1, y1) - relief.at(x0, y0)) / steps;
-  };
-  for (int y = 0; y < relief.height; ++y) {
-    for (int x = 0; x < relief.width; ++x) {
-      if (!valid(x, y)) continue;
-      slopes[static_cast<std::size_t>(y) * static_cast<std::size_t>(relief.width) + static_cast<std::size_t>(x)] = {
-          rise(x, y, 1, 0) / step_x, -rise(x, y, 0, 1) / step_y};
-    }
-  }
-  return slopes;
-}
-
-double choose_exaggeration(const Relief& relief, const std::vector<std::array<double, 2>>& slopes, bool is_metric) {
-  std::vector<double> steepness;
-  for (std::size_t i = 0; i < slopes.size(); ++i) {
-    if (!std::isnan(relief.z[i])) steepness.push_back(std::hypot(slopes[i][0], slopes[i][1]));
-  }
-  if (steepness.empty()) return 1;
-  const auto rank = steepness.begin() + static_cast<std::ptrdiff_t>(steepness.size() * 4 / 5);
-  std::nth_element(steepness.begin(), rank, steepness.end());
-  if (!(*rank > 0) || !std::isfinite(*rank)) return 1;
-  const double wanted = 0.7 / *rank;
-  return is_metric ? std::clamp(wanted, 0.5, 10.0) : wanted;
-}
-
-/// Colours by pixel of the relief.
-std::vector<Colour> shade(const Relief& relief, const std::vector<std::array<double, 2>>& slopes, double exaggeration) {
-  double lowest = HUGE_VAL, highest = -HUGE_VAL;
-  for (const double z : relief.z) {
-    if (std::isnan(z)) continue;
-    lowest = std::min(lowest, z);
-    highest = std::max(highest, z);
-  }
-  const double per_range = highest > lowest ? 1 / (highest - lowest) : 0;
-  std::vector<Colour> colours(relief.z.size(), Colour{255, 255, 255});
-  for (std::size_t i = 0; i < colours.size(); ++i) {
-    if (std::isnan(relief.z[i])) continue;
-    const double gx = slopes[i][0] * exaggeration, gy = slopes[i][1] * exaggeration;
-    const double light = std::max(0.0, (0.5 * gx - 0.5 * gy + std::sqrt(0.5)) / std::sqrt(1 + gx * gx + gy * gy));
-    const Colour tint = draw::ramp(kTints, (relief.z[i] - lowest) * per_range);
-    for (std::size_t k = 0; k < 3; ++k) colours[i][k] = std::min(250.0, tint[k] * (0.3 + 0.95 * light));
-  }
-  return colours;
 }
 
 /// Enlarges by an integer factor, bilinear between valid pixels; a pixel is void where its nearest one is.
@@ -179,11 +110,7 @@ Picture draw_preview(const HeightField& field, const Mesh& mesh, int max_side) {
   const int factor = side >= kSmall ? 1 : std::max(1, std::min(max_side / side, 3 * kSmall / (2 * side) + 1));
 
   const Relief relief = reduce(field, width, height);
-  auto [step_x, step_y] = draw::step_lengths(field.frame, field.cols, field.rows);
-  if (!(step_x > 0) || !std::isfinite(step_x) || !(step_y > 0) || !std::isfinite(step_y)) step_x = step_y = 1;
-  const auto slopes = find_slopes(relief, step_x * field.cols / width, step_y * field.rows / height);
-  const bool is_metric = field.frame.kind == Frame::Kind::kLocal || field.frame.kind == Frame::Kind::kProjected;
-  Picture picture = enlarge(relief, shade(relief, slopes, choose_exaggeration(relief, slopes, is_metric)), factor);
+  Picture picture = enlarge(relief, draw::shade(relief, field.frame, field.cols, field.rows), factor);
   draw_mesh(field, mesh, picture);
   return picture;
 }

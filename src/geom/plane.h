@@ -59,4 +59,12 @@ struct Plane {
   double height_at(Point p) const { return row_height(p.y) + slope_x * static_cast<double>(p.x - base.x); }
 };
 
+/// |n − m|² of the planes' unit normals: grows with the angle between them.
+inline double bend_of(const Plane& a, const Plane& b) {
+  const double la = std::sqrt(1 + a.slope_x * a.slope_x + a.slope_y * a.slope_y);
+  const double lb = std::sqrt(1 + b.slope_x * b.slope_x + b.slope_y * b.slope_y);
+  const double x = a.slope_x / la - b.slope_x / lb, y = a.slope_y / la - b.slope_y / lb, z = 1 / la - 1 / lb;
+  return x * x + y * y + z * z;
+}
+
 }  // namespace scarp

@@ -12,49 +12,16 @@
 
 #include "io/file_bytes.h"
 #include "io/glb_json.h"
+#include "io/glb_transform.h"
 #include "io/mesh_file.h"
+#include "io/srgb.h"
+#include "scarp/height_field.h"
 
 namespace scarp {
 namespace {
 
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr int kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
-
-/// Columns of a 3×3 matrix and a translation, in glTF's axes.
-struct Transform {
-  double linear[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // [column][row]
-  double translation[3] = {0, 0, 0};
-
-  std::array<double, 3> apply_linear(const double p[3]) const {
-    std::array<double, 3> q;
-    for (std::size_t r = 0; r < 3; ++r) q[r] = linear[0][r] * p[0] + linear[1][r] * p[1] + linear[2][r] * p[2];
-    return q;
-  }
-  bool is_translation() const {
-    for (int c = 0; c < 3; ++c) {
-      for (int r = 0; r < 3; ++r) {
-        if (linear[c][r] != (c == r ? 1.0 : 0.0)) return false;
-      }
-    }
-    return true;
-  }
-  double determinant() const {
-    const auto& m = linear;
-    return m[0][0] * (m[1][1] * m[2][2] - m[2][1] * m[1][2]) - m[1][0] * (m[0][1] * m[2][2] - m[2][1] * m[0][2]) +
-           m[2][0] * (m[0][1] * m[1][2] - m[1][1] * m[0][2]);
-  }
-};
-
-Transform operator*(const Transform& outer, const Transform& inner) {
-  Transform product;
-  for (int c = 0; c < 3; ++c) {
-    const auto column = outer.apply_linear(inner.linear[c]);
-    for (std::size_t r = 0; r < 3; ++r) product.linear[c][r] = column[r];
-  }
-  const auto moved = outer.apply_linear(inner.translation);
-  for (std::size_t r = 0; r < 3; ++r) product.translation[r] = moved[r] + outer.translation[r];
-  return product;
-}
 
 /// A checked accessor: `count` items of `components` numbers, `stride` bytes apart.
 struct Items {
@@ -77,9 +44,7 @@ class GlbReader {
       const Json* generator = member(*asset, "generator");
       if (generator && generator->is_string()) mesh.metadata.emplace("generator", generator->get<std::string>());
     }
-    if (!read_scene()) return false;
-    if (mesh.normals.size() != mesh.positions.size()) mesh.normals.clear();
-    return true;
+    return read_scene();
   }
 
  private:
@@ -298,7 +263,10 @@ class GlbReader {
     if (is_new) {
       if (!append_positions(positions, transform)) return false;
       first_vertices.emplace(accessor, first);
-      if (!append_normals(*attributes, positions.count, transform)) return false;
+      if (!append_normals(*attributes, positions.count, transform) || !append_uvs(*attributes, positions.count) ||
+          !append_colors(*attributes, positions.count) || !append_channels(primitive, *attributes, positions.count)) {
+        return false;
+      }
     }
     return append_triangles(primitive, positions.count, first, transform.determinant() < 0);
   }
@@ -342,6 +310,88 @@ class GlbReader {
     return true;
   }
 
+  /// The items of an attribute of numbers: float32, or integers that stand for 0 … 1.
+  bool find_attribute(const Json& attributes, const char* name, std::string_view type, std::uint64_t count,
+                      Items& items) {
+    std::uint64_t accessor = 0;
+    if (!read_count(attributes, name, 0, accessor) || !find_items(accessor, type, items)) return false;
+    if (items.component_type != kUint32 && items.count == count) return true;
+    return refuse(fmt::format("its accessor {} of {} is malformed", accessor, name));
+  }
+
+  static double load_component(const Items& items, std::uint64_t v, std::uint64_t k) {
+    const std::uint8_t* at = items.data + v * items.stride;
+    if (items.component_type == kUint8) return at[k] / 255.0;
+    if (items.component_type == kUint16) return load_number<std::uint16_t>(at + 2 * k) / 65535.0;
+    return load_number<float>(at + 4 * k);
+  }
+
+  bool append_uvs(const Json& attributes, std::uint64_t count) {
+    if (!member(attributes, "TEXCOORD_0")) return true;
+    Items uvs;
+    if (!find_attribute(attributes, "TEXCOORD_0", "VEC2", count, uvs)) return false;
+    for (std::uint64_t i = 0; i < 2 * count; ++i) {
+      const double value = load_component(uvs, i / 2, i % 2);
+      if (!std::isfinite(value)) return refuse(fmt::format("texture coordinate {} is not finite", i / 2));
+      mesh.uvs.push_back(static_cast<float>(value));
+    }
+    return true;
+  }
+
+  /// Linear light, with or without alpha.
+  bool append_colors(const Json& attributes, std::uint64_t count) {
+    if (!member(attributes, "COLOR_0")) return true;
+    std::uint64_t accessor = 0;
+    if (!read_count(attributes, "COLOR_0", 0, accessor)) return false;
+    const Json* described = item("accessors", accessor);
+    if (!described) return false;
+    const Json* type = member(*described, "type");
+    const bool with_alpha = type && type->is_string() && type->get_ref<const std::string&>() == "VEC4";
+    Items colors;
+    if (!find_attribute(attributes, "COLOR_0", with_alpha ? "VEC4" : "VEC3", count, colors)) return false;
+    for (std::uint64_t i = 0; i < 3 * count; ++i) {
+      const double value = load_component(colors, i / 3, i % 3);
+      if (!std::isfinite(value)) return refuse(fmt::format("colour {} is not finite", i / 3));
+      mesh.colors.push_back(srgb_of_linear(value));
+    }
+    return true;
+  }
+
+  /// Our own "_CHANNEL_n"; where extras announce channels that are not there, they are the colours.
+  bool append_channels(const Json& primitive, const Json& attributes, std::uint64_t count) {
+    std::vector<Items> channels;
+    while (channels.size() < kMaxChannels) {
+      const std::string name = fmt::format("_CHANNEL_{}", channels.size() + 1);
+      if (!member(attributes, name.c_str())) break;
+      channels.emplace_back();
+      if (!find_attribute(attributes, name.c_str(), "SCALAR", count, channels.back())) return false;
+      if (channels.back().component_type != kFloat) return true;  // somebody else's
+    }
+    const Json* extras = member(primitive, "extras");
+    const Json* announced = extras ? member(*extras, "channels") : nullptr;
+    const Json* no_value = extras ? member(*extras, "noValue") : nullptr;
+    const bool by_colors = channels.empty() && announced && (*announced == 1 || *announced == 3) &&
+                           mesh.colors.size() == mesh.positions.size();
+    const std::size_t width = by_colors ? announced->get<std::size_t>() : channels.size();
+    if (width == 0) return true;
+    if (mesh.channel_count == 0 && mesh.channels.empty()) mesh.channel_count = static_cast<int>(width);
+    if (static_cast<std::size_t>(mesh.channel_count) != width) {
+      mesh.channel_count = -1;  // parts that differ
+      return true;
+    }
+    if (mesh.channels.size() + width * count > most_numbers()) return refuse("it repeats its meshes too often");
+    const double gap =
+        no_value && no_value->is_number() ? no_value->get<double>() : std::numeric_limits<double>::quiet_NaN();
+    for (std::uint64_t v = 0; v < count; ++v) {
+      for (std::size_t c = 0; c < width; ++c) {
+        const double value =
+            by_colors ? mesh.colors[mesh.colors.size() - 3 * (count - v) + c] : load_component(channels[c], v, 0);
+        mesh.channels.push_back(value == gap ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(value));
+      }
+    }
+    return true;
+  }
+
   bool append_triangles(const Json& primitive, std::uint64_t vertices, std::uint32_t first, bool mirrored) {
     Items indices;
     std::uint64_t accessor = 0, corners = vertices;
@@ -368,9 +418,9 @@ class GlbReader {
     return true;
   }
 
+  std::uint64_t most_numbers() const { return std::max<std::uint64_t>(std::uint64_t{1} << 26, 16 * bytes_.size()); }
   std::uint64_t most_corners() const {
-    const std::uint64_t most = std::max<std::uint64_t>(std::uint64_t{1} << 26, 16 * bytes_.size());
-    return most - std::min<std::uint64_t>(most, mesh.triangles.size());
+    return most_numbers() - std::min<std::uint64_t>(most_numbers(), mesh.triangles.size());
   }
 
   static std::uint64_t load_index(const Items& items, std::uint64_t i) {
@@ -400,7 +450,7 @@ class GlbReader {
     if (component_type == kUint32 || component_type == kFloat) size = 4;
     if (size == 0) return broken(fmt::format("has component type {}, which is not supported here", component_type));
     items.component_type = static_cast<int>(component_type);
-    if (type == "VEC3") size *= 3;
+    size *= type == "SCALAR" ? 1 : static_cast<std::uint64_t>(type.back() - '0');
 
     const Json* view = item("bufferViews", view_index);
     if (!view) return false;

@@ -7,6 +7,7 @@
 
 #include "base/caught.h"
 #include "io/mesh_file_text.h"
+#include "scarp/height_field.h"
 #include "scarp/io.h"
 
 namespace scarp {
@@ -85,6 +86,7 @@ std::optional<MeshFormat> recognise(std::span<const std::uint8_t> bytes, const s
   TextCursor cursor(bytes);
   for (int line = 0; line < 10000 && !cursor.at_end(); ++line) {
     const std::string_view word = cursor.word();
+    if (word == "t") return MeshFormat::kTin;
     if (word == "v" || word == "f" || word == "vn" || word == "vt" || word == "mtllib" || word == "o" || word == "g") {
       return MeshFormat::kObj;
     }
@@ -99,8 +101,14 @@ std::string find_unwritable(const Mesh& mesh, bool as_float) {
   const std::size_t count = mesh.vertex_count();
   if (mesh.triangles.empty()) return "the mesh has no triangles";
   if (mesh.positions.size() % 3 != 0 || mesh.triangles.size() % 3 != 0 ||
-      (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size())) {
+      (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) ||
+      (!mesh.uvs.empty() && mesh.uvs.size() != 2 * count) ||
+      (!mesh.colors.empty() && mesh.colors.size() != 3 * count) || mesh.channel_count < 0 ||
+      mesh.channels.size() != static_cast<std::size_t>(mesh.channel_count) * count) {
     return "the sizes of the mesh's arrays do not agree";
+  }
+  if (mesh.channel_count > kMaxChannels) {
+    return fmt::format("the mesh has {} channels, and a mesh file holds at most {}", mesh.channel_count, kMaxChannels);
   }
   if (count > std::numeric_limits<std::uint32_t>::max()) return "the mesh has more vertices than 32 bits can number";
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -115,10 +123,24 @@ std::string find_unwritable(const Mesh& mesh, bool as_float) {
       return fmt::format("vertex {} has the coordinate {}, which the format cannot hold", i / 3, mesh.positions[i]);
     }
   }
+  for (std::size_t i = 0; i < mesh.uvs.size(); ++i) {
+    if (!std::isfinite(mesh.uvs[i])) return fmt::format("the place in the image of vertex {} is not finite", i / 2);
+  }
   for (const double coordinate : mesh.origin) {
     if (!(std::fabs(coordinate) <= std::numeric_limits<double>::max() / 4)) return "the mesh's origin is not finite";
   }
   return {};
+}
+
+void drop_partial_attributes(Mesh& mesh) {
+  const std::size_t count = mesh.vertex_count();
+  if (mesh.normals.size() != 3 * count) mesh.normals.clear();
+  if (mesh.uvs.size() != 2 * count) mesh.uvs.clear();
+  if (mesh.colors.size() != 3 * count) mesh.colors.clear();
+  if (mesh.channel_count <= 0 || mesh.channels.size() != static_cast<std::size_t>(mesh.channel_count) * count) {
+    mesh.channel_count = 0;
+    mesh.channels.clear();
+  }
 }
 
 std::string find_unreadable(const Mesh& mesh) {
@@ -184,6 +206,7 @@ std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path) {
   if (extension == "obj") return MeshFormat::kObj;
   if (extension == "ply") return MeshFormat::kPly;
   if (extension == "stl") return MeshFormat::kStl;
+  if (extension == "tin") return MeshFormat::kTin;
   return {};
 }
 
@@ -200,6 +223,8 @@ Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat forma
         return encode_ply(mesh);
       case MeshFormat::kStl:
         return encode_stl(mesh);
+      case MeshFormat::kTin:
+        return encode_tin(mesh);
     }
   } catch (...) {
     return caught(ErrorKind::kOutput, "encode the mesh");
@@ -213,13 +238,15 @@ Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string&
   };
   if (bytes.empty()) return unusable("the file is empty");
   const auto format = recognise(bytes, name_for_errors);
-  if (!format) return unusable("it is neither GLB nor OBJ, PLY or STL");
+  if (!format) return unusable("it is neither GLB nor OBJ, PLY, STL or TIN");
   try {
     Result<Mesh> mesh = *format == MeshFormat::kGlb   ? decode_glb(bytes)
                         : *format == MeshFormat::kObj ? decode_obj(bytes)
                         : *format == MeshFormat::kPly ? decode_ply(bytes)
-                                                      : decode_stl(bytes);
+                        : *format == MeshFormat::kStl ? decode_stl(bytes)
+                                                      : decode_tin(bytes);
     if (!mesh) return unusable(mesh.error().message);
+    drop_partial_attributes(*mesh);
     if (const std::string why = find_unreadable(*mesh); !why.empty()) return unusable(why);
     return mesh;
   } catch (...) {
@@ -230,10 +257,9 @@ Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string&
 Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional<MeshFormat> format, bool overwrite) {
   if (!format) format = find_mesh_format(path);
   if (!format) {
-    return fail(ErrorKind::kOutput,
-                fmt::format("the name {} does not tell a mesh format: end it in .glb, .obj, .ply or "
-                            ".stl, or name the format",
-                            path));
+    return fail(ErrorKind::kOutput, fmt::format("the name {} does not tell a mesh format: end it in .glb, .obj, .ply, "
+                                                ".stl or .tin, or name the format",
+                                                path));
   }
   auto bytes = encode_mesh(mesh, *format);
   if (!bytes) return fail(bytes.error().kind, fmt::format("cannot write {}: {}", path, bytes.error().message));

@@ -36,6 +36,10 @@ void set_origin(Mesh& mesh, const std::array<double, 3>& origin);
 /// Appends the polygon as a fan from its first corner.
 void append_fan(std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& triangles);
 
+/// Readers collect what vertices carry as they find it: drops normals, uvs, colours and channels that not every vertex
+/// has.
+void drop_partial_attributes(Mesh& mesh);
+
 /// The last check of every reader: at least one triangle, all indices in range, all positions finite.
 /// Returns the sentence, empty if all is well.
 std::string find_unreadable(const Mesh& mesh);
@@ -46,13 +50,16 @@ Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh);
 Result<std::vector<std::uint8_t>> encode_obj(const Mesh& mesh);
 Result<std::vector<std::uint8_t>> encode_ply(const Mesh& mesh);
 Result<std::vector<std::uint8_t>> encode_stl(const Mesh& mesh);
+Result<std::vector<std::uint8_t>> encode_tin(const Mesh& mesh);
 Result<Mesh> decode_glb(std::span<const std::uint8_t> bytes);
 Result<Mesh> decode_obj(std::span<const std::uint8_t> bytes);
 Result<Mesh> decode_ply(std::span<const std::uint8_t> bytes);
 Result<Mesh> decode_stl(std::span<const std::uint8_t> bytes);
+Result<Mesh> decode_tin(std::span<const std::uint8_t> bytes);
 
-/// Bytes of a GLB file but its JSON text: whether it stays below 4 GiB is known before it is made.
-std::uint64_t glb_binary_size(std::uint64_t vertices, std::uint64_t triangles, bool normals);
+/// Bytes of a GLB file but its JSON text: whether it stays below 4 GiB is known before it is made. `floats`: numbers
+/// per vertex, 3 of them its position.
+std::uint64_t glb_binary_size(std::uint64_t vertices, std::uint64_t triangles, std::uint64_t floats);
 /// Whether the bytes have the length that a binary STL file's own count asks for.
 bool is_binary_stl(std::span<const std::uint8_t> bytes);
 

@@ -16,6 +16,15 @@ tl::unexpected<Error> refuse(const std::string& path) {
 
 Result<OwnedHeightField> read_gdal_raster(const std::string& path, const ReadOptions&) { return refuse(path); }
 
+Result<OwnedChannels> read_gdal_channels(const std::string& path, const ReadOptions&, bool) { return refuse(path); }
+
+Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage&) {
+  return fail(ErrorKind::kOutput,
+              "GeoTIFF cannot be written: this build of Scarp has no GDAL, which encodes it; write PGM");
+}
+
+bool is_same_crs(const std::string& a, const std::string& b) { return a == b; }
+
 Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptions&) {
   return fail(ErrorKind::kInput,
               path + ": not text of columns, and this build of Scarp reads no other points: it was built without GDAL");

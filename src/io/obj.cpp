@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -27,8 +28,10 @@ struct ObjReader {
 
   TextCursor cursor;
   Mesh mesh;
-  std::vector<float> normals;          // in file order
+  std::vector<float> normals, uvs;     // in file order
   bool normals_match = true;           // every corner's normal has its vertex's number
+  bool uvs_match = true;               // and so has its place in the image
+  std::vector<double> colors;          // of the vertices that have them
   std::vector<std::uint32_t> corners;  // of the face at hand
   std::optional<std::array<double, 3>> origin;
   std::int64_t announced_vertices = -1, announced_triangles = -1;
@@ -62,6 +65,13 @@ struct ObjReader {
     if (number < 0) number += count + 1;
     if (number < 1 || number > 0xFFFFFFFF) return false;
     const std::size_t second = slash == std::string_view::npos ? slash : word.find('/', slash + 1);
+    std::int64_t uv = 0;
+    if (slash == std::string_view::npos || !parse_integer(word.substr(slash + 1, second - slash - 1), uv)) {
+      uvs_match = false;
+    } else {
+      if (uv < 0) uv += static_cast<std::int64_t>(uvs.size() / 2) + 1;
+      uvs_match = uvs_match && uv == number;
+    }
     if (second == std::string_view::npos || !parse_integer(word.substr(second + 1), normal)) {
       normals_match = false;
     } else {
@@ -70,6 +80,25 @@ struct ObjReader {
     }
     corners.push_back(static_cast<std::uint32_t>(number - 1));
     return true;
+  }
+
+  static bool is_float(double value) { return std::fabs(value) <= std::numeric_limits<float>::max(); }
+
+  /// What stands behind a vertex: nothing, its weight, or red, green and blue.
+  void read_color() {
+    double rgb[3];
+    for (double& part : rgb) {
+      if (!cursor.number(part) || !(part >= 0 && part <= 255)) return;
+    }
+    colors.insert(colors.end(), rgb, rgb + 3);
+  }
+
+  /// Colours are 0 … 1, or bytes in files where one is larger.
+  void take_colors() {
+    if (colors.size() != mesh.positions.size()) return;
+    const bool bytes = std::any_of(colors.begin(), colors.end(), [](double part) { return part > 1; });
+    for (const double part : colors)
+      mesh.colors.push_back(static_cast<std::uint8_t>((bytes ? part : part * 255) + 0.5));
   }
 
   /// Returns the complaint about this line; empty if there is none.
@@ -81,10 +110,20 @@ struct ObjReader {
         if (!cursor.number(value) || !std::isfinite(value)) return "a vertex needs three finite numbers";
         mesh.positions.push_back(value);
       }
+      read_color();
+    } else if (word == "vt") {
+      double u = 0, v = 0;
+      if (!cursor.number(u) || !is_float(u)) return "a place in an image needs finite numbers";
+      if (const std::string_view second = cursor.word();
+          !second.empty() && (!parse_number(second, v) || !is_float(v))) {
+        return "a place in an image needs finite numbers";
+      }
+      uvs.push_back(static_cast<float>(u));
+      uvs.push_back(static_cast<float>(1 - v));  // OBJ's images begin at the bottom
     } else if (word == "vn") {
       for (int k = 0; k < 3; ++k) {
         double value = 0;
-        if (!cursor.number(value) || !(std::fabs(value) <= std::numeric_limits<float>::max())) {
+        if (!cursor.number(value) || !is_float(value)) {
           return "a normal needs three finite numbers";
         }
         normals.push_back(static_cast<float>(value));
@@ -118,6 +157,8 @@ struct ObjReader {
           announced_vertices, announced_triangles, vertices, triangles);
     }
     if (normals_match && normals.size() == mesh.positions.size()) mesh.normals = std::move(normals);
+    if (uvs_match && uvs.size() == 2 * mesh.vertex_count()) mesh.uvs = std::move(uvs);
+    take_colors();
     // Positions must be sound before they are moved; the caller repeats this check for every format.
     if (origin && find_unreadable(mesh).empty()) set_origin(mesh, *origin);
     return {};
@@ -137,19 +178,25 @@ Result<std::vector<std::uint8_t>> encode_obj(const Mesh& mesh) {
   fmt::format_to(out, "o terrain\n");
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     const auto p = mesh.vertex(v);
-    fmt::format_to(out, "v {} {} {}\n", p[0], p[1], p[2]);
+    fmt::format_to(out, "v {} {} {}", p[0], p[1], p[2]);
+    for (std::size_t k = 0; k < 3 && !mesh.colors.empty(); ++k) {
+      fmt::format_to(out, " {}", static_cast<float>(mesh.colors[3 * v + k]) / 255);
+    }
+    bytes.push_back('\n');
+  }
+  for (std::size_t i = 0; i < mesh.uvs.size(); i += 2) {
+    fmt::format_to(out, "vt {} {}\n", mesh.uvs[i], 1 - double{mesh.uvs[i + 1]});
   }
   for (std::size_t i = 0; i < mesh.normals.size(); i += 3) {
     fmt::format_to(out, "vn {} {} {}\n", mesh.normals[i], mesh.normals[i + 1], mesh.normals[i + 2]);
   }
-  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-    const std::uint64_t a = std::uint64_t{mesh.triangles[i]} + 1, b = std::uint64_t{mesh.triangles[i + 1]} + 1,
-                        c = std::uint64_t{mesh.triangles[i + 2]} + 1;
-    if (mesh.normals.empty()) {
-      fmt::format_to(out, "f {} {} {}\n", a, b, c);
-    } else {
-      fmt::format_to(out, "f {}//{} {}//{} {}//{}\n", a, a, b, b, c, c);
-    }
+  const bool with_uvs = !mesh.uvs.empty(), with_normals = !mesh.normals.empty();
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const std::uint64_t number = std::uint64_t{mesh.triangles[i]} + 1;
+    fmt::format_to(out, "{}{}", i % 3 == 0 ? "f " : " ", number);
+    if (with_uvs) fmt::format_to(out, "/{}", number);
+    if (with_normals) fmt::format_to(out, "{}{}", with_uvs ? "/" : "//", number);
+    if (i % 3 == 2) bytes.push_back('\n');
   }
   fmt::format_to(out, "# {}\n", kEnd);
   return bytes;

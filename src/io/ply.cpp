@@ -1,11 +1,13 @@
 // PLY: a text header that describes the rest. We write binary little-endian doubles at absolute positions; we read text
 // and both byte orders, any numeric types, properties in any order, elements we do not know, and polygons.
 //
-// The reader walks each element's items property by property. Values of interest have a place in a small table
-// (Role); all others are stepped over.
+// The reader walks each element's items property by property. Values of interest have a slot in a small table; all
+// others are stepped over.
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -14,6 +16,7 @@
 #include "io/file_bytes.h"
 #include "io/mesh_file.h"
 #include "io/mesh_file_text.h"
+#include "scarp/height_field.h"
 
 namespace scarp {
 namespace {
@@ -40,13 +43,15 @@ std::optional<Type> find_type(std::string_view name) {
   return {};
 }
 
-/// What a property means to us: 0 … 5 are x, y, z, nx, ny, nz.
-enum class Role { kX, kY, kZ, kNx, kNy, kNz, kCorners, kOther };
+/// Where the values of a vertex are kept while it is read: x y z, nx ny nz, red green blue, s t, channels.
+constexpr int kPosition = 0, kNormal = 3, kColor = 6, kUv = 9, kChannel = 11, kOther = -1;
+constexpr int kSlots = kChannel + kMaxChannels;
 
 struct Property {
   Type type = Type::kFloat;
   std::optional<Type> count_type;  // set for a list
-  Role role = Role::kOther;
+  int slot = kOther;
+  bool is_corners = false;
 };
 
 struct Element {
@@ -55,15 +60,33 @@ struct Element {
   std::vector<Property> properties;
 };
 
-Role find_role(std::string_view element, std::string_view property, bool is_list) {
-  constexpr std::string_view kScalars[] = {"x", "y", "z", "nx", "ny", "nz"};
-  if (element == "vertex" && !is_list) {
-    for (int k = 0; k < 6; ++k) {
-      if (property == kScalars[k]) return static_cast<Role>(k);
-    }
+int find_slot(std::string_view property) {
+  struct Name {
+    std::string_view name;
+    int slot;
+  };
+  constexpr Name kNames[] = {{"x", 0},  {"y", 1},   {"z", 2},     {"nx", 3},        {"ny", 4},
+                             {"nz", 5}, {"red", 6}, {"green", 7}, {"blue", 8},      {"s", 9},
+                             {"t", 10}, {"u", 9},   {"v", 10},    {"texture_u", 9}, {"texture_v", 10}};
+  for (const Name& known : kNames) {
+    if (property == known.name) return known.slot;
   }
-  const bool corners = property == "vertex_indices" || property == "vertex_index";
-  return element == "face" && is_list && corners ? Role::kCorners : Role::kOther;
+  constexpr std::string_view kNumbered = "channel_";
+  std::int64_t number = 0;
+  const bool channel = property.starts_with(kNumbered) && parse_integer(property.substr(kNumbered.size()), number);
+  return channel && number >= 1 && number <= kMaxChannels ? kChannel + static_cast<int>(number) - 1 : kOther;
+}
+
+/// 0 … 1 or whole numbers up to the type's largest, as a byte.
+std::uint8_t to_color(double value, Type type) {
+  if (type == Type::kFloat || type == Type::kDouble) value *= 255;
+  if (type == Type::kUint16) value /= 257;
+  return value > 0 ? static_cast<std::uint8_t>(std::min(value, 255.0) + 0.5) : std::uint8_t{0};
+}
+
+float to_float(double value) {
+  return std::fabs(value) <= double{std::numeric_limits<float>::max()} ? static_cast<float>(value)
+                                                                       : std::numeric_limits<float>::quiet_NaN();
 }
 
 class PlyReader {
@@ -133,7 +156,9 @@ class PlyReader {
     if (!found) return false;
     property.type = *found;
     Element& element = elements_.back();
-    property.role = find_role(element.name, cursor_.word(), is_list);
+    const std::string_view name = cursor_.word();
+    if (element.name == "vertex" && !is_list) property.slot = find_slot(name);
+    property.is_corners = element.name == "face" && is_list && (name == "vertex_indices" || name == "vertex_index");
     element.properties.push_back(property);
     return true;
   }
@@ -190,41 +215,65 @@ class PlyReader {
   std::string read_element(const Element& element) {
     if (element.properties.empty()) return {};  // its items take no bytes, whatever their count
     std::size_t least = 0;                      // bytes that an item takes at least; a digit and a space in text
-    std::uint32_t roles = 0;
+    std::bitset<kSlots> slots;
     for (const Property& property : element.properties) {
       least += is_text_ ? 2 : kTypeSizes[static_cast<int>(property.count_type.value_or(property.type))];
-      roles |= 1u << static_cast<int>(property.role);
+      if (property.slot >= 0) slots.set(static_cast<std::size_t>(property.slot));
     }
-    constexpr std::uint32_t kPosition = 7, kNormal = 7 << 3;
-    const bool is_vertex = element.name == "vertex", with_normals = (roles & kNormal) == kNormal;
-    if (is_vertex && (roles & kPosition) != kPosition) return "its vertices lack x, y or z";
+    const auto has = [&](int first, int count) {
+      while (count > 0 && slots[static_cast<std::size_t>(first + count - 1)]) --count;
+      return count == 0;
+    };
+    const bool is_vertex = element.name == "vertex";
+    if (is_vertex && !has(kPosition, 3)) return "its vertices lack x, y or z";
     if (element.count > (remaining() + 1) / least) {
       return fmt::format("it announces {} '{}' items, more than its {} bytes can hold: it was cut off", element.count,
                          element.name, remaining());
     }
-    if (is_vertex) mesh.positions.reserve(mesh.positions.size() + 3 * element.count);
+    if (is_vertex) {
+      mesh.positions.reserve(mesh.positions.size() + 3 * element.count);
+      has_normals_ = has(kNormal, 3);
+      has_colors_ = has(kColor, 3);
+      has_uvs_ = has(kUv, 2);
+      mesh.channel_count = static_cast<int>((slots >> kChannel).count());
+      if (!has(kChannel, mesh.channel_count)) mesh.channel_count = 0;
+    }
     for (std::uint64_t item = 0; item < element.count; ++item) {
-      double values[6] = {};
       for (const Property& property : element.properties) {
-        const bool good = property.count_type ? read_list(property) : read_scalar(property, values);
+        const bool good = property.count_type ? read_list(property) : read_scalar(property);
         if (!good) return fmt::format("{} {} (counting from 0) is broken or cut off", element.name, item);
       }
       if (!is_vertex) continue;
-      mesh.positions.insert(mesh.positions.end(), values, values + 3);
-      for (int k = 3; with_normals && k < 6; ++k) {
-        if (!(std::fabs(values[k]) <= std::numeric_limits<float>::max())) {
-          return fmt::format("the normal of vertex {} (counting from 0) is not finite", item);
-        }
-        mesh.normals.push_back(static_cast<float>(values[k]));
+      if (const char* what = add_vertex()) {
+        return fmt::format("the {} of vertex {} (counting from 0) is not finite", what, item);
       }
     }
     return {};
   }
 
-  bool read_scalar(const Property& property, double values[6]) {
+  /// The vertex that values_ describes. Returns what is not finite, or null.
+  const char* add_vertex() {
+    mesh.positions.insert(mesh.positions.end(), &values_[kPosition], &values_[kPosition + 3]);
+    for (int k = kNormal; has_normals_ && k < kNormal + 3; ++k) {
+      mesh.normals.push_back(to_float(values_[k]));
+      if (std::isnan(mesh.normals.back())) return "normal";
+    }
+    for (int k = kColor; has_colors_ && k < kColor + 3; ++k) mesh.colors.push_back(to_color(values_[k], types_[k]));
+    if (has_uvs_) {
+      mesh.uvs.push_back(to_float(values_[kUv]));
+      mesh.uvs.push_back(to_float(1 - values_[kUv + 1]));  // PLY's images begin at the bottom
+      if (std::isnan(mesh.uvs.back() + mesh.uvs[mesh.uvs.size() - 2])) return "place in the image";
+    }
+    for (int k = 0; k < mesh.channel_count; ++k) mesh.channels.push_back(to_float(values_[kChannel + k]));
+    return nullptr;
+  }
+
+  bool read_scalar(const Property& property) {
     double value = 0;
     if (!read_value(property.type, value)) return false;
-    if (property.role < Role::kCorners) values[static_cast<int>(property.role)] = value;
+    if (property.slot < 0) return true;
+    values_[property.slot] = value;
+    types_[property.slot] = property.type;
     return true;
   }
 
@@ -234,7 +283,7 @@ class PlyReader {
     const std::size_t least = is_text_ ? 2 : kTypeSizes[static_cast<int>(property.type)];
     if (!(count >= 0) || count != std::floor(count) || count > static_cast<double>((remaining() + 1) / least))
       return false;
-    const bool corners = property.role == Role::kCorners;
+    const bool corners = property.is_corners;
     if (corners && count < 3) return false;
     corners_.clear();
     for (auto left = static_cast<std::size_t>(count); left > 0; --left) {
@@ -256,6 +305,9 @@ class PlyReader {
   std::endian order_ = std::endian::little;
   std::vector<Element> elements_;
   std::vector<std::uint32_t> corners_;
+  double values_[kSlots] = {};
+  Type types_[kSlots] = {};
+  bool has_normals_ = false, has_colors_ = false, has_uvs_ = false;
   std::optional<std::array<double, 3>> origin_;
 };
 
@@ -263,7 +315,8 @@ class PlyReader {
 
 Result<std::vector<std::uint8_t>> encode_ply(const Mesh& mesh) {
   const std::size_t vertices = mesh.vertex_count(), triangles = mesh.triangle_count();
-  const bool with_normals = !mesh.normals.empty();
+  const bool with_normals = !mesh.normals.empty(), with_colors = !mesh.colors.empty(), with_uvs = !mesh.uvs.empty();
+  const auto channels = static_cast<std::size_t>(mesh.channel_count);
   std::string header = "ply\nformat binary_little_endian 1.0\ncomment Terrain by Scarp: x east, y north, z up\n";
   if (mesh.origin != std::array<double, 3>{})
     header += fmt::format("comment {}{}\n", kOrigin, origin_text(mesh.origin));
@@ -276,14 +329,25 @@ Result<std::vector<std::uint8_t>> encode_ply(const Mesh& mesh) {
   }
   header += fmt::format("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n", vertices);
   if (with_normals) header += "property float nx\nproperty float ny\nproperty float nz\n";
+  if (with_colors) header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  if (with_uvs) header += "property float s\nproperty float t\n";
+  for (std::size_t c = 0; c < channels; ++c) header += fmt::format("property float channel_{}\n", c + 1);
   header += fmt::format("element face {}\nproperty list uchar uint vertex_indices\nend_header\n", triangles);
 
-  std::vector<std::uint8_t> bytes(header.size() + vertices * (with_normals ? 36 : 24) + triangles * 13);
+  const std::size_t vertex_size =
+      24 + (with_normals ? 12 : 0) + (with_colors ? 3 : 0) + (with_uvs ? 8 : 0) + 4 * channels;
+  std::vector<std::uint8_t> bytes(header.size() + vertices * vertex_size + triangles * 13);
   std::memcpy(bytes.data(), header.data(), header.size());
   std::uint8_t* at = bytes.data() + header.size();
   for (std::size_t v = 0; v < vertices; ++v) {
     for (const double coordinate : mesh.vertex(v)) store_number(at, coordinate);
     for (std::size_t k = 0; with_normals && k < 3; ++k) store_number(at, mesh.normals[3 * v + k]);
+    for (std::size_t k = 0; with_colors && k < 3; ++k) store_number(at, mesh.colors[3 * v + k]);
+    if (with_uvs) {
+      store_number(at, mesh.uvs[2 * v]);
+      store_number(at, static_cast<float>(1 - double{mesh.uvs[2 * v + 1]}));
+    }
+    for (std::size_t c = 0; c < channels; ++c) store_number(at, mesh.channels[channels * v + c]);
   }
   for (std::size_t t = 0; t < triangles; ++t) {
     store_number(at, std::uint8_t{3});
@@ -295,7 +359,6 @@ Result<std::vector<std::uint8_t>> encode_ply(const Mesh& mesh) {
 Result<Mesh> decode_ply(std::span<const std::uint8_t> bytes) {
   PlyReader reader(bytes);
   if (std::string why = reader.read(); !why.empty()) return fail(ErrorKind::kInput, std::move(why));
-  if (reader.mesh.normals.size() != reader.mesh.positions.size()) reader.mesh.normals.clear();
   return std::move(reader.mesh);
 }
 

@@ -18,7 +18,7 @@ std::string format_memory(double bytes) {
 }
 
 Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std::uint64_t rows,
-                               const ReadOptions& options) {
+                               const ReadOptions& options, std::uint64_t bands) {
   constexpr std::uint64_t kLargestSide = 0x7fffffff;
   if (cols < 2 || rows < 2) {
     return fail(
@@ -30,12 +30,13 @@ Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std:
                 fmt::format("{}: {} x {} samples: a side may have at most {}", name, cols, rows, kLargestSide));
   }
   const std::uint64_t limit = max_samples(options.memory_limit);
-  if (cols * rows > limit) {
+  if (cols * rows > limit / bands) {
     return fail(
         ErrorKind::kInput,
-        fmt::format("{}: {} x {} samples need {} of memory, but only {} {}; read a part of it (gdal_translate -srcwin) "
-                    "or a coarser copy (gdal_translate -outsize 50% 50%)",
-                    name, cols, rows, format_memory(5.0 * static_cast<double>(cols * rows)),
+        fmt::format("{}: {} x {} samples{} need {} of memory, but only {} {}; read a part of it (gdal_translate "
+                    "-srcwin) or a coarser copy (gdal_translate -outsize 50% 50%)",
+                    name, cols, rows, bands > 1 ? fmt::format(" of {} bands", bands) : "",
+                    format_memory(5.0 * static_cast<double>(cols * rows) * static_cast<double>(bands)),
                     format_memory(5.0 * static_cast<double>(limit)),
                     options.memory_limit != 0 ? "are allowed" : "are available"));
   }

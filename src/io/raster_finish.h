@@ -12,7 +12,7 @@ namespace scarp {
 /// kInput if the size is below 2×2, or needs more memory than `options` or the machine allow. The message has the
 /// figures.
 Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std::uint64_t rows,
-                               const ReadOptions& options);
+                               const ReadOptions& options, std::uint64_t bands = 1);
 
 /// Memory for the samples; kInput if the machine refuses it. Call check_raster_size() first.
 Result<void> allocate_samples(const std::string& name, OwnedHeightField& field);

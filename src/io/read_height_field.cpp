@@ -40,4 +40,23 @@ Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOp
   return caught(ErrorKind::kInput, "read " + path);
 }
 
+Result<OwnedChannels> read_channels(const std::string& path, const ReadOptions& options, bool all_bands) try {
+  std::vector<std::uint8_t> head;
+  if (find_reader(path, head) == Reader::kGdal) return read_gdal_channels(path, options, all_bands);
+  ReadOptions one_band = options;
+  if (all_bands) one_band.band = 1;
+  auto field = read_height_field(path, one_band);
+  if (!field) return tl::unexpected(field.error());
+  OwnedChannels channels;
+  channels.cols = field->cols;
+  channels.rows = field->rows;
+  channels.is_8bit = field->info.sample_type == "Byte";
+  channels.bands.push_back(std::move(field->samples));
+  channels.frame = std::move(field->frame);
+  channels.info = std::move(field->info);
+  return channels;
+} catch (...) {
+  return caught(ErrorKind::kInput, "read " + path);
+}
+
 }  // namespace scarp

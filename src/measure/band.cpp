@@ -26,8 +26,8 @@ bool mark_heights(const HeightField& field, int row, std::vector<std::uint8_t>& 
 
 }  // namespace
 
-Band::Band(const HeightField& field, int first, int rows, std::optional<double> collect_above, double guard)
-    : cols_(field.cols), first_(first), rows_(rows), limit_(collect_above.value_or(HUGE_VAL)), guard_(guard) {
+Band::Band(const HeightField& field, int first, int rows, const Limits& limits, double guard)
+    : cols_(field.cols), first_(first), rows_(rows), limits_(limits), guard_(guard) {
   const std::size_t size = static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols_);
   const float* samples = field.samples + static_cast<std::size_t>(first) * static_cast<std::size_t>(cols_);
   heights_.assign(samples, samples + size);
@@ -130,18 +130,21 @@ void Band::offer_nearest(int col, int row, double distance, std::uint32_t triang
   held = error;
 }
 
-BandReport Band::finish(Histogram& histogram, bool keep_errors) {
+BandReport Band::finish(Histogram& histogram, Keep keep) {
   const auto cols = static_cast<std::size_t>(cols_);
   report_.rows.reserve(static_cast<std::size_t>(rows_));
   for (int row = first_; row < end(); ++row) {
     const double* error = errors(row);
     report_.rows.push_back(sum_row({error, cols}, histogram));
+    for (int c = 0; !limits_.by_sample.empty() && c < cols_; ++c) {
+      if (std::abs(error[c]) > tolerance(c, row)) ++report_.over_tolerance;
+    }
     for (int c = 0; !nearest_.empty() && c < cols_; ++c) {
       if (!is_missing(c, row)) continue;
       if (std::isnan(error[c])) {
         ++report_.uncovered;
-        if (std::isfinite(limit_)) report_.uncovered_offenders.push_back({c, row, HUGE_VAL});
-      } else if (is_offender(error[c])) {
+        if (limits_.any()) report_.uncovered_offenders.push_back({c, row, HUGE_VAL});
+      } else if (is_offender(c, row, error[c])) {
         add_offender(nearest_[at(c, row)].triangle, {c, row, error[c]});
       }
     }
@@ -151,10 +154,11 @@ BandReport Band::finish(Histogram& histogram, bool keep_errors) {
   std::sort(offenders.begin(), offenders.end(), is_worse_of_triangle);
   const auto same = [](const TriangleOffender& a, const TriangleOffender& b) { return a.triangle == b.triangle; };
   offenders.erase(std::unique(offenders.begin(), offenders.end(), same), offenders.end());
-  if (keep_errors) {
-    report_.errors.resize(errors_.size());
-    std::transform(errors_.begin(), errors_.end(), report_.errors.begin(),
-                   [](double e) { return static_cast<float>(e); });
+  if (keep != Keep::kNothing) {
+    report_.kept.resize(errors_.size());
+    for (std::size_t i = 0; i < errors_.size(); ++i) {
+      report_.kept[i] = static_cast<float>(keep == Keep::kHeights ? double{heights_[i]} + errors_[i] : errors_[i]);
+    }
   }
   return std::move(report_);
 }

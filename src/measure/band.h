@@ -38,8 +38,19 @@ struct BandReport {
   std::uint64_t uncovered = 0, stray = 0, void_cells_covered = 0;
   std::vector<TriangleOffender> offenders;
   std::vector<Offender> uncovered_offenders;
-  std::vector<float> errors;  ///< row-major; filled if asked for
+  std::uint64_t over_tolerance = 0;
+  std::vector<float> kept;  ///< row-major; filled if asked for
 };
+
+/// Which errors make a sample an offender.
+struct Limits {
+  double everywhere = HUGE_VAL;
+  std::span<const float> by_sample = {};  ///< of the whole field; empty: none
+  bool any() const { return std::isfinite(everywhere) || !by_sample.empty(); }
+};
+
+/// What a band hands back for each sample: nothing, mesh − sample, or the mesh's height.
+enum class Keep { kNothing, kErrors, kHeights };
 
 /// Working copy of the rows [first, first + rows) of a field. Scanners read heights and cells, and write errors.
 class Band {
@@ -48,7 +59,7 @@ class Band {
 
   /// Copies the rows, with every sample that need not be covered (void or stray) as NaN, and finds the cells that must
   /// not be covered.
-  Band(const HeightField& field, int first, int rows, std::optional<double> collect_above, double guard);
+  Band(const HeightField& field, int first, int rows, const Limits& limits, double guard);
 
   int first() const { return first_; }
   int end() const { return first_ + rows_; }
@@ -63,13 +74,16 @@ class Band {
     held = error;
     if (now > largest_) largest_ = now;
   }
-  /// True if an error of about this size may become the band's largest or break the bound, so that its last bit counts.
-  bool is_critical(double error) const {
+  /// True if an error of about this size may become the band's largest or break a bound, so that its last bit counts.
+  bool is_critical(int col, int row, double error) const {
     const double magnitude = std::abs(error);
     const double upper = magnitude + (guard_ + kRounding * magnitude);
-    return upper >= largest_ || (upper >= limit_ && magnitude - (upper - magnitude) <= limit_);
+    const auto is_close_to = [&](double limit) { return upper >= limit && magnitude - (upper - magnitude) <= limit; };
+    return upper >= largest_ || is_close_to(limits_.everywhere) || is_close_to(tolerance(col, row));
   }
-  bool is_offender(double error) const { return std::abs(error) > limit_; }
+  bool is_offender(int col, int row, double error) const {
+    return std::abs(error) > limits_.everywhere || std::abs(error) > tolerance(col, row);
+  }
   /// Notes a sample of `triangle` that breaks the bound.
   void add_offender(std::uint32_t triangle, Offender offender) { report_.offenders.push_back({triangle, offender}); }
 
@@ -89,7 +103,7 @@ class Band {
   void count_void_cell(int col, int row);
 
   /// Sums up. Ends the band's life as a workplace.
-  BandReport finish(Histogram& histogram, bool keep_errors);
+  BandReport finish(Histogram& histogram, Keep keep);
 
  private:
   struct Nearest {
@@ -100,10 +114,17 @@ class Band {
   std::size_t at(int col, int row) const {
     return static_cast<std::size_t>(row - first_) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(col);
   }
+  double tolerance(int col, int row) const {
+    return limits_.by_sample.empty()
+               ? HUGE_VAL
+               : double{limits_.by_sample[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols_) +
+                                          static_cast<std::size_t>(col)]};
+  }
   void classify(const HeightField& field);
 
   int cols_ = 0, first_ = 0, rows_ = 0;
-  double limit_ = HUGE_VAL, guard_ = 0, largest_ = 0;
+  Limits limits_;
+  double guard_ = 0, largest_ = 0;
   bool has_void_cells_ = false;
   std::vector<float> heights_;
   std::vector<double> errors_;

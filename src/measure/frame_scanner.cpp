@@ -141,9 +141,9 @@ class FrameScanner : public Scanner {
         }
         if (area <= 0) continue;
         double error = sum / area;
-        if (error != 0 && band.is_critical(error)) error = settle_error(w, facet.z, sample);
+        if (error != 0 && band.is_critical(col, row, error)) error = settle_error(w, facet.z, sample);
         band.offer(errors[col], error);
-        if (band.is_offender(error)) band.add_offender(id, {col, row, error});
+        if (band.is_offender(col, row, error)) band.add_offender(id, {col, row, error});
       }
     }
   }

@@ -128,11 +128,11 @@ class GridScanner : public Scanner {
                      w2 = std::max(0.0, weight(2, col));
         const double t0 = w0 * (facet.z[0] - sample), t1 = w1 * (facet.z[1] - sample), t2 = w2 * (facet.z[2] - sample);
         double error = (t0 + t1 + t2) * per_area;
-        if (band.is_critical(error) && (t0 != 0 || t1 != 0 || t2 != 0)) {
+        if (band.is_critical(col, row, error) && (t0 != 0 || t1 != 0 || t2 != 0)) {
           error = settle_error({w0, w1, w2}, facet.z, sample);
         }
         band.offer(errors[col], error);
-        if (band.is_offender(error) && std::abs(error) > std::abs(worst.error)) worst = {col, row, error};
+        if (band.is_offender(col, row, error) && std::abs(error) > std::abs(worst.error)) worst = {col, row, error};
       }
     }
     if (worst.error != 0) band.add_offender(id, worst);

@@ -77,6 +77,11 @@ Result<void> check_input(const HeightField& field, const Mesh& mesh, const Measu
   if (!(options.coverage_tolerance >= 0) || !std::isfinite(options.coverage_tolerance)) {
     return fail(ErrorKind::kUsage, "coverage_tolerance must be zero or a positive number of samples");
   }
+  const std::size_t samples = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
+  if (!options.tolerance.empty() && options.tolerance.size() != samples) {
+    return fail(ErrorKind::kUsage, fmt::format("the tolerance has {} values for {} samples; give one for each",
+                                               options.tolerance.size(), samples));
+  }
   return {};
 }
 
@@ -97,6 +102,7 @@ class Verdict {
 
   void add(int first_row, BandReport& report) {
     result_.uncovered += report.uncovered;
+    result_.over_tolerance += report.over_tolerance;
     result_.stray += report.stray;
     result_.void_cells_covered += report.void_cells_covered;
     for (std::size_t i = 0; i < report.rows.size(); ++i) {
@@ -111,7 +117,7 @@ class Verdict {
       }
       if (options_.on_row) {
         const auto cols = static_cast<std::size_t>(cols_);
-        options_.on_row(first_row + static_cast<int>(i), {report.errors.data() + i * cols, cols});
+        options_.on_row(first_row + static_cast<int>(i), {report.kept.data() + i * cols, cols});
       }
     }
     offenders_.insert(offenders_.end(), report.offenders.begin(), report.offenders.end());
@@ -174,9 +180,10 @@ double error_guard(const Mesh& mesh) {
   return kRounding * size;
 }
 
-/// Fills all that concerns heights. Returns false if the caller stopped it.
+/// Fills all that concerns heights; on_row is given what `keep` says. Returns false if the caller stopped it.
 bool judge_heights(const HeightField& field, const Mesh& mesh, const judge::Scanner& scanner,
-                   const MeasureOptions& options, ProgressGate& gate, Measurement& result) {
+                   const MeasureOptions& options, judge::Keep keep, ProgressGate& gate, Measurement& result) {
+  const judge::Limits limits{options.collect_above.value_or(HUGE_VAL), options.tolerance};
   const double guard = error_guard(mesh);
   const int height = Band::rows_per_band(field.cols);
   const int bands = (field.rows - 1) / height + 1;
@@ -189,15 +196,46 @@ bool judge_heights(const HeightField& field, const Mesh& mesh, const judge::Scan
     std::vector<BandReport> reports(static_cast<std::size_t>(std::min(window, bands - first)));
     parallel_for(reports.size(), options.threads, [&](std::size_t i) {
       const int row = (first + static_cast<int>(i)) * height;
-      Band band(field, row, std::min(height, field.rows - row), options.collect_above, guard);
+      Band band(field, row, std::min(height, field.rows - row), limits, guard);
       scanner.scan(band);
-      reports[i] = band.finish(histograms[i], static_cast<bool>(options.on_row));
+      reports[i] = band.finish(histograms[i], options.on_row ? keep : judge::Keep::kNothing);
     });
     for (std::size_t i = 0; i < reports.size(); ++i) verdict.add((first + static_cast<int>(i)) * height, reports[i]);
   }
   for (std::size_t i = 1; i < histograms.size(); ++i) histograms[0].merge(histograms[i]);
   verdict.finish(histograms[0]);
   return true;
+}
+
+/// Which triangles say something about heights: all, or the upward ones of a solid.
+struct Surface {
+  std::vector<std::uint32_t> judged;
+  std::vector<std::uint32_t> welded;  ///< see weld_vertices(); with the edges, where they were asked for or needed
+  judge::EdgeReport edges;
+  bool closed = false;
+};
+
+Surface find_surface(const Mesh& mesh, bool with_edges) {
+  Surface surface;
+  std::vector<std::uint32_t> upward;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    surface.judged.push_back(static_cast<std::uint32_t>(t));
+    if (facing(mesh, t) > 0) upward.push_back(surface.judged.back());
+  }
+  // A solid has walls and a bottom: where all triangles look up, the edges matter for the topology only.
+  if (with_edges || upward.size() < surface.judged.size()) {
+    surface.welded = judge::weld_vertices(mesh);
+    surface.edges = judge::check_edges(mesh, surface.welded);
+    surface.closed = surface.edges.open.empty();
+  }
+  if (surface.closed) surface.judged = std::move(upward);
+  return surface;
+}
+
+std::unique_ptr<judge::Scanner> make_scanner(const HeightField& field, const Mesh& mesh,
+                                             const std::vector<std::uint32_t>& judged, double tolerance) {
+  return field.frame.is_affine() ? judge::make_grid_scanner(field, mesh, judged, tolerance)
+                                 : judge::make_frame_scanner(field, mesh, judged, tolerance);
 }
 
 }  // namespace
@@ -210,25 +248,13 @@ Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const Me
   Measurement result;
   result.vertices = mesh.vertex_count();
   result.triangles = mesh.triangle_count();
-  std::vector<std::uint32_t> all, upward;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    all.push_back(static_cast<std::uint32_t>(t));
-    if (facing(mesh, t) > 0) upward.push_back(all.back());
-  }
-  // A solid has walls and a bottom: where all triangles look up, the edges matter for the topology only.
-  std::vector<std::uint32_t> welded;
-  judge::EdgeReport edges;
-  if (options.topology || upward.size() < all.size()) {
-    welded = judge::weld_vertices(mesh);
-    edges = judge::check_edges(mesh, welded);
-    result.closed = edges.open.empty();
-  }
-  const std::vector<std::uint32_t>& judged = result.closed ? upward : all;
+  const Surface surface = find_surface(mesh, options.topology);
+  const auto& [judged, welded, edges, closed] = surface;
+  result.closed = closed;
 
   const double tolerance = options.coverage_tolerance;
-  const auto scanner = field.frame.is_affine() ? judge::make_grid_scanner(field, mesh, judged, tolerance)
-                                               : judge::make_frame_scanner(field, mesh, judged, tolerance);
-  if (!judge_heights(field, mesh, *scanner, options, gate, result)) return cancelled();
+  const auto scanner = make_scanner(field, mesh, judged, tolerance);
+  if (!judge_heights(field, mesh, *scanner, options, judge::Keep::kErrors, gate, result)) return cancelled();
 
   if (options.topology) {
     if (!gate.go_on("topology", 0)) return cancelled();
@@ -249,6 +275,23 @@ Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const Me
   return result;
 } catch (...) {
   return caught(ErrorKind::kInput, "measure the mesh");
+}
+
+Result<std::vector<float>> resample(const HeightField& field, const Mesh& mesh, int threads) try {
+  MeasureOptions options;
+  options.threads = threads;
+  if (auto checked = check_input(field, mesh, options); !checked) return tl::unexpected<Error>(checked.error());
+  std::vector<float> heights(static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows));
+  options.on_row = [&](int row, std::span<const float> values) {
+    std::copy(values.begin(), values.end(), heights.begin() + std::ptrdiff_t{row} * field.cols);
+  };
+  const auto scanner = make_scanner(field, mesh, find_surface(mesh, false).judged, options.coverage_tolerance);
+  ProgressGate gate(options.progress);
+  Measurement ignored;
+  judge_heights(field, mesh, *scanner, options, judge::Keep::kHeights, gate, ignored);
+  return heights;
+} catch (...) {
+  return caught(ErrorKind::kInput, "resample the mesh");
 }
 
 }  // namespace scarp

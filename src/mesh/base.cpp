@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "mesh/attributes.h"
 #include "mesh/flat_base.h"
 #include "mesh/half_edges.h"
 #include "scarp/mesh.h"
@@ -26,6 +27,7 @@ void split_fans(Mesh& mesh, const std::vector<std::uint32_t>& twins) {
     }
     const auto copy = static_cast<std::uint32_t>(mesh.vertex_count());
     for (std::size_t k = 0; k < 3; ++k) mesh.positions.push_back(mesh.positions[3 * std::size_t{vertex} + k]);
+    append_attributes_of(mesh, vertex);
     for (std::uint32_t corner = h; corner != kNoHalfEdge; corner = twins[previous_half_edge(corner)]) {
       mesh.triangles[corner] = copy;
     }
@@ -57,6 +59,7 @@ bool add_base(Mesh& mesh, double base) {
       below[v] = static_cast<std::uint32_t>(mesh.vertex_count());
       const double x = mesh.positions[3 * std::size_t{v}], y = mesh.positions[3 * std::size_t{v} + 1];
       mesh.positions.insert(mesh.positions.end(), {x, y, base - mesh.origin[2]});
+      append_attributes_of(mesh, v);
     }
     return below[v];
   };

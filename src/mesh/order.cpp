@@ -1,8 +1,11 @@
 #include <meshoptimizer.h>
 
+#include <algorithm>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
+#include "mesh/attributes.h"
 #include "scarp/mesh.h"
 
 namespace scarp {
@@ -15,18 +18,19 @@ void optimize_order(Mesh& mesh) {
   const std::size_t used =
       meshopt_optimizeVertexFetchRemap(new_ids.data(), triangles.data(), triangles.size(), vertices);
 
-  std::vector<double> positions(3 * used);
-  std::vector<float> normals(mesh.normals.empty() ? 0 : 3 * used);
-  for (std::size_t v = 0; v < vertices; ++v) {
-    if (new_ids[v] == std::numeric_limits<std::uint32_t>::max()) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      positions[3 * std::size_t{new_ids[v]} + k] = mesh.positions[3 * v + k];
-      if (!normals.empty()) normals[3 * std::size_t{new_ids[v]} + k] = mesh.normals[3 * v + k];
+  const auto reorder = [&](auto& values, std::size_t width) {
+    std::decay_t<decltype(values)> reordered(width * used);
+    for (std::size_t v = 0; v < vertices; ++v) {
+      if (new_ids[v] == std::numeric_limits<std::uint32_t>::max()) continue;
+      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(width * v), width,
+                  reordered.begin() + static_cast<std::ptrdiff_t>(width * new_ids[v]));
     }
-  }
+    values = std::move(reordered);
+  };
+  reorder(mesh.positions, 3);
+  if (!mesh.normals.empty()) reorder(mesh.normals, 3);
+  for_each_attribute(mesh, reorder);
   for (std::uint32_t& vertex : triangles) vertex = new_ids[vertex];
-  mesh.positions = std::move(positions);
-  mesh.normals = std::move(normals);
   mesh.triangles = std::move(triangles);
 }
 

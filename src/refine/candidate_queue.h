@@ -1,7 +1,9 @@
-// The queue of Algorithm III: triangles by their worst sample.
+// Triangles by their worst sample: the queue of Algorithm III and the list of Algorithms I and II.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "base/array.h"
 #include "geom/predicates.h"
@@ -10,7 +12,7 @@ namespace scarp {
 
 /// The sample that a triangle would have inserted.
 struct Candidate {
-  double error = 0;  ///< |plane − sample| by Plane::height_at()
+  double error = 0;  ///< its importance: |plane − sample| by Plane::height_at(), where nothing else is asked for
   Point at;
 };
 
@@ -19,16 +21,34 @@ inline bool is_worse(const Candidate& a, const Candidate& b) {
   return a.error != b.error ? a.error > b.error : before(a.at, b.at);
 }
 
+/// Which triangle has the worst candidate?
+class CandidateStore {
+ public:
+  virtual ~CandidateStore() = default;
+  virtual bool empty() const = 0;
+  /// The triangle whose candidate is the worst. REQUIRES: !empty().
+  virtual std::uint32_t worst() const = 0;
+  virtual Candidate candidate(std::uint32_t id) const = 0;
+  /// Ids below `count` may be used from now on; new ones have no candidate.
+  virtual void grow(std::size_t count) = 0;
+  /// Gives the triangle a candidate, or another one.
+  virtual void set(std::uint32_t id, const Candidate& candidate) = 0;
+  virtual void remove(std::uint32_t id) = 0;
+  /// Appends the triangles whose candidate's error is at least `least`, in any order.
+  virtual void collect(double least, std::vector<std::uint32_t>& ids) const = 0;
+  /// Entries moved or looked through since the beginning.
+  virtual std::uint64_t moves() const = 0;
+};
+
 /// A 4-ary max-heap of triangle ids with a back-index, so that a rescanned triangle is re-keyed in place (Garland &
 /// Heckbert 1995, section 4.3). 24 bytes a triangle.
-class CandidateQueue {
+class CandidateQueue final : public CandidateStore {
  public:
-  bool empty() const { return heap_.empty(); }
-  std::uint32_t worst() const { return heap_[0]; }
-  Candidate candidate(std::uint32_t id) const { return {errors_[id], points_[id]}; }
+  bool empty() const override { return heap_.empty(); }
+  std::uint32_t worst() const override { return heap_[0]; }
+  Candidate candidate(std::uint32_t id) const override { return {errors_[id], points_[id]}; }
 
-  /// Ids below `count` may be used from now on; new ones are not queued.
-  void grow(std::size_t count) {
+  void grow(std::size_t count) override {
     while (slots_.size() < count) {
       slots_.push_back(kNotQueued);
       errors_.push_back(0);
@@ -36,8 +56,8 @@ class CandidateQueue {
     }
   }
 
-  /// Queues the triangle, or re-keys it where it stands.
-  void set(std::uint32_t id, const Candidate& candidate) {
+  /// A triangle that is queued is re-keyed where it stands.
+  void set(std::uint32_t id, const Candidate& candidate) override {
     std::size_t slot = slots_[id];
     const bool was_queued = slots_[id] != kNotQueued;
     const bool rises = !was_queued || is_worse(candidate, this->candidate(id));
@@ -50,7 +70,7 @@ class CandidateQueue {
     rises ? sift_up(slot, id) : sift_down(slot, id);
   }
 
-  void remove(std::uint32_t id) {
+  void remove(std::uint32_t id) override {
     const std::size_t slot = slots_[id];
     if (slot == kNotQueued) return;
     slots_[id] = kNotQueued;
@@ -61,10 +81,25 @@ class CandidateQueue {
     rises ? sift_up(slot, last) : sift_down(slot, last);
   }
 
+  void collect(double least, std::vector<std::uint32_t>& ids) const override {
+    std::vector<std::size_t> slots;
+    if (!heap_.empty()) slots.push_back(0);
+    while (!slots.empty()) {
+      const std::size_t slot = slots.back();
+      slots.pop_back();
+      if (!(errors_[heap_[slot]] >= least)) continue;
+      ids.push_back(heap_[slot]);
+      for (std::size_t child = 4 * slot + 1; child < 4 * slot + 5 && child < heap_.size(); ++child)
+        slots.push_back(child);
+    }
+  }
+  std::uint64_t moves() const override { return moves_; }
+
  private:
   static constexpr std::uint32_t kNotQueued = 0xffffffffu;
 
   void place(std::size_t slot, std::uint32_t id) {
+    ++moves_;
     heap_[slot] = id;
     slots_[id] = static_cast<std::uint32_t>(slot);
   }
@@ -102,6 +137,53 @@ class CandidateQueue {
   Array<std::uint32_t> slots_;  // by triangle
   Array<double> errors_;        // by triangle
   Array<Point> points_;         // by triangle
+  std::uint64_t moves_ = 0;
+};
+
+/// No order at all: the worst is found by looking at every triangle, once after each change.
+class CandidateList final : public CandidateStore {
+ public:
+  bool empty() const override { return count_ == 0; }
+  std::uint32_t worst() const override {
+    if (!known_) {
+      bool any = false;
+      for (std::uint32_t id = 0; id < candidates_.size(); ++id) {
+        if (!(candidates_[id].error >= 0) || (any && !is_worse(candidates_[id], candidates_[worst_]))) continue;
+        worst_ = id;
+        any = true;
+      }
+      looked_ += candidates_.size();
+      known_ = true;
+    }
+    return worst_;
+  }
+  Candidate candidate(std::uint32_t id) const override { return candidates_[id]; }
+  void grow(std::size_t count) override { candidates_.resize(count, kNoCandidate); }
+  void set(std::uint32_t id, const Candidate& candidate) override {
+    count_ += !(candidates_[id].error >= 0);
+    candidates_[id] = candidate;
+    known_ = false;
+  }
+  void remove(std::uint32_t id) override {
+    count_ -= candidates_[id].error >= 0;
+    candidates_[id] = kNoCandidate;
+    known_ = false;
+  }
+  void collect(double least, std::vector<std::uint32_t>& ids) const override {
+    for (std::uint32_t id = 0; id < candidates_.size(); ++id) {
+      if (candidates_[id].error >= 0 && candidates_[id].error >= least) ids.push_back(id);
+    }
+  }
+  std::uint64_t moves() const override { return looked_; }
+
+ private:
+  static constexpr Candidate kNoCandidate{-1, {}};
+
+  std::vector<Candidate> candidates_;  // by triangle
+  std::size_t count_ = 0;
+  mutable std::uint32_t worst_ = 0;
+  mutable bool known_ = false;
+  mutable std::uint64_t looked_ = 0;
 };
 
 }  // namespace scarp

@@ -87,6 +87,16 @@ std::vector<Point> frozen_samples(const Triangulation& tin) {
   return points;
 }
 
+std::vector<float> sample_uvs(const Raster& raster, const std::vector<Point>& samples) {
+  std::vector<float> uvs;
+  uvs.reserve(2 * samples.size());
+  for (Point p : samples) {
+    uvs.push_back(static_cast<float>((p.x + 0.5) / raster.cols));
+    uvs.push_back(static_cast<float>((p.y + 0.5) / raster.rows));
+  }
+  return uvs;
+}
+
 Mesh freeze(const Raster& raster, const Triangulation& tin, const Frame& frame, bool round_to_float32) {
   Mesh mesh;
   const auto ids = number_vertices(tin);

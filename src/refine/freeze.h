@@ -17,6 +17,10 @@ Mesh freeze(const Raster& raster, const Triangulation& tin, const Frame& frame, 
 /// voids and borders; 3 values a point, z > 0.
 std::vector<float> sample_normals(const Raster& raster, const Frame& frame, const std::vector<Point>& samples);
 
+/// Places in the raster's image: pixel centres, (0, 0) the image's top left corner and (1, 1) its bottom right; 2
+/// values a point.
+std::vector<float> sample_uvs(const Raster& raster, const std::vector<Point>& samples);
+
 /// The lattice points of freeze()'s vertices, in its order.
 std::vector<Point> frozen_samples(const Triangulation& tin);
 

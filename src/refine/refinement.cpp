@@ -1,79 +1,43 @@
 #include "refine/refinement.h"
 
-#include <cmath>
-
-#include "geom/exact_error.h"
-#include "geom/plane.h"
-#include "geom/scan.h"
+#include <algorithm>
 
 namespace scarp {
 
-namespace {
-
-std::array<float, 3> heights_at(const Raster& raster, const std::array<Point, 3>& corners) {
-  return {raster.at(corners[0]), raster.at(corners[1]), raster.at(corners[2])};
-}
-
-/// Largest error by the plane's own arithmetic. NaN samples lose every comparison.
-Candidate scan_worst(const Raster& raster, const std::array<Point, 3>& corners, const Plane& plane) {
-  Candidate worst{-1, {}};
-  scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
-    const float* samples = raster.row(y);
-    const double row_height = plane.row_height(y);
-    for (std::int32_t x = first; x <= last; ++x) {
-      const double error =
-          std::abs(row_height + plane.slope_x * static_cast<double>(x - plane.base.x) - double{samples[x]});
-      if (error > worst.error) worst = {error, {x, y}};
-    }
-  });
-  return worst;
-}
-
-/// The same among the samples that exceed the threshold as real numbers.
-std::optional<Candidate> scan_worst_exactly(const Raster& raster, const std::array<Point, 3>& corners,
-                                            const Plane& plane, double threshold) {
-  const auto heights = heights_at(raster, corners);
-  std::optional<Candidate> worst;
-  scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
-    for (std::int32_t x = first; x <= last; ++x) {
-      const Point p{x, y};
-      const float sample = raster.at(p);
-      const double error = std::abs(plane.height_at(p) - double{sample});
-      if (!(error >= threshold - plane.guard) || (worst && error <= worst->error)) continue;
-      if (exceeds_exactly(corners, heights, p, sample, threshold)) worst = Candidate{error, p};
-    }
-  });
-  return worst;
-}
-
-}  // namespace
-
-std::optional<Candidate> find_candidate(const Raster& raster, const std::array<Point, 3>& corners, double threshold) {
-  const Plane plane = Plane::through(corners, heights_at(raster, corners));
-  const Candidate worst = scan_worst(raster, corners, plane);
-  if (worst.error > threshold + plane.guard) return worst;
-  if (worst.error < threshold - plane.guard) return std::nullopt;
-  // A level plane has no guard: one subtraction rounds, monotonely, so that only equality is in doubt.
-  if (plane.guard == 0 && (threshold == 0 || worst.error != threshold)) return std::nullopt;
-  return scan_worst_exactly(raster, corners, plane, threshold);
-}
-
-Refinement::Refinement(const Raster& raster, Triangulation& tin, double threshold)
-    : raster_(raster), tin_(tin), threshold_(threshold) {
-  queue_.grow(tin.triangle_count());
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
-    if (tin.is_outside(t)) continue;
-    ++inside_;
-    rescan(t);
+Refinement::Refinement(const Judge& judge, Triangulation& tin, Algorithm algorithm, const EdgeRule& edges)
+    : judge_(judge), tin_(tin), algorithm_(algorithm) {
+  if (edges.data_dependent) rule_ = std::make_unique<DataDependentRule>(judge, edges);
+  if (algorithm == Algorithm::kHeap) {
+    candidates_ = std::make_unique<CandidateQueue>();
+  } else {
+    candidates_ = std::make_unique<CandidateList>();
   }
+  for (Triangle t = 0; t < tin.triangle_count(); ++t) inside_ += !tin.is_outside(t);
+  rescan_all();
 }
 
 void Refinement::rescan(Triangle t) {
-  if (const auto candidate = find_candidate(raster_, tin_.corners(t), threshold_)) {
-    queue_.set(t, *candidate);
-  } else {
-    queue_.remove(t);
+  std::optional<Candidate> candidate;
+  if (!tin_.is_outside(t)) {
+    if (rule_) {
+      candidate = judge_.find_candidate(tin_.corners(t), rule_->fit_of(tin_, t));
+    } else {
+      const Fit fit = judge_.fit(tin_.corners(t), {});
+      samples_ += fit.scanned;
+      ++triangles_;
+      candidate = judge_.find_candidate(tin_.corners(t), fit);
+    }
   }
+  if (candidate) {
+    candidates_->set(t, *candidate);
+  } else {
+    candidates_->remove(t);
+  }
+}
+
+void Refinement::rescan_all() {
+  candidates_->grow(tin_.triangle_count());
+  for (Triangle t = 0; t < tin_.triangle_count(); ++t) rescan(t);
 }
 
 std::uint32_t Refinement::gain(const Triangulation::Location& location) const {
@@ -90,28 +54,76 @@ std::uint32_t Refinement::gain(const Triangulation::Location& location) const {
 }
 
 std::uint32_t Refinement::next_gain() const {
-  const Triangle t = queue_.worst();
-  return gain(tin_.locate_in(queue_.candidate(t).at, t));
+  const Triangle t = candidates_->worst();
+  return gain(tin_.locate_in(candidates_->candidate(t).at, t));
 }
 
 void Refinement::insert_worst() {
-  const Triangle t = queue_.worst();
-  const Point p = queue_.candidate(t).at;
+  const Triangle t = candidates_->worst();
+  const Point p = candidates_->candidate(t).at;
   insert_at(p, tin_.locate_in(p, t));
 }
 
-void Refinement::insert_at(Point p, Triangulation::Location location) {
+void Refinement::insert(Point p) { insert_at(p, tin_.locate(p, tin_.last_touched())); }
+
+void Refinement::add(Point p, Triangulation::Location location) {
   inside_ += gain(location);
-  const Vertex v = tin_.insert(p, location);
-  queue_.grow(tin_.triangle_count());
-  tin_.star(v, star_);
-  for (const Triangle t : star_) {
-    if (tin_.is_outside(t)) {
-      queue_.remove(t);
-    } else {
-      rescan(t);
-    }
+  if (rule_) {
+    rule_->insert(tin_, p, location);
+    star_ = rule_->changed();
+  } else {
+    tin_.star(tin_.insert(p, location), star_);
   }
+  candidates_->grow(tin_.triangle_count());
+}
+
+void Refinement::insert_at(Point p, Triangulation::Location location) {
+  add(p, location);
+  ++passes_;
+  if (algorithm_ == Algorithm::kBruteForce) return rescan_all();
+  for (const Triangle t : star_) rescan(t);
+}
+
+std::vector<Refinement::BatchCandidate> Refinement::collect(const Batch& batch) const {
+  std::vector<BatchCandidate> found;
+  if (done()) return found;
+  std::vector<std::uint32_t> ids;
+  candidates_->collect(batch.rule == Batch::Rule::kFraction ? batch.fraction * worst_error() : 0, ids);
+  for (const Triangle t : ids) found.push_back({candidates_->candidate(t), t});
+  std::sort(found.begin(), found.end(), [](const BatchCandidate& a, const BatchCandidate& b) {
+    if (!(a.candidate.at == b.candidate.at) || a.candidate.error != b.candidate.error)
+      return is_worse(a.candidate, b.candidate);
+    return a.triangle < b.triangle;
+  });
+  return found;
+}
+
+void Refinement::insert_unseen(Point p, Triangle hint) {
+  add(p, tin_.locate(p, hint));
+  changed_.resize(tin_.triangle_count(), 0);
+  for (const Triangle t : star_) {
+    if (changed_[t] == 0) unseen_.push_back(t);
+    changed_[t] = 1;
+  }
+}
+
+void Refinement::rescan_changed() {
+  ++passes_;
+  for (const Triangle t : unseen_) {
+    changed_[t] = 0;
+    if (algorithm_ != Algorithm::kBruteForce) rescan(t);
+  }
+  unseen_.clear();
+  if (algorithm_ == Algorithm::kBruteForce) rescan_all();
+}
+
+Effort Refinement::effort() const {
+  Effort effort{samples_, triangles_, candidates_->moves(), passes_};
+  if (rule_) {
+    effort.samples_scanned += rule_->samples_scanned();
+    effort.triangles_scanned += rule_->triangles_scanned();
+  }
+  return effort;
 }
 
 }  // namespace scarp

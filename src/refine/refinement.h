@@ -1,41 +1,40 @@
-// Greedy insertion, Algorithm III (Garland & Heckbert 1995, section 4.3).
+// Greedy insertion (Garland & Heckbert 1995, section 4): Algorithm III, and what differs in I, II and IV.
 //
-// Each triangle of the domain knows its worst sample; a queue holds the triangles whose worst sample breaks the
-// threshold. The worst of all is inserted, the triangulation restores its edge rule, and exactly the triangles around
-// the new vertex are scanned again. When the queue is empty, every sample of every triangle is within the threshold -
-// not by bookkeeping of rounded numbers: near the threshold exact_error.h decides.
+// Each triangle of the domain knows its candidate, the most important of its samples that break their bound. The best
+// of all is inserted, the triangulation restores its edge rule, and exactly the triangles around the new vertex are
+// scanned again. When no candidate is left, every sample of every triangle keeps its bound - not by bookkeeping of
+// rounded numbers: near the bound the judge decides exactly.
 //
 // How we differ from the report's program: closed integer scans (no sample falls between two triangles), ties broken by
 // raster order instead of memory order, a proven stop at any threshold including 0, voids (NaN samples, triangles
 // marked outside).
 //
-// Cost: expected O((n + m) log m) for n samples and m insertions.
+// Cost: expected O((n + m) log m) for n samples and m insertions with Algorithm::kHeap.
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
-#include "grid/raster.h"
 #include "refine/candidate_queue.h"
+#include "refine/data_dependent.h"
+#include "refine/judge.h"
+#include "scarp/strategy.h"
 #include "tin/triangulation.h"
 
 namespace scarp {
 
-/// The worst sample of a triangle if it exceeds `threshold`: largest |error|, ties in raster order. Void samples
-/// do not count. REQUIRES: corners are valid samples.
-std::optional<Candidate> find_candidate(const Raster& raster, const std::array<Point, 3>& corners, double threshold);
-
 class Refinement {
  public:
-  /// Scans every triangle that is not outside. The samples and `tin` stay alive and are
-  /// changed by nobody else.
-  Refinement(const Raster& raster, Triangulation& tin, double threshold);
+  /// Scans every triangle that is not outside. The judge and `tin` stay alive; nobody else changes them. Edges are
+  /// Delaunay, or follow the data where `edges` says so; triangles of `tin` stay as they are until a point is inserted.
+  Refinement(const Judge& judge, Triangulation& tin, Algorithm algorithm = Algorithm::kHeap,
+             const EdgeRule& edges = {});
 
-  /// No sample exceeds the threshold any more.
-  bool done() const { return queue_.empty(); }
-  /// Error of the sample to be inserted next; the threshold if done().
-  double worst_error() const { return done() ? threshold_ : queue_.candidate(queue_.worst()).error; }
+  /// No sample breaks its bound any more.
+  bool done() const { return candidates_->empty(); }
+  /// Importance of the sample to be inserted next; the judge's goal if done().
+  double worst_error() const { return done() ? judge_.goal() : candidates_->candidate(candidates_->worst()).error; }
   /// No half-edge ids are left for another insertion (1,431 million triangles).
   bool is_full() const { return tin_.triangle_count() > kNone / 3 - 2; }
   /// How many triangles of the domain insert_worst() would add. REQUIRES: !done().
@@ -45,21 +44,39 @@ class Refinement {
   /// How many triangles of the domain the insertion of p would add; 0 if p is a vertex or outside the domain.
   std::uint32_t gain_at(Point p) const { return gain(tin_.locate(p, tin_.last_touched())); }
   /// Inserts a given sample and rescans around it. REQUIRES: gain_at(p) > 0.
-  void insert(Point p) { insert_at(p, tin_.locate(p, tin_.last_touched())); }
+  void insert(Point p);
+
+  /// The candidates that a batch would insert now, worst first; empty if done(). A place on an edge may come twice.
+  struct BatchCandidate {
+    Candidate candidate;
+    Triangle triangle;
+  };
+  std::vector<BatchCandidate> collect(const Batch& batch) const;
+  /// Inserts a sample without looking at the triangles around it until rescan_changed().
+  void insert_unseen(Point p, Triangle hint);
+  /// True if the triangle was changed since the last rescan_changed().
+  bool has_changed(Triangle t) const { return t < changed_.size() && changed_[t] != 0; }
+  std::uint32_t gain_near(Point p, Triangle hint) const { return gain(tin_.locate(p, hint)); }
+  void rescan_changed();
 
   std::uint64_t triangle_count() const { return inside_; }
+  Effort effort() const;
 
  private:
   void insert_at(Point p, Triangulation::Location location);
+  void add(Point p, Triangulation::Location location);
   void rescan(Triangle t);
+  void rescan_all();
   std::uint32_t gain(const Triangulation::Location& location) const;
 
-  Raster raster_;
+  const Judge& judge_;
   Triangulation& tin_;
-  double threshold_;
-  CandidateQueue queue_;
-  std::vector<Triangle> star_;
-  std::uint64_t inside_ = 0;
+  Algorithm algorithm_;
+  std::unique_ptr<DataDependentRule> rule_;  // null: Delaunay
+  std::unique_ptr<CandidateStore> candidates_;
+  std::vector<Triangle> star_, unseen_;  // changed by the last insertion, by those not rescanned yet
+  std::vector<std::uint8_t> changed_;
+  std::uint64_t inside_ = 0, samples_ = 0, triangles_ = 0, passes_ = 0;
 };
 
 }  // namespace scarp

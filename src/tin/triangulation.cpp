@@ -80,7 +80,7 @@ Triangulation::Location Triangulation::locate(Point p, Triangle hint) const {
   }
 }
 
-Vertex Triangulation::insert(Point p, Location location) {
+Vertex Triangulation::insert(Point p, Location location, FlipRule* rule) {
   const HalfEdge h = location.edge;
   if (location.kind == Location::Kind::kOnVertex) {
     last_ = h / 3;
@@ -135,15 +135,14 @@ Vertex Triangulation::insert(Point p, Location location) {
     }
   }
   last_ = t;
-  legalize_star();
+  legalize_star(rule);
   return v;
 }
 
 bool Triangulation::should_flip(HalfEdge h) const {
-  const HalfEdge g = twins_[h];
-  if (g == kNone || is_constrained(h)) return false;
+  if (!is_free(h)) return false;
   const auto [a, b, c] = corners(h / 3);
-  return in_circle(a, b, c, points_[corners_[previous(g)]]) > 0;
+  return in_circle(a, b, c, points_[corners_[previous(twins_[h])]]) > 0;
 }
 
 // h = a→b in t = (a, b, c), its twin b→a in u = (b, a, d): the diagonal a–b of the quadrilateral a, d, b, c becomes
@@ -165,17 +164,30 @@ void Triangulation::flip(HalfEdge h) {
 
 // Each pending edge faces the new vertex in its triangle; a flip replaces it by a spoke and exposes two edges behind
 // it.
-void Triangulation::legalize_star() {
+void Triangulation::legalize_star(FlipRule* rule) {
   while (!pending_.empty()) {
     const HalfEdge h = pending_.back();
     pending_.pop_back();
-    if (!should_flip(h)) continue;
+    if (!(rule ? is_free(h) && rule->should_flip(*this, h) : should_flip(h))) continue;
     // flip() makes corner c of t = (a, b, c) its first corner: c is the new vertex, since h faces it.
     const Triangle t = h / 3, u = twins_[h] / 3;
     flip(h);
     pending_.push_back(3 * u + 2);
     pending_.push_back(3 * t + 1);
   }
+}
+
+void Triangulation::improve(std::vector<HalfEdge>& edges, FlipRule& rule, std::size_t most) {
+  for (std::size_t flips = 0; !edges.empty() && flips < most;) {
+    const HalfEdge h = edges.back();
+    edges.pop_back();
+    if (!is_free(h) || !rule.should_flip(*this, h)) continue;
+    const Triangle t = h / 3, u = twins_[h] / 3;
+    flip(h);
+    ++flips;
+    for (HalfEdge around : {3 * t + 1, 3 * t + 2, 3 * u + 1, 3 * u + 2}) edges.push_back(around);
+  }
+  edges.clear();
 }
 
 HalfEdge Triangulation::edge_out_of(Vertex v) const {

@@ -15,12 +15,25 @@ using Triangle = std::uint32_t;
 using HalfEdge = std::uint32_t;  ///< 3·triangle + corner: runs from that corner to the next
 inline constexpr std::uint32_t kNone = 0xffffffffu;
 
+class Triangulation;
+
+/// Decides about edges in the place of the Delaunay property.
+class FlipRule {
+ public:
+  virtual ~FlipRule() = default;
+  /// True if the diagonal of the quadrilateral around h shall change. h = a→b lies in (a, b, c), its twin in (b, a, d);
+  /// it is neither constrained nor on the border. After a flip triangle h / 3 is (c, d, b), its neighbour (d, c, a).
+  /// REQUIRES of the answer: true only where both of these are positive.
+  virtual bool should_flip(const Triangulation& tin, HalfEdge h) = 0;
+};
+
 /// Flat arrays, 32-bit ids; half-edge 3t + k runs from corner k of triangle t to corner k + 1, all triangles positive
 /// (orient() > 0). The triangulation always covers the rectangle that it was made with. It knows points and
 /// constraints, no heights: what an edge or a triangle means is the business of those who ask.
 ///
 /// Constrained edges are never flipped; every other edge between two triangles is locally Delaunay (no
-/// corner strictly inside the neighbour's circle; cocircular ties keep the edge that is there). No recursion, no
+/// corner strictly inside the neighbour's circle; cocircular ties keep the edge that is there), unless points were
+/// inserted under a rule of their own. No recursion, no
 /// tolerance, no randomness: the same insertions in the same order give the same arrays.
 ///
 /// Triangle slots are reused: inserting a point changes the triangles around it and no others; at most two (on an
@@ -61,9 +74,14 @@ class Triangulation {
   /// The same where t is known to contain p (closed).
   Location locate_in(Point p, Triangle t) const;
 
-  /// Inserts p at its location and restores the Delaunay property. Returns the new vertex; for kOnVertex the one that
-  /// is there. Constraints on a split edge hold on both halves. Cost: expected O(1).
-  Vertex insert(Point p, Location location);
+  /// Inserts p at its location and restores the Delaunay property, or what `rule` holds for one: it is asked about
+  /// edges that face the new vertex, and each flip adds a spoke to that vertex, so the questions end. Returns the new
+  /// vertex; for kOnVertex the one that is there. Constraints on a split edge hold on both halves. Cost: expected O(1).
+  Vertex insert(Point p, Location location, FlipRule* rule = nullptr);
+
+  /// Asks the rule about the edges of the list, and again about the four edges around each one that it flips, until it
+  /// wants no more or has flipped `most`. Empties the list.
+  void improve(std::vector<HalfEdge>& edges, FlipRule& rule, std::size_t most);
 
   /// Triangles with v as a corner, in cyclic order (from border to border where v lies on the rectangle's border).
   void star(Vertex v, std::vector<Triangle>& triangles) const;
@@ -99,9 +117,10 @@ class Triangulation {
   Side side(HalfEdge h) const { return {twins_[h], is_constrained(h)}; }
   void attach(HalfEdge h, Side side);
   void set_constrained(HalfEdge h);
+  bool is_free(HalfEdge h) const { return twins_[h] != kNone && !is_constrained(h); }
   bool should_flip(HalfEdge h) const;
   void flip(HalfEdge h);
-  void legalize_star();
+  void legalize_star(FlipRule* rule);
   HalfEdge edge_out_of(Vertex v) const;
   Passage passage(Vertex from, Vertex to) const;
   void force_edge(Vertex a, Vertex b, const std::vector<HalfEdge>& crossed);

@@ -17,9 +17,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const double coordinate : mesh->positions) {
     if (!std::isfinite(coordinate)) std::abort();
   }
-  if (!mesh->normals.empty() && mesh->normals.size() != mesh->positions.size()) std::abort();
+  const std::size_t count = mesh->vertex_count();
+  if (!mesh->normals.empty() && mesh->normals.size() != 3 * count) std::abort();
+  if (!mesh->uvs.empty() && mesh->uvs.size() != 2 * count) std::abort();
+  if (!mesh->colors.empty() && mesh->colors.size() != 3 * count) std::abort();
+  if (mesh->channel_count < 0 || mesh->channels.size() != count * static_cast<std::size_t>(mesh->channel_count)) {
+    std::abort();
+  }
   // What was read can be written; what PLY keeps, which is everything, reads back the same.
-  for (const auto format : {scarp::MeshFormat::kGlb, scarp::MeshFormat::kObj, scarp::MeshFormat::kStl}) {
+  for (const auto format :
+       {scarp::MeshFormat::kGlb, scarp::MeshFormat::kObj, scarp::MeshFormat::kStl, scarp::MeshFormat::kTin}) {
     const auto bytes = scarp::encode_mesh(*mesh, format);
     if (!bytes && bytes.error().kind != scarp::ErrorKind::kOutput) std::abort();
     if (bytes && !scarp::decode_mesh(*bytes, "fuzz")) std::abort();
@@ -28,6 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!bytes) return 0;
   const auto back = scarp::decode_mesh(*bytes, "fuzz");
   if (!back || back->triangles != mesh->triangles || back->vertex_count() != mesh->vertex_count()) std::abort();
+  if (back->colors != mesh->colors || back->channels.size() != mesh->channels.size()) std::abort();
   for (std::size_t v = 0; v < mesh->vertex_count(); ++v) {
     if (back->vertex(v) != mesh->vertex(v)) std::abort();
   }

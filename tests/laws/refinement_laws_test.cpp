@@ -6,6 +6,7 @@
 #include "laws/fields.h"
 #include "laws/mesh_laws.h"
 #include "refine/domain.h"
+#include "refine/height_judge.h"
 #include "refine/refinement.h"
 #include "refine/textbook.h"
 
@@ -17,7 +18,8 @@ using testing::Relief;
 
 std::vector<Point> insert_by_queue(const Raster& raster, Triangulation& tin, double threshold, std::size_t most) {
   const std::size_t seeds = tin.vertex_count();
-  Refinement refinement(raster, tin, threshold);
+  const HeightJudge judge(raster, threshold);
+  Refinement refinement(judge, tin);
   while (!refinement.done() && tin.vertex_count() < seeds + most) refinement.insert_worst();
   std::vector<Point> points;
   for (std::size_t v = seeds; v < tin.vertex_count(); ++v) points.push_back(tin.point(static_cast<Vertex>(v)));
@@ -120,7 +122,8 @@ TEST(refinement, a_plane_needs_no_vertex_but_the_corners) {
 TEST(refinement, next_gain_says_how_many_triangles_will_come) {
   const Field field = testing::random_field(7, 25, 19, Relief::kReal, 0.1);
   auto domain = build_domain(field.raster(), 0, grid_frame(19));
-  Refinement refinement(field.raster(), domain->tin, 0);
+  const HeightJudge judge(field.raster(), 0);
+  Refinement refinement(judge, domain->tin);
   while (!refinement.done()) {
     const auto expected = refinement.triangle_count() + refinement.next_gain();
     refinement.insert_worst();

@@ -12,8 +12,9 @@
 namespace scarp {
 namespace {
 
-constexpr MeshFormat kFormats[] = {MeshFormat::kGlb, MeshFormat::kObj, MeshFormat::kPly, MeshFormat::kStl};
-constexpr const char* kNames[] = {"x.glb", "x.obj", "x.ply", "x.stl"};
+constexpr MeshFormat kFormats[] = {MeshFormat::kGlb, MeshFormat::kObj, MeshFormat::kPly, MeshFormat::kStl,
+                                   MeshFormat::kTin};
+constexpr const char* kNames[] = {"x.glb", "x.obj", "x.ply", "x.stl", "x.tin"};
 
 /// An error with a sentence, or a mesh whose parts agree.
 void expect_sound(const Result<Mesh>& mesh, const char* name, std::size_t place) {
@@ -25,18 +26,25 @@ void expect_sound(const Result<Mesh>& mesh, const char* name, std::size_t place)
   ASSERT_FALSE(mesh->triangles.empty()) << name << " at " << place;
   for (const std::uint32_t vertex : mesh->triangles) ASSERT_LT(vertex, mesh->vertex_count());
   for (const double coordinate : mesh->positions) ASSERT_TRUE(std::isfinite(coordinate));
-  ASSERT_TRUE(mesh->normals.empty() || mesh->normals.size() == mesh->positions.size());
+  const std::size_t count = mesh->vertex_count();
+  ASSERT_TRUE(mesh->normals.empty() || mesh->normals.size() == 3 * count);
+  ASSERT_TRUE(mesh->uvs.empty() || mesh->uvs.size() == 2 * count);
+  ASSERT_TRUE(mesh->colors.empty() || mesh->colors.size() == 3 * count);
+  ASSERT_EQ(mesh->channels.size(), static_cast<std::size_t>(mesh->channel_count) * count);
 }
 
 class MeshFile : public testing::TestWithParam<int> {
  protected:
   const char* name() const { return kNames[GetParam()]; }
   std::vector<std::uint8_t> good(bool normals) const {
-    return *encode_mesh(test::sample_mesh(normals), kFormats[GetParam()]);
+    Mesh mesh = test::sample_mesh(normals);
+    if (normals) test::add_attributes(mesh, 2);
+    return *encode_mesh(mesh, kFormats[GetParam()]);
   }
 };
 
 TEST_P(MeshFile, EveryCutFails) {
+  if (kFormats[GetParam()] == MeshFormat::kTin) GTEST_SKIP() << "a TIN has no end";
   const auto bytes = good(true);
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     // An exact copy of the cut, so that a sanitizer sees any read beyond it.
@@ -98,9 +106,19 @@ TEST_P(MeshFile, BrokenMeshesAreRefused) {
   mesh = test::sample_mesh(true);
   mesh.normals.pop_back();
   EXPECT_TRUE(refused(mesh));
+  test::add_attributes(mesh = test::sample_mesh(), 2);
+  EXPECT_FALSE(refused(mesh));
+  for (const auto& spoil : std::initializer_list<void (*)(Mesh&)>{
+           [](Mesh& m) { m.uvs.pop_back(); }, [](Mesh& m) { m.colors.pop_back(); },
+           [](Mesh& m) { m.channels.pop_back(); }, [](Mesh& m) { m.channel_count = 3; },
+           [](Mesh& m) { m.channel_count = -2; }, [](Mesh& m) { m.uvs[3] = NAN; }}) {
+    Mesh spoilt = mesh;
+    spoil(spoilt);
+    EXPECT_TRUE(refused(spoilt));
+  }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, MeshFile, testing::Range(0, 4),
+INSTANTIATE_TEST_SUITE_P(All, MeshFile, testing::Range(0, 5),
                          [](const auto& format) { return std::string(kNames[format.param] + 2); });
 
 TEST(MeshFormats, AreFoundByNameAndExtension) {
@@ -108,6 +126,7 @@ TEST(MeshFormats, AreFoundByNameAndExtension) {
   EXPECT_EQ(find_mesh_format("/a.b/hills.Obj"), MeshFormat::kObj);
   EXPECT_EQ(find_mesh_format("hills.tar.ply"), MeshFormat::kPly);
   EXPECT_EQ(find_mesh_format("stl"), MeshFormat::kStl);
+  EXPECT_EQ(find_mesh_format("crater.TIN"), MeshFormat::kTin);
   EXPECT_FALSE(find_mesh_format("hills"));
   EXPECT_FALSE(find_mesh_format("/x.glb/hills"));
   EXPECT_FALSE(find_mesh_format("/folder/glb"));

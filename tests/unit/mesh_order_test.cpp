@@ -9,7 +9,7 @@
 namespace scarp {
 namespace {
 
-/// Positions and normals of a triangle's corners, turned so that the smallest comes first.
+/// Positions and attributes of a triangle's corners, turned so that the smallest comes first.
 std::vector<std::vector<double>> described(const Mesh& mesh) {
   std::vector<std::vector<double>> all;
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
@@ -20,6 +20,10 @@ std::vector<std::vector<double>> described(const Mesh& mesh) {
       corners[k].assign(p.begin(), p.end());
       for (std::size_t n = 0; n < 3 && !mesh.normals.empty(); ++n)
         corners[k].push_back(double{mesh.normals[3 * v + n]});
+      for (std::size_t n = 0; n < 2 && !mesh.uvs.empty(); ++n) corners[k].push_back(double{mesh.uvs[2 * v + n]});
+      for (std::size_t n = 0; n < 3 && !mesh.colors.empty(); ++n) corners[k].push_back(mesh.colors[3 * v + n]);
+      const auto channels = static_cast<std::size_t>(mesh.channel_count);
+      for (std::size_t n = 0; n < channels; ++n) corners[k].push_back(double{mesh.channels[channels * v + n]});
     }
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     all.push_back({});
@@ -44,7 +48,10 @@ TEST(OptimizeOrder, KeepsTrianglesCornersAndWinding) {
   for (const bool normals : {false, true}) {
     Mesh mesh = shuffled(normals);
     mesh.positions.insert(mesh.positions.end(), {1, 2, 3});  // a vertex without triangles
-    if (normals) mesh.normals.insert(mesh.normals.end(), {0, 0, 1});
+    if (normals) {
+      mesh.normals.insert(mesh.normals.end(), {0, 0, 1});
+      test::add_attributes(mesh, 5);
+    }
     const Mesh before = mesh;
     optimize_order(mesh);
     EXPECT_EQ(described(mesh), described(before));

@@ -58,6 +58,18 @@ inline Mesh sample_mesh(bool normals = false) {
   return mesh;
 }
 
+/// Gives each vertex a place in an image, a colour and `channels` further values, none equal to its neighbour's.
+inline void add_attributes(Mesh& mesh, int channels) {
+  mesh.channel_count = channels;
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    const auto n = static_cast<float>(mesh.vertex_count());
+    mesh.uvs.insert(mesh.uvs.end(), {static_cast<float>(v) / n, 1 - static_cast<float>(v * 7 % 11) / 64});
+    for (std::uint32_t k = 0; k < 3; ++k) mesh.colors.push_back(static_cast<std::uint8_t>(v * 37 + k * 101));
+    for (int c = 0; c < channels; ++c)
+      mesh.channels.push_back(static_cast<float>(v) / 3 - static_cast<float>(c) * 1e5f);
+  }
+}
+
 /// Vertices and triangles agree to the bit, as absolute positions and as offsets.
 inline bool same_geometry(const Mesh& a, const Mesh& b) {
   if (a.triangles != b.triangles || a.vertex_count() != b.vertex_count()) return false;

@@ -200,5 +200,25 @@ TEST(ExactOrient, AgreesWithIntegersAndItsLaws) {
   EXPECT_EQ(exact_orient({0.5, std::nextafter(0.5, 0)}, {12, 12}, {24, 24}), -1);
 }
 
+TEST(AddBase, GivesNewVerticesTheAttributesOfThoseAbove) {
+  // Two cells that touch in a corner: a vertex is doubled, and all are dropped to the base.
+  Mesh mesh = grid_mesh(2, 2, [](int i, int j) { return i == j; });
+  test::add_attributes(mesh, 4);
+  const Mesh open = mesh;
+  ASSERT_TRUE(add_base(mesh, -5));
+  ASSERT_EQ(mesh.uvs.size(), 2 * mesh.vertex_count());
+  ASSERT_EQ(mesh.colors.size(), 3 * mesh.vertex_count());
+  ASSERT_EQ(mesh.channels.size(), 4 * mesh.vertex_count());
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    std::size_t above = 0;
+    while (open.positions[3 * above] != mesh.positions[3 * v] ||
+           open.positions[3 * above + 1] != mesh.positions[3 * v + 1])
+      ++above;
+    EXPECT_EQ(mesh.uvs[2 * v], open.uvs[2 * above]);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(mesh.colors[3 * v + k], open.colors[3 * above + k]);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(mesh.channels[4 * v + k], open.channels[4 * above + k]);
+  }
+}
+
 }  // namespace
 }  // namespace scarp

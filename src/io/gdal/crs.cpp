@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/gdal/session.h"
+#include "io/raster_source.h"
 
 namespace scarp::gdal {
 namespace {
@@ -132,3 +133,13 @@ std::shared_ptr<const PointTransform> build_transform(const Crs& from, const Crs
 }
 
 }  // namespace scarp::gdal
+
+namespace scarp {
+
+bool is_same_crs(const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  gdal::Session quiet;
+  return gdal::same_crs(gdal::find_crs(a), gdal::find_crs(b));
+}
+
+}  // namespace scarp

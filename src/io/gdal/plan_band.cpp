@@ -89,15 +89,19 @@ Result<BandPlan> plan_band(GDALDatasetH dataset, const std::string& path, const 
     plan.offset = 0;
   }
   info.unit = GDALGetRasterUnitType(plan.band);
-  if (plan.type == GDT_Byte && count >= 3 && GDALGetRasterColorInterpretation(plan.band) == GCI_RedBand) {
+  return plan;
+}
+
+void warn_of_colours(GDALDatasetH dataset, const BandPlan& plan, RasterInfo& info) {
+  const GDALColorInterp meaning = GDALGetRasterColorInterpretation(plan.band);
+  if (plan.type == GDT_Byte && GDALGetRasterCount(dataset) >= 3 && meaning == GCI_RedBand) {
     info.warnings.push_back(
         "this is a colour picture, and its red is taken as height: heights packed into colours need to be "
         "decoded as terrarium or mapbox");
   }
-  if (GDALGetRasterColorInterpretation(plan.band) == GCI_PaletteIndex) {
+  if (meaning == GCI_PaletteIndex) {
     info.warnings.push_back("this is a picture with a palette, and the numbers of its colours are taken as heights");
   }
-  return plan;
 }
 
 }  // namespace scarp::gdal

@@ -47,6 +47,7 @@ Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOp
     auto band = plan_band(plan.dataset.get(), path, options, plan.info);
     if (!band) return tl::unexpected(band.error());
     plan.band = *band;
+    warn_of_colours(plan.dataset.get(), plan.band, plan.info);
   } else {
     if (auto packed = verify_packed(plan.dataset.get(), path); !packed) return tl::unexpected(packed.error());
     plan.info.sample_type = options.decode == Decode::kTerrarium ? "Byte (terrarium)" : "Byte (mapbox)";

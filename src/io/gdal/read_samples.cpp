@@ -188,9 +188,17 @@ class BandReader {
 
 Result<void> read_band(Session& session, const BandPlan& plan, const ReadOptions& options, OwnedHeightField& field,
                        std::uint64_t& infinities) {
-  BandReader reader(plan, field, infinities);
-  return for_each_window(session, plan.band, field, options.progress,
-                         [&](const Window& window) { return reader.read(window); });
+  return read_bands(session, {&plan, 1}, options, {&field, 1}, infinities);
+}
+
+Result<void> read_bands(Session& session, std::span<const BandPlan> plans, const ReadOptions& options,
+                        std::span<OwnedHeightField> fields, std::uint64_t& infinities) {
+  std::vector<BandReader> readers;
+  readers.reserve(plans.size());
+  for (std::size_t k = 0; k < plans.size(); ++k) readers.emplace_back(plans[k], fields[k], infinities);
+  return for_each_window(session, plans[0].band, fields[0], options.progress, [&](const Window& window) {
+    return std::all_of(readers.begin(), readers.end(), [&](BandReader& reader) { return reader.read(window); });
+  });
 }
 
 }  // namespace scarp::gdal

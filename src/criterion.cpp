@@ -1,0 +1,172 @@
+#include "criterion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "refine/height_judge.h"
+#include "refine/importance.h"
+
+namespace scarp {
+
+namespace {
+
+constexpr float kUnbounded = std::numeric_limits<float>::infinity();
+
+/// The largest float that is at most `value`.
+float round_down(double value) {
+  if (value >= std::numeric_limits<float>::max())
+    return std::isinf(value) ? kUnbounded : std::numeric_limits<float>::max();
+  const auto rounded = static_cast<float>(value);
+  return rounded > value ? std::nextafter(rounded, 0.0f) : rounded;
+}
+
+Error at_sample(ErrorKind kind, const char* what, std::size_t index, std::int32_t cols, const std::string& rest) {
+  const auto width = static_cast<std::size_t>(cols);
+  return {kind, fmt::format("{} at sample ({}, {}) {}", what, index % width, index / width, rest)};
+}
+
+}  // namespace
+
+double tightened(double goal, double reserve) {
+  return reserve > 0 ? std::max(0.0, std::nextafter(goal - reserve, 0.0)) : goal;
+}
+
+Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOptions& options, const Raster& raster) {
+  Criterion criterion;
+  criterion.field_ = &field;
+  criterion.options_ = &options;
+  criterion.raster_ = raster;
+  if (auto sound = criterion.check(); !sound) return tl::unexpected(sound.error());
+  if (options.max_error) criterion.bound_ = tightened(*options.max_error, field.sample_rounding);
+  if (auto set = criterion.set_bounds(); !set) return tl::unexpected(set.error());
+  criterion.set_factors();
+  const Importance& importance = options.importance;
+  criterion.importance_is_error_ = importance.global && importance.feature == Importance::Feature::kNoFeature;
+  const double bound = criterion.bound_.value_or(0);
+  const bool plain =
+      field.channels.empty() && field.height_scale == 1 && criterion.bounds_.empty() && criterion.factors_.empty();
+  if (plain) {
+    criterion.judge_ = std::make_unique<HeightJudge>(raster, bound);
+  } else {
+    Judging judging{raster, criterion.judged_fields(), options.norm, bound};
+    if (!criterion.bounds_.empty()) judging.bounds = criterion.bounds_.data();
+    if (!criterion.factors_.empty()) judging.factors = criterion.factors_.data();
+    judging.by_error = importance.global;
+    if (criterion.importance_is_error_) judging.goal = options.tolerance.empty() ? bound : 1;
+    criterion.judge_ = std::make_unique<SampleJudge>(std::move(judging));
+  }
+  return criterion;
+}
+
+Result<void> Criterion::check() const {
+  const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
+  const auto usage = [](std::string message) { return fail(ErrorKind::kUsage, std::move(message)); };
+  if (!options_->mask.empty() && !options_->tolerance.empty())
+    return usage("a mask and tolerances contradict each other: give one of them");
+  for (const auto& [name, values] : {std::pair{"the mask", options_->mask}, {"the tolerance", options_->tolerance}}) {
+    if (values.empty()) continue;
+    if (values.size() != samples)
+      return usage(fmt::format("{} has {} values for {} samples", name, values.size(), samples));
+    const auto bad = std::find_if(values.begin(), values.end(), [](float v) { return !(v >= 0); });
+    if (bad != values.end())
+      return tl::unexpected(at_sample(ErrorKind::kUsage, name, static_cast<std::size_t>(bad - values.begin()),
+                                      raster_.cols, fmt::format("is {}: it must be at least 0", *bad)));
+  }
+  for (const ScriptStep& step : options_->script) {
+    if (step.col < 0 || step.row < 0 || step.col >= raster_.cols || step.row >= raster_.rows)
+      return usage(fmt::format("the script names sample ({}, {}), but the raster has {} x {} samples", step.col,
+                               step.row, raster_.cols, raster_.rows));
+  }
+  const Importance& importance = options_->importance;
+  const bool has_feature = importance.feature != Importance::Feature::kNoFeature;
+  if (!importance.global && !has_feature) return usage("an importance needs the global error or a feature");
+  if (importance.one_pass && (importance.global || !has_feature))
+    return usage("one pass ranks samples by a feature alone: local error or curvature");
+  if (importance.one_pass && options_->batch.rule != Batch::Rule::kSequential) return usage("one pass has no batches");
+  const Batch& batch = options_->batch;
+  if (batch.rule == Batch::Rule::kFraction && !(batch.fraction > 0 && batch.fraction <= 1))
+    return usage(fmt::format("a batch takes a fraction above 0 and at most 1, not {}", batch.fraction));
+  if (!(options_->edges.shape_threshold <= 1))
+    return usage(fmt::format("the shape threshold must lie in 0 … 1, not {}", options_->edges.shape_threshold));
+  if (!(options_->edges.supersample >= 0))
+    return usage(fmt::format("supersampling needs a number of at least 0, not {}", options_->edges.supersample));
+
+  if (field_->channels.size() > static_cast<std::size_t>(kMaxChannels))
+    return usage(fmt::format("{} channels are more than {}", field_->channels.size(), kMaxChannels));
+  if (!(field_->height_scale >= 0 && std::isfinite(field_->height_scale)))
+    return usage(fmt::format("the weight of the heights must be at least 0, not {}", field_->height_scale));
+  for (std::size_t k = 0; k < field_->channels.size(); ++k) {
+    const Channel& channel = field_->channels[k];
+    if (!(channel.scale >= 0 && std::isfinite(channel.scale)))
+      return usage(fmt::format("the weight of channel {} must be at least 0, not {}", k + 1, channel.scale));
+    for (std::size_t i = 0; i < samples; ++i) {
+      if (!std::isnan(raster_.samples[i]) && !std::isfinite(channel.samples[i]))
+        return tl::unexpected(at_sample(ErrorKind::kInput, fmt::format("channel {}", k + 1).c_str(), i, raster_.cols,
+                                        "has no value though the height has one: fill the channel there, or make the "
+                                        "height void too"));
+    }
+  }
+  if (judged_fields().empty()) return usage("every weight is 0: nothing is left to be judged");
+  return {};
+}
+
+std::vector<JudgedField> Criterion::judged_fields() const {
+  std::vector<JudgedField> fields;
+  if (field_->height_scale > 0) fields.push_back({raster_.samples, field_->height_scale});
+  for (const Channel& channel : field_->channels) {
+    if (channel.scale > 0) fields.push_back({channel.samples, channel.scale});
+  }
+  return fields;
+}
+
+Result<void> Criterion::set_bounds() {
+  const auto ignores = [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; };
+  const bool has_ignored = std::any_of(options_->script.begin(), options_->script.end(), ignores);
+  if (options_->mask.empty() && options_->tolerance.empty() && !has_ignored) return {};
+  const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
+  const double reserve = field_->sample_rounding;
+  bounds_.resize(samples);
+  for (std::size_t i = 0; i < samples; ++i) {
+    double asked = options_->max_error.value_or(options_->tolerance.empty() ? 0 : HUGE_VAL);
+    if (!options_->tolerance.empty()) asked = std::min(asked, double{options_->tolerance[i]});
+    if (!options_->mask.empty()) {
+      const double weight = options_->mask[i];
+      asked = weight > 0 ? std::nextafter(asked / weight, 0.0) : HUGE_VAL;
+    }
+    if (has_error_goal() && asked < reserve && !std::isnan(raster_.samples[i]))
+      return tl::unexpected(at_sample(ErrorKind::kPromise, "the bound", i, raster_.cols,
+                                      fmt::format("is {}, but the raster's values do not fit float32 and are rounded "
+                                                  "by up to {}; allow at least that much",
+                                                  asked, reserve)));
+    const double bound = std::isinf(asked) ? asked : tightened(asked, reserve);
+    bounds_[i] = round_down(bound);
+  }
+  for (const ScriptStep& step : options_->script) {
+    if (ignores(step))
+      bounds_[static_cast<std::size_t>(step.row) * static_cast<std::size_t>(raster_.cols) +
+              static_cast<std::size_t>(step.col)] = kUnbounded;
+  }
+  for (std::size_t i = 0; i < samples; ++i) ignored_ += std::isinf(bounds_[i]) && !std::isnan(raster_.samples[i]);
+  return {};
+}
+
+void Criterion::set_factors() {
+  const bool has_feature = options_->importance.feature != Importance::Feature::kNoFeature;
+  if (has_feature) factors_ = measure_feature(raster_, options_->importance);
+  const bool has_tolerance = !options_->tolerance.empty();
+  if (options_->mask.empty() && !has_tolerance) return;
+  factors_.resize(bounds_.size(), 1);
+  // A tolerance of 0 outranks every other; the factor stays finite, so that errors still count.
+  constexpr float kMost = 1e30f;
+  for (std::size_t i = 0; i < factors_.size(); ++i)
+    factors_[i] *= has_tolerance ? std::min(1 / bounds_[i], kMost) : options_->mask[i];
+}
+
+std::vector<Point> Criterion::ranking() const {
+  return options_->importance.one_pass ? rank_samples(raster_, factors_) : std::vector<Point>();
+}
+
+}  // namespace scarp

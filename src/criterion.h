@@ -1,0 +1,56 @@
+// What the options and the field say about errors, made ready for the engine and for the proof.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "refine/judge.h"
+#include "refine/sample_judge.h"
+#include "scarp/height_field.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+
+/// goal − reserve, rounded down, at least 0.
+double tightened(double goal, double reserve);
+
+/// Owns the arrays that the engine's judge reads: at most 8 bytes a sample, none for plain heights.
+class Criterion {
+ public:
+  /// Checks mask, tolerance, channels and importance against the raster. Fails with kUsage, kInput (a channel without
+  /// value at a sample, named) and kPromise (a tolerance below the rounding of the samples). `field`, `options` and the
+  /// raster's samples stay alive.
+  static Result<Criterion> make(const HeightField& field, const SimplifyOptions& options, const Raster& raster);
+
+  const Judge& judge() const { return *judge_; }
+  /// Bound of the combined error where no sample has one of its own; nothing without a goal for errors.
+  std::optional<double> bound() const { return bound_; }
+  /// Bounds of the samples; empty where bound() holds for all.
+  std::span<const float> bounds() const { return bounds_; }
+  /// The engine's importance is an error that grows and shrinks with what is promised.
+  bool importance_is_error() const { return importance_is_error_; }
+  /// Order of insertion for one pass; empty otherwise.
+  std::vector<Point> ranking() const;
+  std::uint64_t ignored() const { return ignored_; }
+  bool has_error_goal() const { return bound_.has_value() || !options_->tolerance.empty(); }
+
+ private:
+  Result<void> check() const;
+  Result<void> set_bounds();
+  void set_factors();
+  std::vector<JudgedField> judged_fields() const;
+
+  const HeightField* field_ = nullptr;
+  const SimplifyOptions* options_ = nullptr;
+  Raster raster_;
+  std::optional<double> bound_;
+  std::vector<float> bounds_, factors_;
+  std::uint64_t ignored_ = 0;
+  bool importance_is_error_ = true;
+  std::unique_ptr<Judge> judge_;
+};
+
+}  // namespace scarp

@@ -1,0 +1,80 @@
+// GeoTIFF, by GDAL, in memory.
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+#include <gdal.h>
+
+#include <atomic>
+#include <limits>
+
+#include "io/gdal/crs.h"
+#include "io/gdal/open.h"
+#include "io/gdal/session.h"
+#include "io/raster_source.h"
+
+namespace scarp {
+namespace {
+
+tl::unexpected<Error> refuse(const std::string& why) {
+  return fail(ErrorKind::kOutput, "the raster cannot be encoded as GeoTIFF: " + why);
+}
+
+/// A file in memory, gone with it.
+class MemoryFile {
+ public:
+  MemoryFile() {
+    static std::atomic<unsigned> serial{0};
+    name_ = fmt::format("/vsimem/scarp-raster-{}.tif", serial++);
+  }
+  ~MemoryFile() { VSIUnlink(name_.c_str()); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  const char* name() const { return name_.c_str(); }
+  std::vector<std::uint8_t> bytes() const {
+    vsi_l_offset size = 0;
+    const GByte* data = VSIGetMemFileBuffer(name_.c_str(), &size, FALSE);
+    return data != nullptr ? std::vector<std::uint8_t>(data, data + size) : std::vector<std::uint8_t>();
+  }
+
+ private:
+  std::string name_;
+};
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage& raster) {
+  gdal::Session session;
+  session.set_option("GDAL_PAM_ENABLED", "NO");  // no .aux.xml beside it
+  GDALDriverH driver = GDALGetDriverByName("GTiff");
+  if (driver == nullptr) return refuse("this GDAL has no GTiff driver");
+  gdal::Crs crs;
+  if (raster.like != nullptr && !raster.like->crs.empty()) {
+    crs = gdal::find_crs(raster.like->crs);
+    if (!crs) return refuse(fmt::format("'{}' is no CRS that GDAL knows", raster.like->crs));
+  }
+  const MemoryFile file;
+  const char* options[] = {"COMPRESS=DEFLATE", "PREDICTOR=3",      "TILED=YES",
+                           "NUM_THREADS=1",    "BIGTIFF=IF_SAFER", nullptr};
+  gdal::Dataset dataset(GDALCreate(driver, file.name(), raster.cols, raster.rows, 1, GDT_Float32, options));
+  if (!dataset) return refuse(session.reason());
+  bool good = true;
+  if (raster.like != nullptr && raster.like->has_georeference) {
+    std::array<double, 6> geotransform = raster.like->geotransform;
+    good = GDALSetGeoTransform(dataset.get(), geotransform.data()) == CE_None;
+  }
+  if (crs) good = good && GDALSetSpatialRef(dataset.get(), crs.get()) == CE_None;
+  GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
+  good = good && GDALSetRasterNoDataValue(band, std::numeric_limits<double>::quiet_NaN()) == CE_None;
+  if (raster.like != nullptr && !raster.like->unit.empty()) {
+    good = good && GDALSetRasterUnitType(band, raster.like->unit.c_str()) == CE_None;
+  }
+  good =
+      good && GDALRasterIOEx(band, GF_Write, 0, 0, raster.cols, raster.rows, const_cast<float*>(raster.samples.data()),
+                             raster.cols, raster.rows, GDT_Float32, 0, 0, nullptr) == CE_None;
+  dataset.reset();
+  if (!good || session.failed()) return refuse(session.reason());
+  return file.bytes();
+}
+
+}  // namespace scarp

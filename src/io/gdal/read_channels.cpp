@@ -1,0 +1,184 @@
+// An image: all its bands as channels.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "io/gdal/georeference.h"
+#include "io/gdal/open.h"
+#include "io/gdal/read_samples.h"
+#include "io/raster_finish.h"
+#include "io/raster_source.h"
+
+namespace scarp {
+namespace gdal {
+namespace {
+
+constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
+
+/// Red, green and blue of a palette's entries; NaN for the transparent ones.
+using Palette = std::vector<std::array<float, 3>>;
+
+Palette palette_of(GDALRasterBandH band) {
+  GDALColorTableH table = GDALGetRasterColorTable(band);
+  if (table == nullptr || GDALGetRasterColorInterpretation(band) != GCI_PaletteIndex) return {};
+  Palette palette(static_cast<std::size_t>(GDALGetColorEntryCount(table)));
+  for (std::size_t i = 0; i < palette.size(); ++i) {
+    GDALColorEntry entry{};
+    GDALGetColorEntryAsRGB(table, static_cast<int>(i), &entry);
+    palette[i] = {static_cast<float>(entry.c1), static_cast<float>(entry.c2), static_cast<float>(entry.c3)};
+    if (entry.c4 == 0) palette[i].fill(kVoid);
+  }
+  return palette;
+}
+
+struct BandsPlan {
+  std::vector<BandPlan> bands;
+  std::vector<Palette> palettes;  ///< by band; empty where the values speak for themselves
+  std::size_t channels = 0;
+  bool is_8bit = true, is_color = false;
+};
+
+Result<BandsPlan> plan_bands(GDALDatasetH dataset, const std::string& path, ReadOptions options, bool all_bands,
+                             RasterInfo& info) {
+  const int count = GDALGetRasterCount(dataset);
+  const int first = all_bands ? 1 : options.band, last = all_bands ? count : options.band;
+  BandsPlan plan;
+  for (int k = first; k <= last; ++k) {
+    options.band = k;
+    auto band = plan_band(dataset, path, options, info);
+    if (!band) return tl::unexpected(band.error());
+    if (GDALGetRasterColorInterpretation(band->band) == GCI_AlphaBand) {
+      return fail(ErrorKind::kInput,
+                  fmt::format("{}: band {} is transparency (alpha), which is no channel; leave it out "
+                              "first (gdal_translate -b for each of the other bands)",
+                              path, k));
+    }
+    plan.palettes.push_back(palette_of(band->band));
+    plan.channels += plan.palettes.back().empty() ? 1 : 3;
+    plan.is_8bit &= band->type == GDT_Byte && !band->signed_byte && band->scale == 1 && band->offset == 0;
+    plan.bands.push_back(*band);
+  }
+  if (plan.channels > kMaxChannels) {
+    return fail(ErrorKind::kInput,
+                fmt::format("{} has {} bands, and at most {} can be channels; choose some of them (gdal_translate -b)",
+                            path, plan.channels, kMaxChannels));
+  }
+  const auto means = [&](std::size_t k, GDALColorInterp meaning) {
+    return GDALGetRasterColorInterpretation(plan.bands[k].band) == meaning;
+  };
+  plan.is_color = plan.bands.size() == 1 ? plan.channels == 3
+                                         : plan.bands.size() == 3 && means(0, GCI_RedBand) && means(1, GCI_GreenBand) &&
+                                               means(2, GCI_BlueBand);
+  return plan;
+}
+
+/// Replaces the numbers of colours by the colours.
+Result<void> apply_palette(const Palette& palette, OwnedHeightField& field, std::vector<std::vector<float>>& bands) {
+  const std::size_t first = bands.size();
+  for (int k = 0; k < 3; ++k) bands.emplace_back(field.samples.size(), kVoid);
+  for (std::size_t i = 0; i < field.samples.size(); ++i) {
+    const float number = field.samples[i];
+    if (std::isnan(number)) continue;
+    if (!(number >= 0 && number < static_cast<float>(palette.size()))) {
+      const auto cols = static_cast<std::size_t>(field.cols);
+      return fail(ErrorKind::kInput, fmt::format("{}: sample ({}, {}) has colour {} of a palette of {}: the file is "
+                                                 "damaged",
+                                                 field.info.path, i % cols, i / cols, number, palette.size()));
+    }
+    const auto& colour = palette[static_cast<std::size_t>(number)];
+    for (std::size_t k = 0; k < 3; ++k) bands[first + k][i] = colour[k];
+  }
+  field.samples = {};
+  return {};
+}
+
+/// As finish_raster().
+Result<void> finish_channels(OwnedChannels& channels, std::uint64_t infinities) {
+  RasterInfo& info = channels.info;
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  for (std::size_t i = 0; i < channels.bands.front().size(); ++i) {
+    bool all = true;
+    for (const auto& band : channels.bands) {
+      if (std::isnan(band[i])) {
+        all = false;
+        continue;
+      }
+      least = std::min(least, double{band[i]});
+      most = std::max(most, double{band[i]});
+    }
+    info.valid += all ? 1 : 0;
+  }
+  if (infinities > 0) {
+    info.warnings.push_back(fmt::format("{} {} infinite or too large for a float32 and taken as nodata", infinities,
+                                        infinities == 1 ? "value is" : "values are"));
+  }
+  if (least > most) {
+    return fail(ErrorKind::kInput, fmt::format("{}: none of its {} x {} samples has a value: all are nodata", info.path,
+                                               channels.cols, channels.rows));
+  }
+  info.min = least;
+  info.max = most;
+  return {};
+}
+
+Result<OwnedChannels> read(const std::string& path, const ReadOptions& options, bool all_bands) {
+  if (options.decode != Decode::kNone) {
+    return fail(ErrorKind::kInput, path +
+                                       ": heights packed into colours are one height field, not channels; read it "
+                                       "as heights");
+  }
+  Session session(is_remote(path));
+  auto dataset = open_raster(session, path);
+  if (!dataset) return tl::unexpected(dataset.error());
+  OwnedChannels channels;
+  channels.info.path = path;
+  channels.info.format = GDALGetDriverShortName(GDALGetDatasetDriver(dataset->get()));
+  auto plan = plan_bands(dataset->get(), path, options, all_bands, channels.info);
+  if (!plan) return tl::unexpected(plan.error());
+  auto geo = read_georeference(dataset->get(), path);
+  if (!geo) return tl::unexpected(geo.error());
+  describe_georeference(*geo, channels.info);
+  auto fits = check_raster_size(path, static_cast<std::uint64_t>(geo->cols), static_cast<std::uint64_t>(geo->rows),
+                                options, plan->channels);
+  if (!fits) return tl::unexpected(fits.error());
+  auto frame = choose_frame(*geo, options.crs, channels.info);
+  if (!frame) return tl::unexpected(frame.error());
+  channels.frame = std::move(*frame);
+  channels.cols = geo->cols;
+  channels.rows = geo->rows;
+  channels.is_8bit = plan->is_8bit;
+  channels.is_color = plan->is_color;
+
+  std::vector<OwnedHeightField> fields(plan->bands.size());
+  for (OwnedHeightField& field : fields) {
+    field.cols = geo->cols;
+    field.rows = geo->rows;
+    field.info.path = path;
+    if (auto allocated = allocate_samples(path, field); !allocated) return tl::unexpected(allocated.error());
+  }
+  std::uint64_t infinities = 0;
+  auto samples = read_bands(session, plan->bands, options, fields, infinities);
+  if (!samples) return tl::unexpected(samples.error());
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    if (plan->palettes[k].empty()) {
+      channels.bands.push_back(std::move(fields[k].samples));
+    } else if (auto applied = apply_palette(plan->palettes[k], fields[k], channels.bands); !applied) {
+      return tl::unexpected(applied.error());
+    }
+  }
+  for (const std::string& warning : session.warnings()) channels.info.warnings.push_back("GDAL: " + warning);
+  if (auto finished = finish_channels(channels, infinities); !finished) return tl::unexpected(finished.error());
+  return channels;
+}
+
+}  // namespace
+}  // namespace gdal
+
+Result<OwnedChannels> read_gdal_channels(const std::string& path, const ReadOptions& options, bool all_bands) {
+  return gdal::read(path, options, all_bands);
+}
+
+}  // namespace scarp

@@ -1,0 +1,68 @@
+// What is known about triangles, so that none is scanned twice for the same question.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "refine/fine_lattice.h"
+#include "refine/judge.h"
+#include "tin/triangulation.h"
+
+namespace scarp {
+
+class FitCache {
+ public:
+  /// The judge stays alive. `supersample`: see EdgeRule.
+  FitCache(const Judge& judge, bool squares, double supersample)
+      : judge_(judge), squares_(squares), supersample_(supersample) {}
+
+  /// Fit of a triangle that is not outside: remembered, or looked at now. Valid until the next call.
+  const Fit& fit_of(const Triangulation& tin, Triangle t) {
+    const std::array<Vertex, 3> corners{tin.origin(3 * t), tin.origin(3 * t + 1), tin.origin(3 * t + 2)};
+    if (t >= known_.size() || known_[t].corners != ascending(corners)) remember(t, corners, look(tin.corners(t)));
+    return known_[t].fit;
+  }
+  /// Fit of a triangle that may come to be; given up once its score reaches `give_up`.
+  Fit look(const std::array<Point, 3>& corners, double give_up = std::numeric_limits<double>::infinity()) {
+    FitQuestion question;
+    question.squares = squares_;
+    question.lattice = find_lattice(corners, supersample_);
+    // On the finer lattice the score may turn out smaller than on the samples: it is never given up early.
+    if (question.lattice == 1) (squares_ ? question.give_up_squares : question.give_up_max) = give_up;
+    const Fit fit = judge_.fit(corners, question);
+    samples_ += fit.scanned;
+    ++triangles_;
+    return fit;
+  }
+  /// What was looked at is triangle t from now on, for as long as t has these corners.
+  void remember(Triangle t, std::array<Vertex, 3> corners, const Fit& fit) {
+    if (t >= known_.size()) known_.resize(t + 1);
+    known_[t] = {ascending(corners), fit};
+  }
+
+  std::uint64_t samples_scanned() const { return samples_; }
+  std::uint64_t triangles_scanned() const { return triangles_; }
+
+ private:
+  struct Known {
+    std::array<Vertex, 3> corners{kNone, kNone, kNone};  // ascending
+    Fit fit;
+  };
+  static std::array<Vertex, 3> ascending(std::array<Vertex, 3> v) {
+    if (v[1] < v[0]) std::swap(v[0], v[1]);
+    if (v[2] < v[1]) std::swap(v[1], v[2]);
+    if (v[1] < v[0]) std::swap(v[0], v[1]);
+    return v;
+  }
+
+  const Judge& judge_;
+  bool squares_;
+  double supersample_;
+  std::vector<Known> known_;
+  std::uint64_t samples_ = 0, triangles_ = 0;
+};
+
+}  // namespace scarp

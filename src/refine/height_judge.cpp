@@ -1,0 +1,103 @@
+#include "refine/height_judge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geom/exact_error.h"
+#include "geom/plane.h"
+#include "geom/scan.h"
+#include "refine/fine_lattice.h"
+
+namespace scarp {
+
+namespace {
+
+std::array<float, 3> heights_at(const Raster& raster, const std::array<Point, 3>& corners) {
+  return {raster.at(corners[0]), raster.at(corners[1]), raster.at(corners[2])};
+}
+
+/// By the plane's own arithmetic. NaN samples lose every comparison.
+template <bool kSquares>
+Fit scan(const Raster& raster, const std::array<Point, 3>& corners, const FitQuestion& question) {
+  const Plane plane = Plane::through(corners, heights_at(raster, corners));
+  Candidate worst{-1, {}};
+  Fit fit;
+  double squares = 0;
+  scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    if (!fit.complete) return;
+    fit.scanned += static_cast<std::uint32_t>(last - first + 1);
+    const float* samples = raster.row(y);
+    const double row_height = plane.row_height(y);
+    for (std::int32_t x = first; x <= last; ++x) {
+      const double error =
+          std::abs(row_height + plane.slope_x * static_cast<double>(x - plane.base.x) - double{samples[x]});
+      if (error > worst.error) worst = {error, {x, y}};
+      if constexpr (kSquares) {
+        if (!std::isnan(error)) squares += error * error;
+      }
+    }
+    fit.complete = worst.error < question.give_up_max && squares < question.give_up_squares;
+  });
+  fit.worst = worst;
+  fit.guard = plane.guard;
+  fit.max_error = std::max(worst.error, 0.0);
+  fit.sum_squares = squares;
+  return fit;
+}
+
+/// The scores again, on a finer lattice.
+void refine_scores(const Raster& raster, const std::array<Point, 3>& corners, const FitQuestion& question, Fit& fit) {
+  const Plane plane = Plane::through(corners, heights_at(raster, corners));
+  double most = 0, squares = 0;
+  scan_fine(corners, question.lattice, [&](std::int32_t x, std::int32_t y, double fx, double fy) {
+    const double surface = plane.height + plane.slope_y * (fy - plane.base.y) + plane.slope_x * (fx - plane.base.x);
+    const double error = std::abs(surface - interpolate(raster.samples, raster.cols, x, y, question.lattice));
+    ++fit.scanned;
+    if (!std::isnan(error)) {
+      most = std::max(most, error);
+      squares += error * error;
+    }
+  });
+  fit.max_error = most;
+  fit.sum_squares = squares / (double{1} * question.lattice * question.lattice);
+}
+
+/// The worst among the samples that exceed the threshold as real numbers.
+std::optional<Candidate> scan_exactly(const Raster& raster, const std::array<Point, 3>& corners, const Plane& plane,
+                                      double threshold) {
+  const auto heights = heights_at(raster, corners);
+  std::optional<Candidate> worst;
+  scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    for (std::int32_t x = first; x <= last; ++x) {
+      const Point p{x, y};
+      const float sample = raster.at(p);
+      const double error = std::abs(plane.height_at(p) - double{sample});
+      if (!(error >= threshold - plane.guard) || (worst && error <= worst->error)) continue;
+      if (exceeds_exactly(corners, heights, p, sample, threshold)) worst = Candidate{error, p};
+    }
+  });
+  return worst;
+}
+
+}  // namespace
+
+Fit HeightJudge::fit(const std::array<Point, 3>& corners, const FitQuestion& question) const {
+  Fit fit = question.squares ? scan<true>(raster_, corners, question) : scan<false>(raster_, corners, question);
+  if (question.lattice > 1 && fit.complete) refine_scores(raster_, corners, question, fit);
+  return fit;
+}
+
+std::optional<Candidate> HeightJudge::find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const {
+  const Candidate& worst = fit.worst;
+  if (worst.error > threshold_ + fit.guard) return worst;
+  if (worst.error < threshold_ - fit.guard) return std::nullopt;
+  // A level plane has no guard: one subtraction rounds, monotonely, so that only equality is in doubt.
+  if (fit.guard == 0 && (threshold_ == 0 || worst.error != threshold_)) return std::nullopt;
+  return scan_exactly(raster_, corners, Plane::through(corners, heights_at(raster_, corners)), threshold_);
+}
+
+double HeightJudge::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {
+  return bend_of(Plane::through(a, heights_at(raster_, a)), Plane::through(b, heights_at(raster_, b)));
+}
+
+}  // namespace scarp

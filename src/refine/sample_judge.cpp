@@ -1,0 +1,171 @@
+#include "refine/sample_judge.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "geom/exact_error.h"
+#include "geom/scan.h"
+#include "refine/fine_lattice.h"
+#include "scarp/height_field.h"
+
+namespace scarp {
+
+namespace {
+
+/// Where the importance is 0 the error itself decides, far below any other importance.
+constexpr double kUnimportant = 1e-280;
+
+/// Adds one error to a norm; `total` holds Σ, Σ² or max.
+void add_to_norm(Norm norm, double error, double& total) {
+  if (norm == Norm::kSum) {
+    total += error;
+  } else if (norm == Norm::kSquares) {
+    total += error * error;
+  } else {
+    total = std::max(total, error);
+  }
+}
+
+}  // namespace
+
+struct SampleJudge::Surface {
+  std::array<Plane, kMaxChannels + 1> planes;
+  double guard = 0;
+};
+
+SampleJudge::SampleJudge(Judging judging) : judging_(std::move(judging)) {}
+
+std::array<float, 3> SampleJudge::values_at(const JudgedField& field, const std::array<Point, 3>& corners) const {
+  return {field.samples[index_of(corners[0])], field.samples[index_of(corners[1])],
+          field.samples[index_of(corners[2])]};
+}
+
+SampleJudge::Surface SampleJudge::surface(const std::array<Point, 3>& corners) const {
+  Surface surface;
+  for (std::size_t k = 0; k < judging_.fields.size(); ++k) {
+    surface.planes[k] = Plane::through(corners, values_at(judging_.fields[k], corners));
+    surface.guard += judging_.fields[k].scale * surface.planes[k].guard;
+  }
+  return surface;
+}
+
+double SampleJudge::combine(const Surface& surface, Point p, std::size_t index) const {
+  if (judging_.fields.size() == 1)
+    return judging_.fields[0].scale *
+           std::abs(surface.planes[0].height_at(p) - double{judging_.fields[0].samples[index]});
+  double total = 0;
+  for (std::size_t k = 0; k < judging_.fields.size(); ++k) {
+    const JudgedField& field = judging_.fields[k];
+    add_to_norm(judging_.norm, field.scale * std::abs(surface.planes[k].height_at(p) - double{field.samples[index]}),
+                total);
+  }
+  return judging_.norm == Norm::kSquares ? std::sqrt(total) : total;
+}
+
+double SampleJudge::weighted(double error, std::size_t index) const {
+  return judging_.factors != nullptr && judging_.by_error ? error * double{judging_.factors[index]} : error;
+}
+
+double SampleJudge::importance(double error, std::size_t index) const {
+  const double value = judging_.by_error ? weighted(error, index) : double{judging_.factors[index]};
+  return value > 0 ? value : error * kUnimportant;
+}
+
+Fit SampleJudge::fit(const std::array<Point, 3>& corners, const FitQuestion& question) const {
+  const Surface surface = this->surface(corners);
+  Fit fit;
+  fit.guard = surface.guard;
+  double doubtful = -1;
+  scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    if (!fit.complete) return;
+    fit.scanned += static_cast<std::uint32_t>(last - first + 1);
+    std::size_t index = index_of({first, y});
+    for (std::int32_t x = first; x <= last; ++x, ++index) {
+      if (std::isnan(judging_.heights.samples[index])) continue;
+      const double error = combine(surface, {x, y}, index);
+      const double score = weighted(error, index);
+      fit.max_error = std::max(fit.max_error, score);
+      fit.sum_squares += score * score;
+      const double bound = bound_at(index), margin = surface.guard + 0x1p-48 * error;
+      if (error < bound - margin) continue;
+      const double value = importance(error, index);
+      if (error > bound + margin) {
+        if (value > fit.worst.error) fit.worst = {value, {x, y}};
+      } else {
+        doubtful = std::max(doubtful, value);
+      }
+    }
+    fit.complete = fit.max_error < question.give_up_max && fit.sum_squares < question.give_up_squares;
+  });
+  fit.unsettled = doubtful >= 0 && doubtful >= fit.worst.error;
+  if (question.lattice > 1 && fit.complete) refine_scores(surface, corners, question, fit);
+  return fit;
+}
+
+void SampleJudge::refine_scores(const Surface& surface, const std::array<Point, 3>& corners,
+                                const FitQuestion& question, Fit& fit) const {
+  const auto error_at = [&](std::int32_t x, std::int32_t y, double fx, double fy) {
+    double total = 0;
+    for (std::size_t k = 0; k < judging_.fields.size(); ++k) {
+      const Plane& plane = surface.planes[k];
+      const double height = plane.height + plane.slope_y * (fy - plane.base.y) + plane.slope_x * (fx - plane.base.x);
+      const double sample = interpolate(judging_.fields[k].samples, judging_.heights.cols, x, y, question.lattice);
+      add_to_norm(judging_.norm, judging_.fields[k].scale * std::abs(height - sample), total);
+    }
+    return judging_.norm == Norm::kSquares ? std::sqrt(total) : total;
+  };
+  double most = 0, squares = 0;
+  scan_fine(corners, question.lattice, [&](std::int32_t x, std::int32_t y, double fx, double fy) {
+    const std::size_t nearest = index_of({static_cast<std::int32_t>(fx + 0.5), static_cast<std::int32_t>(fy + 0.5)});
+    const double error = weighted(error_at(x, y, fx, fy), nearest);
+    ++fit.scanned;
+    if (!std::isnan(error)) {
+      most = std::max(most, error);
+      squares += error * error;
+    }
+  });
+  fit.max_error = most;
+  fit.sum_squares = squares / (double{1} * question.lattice * question.lattice);
+}
+
+bool SampleJudge::exceeds(const std::array<Point, 3>& corners, Point p, std::size_t index) const {
+  const double bound = bound_at(index);
+  const auto field_exceeds = [&](const JudgedField& field) {
+    return exceeds_exactly(corners, values_at(field, corners), p, field.samples[index], bound);
+  };
+  if (std::find(corners.begin(), corners.end(), p) != corners.end()) return false;
+  if (bound == 0 || (judging_.fields.size() == 1 && judging_.fields[0].scale == 1))
+    return std::any_of(judging_.fields.begin(), judging_.fields.end(), field_exceeds);
+  return true;
+}
+
+std::optional<Candidate> SampleJudge::find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const {
+  std::optional<Candidate> worst;
+  if (fit.worst.error >= 0) worst = fit.worst;
+  if (!fit.unsettled) return worst;
+  const Surface surface = this->surface(corners);
+  scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    for (std::int32_t x = first; x <= last; ++x) {
+      const Point p{x, y};
+      const std::size_t index = index_of(p);
+      if (std::isnan(judging_.heights.samples[index])) continue;
+      const double error = combine(surface, p, index), bound = bound_at(index);
+      const double margin = surface.guard + 0x1p-48 * error;
+      if (!(std::abs(error - bound) <= margin)) continue;
+      const Candidate candidate{importance(error, index), p};
+      if ((!worst || is_worse(candidate, *worst)) && exceeds(corners, p, index)) worst = candidate;
+    }
+  });
+  return worst;
+}
+
+double SampleJudge::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {
+  double sum = 0;
+  for (const JudgedField& field : judging_.fields)
+    sum += field.scale * bend_of(Plane::through(a, values_at(field, a)), Plane::through(b, values_at(field, b)));
+  return sum;
+}
+
+}  // namespace scarp

@@ -1,0 +1,60 @@
+#include "refine/settle_edges.h"
+
+#include <algorithm>
+
+#include "refine/fit_cache.h"
+#include "refine/quadrilateral.h"
+
+namespace scarp {
+
+namespace {
+
+constexpr double kThin = 0.1;
+
+class SettlingRule final : public FlipRule {
+ public:
+  SettlingRule(const Judge& judge, bool keep_bounds)
+      : judge_(judge), keep_bounds_(keep_bounds), cache_(judge, true, 0) {}
+
+  bool should_flip(const Triangulation& tin, HalfEdge h) override {
+    const Quadrilateral quad(tin, h);
+    if (!quad.can_flip() || tin.is_outside(quad.t)) return false;
+    if (fatness(quad.other) < std::min(kThin, fatness(quad.kept))) return false;
+    const Fit first_kept = cache_.fit_of(tin, quad.t), second_kept = cache_.fit_of(tin, quad.u);
+    const double squares = first_kept.sum_squares + second_kept.sum_squares;
+    const double largest = std::max(first_kept.max_error, second_kept.max_error);
+    const Fit first = cache_.look(quad.other[0], squares);
+    if (!first.complete || first.max_error > largest) return false;
+    const Fit second = cache_.look(quad.other[1], squares - first.sum_squares);
+    if (!second.complete || second.max_error > largest || !(first.sum_squares + second.sum_squares < squares))
+      return false;
+    if (keep_bounds_ && (judge_.find_candidate(quad.other[0], first) || judge_.find_candidate(quad.other[1], second)))
+      return false;
+    cache_.remember(quad.t, quad.first_vertices, first);
+    cache_.remember(quad.u, quad.second_vertices, second);
+    return true;
+  }
+
+  Effort effort() const { return {cache_.samples_scanned(), cache_.triangles_scanned(), 0, 0}; }
+
+ private:
+  const Judge& judge_;
+  bool keep_bounds_;
+  FitCache cache_;
+};
+
+}  // namespace
+
+Effort settle_edges(Triangulation& tin, const Judge& judge, const EdgeRule& rule, bool keep_bounds) {
+  if (!rule.data_dependent || !rule.settle || rule.score == EdgeScore::kNormals) return {};
+  std::vector<HalfEdge> edges;
+  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    if (tin.twin(h) != kNone && h < tin.twin(h)) edges.push_back(h);
+  }
+  SettlingRule settling(judge, keep_bounds);
+  const std::size_t most = 4 * edges.size();
+  tin.improve(edges, settling, most);
+  return settling.effort();
+}
+
+}  // namespace scarp

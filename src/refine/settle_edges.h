@@ -1,0 +1,16 @@
+// The last touch to a data-dependent triangulation.
+#pragma once
+
+#include "refine/judge.h"
+#include "scarp/strategy.h"
+#include "tin/triangulation.h"
+
+namespace scarp {
+
+/// Flips free edges of the domain as long as a flip lowers the sum of squared errors of its two triangles, raises
+/// neither largest error above the larger of the two and makes no triangle thinner than the rule allows (or than it
+/// was). With `keep_bounds` no flip gives a triangle a candidate: what kept every bound goes on to keep it. Cost: about
+/// four scans of the samples. Returns what was looked at.
+Effort settle_edges(Triangulation& tin, const Judge& judge, const EdgeRule& rule, bool keep_bounds);
+
+}  // namespace scarp

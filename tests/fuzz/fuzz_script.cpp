@@ -1,0 +1,17 @@
+// Any bytes: steps within the raster, or an error with words.
+#include <cstdlib>
+
+#include "io/script.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto steps = scarp::decode_script({data, size}, "fuzz.txt", 100, 70);
+  if (!steps) {
+    const auto& error = steps.error();
+    if (error.kind != scarp::ErrorKind::kInput || error.message.find('\n') != std::string::npos) std::abort();
+    return 0;
+  }
+  for (const scarp::ScriptStep& step : *steps) {
+    if (step.col < 0 || step.col >= 100 || step.row < 0 || step.row >= 70) std::abort();
+  }
+  return 0;
+}
