@@ -103,7 +103,12 @@ Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.companions = given.companions;
   const Result<void> checked = given.companions.check();
   if (!checked) return checked;
-  return given.strategy.parse_into(plan.simplify);
+  const Result<void> parsed = given.strategy.parse_into(plan.simplify);
+  if (!parsed) return parsed;
+  if (plan.channels.image && plan.simplify.importance.feature != Importance::Feature::kNoFeature) {
+    return fail(ErrorKind::kUsage, "--importance measures features of heights, which an --image has not: leave it out");
+  }
+  return {};
 }
 
 /// What the format has no place for: refused where nothing would be left, else a warning.

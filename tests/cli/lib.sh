@@ -88,9 +88,9 @@ make_raster() {
   need gdal_translate python3
   python3 - "$2" > "$1.asc" <<'PYTHON'
 import math, sys
-cols, rows, nan = 403, 344, math.nan
+cols, rows = 403, 344
 f = compile(sys.argv[1], "expression", "eval")
-grid = [[eval(f) for col in range(cols)] for row in range(rows)]
+grid = [[eval(f, {"math": math, "nan": math.nan, "col": col, "row": row}) for col in range(cols)] for row in range(rows)]
 print(f"ncols {cols}\nnrows {rows}\nxllcorner 0\nyllcorner 0\ncellsize 1")
 if any(v != v for values in grid for v in values):
     print("NODATA_value -9999")
@@ -99,6 +99,21 @@ for values in grid:
 PYTHON
   gdal_translate -q -ot "${3:-Float32}" $(corners_of "$dem") "$1.asc" "$1"
   rm "$1.asc"
+}
+
+# make_image NAME EXPRESSION...: an image of bytes on the same grid, a band for each expression; three are red, green, blue.
+make_image() {
+  local name=$1 bands=() options=() expression
+  shift
+  need gdalbuildvrt
+  for expression in "$@"; do
+    make_raster "band${#bands[@]}.tif" "$expression" Byte
+    bands+=("band${#bands[@]}.tif")
+  done
+  if [ $# = 3 ]; then options=(-co PHOTOMETRIC=RGB -colorinterp red,green,blue); fi
+  gdalbuildvrt -q -separate bands.vrt "${bands[@]}"
+  gdal_translate -q "${options[@]}" bands.vrt "$name"
+  rm bands.vrt "${bands[@]}"
 }
 
 # The options of gdal_translate that put a raster where another one lies.

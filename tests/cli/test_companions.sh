@@ -37,7 +37,7 @@ succeeds "$scarp" simplify "$dem" ones.obj -e 20 --mask ones.tif --report ones.j
 holds "$(json ones.json max_error) <= 20 && $(json ones.json triangles) < 1.02 * $(json plain.json triangles)"
 
 # Tolerances are a goal of their own, alone or beside an error.
-succeeds "$scarp" simplify "$dem" t.glb --tolerance bounds.tif --report s.json
+succeeds "$scarp" simplify "$dem" t.glb --tolerance bounds.tif --report s.json --overwrite
 grep -q '^Kept every tolerance: ' "$logs/out" || fail "the summary does not tell that tolerances are kept"
 succeeds "$scarp" measure "$dem" t.glb --tolerance bounds.tif --json
 cp "$logs/out" m.json
@@ -62,7 +62,7 @@ grep -q '^v 200 243 ' exact.obj || fail "a sample of tolerance 0 is no vertex"
 
 # Scripts: what is inserted is a vertex, what is ignored has no bound.
 printf '# a corner of the map\ns 10 20\n\ns 11 20\ni 300 300\nu 301 300\n' > steps.txt
-succeeds "$scarp" simplify "$dem" scripted.obj -t 40 --script steps.txt --crs grid --report s.json
+succeeds "$scarp" simplify "$dem" scripted.obj -t 40 --script steps.txt --crs grid --report s.json --overwrite
 grep -q '^v 10 323 ' scripted.obj && grep -q '^v 11 323 ' scripted.obj || fail "the script's samples are no vertices"
 holds "$(json s.json ignored) == 2"
 succeeds "$scarp" simplify "$dem" scripted.ply -e 20 --script steps.txt
