@@ -166,7 +166,7 @@ Result<void> encode(const SimplifyPlan& plan, const PointsArguments& arguments, 
   outcome.solid_vertices = mesh.vertex_count();
   outcome.solid_triangles = mesh.triangle_count();
   add_metadata(plan, arguments, outcome);
-  auto bytes = encode_mesh(mesh, plan.format);
+  auto bytes = encode_as(plan.format, mesh);
   if (!bytes) return tl::unexpected(std::move(bytes.error()));
   outcome.bytes = std::move(*bytes);
   return {};
@@ -214,7 +214,7 @@ std::string make_report(const SimplifyPlan& plan, const Outcome& outcome, const 
                            {"write", outcome.seconds_write},
                            {"total", outcome.seconds_total}};
   report["outputs"] =
-      Json::array({Json{{"path", plan.output}, {"format", format_name(plan.format)}, {"bytes", outcome.bytes.size()}}});
+      Json::array({Json{{"path", plan.output}, {"format", plan.format.name()}, {"bytes", outcome.bytes.size()}}});
   report["warnings"] = outcome.warnings;
   return to_text(report);
 }
@@ -350,6 +350,10 @@ Result<void> run_simplify_points(const CLI::App& verb, const SimplifyArguments& 
                 "with -t or -p");
   Result<SimplifyPlan> plan = plan_simplify(given);
   if (!plan) return tl::unexpected(std::move(plan.error()));
+  if (plan->format.kind == OutputKind::kDem)
+    return fail(ErrorKind::kUsage,
+                "points have no grid that the approximation could be resampled on: choose a mesh "
+                "format, svg or eps");
   const auto policy = parse_policy(arguments.duplicates);
   if (!policy) return tl::unexpected(policy.error());
 
