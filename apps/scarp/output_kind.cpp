@@ -5,6 +5,7 @@
 #include <cctype>
 #include <optional>
 
+#include "scarp/picture.h"
 #include "text.h"
 
 namespace scarp::cli {
@@ -89,6 +90,12 @@ Result<OutputFormat> choose_output_format(const Given& of, const std::string& ou
               fmt::format("{} does not tell a format: end it in .glb, .obj, .ply, .stl, .tin, .svg, .eps, .tif or "
                           ".pgm, or choose one with --of",
                           shell_word(output)));
+}
+
+Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh) {
+  if (format.kind == OutputKind::kSvg) return encode_svg(mesh);
+  if (format.kind == OutputKind::kEps) return encode_eps(mesh);
+  return encode_mesh(mesh, format.mesh);
 }
 
 }  // namespace scarp::cli

@@ -1,10 +1,13 @@
 // What OUTPUT is: a mesh file, a drawing of the mesh's edges, or the approximation resampled on the grid.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "options.h"
 #include "scarp/io.h"
+#include "scarp/mesh.h"
 
 namespace scarp::cli {
 
@@ -28,5 +31,8 @@ struct OutputFormat {
 
 /// By --of if it was given, else by the output's extension.
 Result<OutputFormat> choose_output_format(const Given& of, const std::string& output);
+
+/// The file's bytes. REQUIRES: not a kDem.
+Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh);
 
 }  // namespace scarp::cli

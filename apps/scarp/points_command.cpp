@@ -163,9 +163,7 @@ Result<void> encode(const SimplifyPlan& plan, const PointsArguments& arguments, 
   outcome.solid_vertices = mesh.vertex_count();
   outcome.solid_triangles = mesh.triangle_count();
   add_metadata(plan, arguments, outcome);
-  auto bytes = plan.format.kind == OutputKind::kSvg   ? encode_svg(mesh)
-               : plan.format.kind == OutputKind::kEps ? encode_eps(mesh)
-                                                      : encode_mesh(mesh, plan.format.mesh);
+  auto bytes = encode_as(plan.format, mesh);
   if (!bytes) return tl::unexpected(std::move(bytes.error()));
   outcome.bytes = std::move(*bytes);
   return {};

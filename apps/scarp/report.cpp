@@ -96,6 +96,11 @@ void add_coverage(Json& report, const Measurement& measured) {
   report["topology"] = describe_topology(measured);
 }
 
+void add_measurement(Json& report, const Measurement& measured, double sample_rounding) {
+  add_errors(report, measured, sample_rounding);
+  add_coverage(report, measured);
+}
+
 Json describe_channels(const std::vector<std::string>& names, const std::vector<double>& scales,
                        const std::vector<Measurement>& measured) {
   Json channels = Json::array();

@@ -29,6 +29,8 @@ std::uint64_t full_grid_triangles(const HeightField& field);
 void add_errors(Json& report, const Measurement& measured, double sample_rounding);
 /// Adds samples … void_cells_covered and the "topology" object.
 void add_coverage(Json& report, const Measurement& measured);
+/// Both.
+void add_measurement(Json& report, const Measurement& measured, double sample_rounding);
 /// The "channels" list: each channel's name, scale, max_error … p999 and samples, in its own units.
 Json describe_channels(const std::vector<std::string>& names, const std::vector<double>& scales,
                        const std::vector<Measurement>& measured);

@@ -88,16 +88,7 @@ Result<void> add_error_raster(const SimplifyPlan& plan, const ProgressCallback& 
 /// The bytes of OUTPUT.
 Result<std::vector<std::uint8_t>> encode_output(const SimplifyPlan& plan, const Outcome& outcome) {
   const Mesh& mesh = outcome.simplified.mesh;
-  switch (plan.format.kind) {
-    case OutputKind::kSvg:
-      return encode_svg(mesh);
-    case OutputKind::kEps:
-      return encode_eps(mesh);
-    case OutputKind::kDem:
-      break;
-    case OutputKind::kMesh:
-      return encode_mesh(mesh, plan.format.mesh);
-  }
+  if (plan.format.kind != OutputKind::kDem) return encode_as(plan.format, mesh);
   const Result<std::vector<float>> heights = resample(outcome.field, mesh, plan.simplify.threads);
   if (!heights) return tl::unexpected(heights.error());
   return encode_raster({*heights, outcome.field.cols, outcome.field.rows, &outcome.as_read}, plan.format.raster);
