@@ -90,6 +90,7 @@ void SimplifyArguments::add_to(CLI::App& verb) {
       "  scarp simplify dem.tif hills.glb -t 5000 --preview hills.png --report hills.json\n"
       "  scarp simplify dem.tif print.stl -e 1 --base 0   a solid for a 3-D printer\n"
       "  scarp simplify tile.png tile.glb -e 1 --decode terrarium\n"
+      "  scarp simplify survey.csv hills.glb -e 0.5       scattered points: x, y, z\n"
       "  scarp simplify dem.tif hills.glb -e 1 --edges data --edge-score tight    fewer triangles\n"
       "  scarp simplify dem.tif hills.glb -e 1 --texture ortho.tif                colours count too\n"
       "  scarp simplify photo.png photo.glb -p 2000 --image --render seen.png\n"

@@ -29,6 +29,9 @@ solid_vertices=$(number "$work/solid.json" solid vertices)
 solid_triangles=$(number "$work/solid.json" solid triangles)
 echo "open: $open_vertices vertices, $open_triangles triangles; solid: $solid_vertices vertices, $solid_triangles triangles"
 
+# Colours, places in an image and channels: three meshes that differ in what they carry.
+read -r attribute_vertices attribute_triangles < <("$SCARP_BUILD/bin/scarp_attribute_meshes" "$work")
+
 # --- Khronos glTF validator -------------------------------------------------------------------------------------------
 js=$SCARP_BUILD/js
 mkdir -p "$js"
@@ -43,6 +46,10 @@ if [ -d "$js/node_modules/gltf-validator" ] && command -v node >/dev/null; then
   sed 's/^/  /' "$work/validator.txt"
   grep -q "^open.glb: 0 errors, 0 warnings, 0 infos, 0 hints, $open_vertices vertices, $open_triangles triangles" "$work/validator.txt" ||
     complain "the glTF validator counts differently"
+  node "$js/validate_glb.cjs" "$work/colored.glb" "$work/photo.glb" "$work/bare.glb" >"$work/validator.txt" ||
+    { cat "$work/validator.txt"; complain "the glTF validator has objections to attributes"; }
+  sed 's/^/  /' "$work/validator.txt"
+  [ "$(grep -c ': 0 errors, 0 warnings, 0 infos, 0 hints' "$work/validator.txt")" = 3 ] || complain "the glTF validator has remarks on attributes"
   # A judge that never objects is none: it must notice an accessor that does not exist.
   LC_ALL=C sed 's/"POSITION":0/"POSITION":9/' "$work/open.glb" >"$work/bad.glb"
   if node "$js/validate_glb.cjs" "$work/bad.glb" >/dev/null; then complain "the glTF validator accepts a broken file"; fi
@@ -63,6 +70,22 @@ if command -v assimp >/dev/null; then
       fi
     done
   done
+  # Colours and places in the image are found where we put them: assimp writes what it read as text.
+  for format in glb obj ply; do
+    assimp export "$work/colored.$format" "$work/again.ply" >/dev/null
+    for property in red green blue; do
+      grep -aq "^property uchar $property" "$work/again.ply" || complain "assimp finds no $property in colored.$format"
+    done
+    assimp export "$work/colored.$format" "$work/again.obj" >/dev/null
+    grep -q '^vt ' "$work/again.obj" || complain "assimp finds no texture coordinates in colored.$format"
+    # The second vertex of the mesh lies at u = 1/651, v = 1 − 7/64 from the top.
+    LC_ALL=C awk '/^vt / && $2 > 0.0015360 && $2 < 0.0015362 && $3 > 0.109374 && $3 < 0.109376 {found = 1} END {exit !found}' "$work/again.obj" ||
+      complain "assimp finds other texture coordinates in colored.$format"
+    echo "  assimp, colours and texture coordinates of colored.$format: found"
+  done
+  assimp export "$work/colored.ply" "$work/again.ply" >/dev/null
+  # Vertex 1 has the colour 37, 138, 239.
+  grep -aq ' 37 138 239 255 *$' "$work/again.ply" || complain "assimp finds other colours in colored.ply"
 else
   echo "left out: assimp (assimp-utils)"
 fi
@@ -78,6 +101,14 @@ if command -v meshio >/dev/null && meshio info "$work/open.ply" >/dev/null 2>&1;
       same "meshio, points of $kind.$format" "$(awk '/Number of points:/ {print $4}' "$work/meshio.txt")" "${!vertices}"
     done
   done
+  meshio info "$work/colored.ply" >"$work/meshio.txt"
+  for name in red green blue s t channel_1 channel_4; do
+    grep -qE "Point data:.* $name(,|\$)" "$work/meshio.txt" || { cat "$work/meshio.txt"; complain "meshio finds no $name in colored.ply"; }
+  done
+  meshio info "$work/colored.obj" >"$work/meshio.txt"
+  grep -q 'Point data:.*obj:vt' "$work/meshio.txt" || complain "meshio finds no texture coordinates in colored.obj"
+  same "meshio, points of colored.obj" "$(awk '/Number of points:/ {print $4}' "$work/meshio.txt")" "$attribute_vertices"
+  same "meshio, triangles of colored.obj" "$(awk '/triangle:/ {print $2}' "$work/meshio.txt")" "$attribute_triangles"
 else
   echo "left out: meshio (meshio-tools)"
 fi
