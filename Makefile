@@ -1,13 +1,15 @@
 # Short names for what one does here; each does what its line in `make help` says and nothing else.
 # BUILD: build folder (the other kinds get BUILD-asan, BUILD-tsan, BUILD-fuzz). JOBS: compilers at once.
+# DATA: folder with the report's fields, for make paper.
 # CMAKE_FLAGS: more options for configuring, such as -DBUILD_SHARED_LIBS=ON.
 BUILD ?= build
 PREFIX ?= /usr/local
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 CMAKE_FLAGS ?=
+DATA ?= $(or $(SCARP_SHARED),../shared)/data
 export BUILD JOBS
 
-.PHONY: build demo test bench install clean format tidy help
+.PHONY: build demo test bench paper install clean format tidy help
 
 build:
 	@tools/install_packages.sh build
@@ -27,7 +29,12 @@ bench:
 	@tools/install_packages.sh build bench
 	@tools/configure.sh $(BUILD) -DSCARP_BUILD_BENCH=ON $(CMAKE_FLAGS)
 	@cmake --build $(BUILD) -j $(JOBS) --target scarp_program
-	@for what in reference quality memory speed; do cmake --build $(BUILD) -j $(JOBS) --target bench_$$what || exit 1; done
+	@for what in reference quality edges memory speed; do cmake --build $(BUILD) -j $(JOBS) --target bench_$$what || exit 1; done
+
+paper:
+	@tools/install_packages.sh build paper
+	@$(MAKE) --no-print-directory build
+	@$(BUILD)/bin/scarp paper --data $(DATA) --out docs --overwrite
 
 install: build
 	DESTDIR="$(DESTDIR)" cmake --install $(BUILD) --prefix "$(PREFIX)"
@@ -49,6 +56,7 @@ help:
 	@echo 'make demo     build, simplify a bundled DEM into demo/, check the result'
 	@echo 'make test     everything: tests, sanitizers, a short run of the fuzzers'
 	@echo 'make bench    the benchmarks; their tables are under version control'
+	@echo 'make paper    the report'\''s experiments on the fields in DATA, written to docs/paper.md'
 	@echo 'make install  program, library, headers, man page into PREFIX (now $(PREFIX)); DESTDIR is honoured'
 	@echo 'make format   clang-format on all sources'
 	@echo 'make tidy     clang-tidy on src/ and apps/'

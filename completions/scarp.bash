@@ -4,22 +4,40 @@ _scarp() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} verb='' word
   COMPREPLY=()
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
-    case $word in simplify | measure | info) verb=$word && break ;; esac
+    case $word in simplify | measure | info | generate | paper) verb=$word && break ;; esac
   done
 
   if [[ -z $verb ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure info --help --version' -- "$current"))
+    COMPREPLY=($(compgen -W 'simplify measure info generate paper --help --version' -- "$current"))
     return
   fi
 
   case $previous in
-    --of) COMPREPLY=($(compgen -W 'glb obj ply stl' -- "$current")) && return ;;
+    --of)
+      local formats='glb obj ply stl tin svg eps dem'
+      [[ $verb == generate ]] && formats='tif pgm'
+      COMPREPLY=($(compgen -W "$formats" -- "$current")) && return
+      ;;
+    --data | --out) COMPREPLY=($(compgen -d -- "$current")) && return ;;
     --decode) COMPREPLY=($(compgen -W 'terrarium mapbox' -- "$current")) && return ;;
     --nodata-policy) COMPREPLY=($(compgen -W 'hole fill background' -- "$current")) && return ;;
     --crs) COMPREPLY=($(compgen -W 'source local grid EPSG:' -- "$current")) && return ;;
-    --preview | --report | --map) COMPREPLY=($(compgen -f -- "$current")) && return ;;
+    --importance)
+      COMPREPLY=($(compgen -W 'global local local8 curvature global*local global*local8 global*curvature' -- "$current"))
+      return
+      ;;
+    --algorithm) COMPREPLY=($(compgen -W 'brute local heap' -- "$current")) && return ;;
+    --batch) COMPREPLY=($(compgen -W 'const frac: independent' -- "$current")) && return ;;
+    --edges) COMPREPLY=($(compgen -W 'delaunay data' -- "$current")) && return ;;
+    --edge-score) COMPREPLY=($(compgen -W 'sum max sqerr abn tight' -- "$current")) && return ;;
+    --norm) COMPREPLY=($(compgen -W 'l1 l2 linf' -- "$current")) && return ;;
+    --preview | --render | --error-raster | --report | --map | --mask | --tolerance | --script | --texture)
+      COMPREPLY=($(compgen -f -- "$current"))
+      return
+      ;;
     -e | --max-error | -t | --max-triangles | -p | --max-points | --band | --nodata | --fill-distance | --background | \
-      --outline-tolerance | --base | -j | --num-threads | --fail-above)
+      --outline-tolerance | --base | --shape-threshold | --supersample | --texture-weight | --channel-weights | -j | \
+      --num-threads | --fail-above | --seed | --range | --size)
       return
       ;;
   esac
@@ -27,14 +45,27 @@ _scarp() {
   if [[ $current == -* ]]; then
     local options='--help --version --band --nodata --decode --crs --quiet --json-progress'
     case $verb in
+      generate) options='--help --version --seed --range --size --of --overwrite --quiet' ;;
+      paper) options='--help --version --data --out --no-timing --overwrite --quiet' ;;
       simplify)
         options+=' --max-error --max-triangles --max-points --nodata-policy --fill-distance --background'
         options+=' --outline-tolerance --of --normals --base --preview --report --overwrite --num-threads'
+        options+=' --mask --tolerance --script --image --texture --texture-weight --norm --channel-weights'
+        options+=' --importance --one-pass --algorithm --batch --edges --edge-score --shape-threshold --supersample'
+        options+=' --uvs --render --error-raster'
         ;;
-      measure) options+=' --fail-above --json --map --overwrite --num-threads' ;;
+      measure)
+        options+=' --fail-above --json --map --error-raster --overwrite --num-threads'
+        options+=' --mask --tolerance --image --texture --texture-weight --norm --channel-weights'
+        ;;
       info) options+=' --json' ;;
     esac
     COMPREPLY=($(compgen -W "$options" -- "$current"))
+    return
+  fi
+  if [[ $verb == generate && $COMP_CWORD -eq 2 ]]; then
+    COMPREPLY=($(compgen -W 'cliff step sharp-step diagonal-step sharp-diagonal-step parabola paraboloid
+      scaled-paraboloid pyramid diagonal-pyramid fractal' -- "$current"))
     return
   fi
   COMPREPLY=($(compgen -f -- "$current"))

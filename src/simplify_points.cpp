@@ -16,6 +16,7 @@
 
 #include "grid/point_places.h"
 #include "measure/point_judge.h"
+#include "mesh/thin_triangles.h"
 #include "refine/scattered.h"
 #include "scarp/points.h"
 
@@ -92,8 +93,7 @@ class PointRun {
     for (double z : places.z) largest_height_ = std::max(largest_height_, std::abs(z));
   }
 
-  Result<Simplified> execute() {
-    const auto start = Clock::now();
+  Result<Simplified> execute(Clock::time_point start) {
     if (auto fits = check_budget(); !fits) return tl::unexpected(fits.error());
     Simplified result;
     if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
@@ -208,12 +208,23 @@ class PointRun {
       if (tin.is_outside(t)) continue;
       for (const HalfEdge h : {3 * t, 3 * t + 2, 3 * t + 1}) mesh.triangles.push_back(ids[tin.origin(h)]);
     }
+    remove_thin_triangles(mesh, 4 * position_rounding(mesh));
     optimize_order(mesh);
     if (refinement_) {
       result.effort.samples_scanned = refinement_->places_judged();
       result.effort.triangles_scanned = refinement_->lists_dealt();
     }
     result.effort.passes = insertions_;
+  }
+
+  /// How far vertices may lie from their places on the lattice, along x or y.
+  double position_rounding(const Mesh& mesh) const {
+    double reach = 0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      if (i % 3 != 2) reach = std::max(reach, std::abs(mesh.positions[i]));
+    }
+    const double snapping = places_.is_exact ? 0 : places_.lattice.step / 2;
+    return std::max(snapping, reach * (options_.float32_positions ? 0x1p-24 : 0x1p-53));
   }
 
   std::uint32_t place_of_point(std::int32_t point) {
@@ -314,6 +325,7 @@ class PointRun {
 
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const SimplifyOptions& options,
                                          DuplicatePolicy duplicates) try {
+  const auto start = Clock::now();
   if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
   const auto places = find_places(points, duplicates);
   if (!places) return tl::unexpected(places.error());
@@ -332,7 +344,7 @@ Result<SimplifiedPoints> simplify_points(const PointSet& points, const SimplifyO
   result.lattice_step = places->lattice.step;
   PointRun run(points, *places, options.float32_positions ? std::span<const double>(rounded) : places->z, options,
                std::move(*domain));
-  auto simplified = run.execute();
+  auto simplified = run.execute(start);
   if (!simplified) return tl::unexpected(simplified.error());
   result.simplified = std::move(*simplified);
   return result;

@@ -9,8 +9,10 @@
 #include <string>
 #include <string_view>
 
+#include "generate_command.h"
 #include "info_command.h"
 #include "measure_command.h"
+#include "paper_command.h"
 #include "scarp/version.h"
 #include "signals.h"
 #include "simplify_command.h"
@@ -47,15 +49,24 @@ std::string describe_mismatch(const std::string& message) {
   return option + (is_missing ? " needs a value" : " is given more than once");
 }
 
+/// "simplify, measure or info": the verbs in their order.
+std::string list_verbs(const CLI::App& program) {
+  std::string text;
+  const auto verbs = program.get_subcommands([](const CLI::App*) { return true; });
+  for (std::size_t k = 0; k < verbs.size(); ++k)
+    text += (k == 0 ? "" : k + 1 == verbs.size() ? " or " : ", ") + verbs[k]->get_name();
+  return text;
+}
+
 /// What CLI11 objects to, as one sentence that ends with where to read more.
 Error describe(const CLI::ParseError& error, const CLI::App& program) {
   std::string verb, sentence;
   for (const CLI::App* chosen : program.get_subcommands()) verb = " " + chosen->get_name();
   const std::vector<std::string> unknown = program.remaining(true);
   if (verb.empty() && !unknown.empty() && unknown.front().rfind('-', 0) != 0) {
-    sentence = fmt::format("there is no verb {}: choose simplify, measure or info", shell_word(unknown.front()));
+    sentence = fmt::format("there is no verb {}: choose {}", shell_word(unknown.front()), list_verbs(program));
   } else if (verb.empty() && unknown.empty()) {
-    sentence = "no verb is given: choose simplify, measure or info";
+    sentence = "no verb is given: choose " + list_verbs(program);
   } else if (!unknown.empty()) {
     const bool is_option = unknown.front().rfind('-', 0) == 0;
     sentence = fmt::format("{} {} is unknown", is_option ? "option" : "argument", shell_word(unknown.front()));
@@ -92,6 +103,8 @@ int run_program(int argc, char** argv) {
   SimplifyCommand simplify(program);
   MeasureCommand measure(program);
   InfoCommand info(program);
+  GenerateCommand generate(program);
+  PaperCommand paper(program);
   for (CLI::App* verb : program.get_subcommands(nullptr)) {
     verb->group("Verbs");
     verb->set_version_flag("--version", fmt::format("scarp {}", scarp::version()), "Print the version");
@@ -108,9 +121,11 @@ int run_program(int argc, char** argv) {
   }
 
   const std::string command_line = join_command_line(argc, argv);
-  return report_end(simplify.is_chosen()  ? simplify.run(command_line)
-                    : measure.is_chosen() ? measure.run(command_line)
-                                          : info.run(command_line));
+  return report_end(simplify.is_chosen()   ? simplify.run(command_line)
+                    : measure.is_chosen()  ? measure.run(command_line)
+                    : info.is_chosen()     ? info.run(command_line)
+                    : generate.is_chosen() ? generate.run()
+                                           : paper.run());
 }
 
 /// A standard stream that the caller has closed would lend its number to the next file that is opened, which messages

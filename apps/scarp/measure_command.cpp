@@ -2,174 +2,51 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <limits>
 #include <utility>
+#include <vector>
 
 #include "clock.h"
+#include "measure_report.h"
 #include "progress_display.h"
-#include "report.h"
 #include "scarp/picture.h"
-#include "scarp/version.h"
 #include "signals.h"
 #include "text.h"
-#include "verdict.h"
 
 namespace scarp::cli {
-namespace {
-
-/// Watches the rows that the judge hands out: keeps the errors for the map, and finds the first uncovered sample.
-class RowWatcher {
- public:
-  RowWatcher(const HeightField& field, bool keep_errors) : field_(field) {
-    if (keep_errors) {
-      errors_.resize(static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows),
-                     std::numeric_limits<float>::quiet_NaN());
-    }
-  }
-
-  void on_row(int row, std::span<const float> errors) {
-    const std::size_t start = static_cast<std::size_t>(row) * static_cast<std::size_t>(field_.cols);
-    if (!errors_.empty()) std::copy(errors.begin(), errors.end(), errors_.begin() + static_cast<std::ptrdiff_t>(start));
-    if (uncovered_col_ >= 0) return;
-    for (int col = 0; col < field_.cols; ++col) {
-      if (std::isnan(errors[static_cast<std::size_t>(col)]) && is_in_domain(col, row)) {
-        uncovered_col_ = col;
-        uncovered_row_ = row;
-        return;
-      }
-    }
-  }
-
-  /// "the first at column 3, row 7", or nothing.
-  std::string uncovered_sample() const {
-    return uncovered_col_ < 0 ? "" : fmt::format("the first at column {}, row {}", uncovered_col_, uncovered_row_);
-  }
-  std::span<const float> errors() const { return errors_; }
-
- private:
-  bool is_valid(int col, int row) const {
-    if (col < 0 || row < 0 || col >= field_.cols || row >= field_.rows) return false;
-    const std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(field_.cols);
-    return std::isfinite(field_.samples[at + static_cast<std::size_t>(col)]);
-  }
-  /// A corner of a cell that has at least three valid corners.
-  bool is_in_domain(int col, int row) const {
-    if (!is_valid(col, row)) return false;
-    for (const int dc : {-1, 1}) {
-      for (const int dr : {-1, 1}) {
-        const int others = is_valid(col + dc, row) + is_valid(col, row + dr) + is_valid(col + dc, row + dr);
-        const bool inside = col + dc >= 0 && col + dc < field_.cols && row + dr >= 0 && row + dr < field_.rows;
-        if (inside && others >= 2) return true;
-      }
-    }
-    return false;
-  }
-
-  const HeightField& field_;
-  std::vector<float> errors_;
-  int uncovered_col_ = -1, uncovered_row_ = -1;
-};
-
-struct Judged {
-  OwnedHeightField field;
-  Mesh mesh;
-  Measurement measured;
-  std::optional<double> fail_above;
-  std::optional<std::string> broken;  ///< why the mesh fails; nothing if it passes or nothing was asked
-  int band = 1;
-  std::vector<std::string> warnings;
-  double seconds_read = 0, seconds_measure = 0, seconds_total = 0;
-};
-
-Json make_report(const Judged& judged, const std::string& mesh_path, const std::string& command_line) {
-  Json report;
-  report["scarp"] = version();
-  report["command"] = command_line;
-  report["input"] = describe_input(judged.field, judged.field.info, judged.band);
-  report["frame"] = describe_frame(judged.field.frame);
-  report["mesh"] = Json{{"path", mesh_path}, {"metadata", judged.mesh.metadata}};
-  report["vertices"] = judged.measured.vertices;
-  report["triangles"] = judged.measured.triangles;
-  report["full_triangles"] = full_grid_triangles(judged.field);
-  add_measurement(report, judged.measured, judged.field.sample_rounding);
-  report["fail_above"] = judged.fail_above ? Json(*judged.fail_above) : Json(nullptr);
-  report["passed"] = judged.fail_above ? Json(!judged.broken) : Json(nullptr);
-  report["seconds"] =
-      Json{{"read", judged.seconds_read}, {"measure", judged.seconds_measure}, {"total", judged.seconds_total}};
-  report["warnings"] = judged.warnings;
-  return report;
-}
-
-std::string make_table(const Judged& judged, const std::string& raster_path, const std::string& mesh_path) {
-  const Measurement& m = judged.measured;
-  const std::string unit = judged.field.info.unit.empty() ? "" : " " + judged.field.info.unit;
-  const auto line = [](const char* name, const std::string& value) { return fmt::format("  {:<20}{}\n", name, value); };
-  std::string text = fmt::format("{} judged by {}, {} x {}\n", base_name(mesh_path), base_name(raster_path),
-                                 judged.field.cols, judged.field.rows);
-  text += line("max error", fmt::format("{}{} at column {}, row {}", format_number(m.max_error), unit,
-                                        m.max_error_at[0], m.max_error_at[1]));
-  if (judged.field.sample_rounding > 0) {
-    text += line(
-        "", fmt::format("values rounded to float32 by up to {}{}", format_number(judged.field.sample_rounding), unit));
-  }
-  text += line("RMSE", format_number(m.rmse) + unit);
-  text += line("mean error", format_number(m.mean_error) + unit);
-  text += line("mean |error|", format_number(m.mean_abs_error) + unit);
-  text += line("P50, P95", fmt::format("{}, {}", format_number(m.p50), format_number(m.p95)));
-  text += line("P99, P99.9", fmt::format("{}, {}", format_number(m.p99), format_number(m.p999)));
-  text += line("samples judged", format_count(m.samples));
-  text += line("samples uncovered", format_count(m.uncovered));
-  if (m.stray > 0) text += line("samples stray", format_count(m.stray) + ", outside every cell of the domain");
-  text += line("void cells covered", format_count(m.void_cells_covered));
-  text += line("vertices", format_count(m.vertices));
-  const std::uint64_t full = full_grid_triangles(judged.field);
-  text += line("triangles", fmt::format("{}, {} of the full grid's {}", format_count(m.triangles),
-                                        format_share(static_cast<double>(m.triangles), static_cast<double>(full)),
-                                        format_count(full)));
-  text += line("smallest angle",
-               fmt::format("{:.3g} degrees; of each triangle P1 {:.3g}, P5 {:.3g}, P50 {:.3g}", m.min_angle,
-                           m.angle_percentiles[0], m.angle_percentiles[1], m.angle_percentiles[2]));
-  const std::string faults = list_faults(m);
-  const std::string border = m.closed ? "closed solid"
-                                      : fmt::format("{} in {}", format_plural(m.open_edges, "open edge"),
-                                                    format_plural(m.border_loops, "border loop"));
-  text += line("topology", (faults.empty() ? "sound" : faults) + "; " + border);
-  if (judged.fail_above) {
-    text += judged.broken
-                ? fmt::format("Failed: {}\n", *judged.broken)
-                : fmt::format("Passed: max error {}{} is within {}, every sample is covered, the mesh is sound\n",
-                              format_number(m.max_error), describe_rounding(judged.field.sample_rounding),
-                              format_number(*judged.fail_above));
-  }
-  return text;
-}
-
-}  // namespace
-
 MeasureCommand::MeasureCommand(CLI::App& program)
     : verb_(program.add_subcommand("measure", "Judge a mesh file against its raster, sample by sample")) {
-  verb_->add_option("RASTER", raster_.path, "Raster of heights: a file or URL that GDAL opens, PGM or STM")
+  verb_
+      ->add_option("RASTER", raster_.path,
+                   "Raster of heights: a file or URL that GDAL opens, PGM\nor STM; with --image any image")
       ->type_name("")
       ->required();
-  verb_->add_option("MESH", mesh_, "Mesh to judge: GLB, OBJ, PLY or STL, recognised by content")
+  verb_->add_option("MESH", mesh_, "Mesh to judge: GLB, OBJ, PLY, STL or TIN, recognised by\ncontent")
       ->type_name("")
       ->required();
   raster_.add_to(
       *verb_,
       "Coordinates of the mesh: source, local, grid or a CRS\nsuch as EPSG:32611. Default: what the mesh file "
       "says of\nitself, else what simplify does by default");
+  points_.add_to(*verb_);
   verb_
       ->add_option("--fail-above", fail_above_,
-                   "End with exit code 3 if any error is above this (units\nof the heights), a sample is uncovered or "
-                   "the mesh is\nnot sound")
+                   "End with exit code 3 if any error is above this (units\nof the heights; weighted, with a mask; "
+                   "combined, with\nchannels), a sample is uncovered or the mesh is not\nsound. --tolerance fails "
+                   "without it")
       ->type_name("E")
       ->group("Verdict");
+  companions_.add_to(*verb_, false);
+  channels_.add_to(*verb_);
   verb_->add_flag("--json", json_, "The report as JSON on stdout")->group("Output");
   verb_->add_option("--map", map_, "Draw the signed errors in diverging colours")
       ->type_name("FILE.png")
       ->group("Output");
-  verb_->add_flag("--overwrite", overwrite_, "Replace a map that exists (default: refuse)")->group("Output");
+  verb_
+      ->add_option("--error-raster", error_raster_,
+                   "Write the errors, mesh minus sample, as GeoTIFF\n(--image: their norm over the bands)")
+      ->type_name("FILE.tif")
+      ->group("Output");
+  verb_->add_flag("--overwrite", overwrite_, "Replace files that exist (default: refuse)")->group("Output");
   verb_->add_option("-j,--num-threads", threads_, "Threads, 0 = all cores (default); never changes the result")
       ->type_name("N")
       ->group("Run");
@@ -180,80 +57,157 @@ MeasureCommand::MeasureCommand(CLI::App& program)
       "  scarp measure dem.tif hills.glb                   a table of errors and faults\n"
       "  scarp measure dem.tif hills.glb --fail-above 1    exit code 3 unless every error is within 1 m\n"
       "  scarp measure dem.tif hills.obj --json --map error.png\n"
+      "  scarp measure dem.tif hills.glb --tolerance t.tif exit code 3 if a sample is above its bound\n"
+      "  scarp measure photo.png photo.glb --image --fail-above 8\n"
       "Errors are vertical, mesh minus sample, in the units of the heights.\n"
       "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.");
 }
 
-Result<void> MeasureCommand::run(const std::string& command_line) const {
-  const Clock::time_point start = Clock::now();
-  Judged judged;
+Result<void> MeasureCommand::check_outputs_of_run() const {
+  std::vector<PlannedOutput> outputs;
+  if (map_) {
+    outputs.push_back({"--map", *map_});
+    const Result<void> named = check_png_name(outputs.back());
+    if (!named) return named;
+  }
+  if (error_raster_) {
+    outputs.push_back({"--error-raster", *error_raster_});
+    const Result<void> named = check_tiff_name(outputs.back());
+    if (!named) return named;
+  }
+  std::vector<std::string> inputs = companions_.files();
+  inputs.insert(inputs.end(), channels_.textures.begin(), channels_.textures.end());
+  inputs.insert(inputs.end(), {raster_.path, mesh_});
+  const Result<void> checked = check_outputs(outputs, inputs, overwrite_);
+  if (!checked) return checked;
+  for (const PlannedOutput& output : outputs) {
+    if (json_ && is_stdout(output.path)) {
+      return fail(ErrorKind::kUsage,
+                  fmt::format("--json and {} /dev/stdout both write to standard output", output.option));
+    }
+  }
+  return {};
+}
+
+Result<void> MeasureCommand::write_files(const Judged& judged) const {
+  std::vector<std::pair<std::string, std::vector<std::uint8_t>>> files;
+  if (!map_ && !error_raster_) return {};
+  const std::vector<float> errors =
+      take_error_raster(judged.judgement, judged.plan.image ? ErrorsOf::kNorms : ErrorsOf::kHeights);
+  if (map_) {
+    Result<std::vector<std::uint8_t>> png = encode_png(draw_error_map(errors, judged.field.cols, judged.field.rows));
+    if (!png) return tl::unexpected(std::move(png.error()));
+    files.emplace_back(*map_, std::move(*png));
+  }
+  if (error_raster_) {
+    Result<std::vector<std::uint8_t>> tiff =
+        encode_raster({errors, judged.field.cols, judged.field.rows, &judged.field.info}, RasterFormat::kGeoTiff);
+    if (!tiff) return tl::unexpected(std::move(tiff.error()));
+    files.emplace_back(*error_raster_, std::move(*tiff));
+  }
+  for (const auto& [path, bytes] : files) {
+    const Result<void> written = write_file(path, bytes, overwrite_);
+    if (!written) return written;
+  }
+  return {};
+}
+
+Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judged& judged) const {
   Result<ReadOptions> read = raster_.parse();
   if (!read) return tl::unexpected(std::move(read.error()));
   judged.band = read->band;
-  const Result<int> threads = parse_threads(threads_);
-  if (!threads) return tl::unexpected(threads.error());
-  if (fail_above_) {
-    const Result<double> bound = parse_non_negative("--fail-above", *fail_above_);
-    if (!bound) return tl::unexpected(bound.error());
-    judged.fail_above = *bound;
-  }
-  if (map_) {
-    const PlannedOutput map{"--map", *map_};
-    const Result<void> named = check_png_name(map);
-    if (!named) return named;
-    const Result<void> checked = check_outputs({map}, {raster_.path, mesh_}, overwrite_);
-    if (!checked) return checked;
-    if (json_ && is_stdout(*map_)) {
-      return fail(ErrorKind::kUsage, "--json and --map /dev/stdout both write to standard output");
-    }
-  }
-
-  ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
+  read->progress = progress;
   Result<Mesh> mesh = read_mesh(mesh_);
   if (!mesh) return tl::unexpected(std::move(mesh.error()));
   judged.mesh = std::move(*mesh);
   const auto crs_of_mesh = judged.mesh.metadata.find("crs_option");
   const bool crs_from_mesh = !raster_.crs && crs_of_mesh != judged.mesh.metadata.end();
   if (crs_from_mesh) read->crs = crs_of_mesh->second;
-  read->progress = display.callback();
-  Result<OwnedHeightField> field = read_height_field(raster_.path, *read);
-  if (!field) {
-    if (crs_from_mesh && field.error().kind == ErrorKind::kUsage) {
-      field.error().message += fmt::format("; {} names that CRS as its own, --crs overrides it", mesh_);
+  Result<void> has_field = read_field(*read, judged);
+  if (!has_field) {
+    if (crs_from_mesh && has_field.error().kind == ErrorKind::kUsage) {
+      has_field.error().message += fmt::format("; {} names that CRS as its own, --crs overrides it", mesh_);
     }
-    return tl::unexpected(std::move(field.error()));
+    return has_field;
   }
-  judged.field = std::move(*field);
+  if (!judged.channels.empty()) {
+    const Result<void> restored = restore_channels(judged.mesh, judged.channels, mesh_);
+    if (!restored) return restored;
+  }
+  Result<Companions> companions =
+      read_companions(companions_, judged.field.info, judged.field.cols, judged.field.rows, progress);
+  if (!companions) return tl::unexpected(std::move(companions.error()));
+  judged.companions = std::move(*companions);
   judged.warnings = judged.field.info.warnings;
+  judged.warnings.insert(judged.warnings.end(), judged.companions.warnings.begin(), judged.companions.warnings.end());
+  return {};
+}
+
+Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judged) const {
+  if (judged.plan.image) {
+    Result<Image> image = read_image(judged.plan, raster_.path, options, raster_.band.has_value());
+    if (!image) return tl::unexpected(std::move(image.error()));
+    judged.field = std::move(image->field);
+    judged.channels = std::move(image->channels);
+    return {};
+  }
+  Result<OwnedHeightField> field = read_height_field(raster_.path, options);
+  if (!field) return tl::unexpected(std::move(field.error()));
+  judged.field = std::move(*field);
+  Result<Channels> textures = read_textures(judged.plan, judged.field, options.progress);
+  if (!textures) return tl::unexpected(std::move(textures.error()));
+  judged.channels = std::move(*textures);
+  return {};
+}
+
+Result<void> MeasureCommand::run(const std::string& command_line) const {
+  const Clock::time_point start = Clock::now();
+  if (points_.are_meant(raster_.path)) {
+    return run_measure_points(*verb_,
+                              {raster_.path, mesh_, raster_.crs, fail_above_, threads_, json_, quiet_, json_progress_},
+                              points_, command_line);
+  }
+  if (auto unused = points_.check_unused(raster_.path); !unused) return unused;
+  Judged judged;
+  const Result<ReadOptions> read = raster_.parse();
+  if (!read) return tl::unexpected(read.error());
+  const Result<int> threads = parse_threads(threads_);
+  if (!threads) return tl::unexpected(threads.error());
+  Result<ChannelPlan> plan = channels_.parse(raster_);
+  if (!plan) return tl::unexpected(std::move(plan.error()));
+  judged.plan = std::move(*plan);
+  const Result<void> companions_agree = companions_.check();
+  if (!companions_agree) return companions_agree;
+  if (fail_above_) {
+    const Result<double> bound = parse_non_negative("--fail-above", *fail_above_);
+    if (!bound) return tl::unexpected(bound.error());
+    judged.fail_above = *bound;
+  }
+  const Result<void> outputs = check_outputs_of_run();
+  if (!outputs) return outputs;
+
+  ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
+  const Result<void> has_inputs = read_inputs(display.callback(), judged);
+  if (!has_inputs) return has_inputs;
   judged.seconds_read = seconds_since(start);
 
   const Clock::time_point measure_start = Clock::now();
-  const HeightField view = judged.field.view();
-  RowWatcher watcher(view, map_.has_value());
-  MeasureOptions options;
+  JudgeOptions options;
+  options.keep_errors = map_ || error_raster_ || judged.companions.has_weights() || !judged.channels.empty();
   options.threads = *threads;
   options.progress = display.callback();
-  options.on_row = [&watcher](int row, std::span<const float> errors) { watcher.on_row(row, errors); };
-  Result<Measurement> measured = measure(view, judged.mesh, options);
-  if (!measured) return tl::unexpected(std::move(measured.error()));
-  judged.measured = std::move(*measured);
+  Result<Judgement> judgement = judge(judged.field, judged.mesh, judged.channels, judged.plan.norm, options);
+  if (!judgement) return tl::unexpected(std::move(judgement.error()));
+  judged.judgement = std::move(*judgement);
   judged.seconds_measure = seconds_since(measure_start);
-  if (judged.fail_above) {
-    judged.broken = find_broken_promise(judged.measured, view.sample_rounding, *judged.fail_above, height_range(view),
-                                        watcher.uncovered_sample());
-  }
-  if (judged.measured.samples == 0) {
+  decide(judged);
+  if (judged.judgement.heights.samples == 0) {
     judged.warnings.push_back(fmt::format(
         "no sample of {} is covered by {}: do they have the same coordinates (--crs)?", raster_.path, mesh_));
   }
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
-
-  if (map_) {
-    const Result<std::vector<std::uint8_t>> png = encode_png(draw_error_map(watcher.errors(), view.cols, view.rows));
-    if (!png) return tl::unexpected(png.error());
-    const Result<void> written = write_file(*map_, *png, overwrite_);
-    if (!written) return written;
-  }
+  const Result<void> files = write_files(judged);
+  if (!files) return files;
   display.finish();
   judged.seconds_total = seconds_since(start);
 
@@ -263,7 +217,7 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
     if (!printed) return printed;
   } else if (!quiet_) {
     const std::string table = make_table(judged, raster_.path, mesh_);
-    if (map_ && is_stdout(*map_)) {
+    if (is_stdout(map_.value_or("")) || is_stdout(error_raster_.value_or(""))) {
       print_to_stderr(table);
     } else {
       const Result<void> printed = print_to_stdout(table);

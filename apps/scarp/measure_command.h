@@ -4,7 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "channels.h"
+#include "companions.h"
+#include "measure_report.h"
 #include "options.h"
+#include "points_command.h"
 
 namespace scarp::cli {
 
@@ -20,10 +24,18 @@ class MeasureCommand {
   Result<void> run(const std::string& command_line) const;
 
  private:
+  Result<void> check_outputs_of_run() const;
+  Result<void> read_inputs(const ProgressCallback& progress, Judged& judged) const;
+  Result<void> read_field(const ReadOptions& options, Judged& judged) const;
+  Result<void> write_files(const Judged& judged) const;
+
   CLI::App* verb_;
   RasterArguments raster_;
+  PointsArguments points_;
   std::string mesh_;
-  Given map_, fail_above_, threads_;
+  CompanionArguments companions_;
+  ChannelArguments channels_;
+  Given map_, error_raster_, fail_above_, threads_;
   bool json_ = false, overwrite_ = false, quiet_ = false, json_progress_ = false;
 };
 

@@ -5,8 +5,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "text.h"
-
 namespace scarp::cli {
 namespace {
 
@@ -55,6 +53,10 @@ Result<int> parse_threads(const Given& text) {
     return fail(ErrorKind::kUsage, fmt::format("--num-threads {} is more than 1024", *text));
   }
   return static_cast<int>(*threads);
+}
+
+std::string canonical_option(const char* name, const Given& text) {
+  return text ? fmt::format(" {} {}", name, shell_word(*text)) : "";
 }
 
 Result<ErrorGoal> parse_error_goal(std::string_view option, const std::string& text) {

@@ -20,6 +20,11 @@ bool is_device(const fs::file_status& status) {
   return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
+bool names_device(const std::string& path) {
+  std::error_code error;
+  return is_stdout(path) || is_device(fs::status(path, error));
+}
+
 bool are_same_file(const std::string& a, const std::string& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error) && !error) return true;
@@ -64,8 +69,7 @@ Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std:
                            bool overwrite) {
   for (std::size_t k = 0; k < outputs.size(); ++k) {
     const PlannedOutput& output = outputs[k];
-    std::error_code error;
-    const bool device = is_stdout(output.path) || is_device(fs::status(output.path, error));
+    const bool device = names_device(output.path);
     for (const std::string& input : inputs) {
       if (!device && are_same_file(output.path, input)) {
         return fail(ErrorKind::kUsage,
@@ -84,14 +88,23 @@ Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std:
   return {};
 }
 
-Result<void> check_png_name(const PlannedOutput& output) {
-  std::error_code error;
-  if (is_stdout(output.path) || is_device(fs::status(output.path, error))) return {};
-  std::string extension = fs::path(output.path).extension().string();
+std::string lower_extension(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (extension == ".png") return {};
+  return extension;
+}
+
+Result<void> check_png_name(const PlannedOutput& output) {
+  if (names_device(output.path) || lower_extension(output.path) == ".png") return {};
   return fail(ErrorKind::kUsage,
               fmt::format("{} {} does not end in .png, the only picture format", output.option, output.path));
+}
+
+Result<void> check_tiff_name(const PlannedOutput& output) {
+  const std::string extension = lower_extension(output.path);
+  if (names_device(output.path) || extension == ".tif" || extension == ".tiff") return {};
+  return fail(ErrorKind::kUsage,
+              fmt::format("{} {} does not end in .tif: it is written as GeoTIFF", output.option, output.path));
 }
 
 bool is_stdout(const std::string& path) { return path == "/dev/stdout"; }

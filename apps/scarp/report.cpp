@@ -1,5 +1,8 @@
 #include "report.h"
 
+#include <cmath>
+#include <utility>
+
 namespace scarp::cli {
 namespace {
 
@@ -72,7 +75,7 @@ std::uint64_t full_grid_triangles(const HeightField& field) {
   return 2 * static_cast<std::uint64_t>(field.cols - 1) * static_cast<std::uint64_t>(field.rows - 1);
 }
 
-void add_measurement(Json& report, const Measurement& measured, double sample_rounding) {
+void add_errors(Json& report, const Measurement& measured, double sample_rounding) {
   report["max_error"] = measured.max_error;
   report["max_error_at"] = measured.max_error_at;
   if (sample_rounding > 0) report["sample_rounding"] = sample_rounding;
@@ -83,12 +86,29 @@ void add_measurement(Json& report, const Measurement& measured, double sample_ro
   report["p95"] = measured.p95;
   report["p99"] = measured.p99;
   report["p999"] = measured.p999;
+}
+
+void add_coverage(Json& report, const Measurement& measured) {
   report["samples"] = measured.samples;
   report["uncovered"] = measured.uncovered;
   report["stray"] = measured.stray;
   report["void_cells_covered"] = measured.void_cells_covered;
   report["topology"] = describe_topology(measured);
 }
+
+Json describe_channels(const std::vector<std::string>& names, const std::vector<double>& scales,
+                       const std::vector<Measurement>& measured) {
+  Json channels = Json::array();
+  for (std::size_t k = 0; k < measured.size(); ++k) {
+    Json channel{{"name", names[k]}, {"scale", scales[k]}};
+    add_errors(channel, measured[k], 0);
+    channel["samples"] = measured[k].samples;
+    channels.push_back(std::move(channel));
+  }
+  return channels;
+}
+
+Json finite_or_word(double value) { return std::isfinite(value) ? Json(value) : Json("inf"); }
 
 std::string to_text(const Json& report) { return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 

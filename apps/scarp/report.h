@@ -25,8 +25,15 @@ Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, in
 Json describe_frame(const Frame& frame);
 /// Triangles of the full grid: 2·(cols − 1)·(rows − 1).
 std::uint64_t full_grid_triangles(const HeightField& field);
-/// Adds max_error … void_cells_covered and the "topology" object; sample_rounding, where it is not 0.
-void add_measurement(Json& report, const Measurement& measured, double sample_rounding);
+/// Adds max_error … p999; sample_rounding, where it is not 0.
+void add_errors(Json& report, const Measurement& measured, double sample_rounding);
+/// Adds samples … void_cells_covered and the "topology" object.
+void add_coverage(Json& report, const Measurement& measured);
+/// The "channels" list: each channel's name, scale, max_error … p999 and samples, in its own units.
+Json describe_channels(const std::vector<std::string>& names, const std::vector<double>& scales,
+                       const std::vector<Measurement>& measured);
+/// A finite number, or what stands for it: "inf".
+Json finite_or_word(double value);
 /// The report as text, two spaces a level, with a newline at the end. Bytes that are not UTF-8 become U+FFFD.
 std::string to_text(const Json& report);
 

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "points_command.h"
 #include "simplify_plan.h"
 
 namespace scarp::cli {
@@ -22,6 +23,7 @@ class SimplifyCommand {
  private:
   CLI::App* verb_;
   SimplifyArguments given_;
+  PointsArguments points_;
 };
 
 }  // namespace scarp::cli

@@ -3,35 +3,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
+#include <utility>
 
 #include "text.h"
 
 namespace scarp::cli {
 namespace {
 
-Result<MeshFormat> choose_format(const SimplifyArguments& given) {
-  if (given.output == "-") {
-    return fail(ErrorKind::kUsage, "- is no output: for standard output give /dev/stdout and a format with --of");
-  }
-  if (given.format) {
-    const std::optional<MeshFormat> named = find_mesh_format(*given.format);
-    if (named && given.format->find_first_of("./") == std::string::npos) return *named;
-    return fail(ErrorKind::kUsage,
-                fmt::format("--of {} is unknown: choose glb, obj, ply or stl", shell_word(*given.format)));
-  }
-  const std::string extension = std::filesystem::path(given.output).extension().string();
-  if (extension.size() > 1) {
-    if (const std::optional<MeshFormat> named = find_mesh_format(extension.substr(1))) return *named;
-  }
-  return fail(ErrorKind::kUsage, fmt::format("{} does not tell a mesh format: end it in .glb, .obj, .ply or .stl, or "
-                                             "choose one with --of",
-                                             shell_word(given.output)));
-}
-
 Result<void> plan_goals(const SimplifyArguments& given, SimplifyPlan& plan) {
-  if (!given.max_error && !given.max_triangles && !given.max_points) {
+  if (!given.max_error && !given.max_triangles && !given.max_points && !given.companions.tolerance) {
     return fail(ErrorKind::kUsage,
                 fmt::format("no goal is given: say how good the mesh must be, such as -e 1 for heights within 1 unit, "
                             "or how small with -t or -p; 'scarp info {}' suggests errors",
@@ -97,13 +78,71 @@ Result<void> plan_nodata(const SimplifyArguments& given, SimplifyPlan& plan) {
   return {};
 }
 
+Result<void> plan_channels(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const Result<ChannelPlan> channels = given.channels.parse(given.raster);
+  if (!channels) return tl::unexpected(channels.error());
+  plan.channels = *channels;
+  plan.simplify.norm = channels->norm;
+  if (channels->image && plan.policy != NodataPolicy::kHole) {
+    return fail(ErrorKind::kUsage, "--image and --nodata-policy contradict each other: missing pixels are holes");
+  }
+  if (channels->has_channels() && !channels->image && channels->texture_weight == 1) {
+    if (given.max_error) {
+      return fail(ErrorKind::kUsage,
+                  "--max-error bounds heights, and --texture-weight 1 does not look at them: ask for "
+                  "a size with -t or -p, or choose a smaller weight");
+    }
+    if (given.companions.tolerance) {
+      return fail(ErrorKind::kUsage, "--tolerance bounds heights, and --texture-weight 1 does not look at them");
+    }
+  }
+  return {};
+}
+
+Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
+  plan.companions = given.companions;
+  const Result<void> checked = given.companions.check();
+  if (!checked) return checked;
+  return given.strategy.parse_into(plan.simplify);
+}
+
+/// What the format has no place for: refused where nothing would be left, else a warning.
+Result<void> plan_attributes(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const OutputFormat& format = plan.format;
+  const std::string title = format.title();
+  plan.simplify.normals = given.normals && format.holds_attributes();
+  plan.simplify.uvs = (given.uvs || plan.channels.has_channels()) && format.holds_attributes();
+  plan.simplify.float32_positions = format.is_float32();
+  const bool shows_image =
+      format.holds_attributes() || format.kind == OutputKind::kSvg || format.kind == OutputKind::kEps;
+  if (given.channels.image && !shows_image) {
+    return fail(ErrorKind::kUsage, fmt::format("{} has no place for colours, and an image has no heights: choose .glb, "
+                                               ".ply or .obj",
+                                               title));
+  }
+  if (given.base && !format.is_mesh()) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("--base makes a solid, which {} cannot hold: choose a mesh format", title));
+  }
+  if (given.normals && given.base) {
+    return fail(ErrorKind::kUsage,
+                "--normals and --base contradict each other: a solid's walls have no terrain normal");
+  }
+  if (format.holds_attributes()) return {};
+  if (given.normals) {
+    plan.warnings.push_back(fmt::format("{} has no place for vertex normals: --normals changes nothing", title));
+  }
+  if (given.uvs) plan.warnings.push_back(fmt::format("{} has no place for uvs: --uvs changes nothing", title));
+  if (!given.channels.textures.empty()) {
+    plan.warnings.push_back(fmt::format("{} has no place for colours: the texture shapes the mesh only", title));
+  }
+  return {};
+}
+
 Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
-  if (given.output.empty()) return fail(ErrorKind::kUsage, "the name of OUTPUT is empty");
-  const Result<MeshFormat> format = choose_format(given);
+  const Result<OutputFormat> format = choose_output_format(given.format, given.output);
   if (!format) return tl::unexpected(format.error());
   plan.format = *format;
-  plan.simplify.normals = given.normals;
-  plan.simplify.float32_positions = plan.format == MeshFormat::kGlb || plan.format == MeshFormat::kStl;
   if (given.base) {
     const Result<double> base = parse_number("--base", *given.base);
     if (!base) return tl::unexpected(base.error());
@@ -115,21 +154,27 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
     }
     plan.base = *base;
   }
-  if (given.normals && given.base) {
-    return fail(ErrorKind::kUsage,
-                "--normals and --base contradict each other: a solid's walls have no terrain normal");
-  }
-  if (given.normals && plan.format == MeshFormat::kStl) {
-    plan.warnings.push_back("STL has no place for vertex normals: --normals changes nothing");
-  }
+  const Result<void> attributes = plan_attributes(given, plan);
+  if (!attributes) return attributes;
+
   std::vector<PlannedOutput> outputs{{"OUTPUT", given.output}};
-  if (given.preview) {
-    outputs.push_back({"--preview", *given.preview});
+  const std::pair<const char*, const Given*> pictures[] = {{"--preview", &given.preview}, {"--render", &given.render}};
+  for (const auto& [option, path] : pictures) {
+    if (!*path) continue;
+    outputs.push_back({option, **path});
     const Result<void> named = check_png_name(outputs.back());
     if (!named) return named;
   }
+  if (given.error_raster) {
+    outputs.push_back({"--error-raster", *given.error_raster});
+    const Result<void> named = check_tiff_name(outputs.back());
+    if (!named) return named;
+  }
   if (given.report) outputs.push_back({"--report", *given.report});
-  return check_outputs(outputs, {given.raster.path}, given.overwrite);
+  std::vector<std::string> inputs = given.companions.files();
+  inputs.insert(inputs.end(), given.channels.textures.begin(), given.channels.textures.end());
+  inputs.push_back(given.raster.path);
+  return check_outputs(outputs, inputs, given.overwrite);
 }
 
 std::string canonical_command(const SimplifyArguments& given) {
@@ -149,9 +194,10 @@ std::string canonical_command(const SimplifyArguments& given) {
       {"--base", &given.base},
   };
   for (const auto& [name, value] : options) {
-    if (*value) command += fmt::format(" {} {}", name, shell_word(**value));
+    command += canonical_option(name, *value);
   }
-  return given.normals ? command + " --normals" : command;
+  command += given.companions.canonical() + given.channels.canonical() + given.strategy.canonical();
+  return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "");
 }
 
 }  // namespace
@@ -161,6 +207,8 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   plan.input = given.raster.path;
   plan.output = given.output;
   plan.preview = given.preview;
+  plan.render = given.render;
+  plan.error_raster = given.error_raster;
   plan.report = given.report;
   plan.overwrite = given.overwrite;
   plan.canonical_command = canonical_command(given);
@@ -171,25 +219,11 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   const Result<int> threads = parse_threads(given.threads);
   if (!threads) return tl::unexpected(threads.error());
   plan.simplify.threads = *threads;
-  for (const auto step : {plan_goals, plan_nodata, plan_outputs}) {
+  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_outputs}) {
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());
   }
   return plan;
-}
-
-const char* format_name(MeshFormat format) {
-  switch (format) {
-    case MeshFormat::kGlb:
-      return "glb";
-    case MeshFormat::kObj:
-      return "obj";
-    case MeshFormat::kPly:
-      return "ply";
-    case MeshFormat::kStl:
-      break;
-  }
-  return "stl";
 }
 
 }  // namespace scarp::cli

@@ -5,8 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "channels.h"
+#include "companions.h"
 #include "options.h"
+#include "output_kind.h"
 #include "scarp/simplify.h"
+#include "strategy_options.h"
 
 namespace scarp::cli {
 
@@ -18,21 +22,28 @@ struct SimplifyArguments {
   std::string output;
   Given max_error, max_triangles, max_points;
   Given nodata_policy, fill_distance, background, outline_tolerance;
-  Given format, base, preview, report, threads;
-  bool normals = false, overwrite = false, quiet = false, json_progress = false;
+  Given format, base, preview, render, error_raster, report, threads;
+  StrategyArguments strategy;
+  CompanionArguments companions;
+  ChannelArguments channels;
+  bool normals = false, uvs = false, overwrite = false, quiet = false, json_progress = false;
+
+  void add_to(CLI::App& verb);
 };
 
 struct SimplifyPlan {
   std::string input, output;
-  MeshFormat format = MeshFormat::kGlb;
+  OutputFormat format;
   ReadOptions read;
   std::optional<ErrorGoal> error_goal;
-  SimplifyOptions simplify;  ///< without max_error, which may depend on the relief
+  SimplifyOptions simplify;  ///< without max_error, which may depend on the relief, and what CompanionArguments name
+  CompanionArguments companions;
+  ChannelPlan channels;
   NodataPolicy policy = NodataPolicy::kHole;
   double fill_distance = 100;
   float background = 0;
   std::optional<double> base;
-  std::optional<std::string> preview, report;
+  std::optional<std::string> preview, render, error_raster, report;
   bool overwrite = false;
   std::vector<std::string> warnings;
   /// The command for the mesh's metadata: options in a fixed order and with their long names, folders left out, and
@@ -41,8 +52,5 @@ struct SimplifyPlan {
 };
 
 Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given);
-
-/// "glb", "obj", "ply" or "stl".
-const char* format_name(MeshFormat format);
 
 }  // namespace scarp::cli

@@ -43,6 +43,10 @@ struct ReadPointsOptions {
 /// value that is not finite (names the line or feature), no points in the layer.
 Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options = {});
 
+/// True if `path` names points rather than a raster: by its end (.csv .tsv .xyz .geojson .geojsonl .shp .fgb .gml .kml
+/// .parquet; .txt and .dat unless they begin as an ASCII grid does; .gpkg unless it holds a raster), in any case.
+bool is_point_file(const std::string& path);
+
 struct SimplifiedPoints {
   Simplified simplified;         ///< measurement: errors at the points as given; `samples` counts points
   std::uint64_t points = 0;      ///< as given
@@ -52,20 +56,25 @@ struct SimplifiedPoints {
 };
 
 /// Greedy insertion on scattered samples (the report's section 2 names it, without doing it). The domain is the convex
-/// hull. Each triangle keeps the list of the points in it. Coordinates are snapped to an integer lattice: a power of
-/// ten on which the given decimals lie exactly if there is one, else the finest power of two that the lattice holds.
+/// hull. Each triangle keeps the list of the points in it. Coordinates are snapped to an integer lattice of up to 2^30
+/// steps: the coarsest on which the given decimals lie exactly if there is one, else the finest power of two. Among
+/// points of equal error the one in the northernmost, then westernmost place is inserted. Points on a grid give the
+/// vertices that simplify() gives for the raster, but for ties.
 ///
 /// Guarantees that |mesh − z| <= max_error at every point that is not given up as a duplicate, at its coordinates as
 /// given, for the positions as they are in the mesh. Vertices are points.
 /// Honours max_error, max_triangles, max_vertices, float32_positions, edges (Delaunay only), threads, progress of the
-/// options; fails with kUsage if another strategy is asked for, with kInput (fewer than 3 places, all on one line),
-/// with kPromise where float32 positions cannot keep the bound, kCancelled. Cost: expected O(n log m) for n points;
-/// about 60 bytes a point.
+/// options; fails with kUsage if anything else is asked for or a budget is below what the hull needs, with kInput
+/// (fewer than 3 places, all on one line, a value that is not finite or beyond 1e100), with kPromise where float32
+/// positions cannot keep the bound, kCancelled. Cost: expected O(n log m) for n points; about 60 bytes a point.
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const SimplifyOptions& options,
                                          DuplicatePolicy duplicates = DuplicatePolicy::kFirst);
 
 /// Judges a mesh against points by brute force, without knowing how it was made: Measurement::samples counts points,
-/// max_error_at is {index of the point, 0}. Duplicates are given up by the same policy first.
+/// max_error_at is {index of the point, 0}, and so are offenders; on_row is called once, with all points. Duplicates
+/// are given up by the same policy first. coverage_tolerance counts mean distances between points, √(area / points).
+/// Gaps are open edges within the convex hull. Same failures and cost as measure(); kUsage for
+/// MeasureOptions::tolerance.
 Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates,
                                    const MeasureOptions& options = {});
 

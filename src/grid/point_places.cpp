@@ -167,9 +167,11 @@ Result<PointPlaces> find_places(const PointSet& points, DuplicatePolicy policy) 
   constexpr double kReach = 1e100;  // as far as the arithmetic of planes goes
   if (std::max({x.reach(), y.reach(), z.reach()}) > kReach)
     return fail(ErrorKind::kInput, "a point has a coordinate beyond 1e100; only smaller ones can be triangulated");
+  PointPlaces places;
   Snapped snapped;
   if (auto decimal = snap_to_decimals(points, x, y)) {
     snapped = std::move(*decimal);
+    places.is_exact = true;
   } else {
     snapped = snap_to_power_of_two(points, x, y);
   }
@@ -180,7 +182,6 @@ Result<PointPlaces> find_places(const PointSet& points, DuplicatePolicy policy) 
     keys.push_back({spread(snapped.at[i].x) | spread(snapped.at[i].y) << 1, i});
   std::sort(keys.begin(), keys.end(),
             [](const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.point < b.point; });
-  PointPlaces places;
   places.lattice = snapped.lattice;
   for (std::size_t i = 0, end = 0; i < keys.size(); i = end) {
     while (end < keys.size() && keys[end].key == keys[i].key) ++end;

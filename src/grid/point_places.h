@@ -20,6 +20,7 @@ struct PointLattice {
 /// plane is near in memory.
 struct PointPlaces {
   PointLattice lattice;
+  bool is_exact = false;  ///< the points lie on the lattice, as decimals
   std::vector<Point> at;
   std::vector<std::uint32_t> source;  ///< the point of the set that stands for the place
   std::vector<double> z;              ///< its height, or the mean

@@ -30,6 +30,8 @@ Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptio
               path + ": not text of columns, and this build of Scarp reads no other points: it was built without GDAL");
 }
 
+bool opens_as_raster(const std::string&) { return false; }
+
 Result<std::vector<std::uint8_t>> encode_png(const Picture&) {
   return fail(ErrorKind::kOutput, "pictures cannot be written: this build of Scarp has no GDAL, which encodes PNG");
 }

@@ -190,14 +190,15 @@ bool read_line(std::string_view line, const Columns& columns, std::array<double,
   return found[0] && found[1] && found[2];
 }
 
+/// Small coordinates on the globe under heights that are large beside them.
 bool looks_like_degrees(const PointSet& points) {
-  double x = 0, y = 0, size = 0;
+  double extent = 0, relief = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    x = std::max(x, std::abs(points.x[i]));
-    y = std::max(y, std::abs(points.y[i]));
-    size = std::max({size, std::abs(points.x[i] - points.x[0]), std::abs(points.y[i] - points.y[0])});
+    if (std::abs(points.x[i]) > 180 || std::abs(points.y[i]) > 90) return false;
+    extent = std::max({extent, std::abs(points.x[i] - points.x[0]), std::abs(points.y[i] - points.y[0])});
+    relief = std::max(relief, std::abs(points.z[i] - points.z[0]));
   }
-  return x <= 360 && y <= 90 && size < 10 && (x != std::floor(x) || y != std::floor(y));
+  return extent < 10 && relief > 10 * extent;
 }
 
 }  // namespace

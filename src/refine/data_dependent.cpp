@@ -92,12 +92,13 @@ bool DataDependentRule::is_better(const Triangulation& tin, HalfEdge h) {
     return judge_.bend(quad.other[0], quad.other[1]) < judge_.bend(quad.kept[0], quad.kept[1]);
   const double first_kept = part(cache_.fit_of(tin, quad.t)), second_kept = part(cache_.fit_of(tin, quad.u));
   const double score = combine(first_kept, second_kept);
-  // A scan may stop where its triangle alone loses.
+  // A scan may stop where its triangle alone loses; the hair more leaves ties to the comparison of the sums.
   const auto look = [&](const Quadrilateral::Corners& corners, double most) {
-    return cache_.look(corners, rule_.score == EdgeScore::kTight ? std::sqrt(most) : most);
+    const double limit = most + 0x1p-40 * score;
+    return cache_.look(corners, rule_.score == EdgeScore::kTight ? std::sqrt(limit) : limit);
   };
   const Fit first = look(quad.other[0], score);
-  if (!first.complete || !(part(first) < score)) return false;
+  if (!first.complete) return false;
   const Fit second = look(quad.other[1], rule_.score == EdgeScore::kMax ? score : score - part(first));
   if (!second.complete || !(combine(part(first), part(second)) < score)) return false;
   cache_.remember(quad.t, quad.first_vertices, first);

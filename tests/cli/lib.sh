@@ -81,3 +81,31 @@ make_big_raster() {
   need gdal_translate
   gdal_translate -q -r cubic -ot Float32 -outsize 1000% 1000% "$dem" "$1"
 }
+
+# make_raster NAME EXPRESSION [TYPE]: a raster on the grid of $dem (also its place), whose value at (col, row) is the
+# expression of Python; nan is nodata.
+make_raster() {
+  need gdal_translate python3
+  python3 - "$2" > "$1.asc" <<'PYTHON'
+import math, sys
+cols, rows, nan = 403, 344, math.nan
+f = compile(sys.argv[1], "expression", "eval")
+grid = [[eval(f) for col in range(cols)] for row in range(rows)]
+print(f"ncols {cols}\nnrows {rows}\nxllcorner 0\nyllcorner 0\ncellsize 1")
+if any(v != v for values in grid for v in values):
+    print("NODATA_value -9999")
+for values in grid:
+    print(" ".join("-9999" if v != v else repr(float(v)) for v in values))
+PYTHON
+  gdal_translate -q -ot "${3:-Float32}" $(corners_of "$dem") "$1.asc" "$1"
+  rm "$1.asc"
+}
+
+# The options of gdal_translate that put a raster where another one lies.
+corners_of() {
+  gdalinfo -json "$1" | python3 -c '
+import json, sys
+i = json.load(sys.stdin)
+(x, dx, _, y, _, dy), (cols, rows) = i["geoTransform"], i["size"]
+print("-a_srs EPSG:4326 -a_ullr", repr(x), repr(y), repr(x + dx * cols), repr(y + dy * rows))'
+}

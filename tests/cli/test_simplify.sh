@@ -13,9 +13,10 @@ tail -n 1 "$logs/out" | grep -Eq '^Reached the error goal: max error [0-9.]+ \(a
 python3 - hills.json "$(wc -c < hills.glb)" <<'PYTHON'
 import json, sys
 r = json.load(open(sys.argv[1]))
-assert list(r) == ["scarp", "command", "input", "frame", "goal", "stopped_by", "vertices", "triangles", "full_triangles",
-                   "max_error", "max_error_at", "rmse", "mean_error", "mean_abs_error", "p50", "p95", "p99", "p999", "samples",
-                   "uncovered", "stray", "void_cells_covered", "topology", "seconds", "outputs", "warnings"], list(r)
+assert list(r) == ["scarp", "command", "input", "frame", "goal", "strategy", "stopped_by", "vertices", "triangles",
+                   "full_triangles", "max_error", "max_error_at", "rmse", "mean_error", "mean_abs_error", "p50", "p95", "p99", "p999", "ignored",
+                   "samples", "uncovered", "stray", "void_cells_covered", "topology", "effort", "seconds", "outputs",
+                   "warnings"], list(r)
 assert r["command"].startswith("scarp simplify ") and r["command"].endswith(" hills.glb -e 20 --preview hills.png --report hills.json")
 i = r["input"]
 assert (i["cols"], i["rows"], i["valid"], i["void"], i["filled"]) == (403, 344, 403 * 344, 0, 0)

@@ -284,4 +284,9 @@ Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptio
   return gdal::read(path, options);
 }
 
+bool opens_as_raster(const std::string& path) {
+  gdal::Session session(gdal::is_remote(path));
+  return gdal::open_raster(session, path).has_value();
+}
+
 }  // namespace scarp

@@ -1,10 +1,11 @@
 // The reference runs that the engine is held to: Scape 1.2 (Garland & Heckbert's program, Delaunay) on its own five
-// fields, measured with the original program. Vertices include the four corners, RMSE is over all samples.
+// fields, measured with the original program (PAPER.md 5.3). Vertices include the four corners, RMSE is over all
+// samples.
 #pragma once
 
 #include <cstdint>
 
-namespace bench {
+namespace scarp::paper {
 
 struct ReferenceRow {
   const char* field;  ///< scape_FIELD.stm
@@ -29,4 +30,4 @@ inline constexpr ReferenceRow kReferenceRows[] = {
 /// What is asked of every row: the max error is left out, since ties and the first diagonal set it.
 inline constexpr double kRmseTolerance = 0.01, kTriangleTolerance = 0.005;
 
-}  // namespace bench
+}  // namespace scarp::paper

@@ -1,0 +1,176 @@
+#include "companions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "text.h"
+
+namespace scarp::cli {
+namespace {
+
+/// The raster's values, with the option that named the file in every complaint.
+Result<OwnedHeightField> read_values(const char* option, const std::string& path, const RasterInfo& raster, int cols,
+                                     int rows, const ProgressCallback& progress) {
+  ReadOptions options;
+  options.crs = "grid";
+  options.progress = progress;
+  Result<OwnedHeightField> values = read_height_field(path, options);
+  if (!values) {
+    if (values.error().kind == ErrorKind::kInput) {
+      values.error().message = fmt::format("{}: {}", option, values.error().message);
+    }
+    return values;
+  }
+  const Result<void> fits = check_grid(raster, cols, rows, option, values->info, values->cols, values->rows);
+  if (!fits) return tl::unexpected(fits.error());
+  const auto negative = std::find_if(values->samples.begin(), values->samples.end(), [](float v) { return v < 0; });
+  if (negative != values->samples.end()) {
+    const std::ptrdiff_t at = negative - values->samples.begin();
+    return fail(ErrorKind::kInput,
+                fmt::format("{} {}: the value {} at column {}, row {} is negative: it must be at least 0", option, path,
+                            *negative, at % cols, at / cols));
+  }
+  return values;
+}
+
+Result<std::vector<float>> make_mask(OwnedHeightField values) {
+  float largest = 0;
+  for (float& weight : values.samples) {
+    if (std::isnan(weight)) weight = 0;
+    largest = std::max(largest, weight);
+  }
+  if (largest == 0) {
+    return fail(ErrorKind::kInput,
+                fmt::format("--mask {}: no weight is above 0, so no sample would have a bound", values.info.path));
+  }
+  if (largest > 1) {
+    for (float& weight : values.samples) weight /= largest;
+  }
+  return std::move(values.samples);
+}
+
+std::vector<float> make_tolerance(OwnedHeightField values) {
+  const bool is_rounded = values.sample_rounding > 0;
+  for (float& bound : values.samples) {
+    if (std::isnan(bound)) {
+      bound = std::numeric_limits<float>::infinity();
+    } else if (is_rounded) {
+      bound = std::nextafter(bound, 0.0F);  // not above the value in the file
+    }
+  }
+  return std::move(values.samples);
+}
+
+/// A command that brings a raster onto the grid of `raster`.
+std::string suggest_command(const RasterInfo& raster, int cols, int rows, const RasterInfo& other) {
+  const std::string file = shell_word(base_name(other.path));
+  const std::array<double, 6>& g = raster.geotransform;
+  const bool is_upright = g[2] == 0 && g[4] == 0 && g[1] > 0 && g[5] < 0;
+  if (!raster.has_georeference || !other.has_georeference || !is_upright) {
+    return fmt::format("gdal_translate -outsize {} {} {} aligned.tif", cols, rows, file);
+  }
+  const std::string crs = raster.crs.empty() || raster.crs.size() > 40 || raster.crs == other.crs
+                              ? ""
+                              : fmt::format("-t_srs {} ", shell_word(raster.crs));
+  return fmt::format("gdalwarp {}-te {} {} {} {} -ts {} {} -r bilinear {} aligned.tif", crs, g[0], g[3] + g[5] * rows,
+                     g[0] + g[1] * cols, g[3], cols, rows, file);
+}
+
+}  // namespace
+
+void CompanionArguments::add_to(CLI::App& verb, bool with_script) {
+  const char* group = "Where it matters (rasters on the grid of the heights)";
+  verb.add_option("--mask", mask,
+                  "Weights of the samples' errors, 0 (no bound) to 1;\nif the largest is above 1, all are divided by "
+                  "it")
+      ->type_name("FILE")
+      ->group(group);
+  verb.add_option("--tolerance", tolerance,
+                  "Bounds of the samples' errors, in the units of the\nheights; no value means no bound. A goal of its "
+                  "own")
+      ->type_name("FILE")
+      ->group(group);
+  if (!with_script) return;
+  verb.add_option("--script", script,
+                  "Lines 's COL ROW' (becomes a vertex), 'i COL ROW' or\n'u COL ROW' (never does, and has no bound)")
+      ->type_name("FILE")
+      ->group(group);
+}
+
+Result<void> CompanionArguments::check() const {
+  if (mask && tolerance) {
+    return fail(ErrorKind::kUsage,
+                "--mask and --tolerance contradict each other: divide the bound by the weights into one tolerance");
+  }
+  return {};
+}
+
+std::vector<std::string> CompanionArguments::files() const {
+  std::vector<std::string> files;
+  for (const Given* file : {&mask, &tolerance, &script}) {
+    if (*file) files.push_back(**file);
+  }
+  return files;
+}
+
+std::string CompanionArguments::canonical() const {
+  std::string command;
+  const std::pair<const char*, const Given*> options[] = {
+      {"--mask", &mask}, {"--tolerance", &tolerance}, {"--script", &script}};
+  for (const auto& [name, file] : options) {
+    if (*file) command += canonical_option(name, base_name(**file));
+  }
+  return command;
+}
+
+double Companions::weigh(std::size_t sample, double error) const {
+  if (!mask.empty()) return static_cast<double>(mask[sample]) * error;
+  if (tolerance.empty() || error == 0) return error;
+  return error / static_cast<double>(tolerance[sample]);
+}
+
+bool Companions::is_free(std::size_t sample) const {
+  if (!mask.empty()) return mask[sample] == 0;
+  return !tolerance.empty() && std::isinf(tolerance[sample]);
+}
+
+Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster, int cols, int rows,
+                                   const ProgressCallback& progress) {
+  Companions companions;
+  if (given.mask) {
+    Result<OwnedHeightField> values = read_values("--mask", *given.mask, raster, cols, rows, progress);
+    if (!values) return tl::unexpected(std::move(values.error()));
+    companions.warnings = values->info.warnings;
+    Result<std::vector<float>> mask = make_mask(std::move(*values));
+    if (!mask) return tl::unexpected(std::move(mask.error()));
+    companions.mask = std::move(*mask);
+  }
+  if (given.tolerance) {
+    Result<OwnedHeightField> values = read_values("--tolerance", *given.tolerance, raster, cols, rows, progress);
+    if (!values) return tl::unexpected(std::move(values.error()));
+    companions.warnings.insert(companions.warnings.end(), values->info.warnings.begin(), values->info.warnings.end());
+    companions.tolerance = make_tolerance(std::move(*values));
+  }
+  if (given.script) {
+    Result<std::vector<ScriptStep>> script = read_script(*given.script, cols, rows);
+    if (!script) return tl::unexpected(std::move(script.error()));
+    companions.script = std::move(*script);
+  }
+  return companions;
+}
+
+Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const char* option, const RasterInfo& other,
+                        int other_cols, int other_rows) {
+  const std::optional<std::string> difference = find_grid_difference(raster, cols, rows, other, other_cols, other_rows);
+  if (!difference) return {};
+  return fail(ErrorKind::kInput,
+              fmt::format("{} {} {}: bring it onto the grid of {}, for example with {}", option, other.path,
+                          *difference, raster.path, suggest_command(raster, cols, rows, other)));
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,50 @@
+// Rasters and scripts beside INPUT that say, sample by sample, what counts.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "options.h"
+#include "scarp/io.h"
+#include "scarp/simplify.h"
+
+namespace scarp::cli {
+
+struct CompanionArguments {
+  Given mask, tolerance, script;
+
+  /// --mask and --tolerance; `with_script`: --script too.
+  void add_to(CLI::App& verb, bool with_script);
+  /// Refuses --mask with --tolerance.
+  Result<void> check() const;
+  /// The files that were named.
+  std::vector<std::string> files() const;
+  std::string canonical() const;
+};
+
+/// What the files hold; empty where none was given.
+struct Companions {
+  std::vector<float> mask;       ///< weights in 0 … 1, one a sample
+  std::vector<float> tolerance;  ///< bounds in z units, one a sample; +infinity: none
+  std::vector<ScriptStep> script;
+  std::vector<std::string> warnings;
+
+  bool has_weights() const { return !mask.empty() || !tolerance.empty(); }
+  /// weight · error, or error / tolerance (0 / 0 is 0); the error itself where neither was given.
+  double weigh(std::size_t sample, double error) const;
+  /// True if the sample has no bound: weight 0, or an infinite tolerance.
+  bool is_free(std::size_t sample) const;
+};
+
+/// Reads and checks the files, which must lie on the grid of `raster`.
+/// Mask: values below 0 are refused; if the largest is above 1, all are divided by it; no value means weight 0.
+/// Tolerance: values below 0 are refused; no value means no bound.
+Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster, int cols, int rows,
+                                   const ProgressCallback& progress);
+
+/// Fails, with the way out, unless `other` lies on the grid of `raster`. `option` named it.
+Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const char* option, const RasterInfo& other,
+                        int other_cols, int other_rows);
+
+}  // namespace scarp::cli

@@ -1,0 +1,56 @@
+// Judging a mesh with everything that counts: heights, channels, masks and tolerances.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "channels.h"
+#include "companions.h"
+#include "scarp/height_field.h"
+#include "scarp/measure.h"
+#include "scarp/mesh.h"
+
+namespace scarp::cli {
+
+struct Judgement {
+  Measurement heights;
+  std::vector<Measurement> channels;  ///< without topology
+  std::vector<float> height_errors;   ///< signed, NaN where void or uncovered; if they were to be kept
+  std::vector<double> norms;          ///< of all errors of a sample; with channels, if they were to be kept
+  std::string uncovered_sample;       ///< "the first at column 3, row 7"; empty if there is none
+};
+
+struct JudgeOptions {
+  bool keep_errors = false;
+  int threads = 0;
+  ProgressCallback progress = {};
+};
+
+/// Judges heights, then each channel as if it were the height. `mesh` has as many channels as `channels`.
+Result<Judgement> judge(const HeightField& heights, const Mesh& mesh, const Channels& channels, Norm norm,
+                        const JudgeOptions& options);
+
+/// The kept errors as a raster: signed errors of the heights, or the norms over heights and channels.
+enum class ErrorsOf { kHeights, kNorms };
+std::vector<float> take_error_raster(Judgement judgement, ErrorsOf of);
+
+/// Fills mesh.channels from its 8-bit colours where the file holds nothing else, and checks their number. `path` is
+/// the mesh's, for the sentence.
+Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::string& path);
+
+/// What a bound is compared with: heights' errors or norms, under a mask or tolerances.
+struct WeighedErrors {
+  double max = 0;  ///< largest, without the rounding of the samples
+  std::array<std::int32_t, 2> max_at{-1, -1};
+  double rmse = 0;         ///< over all judged samples
+  std::uint64_t free = 0;  ///< judged samples without a bound
+  std::uint64_t over = 0;  ///< samples above `bound`, the rounding of the samples counted
+};
+
+/// REQUIRES: the errors were kept. A sample is above `bound` by more than the rounding of the judge: 1e-12 of the
+/// largest value, and 2^-23 of the bound, since the judge hands out errors as float32.
+WeighedErrors weigh_errors(const Judgement& judgement, const HeightField& heights, const Channels& channels,
+                           const Companions& companions, double bound);
+
+}  // namespace scarp::cli

@@ -1,0 +1,94 @@
+#include "output_kind.h"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <optional>
+
+#include "text.h"
+
+namespace scarp::cli {
+namespace {
+
+constexpr const char* kNames = "glb, obj, ply, stl, tin, svg, eps or dem";
+
+constexpr Choice<MeshFormat> kMeshFormats[] = {{"glb", MeshFormat::kGlb},
+                                               {"obj", MeshFormat::kObj},
+                                               {"ply", MeshFormat::kPly},
+                                               {"stl", MeshFormat::kStl},
+                                               {"tin", MeshFormat::kTin}};
+
+std::string lower(std::string word) {
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return word;
+}
+
+std::optional<OutputFormat> find_format(const std::string& word) {
+  for (const Choice<MeshFormat>& choice : kMeshFormats) {
+    if (word == choice.name) return OutputFormat{OutputKind::kMesh, choice.value, RasterFormat::kGeoTiff};
+  }
+  OutputFormat format;
+  if (word == "svg") {
+    format.kind = OutputKind::kSvg;
+  } else if (word == "eps") {
+    format.kind = OutputKind::kEps;
+  } else if (word == "dem") {
+    format.kind = OutputKind::kDem;
+  } else {
+    return std::nullopt;
+  }
+  return format;
+}
+
+/// What an extension stands for: the formats' names, and those of rasters.
+std::optional<OutputFormat> find_format_of_extension(const std::string& extension) {
+  if (extension.size() < 2 || extension == ".dem") return std::nullopt;
+  if (extension == ".tif" || extension == ".tiff") return find_format("dem");
+  if (extension == ".pgm") return OutputFormat{OutputKind::kDem, MeshFormat::kGlb, RasterFormat::kPgm};
+  return find_format(extension.substr(1));
+}
+
+}  // namespace
+
+const char* OutputFormat::name() const {
+  switch (kind) {
+    case OutputKind::kSvg:
+      return "svg";
+    case OutputKind::kEps:
+      return "eps";
+    case OutputKind::kDem:
+      return raster == RasterFormat::kPgm ? "pgm" : "tif";
+    case OutputKind::kMesh:
+      break;
+  }
+  return name_of(mesh, kMeshFormats);
+}
+
+std::string OutputFormat::title() const {
+  std::string text = name();
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return kind == OutputKind::kDem ? "a raster" : text;
+}
+
+Result<OutputFormat> choose_output_format(const Given& of, const std::string& output) {
+  if (output.empty()) return fail(ErrorKind::kUsage, "the name of OUTPUT is empty");
+  if (output == "-") {
+    return fail(ErrorKind::kUsage, "- is no output: for standard output give /dev/stdout and a format with --of");
+  }
+  const std::string extension = lower_extension(output);
+  if (of) {
+    std::optional<OutputFormat> named = find_format(lower(*of));
+    if (!named) {
+      return fail(ErrorKind::kUsage, fmt::format("--of {} is unknown: choose {}", shell_word(*of), kNames));
+    }
+    if (named->kind == OutputKind::kDem && extension == ".pgm") named->raster = RasterFormat::kPgm;
+    return *named;
+  }
+  if (const std::optional<OutputFormat> named = find_format_of_extension(extension)) return *named;
+  return fail(ErrorKind::kUsage,
+              fmt::format("{} does not tell a format: end it in .glb, .obj, .ply, .stl, .tin, .svg, .eps, .tif or "
+                          ".pgm, or choose one with --of",
+                          shell_word(output)));
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,38 @@
+// The rasters of a folder: the report's five fields, or whatever else is there.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scarp/height_field.h"
+#include "scarp/result.h"
+
+namespace scarp::paper {
+
+struct Field {
+  std::string key;  ///< "crater", …; of other rasters the file's name without its extension
+  std::string file;
+  OwnedHeightField heights;
+
+  std::uint64_t samples() const { return heights.samples.size(); }
+  /// That share of the samples, rounded: the report's numbers of vertices.
+  std::uint64_t share(double percent) const;
+  double relief() const { return heights.info.max - heights.info.min; }
+};
+
+struct Fields {
+  std::vector<Field> all;                  ///< the report's in its order, others by name
+  bool are_reports = false;                ///< at least one is the report's; no others are read then
+  std::vector<std::string> left_out = {};  ///< sentences
+};
+
+/// Finds scape_crater.stm, crater.stm, crater.pgm, crater.tif, … for each of the report's fields; a folder without any
+/// of them gives all its rasters. Rasters with voids or of more than four million samples are left out. kInput where
+/// none is left, or one cannot be read.
+Result<Fields> read_fields(const std::string& folder);
+
+/// The path of the first of `names` that is in the folder; empty if none is.
+std::string find_file(const std::string& folder, const std::vector<std::string>& names);
+
+}  // namespace scarp::paper

@@ -1,0 +1,160 @@
+// 1.2: what is worth inserting. One mesh maker, different choices of samples, 1 % of them.
+#include <fmt/format.h>
+
+#include <set>
+#include <utility>
+
+#include "study.h"
+
+namespace scarp::paper {
+namespace {
+
+using Feature = Importance::Feature;
+using Damping = Importance::Damping;
+
+struct Selector {
+  const char* name;
+  const SelectorFigures* figures;
+  Importance importance = {};
+  enum class Choice { kImportance, kUniform, kRandom } choice = Choice::kImportance;
+};
+
+Importance one_pass(Feature feature) { return {false, feature, Damping::kUndamped, true}; }
+Importance product(Feature feature, Damping damping) { return {true, feature, damping, false}; }
+
+std::vector<Selector> list_selectors() {
+  return {{"global error", &kGlobal},
+          {"uniform sub-grid", &kUniform, {}, Selector::Choice::kUniform},
+          {"random points", &kRandom, {}, Selector::Choice::kRandom},
+          {"one pass, local error, 4 neighbours", &kOnePassLocal4, one_pass(Feature::kLocal4)},
+          {"one pass, local error, 8 neighbours", &kOnePassLocal8, one_pass(Feature::kLocal8)},
+          {"one pass, curvature", &kOnePassCurvature, one_pass(Feature::kCurvature)},
+          {"global × local error", &kTimesLocal, product(Feature::kLocal4, Damping::kUndamped)},
+          {"global × (local error + 1)", &kTimesLocalPlusOne, product(Feature::kLocal4, Damping::kPlusOne)},
+          {"global × curvature", &kTimesCurvature, product(Feature::kCurvature, Damping::kUndamped)},
+          {"global × (curvature + 1)", &kTimesCurvaturePlusOne, product(Feature::kCurvature, Damping::kPlusOne)},
+          {"global × √(curvature + 1)", &kTimesRootCurvature, product(Feature::kCurvature, Damping::kSqrtPlusOne)}};
+}
+
+/// The corners, and other samples drawn at random without repetition (splitmix64: the same on every machine).
+std::vector<ScriptStep> random_points(const OwnedHeightField& field, std::uint64_t vertices) {
+  std::vector<ScriptStep> steps;
+  std::set<std::uint64_t> drawn;
+  const auto add = [&](std::uint64_t sample) {
+    const auto cols = static_cast<std::uint64_t>(field.cols);
+    if (drawn.insert(sample).second) {
+      steps.push_back({ScriptStep::Action::kInsert, static_cast<std::int32_t>(sample % cols),
+                       static_cast<std::int32_t>(sample / cols)});
+    }
+  };
+  const std::uint64_t count = field.samples.size(), cols = static_cast<std::uint64_t>(field.cols);
+  for (const std::uint64_t corner : {std::uint64_t{0}, cols - 1, count - cols, count - 1}) add(corner);
+  for (std::uint64_t state = 1995; steps.size() < std::min(vertices, count);) {
+    state += 0x9e3779b97f4a7c15u;
+    std::uint64_t h = state;
+    h = (h ^ (h >> 30)) * 0xbf58476d1ce4e5b9u;
+    h = (h ^ (h >> 27)) * 0x94d049bb133111ebu;
+    add((h ^ (h >> 31)) % count);
+  }
+  return steps;
+}
+
+Result<Trial> run(Study& study, const Field& field, const Selector& selector) {
+  const std::uint64_t vertices = std::max<std::uint64_t>(field.share(1), 4);
+  SimplifyOptions options;
+  if (selector.choice == Selector::Choice::kRandom) {
+    options.script = random_points(field.heights, vertices);
+    return study.refine(field, options.script.size(), options);
+  }
+  if (selector.choice == Selector::Choice::kUniform) {
+    options.script = uniform_grid(field.heights.cols, field.heights.rows, vertices).steps;
+    return study.refine(field, options.script.size(), options);
+  }
+  if (selector.importance == Importance{}) return study.delaunay(field, vertices);
+  options.importance = selector.importance;
+  return study.refine(field, vertices, options);
+}
+
+struct Row {
+  const Selector* selector;
+  std::vector<Trial> trials;  ///< one a field
+};
+
+/// What the table says, put into words.
+std::vector<std::string> find_remarks(const std::vector<Row>& rows, const std::vector<const Field*>& fields) {
+  std::size_t beaten = 0, one_pass_worse = 0, one_pass_trials = 0;
+  for (const Row& row : rows) {
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      if (row.trials[f].rmse < rows[0].trials[f].rmse) ++beaten;
+      if (!row.selector->importance.one_pass) continue;
+      ++one_pass_trials;
+      if (row.trials[f].rmse > rows[2].trials[f].rmse) ++one_pass_worse;
+    }
+  }
+  std::vector<std::string> remarks;
+  remarks.push_back(beaten == 0
+                        ? "Plain global error has the smallest RMS on every field: no product is worth its cost."
+                        : fmt::format("Plain global error is beaten in {} of the runs.", beaten));
+  remarks.push_back(one_pass_worse == one_pass_trials
+                        ? "Every one-pass selector is worse than random points: it spends its vertices on noise and on "
+                          "rough places, and leaves large smooth shapes to a few triangles."
+                        : fmt::format("One-pass selectors are worse than random points in {} of {} runs.",
+                                      one_pass_worse, one_pass_trials));
+  return remarks;
+}
+
+}  // namespace
+
+Result<void> add_selectors(Study& study) {
+  const std::vector<const Field*> fields = study.choose(kThreeFields);
+  const std::vector<Selector> selectors = list_selectors();
+  std::vector<Row> rows;
+  std::vector<std::vector<std::string>> cells;
+  Differences greedy, drawn, ranked;
+  for (const Selector& selector : selectors) {
+    study.note(fmt::format("selectors: {}", selector.name));
+    Row row{&selector, {}};
+    std::vector<std::string> line{selector.name};
+    for (const Field* field : fields) {
+      const Result<Trial> trial = run(study, *field, selector);
+      if (!trial) return tl::unexpected(trial.error());
+      const auto rmse = figure_of(study, kThreeFields, selector.figures->rmse, *field);
+      line.push_back(beside(trial->rmse, rmse));
+      line.push_back(beside(trial->max_error, figure_of(study, kThreeFields, selector.figures->max_error, *field)));
+      const std::string what = fmt::format("{} on {}", selector.name, field->key);
+      const bool is_draw = selector.choice != Selector::Choice::kImportance;
+      (is_draw ? drawn : selector.importance == Importance{} ? greedy : ranked).add(what, trial->rmse, rmse);
+      row.trials.push_back(*trial);
+    }
+    rows.push_back(std::move(row));
+    cells.push_back(std::move(line));
+  }
+  std::vector<std::string> header{"selector"};
+  for (const Field* field : fields) {
+    header.push_back(field->key + " RMS");
+    header.push_back("max");
+  }
+  study.page.heading(2, "What is worth inserting (1.2)");
+  study.page.paragraph(
+      "The same Delaunay triangulation of 1 % of the samples; only their choice differs. Uniform: a sub-grid of about "
+      "as "
+      "many vertices as there would be, borders included.");
+  study.page.table(header, cells);
+  std::vector<std::string> remarks = find_remarks(rows, fields);
+  if (!greedy.empty()) {
+    remarks.push_back(greedy.sentence("RMS errors of plain global error"));
+    remarks.push_back(drawn.sentence("RMS errors of uniform and random points") +
+                      " Where they differ the points do: other random numbers, another rounding of the sub-grid's "
+                      "rows and columns.");
+    remarks.push_back(ranked.sentence("RMS errors of one pass and of products") +
+                      (ranked.largest() > 5
+                           ? " Both depend on how border samples and ties are ranked, of which fields of whole metres "
+                             "have many; here equal samples come in raster order, second differences that lack a "
+                             "neighbour are 0 and the mean leaves neighbours beyond the border out."
+                           : ""));
+  }
+  study.page.list(remarks);
+  return {};
+}
+
+}  // namespace scarp::paper

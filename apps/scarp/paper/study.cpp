@@ -1,0 +1,131 @@
+#include "study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../signals.h"
+#include "../text.h"
+
+namespace scarp::paper {
+namespace {
+
+constexpr double kThinDegrees = 5;
+
+/// Of the triangle's corners in plan view.
+bool is_thin(const Mesh& mesh, std::size_t triangle) {
+  std::array<std::array<double, 2>, 3> p;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t v = mesh.triangles[3 * triangle + k];
+    p[k] = {mesh.positions[3 * v], mesh.positions[3 * v + 1]};
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto &a = p[k], &b = p[(k + 1) % 3], &c = p[(k + 2) % 3];
+    const double ux = b[0] - a[0], uy = b[1] - a[1], vx = c[0] - a[0], vy = c[1] - a[1];
+    const double angle = std::atan2(std::abs(ux * vy - uy * vx), ux * vx + uy * vy);
+    if (angle * 180 < kThinDegrees * 3.14159265358979323846) return true;
+  }
+  return false;
+}
+
+Trial summarize(const Simplified& run) {
+  Trial trial;
+  trial.vertices = run.mesh.vertex_count();
+  trial.triangles = run.mesh.triangle_count();
+  trial.max_error = run.measurement.max_error;
+  trial.rmse = run.measurement.rmse;
+  std::size_t thin = 0;
+  for (std::size_t t = 0; t < run.mesh.triangle_count(); ++t) thin += is_thin(run.mesh, t) ? 1 : 0;
+  trial.thin_share = 100 * static_cast<double>(thin) / static_cast<double>(std::max<std::uint64_t>(trial.triangles, 1));
+  trial.effort = run.effort;
+  trial.seconds = run.seconds_refine;
+  return trial;
+}
+
+}  // namespace
+
+Study::Study(Fields given, std::string data, bool timed, bool quiet)
+    : fields(std::move(given)), folder(std::move(data)), timing(timed), quiet_(quiet) {}
+
+void Study::note(const std::string& what) const {
+  if (!quiet_) cli::print_to_stderr(fmt::format("paper: {}\n", what));
+}
+
+const Field* Study::find(const std::string& key) const {
+  for (const Field& field : fields.all) {
+    if (field.key == key) return &field;
+  }
+  return nullptr;
+}
+
+Result<Simplified> Study::run(const HeightField& field, const std::string& name, SimplifyOptions options) const {
+  options.progress = [](const Progress&) { return !cli::interrupted(); };
+  Result<Simplified> result = simplify(field, options);
+  if (cli::interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
+  if (!result) return fail(result.error().kind, fmt::format("{}: {}", name, result.error().message));
+  return result;
+}
+
+Result<Trial> Study::reach(const Field& field, SimplifyOptions options) const {
+  const Result<Simplified> result = run(field.heights, field.file, std::move(options));
+  if (!result) return tl::unexpected(result.error());
+  return summarize(*result);
+}
+
+Result<Trial> Study::refine(const Field& field, std::uint64_t vertices, SimplifyOptions options) const {
+  return reach(field, exactly(vertices, std::move(options)));
+}
+
+Result<Trial> Study::delaunay(const Field& field, std::uint64_t vertices) {
+  const auto key = std::pair(field.key, vertices);
+  if (const auto known = delaunay_.find(key); known != delaunay_.end()) return known->second;
+  Result<Trial> trial = refine(field, vertices);
+  if (trial) delaunay_[key] = *trial;
+  return trial;
+}
+
+Result<void> Study::add_picture(const std::string& name, const std::string& caption, std::vector<std::uint8_t> png) {
+  pictures_.push_back({fmt::format("images/paper/{}.png", name), std::move(png)});
+  page.picture(pictures_.back().path, caption);
+  return {};
+}
+
+Result<void> Study::add_plot(const std::string& name, const Plot& plot) {
+  Result<std::vector<std::uint8_t>> png = draw_plot(plot);
+  if (!png) return tl::unexpected(std::move(png.error()));
+  return add_picture(name, plot.title, std::move(*png));
+}
+
+SimplifyOptions exactly(std::uint64_t vertices, SimplifyOptions options) {
+  options.max_vertices = std::max<std::uint64_t>(vertices, 4);
+  options.best_of_budget = false;
+  return options;
+}
+
+EdgeRule scape_edges(EdgeScore score, double shape_threshold) { return {true, score, shape_threshold, 0, false}; }
+
+SimplifyOptions with_edges(const EdgeRule& edges) {
+  SimplifyOptions options;
+  options.edges = edges;
+  return options;
+}
+
+UniformGrid uniform_grid(int field_cols, int field_rows, std::uint64_t vertices) {
+  const double aspect = static_cast<double>(field_cols) / field_rows, count = static_cast<double>(vertices);
+  UniformGrid grid;
+  grid.cols = std::clamp(static_cast<int>(std::lround(std::sqrt(count * aspect))), 2, field_cols);
+  grid.rows = std::clamp(static_cast<int>(std::lround(count / grid.cols)), 2, field_rows);
+  const auto spread = [](int k, int of, int over) {
+    return static_cast<std::int32_t>((static_cast<std::int64_t>(2 * k) * (over - 1) + of - 1) / (2 * (of - 1)));
+  };
+  for (int j = 0; j < grid.rows; ++j) {
+    for (int i = 0; i < grid.cols; ++i) {
+      grid.steps.push_back(
+          {ScriptStep::Action::kInsert, spread(i, grid.cols, field_cols), spread(j, grid.rows, field_rows)});
+    }
+  }
+  return grid;
+}
+
+}  // namespace scarp::paper

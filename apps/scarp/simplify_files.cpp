@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "judge.h"
+#include "report.h"
+#include "scarp/picture.h"
+#include "scarp/version.h"
+#include "simplify_outcome.h"
+
+namespace scarp::cli {
+namespace {
+
+Result<void> add_solid(const SimplifyPlan& plan, Outcome& outcome) {
+  Mesh& mesh = outcome.simplified.mesh;
+  outcome.vertices = mesh.vertex_count();
+  outcome.triangles = mesh.triangle_count();
+  if (!plan.base) return {};
+  if (!add_base(mesh, *plan.base)) {
+    double lowest = mesh.vertex(0)[2];
+    for (std::size_t v = 1; v < mesh.vertex_count(); ++v) lowest = std::min(lowest, mesh.vertex(v)[2]);
+    return fail(ErrorKind::kUsage,
+                fmt::format("--base {:.10g} is not below the lowest vertex, which is at {:.10g}", *plan.base, lowest));
+  }
+  outcome.solid_vertices = mesh.vertex_count();
+  outcome.solid_triangles = mesh.triangle_count();
+  return {};
+}
+
+void add_metadata(const SimplifyPlan& plan, Outcome& outcome) {
+  const Measurement& measured = outcome.simplified.measurement;
+  std::map<std::string, std::string>& metadata = outcome.simplified.mesh.metadata;
+  metadata["generator"] = fmt::format("Scarp {}", version());
+  metadata["command"] = plan.canonical_command;
+  metadata["frame"] = outcome.field.frame.description;
+  if (!outcome.field.frame.crs.empty()) metadata["crs"] = outcome.field.frame.crs;
+  if (!plan.read.crs.empty()) metadata["crs_option"] = plan.read.crs;
+  if (!outcome.as_read.unit.empty()) metadata["unit"] = outcome.as_read.unit;
+  Json error;
+  error["asked"] = outcome.asked ? Json(*outcome.asked) : Json(nullptr);
+  error["max_error"] = measured.max_error;
+  if (outcome.field.sample_rounding > 0) error["sample_rounding"] = outcome.field.sample_rounding;
+  error["rmse"] = measured.rmse;
+  error["samples"] = measured.samples;
+  if (!outcome.channels.empty()) error["combined_max_error"] = outcome.simplified.combined_max_error;
+  if (!outcome.companions.mask.empty() || !outcome.companions.tolerance.empty()) {
+    error["weighted_max_error"] = outcome.simplified.weighted_max_error;
+  }
+  if (outcome.simplified.ignored > 0) error["ignored"] = outcome.simplified.ignored;
+  metadata["error"] = error.dump();
+}
+
+Result<void> add_picture(const std::string& path, const Picture& picture, std::vector<ReadyFile>& files) {
+  Result<std::vector<std::uint8_t>> png = encode_png(picture);
+  if (!png) return tl::unexpected(std::move(png.error()));
+  files.push_back({path, "png", std::move(*png)});
+  return {};
+}
+
+/// The approximation in its colours, which is then compared with the image; or as a hillshade.
+Result<void> add_render(const SimplifyPlan& plan, Outcome& outcome, std::vector<ReadyFile>& files) {
+  const Picture rendered = draw_gouraud(outcome.field, outcome.simplified.mesh);
+  if (!outcome.channels.empty()) outcome.psnr = find_psnr(rendered, draw_channels(outcome.channels.bands));
+  return add_picture(*plan.render, rendered, files);
+}
+
+/// Signed errors of the heights; of an image, the norms over its bands.
+Result<void> add_error_raster(const SimplifyPlan& plan, const ProgressCallback& progress, const Outcome& outcome,
+                              std::vector<ReadyFile>& files) {
+  JudgeOptions options;
+  options.keep_errors = true;
+  options.threads = plan.simplify.threads;
+  options.progress = progress;
+  static const Channels kNoChannels;
+  Result<Judgement> judged = judge(outcome.field, outcome.simplified.mesh,
+                                   plan.channels.image ? outcome.channels : kNoChannels, plan.channels.norm, options);
+  if (!judged) return tl::unexpected(std::move(judged.error()));
+  const std::vector<float> errors =
+      take_error_raster(std::move(*judged), plan.channels.image ? ErrorsOf::kNorms : ErrorsOf::kHeights);
+  Result<std::vector<std::uint8_t>> tiff =
+      encode_raster({errors, outcome.field.cols, outcome.field.rows, &outcome.as_read}, RasterFormat::kGeoTiff);
+  if (!tiff) return tl::unexpected(std::move(tiff.error()));
+  files.push_back({*plan.error_raster, "tif", std::move(*tiff)});
+  return {};
+}
+
+/// The bytes of OUTPUT.
+Result<std::vector<std::uint8_t>> encode_output(const SimplifyPlan& plan, const Outcome& outcome) {
+  const Mesh& mesh = outcome.simplified.mesh;
+  switch (plan.format.kind) {
+    case OutputKind::kSvg:
+      return encode_svg(mesh);
+    case OutputKind::kEps:
+      return encode_eps(mesh);
+    case OutputKind::kDem:
+      break;
+    case OutputKind::kMesh:
+      return encode_mesh(mesh, plan.format.mesh);
+  }
+  const Result<std::vector<float>> heights = resample(outcome.field, mesh, plan.simplify.threads);
+  if (!heights) return tl::unexpected(heights.error());
+  return encode_raster({*heights, outcome.field.cols, outcome.field.rows, &outcome.as_read}, plan.format.raster);
+}
+
+}  // namespace
+
+Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const ProgressCallback& progress,
+                                            Outcome& outcome) {
+  std::vector<ReadyFile> files{{plan.output, plan.format.name(), {}}};
+  // Pictures and errors show the terrain, before it is closed into a solid.
+  Mesh& mesh = outcome.simplified.mesh;
+  if (!outcome.channels.empty()) color_by_channels(mesh, outcome.channels.bands);
+  Result<void> added;
+  if (plan.preview) added = add_picture(*plan.preview, draw_preview(outcome.field, mesh), files);
+  if (added && plan.render) added = add_render(plan, outcome, files);
+  if (added && plan.error_raster) added = add_error_raster(plan, progress, outcome, files);
+  if (added) added = add_solid(plan, outcome);
+  if (!added) return tl::unexpected(std::move(added.error()));
+  add_metadata(plan, outcome);
+  Result<std::vector<std::uint8_t>> output = encode_output(plan, outcome);
+  if (!output) return tl::unexpected(std::move(output.error()));
+  files.front().bytes = std::move(*output);
+  return files;
+}
+
+}  // namespace scarp::cli

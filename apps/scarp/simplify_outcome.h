@@ -1,0 +1,60 @@
+// What a run of `scarp simplify` came to.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "channels.h"
+#include "companions.h"
+#include "scarp/height_field.h"
+#include "scarp/simplify.h"
+#include "simplify_plan.h"
+
+namespace scarp::cli {
+
+/// A file of this run and its bytes, ready to be written.
+struct ReadyFile {
+  std::string path;
+  const char* kind;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// Everything that the files, the report and the summary tell.
+struct Outcome {
+  OwnedHeightField field;
+  RasterInfo as_read;   ///< before voids were filled
+  HeightRange heights;  ///< of the samples that were judged
+  Channels channels;
+  Companions companions;
+  std::uint64_t filled = 0;
+  std::optional<double> asked;  ///< max error in z units
+  Simplified simplified;
+  std::uint64_t vertices = 0, triangles = 0;              ///< of the terrain
+  std::uint64_t solid_vertices = 0, solid_triangles = 0;  ///< with --base
+  std::optional<double> psnr;                             ///< of the rendering, in dB; +infinity if it is the image
+  std::vector<std::string> warnings;
+  double seconds_read = 0, seconds_write = 0, seconds_total = 0;
+
+  /// The field with its channels.
+  HeightField view() const {
+    HeightField view = field.view();
+    channels.attach_to(view);
+    return view;
+  }
+};
+
+/// What the goal bounds, and how large it came out.
+struct GoalError {
+  double value = 0;         ///< compared with the bound, without the rounding of samples
+  const char* name = "";    ///< "max error", "weighted max error", …
+  bool is_rounded = false;  ///< to float32, by which it may exceed the bound
+};
+GoalError find_goal_error(const Outcome& outcome);
+
+/// The bytes of every file but the report, OUTPUT first. Closes the mesh into a solid where that was asked for.
+Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const ProgressCallback& progress,
+                                            Outcome& outcome);
+
+}  // namespace scarp::cli

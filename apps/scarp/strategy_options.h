@@ -1,0 +1,32 @@
+// Options that say how greedy insertion goes about its work.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "options.h"
+#include "report.h"
+#include "scarp/simplify.h"
+
+namespace scarp::cli {
+
+struct StrategyArguments {
+  Given importance, algorithm, batch, edges, edge_score, shape_threshold, supersample;
+  bool one_pass = false;
+
+  void add_to(CLI::App& verb);
+  /// Sets importance, algorithm, batch and edges of the options.
+  Result<void> parse_into(SimplifyOptions& options) const;
+  /// The options that can change the mesh, for the canonical command.
+  std::string canonical() const;
+};
+
+/// [global*]F with F one of local, local8, curvature, (f+1), sqrt(f+1); or global alone. Blanks do not count.
+Result<Importance> parse_importance(const std::string& text);
+/// What parse_importance() reads as the same importance.
+std::string importance_name(const Importance& importance);
+
+/// The "strategy" object of a report, without masks, channels and scripts.
+Json describe_strategy(const SimplifyOptions& options);
+
+}  // namespace scarp::cli

@@ -1,0 +1,15 @@
+// Triangles so thin that the rounding of their corners decides which way they face.
+#pragma once
+
+#include "scarp/mesh.h"
+
+namespace scarp {
+
+/// Rids the mesh of triangles that are, seen from above, less than `thinnest` high over their longest side, folded ones
+/// included: the longest side is flipped where that raises the lower of the two triangles beside it; where it is the
+/// mesh's border and the corner across lies inside, the triangle is dropped, and its corner becomes part of the border.
+/// What neither helps stays. No vertex is lost. REQUIRES: shared vertices, triangles counter-clockwise up to such
+/// folds. Cost: O(triangles), and a sort of them if there is a thin one.
+void remove_thin_triangles(Mesh& mesh, double thinnest);
+
+}  // namespace scarp

@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# Masks, tolerances and scripts: kept sample by sample, judged alike by simplify and measure, refused when they do not fit.
+source "$(dirname "$0")/lib.sh"
+need python3 gdal_translate gdalinfo
+
+make_raster weights.tif 'col / 402'
+make_raster percent.tif 'col // 4' Byte
+make_raster bounds.tif 'nan if row < 40 else 5 + row / 7'
+simplify() { "$scarp" simplify "$dem" out.glb "$@"; }
+
+# same KEY...: the two reports agree on a number.
+same() {
+  python3 - s.json m.json "$@" <<'PYTHON'
+import json, sys
+a, b = (json.load(open(f)) for f in sys.argv[1:3])
+for key in sys.argv[3:]:
+    assert abs(a[key] - b[key]) <= 1e-6 * max(1, abs(a[key])), (key, a[key], b[key])
+PYTHON
+}
+
+# A mask: weight times error is bounded; where the weight is 0 nothing is.
+for mask in weights.tif percent.tif; do
+  succeeds "$scarp" simplify "$dem" masked.glb -e 20 --mask "$mask" --report s.json --overwrite
+  succeeds "$scarp" measure "$dem" masked.glb --mask "$mask" --fail-above 20 --json
+  cp "$logs/out" m.json
+  same weighted_max_error weighted_rmse ignored max_error rmse
+  holds "$(json s.json weighted_max_error) <= 20.00001 && $(json s.json max_error) > 30 && $(json s.json ignored) >= 344"
+  try "$scarp" measure "$dem" masked.glb --mask "$mask" --fail-above 19
+  [ "$code" = 3 ] && grep -q 'weighted max error .* exceeds 19' "$logs/err" || fail "a broken weighted bound passes"
+done
+grep -q -- '--mask percent.tif' <(strings masked.glb) || fail "the metadata does not name the mask"
+
+# A mask that is 1 everywhere changes next to nothing: bounds are rounded downwards to float32.
+make_raster ones.tif 1 Byte
+succeeds "$scarp" simplify "$dem" plain.obj -e 20 --report plain.json
+succeeds "$scarp" simplify "$dem" ones.obj -e 20 --mask ones.tif --report ones.json
+holds "$(json ones.json max_error) <= 20 && $(json ones.json triangles) < 1.02 * $(json plain.json triangles)"
+
+# Tolerances are a goal of their own, alone or beside an error.
+succeeds "$scarp" simplify "$dem" t.glb --tolerance bounds.tif --report s.json
+grep -q '^Kept every tolerance: ' "$logs/out" || fail "the summary does not tell that tolerances are kept"
+succeeds "$scarp" measure "$dem" t.glb --tolerance bounds.tif --json
+cp "$logs/out" m.json
+same weighted_max_error weighted_rmse max_error
+holds "$(json s.json weighted_max_error) <= 1.000001 && $(json m.json over_tolerance) == 0"
+[ "$(json m.json passed)" = true ] || fail "tolerances have no verdict of their own"
+python3 - s.json <<'PYTHON'
+import json, sys
+assert json.load(open(sys.argv[1]))["ignored"] == 40 * 403
+PYTHON
+succeeds "$scarp" simplify "$dem" both.glb --tolerance bounds.tif -e 12 --report both.json
+succeeds "$scarp" measure "$dem" both.glb --tolerance bounds.tif --fail-above 12 -q
+holds "$(json both.json triangles) > $(json s.json triangles) && $(json both.json ignored) == 0"
+succeeds "$scarp" simplify "$dem" coarse.glb -t 3000
+try "$scarp" measure "$dem" coarse.glb --tolerance bounds.tif
+[ "$code" = 3 ] && grep -qE '[0-9,]+ samples are above their tolerance, the worst [0-9.]+ times at column' "$logs/err" ||
+  fail "broken tolerances pass"
+# A tolerance of 0 keeps the sample; everywhere, it keeps all.
+make_raster exact.tif '0 if (col, row) == (200, 100) else nan'
+succeeds "$scarp" simplify "$dem" exact.obj --tolerance exact.tif --crs grid
+grep -q '^v 200 243 ' exact.obj || fail "a sample of tolerance 0 is no vertex"
+
+# Scripts: what is inserted is a vertex, what is ignored has no bound.
+printf '# a corner of the map\ns 10 20\n\ns 11 20\ni 300 300\nu 301 300\n' > steps.txt
+succeeds "$scarp" simplify "$dem" scripted.obj -t 40 --script steps.txt --crs grid --report s.json
+grep -q '^v 10 323 ' scripted.obj && grep -q '^v 11 323 ' scripted.obj || fail "the script's samples are no vertices"
+holds "$(json s.json ignored) == 2"
+succeeds "$scarp" simplify "$dem" scripted.ply -e 20 --script steps.txt
+grep -q 'ignored  *2 samples without a bound' "$logs/out" || fail "the summary does not tell what is ignored"
+
+# What does not fit is refused, with the way out.
+gdal_translate -q -outsize 100 100 weights.tif small.tif
+refuses 2 "--mask small.tif is 100 x 100 samples instead of 403 x 344" simplify -e 20 --mask small.tif
+refuses 2 "for example with gdalwarp -te -84.41375" simplify -e 20 --mask small.tif
+gdal_translate -q -a_ullr 10 11 11 10 weights.tif moved.tif
+refuses 2 "--tolerance moved.tif begins at" simplify --tolerance moved.tif
+gdal_translate -q -a_srs EPSG:32616 -a_ullr 700000 4030000 736270 3999040 weights.tif utm.tif
+refuses 2 "is in EPSG:32616 instead of EPSG:4326" simplify -e 20 --mask utm.tif
+refuses 2 "gdalwarp -t_srs EPSG:4326" simplify -e 20 --mask utm.tif
+make_raster negative.tif 'col - 5'
+refuses 2 "--mask negative.tif: the value -5 at column 0, row 0 is negative" simplify -e 20 --mask negative.tif
+refuses 2 "--tolerance negative.tif: the value -5" simplify --tolerance negative.tif
+make_raster zeros.tif 0
+refuses 2 "no weight is above 0" simplify -e 20 --mask zeros.tif
+refuses 2 "missing.tif" simplify -e 20 --mask missing.tif
+refuses 1 "--mask and --tolerance contradict each other" simplify -e 20 --mask weights.tif --tolerance bounds.tif
+refuses 1 "--mask and --tolerance contradict each other" "$scarp" measure "$dem" t.glb --mask weights.tif --tolerance bounds.tif
+refuses 1 "no goal is given" simplify --mask weights.tif
+cp weights.tif copy.tif
+refuses 1 "input file" simplify -e 20 --mask copy.tif --error-raster copy.tif --overwrite
+for line in 'x 1 1' 's 1' 's one 2' 's 403 0' 'i 0 344' 's -1 0' 's 1.5 2'; do
+  printf 's 1 1\n%s\n' "$line" > bad.txt
+  refuses 2 "bad.txt: line 2" simplify -e 20 --script bad.txt
+done
+refuses 2 "missing.txt" simplify -e 20 --script missing.txt
+echo "masks, tolerances and scripts are kept"
