@@ -30,6 +30,7 @@ _scarp() {
     --batch) COMPREPLY=($(compgen -W 'const frac: independent' -- "$current")) && return ;;
     --edges) COMPREPLY=($(compgen -W 'delaunay data' -- "$current")) && return ;;
     --edge-score) COMPREPLY=($(compgen -W 'sum max sqerr abn tight' -- "$current")) && return ;;
+    --duplicates) COMPREPLY=($(compgen -W 'first last highest lowest mean' -- "$current")) && return ;;
     --norm) COMPREPLY=($(compgen -W 'l1 l2 linf' -- "$current")) && return ;;
     --preview | --render | --error-raster | --report | --map | --mask | --tolerance | --script | --texture)
       COMPREPLY=($(compgen -f -- "$current"))
@@ -37,7 +38,7 @@ _scarp() {
       ;;
     -e | --max-error | -t | --max-triangles | -p | --max-points | --band | --nodata | --fill-distance | --background | \
       --outline-tolerance | --base | --shape-threshold | --supersample | --texture-weight | --channel-weights | -j | \
-      --num-threads | --fail-above | --seed | --range | --size)
+      --num-threads | --fail-above | --layer | --z-field | --seed | --range | --size)
       return
       ;;
   esac
@@ -53,8 +54,10 @@ _scarp() {
         options+=' --mask --tolerance --script --image --texture --texture-weight --norm --channel-weights'
         options+=' --importance --one-pass --algorithm --batch --edges --edge-score --shape-threshold --supersample'
         options+=' --uvs --render --error-raster'
+        options+=' --points --duplicates --layer --z-field'
         ;;
       measure)
+        options+=' --points --duplicates --layer --z-field'
         options+=' --fail-above --json --map --error-raster --overwrite --num-threads'
         options+=' --mask --tolerance --image --texture --texture-weight --norm --channel-weights'
         ;;

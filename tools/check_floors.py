@@ -36,7 +36,7 @@ ROOMS = {
     "draw": (3, ["base", "grid", "geom", "mesh"], ["frame", "height_field", "io", "mesh", "picture", "result"],
              "pictures of fields, meshes and errors"),
     "passes": (5, ["base", "grid", "geom", "mesh", "tin", "io", "refine", "measure", "draw"], ANY,
-               "`src/*.cpp`: the lists of passes"),
+               "`src/*.cpp`, `src/*.h`: the lists of passes"),
     "apps": (6, [], ANY, "the command line; knows `include/scarp` only"),
 }
 
@@ -85,6 +85,8 @@ def judge_project_include(path, room, header, tree):
         return "apps may include scarp/*.h and headers of their own folder only"
     if room == "door":
         return "a public header may include public headers only"
+    if room == "passes" and "/" not in header and (tree / "src" / header).is_file():
+        return None
     if top not in ROOMS or "/" not in header or not (tree / "src" / header).is_file():
         return f"there is no src/{header}"
     if top == room or top in may_include:

@@ -10,6 +10,7 @@
 #include "clock.h"
 #include "progress_display.h"
 #include "report.h"
+#include "scarp/picture.h"
 #include "scarp/version.h"
 #include "signals.h"
 #include "text.h"
@@ -105,7 +106,8 @@ Json describe_points(const PointSet& points, DuplicatePolicy policy, std::uint64
 }
 
 void add_point_measurement(Json& report, const PointSet& points, const Measurement& measured) {
-  add_measurement(report, measured, 0);
+  add_errors(report, measured, 0);
+  add_coverage(report, measured);
   Json at = nullptr;
   if (const auto i = static_cast<std::size_t>(measured.max_error_at[0]); measured.max_error_at[0] >= 0)
     at = Json::array({points.x[i], points.y[i]});
@@ -126,14 +128,9 @@ struct Outcome {
 };
 
 std::string canonical_command(const SimplifyPlan& plan, const PointsArguments& arguments) {
-  std::string command = plan.canonical_command;
-  const std::pair<const char*, const Given*> options[] = {
-      {"--duplicates", &arguments.duplicates}, {"--layer", &arguments.layer}, {"--z-field", &arguments.z_field}};
-  if (arguments.points) command += " --points";
-  for (const auto& [name, value] : options) {
-    if (*value) command += fmt::format(" {} {}", name, shell_word(**value));
-  }
-  return command;
+  return plan.canonical_command + (arguments.points ? " --points" : "") +
+         canonical_option("--duplicates", arguments.duplicates) + canonical_option("--layer", arguments.layer) +
+         canonical_option("--z-field", arguments.z_field);
 }
 
 void add_metadata(const SimplifyPlan& plan, const PointsArguments& arguments, Outcome& outcome) {
@@ -352,8 +349,9 @@ Result<void> run_simplify_points(const CLI::App& verb, const SimplifyArguments& 
   if (!plan) return tl::unexpected(std::move(plan.error()));
   if (plan->format.kind == OutputKind::kDem)
     return fail(ErrorKind::kUsage,
-                "points have no grid that the approximation could be resampled on: choose a mesh "
-                "format, svg or eps");
+                fmt::format("{} is a raster, and {} holds points, which lie on no grid: choose .glb, .obj, .ply, .stl "
+                            "or .tin",
+                            given.output, shell_word(base_name(given.raster.path))));
   const auto policy = parse_policy(arguments.duplicates);
   if (!policy) return tl::unexpected(policy.error());
 

@@ -3,8 +3,10 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace bench {
 
@@ -17,6 +19,16 @@ inline std::optional<std::string> find_raster(const std::filesystem::path& proje
     if (std::filesystem::is_regular_file(path, ignored)) return path.string();
   }
   return std::nullopt;
+}
+
+/// The lines of bench/quality/rasters.txt that are not comments.
+inline std::vector<std::string> read_names(const std::filesystem::path& list) {
+  std::vector<std::string> names;
+  std::ifstream file(list);
+  for (std::string line; std::getline(file, line);) {
+    if (!line.empty() && line[0] != '#') names.push_back(line);
+  }
+  return names;
 }
 
 }  // namespace bench

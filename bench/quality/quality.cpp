@@ -27,15 +27,6 @@ constexpr Goal kGoals[] = {
 constexpr const char* kHeader =
     "raster,cols,rows,valid,relief,goal,asked,vertices,triangles,percent_of_full,max_error,rmse,uncovered\n";
 
-std::vector<std::string> read_names(const std::filesystem::path& list) {
-  std::vector<std::string> names;
-  std::ifstream file(list);
-  for (std::string line; std::getline(file, line);) {
-    if (!line.empty() && line[0] != '#') names.push_back(line);
-  }
-  return names;
-}
-
 std::string run(const std::string& name, const scarp::OwnedHeightField& field, const Goal& goal) {
   const double relief = field.info.max - field.info.min;
   scarp::SimplifyOptions options;
@@ -76,7 +67,7 @@ int main(int argc, char** argv) {
   }
   const std::filesystem::path project = argv[1];
   std::vector<std::string> names(argv + 3, argv + argc);
-  if (names.empty()) names = read_names(project / "bench/quality/rasters.txt");
+  if (names.empty()) names = bench::read_names(project / "bench/quality/rasters.txt");
   std::string table = kHeader;
   int missing = 0;
   for (const auto& name : names) {

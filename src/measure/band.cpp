@@ -27,7 +27,12 @@ bool mark_heights(const HeightField& field, int row, std::vector<std::uint8_t>& 
 }  // namespace
 
 Band::Band(const HeightField& field, int first, int rows, const Limits& limits, double guard)
-    : cols_(field.cols), first_(first), rows_(rows), limits_(limits), guard_(guard) {
+    : cols_(field.cols),
+      first_(first),
+      rows_(rows),
+      limits_(limits),
+      least_limit_(limits.by_sample.empty() ? limits.everywhere : -HUGE_VAL),
+      guard_(guard) {
   const std::size_t size = static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols_);
   const float* samples = field.samples + static_cast<std::size_t>(first) * static_cast<std::size_t>(cols_);
   heights_.assign(samples, samples + size);

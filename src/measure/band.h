@@ -78,11 +78,11 @@ class Band {
   bool is_critical(int col, int row, double error) const {
     const double magnitude = std::abs(error);
     const double upper = magnitude + (guard_ + kRounding * magnitude);
-    const auto is_close_to = [&](double limit) { return upper >= limit && magnitude - (upper - magnitude) <= limit; };
-    return upper >= largest_ || is_close_to(limits_.everywhere) || is_close_to(tolerance(col, row));
+    return upper >= largest_ || (upper >= least_limit_ && is_close(col, row, magnitude, upper));
   }
   bool is_offender(int col, int row, double error) const {
-    return std::abs(error) > limits_.everywhere || std::abs(error) > tolerance(col, row);
+    const double magnitude = std::abs(error);
+    return magnitude > least_limit_ && (magnitude > limits_.everywhere || magnitude > tolerance(col, row));
   }
   /// Notes a sample of `triangle` that breaks the bound.
   void add_offender(std::uint32_t triangle, Offender offender) { report_.offenders.push_back({triangle, offender}); }
@@ -114,6 +114,11 @@ class Band {
   std::size_t at(int col, int row) const {
     return static_cast<std::size_t>(row - first_) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(col);
   }
+  bool is_close(int col, int row, double magnitude, double upper) const {
+    const double lower = magnitude - (upper - magnitude);
+    const auto is_between = [&](double limit) { return upper >= limit && lower <= limit; };
+    return is_between(limits_.everywhere) || is_between(tolerance(col, row));
+  }
   double tolerance(int col, int row) const {
     return limits_.by_sample.empty()
                ? HUGE_VAL
@@ -124,6 +129,7 @@ class Band {
 
   int cols_ = 0, first_ = 0, rows_ = 0;
   Limits limits_;
+  double least_limit_ = HUGE_VAL;  // no sample has a smaller one
   double guard_ = 0, largest_ = 0;
   bool has_void_cells_ = false;
   std::vector<float> heights_;

@@ -1,0 +1,105 @@
+#!/bin/bash
+# Scattered points: recognised by name, proven, judged, refused in one sentence; the same from every format.
+source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
+need awk python3
+
+# A bumpy square kilometre in UTM coordinates, with two decimals, some places twice.
+awk 'BEGIN { srand(7); print "x,y,z"
+  for (i = 0; i < 3000; i++) { x = rand() * 1000; y = rand() * 800
+    printf "%.2f,%.2f,%.3f\n", 500000 + x, 4649000 + y, 300 + 40 * sin(x / 90) * cos(y / 70) + rand() }
+  print "500500.00,4649400.00,310"; print "500500.00,4649400.00,330" }' >survey.csv
+
+succeeds "$scarp" simplify survey.csv hills.glb -e 0.5 --report hills.json
+grep -q '3,002\|3002' "$logs/out" || fail "the summary does not count the points"
+grep -q 'duplicates    1, the first' "$logs/out" || fail "the summary does not count duplicates"
+python3 - <<'PY' || fail "the report"
+import json
+r = json.load(open("hills.json"))
+assert r["input"]["points"] == 3002 and r["input"]["duplicates"] == 1, r["input"]
+assert abs(r["input"]["lattice_step"] - 0.01) < 1e-12, r["input"]
+assert r["max_error"] <= 0.5 and r["uncovered"] == 0 and r["samples"] == 3001
+assert r["topology"]["sound"] and r["stopped_by"] == "max_error"
+assert 500000 <= r["max_error_at"][0] <= 501000
+PY
+succeeds "$scarp" measure survey.csv hills.glb --fail-above 0.5 --json
+python3 -c 'import json,sys; r=json.load(sys.stdin); assert r["passed"] and r["samples"] == 3001' <"$logs/out" || fail "measure --json"
+refuses 3 "exceeds 0.001" "$scarp" measure survey.csv hills.glb --fail-above 0.001 -q
+
+# Every vertex budget, percent goals, solids, exact reproduction.
+succeeds "$scarp" simplify survey.csv few.ply -p 200 -q
+succeeds "$scarp" simplify survey.csv part.obj -e 2% -q
+succeeds "$scarp" simplify survey.csv exact.ply -e 0 -q
+succeeds "$scarp" measure survey.csv exact.ply --fail-above 0 -q
+succeeds "$scarp" simplify survey.csv solid.stl -e 1 --base 0 -q
+succeeds "$scarp" measure survey.csv solid.stl --fail-above 1 -q
+
+# The judge follows the policy that the mesh remembers.
+succeeds "$scarp" simplify survey.csv high.ply -e 0 --duplicates highest -q
+succeeds "$scarp" measure survey.csv high.ply --fail-above 0 -q
+refuses 3 "exceeds 0" "$scarp" measure survey.csv high.ply --fail-above 0 --duplicates lowest -q
+
+# The same points in other clothes give the same bytes; so does any number of threads.
+tail -n +2 survey.csv | tr ',' ' ' >survey.xyz
+tr ',' ';' <survey.csv | sed 's/$/\r/' >semicolons.csv
+cp survey.xyz survey.points
+succeeds "$scarp" simplify survey.csv a.obj -e 1 -j 1 -q
+for other in survey.xyz semicolons.csv survey.points; do
+  succeeds "$scarp" simplify "$other" b.obj -e 1 -j 4 -q --points --overwrite
+  cmp <(grep -v '^#' a.obj) <(grep -v '^#' b.obj) || fail "$other gives another mesh"
+done
+succeeds "$scarp" simplify /dev/stdin c.obj -e 1 -q --points <survey.xyz
+cmp <(grep -v '^#' a.obj) <(grep -v '^#' c.obj) || fail "a pipe gives another mesh"
+
+if command -v ogr2ogr >/dev/null; then
+  for format in GPKG:gpkg GeoJSON:geojson 'ESRI Shapefile:shp' FlatGeobuf:fgb; do
+    file=vector.${format#*:}
+    extra=()
+    [ "${format#*:}" = geojson ] && extra=(-lco RFC7946=NO -lco COORDINATE_PRECISION=3)
+    ogr2ogr -q -f "${format%:*}" "$file" survey.csv -a_srs EPSG:32611 -oo X_POSSIBLE_NAMES=x -oo Y_POSSIBLE_NAMES=y \
+      -oo Z_POSSIBLE_NAMES=z -oo AUTODETECT_TYPE=YES -nlt PointZ "${extra[@]}" 2>/dev/null || continue
+    succeeds "$scarp" simplify "$file" "$file.obj" -e 1 -q
+    succeeds "$scarp" measure "$file" "$file.obj" --fail-above 1 -q
+    cmp <(grep '^[vf]' a.obj) <(grep '^[vf]' "$file.obj") || fail "$file gives another mesh"
+    grep -q 'EPSG:32611' "$file.obj" || fail "$file: the mesh does not know its CRS"
+  done
+  refuses 2 "no layer 'none'" "$scarp" simplify vector.gpkg x.glb -e 1 --layer none
+  succeeds "$scarp" simplify vector.gpkg deg.glb -e 1 --crs EPSG:4326 -q
+  succeeds "$scarp" simplify vector.gpkg local.glb -e 1 --crs local -q
+  succeeds "$scarp" measure vector.gpkg local.glb --fail-above 1 -q
+fi
+
+# What cannot be, in one sentence, and nothing written.
+: >empty.csv
+printf 'x,y,z\n' >header.csv
+printf '1,2,3\n4,5,nan\n7,8,10\n' >nan.csv
+printf '1,2,3\n4,5,inf\n7,8,10\n' >inf.csv
+printf '1,2,3\n4,5\n7,8,10\n' >short.csv
+printf 'x,y,depth\n1,2,3\n' >names.csv
+printf '1,1,3\n2,2,3\n5,5,9\n9,9,1\n' >line.csv
+printf '1,1,3\n2,2,3\n1,1,9\n' >two.csv
+head -c 3000 "$dem" >binary.csv
+refuses 2 "empty.csv: the file is empty" "$scarp" simplify empty.csv x.glb -e 1
+refuses 2 "header.csv: the file holds a header line and no points" "$scarp" simplify header.csv x.glb -e 1
+refuses 2 "nan.csv: line 2: z is 'nan'" "$scarp" simplify nan.csv x.glb -e 1
+refuses 2 "inf.csv: line 2: z is 'inf'" "$scarp" simplify inf.csv x.glb -e 1
+refuses 2 "short.csv: line 2 has 2 columns, so that z is missing" "$scarp" simplify short.csv x.glb -e 1
+refuses 2 "names.csv: line 1 names no column z" "$scarp" simplify names.csv x.glb -e 1
+refuses 2 "line.csv: all points lie on one line" "$scarp" simplify line.csv x.glb -e 1
+refuses 2 "two.csv: all points lie at two places" "$scarp" simplify two.csv x.glb -e 1
+refuses 2 "binary.csv: line 1" "$scarp" simplify binary.csv x.glb -e 1
+refuses 2 "none.csv: no such file" "$scarp" simplify none.csv x.glb -e 1
+refuses 2 "nan.csv: line 2" "$scarp" measure nan.csv hills.glb
+refuses 1 "no goal" "$scarp" simplify survey.csv x.glb
+refuses 1 "--nodata is for rasters" "$scarp" simplify survey.csv x.glb -e 1 --nodata 0
+refuses 1 "--preview is for rasters" "$scarp" simplify survey.csv x.glb -e 1 --preview p.png
+refuses 1 "--normals is for rasters" "$scarp" simplify survey.csv x.glb -e 1 --normals
+refuses 1 "--map is for rasters" "$scarp" measure survey.csv hills.glb --map p.png
+refuses 1 "--duplicates is for scattered points" "$scarp" simplify "$dem" x.glb -e 1 --duplicates mean
+refuses 1 "--z-field is for scattered points" "$scarp" measure "$dem" hills.glb --z-field h
+refuses 1 "--duplicates best is unknown" "$scarp" simplify survey.csv x.glb -e 1 --duplicates best
+refuses 1 "10 vertices are too few" "$scarp" simplify survey.csv x.glb -p 10
+refuses 1 "--base 400 is not below" "$scarp" simplify survey.csv x.glb -e 1 --base 400
+refuses 1 "CRS" "$scarp" simplify survey.csv x.glb -e 1 --crs local
+refuses 3 "float32" "$scarp" simplify survey.csv x.glb -e 0
+refuses 4 "exists already" "$scarp" simplify survey.csv hills.glb -e 1
+echo "points are simplified, judged and refused"
