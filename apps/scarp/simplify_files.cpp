@@ -39,9 +39,9 @@ void add_metadata(const SimplifyPlan& plan, Outcome& outcome) {
   if (!outcome.as_read.unit.empty()) metadata["unit"] = outcome.as_read.unit;
   Json error;
   error["asked"] = outcome.asked ? Json(*outcome.asked) : Json(nullptr);
-  error["max_error"] = measured.max_error;
+  if (!plan.channels.image) error["max_error"] = measured.max_error;
   if (outcome.field.sample_rounding > 0) error["sample_rounding"] = outcome.field.sample_rounding;
-  error["rmse"] = measured.rmse;
+  if (!plan.channels.image) error["rmse"] = measured.rmse;
   error["samples"] = measured.samples;
   if (!outcome.channels.empty()) error["combined_max_error"] = outcome.simplified.combined_max_error;
   if (!outcome.companions.mask.empty() || !outcome.companions.tolerance.empty()) {

@@ -3,7 +3,7 @@
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdalbuildvrt gdalinfo
 
-make_image ortho.tif '(col * 255) // 402' '128 + 100 * math.sin(col * row / 9000)' '200 if (col // 50 + row // 50) % 2 else 40'
+make_image ortho.tif '(col * 255) // 402' '128 + 100 * math.sin(col * row / 40000)' '200 if (col // 50 + row // 50) % 2 else 40'
 make_raster infra.tif 'math.hypot(col - 200, row - 170)'
 textured() { "$scarp" simplify "$dem" "$@"; }
 
