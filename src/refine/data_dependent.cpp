@@ -44,7 +44,11 @@ Vertex DataDependentRule::insert(Triangulation& tin, Point p, Triangulation::Loc
   std::vector<HalfEdge> edges;
   for (Triangle t : changed_) {
     if (tin.is_outside(t)) continue;
-    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) edges.push_back(h);
+    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+      // A spoke lies between two triangles of the star: once is enough.
+      const bool is_spoke = tin.origin(h) == v || tin.origin(Triangulation::next(h)) == v;
+      if (!is_spoke || h < tin.twin(h)) edges.push_back(h);
+    }
   }
   Improver improver(*this);
   tin.improve(edges, improver, kMostFlips);
