@@ -28,6 +28,10 @@ complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l texture -
 complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l texture-weight -x -d '0 (heights only) to 1 (textures only)'
 complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l norm -x -a 'l1 l2 linf' -d 'How errors of heights and bands become one'
 complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l channel-weights -x -d 'Weights of the bands, separated by commas'
+complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l points -d 'The input is scattered points'
+complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l duplicates -x -a 'first last highest lowest mean' -d 'Which of several points at one place counts'
+complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l layer -x -d 'Layer to read'
+complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l z-field -x -d 'Column or attribute with the heights'
 complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l error-raster -r -d 'Errors as GeoTIFF'
 
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -s e -l max-error -x -d 'Error bound, in z units or 0.5%'

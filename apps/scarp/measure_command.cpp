@@ -16,8 +16,9 @@ namespace scarp::cli {
 MeasureCommand::MeasureCommand(CLI::App& program)
     : verb_(program.add_subcommand("measure", "Judge a mesh file against its raster, sample by sample")) {
   verb_
-      ->add_option("RASTER", raster_.path,
-                   "Raster of heights: a file or URL that GDAL opens, PGM\nor STM; with --image any image")
+      ->add_option(
+          "RASTER", raster_.path,
+          "Raster of heights: a file or URL that GDAL opens, PGM\nor STM; with --image any image; or scattered points")
       ->type_name("")
       ->required();
   verb_->add_option("MESH", mesh_, "Mesh to judge: GLB, OBJ, PLY, STL or TIN, recognised by\ncontent")

@@ -33,7 +33,8 @@ void add_header(paper::Study& study) {
     study.page.paragraph(
         "In brackets: the figure of Scape 1.2, the report's own program, measured on the same fields, and our "
         "difference from "
-        "it. Section numbers are those of the specification that lists the figures. The fields are the report's five: "
+        "it. Section numbers are those of the specification (PAPER.md) that lists the figures. The fields are the "
+        "report's five: "
         "Crater Lake, Ashby Gap, Ozark, the National Training Center (ntc) and the western US. Errors are vertical, in "
         "metres, over all samples.");
   } else {

@@ -5,8 +5,9 @@ namespace scarp::cli {
 
 void SimplifyArguments::add_to(CLI::App& verb) {
   const char* goals = "Goals (at least one; the first that is reached ends the run)";
-  verb.add_option("INPUT", raster.path,
-                  "Raster of heights: a file or URL that GDAL opens, PGM\nor STM; with --image any image")
+  verb.add_option(
+          "INPUT", raster.path,
+          "Raster of heights: a file or URL that GDAL opens, PGM\nor STM; with --image any image; or scattered points")
       ->type_name("")
       ->required();
   verb.add_option("OUTPUT", output,
@@ -94,6 +95,7 @@ void SimplifyArguments::add_to(CLI::App& verb) {
       "  scarp simplify dem.tif hills.glb -e 1 --edges data --edge-score tight    fewer triangles\n"
       "  scarp simplify dem.tif hills.glb -e 1 --texture ortho.tif                colours count too\n"
       "  scarp simplify photo.png photo.glb -p 2000 --image --render seen.png\n"
+      "  scarp simplify survey.csv hills.glb -e 0.5       scattered points: x, y, z\n"
       "'scarp info dem.tif' suggests errors. 'scarp measure dem.tif hills.glb' checks a mesh.\n"
       "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.");
 }

@@ -163,7 +163,7 @@ void StrategyArguments::add_to(CLI::App& verb) {
       ->type_name("SCORE")
       ->group(group);
   verb.add_option("--shape-threshold", shape_threshold,
-                  "data: 0 looks at the data alone, 1 at the shape\nalone (default 0.5; tight: 0.2)")
+                  "data: 0 looks at the data alone, 1 at the shape\nalone (default 0.5; tight: 0.1)")
       ->type_name("Q")
       ->group(group);
   verb.add_option(

@@ -12,6 +12,7 @@
 #include "base/caught.h"
 #include "base/parallel.h"
 #include "measure/band.h"
+#include "measure/check_mesh.h"
 #include "measure/grid_map.h"
 #include "measure/progress_gate.h"
 #include "measure/scanner.h"
@@ -27,9 +28,6 @@ using judge::kRounding;
 using judge::ProgressGate;
 using judge::Sum;
 
-/// Coordinates of this size can be multiplied three times before they are infinite.
-bool is_in_reach(double coordinate) { return std::abs(coordinate) <= 1e100; }
-
 Result<void> check_input(const HeightField& field, const Mesh& mesh, const MeasureOptions& options) {
   if (field.cols < 2 || field.rows < 2 || field.samples == nullptr) {
     return fail(ErrorKind::kInput,
@@ -41,33 +39,11 @@ Result<void> check_input(const HeightField& field, const Mesh& mesh, const Measu
       field.frame.determinant() == 0 || !std::isfinite(field.frame.determinant())) {
     return fail(ErrorKind::kInput, "the height field's frame puts all samples on one line; give it a cell size");
   }
-  if (mesh.triangles.empty()) return fail(ErrorKind::kInput, "the mesh has no triangles");
-  if (mesh.triangles.size() % 3 != 0 || mesh.positions.size() % 3 != 0) {
-    return fail(ErrorKind::kInput, "the mesh is cut off: its indices or coordinates are not a multiple of 3");
-  }
-  if (mesh.triangles.size() >= std::uint64_t{1} << 32 || mesh.positions.size() / 3 >= std::uint64_t{1} << 32) {
-    return fail(ErrorKind::kInput,
-                fmt::format("the mesh has {} triangles; the judge holds up to 1,431,655,765", mesh.triangle_count()));
-  }
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (mesh.triangles[i] < mesh.vertex_count()) continue;
-    return fail(ErrorKind::kInput, fmt::format("triangle {} of the mesh names vertex {}, but there are only {}", i / 3,
-                                               mesh.triangles[i], mesh.vertex_count()));
-  }
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    if (is_in_reach(mesh.positions[i])) continue;
-    return fail(ErrorKind::kInput,
-                fmt::format("vertex {} of the mesh has a coordinate that is {}", i / 3,
-                            std::isfinite(mesh.positions[i]) ? "beyond 1e100; only nearer ones can be judged"
-                                                             : "not a finite number"));
-  }
-  if (!std::all_of(mesh.origin.begin(), mesh.origin.end(), is_in_reach)) {
-    return fail(ErrorKind::kInput, "the mesh's origin is not a finite point within 1e100");
-  }
+  if (auto sound = judge::check_mesh(mesh); !sound) return sound;
   const judge::GridMap to_grid(field, mesh.origin);
   for (std::size_t v = 0; field.frame.is_affine() && v < mesh.vertex_count(); ++v) {
     const auto [col, row] = to_grid(mesh.positions[3 * v], mesh.positions[3 * v + 1]);
-    if (is_in_reach(col) && is_in_reach(row)) continue;
+    if (judge::is_in_reach(col) && judge::is_in_reach(row)) continue;
     return fail(
         ErrorKind::kInput,
         fmt::format("vertex {} of the mesh lies more than 1e100 cells from the height field; only nearer ones can "

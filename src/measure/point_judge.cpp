@@ -5,8 +5,6 @@
 // result never depends on threads.
 #include "measure/point_judge.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +13,7 @@
 #include "base/caught.h"
 #include "base/parallel.h"
 #include "measure/bucket_grid.h"
+#include "measure/check_mesh.h"
 #include "measure/error_summary.h"
 #include "measure/facet_error.h"
 #include "measure/hull_gaps.h"
@@ -26,27 +25,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-Result<void> check(const Mesh& mesh, const MeasureOptions& options) {
-  if (mesh.triangles.empty()) return fail(ErrorKind::kInput, "the mesh has no triangles");
-  if (mesh.triangles.size() % 3 != 0 || mesh.positions.size() % 3 != 0)
-    return fail(ErrorKind::kInput, "the mesh is cut off: its indices or coordinates are not a multiple of 3");
-  if (mesh.triangles.size() >= std::uint64_t{1} << 32 || mesh.positions.size() / 3 >= std::uint64_t{1} << 32)
-    return fail(ErrorKind::kInput,
-                fmt::format("the mesh has {} triangles; the judge holds up to 1,431,655,765", mesh.triangle_count()));
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (mesh.triangles[i] >= mesh.vertex_count())
-      return fail(ErrorKind::kInput, fmt::format("triangle {} of the mesh names vertex {}, but there are only {}",
-                                                 i / 3, mesh.triangles[i], mesh.vertex_count()));
-  }
-  const auto is_in_reach = [](double coordinate) { return std::abs(coordinate) <= 1e100; };
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    if (!is_in_reach(mesh.positions[i]))
-      return fail(
-          ErrorKind::kInput,
-          fmt::format("vertex {} of the mesh has a coordinate that is not a finite number within 1e100", i / 3));
-  }
-  if (!std::all_of(mesh.origin.begin(), mesh.origin.end(), is_in_reach))
-    return fail(ErrorKind::kInput, "the mesh's origin is not a finite point within 1e100");
+Result<void> check_options(const MeasureOptions& options) {
   if (!(options.coverage_tolerance >= 0) || !std::isfinite(options.coverage_tolerance))
     return fail(ErrorKind::kUsage, "coverage_tolerance must be zero or a positive number of mean point distances");
   if (!options.tolerance.empty())
@@ -181,7 +160,8 @@ void summarize(std::span<const double> errors, Measurement& result) {
 
 Result<Measurement> judge_points(const PointSet& points, const PointPlaces& places, const Mesh& mesh,
                                  const MeasureOptions& options) {
-  if (auto checked = check(mesh, options); !checked) return tl::unexpected(checked.error());
+  if (auto checked = check_mesh(mesh); !checked) return tl::unexpected(checked.error());
+  if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
   ProgressGate gate(options.progress);
   const auto cancelled = [] { return fail(ErrorKind::kCancelled, "measuring was cancelled"); };
 

@@ -152,7 +152,7 @@ TEST(data_dependent, follows_a_diagonal_step_far_better_than_delaunay) {
   const double delaunay = simplify(*field, options)->measurement.max_error;
   for (const EdgeScore score : {EdgeScore::kSum, EdgeScore::kTight}) {
     options.edges = {true, score};
-    EXPECT_LT(simplify(*field, options)->measurement.max_error, delaunay / 3);
+    EXPECT_LT(simplify(*field, options)->measurement.max_error, delaunay / 2);
   }
 }
 

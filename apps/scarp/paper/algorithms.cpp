@@ -93,8 +93,8 @@ Result<void> add_algorithms(Study& study) {
                                   "III",      "I / III", "triangles looked through, II", "entries moved, III",
                                   "same mesh"};
   if (study.timing) {
-    header.push_back("time I / III (once)");
-    header.push_back("time II / III (once)");
+    header.push_back("time I / III (measured once)");
+    header.push_back("time II / III (measured once)");
   }
   study.page.table(header, rows);
   const Result<Plot> plot = make_plot(study, *fields.front());

@@ -155,6 +155,36 @@ Result<void> add_gain_table(Study& study, const ModeTrials& trials) {
   return {};
 }
 
+/// Triangles that keep the max error which Delaunay has at 1 %, rule by rule.
+Result<void> add_bound_table(Study& study, const ModeTrials& trials) {
+  constexpr std::array<std::size_t, 3> kShown{0, kSumMode, kTightMode};
+  std::vector<std::string> header{"field", "max error"};
+  for (const std::size_t k : kShown) header.push_back(kModes[k].name);
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t f = 0; f < study.fields.all.size(); ++f) {
+    const Field& field = study.fields.all[f];
+    study.note(fmt::format("edge rules: bound on {}", field.key));
+    const double bound = trials[0][f].max_error;
+    std::vector<std::string> row{field.key, number(bound)};
+    double delaunay = 0;
+    for (const std::size_t k : kShown) {
+      SimplifyOptions options = with_edges(kModes[k].edges);
+      options.max_error = bound;
+      const Result<Trial> trial = study.reach(field, options);
+      if (!trial) return tl::unexpected(trial.error());
+      const auto triangles = static_cast<double>(trial->triangles);
+      if (k == 0) delaunay = triangles;
+      row.push_back(k == 0 ? fmt::format("{}", trial->triangles)
+                           : fmt::format("{} ({})", trial->triangles, percent_of_change(triangles, delaunay)));
+    }
+    rows.push_back(std::move(row));
+  }
+  study.page.paragraph(
+      "Triangles that keep the max error which Delaunay has at 1 % of the samples (against Delaunay):");
+  study.page.table(header, rows);
+  return {};
+}
+
 /// Median of three.
 double middle(std::array<double, 3> values) {
   std::sort(values.begin(), values.end());
@@ -194,6 +224,8 @@ Result<void> add_edge_rules(Study& study) {
   add_mode_table(study, *trials);
   const Result<void> gains = add_gain_table(study, *trials);
   if (!gains) return gains;
+  const Result<void> bounds = add_bound_table(study, *trials);
+  if (!bounds) return bounds;
   return study.timing ? add_times(study) : Result<void>{};
 }
 
