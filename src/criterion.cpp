@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/exact_arithmetic.h"
 #include "refine/height_judge.h"
 #include "refine/importance.h"
 
@@ -21,6 +22,13 @@ float round_down(double value) {
     return std::isinf(value) ? kUnbounded : std::numeric_limits<float>::max();
   const auto rounded = static_cast<float>(value);
   return rounded > value ? std::nextafter(rounded, 0.0f) : rounded;
+}
+
+/// The largest double that times `weight` is at most `value`, as real numbers, or the one below it.
+double divide_down(double value, double weight) {
+  const double quotient = value / weight;
+  const auto [high, low] = exact_product(quotient, weight);
+  return high > value || (high == value && low > 0) ? std::nextafter(quotient, 0.0) : quotient;
 }
 
 Error at_sample(ErrorKind kind, const char* what, std::size_t index, std::int32_t cols, const std::string& rest) {
@@ -137,7 +145,7 @@ Result<void> Criterion::set_bounds() {
     if (!options_->tolerance.empty()) asked = std::min(asked, double{options_->tolerance[i]});
     if (!options_->mask.empty()) {
       const double weight = options_->mask[i];
-      asked = weight > 0 ? std::nextafter(asked / weight, 0.0) : HUGE_VAL;
+      asked = weight > 0 ? divide_down(asked, weight) : HUGE_VAL;
     }
     if (has_error_goal() && asked < reserve && !std::isnan(raster_.samples[i]))
       return tl::unexpected(at_sample(ErrorKind::kPromise, "the bound", i, raster_.cols,

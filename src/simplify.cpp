@@ -52,15 +52,17 @@ Result<void> check_goals(const HeightField& field, const SimplifyOptions& option
 
 Result<void> check_budget(const Domain& domain, std::uint64_t triangles, const SimplifyOptions& options) {
   const std::uint64_t vertices = domain.tin.vertex_count() - domain.unused;
+  const char* culprit = options.script.empty() ? "the outline of the valid data alone needs"
+                                               : "the outline of the valid data and the script need";
   const char* advice = domain.whole ? "" : ", or simplify the outline with an outline tolerance";
+  const auto refuse = [&](std::uint64_t budget, const char* what, std::uint64_t least) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} {} are too few: {} {}; allow more{}", budget, what, culprit, least, advice));
+  };
   if (options.max_vertices && *options.max_vertices < vertices)
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} vertices are too few: the outline of the valid data alone needs {}; allow more{}",
-                            *options.max_vertices, vertices, advice));
+    return refuse(*options.max_vertices, "vertices", vertices);
   if (options.max_triangles && *options.max_triangles < triangles)
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} triangles are too few: the outline of the valid data alone needs {}; allow more{}",
-                            *options.max_triangles, triangles, advice));
+    return refuse(*options.max_triangles, "triangles", triangles);
   return {};
 }
 

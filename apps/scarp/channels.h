@@ -45,6 +45,8 @@ struct Channels {
 
   std::size_t count() const { return bands.bands.size(); }
   bool empty() const { return bands.bands.empty(); }
+  /// 8-bit colours, or grey, say all there is.
+  bool are_colors() const { return bands.is_8bit && (count() == 1 || (count() == 3 && bands.is_color)); }
   /// Gives `field`, on the same grid, these channels. They must stay alive.
   void attach_to(HeightField& field) const;
 };

@@ -128,6 +128,11 @@ std::string CompanionArguments::canonical() const {
   return command;
 }
 
+bool Companions::ignores_samples() const {
+  return std::any_of(script.begin(), script.end(),
+                     [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; });
+}
+
 double Companions::weigh(std::size_t sample, double error) const {
   if (!mask.empty()) return static_cast<double>(mask[sample]) * error;
   if (tolerance.empty() || error == 0) return error;

@@ -31,6 +31,8 @@ struct Companions {
   std::vector<std::string> warnings;
 
   bool has_weights() const { return !mask.empty() || !tolerance.empty(); }
+  /// The script takes samples' bounds away; they count in the largest errors all the same.
+  bool ignores_samples() const;
   /// weight · error, or error / tolerance (0 / 0 is 0); the error itself where neither was given.
   double weigh(std::size_t sample, double error) const;
   /// True if the sample has no bound: weight 0, or an infinite tolerance.

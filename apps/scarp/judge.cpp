@@ -153,8 +153,7 @@ std::vector<float> take_error_raster(Judgement judgement, ErrorsOf of) {
 Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::string& path) {
   const std::size_t bands = channels.count();
   if (mesh.channel_count > 0 && static_cast<std::size_t>(mesh.channel_count) == bands) return {};
-  const bool is_grey_or_color = channels.bands.is_8bit && (bands == 1 || (bands == 3 && channels.bands.is_color));
-  if (mesh.channel_count == 0 && is_grey_or_color && !mesh.colors.empty()) {
+  if (mesh.channel_count == 0 && channels.are_colors() && !mesh.colors.empty()) {
     mesh.channel_count = static_cast<int>(bands);
     mesh.channels.reserve(bands * mesh.vertex_count());
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
@@ -164,7 +163,7 @@ Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::s
   }
   if (mesh.channel_count == 0) {
     return fail(ErrorKind::kInput,
-                fmt::format("{} holds {} to compare with {}: write it as .glb, .ply or .obj of the same image", path,
+                fmt::format("{} holds {} to compare with {}: write it as .glb or .ply, of the same image", path,
                             mesh.colors.empty() ? "no colours" : "8-bit colours only", format_plural(bands, "band")));
   }
   return fail(ErrorKind::kInput,

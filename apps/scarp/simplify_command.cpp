@@ -59,6 +59,20 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
   return {};
 }
 
+/// OBJ has no place for channels other than colours: an image would lose its bound, a texture its values.
+Result<void> check_place_of_channels(SimplifyPlan& plan, const Channels& channels) {
+  const bool is_obj = plan.format.is_mesh() && plan.format.mesh == MeshFormat::kObj;
+  if (!is_obj || channels.empty() || channels.are_colors()) return {};
+  const std::string sentence = "OBJ has a place for 8-bit colours only";
+  if (plan.channels.image) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("{}, and {} holds {} of {}: choose .glb or .ply", sentence, plan.input,
+                            format_plural(channels.count(), "band"), channels.bands.info.sample_type));
+  }
+  plan.warnings.push_back(sentence + ": the values of the texture's bands are not in the file");
+  return {};
+}
+
 /// The engine proves its own result; a mesh whose proof does not hold is never written.
 Result<void> check_promise(const Outcome& outcome) {
   const Simplified& simplified = outcome.simplified;
@@ -67,10 +81,8 @@ Result<void> check_promise(const Outcome& outcome) {
   const bool has_tolerance = !outcome.companions.tolerance.empty();
   const bool has_budget_ended =
       simplified.stop == StopReason::kMaxTriangles || simplified.stop == StopReason::kMaxVertices;
-  // Samples that a script ignores have no bound, and count in the max error all the same.
-  const bool has_exceptions = !goal.is_rounded && simplified.ignored > 0;
   const std::optional<double> asked = has_tolerance ? 1 : outcome.asked;
-  if (asked && !has_budget_ended && !has_exceptions) {
+  if (asked && !has_budget_ended && !outcome.companions.ignores_samples()) {
     const double height_scale = outcome.channels.empty() ? 1 : outcome.channels.height_scale;
     // With weights the engine took the rounding of the samples off each bound before it weighed the errors.
     const double rounding = outcome.companions.has_weights() ? 0 : outcome.field.sample_rounding * height_scale;
@@ -127,6 +139,8 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   const Result<void> has_inputs = read_inputs(*plan, given_.raster.band.has_value(), display.callback(), outcome);
   if (!has_inputs) return has_inputs;
 
+  const Result<void> has_place = check_place_of_channels(*plan, outcome.channels);
+  if (!has_place) return has_place;
   SimplifyOptions options = plan->simplify;
   options.max_error = outcome.asked;
   options.mask = outcome.companions.mask;

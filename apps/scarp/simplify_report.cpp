@@ -47,12 +47,18 @@ void add_all_errors(Json& report, const SimplifyPlan& plan, const Outcome& outco
 
 std::string line(const char* name, const std::string& value) { return fmt::format("  {:<14}{}\n", name, value); }
 
+/// ", ignored samples left out": what a bound does not hold for, though the errors count it.
+const char* describe_exceptions(const Outcome& outcome) {
+  return outcome.companions.ignores_samples() ? ", ignored samples left out" : "";
+}
+
 /// The summary's lines on errors.
 std::string describe_errors(const SimplifyPlan& plan, const Outcome& outcome) {
   const Simplified& simplified = outcome.simplified;
   const Measurement& measured = simplified.measurement;
   const std::string unit = outcome.as_read.unit.empty() ? "" : " " + outcome.as_read.unit;
-  const std::string asked = outcome.asked ? fmt::format(" (asked {})", format_number(*outcome.asked)) : "";
+  const std::string asked =
+      outcome.asked ? fmt::format(" (asked {}{})", format_number(*outcome.asked), describe_exceptions(outcome)) : "";
   const GoalError goal = find_goal_error(outcome);
   const bool bounds_heights = outcome.channels.empty() && outcome.companions.mask.empty();
   std::string text;
@@ -101,8 +107,8 @@ std::string describe_end(const SimplifyPlan& plan, const Outcome& outcome) {
   switch (outcome.simplified.stop) {
     case StopReason::kMaxError:
       if (!outcome.companions.tolerance.empty()) return fmt::format("Kept every tolerance: {}, {}", error, numbers);
-      return fmt::format("Reached the error goal: {} (asked {}), {}", error, format_number(outcome.asked.value_or(0)),
-                         numbers);
+      return fmt::format("Reached the error goal: {} (asked {}{}), {}", error, format_number(outcome.asked.value_or(0)),
+                         describe_exceptions(outcome), numbers);
     case StopReason::kMaxTriangles:
       return fmt::format(
           "Reached the triangle budget of {}: {}{}, {}", format_count(plan.simplify.max_triangles.value_or(0)), error,

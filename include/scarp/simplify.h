@@ -83,13 +83,16 @@ struct Simplified {
 ///     max_error − field.sample_rounding of `mesh`, positions as they are in it. Where offsets_are_exact() this holds
 ///     in exact arithmetic; else as far as measure()'s double arithmetic sees (10⁻¹² of the largest height);
 /// (2) the domain is the union of grid cells whose corners are all valid, and of half cells where three are;
-/// With channels, max_error bounds the norm of HeightField::channels instead (so the heights too where height_scale >=
-/// 1); with a mask the weighted error; every tolerance is kept. Samples that are `ignored` have no bound. (3) vertices
-/// are samples; triangles are counter-clockwise from above and share whole edges; (4) the result depends on the field
-/// and the options only, not on threads or machine. Budgets are upper bounds. Memory: at most 5 bytes a sample (the
-/// caller's included) plus 120 bytes a vertex. Beside that and the caller's arrays, a sample: up to 12 bytes with a
-/// mask, tolerances or a script that ignores samples, 4 with a feature, 8 with channels, 16 with one pass; a vertex:
-/// about 300 bytes with data-dependent edges.
+/// (3) vertices are samples; triangles are counter-clockwise from above and share whole edges;
+/// (4) the result depends on the field and the options only, not on threads or machine.
+///
+/// With channels, max_error bounds the norm of HeightField::channels instead (so the heights too where height_scale is
+/// at least 1); with a mask it bounds the weighted error; every tolerance is kept. In frames that are not exact these
+/// are proven to a float32's rounding (2⁻²², and 2⁻²⁴ more a channel). Samples that are `ignored` have no bound.
+///
+/// Budgets are upper bounds. Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex; with a
+/// mask, tolerances, a feature or a script that ignores, up to 12 more a sample; with channels 8 more a sample, and 4 a
+/// vertex and channel; with one pass 16 more a sample; with data-dependent edges about 300 more a vertex.
 ///
 /// Strategies (strategy.h) change which samples become vertices, never what is promised.
 ///

@@ -44,7 +44,11 @@ Vertex DataDependentRule::insert(Triangulation& tin, Point p, Triangulation::Loc
   std::vector<HalfEdge> edges;
   for (Triangle t : changed_) {
     if (tin.is_outside(t)) continue;
-    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) edges.push_back(h);
+    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+      // A spoke lies between two triangles of the star: once is enough.
+      const bool is_spoke = tin.origin(h) == v || tin.origin(Triangulation::next(h)) == v;
+      if (!is_spoke || h < tin.twin(h)) edges.push_back(h);
+    }
   }
   Improver improver(*this);
   tin.improve(edges, improver, kMostFlips);
@@ -66,7 +70,7 @@ bool DataDependentRule::should_flip(const Triangulation& tin, HalfEdge h) {
   } else {
     const double kept = box_quality(quad.kept[0]) * box_quality(quad.kept[1]);
     const double other = box_quality(quad.other[0]) * box_quality(quad.other[1]);
-    if (!(std::min(kept, other) > threshold_ * std::max(kept, other))) return other > kept;
+    if (!(std::min(kept, other) / std::max(kept, other) > threshold_)) return other > kept;
   }
   return is_better(tin, h);
 }
@@ -91,7 +95,12 @@ bool DataDependentRule::is_better(const Triangulation& tin, HalfEdge h) {
   if (rule_.score == EdgeScore::kNormals)
     return judge_.bend(quad.other[0], quad.other[1]) < judge_.bend(quad.kept[0], quad.kept[1]);
   const double first_kept = part(cache_.fit_of(tin, quad.t)), second_kept = part(cache_.fit_of(tin, quad.u));
-  const double score = combine(first_kept, second_kept);
+  double score = combine(first_kept, second_kept);
+  if (rule_.score == EdgeScore::kSquares) {
+    // Both triangles count the samples on the edge between them.
+    score -= judge_.squares_between(quad.kept[0][0], quad.kept[0][1]);
+    score += judge_.squares_between(quad.other[0][0], quad.other[0][1]);
+  }
   // A scan may stop where its triangle alone loses; the hair more leaves ties to the comparison of the sums.
   const auto look = [&](const Quadrilateral::Corners& corners, double most) {
     const double limit = most + 0x1p-40 * score;

@@ -6,6 +6,7 @@
 #include "geom/exact_error.h"
 #include "geom/plane.h"
 #include "geom/scan.h"
+#include "refine/between.h"
 #include "refine/fine_lattice.h"
 
 namespace scarp {
@@ -94,6 +95,16 @@ std::optional<Candidate> HeightJudge::find_candidate(const std::array<Point, 3>&
   // A level plane has no guard: one subtraction rounds, monotonely, so that only equality is in doubt.
   if (fit.guard == 0 && (threshold_ == 0 || worst.error != threshold_)) return std::nullopt;
   return scan_exactly(raster_, corners, Plane::through(corners, heights_at(raster_, corners)), threshold_);
+}
+
+double HeightJudge::squares_between(Point a, Point b) const {
+  double squares = 0;
+  const double from = raster_.at(a), rise = double{raster_.at(b)} - from;
+  visit_between(a, b, [&](Point p, double share) {
+    const double error = from + share * rise - double{raster_.at(p)};
+    if (!std::isnan(error)) squares += error * error;
+  });
+  return squares;
 }
 
 double HeightJudge::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {

@@ -13,6 +13,7 @@ class HeightJudge final : public Judge {
   Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const override;
   std::optional<Candidate> find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const override;
   double goal() const override { return threshold_; }
+  double squares_between(Point a, Point b) const override;
   double bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const override;
 
  private:

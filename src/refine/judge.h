@@ -49,6 +49,9 @@ class Judge {
   virtual std::optional<Candidate> find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const = 0;
   /// The importance of a sample that just keeps the bound, where importance is an error; else 0.
   virtual double goal() const = 0;
+  /// Sum of the squared errors (as in Fit) of the samples strictly between two samples on the straight edge that joins
+  /// them: what both triangles of the edge count.
+  virtual double squares_between(Point a, Point b) const = 0;
   /// How much the surface bends from triangle a to triangle b: |n_a − n_b|² of their unit normals, which grows with the
   /// angle between them. With channels: the scaled sum over all fields.
   virtual double bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const = 0;

@@ -7,6 +7,7 @@
 
 #include "geom/exact_error.h"
 #include "geom/scan.h"
+#include "refine/between.h"
 #include "refine/fine_lattice.h"
 #include "scarp/height_field.h"
 
@@ -162,6 +163,22 @@ std::optional<Candidate> SampleJudge::find_candidate(const std::array<Point, 3>&
     }
   });
   return worst;
+}
+
+double SampleJudge::squares_between(Point a, Point b) const {
+  double squares = 0;
+  visit_between(a, b, [&](Point p, double share) {
+    const std::size_t index = index_of(p);
+    if (std::isnan(judging_.heights.samples[index])) return;
+    double total = 0;
+    for (const JudgedField& field : judging_.fields) {
+      const double from = field.samples[index_of(a)], rise = double{field.samples[index_of(b)]} - from;
+      add_to_norm(judging_.norm, field.scale * std::abs(from + share * rise - double{field.samples[index]}), total);
+    }
+    const double error = weighted(judging_.norm == Norm::kSquares ? std::sqrt(total) : total, index);
+    squares += error * error;
+  });
+  return squares;
 }
 
 double SampleJudge::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {

@@ -21,7 +21,10 @@ class SettlingRule final : public FlipRule {
     if (!quad.can_flip() || tin.is_outside(quad.t)) return false;
     if (fatness(quad.other) < std::min(kThin, fatness(quad.kept))) return false;
     const Fit first_kept = cache_.fit_of(tin, quad.t), second_kept = cache_.fit_of(tin, quad.u);
-    const double squares = first_kept.sum_squares + second_kept.sum_squares;
+    // Both triangles count the samples on the edge between them.
+    const double twice_now = judge_.squares_between(quad.kept[0][0], quad.kept[0][1]);
+    const double twice_then = judge_.squares_between(quad.other[0][0], quad.other[0][1]);
+    const double squares = first_kept.sum_squares + second_kept.sum_squares - twice_now + twice_then;
     const double largest = std::max(first_kept.max_error, second_kept.max_error);
     const Fit first = cache_.look(quad.other[0], squares);
     if (!first.complete || first.max_error > largest) return false;

@@ -73,6 +73,15 @@ grep -q '^v 10 323 ' scripted.obj && grep -q '^v 11 323 ' scripted.obj || fail "
 holds "$(json s.json ignored) == 2"
 succeeds "$scarp" simplify "$dem" scripted.ply -e 20 --script steps.txt
 grep -q 'ignored  *2 samples without a bound' "$logs/out" || fail "the summary does not tell what is ignored"
+# Where the script is right that a sample is an outlier, the rest is bounded, whatever else weighs.
+make_raster spiked.tif '900 if (col, row) == (150, 150) else 300 + col / 4'
+printf 'i 150 150\n' > steps.txt
+for more in "" "--mask ones.tif" "--batch const"; do
+  # shellcheck disable=SC2086
+  succeeds "$scarp" simplify spiked.tif flat.obj -e 5 --script steps.txt $more --overwrite --report s.json
+  grep -q 'asked 5, ignored samples left out' "$logs/out" || fail "the summary does not tell of the exception"
+  holds "$(json s.json max_error) > 500 && $(json s.json triangles) < 10 && $(json s.json p999) < 5"
+done
 
 # What does not fit is refused, with the way out.
 gdal_translate -q -outsize 100 100 weights.tif small.tif

@@ -115,8 +115,21 @@ gdalinfo -checksum e.tif | grep Checksum > sum1
 gdalinfo -checksum e2.tif | grep Checksum > sum2
 cmp sum1 sum2 || fail "the two error rasters differ"
 
+# Photographs.
+shared=${SCARP_SHARED:-$SCARP_SOURCE/../shared}/data
+if [ -d "$shared" ]; then
+  for photo in astronaut kodim05 kodim23; do
+    succeeds "$scarp" simplify "$shared/$photo.png" photo.glb -p 2000 --image --edges data --report s.json --render x.png --overwrite
+    succeeds "$scarp" measure "$shared/$photo.png" photo.glb --image --json
+    cp "$logs/out" m.json
+    agree
+    holds "$(json s.json psnr) > 15"
+  done
+fi
+
 image() { "$scarp" simplify photo.tif "$@" --image; }
 refuses 1 "STL has no place for colours" image out.stl -e 8
+refuses 1 "OBJ has a place for 8-bit colours only" "$scarp" simplify stack.tif out.obj -e 8 --image
 refuses 1 "TIN has no place for colours" image out.tin -e 8
 refuses 1 "has no place for colours" image out.tif -e 8
 refuses 1 "--image and --texture contradict each other" image out.glb -e 8 --texture photo.tif

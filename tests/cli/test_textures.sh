@@ -62,6 +62,13 @@ grep -q '^vt 0 1$' uv.obj || grep -q '^vt ' uv.obj || fail "--uvs writes no text
 succeeds textured t.stl -e 80 --texture ortho.tif
 grep -q 'STL has no place for colours' "$logs/err" || fail "no word about lost colours"
 
+succeeds textured m.obj -e 80 --texture ortho.tif --texture infra.tif
+grep -q 'OBJ has a place for 8-bit colours only' "$logs/err" || fail "no word about lost channels"
+for threads in 1 3; do
+  succeeds textured threads$threads.glb -t 9000 --texture ortho.tif --edges data -j $threads
+done
+cmp threads1.glb threads3.glb || fail "the mesh depends on the number of threads"
+
 gdal_translate -q -outsize 50% 50% ortho.tif small.tif
 refuses 2 "--texture small.tif is" textured out.glb -e 9 --texture small.tif
 refuses 2 "bring it onto the grid" textured out.glb -e 9 --texture small.tif

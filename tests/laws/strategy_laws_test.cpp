@@ -130,6 +130,21 @@ RC_GTEST_PROP(strategies, a_mask_bounds_the_weighted_error_and_reports_the_true_
   RC_ASSERT(result->ignored == ignored);
 }
 
+RC_GTEST_PROP(strategies, a_mask_of_ones_changes_nothing, ()) {
+  const Field field = any_field(22);
+  SimplifyOptions options = testing::any_strategy();
+  options.max_error = *rc::gen::element(0.5, 1.0, 8.0);
+  const auto without = simplify(field.view(), options);
+  RC_PRE(without.has_value());
+  const std::vector<float> ones(field.samples.size(), 1.0f);
+  options.mask = ones;
+  const auto with = simplify(field.view(), options);
+  RC_ASSERT(with.has_value());
+  RC_ASSERT(with->mesh.positions == without->mesh.positions);
+  RC_ASSERT(with->mesh.triangles == without->mesh.triangles);
+  RC_ASSERT(std::abs(with->weighted_max_error - with->measurement.max_error) <= kRounding * (1 + *options.max_error));
+}
+
 RC_GTEST_PROP(strategies, channels_are_bounded_by_their_norm_with_the_heights, ()) {
   const Field field = any_field(16);
   SimplifyOptions options = testing::any_strategy();

@@ -1,0 +1,21 @@
+// The samples on an edge.
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <numeric>
+
+#include "base/point.h"
+
+namespace scarp {
+
+/// Calls visit(p, share) for each lattice point p strictly between a and b on their straight line, from a to b; share
+/// is how far along it lies, in (0, 1).
+template <class Visit>
+void visit_between(Point a, Point b, Visit&& visit) {
+  const std::int32_t dx = b.x - a.x, dy = b.y - a.y, steps = std::gcd(std::abs(dx), std::abs(dy));
+  for (std::int32_t i = 1; i < steps; ++i)
+    visit(Point{a.x + dx / steps * i, a.y + dy / steps * i}, static_cast<double>(i) / steps);
+}
+
+}  // namespace scarp
