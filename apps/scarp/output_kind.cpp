@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <optional>
 
@@ -90,6 +91,14 @@ Result<OutputFormat> choose_output_format(const Given& of, const std::string& ou
               fmt::format("{} does not tell a format: end it in .glb, .obj, .ply, .stl, .tin, .svg, .eps, .tif or "
                           ".pgm, or choose one with --of",
                           shell_word(output)));
+}
+
+Result<void> close_with_base(Mesh& mesh, double base) {
+  if (add_base(mesh, base)) return {};
+  double lowest = mesh.vertex(0)[2];
+  for (std::size_t v = 1; v < mesh.vertex_count(); ++v) lowest = std::min(lowest, mesh.vertex(v)[2]);
+  return fail(ErrorKind::kUsage,
+              fmt::format("--base {:.10g} is not below the lowest vertex, which is at {:.10g}", base, lowest));
 }
 
 Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh) {

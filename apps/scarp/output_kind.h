@@ -32,6 +32,9 @@ struct OutputFormat {
 /// By --of if it was given, else by the output's extension.
 Result<OutputFormat> choose_output_format(const Given& of, const std::string& output);
 
+/// Makes a solid of the mesh; kUsage if --base is not below its lowest vertex.
+Result<void> close_with_base(Mesh& mesh, double base);
+
 /// The file's bytes. REQUIRES: not a kDem.
 Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh);
 

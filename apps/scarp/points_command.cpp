@@ -43,10 +43,10 @@ Result<DuplicatePolicy> parse_policy(const Given& text) {
 
 /// Points have no use for many of the verb's options; silence would be a lie.
 Result<void> refuse_raster_options(const CLI::App& verb, const std::string& path) {
-  constexpr std::array<std::string_view, 19> kMeant{
-      "--max-error", "--max-triangles", "--max-points", "--crs",    "--of",    "--base",          "--report",
-      "--overwrite", "--num-threads",   "--quiet",      "--points", "--layer", "--json-progress", "--duplicates",
-      "--z-field",   "--fail-above",    "--json",       "INPUT",    "OUTPUT"};
+  constexpr std::array<std::string_view, 17> kMeant{
+      "--max-error",     "--max-triangles", "--max-points",  "--crs",        "--of",     "--base",
+      "--report",        "--overwrite",     "--num-threads", "--quiet",      "--points", "--layer",
+      "--json-progress", "--duplicates",    "--z-field",     "--fail-above", "--json"};
   for (const CLI::Option* option : verb.get_options()) {
     const std::string name = option->get_name();
     const bool is_meant = option->get_positional() || std::find(kMeant.begin(), kMeant.end(), name) != kMeant.end();
@@ -154,11 +154,8 @@ Result<void> encode(const SimplifyPlan& plan, const PointsArguments& arguments, 
   Mesh& mesh = outcome.result.simplified.mesh;
   outcome.vertices = mesh.vertex_count();
   outcome.triangles = mesh.triangle_count();
-  if (plan.base && !add_base(mesh, *plan.base)) {
-    double lowest = mesh.vertex(0)[2];
-    for (std::size_t v = 1; v < mesh.vertex_count(); ++v) lowest = std::min(lowest, mesh.vertex(v)[2]);
-    return fail(ErrorKind::kUsage,
-                fmt::format("--base {:.10g} is not below the lowest vertex, which is at {:.10g}", *plan.base, lowest));
+  if (plan.base) {
+    if (auto closed = close_with_base(mesh, *plan.base); !closed) return closed;
   }
   outcome.solid_vertices = mesh.vertex_count();
   outcome.solid_triangles = mesh.triangle_count();
@@ -167,20 +164,6 @@ Result<void> encode(const SimplifyPlan& plan, const PointsArguments& arguments, 
   if (!bytes) return tl::unexpected(std::move(bytes.error()));
   outcome.bytes = std::move(*bytes);
   return {};
-}
-
-const char* stop_name(StopReason stop) {
-  switch (stop) {
-    case StopReason::kMaxError:
-      return "max_error";
-    case StopReason::kMaxTriangles:
-      return "max_triangles";
-    case StopReason::kMaxVertices:
-      return "max_points";
-    case StopReason::kExact:
-      break;
-  }
-  return "exact";
 }
 
 std::string make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::string& command_line) {

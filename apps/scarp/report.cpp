@@ -71,6 +71,20 @@ Json describe_frame(const Frame& frame) {
   return Json{{"kind", kind_name(frame.kind)}, {"crs", frame.crs}, {"description", frame.description}};
 }
 
+const char* stop_name(StopReason stop) {
+  switch (stop) {
+    case StopReason::kMaxError:
+      return "max_error";
+    case StopReason::kMaxTriangles:
+      return "max_triangles";
+    case StopReason::kMaxVertices:
+      return "max_points";
+    case StopReason::kExact:
+      break;
+  }
+  return "exact";
+}
+
 std::uint64_t full_grid_triangles(const HeightField& field) {
   return 2 * static_cast<std::uint64_t>(field.cols - 1) * static_cast<std::uint64_t>(field.rows - 1);
 }

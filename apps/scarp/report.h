@@ -8,6 +8,7 @@
 
 #include "scarp/height_field.h"
 #include "scarp/measure.h"
+#include "scarp/simplify.h"
 
 namespace scarp::cli {
 
@@ -23,6 +24,8 @@ Json or_null(const std::optional<T>& value) {
 Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, int band);
 /// The "frame" object: what the mesh's x and y are.
 Json describe_frame(const Frame& frame);
+/// "stopped_by": the goal that ended the run, as its option is called.
+const char* stop_name(StopReason stop);
 /// Triangles of the full grid: 2·(cols − 1)·(rows − 1).
 std::uint64_t full_grid_triangles(const HeightField& field);
 /// Adds max_error … p999; sample_rounding, where it is not 0.

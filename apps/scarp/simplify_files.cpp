@@ -17,12 +17,7 @@ Result<void> add_solid(const SimplifyPlan& plan, Outcome& outcome) {
   outcome.vertices = mesh.vertex_count();
   outcome.triangles = mesh.triangle_count();
   if (!plan.base) return {};
-  if (!add_base(mesh, *plan.base)) {
-    double lowest = mesh.vertex(0)[2];
-    for (std::size_t v = 1; v < mesh.vertex_count(); ++v) lowest = std::min(lowest, mesh.vertex(v)[2]);
-    return fail(ErrorKind::kUsage,
-                fmt::format("--base {:.10g} is not below the lowest vertex, which is at {:.10g}", *plan.base, lowest));
-  }
+  if (auto closed = close_with_base(mesh, *plan.base); !closed) return closed;
   outcome.solid_vertices = mesh.vertex_count();
   outcome.solid_triangles = mesh.triangle_count();
   return {};

@@ -12,20 +12,6 @@
 namespace scarp::cli {
 namespace {
 
-const char* stop_name(StopReason stop) {
-  switch (stop) {
-    case StopReason::kMaxError:
-      return "max_error";
-    case StopReason::kMaxTriangles:
-      return "max_triangles";
-    case StopReason::kMaxVertices:
-      return "max_points";
-    case StopReason::kExact:
-      break;
-  }
-  return "exact";
-}
-
 /// Errors of heights and channels, as they are and as they were weighed.
 void add_all_errors(Json& report, const SimplifyPlan& plan, const Outcome& outcome) {
   const Simplified& simplified = outcome.simplified;

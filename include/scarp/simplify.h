@@ -102,7 +102,8 @@ struct Simplified {
 /// or a projection folds over), kCancelled.
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& options);
 
-/// The same engine, one vertex at a time. Works on a copy of nothing: `field` must stay alive.
+/// The same engine, one vertex at a time, by heights alone: channels are not looked at. Works on a copy of nothing:
+/// the samples must stay alive.
 class Refiner {
  public:
   /// Builds the triangulation of the outline and finds every triangle's worst sample.
