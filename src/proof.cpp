@@ -107,7 +107,7 @@ void judge_samples(const SimplifyOptions& options, const Criterion& criterion, b
       squares += value * value;
       ++count;
     }
-    if (!criterion.has_error_goal()) continue;
+    if (result.stop != StopReason::kMaxError) continue;
     const double bound = criterion.bounds().empty() ? *criterion.bound() : double{criterion.bounds()[i]};
     const double doubt = rounding * (exact ? error : -error);
     if (error <= bound + doubt) continue;
@@ -134,7 +134,7 @@ Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, co
   judge.topology = !exact;
   judge.threads = options.threads;
   judge.progress = options.progress;
-  if (criterion.has_error_goal()) judge.collect_above = by_sample ? HUGE_VAL : *criterion.bound();
+  if (result.stop == StopReason::kMaxError) judge.collect_above = by_sample ? HUGE_VAL : *criterion.bound();
   std::optional<Tally> tally;
   if (by_sample) judge.on_row = tally.emplace(field, options.norm).adder(field.height_scale);
   auto measured = measure(field, result.mesh, judge);
@@ -147,8 +147,8 @@ Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, co
   if (by_sample) {
     if (auto done = measure_channels(field, options, *tally, result); !done) return tl::unexpected(done.error());
     judge_samples(options, criterion, exact, *tally, result, proof);
-    if (m.uncovered > 0) proof.broken = describe_breach(m, options);
-  } else if (criterion.has_error_goal()) {
+    if (m.uncovered > 0 && result.stop == StopReason::kMaxError) proof.broken = describe_breach(m, options);
+  } else if (result.stop == StopReason::kMaxError) {
     // The judge's own double arithmetic rounds: the exact proof is the engine's, this is the independent check of it.
     const HeightRange range = height_range(field);
     const double rounding = 1e-12 * (*criterion.bound() + std::max(std::abs(range.min), std::abs(range.max)));

@@ -16,9 +16,9 @@ struct Proof {
   std::vector<Offender> offenders;  ///< samples whose insertion may mend it
 };
 
-/// Fills the measurements of `result` from its mesh. `exact`: vertices lie exactly on their samples, so that a breach
-/// within the judge's own rounding is none, and the topology, which holds by construction, is left out.
-/// Fails as measure() does.
+/// Fills the measurements of `result` from its mesh; looks for breaches where the error goal ended the run. `exact`:
+/// vertices lie exactly on their samples, so that a breach within the judge's own rounding is none, and the topology,
+/// which holds by construction, is left out. Fails as measure() does.
 Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, const Criterion& criterion, bool exact,
                     Simplified& result);
 

@@ -312,7 +312,7 @@ class Run {
         return fail(ErrorKind::kPromise,
                     "the mesh folds over itself: in this frame positions are rounded to float32, or edges are straight "
                     "where the grid's are curved; ask for a smaller error, or write in the local or grid frame");
-      if (result.stop != StopReason::kMaxError || proof->kept) return {};
+      if (proof->kept) return {};
       if (!refinement_) return fail(ErrorKind::kInternal, proof->broken);
       const auto again = Clock::now();
       const auto mended = mend(proof->offenders, result);
