@@ -54,8 +54,16 @@ Result<void> check_options(const SimplifyOptions& options) {
   return {};
 }
 
-/// Heights that vertices have in the mesh. Empty where they are the points' own.
-Result<std::vector<double>> round_heights(const PointPlaces& places) {
+/// Heights that vertices have in a mesh of float32 positions.
+Result<std::vector<double>> round_heights(const PointSet& points, const PointPlaces& places) {
+  for (const auto& values : {std::span(points.x), std::span(points.y)}) {
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    if (*most - *least > std::numeric_limits<float>::max())
+      return fail(ErrorKind::kPromise,
+                  fmt::format("the extent of the points, {}, does not fit float32: write OBJ or PLY, whose positions "
+                              "are double",
+                              *most - *least));
+  }
   std::vector<double> heights;
   heights.reserve(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -335,7 +343,7 @@ Result<SimplifiedPoints> simplify_points(const PointSet& points, const SimplifyO
   if (!domain) return tl::unexpected(domain.error());
   std::vector<double> rounded;
   if (options.float32_positions) {
-    auto heights = round_heights(*places);
+    auto heights = round_heights(points, *places);
     if (!heights) return tl::unexpected(heights.error());
     rounded = std::move(*heights);
   }

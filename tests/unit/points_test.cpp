@@ -190,6 +190,14 @@ TEST(point_sets, have_no_strategies) {
   EXPECT_EQ(simplify_points(points, {}).error().kind, ErrorKind::kUsage);
 }
 
+TEST(point_sets, wider_than_float32_need_double_positions) {
+  const PointSet points = set_of({{0, 0, 1}, {1e99, 0, 2}, {0, 1e99, 3}});
+  SimplifyOptions options{.max_error = 1.0};
+  EXPECT_EQ(simplify_points(points, options).error().kind, ErrorKind::kPromise);
+  options.float32_positions = false;
+  EXPECT_TRUE(simplify_points(points, options));
+}
+
 TEST(point_sets, give_up_duplicates_by_the_policy) {
   const PointSet points = set_of({{0, 0, 3}, {4, 0, 0}, {0, 0, 9}, {0, 4, 0}, {0, 0, 1}, {0, 0, 2}});
   const std::pair<DuplicatePolicy, double> kept[] = {{DuplicatePolicy::kFirst, 3},
