@@ -78,10 +78,13 @@ Result<void> Criterion::check() const {
     if (values.empty()) continue;
     if (values.size() != samples)
       return usage(fmt::format("{} has {} values for {} samples", name, values.size(), samples));
-    const auto bad = std::find_if(values.begin(), values.end(), [](float v) { return !(v >= 0); });
+    const bool is_mask = values.data() == options_->mask.data();
+    const auto bad =
+        std::find_if(values.begin(), values.end(), [&](float v) { return !(v >= 0) || (is_mask && v == kUnbounded); });
     if (bad != values.end())
-      return tl::unexpected(at_sample(ErrorKind::kUsage, name, static_cast<std::size_t>(bad - values.begin()),
-                                      raster_.cols, fmt::format("is {}: it must be at least 0", *bad)));
+      return tl::unexpected(
+          at_sample(ErrorKind::kUsage, name, static_cast<std::size_t>(bad - values.begin()), raster_.cols,
+                    fmt::format("is {}: it must be at least 0{}", *bad, is_mask ? ", and finite" : "")));
   }
   for (const ScriptStep& step : options_->script) {
     if (step.col < 0 || step.row < 0 || step.col >= raster_.cols || step.row >= raster_.rows)
@@ -167,14 +170,20 @@ void Criterion::set_factors() {
   const bool has_tolerance = !options_->tolerance.empty();
   if (options_->mask.empty() && !has_tolerance) return;
   factors_.resize(bounds_.size(), 1);
-  // A tolerance of 0 outranks every other; the factor stays finite, so that errors still count.
+  // A tolerance of 0 outranks every other; factors stay finite, so that errors still count.
   constexpr float kMost = 1e30f;
   for (std::size_t i = 0; i < factors_.size(); ++i)
-    factors_[i] *= has_tolerance ? std::min(1 / bounds_[i], kMost) : options_->mask[i];
+    factors_[i] = std::min(factors_[i] * (has_tolerance ? std::min(1 / bounds_[i], kMost) : options_->mask[i]), kMost);
 }
 
 std::vector<Point> Criterion::ranking() const {
-  return options_->importance.one_pass ? rank_samples(raster_, factors_) : std::vector<Point>();
+  if (!options_->importance.one_pass) return {};
+  std::vector<Point> points = rank_samples(raster_, factors_);
+  std::erase_if(points, [this](Point p) {
+    const auto row = static_cast<std::size_t>(p.y) * static_cast<std::size_t>(raster_.cols);
+    return !bounds_.empty() && std::isinf(bounds_[row + static_cast<std::size_t>(p.x)]);
+  });
+  return points;
 }
 
 }  // namespace scarp

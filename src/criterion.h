@@ -32,7 +32,7 @@ class Criterion {
   std::span<const float> bounds() const { return bounds_; }
   /// The engine's importance is an error that grows and shrinks with what is promised.
   bool importance_is_error() const { return importance_is_error_; }
-  /// Order of insertion for one pass; empty otherwise.
+  /// Order of insertion for one pass, without the samples that have no bound; empty otherwise.
   std::vector<Point> ranking() const;
   std::uint64_t ignored() const { return ignored_; }
   bool has_error_goal() const { return bound_.has_value() || !options_->tolerance.empty(); }

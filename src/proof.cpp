@@ -9,9 +9,6 @@ namespace scarp {
 
 namespace {
 
-/// Errors that on_row() tells are float32.
-constexpr double kRowRounding = 0x1p-22;
-
 /// The norm of all errors at each sample, collected field by field.
 class Tally {
  public:
@@ -25,20 +22,17 @@ class Tally {
     return [this, scale](int row, std::span<const float> errors) {
       float* totals = &totals_[static_cast<std::size_t>(row) * cols_];
       for (std::size_t x = 0; x < cols_; ++x) {
-        const double error = scale * std::abs(double{errors[x]});
-        if (norm_ == Norm::kMax) {
-          totals[x] = std::isnan(error) ? NAN : std::max(totals[x], static_cast<float>(error));
-        } else {
-          totals[x] = static_cast<float>(totals[x] + (norm_ == Norm::kSquares ? error * error : error));
-        }
+        const double error = scale * std::abs(double{errors[x]}), total = double{totals[x]};
+        const double sum = norm_ == Norm::kSquares ? std::sqrt(total * total + error * error)
+                           : norm_ == Norm::kSum   ? total + error
+                                                   : std::max(error, total);
+        totals[x] = std::isnan(error) ? NAN : static_cast<float>(sum);
       }
     };
   }
   std::size_t size() const { return totals_.size(); }
   /// NaN where the sample is void or uncovered.
-  double norm_at(std::size_t i) const {
-    return norm_ == Norm::kSquares ? std::sqrt(double{totals_[i]}) : double{totals_[i]};
-  }
+  double norm_at(std::size_t i) const { return double{totals_[i]}; }
   Offender offender(std::size_t i) const {
     return {static_cast<std::int32_t>(i % cols_), static_cast<std::int32_t>(i / cols_), norm_at(i)};
   }
@@ -93,10 +87,12 @@ Result<void> measure_channels(const HeightField& field, const SimplifyOptions& o
   return {};
 }
 
-/// Sums up the tally: weighted errors, the largest norm, who breaks a bound. The rows' errors are rounded to float32,
-/// so what lies that near a bound is doubtful: where mending is possible it is taken for broken, else for kept.
+/// Sums up the tally: weighted errors, the largest norm, who breaks a bound. The rows' errors and each step of their
+/// norm are rounded to float32, so what lies that near a bound is doubtful: where mending is possible it is taken for
+/// broken, else for kept.
 void judge_samples(const SimplifyOptions& options, const Criterion& criterion, bool exact, const Tally& tally,
                    Simplified& result, Proof& proof) {
+  const double rounding = 0x1p-24 * (4 + static_cast<double>(result.channel_measurements.size()));
   const bool has_weights = !options.mask.empty() || !options.tolerance.empty();
   double squares = 0;
   std::uint64_t count = 0;
@@ -113,7 +109,7 @@ void judge_samples(const SimplifyOptions& options, const Criterion& criterion, b
     }
     if (!criterion.has_error_goal()) continue;
     const double bound = criterion.bounds().empty() ? *criterion.bound() : double{criterion.bounds()[i]};
-    const double doubt = kRowRounding * (exact ? error : -error);
+    const double doubt = rounding * (exact ? error : -error);
     if (error <= bound + doubt) continue;
     proof.offenders.push_back(tally.offender(i));
     if (proof.broken.empty())

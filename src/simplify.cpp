@@ -256,8 +256,8 @@ class Run {
   void finish_edges(Simplified& result) {
     result.effort = refinement_->effort();
     take_best_prefix();
-    const Effort settling =
-        settle_edges(domain_->tin, criterion_.judge(), options_.edges, result.stop == StopReason::kMaxError);
+    const Effort settling = settle_edges(domain_->tin, criterion_.judge(), options_.edges,
+                                         result.stop == StopReason::kMaxError || result.stop == StopReason::kExact);
     result.effort.samples_scanned += settling.samples_scanned;
     result.effort.triangles_scanned += settling.triangles_scanned;
   }

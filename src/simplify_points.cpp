@@ -43,6 +43,7 @@ Result<void> check_options(const SimplifyOptions& options) {
       {options.algorithm != Algorithm::kHeap, "algorithm"},
       {!(options.batch == Batch{}), "batch"},
       {!(options.edges == EdgeRule{}), "edges"},
+      {options.norm != Norm::kSum, "norm"},
       {options.uvs, "uvs"},
       {options.normals, "normals"},
   };
@@ -72,8 +73,8 @@ Result<std::vector<double>> round_heights(const PointPlaces& places) {
 double middle(std::span<const double> values) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const double centre = *least + (*most - *least) / 2;
-  if (*least == *most) return centre;
-  const double unit = std::ldexp(1.0, std::ilogb(*most - *least) - 4);
+  const double unit = *least == *most ? 0 : std::ldexp(1.0, std::ilogb(*most - *least) - 4);
+  if (unit == 0) return centre;
   return std::nearbyint(centre / unit) * unit;
 }
 
@@ -167,6 +168,7 @@ class PointRun {
 
   /// The last 5 % of what the budget allows: where the best prefix is looked for.
   bool in_last_stretch() const {
+    if (!options_.best_of_budget) return false;
     const auto last = [](std::uint64_t count, const std::optional<std::uint64_t>& most) {
       return most && static_cast<double>(count) >= 0.95 * static_cast<double>(*most);
     };

@@ -84,9 +84,11 @@ Result<void> check_promise(const Outcome& outcome) {
   const std::optional<double> asked = has_tolerance ? 1 : outcome.asked;
   if (asked && !has_budget_ended && !outcome.companions.ignores_samples()) {
     const double height_scale = outcome.channels.empty() ? 1 : outcome.channels.height_scale;
-    const double rounding = has_tolerance ? 0 : outcome.field.sample_rounding * height_scale;
-    const double allowance = judging_allowance(*asked, outcome.heights) + 1e-12 * outcome.channels.magnitude +
-                             (goal.is_rounded ? std::ldexp(*asked, -22) : 0);
+    // With weights the engine took the rounding of the samples off each bound before it weighed the errors.
+    const double rounding = outcome.companions.has_weights() ? 0 : outcome.field.sample_rounding * height_scale;
+    const double allowance =
+        judging_allowance(*asked, outcome.heights) + 1e-12 * outcome.channels.magnitude +
+        (goal.is_rounded ? std::ldexp(*asked, -24) * static_cast<double>(4 + outcome.channels.count()) : 0);
     if (!(goal.value + rounding <= *asked + allowance)) {
       return fail(ErrorKind::kPromise,
                   fmt::format("{}{} {:.10g} exceeds {:.10g}", kBroken, goal.name, goal.value + rounding, *asked));

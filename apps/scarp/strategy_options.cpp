@@ -234,7 +234,7 @@ Json describe_strategy(const SimplifyOptions& options) {
   strategy["edges"] = name_of(edges.data_dependent, kEdges);
   if (!edges.data_dependent) return strategy;
   strategy["edge_score"] = name_of(edges.score, kScores);
-  const double by_default = edges.score == EdgeScore::kTight ? 0.2 : 0.5;
+  const double by_default = edges.score == EdgeScore::kTight ? 0.1 : 0.5;
   strategy["shape_threshold"] = edges.shape_threshold < 0 ? by_default : edges.shape_threshold;
   strategy["supersample"] = edges.supersample;
   return strategy;

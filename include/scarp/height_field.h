@@ -13,7 +13,7 @@ namespace scarp {
 
 /// A further value at each sample, such as a colour: borrowed, on the same grid as the heights.
 struct Channel {
-  const float* samples = nullptr;  ///< cols·rows values; NaN and infinities count as no value: no error there
+  const float* samples = nullptr;  ///< cols·rows values; finite wherever the heights have a value
   double scale = 1;                ///< its error times this is comparable with an error in z units; at least 0
 };
 

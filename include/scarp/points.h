@@ -63,11 +63,11 @@ struct SimplifiedPoints {
 ///
 /// Guarantees that |mesh − z| <= max_error at every point that is not given up as a duplicate, at its coordinates as
 /// given, for the positions as they are in the mesh. Vertices are points.
-/// Honours max_error, max_triangles, max_vertices, float32_positions, edges (Delaunay only), threads, progress of the
-/// options; fails with kUsage if anything else is asked for or a budget is below what the hull needs, with kInput
-/// (fewer than 3 places, all on one line, a value that is not finite or beyond 1e100), with kPromise where float32
-/// positions cannot keep the bound, kCancelled. Cost: expected O(n log m) for n points; about 50 bytes a point beside
-/// the points themselves.
+/// Honours max_error, max_triangles, max_vertices, best_of_budget, float32_positions, threads, progress of the options;
+/// fails with kUsage if anything else is asked for or a budget is below what the hull needs, with kInput (fewer than 3
+/// places, all on one line, a value that is not finite or beyond 1e100), with kPromise where float32 positions cannot
+/// keep the bound, kCancelled. Cost: expected O(n log m) for n points; about 50 bytes a point beside the points
+/// themselves.
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const SimplifyOptions& options,
                                          DuplicatePolicy duplicates = DuplicatePolicy::kFirst);
 

@@ -33,8 +33,8 @@ struct SimplifyOptions {
   /// are double, as OBJ and PLY hold them, and vertices lie on their samples in every affine frame. DEFAULT: true.
   bool float32_positions = true;
 
-  /// Weights, one a sample, at least 0 (Terra's importance mask): weight · |error| is what is ranked and what max_error
-  /// bounds. Where the weight is 0 there is no bound. Borrowed. DEFAULT: empty, all 1.
+  /// Weights, one a sample, at least 0 and finite (Terra's importance mask): weight · |error| is what is ranked and
+  /// what max_error bounds. Where the weight is 0 there is no bound. Borrowed. DEFAULT: empty, all 1.
   std::span<const float> mask = {};
   /// Bounds, one a sample, at least 0, in z units; +infinity: none. |error| <= tolerance at every valid sample, beside
   /// max_error if that is given; |error| / tolerance is ranked. A goal of its own. Not together with a mask. Borrowed.
@@ -88,11 +88,11 @@ struct Simplified {
 ///
 /// With channels, max_error bounds the norm of HeightField::channels instead (so the heights too where height_scale is
 /// at least 1); with a mask it bounds the weighted error; every tolerance is kept. In frames that are not exact these
-/// are proven to a float32's rounding (2⁻²²). Samples that are `ignored` have no bound.
+/// are proven to a float32's rounding (2⁻²², and 2⁻²⁴ more a channel). Samples that are `ignored` have no bound.
 ///
 /// Budgets are upper bounds. Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex; with a
 /// mask, tolerances, a feature or a script that ignores, up to 12 more a sample; with channels 8 more a sample, and 4 a
-/// vertex and channel; with data-dependent edges 128 more a vertex.
+/// vertex and channel; with one pass 16 more a sample; with data-dependent edges about 300 more a vertex.
 ///
 /// Strategies (strategy.h) change which samples become vertices, never what is promised.
 ///

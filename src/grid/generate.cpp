@@ -8,6 +8,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/caught.h"
+
 namespace scarp {
 namespace {
 
@@ -166,7 +168,7 @@ std::optional<FieldStyle> find_field_style(const std::string& name) {
   return std::nullopt;
 }
 
-Result<OwnedHeightField> generate_field(FieldStyle style, int cols, int rows, std::uint64_t seed) {
+Result<OwnedHeightField> generate_field(FieldStyle style, int cols, int rows, std::uint64_t seed) try {
   for (const int side : {cols, rows}) {
     if (side < 2 || side > kMaxSide)
       return fail(ErrorKind::kUsage,
@@ -191,6 +193,8 @@ Result<OwnedHeightField> generate_field(FieldStyle style, int cols, int rows, st
   field.info.min = static_cast<double>(*low);
   field.info.max = static_cast<double>(*high);
   return field;
+} catch (...) {
+  return caught(ErrorKind::kInput, fmt::format("make a field of {} x {} samples", cols, rows));
 }
 
 }  // namespace scarp

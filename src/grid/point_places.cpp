@@ -41,7 +41,8 @@ std::optional<Decimals> finest_decimals(const Extent& x, const Extent& y) {
   constexpr int kMostDigits = 22;
   const double reach = std::max(x.reach(), y.reach()), size = std::max(x.size(), y.size());
   for (int digits = kMostDigits; digits >= -kMostDigits; --digits) {
-    const Decimals decimals{digits, std::pow(10.0, std::abs(digits))};
+    Decimals decimals{digits, 1};
+    for (int k = 0; k < std::abs(digits); ++k) decimals.power *= 10;
     const auto count = [&](double length) { return digits >= 0 ? length * decimals.power : length / decimals.power; };
     if (count(size) < kMaxCoordinate && count(reach) < 0x1p52) return decimals;
   }
@@ -83,7 +84,7 @@ std::optional<Snapped> snap_to_decimals(const PointSet& points, const Extent& x,
 
 Snapped snap_to_power_of_two(const PointSet& points, const Extent& x, const Extent& y) {
   const double size = std::max(x.size(), y.size());
-  int exponent = std::ilogb(size) - 30;
+  int exponent = size > 0 ? std::ilogb(size) - 30 : 0;
   while (std::ldexp(size, -exponent) > kMaxCoordinate) ++exponent;
   const auto whole = [exponent](double length) {
     return static_cast<std::int32_t>(std::nearbyint(std::ldexp(length, -exponent)));

@@ -1,6 +1,7 @@
 // Rasters to bytes: PGM by hand, GeoTIFF by GDAL.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/caught.h"

@@ -148,7 +148,7 @@ BandReport Band::finish(Histogram& histogram, Keep keep) {
       if (!is_missing(c, row)) continue;
       if (std::isnan(error[c])) {
         ++report_.uncovered;
-        if (limits_.any()) report_.uncovered_offenders.push_back({c, row, HUGE_VAL});
+        if (limits_.with_uncovered) report_.uncovered_offenders.push_back({c, row, HUGE_VAL});
       } else if (is_offender(c, row, error[c])) {
         add_offender(nearest_[at(c, row)].triangle, {c, row, error[c]});
       }

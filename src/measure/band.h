@@ -46,7 +46,7 @@ struct BandReport {
 struct Limits {
   double everywhere = HUGE_VAL;
   std::span<const float> by_sample = {};  ///< of the whole field; empty: none
-  bool any() const { return std::isfinite(everywhere) || !by_sample.empty(); }
+  bool with_uncovered = false;            ///< so are samples that no triangle covers
 };
 
 /// What a band hands back for each sample: nothing, mesh − sample, or the mesh's height.

@@ -159,7 +159,8 @@ double error_guard(const Mesh& mesh) {
 /// Fills all that concerns heights; on_row is given what `keep` says. Returns false if the caller stopped it.
 bool judge_heights(const HeightField& field, const Mesh& mesh, const judge::Scanner& scanner,
                    const MeasureOptions& options, judge::Keep keep, ProgressGate& gate, Measurement& result) {
-  const judge::Limits limits{options.collect_above.value_or(HUGE_VAL), options.tolerance};
+  const judge::Limits limits{options.collect_above.value_or(HUGE_VAL), options.tolerance,
+                             options.collect_above.has_value() || !options.tolerance.empty()};
   const double guard = error_guard(mesh);
   const int height = Band::rows_per_band(field.cols);
   const int bands = (field.rows - 1) / height + 1;

@@ -44,9 +44,8 @@ inline int find_lattice(const std::array<Point, 3>& corners, double f) {
   const auto [low_y, high_y] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
   const double extent = static_cast<double>(high_x - low_x) + static_cast<double>(high_y - low_y);
   const double wanted = extent / (static_cast<double>(orient(corners[0], corners[1], corners[2])) * f);
-  const std::int32_t possible = kMaxCoordinate / std::max({high_x, high_y, 1});
-  const int most = std::min(kFinestLattice, static_cast<int>(std::min(possible, kFinestLattice)));
-  if (wanted >= most) return std::max(most, 1);
+  const int most = std::min(kMaxCoordinate / std::max({high_x, high_y, 1}), kFinestLattice);
+  if (wanted >= most) return most;
   const int floor = static_cast<int>(wanted);
   return std::max(1, floor < wanted ? floor + 1 : floor);
 }

@@ -26,7 +26,7 @@ Fit scan(const Raster& raster, const std::array<Point, 3>& corners, const FitQue
   double squares = 0;
   scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     if (!fit.complete) return;
-    fit.scanned += static_cast<std::uint32_t>(last - first + 1);
+    fit.scanned += static_cast<std::uint64_t>(last - first + 1);
     const float* samples = raster.row(y);
     const double row_height = plane.row_height(y);
     for (std::int32_t x = first; x <= last; ++x) {
@@ -37,7 +37,7 @@ Fit scan(const Raster& raster, const std::array<Point, 3>& corners, const FitQue
         if (!std::isnan(error)) squares += error * error;
       }
     }
-    fit.complete = worst.error < question.give_up_max && squares < question.give_up_squares;
+    fit.complete = !question.is_given_up(worst.error, squares);
   });
   fit.worst = worst;
   fit.guard = plane.guard;

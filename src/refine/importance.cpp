@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 namespace scarp {
@@ -72,7 +73,7 @@ std::vector<float> measure_feature(const Raster& raster, const Importance& impor
                                    : local_error(near, p, importance.feature == Importance::Feature::kLocal8 ? 4 : 2);
         value = damped(feature, importance.damping);
       }
-      values.push_back(static_cast<float>(value));
+      values.push_back(static_cast<float>(std::min(value, double{std::numeric_limits<float>::max()})));
     }
   }
   return values;

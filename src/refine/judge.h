@@ -20,7 +20,7 @@ struct Fit {
   double guard = 0;           ///< how far worst.error may be from the real number
   double max_error = 0;       ///< largest error, for edge scores
   double sum_squares = 0;     ///< of the errors, for edge scores; where asked for
-  std::uint32_t scanned = 0;  ///< samples looked at
+  std::uint64_t scanned = 0;  ///< samples looked at
   bool unsettled = false;     ///< whether `worst` is the candidate takes an exact look
   bool complete = true;       ///< false: given up, max_error or sum_squares is above what was asked for
 };
@@ -31,6 +31,12 @@ struct FitQuestion {
   int lattice = 1;  ///< errors for scores on a lattice this many times finer
   double give_up_max = std::numeric_limits<double>::infinity();
   double give_up_squares = std::numeric_limits<double>::infinity();
+
+  /// Whether a scan that has found this much may stop. Without a limit none stops, however large an error is.
+  bool is_given_up(double max_error, double sum_squares) const {
+    return (!(max_error < give_up_max) && give_up_max != std::numeric_limits<double>::infinity()) ||
+           (!(sum_squares < give_up_squares) && give_up_squares != std::numeric_limits<double>::infinity());
+  }
 };
 
 class Judge {

@@ -18,6 +18,9 @@ namespace {
 /// Where the importance is 0 the error itself decides, far below any other importance.
 constexpr double kUnimportant = 1e-280;
 
+/// Combining kMaxChannels + 1 errors rounds about as often, by 2^-53 each time, and a few times more.
+constexpr double kNormRounding = 0x1p-46;
+
 /// Adds one error to a norm; `total` holds Σ, Σ² or max.
 void add_to_norm(Norm norm, double error, double& total) {
   if (norm == Norm::kSum) {
@@ -81,7 +84,7 @@ Fit SampleJudge::fit(const std::array<Point, 3>& corners, const FitQuestion& que
   double doubtful = -1;
   scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     if (!fit.complete) return;
-    fit.scanned += static_cast<std::uint32_t>(last - first + 1);
+    fit.scanned += static_cast<std::uint64_t>(last - first + 1);
     std::size_t index = index_of({first, y});
     for (std::int32_t x = first; x <= last; ++x, ++index) {
       if (std::isnan(judging_.heights.samples[index])) continue;
@@ -89,7 +92,7 @@ Fit SampleJudge::fit(const std::array<Point, 3>& corners, const FitQuestion& que
       const double score = weighted(error, index);
       fit.max_error = std::max(fit.max_error, score);
       fit.sum_squares += score * score;
-      const double bound = bound_at(index), margin = surface.guard + 0x1p-48 * error;
+      const double bound = bound_at(index), margin = surface.guard + kNormRounding * error;
       if (error < bound - margin) continue;
       const double value = importance(error, index);
       if (error > bound + margin) {
@@ -98,7 +101,7 @@ Fit SampleJudge::fit(const std::array<Point, 3>& corners, const FitQuestion& que
         doubtful = std::max(doubtful, value);
       }
     }
-    fit.complete = fit.max_error < question.give_up_max && fit.sum_squares < question.give_up_squares;
+    fit.complete = !question.is_given_up(fit.max_error, fit.sum_squares);
   });
   fit.unsettled = doubtful >= 0 && doubtful >= fit.worst.error;
   if (question.lattice > 1 && fit.complete) refine_scores(surface, corners, question, fit);
@@ -153,7 +156,7 @@ std::optional<Candidate> SampleJudge::find_candidate(const std::array<Point, 3>&
       const std::size_t index = index_of(p);
       if (std::isnan(judging_.heights.samples[index])) continue;
       const double error = combine(surface, p, index), bound = bound_at(index);
-      const double margin = surface.guard + 0x1p-48 * error;
+      const double margin = surface.guard + kNormRounding * error;
       if (!(std::abs(error - bound) <= margin)) continue;
       const Candidate candidate{importance(error, index), p};
       if ((!worst || is_worse(candidate, *worst)) && exceeds(corners, p, index)) worst = candidate;

@@ -271,6 +271,51 @@ TEST(one_pass, keeps_the_samples_with_the_largest_feature) {
   EXPECT_EQ(found, expected);
 }
 
+TEST(one_pass, leaves_out_the_samples_that_a_script_ignores) {
+  const Field field = testing::random_field(5, 40, 31, Relief::kReal);
+  SimplifyOptions options{.max_vertices = 60};
+  options.importance = {false, Importance::Feature::kCurvature, Importance::Damping::kUndamped, true};
+  const auto ranked = rank_samples(field.raster(), measure_feature(field.raster(), options.importance));
+  for (std::size_t k = 0; k < 20; ++k)
+    options.script.push_back({ScriptStep::Action::kIgnore, ranked[k].x, ranked[k].y});
+  const auto result = simplify(field.view(), options);
+  ASSERT_TRUE(result);
+  const std::set<std::pair<int, int>> corners{{0, 0}, {39, 0}, {0, 30}, {39, 30}};
+  for (std::size_t v = 0; v < result->mesh.vertex_count(); ++v) {
+    const auto p = result->mesh.vertex(v);
+    const Point at{static_cast<int>(p[0]), 30 - static_cast<int>(p[1])};
+    const bool is_ranked_high = std::find(ranked.begin(), ranked.begin() + 20, at) != ranked.begin() + 20;
+    EXPECT_TRUE(!is_ranked_high || corners.count({at.x, at.y}) == 1) << at.x << ", " << at.y;
+  }
+}
+
+TEST(channels, no_sample_is_lost_where_squares_overflow) {
+  const Field field = testing::random_field(1, 40, 31, Relief::kFlat),
+              layer = testing::random_field(2, 40, 31, Relief::kReal);
+  HeightField view = field.view();
+  view.channels = {{layer.samples.data(), 1e160}};
+  for (const bool data_dependent : {false, true}) {
+    SimplifyOptions options{.max_error = 5e160};
+    options.edges.data_dependent = data_dependent;
+    const auto result = simplify(view, options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_GT(result->channel_measurements[0].max_error, 0);
+    EXPECT_LE(result->channel_measurements[0].max_error, 5.00001);
+  }
+}
+
+TEST(mask, must_be_finite) {
+  const Field field = testing::random_field(1, 9, 7, Relief::kReal);
+  std::vector<float> mask(63, 1.0f);
+  mask[10] = std::numeric_limits<float>::infinity();
+  SimplifyOptions options{.max_error = 1.0};
+  options.mask = mask;
+  const auto result = simplify(field.view(), options);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
+  EXPECT_NE(result.error().message.find("(1, 1)"), std::string::npos) << result.error().message;
+}
+
 TEST(features, vanish_on_a_plane_and_know_a_quadratic) {
   Field plane{9, 8, {}}, bowl{9, 8, {}};
   for (int y = 0; y < 8; ++y) {

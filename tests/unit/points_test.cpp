@@ -169,6 +169,8 @@ TEST(point_sets, without_area_have_no_surface) {
   };
   EXPECT_TRUE(contains(message({}), "no points"));
   EXPECT_TRUE(contains(message(set_of({{1, 1, 1}, {1, 1, 2}})), "one place"));
+  const double undecimal = 0.1 + 0.2;
+  EXPECT_TRUE(contains(message(set_of({{undecimal, 1, 1}, {undecimal, 1, 2}})), "one place"));
   EXPECT_TRUE(contains(message(set_of({{1, 1, 1}, {2, 1, 2}, {1, 1, 5}})), "two places"));
   EXPECT_TRUE(contains(message(set_of({{1, 1, 1}, {2, 2, 2}, {7, 7, 5}, {3, 3, 9}})), "one line"));
   EXPECT_TRUE(contains(message(set_of({{0.1, 1, 1}, {0.2, 1, 2}, {1 / 3.0, 1, 5}})), "one line"));
@@ -180,6 +182,9 @@ TEST(point_sets, have_no_strategies) {
   const PointSet points = set_of({{0, 0, 1}, {1, 0, 2}, {0, 1, 5}});
   SimplifyOptions options{.max_error = 1.0};
   EXPECT_TRUE(simplify_points(points, options));
+  options.norm = Norm::kMax;
+  EXPECT_EQ(simplify_points(points, options).error().kind, ErrorKind::kUsage);
+  options.norm = Norm::kSum;
   options.edges.data_dependent = true;
   EXPECT_EQ(simplify_points(points, options).error().kind, ErrorKind::kUsage);
   EXPECT_EQ(simplify_points(points, {}).error().kind, ErrorKind::kUsage);

@@ -82,6 +82,10 @@ TEST(Tolerance, UncoveredSamplesAreOffenders) {
   ASSERT_TRUE(verdict);
   EXPECT_EQ(verdict->over_tolerance, 0u);
   EXPECT_EQ(verdict->offenders.size(), verdict->uncovered);
+  options.tolerance = {};
+  EXPECT_TRUE(measure(terrain.view(), mesh, options)->offenders.empty());
+  options.collect_above = HUGE_VAL;
+  EXPECT_EQ(measure(terrain.view(), mesh, options)->offenders.size(), verdict->uncovered);
 }
 
 TEST(Resample, IsTheSampleAndItsError) {

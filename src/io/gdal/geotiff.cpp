@@ -74,7 +74,9 @@ Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage& raster) {
                              raster.cols, raster.rows, GDT_Float32, 0, 0, nullptr) == CE_None;
   dataset.reset();
   if (!good || session.failed()) return refuse(session.reason());
-  return file.bytes();
+  std::vector<std::uint8_t> bytes = file.bytes();
+  if (bytes.empty()) return refuse("GDAL has written nothing");
+  return bytes;
 }
 
 }  // namespace scarp
