@@ -1,6 +1,6 @@
-// Any small raster and any goal: the promise holds, every sample of the domain is covered, and the mesh is sound; or an
-// error with words. The bytes choose the size, the goals, how steep the heights are, and then one height each: a few
-// values stand for voids and infinities, and few levels make ties the rule.
+// Any small raster, any goal and any strategy: the promise holds, every sample of the domain is covered, and the mesh
+// is sound; or an error with words. The bytes choose the size, the goals, how steep the heights are, and then one
+// height each: a few values stand for voids and infinities, and few levels make ties the rule.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -47,17 +47,39 @@ void check_simplify(const scarp::HeightField& field, const scarp::SimplifyOption
     return;
   }
   const scarp::Measurement& proof = result->measurement;
-  if (result->stop == scarp::StopReason::kMaxError) require(options.max_error && proof.max_error <= *options.max_error);
+  if (result->stop == scarp::StopReason::kMaxError) {
+    require(options.max_error || !options.tolerance.empty());
+    if (options.max_error) require(proof.max_error <= *options.max_error);
+  }
   if (result->stop == scarp::StopReason::kExact) require(proof.max_error == 0);
   if (options.max_triangles) require(result->mesh.triangle_count() <= *options.max_triangles);
   if (options.max_vertices) require(result->mesh.vertex_count() <= *options.max_vertices);
   require(proof.uncovered == 0);
 
-  const auto judged = scarp::measure(field, result->mesh);
+  scarp::MeasureOptions judge;
+  judge.tolerance = options.tolerance;
+  const auto judged = scarp::measure(field, result->mesh, judge);
   require(judged.has_value());
   require(judged->is_sound());
   require(judged->max_error == proof.max_error && judged->rmse == proof.rmse && judged->uncovered == 0);
+  require(judged->over_tolerance == 0 || result->stop != scarp::StopReason::kMaxError);
   require(judged->void_cells_covered == 0 || options.outline_tolerance > 0);
+}
+
+/// Two bytes choose how the engine goes about it; combinations that contradict each other must be refused with words.
+void choose_strategy(Bytes& bytes, scarp::SimplifyOptions& options) {
+  const std::uint8_t first = bytes.next(), second = bytes.next();
+  options.algorithm = static_cast<scarp::Algorithm>(first % 3);
+  options.batch = {static_cast<scarp::Batch::Rule>(first / 3 % 4), (second % 8) / 7.0};
+  options.importance.feature = static_cast<scarp::Importance::Feature>(first / 12 % 4);
+  options.importance.global = first < 200;
+  options.importance.one_pass = first > 230;
+  options.importance.damping = static_cast<scarp::Importance::Damping>(second % 3);
+  options.edges.data_dependent = second % 2 == 1;
+  options.edges.score = static_cast<scarp::EdgeScore>(second / 2 % 5);
+  options.edges.shape_threshold = second / 10 % 5 / 4.0 - 0.25;
+  options.edges.supersample = second / 50 % 2 * 0.8;
+  options.edges.settle = second > 127;
 }
 
 void check_refiner(const scarp::HeightField& field, double outline_tolerance, int steps) {
@@ -97,6 +119,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.normals = (goals & 16) != 0;
   options.threads = 1;
   const int steps = bytes.next() % 32;
+  if (goals & 64) choose_strategy(bytes, options);
 
   std::vector<float> samples(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows));
   for (float& sample : samples) sample = decode_height(bytes.next(), levels, step);
@@ -106,6 +129,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   field.rows = rows;
   if (goals & 32) field.nodata = 0.0F;
   field.frame = scarp::grid_frame(rows);
+
+  std::vector<float> tolerance;
+  if (goals & 128) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const std::uint8_t byte = bytes.next();
+      tolerance.push_back(byte == 255 ? std::numeric_limits<float>::infinity() : static_cast<float>(byte) * step / 8);
+    }
+    options.tolerance = tolerance;
+  }
 
   check_simplify(field, options);
   check_refiner(field, options.outline_tolerance, steps);
