@@ -218,7 +218,7 @@ class PointRun {
       if (tin.is_outside(t)) continue;
       for (const HalfEdge h : {3 * t, 3 * t + 2, 3 * t + 1}) mesh.triangles.push_back(ids[tin.origin(h)]);
     }
-    remove_thin_triangles(mesh, 4 * position_rounding(mesh));
+    remove_thin_triangles(mesh, 4 * position_rounding(mesh), thinnest_border_);
     optimize_order(mesh);
     if (refinement_) {
       result.effort.samples_scanned = refinement_->places_judged();
@@ -266,6 +266,18 @@ class PointRun {
     return true;
   }
 
+  /// Gives up thicker slivers along the hull than before: over one that is a millimetre high the surface may rise by
+  /// metres, so that the rounding of its corners breaks the bound. False once they are as thick as what the judge takes
+  /// for covered.
+  bool trim_border(const Mesh& mesh) {
+    const double thinnest = std::max(8 * thinnest_border_, 32 * position_rounding(mesh));
+    const double area = places_.lattice.step * places_.lattice.step * static_cast<double>(places_.lattice.cols) *
+                        static_cast<double>(places_.lattice.rows);
+    if (thinnest > std::sqrt(area / static_cast<double>(places_.size())) / 64) return false;
+    thinnest_border_ = thinnest;
+    return true;
+  }
+
   /// Judges the mesh as it will be written, at the points as they were given. Where snapping or float32 positions cost
   /// the bound, the points that break it are inserted and refinement goes on.
   Result<void> prove(Simplified& result) {
@@ -279,13 +291,15 @@ class PointRun {
       if (!measurement) return tl::unexpected(measurement.error());
       result.measurement = std::move(*measurement);
       result.seconds_measure += seconds_since(start);
-      if (!result.measurement.is_sound()) return fail(ErrorKind::kPromise, "the mesh folds over itself" + advice());
       const Measurement& m = result.measurement;
-      if (result.stop != StopReason::kMaxError || (m.max_error <= bound_ + allowance() && m.uncovered == 0)) return {};
+      const bool is_kept =
+          result.stop != StopReason::kMaxError || (m.max_error <= bound_ + allowance() && m.uncovered == 0);
+      if (m.is_sound() && is_kept) return {};
       const auto again = Clock::now();
-      const auto mended = mend(result);
+      const auto mended = m.is_sound() ? mend(result) : false;
       if (!mended) return tl::unexpected(mended.error());
-      if (!*mended) return fail(ErrorKind::kPromise, describe_broken(m) + advice());
+      if (!*mended && !trim_border(result.mesh))
+        return fail(ErrorKind::kPromise, (m.is_sound() ? describe_broken(m) : "the mesh folds over itself") + advice());
       freeze_into(result);
       result.seconds_refine += seconds_since(again);
     }
@@ -320,7 +334,7 @@ class PointRun {
   std::span<const double> heights_;
   const SimplifyOptions& options_;
   double bound_;
-  double largest_height_ = 0;
+  double largest_height_ = 0, thinnest_border_ = 0;
   ScatteredDomain domain_;
   std::size_t seeds_;
   std::optional<ScatteredRefinement> refinement_;
