@@ -78,6 +78,8 @@ printf 'x,y,depth\n1,2,3\n' >names.csv
 printf '1,1,3\n2,2,3\n5,5,9\n9,9,1\n' >line.csv
 printf '1,1,3\n2,2,3\n1,1,9\n' >two.csv
 head -c 3000 "$dem" >binary.csv
+printf 'x,y,z\n0,0,0\n1e9,0,1\n0,1e9,2\n0.001,0.001,900\n0.002,0.001,-900\n' >wide.csv
+{ cat survey.csv; echo '-9999999999,4649000,0'; } >far.csv
 refuses 2 "empty.csv: the file is empty" "$scarp" simplify empty.csv x.glb -e 1
 refuses 2 "header.csv: the file holds a header line and no points" "$scarp" simplify header.csv x.glb -e 1
 refuses 2 "nan.csv: line 2: z is 'nan'" "$scarp" simplify nan.csv x.glb -e 1
@@ -87,6 +89,11 @@ refuses 2 "names.csv: line 1 names no column z" "$scarp" simplify names.csv x.gl
 refuses 2 "line.csv: all points lie on one line" "$scarp" simplify line.csv x.glb -e 1
 refuses 2 "two.csv: all points lie at two places" "$scarp" simplify two.csv x.glb -e 1
 refuses 2 "binary.csv: line 1" "$scarp" simplify binary.csv x.glb -e 1
+refuses 2 "wide.csv: points 0 and 3 (counted from 0), at (0, 0) and (0.001, 0.001), cannot be told apart" \
+  "$scarp" simplify wide.csv x.ply -e 0.5
+refuses 2 "wide.csv: points 0 and 3 (counted from 0)" "$scarp" measure wide.csv hills.glb --fail-above 0.5
+refuses 2 "; point 3002 (counted from 0) at (-9999999999, 4649000) lies far from all others" \
+  "$scarp" simplify far.csv x.ply -e 0.5
 refuses 2 "none.csv: no such file" "$scarp" simplify none.csv x.glb -e 1
 refuses 2 "nan.csv: line 2" "$scarp" measure nan.csv hills.glb
 refuses 1 "no goal" "$scarp" simplify survey.csv x.glb

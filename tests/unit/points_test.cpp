@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/far_points.h"
 #include "grid/point_places.h"
 #include "unit/raster_files.h"
 
@@ -216,6 +217,60 @@ TEST(point_sets, give_up_duplicates_by_the_policy) {
       EXPECT_EQ(height, x + y == 0 ? z : 0);
     }
   }
+}
+
+TEST(point_sets, too_near_for_their_extent_are_named_and_not_merged) {
+  const PointSet wide =
+      set_of({{0, 0, 0}, {1e9, 0, 1}, {0, 1e9, 2}, {0.001, 0.001, 900}, {0.002, 0.001, -900}, {0, 0, 5}});
+  const auto check = [](const Error& error) {
+    EXPECT_EQ(error.kind, ErrorKind::kInput);
+    EXPECT_TRUE(contains(error.message, "points 0 and 3 (counted from 0), at (0, 0) and (0.001, 0.001)"));
+    EXPECT_TRUE(contains(error.message,
+                         "the extent of 1000000000; point 1 (counted from 0) at (1000000000, 0) and 1 "
+                         "more lie far from all others, which span 0.002"))
+        << error.message;
+  };
+  check(simplify_points(wide, {.max_error = 0.5}).error());
+  check(measure_points(wide, Mesh{}, DuplicatePolicy::kMean).error());
+  const PointSet apart = set_of({{0, 0, 0}, {1e9, 0, 1}, {0, 1e9, 2}, {4, 4, 900}, {8, 4.25, -900}, {0, 0, 5}});
+  const auto result = simplify_points(apart, {.max_error = 0.0, .float32_positions = false});
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->duplicates, 1u);
+  EXPECT_EQ(result->simplified.measurement.samples, 5u);
+}
+
+TEST(point_sets, too_small_for_arithmetic_are_refused) {
+  const auto tiny = simplify_points(set_of({{0, 0, 1}, {1e-320, 0, 2}, {0, 1e-320, 3}}), {.max_error = 0.5});
+  EXPECT_TRUE(contains(tiny.error().message, "smaller unit")) << tiny.error().message;
+  EXPECT_TRUE(simplify_points(set_of({{0, 0, 1}, {1e-99, 0, 2}, {0, 1e-99, 3}}),
+                              {.max_error = 0.5, .float32_positions = false}));
+}
+
+TEST(point_sets, name_the_few_points_that_lie_far_from_all_others) {
+  PointSet points;
+  for (int i = 0; i < 400; ++i) {
+    points.x.push_back(500000 + i % 20);
+    points.y.push_back(4649000 + i / 20);
+    points.z.push_back(i % 7);
+  }
+  EXPECT_EQ(describe_far_points(points), "");
+  const auto add = [&](double x, double y) {
+    points.x.push_back(x);
+    points.y.push_back(y);
+    points.z.push_back(0);
+  };
+  add(500100, 4649100);
+  EXPECT_EQ(describe_far_points(points), "") << "not so far";
+  add(0, 0);
+  EXPECT_EQ(describe_far_points(points),
+            "point 401 (counted from 0) at (0, 0) lies far from all others, which span 100: remove it if it is an "
+            "error");
+  add(5e5, -9999999999);
+  EXPECT_TRUE(contains(describe_far_points(points), "point 401 (counted from 0) at (0, 0) and 1 more lie far"));
+  for (int i = 0; i < 5; ++i) add(0, i);
+  EXPECT_EQ(describe_far_points(points), "") << "too many for errors";
+  EXPECT_EQ(describe_far_points({}), "");
+  EXPECT_EQ(describe_far_points(set_of({{7, 7, 1}})), "");
 }
 
 TEST(point_sets, the_lattice_is_the_coarsest_that_holds_the_decimals) {
