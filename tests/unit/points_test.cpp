@@ -88,6 +88,26 @@ TEST_F(PointFiles, text_that_holds_no_points_is_refused_by_line) {
   EXPECT_TRUE(contains(read_points(scratch_.file("none.gpkg")).error().message, "no such file"));
 }
 
+TEST_F(PointFiles, decimal_commas_are_recognised) {
+  for (const char* text : {"1,5;2,5;3\n", "1,5\t2\t3\n", "1,5 2,5 3,5\n", "-1,5;2;3\n"})
+    EXPECT_TRUE(contains(refuse("p.csv", text), "1,5' has a decimal comma")) << text;
+  EXPECT_TRUE(contains(refuse("p.csv", "1,5;2,5;3\n"), "line 1: '1,5' has a decimal comma"));
+  EXPECT_TRUE(contains(refuse("p.csv", "x;y;z\n1;2;3\n1;2,5;3\n"), "line 3: '2,5' has a decimal comma"));
+  EXPECT_TRUE(contains(refuse("p.csv", "1,2,3\n4,5 6\n"), "decimal comma"));
+  EXPECT_TRUE(contains(refuse("p.csv", "1,2,3\n4,5\n"), "line 2 has 2 columns"));
+}
+
+TEST_F(PointFiles, values_too_small_for_a_double_are_zero) {
+  const std::string tiny = "0." + std::string(400, '0') + "1", huge = "1" + std::string(400, '0');
+  EXPECT_EQ(
+      read("p.csv", "1e-400,-2E-999999999999999999999," + tiny + "\n" + huge + "e-400,1e-320," + tiny + "e401\n").x,
+      (std::vector<double>{0, 1}));
+  EXPECT_EQ(read("p.csv", "1,1e-320,-1e-400\n").y, (std::vector<double>{1e-320}));
+  for (const std::string& text :
+       {std::string("1e400"), huge, std::string("1e+999999999999999999999"), tiny + "e999", std::string("-1e400")})
+    EXPECT_TRUE(contains(refuse("p.csv", "1,2," + text + "\n"), "no finite number")) << text;
+}
+
 TEST_F(PointFiles, names_tell_points_from_rasters) {
   for (const char* name : {"a.csv", "a.XYZ", "a.geojson", "a.shp", "a.tsv"}) EXPECT_TRUE(is_point_file(name)) << name;
   for (const char* name : {"a.tif", "a.pgm", "a", "a.asc", "csv"}) EXPECT_FALSE(is_point_file(name)) << name;
