@@ -253,6 +253,20 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome) {
                             format_plural(outcome.triangles, "triangle"), format_seconds(outcome.seconds_total));
 }
 
+/// A frame that the mesh file names and the points cannot have.
+Error explain_frame(Error error, const std::string& crs, const std::string& mesh, const std::string& path) {
+  if (error.kind != ErrorKind::kUsage) return error;
+  if (crs != "grid") {
+    error.message += fmt::format("; {} names that CRS as its own, --crs overrides it", mesh);
+    return error;
+  }
+  error.message = fmt::format(
+      "{} says of itself that its coordinates are the columns and rows of a raster ('grid'), which the points of {} do "
+      "not have: judge it by its raster, or say with --crs source that x and y of the points count the same",
+      mesh, path);
+  return error;
+}
+
 /// Library errors about the points themselves do not know the file.
 Error with_path(Error error, const std::string& path) {
   if (error.kind == ErrorKind::kInput) error.message = fmt::format("{}: {}", path, error.message);
@@ -412,7 +426,10 @@ Result<void> run_measure_points(const CLI::App& verb, const MeasurePointsArgumen
   const auto policy = parse_policy(remembered(arguments.duplicates, "duplicates"));
   if (!policy) return tl::unexpected(policy.error());
   judged.policy = *policy;
-  Result<PointSet> points = read(given.path, arguments, remembered(given.crs, "crs_option"), display.callback());
+  const Given crs = remembered(given.crs, "crs_option");
+  Result<PointSet> points = read(given.path, arguments, crs, display.callback());
+  if (!points && !given.crs && crs)
+    return tl::unexpected(explain_frame(std::move(points.error()), *crs, given.mesh, given.path));
   if (!points) return tl::unexpected(std::move(points.error()));
   judged.points = std::move(*points);
   judged.seconds_read = seconds_since(start);
