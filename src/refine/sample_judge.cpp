@@ -34,9 +34,21 @@ void add_to_norm(Norm norm, double error, double& total) {
 
 }  // namespace
 
+/// A plane for each field. Few fields, the usual case, cost no allocation and no clearing of many planes.
 struct SampleJudge::Surface {
-  std::array<Plane, kMaxChannels + 1> planes;
+  static constexpr std::size_t kFew = 4;
+  std::array<Plane, kFew> few;
+  std::vector<Plane> more;
   double guard = 0;
+
+  void add(std::size_t k, const Plane& plane) {
+    if (k < kFew) {
+      few[k] = plane;
+    } else {
+      more.push_back(plane);
+    }
+  }
+  const Plane& plane(std::size_t k) const { return k < kFew ? few[k] : more[k - kFew]; }
 };
 
 SampleJudge::SampleJudge(Judging judging) : judging_(std::move(judging)) {}
@@ -49,8 +61,8 @@ std::array<float, 3> SampleJudge::values_at(const JudgedField& field, const std:
 SampleJudge::Surface SampleJudge::surface(const std::array<Point, 3>& corners) const {
   Surface surface;
   for (std::size_t k = 0; k < judging_.fields.size(); ++k) {
-    surface.planes[k] = Plane::through(corners, values_at(judging_.fields[k], corners));
-    surface.guard += judging_.fields[k].scale * surface.planes[k].guard;
+    surface.add(k, Plane::through(corners, values_at(judging_.fields[k], corners)));
+    surface.guard += judging_.fields[k].scale * surface.plane(k).guard;
   }
   return surface;
 }
@@ -58,11 +70,11 @@ SampleJudge::Surface SampleJudge::surface(const std::array<Point, 3>& corners) c
 double SampleJudge::combine(const Surface& surface, Point p, std::size_t index) const {
   if (judging_.fields.size() == 1)
     return judging_.fields[0].scale *
-           std::abs(surface.planes[0].height_at(p) - double{judging_.fields[0].samples[index]});
+           std::abs(surface.plane(0).height_at(p) - double{judging_.fields[0].samples[index]});
   double total = 0;
   for (std::size_t k = 0; k < judging_.fields.size(); ++k) {
     const JudgedField& field = judging_.fields[k];
-    add_to_norm(judging_.norm, field.scale * std::abs(surface.planes[k].height_at(p) - double{field.samples[index]}),
+    add_to_norm(judging_.norm, field.scale * std::abs(surface.plane(k).height_at(p) - double{field.samples[index]}),
                 total);
   }
   return judging_.norm == Norm::kSquares ? std::sqrt(total) : total;
@@ -113,7 +125,7 @@ void SampleJudge::refine_scores(const Surface& surface, const std::array<Point, 
   const auto error_at = [&](std::int32_t x, std::int32_t y, double fx, double fy) {
     double total = 0;
     for (std::size_t k = 0; k < judging_.fields.size(); ++k) {
-      const Plane& plane = surface.planes[k];
+      const Plane& plane = surface.plane(k);
       const double height = plane.height + plane.slope_y * (fy - plane.base.y) + plane.slope_x * (fx - plane.base.x);
       const double sample = interpolate(judging_.fields[k].samples, judging_.heights.cols, x, y, question.lattice);
       add_to_norm(judging_.norm, judging_.fields[k].scale * std::abs(height - sample), total);
