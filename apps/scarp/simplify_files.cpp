@@ -1,36 +1,19 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "judge.h"
 #include "report.h"
 #include "scarp/picture.h"
-#include "scarp/version.h"
 #include "simplify_outcome.h"
 
 namespace scarp::cli {
 namespace {
 
-Result<void> add_solid(const SimplifyPlan& plan, Outcome& outcome) {
-  Mesh& mesh = outcome.simplified.mesh;
-  outcome.vertices = mesh.vertex_count();
-  outcome.triangles = mesh.triangle_count();
-  if (!plan.base) return {};
-  if (auto closed = close_with_base(mesh, *plan.base); !closed) return closed;
-  outcome.solid_vertices = mesh.vertex_count();
-  outcome.solid_triangles = mesh.triangle_count();
-  return {};
-}
-
 void add_metadata(const SimplifyPlan& plan, Outcome& outcome) {
   const Measurement& measured = outcome.simplified.measurement;
+  const Frame& frame = outcome.field.frame;
+  add_origin(plan, plan.canonical_command, frame.description, frame.crs, outcome.simplified.mesh);
   std::map<std::string, std::string>& metadata = outcome.simplified.mesh.metadata;
-  metadata["generator"] = fmt::format("Scarp {}", version());
-  metadata["command"] = plan.canonical_command;
-  metadata["frame"] = outcome.field.frame.description;
-  if (!outcome.field.frame.crs.empty()) metadata["crs"] = outcome.field.frame.crs;
-  if (!plan.read.crs.empty()) metadata["crs_option"] = plan.read.crs;
   if (!outcome.as_read.unit.empty()) metadata["unit"] = outcome.as_read.unit;
   Json error;
   error["asked"] = outcome.asked ? Json(*outcome.asked) : Json(nullptr);
@@ -101,7 +84,7 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
   if (plan.preview) added = add_picture(*plan.preview, draw_preview(outcome.field, mesh), files);
   if (added && plan.render) added = add_render(plan, outcome, files);
   if (added && plan.error_raster) added = add_error_raster(plan, progress, outcome, files);
-  if (added) added = add_solid(plan, outcome);
+  if (added) added = finish_mesh(plan, outcome);
   if (!added) return tl::unexpected(std::move(added.error()));
   add_metadata(plan, outcome);
   Result<std::vector<std::uint8_t>> output = encode_output(plan, outcome);

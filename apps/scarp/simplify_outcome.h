@@ -1,41 +1,26 @@
-// What a run of `scarp simplify` came to.
+// What a run of `scarp simplify` on a raster came to.
 #pragma once
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "channels.h"
 #include "companions.h"
 #include "scarp/height_field.h"
-#include "scarp/simplify.h"
-#include "simplify_plan.h"
+#include "simplify_run.h"
 
 namespace scarp::cli {
 
-/// A file of this run and its bytes, ready to be written.
-struct ReadyFile {
-  std::string path;
-  const char* kind;
-  std::vector<std::uint8_t> bytes;
-};
-
 /// Everything that the files, the report and the summary tell.
-struct Outcome {
+struct Outcome : SimplifyRun {
   OwnedHeightField field;
   RasterInfo as_read;   ///< before voids were filled
   HeightRange heights;  ///< of the samples that were judged
   Channels channels;
   Companions companions;
   std::uint64_t filled = 0;
-  std::optional<double> asked;  ///< max error in z units
-  Simplified simplified;
-  std::uint64_t vertices = 0, triangles = 0;              ///< of the terrain
-  std::uint64_t solid_vertices = 0, solid_triangles = 0;  ///< with --base
-  std::optional<double> psnr;                             ///< of the rendering, in dB; +infinity if it is the image
-  std::vector<std::string> warnings;
-  double seconds_read = 0, seconds_write = 0, seconds_total = 0;
+  std::optional<double> psnr;  ///< of the rendering, in dB; +infinity if it is the image
 
   /// The field with its channels.
   HeightField view() const {

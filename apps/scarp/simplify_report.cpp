@@ -31,8 +31,6 @@ void add_all_errors(Json& report, const SimplifyPlan& plan, const Outcome& outco
   if (outcome.psnr) report["psnr"] = finite_or_word(*outcome.psnr);
 }
 
-std::string line(const char* name, const std::string& value) { return fmt::format("  {:<14}{}\n", name, value); }
-
 /// ", ignored samples left out": what a bound does not hold for, though the errors count it.
 const char* describe_exceptions(const Outcome& outcome) {
   return outcome.companions.ignores_samples() ? ", ignored samples left out" : "";
@@ -49,39 +47,41 @@ std::string describe_errors(const SimplifyPlan& plan, const Outcome& outcome) {
   const bool bounds_heights = outcome.channels.empty() && outcome.companions.mask.empty();
   std::string text;
   if (!plan.channels.image) {
-    text +=
-        line("max error", fmt::format("{}{} at column {}, row {}{}", format_number(measured.max_error), unit,
-                                      measured.max_error_at[0], measured.max_error_at[1], bounds_heights ? asked : ""));
+    text += summary_line("max error",
+                         fmt::format("{}{} at column {}, row {}{}", format_number(measured.max_error), unit,
+                                     measured.max_error_at[0], measured.max_error_at[1], bounds_heights ? asked : ""));
     if (outcome.field.sample_rounding > 0) {
-      text += line("", fmt::format("values rounded to float32 by up to {}{}",
-                                   format_number(outcome.field.sample_rounding), unit));
+      text += summary_line("", fmt::format("values rounded to float32 by up to {}{}",
+                                           format_number(outcome.field.sample_rounding), unit));
     }
-    text += line("RMSE", fmt::format("{}{}", format_number(measured.rmse), unit));
+    text += summary_line("RMSE", fmt::format("{}{}", format_number(measured.rmse), unit));
   }
   constexpr std::size_t kMostLines = 8;
   for (std::size_t k = 0; k < std::min(kMostLines, simplified.channel_measurements.size()); ++k) {
     const Measurement& channel = simplified.channel_measurements[k];
-    text += line(outcome.channels.names[k].c_str(),
-                 fmt::format("max error {}, RMSE {}", format_number(channel.max_error), format_number(channel.rmse)));
+    text += summary_line(
+        outcome.channels.names[k].c_str(),
+        fmt::format("max error {}, RMSE {}", format_number(channel.max_error), format_number(channel.rmse)));
   }
-  if (outcome.channels.count() > kMostLines) text += line("", "further bands: see --report");
+  if (outcome.channels.count() > kMostLines) text += summary_line("", "further bands: see --report");
   if (!outcome.channels.empty()) {
-    text += line("combined", fmt::format("max error {} ({}){}", format_number(simplified.combined_max_error),
-                                         norm_name(plan.channels.norm), outcome.companions.has_weights() ? "" : asked));
+    text += summary_line("combined",
+                         fmt::format("max error {} ({}){}", format_number(simplified.combined_max_error),
+                                     norm_name(plan.channels.norm), outcome.companions.has_weights() ? "" : asked));
   }
   if (outcome.companions.has_weights()) {
     const bool has_mask = !outcome.companions.mask.empty();
-    text +=
-        line("weighted", fmt::format("{} {}, RMS {}{}", has_mask ? "max error" : goal.name, format_number(goal.value),
+    text += summary_line("weighted",
+                         fmt::format("{} {}, RMS {}{}", has_mask ? "max error" : goal.name, format_number(goal.value),
                                      format_number(simplified.weighted_rmse), has_mask ? asked : ""));
   }
-  if (simplified.ignored > 0) text += line("ignored", format_plural(simplified.ignored, "sample") + " without a bound");
+  if (simplified.ignored > 0)
+    text += summary_line("ignored", format_plural(simplified.ignored, "sample") + " without a bound");
   return text;
 }
 
-/// Which goal ended the run and what the error then is: the last line of the summary.
-std::string describe_end(const SimplifyPlan& plan, const Outcome& outcome) {
-  const bool has_asked = outcome.asked.has_value();
+/// The last line of the summary.
+std::string describe_ending(const SimplifyPlan& plan, const Outcome& outcome) {
   const GoalError goal = find_goal_error(outcome);
   const std::string numbers = fmt::format(
       "{}{} ({} of {}), {} s",
@@ -89,27 +89,14 @@ std::string describe_end(const SimplifyPlan& plan, const Outcome& outcome) {
       format_plural(outcome.triangles, "triangle"),
       format_share(static_cast<double>(outcome.triangles), static_cast<double>(full_grid_triangles(outcome.field))),
       format_count(full_grid_triangles(outcome.field)), format_seconds(outcome.seconds_total));
-  const std::string error = fmt::format("{} {}", goal.name, format_number(goal.value));
-  switch (outcome.simplified.stop) {
-    case StopReason::kMaxError:
-      if (!outcome.companions.tolerance.empty()) return fmt::format("Kept every tolerance: {}, {}", error, numbers);
-      return fmt::format("Reached the error goal: {} (asked {}{}), {}", error, format_number(outcome.asked.value_or(0)),
-                         describe_exceptions(outcome), numbers);
-    case StopReason::kMaxTriangles:
-      return fmt::format(
-          "Reached the triangle budget of {}: {}{}, {}", format_count(plan.simplify.max_triangles.value_or(0)), error,
-          has_asked ? fmt::format(" (asked {}, not reached)", format_number(*outcome.asked)) : "", numbers);
-    case StopReason::kMaxVertices:
-      return fmt::format("Reached the point budget of {}: {}{}, {} vertices, {}",
-                         format_count(plan.simplify.max_vertices.value_or(0)), error,
-                         has_asked ? fmt::format(" (asked {}, not reached)", format_number(*outcome.asked)) : "",
-                         format_count(outcome.vertices), numbers);
-    case StopReason::kExact:
-      break;
-  }
-  const bool is_exact = goal.value == 0 && outcome.simplified.ignored == 0 && outcome.field.sample_rounding == 0;
-  return fmt::format("{}: {}{}, {}", is_exact ? "Reproduced every sample" : "No vertex more would lower the error",
-                     error, has_asked ? fmt::format(" (asked {})", format_number(*outcome.asked)) : "", numbers);
+  EndError error{.text = fmt::format("{} {}", goal.name, format_number(goal.value)),
+                 .exceptions = describe_exceptions(outcome)};
+  error.is_exact = goal.value == 0 && outcome.simplified.ignored == 0 && outcome.field.sample_rounding == 0;
+  const bool keeps_tolerances =
+      outcome.simplified.stop == StopReason::kMaxError && !outcome.companions.tolerance.empty();
+  return fmt::format("{}, {}\n",
+                     keeps_tolerances ? "Kept every tolerance: " + error.text : describe_end(plan, outcome, error),
+                     numbers);
 }
 
 }  // namespace
@@ -132,12 +119,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["input"] = describe_input(outcome.field, outcome.as_read, plan.read.band);
   report["input"]["filled"] = outcome.filled;
   report["frame"] = describe_frame(outcome.field.frame);
-  Json& goal = report["goal"];
-  goal["max_error"] = or_null(outcome.asked);
-  goal["percent_of_relief"] =
-      plan.error_goal && plan.error_goal->percent_of_relief ? Json(plan.error_goal->value) : Json(nullptr);
-  goal["max_triangles"] = or_null(plan.simplify.max_triangles);
-  goal["max_points"] = or_null(plan.simplify.max_vertices);
+  report["goal"] = describe_goal(plan, outcome);
   report["strategy"] = describe_strategy(plan.simplify);
   for (const auto& [key, file] : {std::pair{"mask", &plan.companions.mask},
                                   {"tolerance", &plan.companions.tolerance},
@@ -150,24 +132,14 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["full_triangles"] = full_grid_triangles(outcome.field);
   add_all_errors(report, plan, outcome);
   add_coverage(report, outcome.simplified.measurement);
-  if (plan.base) {
-    report["solid"] =
-        Json{{"base", *plan.base}, {"vertices", outcome.solid_vertices}, {"triangles", outcome.solid_triangles}};
-  }
+  add_solid(report, plan, outcome);
   const Effort& effort = outcome.simplified.effort;
   report["effort"] = Json{{"samples_scanned", effort.samples_scanned},
                           {"triangles_scanned", effort.triangles_scanned},
                           {"queue_moves", effort.queue_moves},
                           {"passes", effort.passes}};
-  report["seconds"] = Json{{"read", outcome.seconds_read},
-                           {"refine", outcome.simplified.seconds_refine},
-                           {"measure", outcome.simplified.seconds_measure},
-                           {"write", outcome.seconds_write},
-                           {"total", outcome.seconds_total}};
-  report["outputs"] = Json::array();
-  for (const ReadyFile& file : files) {
-    report["outputs"].push_back(Json{{"path", file.path}, {"format", file.kind}, {"bytes", file.bytes.size()}});
-  }
+  report["seconds"] = describe_seconds(outcome);
+  report["outputs"] = describe_outputs(files);
   report["warnings"] = outcome.warnings;
   return report;
 }
@@ -179,36 +151,27 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
 
   std::string text = fmt::format("{} -> {}\n", base_name(plan.input), plan.output);
   const bool is_image = plan.channels.image;
-  text += line(is_image ? "image" : "raster",
-               fmt::format("{} x {}, {} valid {}, {} {} to {}{}", outcome.field.cols, outcome.field.rows,
-                           format_count(info.valid), is_image ? "pixels" : "samples",
-                           is_image ? format_plural(outcome.channels.count(), "band") + "," : "heights",
-                           format_number(info.min), format_number(info.max), unit));
-  if (outcome.filled > 0) text += line("filled", format_plural(outcome.filled, "void sample"));
-  for (const ReadyFile& file : files) {
-    text += line("written", fmt::format("{}, {}", file.path, format_bytes(file.bytes.size())));
-  }
-  if (plan.report) text += line("written", *plan.report);
-  text += line("vertices", format_count(outcome.vertices));
+  text += summary_line(is_image ? "image" : "raster",
+                       fmt::format("{} x {}, {} valid {}, {} {} to {}{}", outcome.field.cols, outcome.field.rows,
+                                   format_count(info.valid), is_image ? "pixels" : "samples",
+                                   is_image ? format_plural(outcome.channels.count(), "band") + "," : "heights",
+                                   format_number(info.min), format_number(info.max), unit));
+  if (outcome.filled > 0) text += summary_line("filled", format_plural(outcome.filled, "void sample"));
+  text += files_lines(plan, files);
+  text += summary_line("vertices", format_count(outcome.vertices));
   const std::uint64_t full = full_grid_triangles(outcome.field);
-  text += line("triangles", fmt::format("{}, {} of the full grid's {}", format_count(outcome.triangles),
-                                        format_share(static_cast<double>(outcome.triangles), static_cast<double>(full)),
-                                        format_count(full)));
-  if (plan.base) {
-    text += line("solid", fmt::format("{}, base at {}", format_plural(outcome.solid_triangles, "triangle"),
-                                      format_number(*plan.base)));
-  }
+  text += summary_line(
+      "triangles",
+      fmt::format("{}, {} of the full grid's {}", format_count(outcome.triangles),
+                  format_share(static_cast<double>(outcome.triangles), static_cast<double>(full)), format_count(full)));
+  text += solid_line(plan, outcome);
   text += describe_errors(plan, outcome);
-  if (outcome.psnr) text += line("PSNR", fmt::format("{:.2f} dB", *outcome.psnr));
-  text += line("judged", format_plural(measured.samples, "sample") + ", none uncovered" +
-                             (measured.stray > 0 ? fmt::format(", {} outside every cell of the domain left out",
-                                                               format_count(measured.stray))
-                                                 : ""));
-  text += line("seconds",
-               fmt::format("read {}, refine {}, measure {}, write {}", format_seconds(outcome.seconds_read),
-                           format_seconds(outcome.simplified.seconds_refine),
-                           format_seconds(outcome.simplified.seconds_measure), format_seconds(outcome.seconds_write)));
-  return text + describe_end(plan, outcome) + "\n";
+  if (outcome.psnr) text += summary_line("PSNR", fmt::format("{:.2f} dB", *outcome.psnr));
+  text += summary_line("judged", format_plural(measured.samples, "sample") + ", none uncovered" +
+                                     (measured.stray > 0 ? fmt::format(", {} outside every cell of the domain left out",
+                                                                       format_count(measured.stray))
+                                                         : ""));
+  return text + seconds_line(outcome) + describe_ending(plan, outcome);
 }
 
 }  // namespace scarp::cli

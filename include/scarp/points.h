@@ -25,7 +25,7 @@ struct PointSet {
   std::size_t size() const { return x.size(); }
 };
 
-/// What becomes of several points at one place (after snapping, see simplify_points()).
+/// What becomes of several points at one place: with equal x and equal y as given.
 enum class DuplicatePolicy { kFirst, kLast, kHighest, kLowest, kMean };
 
 struct ReadPointsOptions {
@@ -50,24 +50,26 @@ bool is_point_file(const std::string& path);
 struct SimplifiedPoints {
   Simplified simplified;         ///< measurement: errors at the points as given; `samples` counts points
   std::uint64_t points = 0;      ///< as given
-  std::uint64_t duplicates = 0;  ///< of them not alone at their place and given up for another
+  std::uint64_t duplicates = 0;  ///< of them not alone at their place (equal x and y) and given up for another
   std::uint64_t on_hull = 0;     ///< vertices of the convex hull
   double lattice_step = 0;       ///< of the integer lattice, in units of x and y
 };
 
 /// Greedy insertion on scattered samples (the report's section 2 names it, without doing it). The domain is the convex
 /// hull. Each triangle keeps the list of the points in it. Coordinates are snapped to an integer lattice of up to 2^30
-/// steps: the coarsest on which the given decimals lie exactly if there is one, else the finest power of two. Among
-/// points of equal error the one in the northernmost, then westernmost place is inserted. Points on a grid give the
-/// vertices that simplify() gives for the raster, but for ties.
+/// steps: the coarsest on which the given decimals lie exactly if there is one, else the finest power of two. Different
+/// points are never taken for one: where the lattice cannot keep two apart, they are refused. Among points of equal
+/// error the one in the northernmost, then westernmost place is inserted. Points on a grid give the vertices that
+/// simplify() gives for the raster, but for ties.
 ///
 /// Guarantees that |mesh − z| <= max_error at every point that is not given up as a duplicate, at its coordinates as
 /// given, for the positions as they are in the mesh. Vertices are points.
 /// Honours max_error, max_triangles, max_vertices, best_of_budget, float32_positions, threads, progress of the options;
 /// fails with kUsage if anything else is asked for or a budget is below what the hull needs, with kInput (fewer than 3
-/// places, all on one line, a value that is not finite or beyond 1e100), with kPromise where float32 positions cannot
-/// keep the bound, kCancelled. Cost: expected O(n log m) for n points; about 50 bytes a point beside the points
-/// themselves.
+/// places, all on one line, a value that is not finite or beyond 1e100, an extent below 1e-100, two points nearer to
+/// each other than about 2^-30 of the extent, which are named, as is the far point that makes the extent so large),
+/// with kPromise where float32 positions cannot keep the bound, kCancelled. Cost: expected O(n log m) for n points;
+/// about 50 bytes a point beside the points themselves.
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const SimplifyOptions& options,
                                          DuplicatePolicy duplicates = DuplicatePolicy::kFirst);
 
@@ -75,7 +77,7 @@ Result<SimplifiedPoints> simplify_points(const PointSet& points, const SimplifyO
 /// max_error_at is {index of the point, 0}, and so are offenders; on_row is called once, with all points. Duplicates
 /// are given up by the same policy first. coverage_tolerance counts mean distances between points, √(area / points).
 /// Gaps are open edges within the convex hull. Same failures and cost as measure(); kUsage for
-/// MeasureOptions::tolerance.
+/// MeasureOptions::tolerance; kInput for points that simplify_points() cannot keep apart.
 Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates,
                                    const MeasureOptions& options = {});
 

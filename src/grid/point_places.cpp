@@ -9,6 +9,8 @@
 #include <optional>
 #include <utility>
 
+#include "grid/far_points.h"
+
 namespace scarp {
 
 namespace {
@@ -140,6 +142,23 @@ std::pair<std::uint32_t, double> choose(const PointSet& points, DuplicatePolicy 
   return {chosen->point, height(*chosen)};
 }
 
+/// The first of [first, last) that lies elsewhere than *first does in the coordinates as given; `last` if none does.
+const Keyed* find_stranger(const PointSet& points, const Keyed* first, const Keyed* last) {
+  return std::find_if(first, last, [&](const Keyed& k) {
+    return points.x[k.point] != points.x[first->point] || points.y[k.point] != points.y[first->point];
+  });
+}
+
+tl::unexpected<Error> refuse_to_merge(const PointSet& points, std::uint32_t a, std::uint32_t b, double extent) {
+  const std::string far = describe_far_points(points);
+  return fail(ErrorKind::kInput,
+              fmt::format("points {} and {} (counted from 0), at ({}, {}) and ({}, {}), cannot be told apart on a "
+                          "lattice of 2^30 steps over the extent of {}; {}",
+                          a, b, points.x[a], points.y[a], points.x[b], points.y[b], extent,
+                          far.empty() ? "split the points into smaller areas, or remove one of the two"
+                                      : far + ", else split the points into smaller areas"));
+}
+
 Result<void> check(const PointSet& points) {
   if (points.x.size() != points.y.size() || points.x.size() != points.z.size())
     return fail(ErrorKind::kUsage, fmt::format("the points have {} x, {} y and {} z: give one of each for every point",
@@ -168,6 +187,12 @@ Result<PointPlaces> find_places(const PointSet& points, DuplicatePolicy policy) 
   constexpr double kReach = 1e100;  // as far as the arithmetic of planes goes
   if (std::max({x.reach(), y.reach(), z.reach()}) > kReach)
     return fail(ErrorKind::kInput, "a point has a coordinate beyond 1e100; only smaller ones can be triangulated");
+  const double extent = std::max(x.size(), y.size());
+  if (extent > 0 && extent < 1 / kReach)
+    return fail(ErrorKind::kInput,
+                fmt::format("all points lie within {} of each other; only a larger extent than 1e-100 can be "
+                            "triangulated: give x and y in a smaller unit",
+                            extent));
   PointPlaces places;
   Snapped snapped;
   if (auto decimal = snap_to_decimals(points, x, y)) {
@@ -186,6 +211,8 @@ Result<PointPlaces> find_places(const PointSet& points, DuplicatePolicy policy) 
   places.lattice = snapped.lattice;
   for (std::size_t i = 0, end = 0; i < keys.size(); i = end) {
     while (end < keys.size() && keys[end].key == keys[i].key) ++end;
+    if (const Keyed* stranger = find_stranger(points, &keys[i], &keys[i] + (end - i)); stranger != &keys[i] + (end - i))
+      return refuse_to_merge(points, keys[i].point, stranger->point, extent);
     const auto [point, height] = choose(points, policy, &keys[i], &keys[i] + (end - i));
     places.at.push_back(snapped.at[point]);
     places.source.push_back(point);

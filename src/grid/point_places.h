@@ -31,8 +31,10 @@ struct PointPlaces {
 
 /// Snaps the points to a lattice and gives up duplicates. The lattice: the coarsest on which all coordinates lie
 /// exactly as decimals, if they have few enough of them; else the finest with a power of two as its step, where points
-/// move by up to half a step, at most extent / 2^30. With kMean the first point stands for the place. Fails with
-/// kInput: a coordinate or height that is not finite, an extent that is not, no points, more than 2^31 − 1.
+/// move by up to half a step, at most extent / 2^30. Duplicates are points with equal coordinates; points that only the
+/// lattice cannot tell apart are refused. With kMean the first point stands for the place. Fails with kInput: a
+/// coordinate or height that is not finite or beyond 1e100, an extent below 1e-100, points too near for their extent,
+/// no points, more than 2^31 − 1.
 Result<PointPlaces> find_places(const PointSet& points, DuplicatePolicy policy);
 
 }  // namespace scarp

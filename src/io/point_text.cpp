@@ -78,13 +78,30 @@ std::optional<std::string_view> take_field(std::string_view& line, char separato
   return field;
 }
 
-/// Nothing if the text is no number; infinities and NaN are numbers here, as is what overflows.
+/// Of a number that no double is near to: whether it is too small rather than too large.
+bool is_below_one(std::string_view number) {
+  const std::size_t e = std::min(number.find_first_of("eE"), number.size());
+  const std::string_view digits = number.substr(0, e);
+  std::int64_t exponent = 0;
+  if (e < number.size()) {
+    std::string_view text = number.substr(e + 1);
+    if (text.starts_with('+')) text.remove_prefix(1);
+    if (std::from_chars(text.data(), text.data() + text.size(), exponent).ec == std::errc::result_out_of_range)
+      return text.starts_with('-');
+  }
+  const auto place = [&](std::string_view wanted) {
+    return static_cast<std::int64_t>(std::min(digits.find_first_of(wanted), digits.size()));
+  };
+  return exponent < place("123456789") - place(".");
+}
+
+/// Nothing if the text is no number; infinities and NaN are numbers here, as is what overflows. What underflows is 0.
 std::optional<double> parse(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size() || text.empty()) return std::nullopt;
-  if (error == std::errc::result_out_of_range) return HUGE_VAL;
+  if (error == std::errc::result_out_of_range) return is_below_one(text) ? 0 : HUGE_VAL;
   if (error != std::errc()) return std::nullopt;
   return value;
 }
@@ -94,6 +111,28 @@ std::string quoted(std::string_view field) {
   std::string text;
   for (const char c : field.substr(0, 40)) text += std::isprint(static_cast<unsigned char>(c)) ? c : '?';
   return "'" + text + (field.size() > 40 ? "…'" : "'");
+}
+
+/// The first of several fields that is a number but for its comma; empty if there is none.
+std::string_view find_decimal_comma(std::string_view line) {
+  line = trimmed(line);
+  constexpr std::string_view kSeparators = "; \t";
+  if (line.find_first_of(kSeparators) == std::string_view::npos) return {};
+  while (!line.empty()) {
+    const std::string_view field = line.substr(0, line.find_first_of(kSeparators));
+    line.remove_prefix(std::min(field.size() + 1, line.size()));
+    const std::size_t comma = field.find(',');
+    if (comma == std::string_view::npos || field.find_first_of("0123456789", comma) != comma + 1) continue;
+    std::string number(field);
+    number[comma] = '.';
+    if (parse(number)) return field;
+  }
+  return {};
+}
+
+tl::unexpected<Error> refuse_decimal_comma(std::string_view field, const std::string& name, std::uint64_t number) {
+  return fail(ErrorKind::kInput, fmt::format("{}: line {}: {} has a decimal comma: write numbers with a decimal point",
+                                             name, number, quoted(field)));
 }
 
 struct Columns {
@@ -135,11 +174,13 @@ Result<Columns> read_header(std::string_view line, const std::string& name, std:
                                                         heights}};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto found = std::find_first_of(wanted[k].begin(), wanted[k].end(), names.begin(), names.end());
-    if (found == wanted[k].end())
+    if (found == wanted[k].end()) {
+      if (const auto field = find_decimal_comma(line); !field.empty()) return refuse_decimal_comma(field, name, number);
       return fail(ErrorKind::kInput,
                   fmt::format("{}: line {} names no column {}: {} has none of the names {}{}", name, number,
                               std::string_view("xyz").substr(k, 1), quoted(line), fmt::join(wanted[k], ", "),
                               k == 2 && options.z_field.empty() ? "; --z-field names another" : ""));
+    }
     columns.at[k] = static_cast<std::size_t>(std::find(names.begin(), names.end(), *found) - names.begin());
     columns.in_degrees =
         columns.in_degrees || found->starts_with("lon") || found->starts_with("lat") || *found == "lng";
@@ -150,10 +191,13 @@ Result<Columns> read_header(std::string_view line, const std::string& name, std:
 /// What is wrong with a line that holds no point.
 tl::unexpected<Error> explain(std::string_view line, const Columns& columns, const std::string& name,
                               std::uint64_t number) {
+  const std::string_view decimal_comma = find_decimal_comma(line);
   std::vector<std::string_view> fields;
   while (const auto field = take_field(line, columns.separator)) fields.push_back(*field);
   for (std::size_t k = 0; k < 3; ++k) {
     const char axis = "xyz"[k];
+    const bool is_number = columns.at[k] < fields.size() && parse(fields[columns.at[k]]);
+    if (!is_number && !decimal_comma.empty()) return refuse_decimal_comma(decimal_comma, name, number);
     if (columns.at[k] >= fields.size())
       return fail(ErrorKind::kInput,
                   fmt::format("{}: line {} has {} columns, so that {} is missing", name, number, fields.size(), axis));

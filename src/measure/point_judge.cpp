@@ -9,6 +9,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
 
 #include "base/caught.h"
 #include "base/parallel.h"
@@ -253,7 +255,11 @@ namespace scarp {
 Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates,
                                    const MeasureOptions& options) try {
   auto places = find_places(points, duplicates);
-  if (!places) return tl::unexpected(places.error());
+  if (!places) {
+    Error error = places.error();
+    if (!points.path.empty()) error.message = points.path + ": " + error.message;
+    return tl::unexpected(std::move(error));
+  }
   return judge::judge_points(points, *places, mesh, options);
 } catch (...) {
   return caught(ErrorKind::kInput, "measure the mesh");

@@ -68,6 +68,14 @@ if command -v ogr2ogr >/dev/null; then
   succeeds "$scarp" measure vector.gpkg local.glb --fail-above 1 -q
 fi
 
+# A mesh of a raster has a frame that points do not have: the sentence says who asked for it.
+succeeds "$scarp" simplify "$dem" grid.ply -e 50 --crs grid -q
+refuses 1 "grid.ply says of itself that its coordinates are the columns and rows" "$scarp" measure survey.csv grid.ply
+refuses 1 "cannot be given in 'grid'" "$scarp" measure survey.csv grid.ply --crs grid
+succeeds "$scarp" measure survey.csv grid.ply --crs source -q
+succeeds "$scarp" simplify "$dem" utm.ply -e 50 --crs EPSG:32612 -q
+refuses 1 "utm.ply names that CRS as its own, --crs overrides it" "$scarp" measure survey.csv utm.ply
+
 # What cannot be, in one sentence, and nothing written.
 : >empty.csv
 printf 'x,y,z\n' >header.csv
@@ -78,6 +86,9 @@ printf 'x,y,depth\n1,2,3\n' >names.csv
 printf '1,1,3\n2,2,3\n5,5,9\n9,9,1\n' >line.csv
 printf '1,1,3\n2,2,3\n1,1,9\n' >two.csv
 head -c 3000 "$dem" >binary.csv
+printf '1,5;2,5;3\n2;3;4\n' >comma.csv
+printf 'x,y,z\n0,0,0\n1e9,0,1\n0,1e9,2\n0.001,0.001,900\n0.002,0.001,-900\n' >wide.csv
+{ cat survey.csv; echo '-9999999999,4649000,0'; } >far.csv
 refuses 2 "empty.csv: the file is empty" "$scarp" simplify empty.csv x.glb -e 1
 refuses 2 "header.csv: the file holds a header line and no points" "$scarp" simplify header.csv x.glb -e 1
 refuses 2 "nan.csv: line 2: z is 'nan'" "$scarp" simplify nan.csv x.glb -e 1
@@ -87,6 +98,12 @@ refuses 2 "names.csv: line 1 names no column z" "$scarp" simplify names.csv x.gl
 refuses 2 "line.csv: all points lie on one line" "$scarp" simplify line.csv x.glb -e 1
 refuses 2 "two.csv: all points lie at two places" "$scarp" simplify two.csv x.glb -e 1
 refuses 2 "binary.csv: line 1" "$scarp" simplify binary.csv x.glb -e 1
+refuses 2 "wide.csv: points 0 and 3 (counted from 0), at (0, 0) and (0.001, 0.001), cannot be told apart" \
+  "$scarp" simplify wide.csv x.ply -e 0.5
+refuses 2 "wide.csv: points 0 and 3 (counted from 0)" "$scarp" measure wide.csv hills.glb --fail-above 0.5
+refuses 2 "; point 3002 (counted from 0) at (-9999999999, 4649000) lies far from all others" \
+  "$scarp" simplify far.csv x.ply -e 0.5
+refuses 2 "comma.csv: line 1: '1,5' has a decimal comma" "$scarp" simplify comma.csv x.ply -e 0.5
 refuses 2 "none.csv: no such file" "$scarp" simplify none.csv x.glb -e 1
 refuses 2 "nan.csv: line 2" "$scarp" measure nan.csv hills.glb
 refuses 1 "no goal" "$scarp" simplify survey.csv x.glb

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/far_points.h"
 #include "grid/point_places.h"
 #include "unit/raster_files.h"
 
@@ -85,6 +86,26 @@ TEST_F(PointFiles, text_that_holds_no_points_is_refused_by_line) {
   EXPECT_TRUE(contains(refuse("p.csv", "1,2,3\n", {.layer = "a"}), "layer"));
   EXPECT_TRUE(contains(read_points(scratch_.file("none.csv")).error().message, "no such file"));
   EXPECT_TRUE(contains(read_points(scratch_.file("none.gpkg")).error().message, "no such file"));
+}
+
+TEST_F(PointFiles, decimal_commas_are_recognised) {
+  for (const char* text : {"1,5;2,5;3\n", "1,5\t2\t3\n", "1,5 2,5 3,5\n", "-1,5;2;3\n"})
+    EXPECT_TRUE(contains(refuse("p.csv", text), "1,5' has a decimal comma")) << text;
+  EXPECT_TRUE(contains(refuse("p.csv", "1,5;2,5;3\n"), "line 1: '1,5' has a decimal comma"));
+  EXPECT_TRUE(contains(refuse("p.csv", "x;y;z\n1;2;3\n1;2,5;3\n"), "line 3: '2,5' has a decimal comma"));
+  EXPECT_TRUE(contains(refuse("p.csv", "1,2,3\n4,5 6\n"), "decimal comma"));
+  EXPECT_TRUE(contains(refuse("p.csv", "1,2,3\n4,5\n"), "line 2 has 2 columns"));
+}
+
+TEST_F(PointFiles, values_too_small_for_a_double_are_zero) {
+  const std::string tiny = "0." + std::string(400, '0') + "1", huge = "1" + std::string(400, '0');
+  EXPECT_EQ(
+      read("p.csv", "1e-400,-2E-999999999999999999999," + tiny + "\n" + huge + "e-400,1e-320," + tiny + "e401\n").x,
+      (std::vector<double>{0, 1}));
+  EXPECT_EQ(read("p.csv", "1,1e-320,-1e-400\n").y, (std::vector<double>{1e-320}));
+  for (const std::string& text :
+       {std::string("1e400"), huge, std::string("1e+999999999999999999999"), tiny + "e999", std::string("-1e400")})
+    EXPECT_TRUE(contains(refuse("p.csv", "1,2," + text + "\n"), "no finite number")) << text;
 }
 
 TEST_F(PointFiles, names_tell_points_from_rasters) {
@@ -216,6 +237,60 @@ TEST(point_sets, give_up_duplicates_by_the_policy) {
       EXPECT_EQ(height, x + y == 0 ? z : 0);
     }
   }
+}
+
+TEST(point_sets, too_near_for_their_extent_are_named_and_not_merged) {
+  const PointSet wide =
+      set_of({{0, 0, 0}, {1e9, 0, 1}, {0, 1e9, 2}, {0.001, 0.001, 900}, {0.002, 0.001, -900}, {0, 0, 5}});
+  const auto check = [](const Error& error) {
+    EXPECT_EQ(error.kind, ErrorKind::kInput);
+    EXPECT_TRUE(contains(error.message, "points 0 and 3 (counted from 0), at (0, 0) and (0.001, 0.001)"));
+    EXPECT_TRUE(contains(error.message,
+                         "the extent of 1000000000; point 1 (counted from 0) at (1000000000, 0) and 1 "
+                         "more lie far from all others, which span 0.002"))
+        << error.message;
+  };
+  check(simplify_points(wide, {.max_error = 0.5}).error());
+  check(measure_points(wide, Mesh{}, DuplicatePolicy::kMean).error());
+  const PointSet apart = set_of({{0, 0, 0}, {1e9, 0, 1}, {0, 1e9, 2}, {4, 4, 900}, {8, 4.25, -900}, {0, 0, 5}});
+  const auto result = simplify_points(apart, {.max_error = 0.0, .float32_positions = false});
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->duplicates, 1u);
+  EXPECT_EQ(result->simplified.measurement.samples, 5u);
+}
+
+TEST(point_sets, too_small_for_arithmetic_are_refused) {
+  const auto tiny = simplify_points(set_of({{0, 0, 1}, {1e-320, 0, 2}, {0, 1e-320, 3}}), {.max_error = 0.5});
+  EXPECT_TRUE(contains(tiny.error().message, "smaller unit")) << tiny.error().message;
+  EXPECT_TRUE(simplify_points(set_of({{0, 0, 1}, {1e-99, 0, 2}, {0, 1e-99, 3}}),
+                              {.max_error = 0.5, .float32_positions = false}));
+}
+
+TEST(point_sets, name_the_few_points_that_lie_far_from_all_others) {
+  PointSet points;
+  for (int i = 0; i < 400; ++i) {
+    points.x.push_back(500000 + i % 20);
+    points.y.push_back(4649000 + i / 20);
+    points.z.push_back(i % 7);
+  }
+  EXPECT_EQ(describe_far_points(points), "");
+  const auto add = [&](double x, double y) {
+    points.x.push_back(x);
+    points.y.push_back(y);
+    points.z.push_back(0);
+  };
+  add(500100, 4649100);
+  EXPECT_EQ(describe_far_points(points), "") << "not so far";
+  add(0, 0);
+  EXPECT_EQ(describe_far_points(points),
+            "point 401 (counted from 0) at (0, 0) lies far from all others, which span 100: remove it if it is an "
+            "error");
+  add(5e5, -9999999999);
+  EXPECT_TRUE(contains(describe_far_points(points), "point 401 (counted from 0) at (0, 0) and 1 more lie far"));
+  for (int i = 0; i < 5; ++i) add(0, i);
+  EXPECT_EQ(describe_far_points(points), "") << "too many for errors";
+  EXPECT_EQ(describe_far_points({}), "");
+  EXPECT_EQ(describe_far_points(set_of({{7, 7, 1}})), "");
 }
 
 TEST(point_sets, the_lattice_is_the_coarsest_that_holds_the_decimals) {

@@ -1,0 +1,106 @@
+#include "simplify_run.h"
+
+#include <fmt/format.h>
+
+#include "scarp/version.h"
+#include "text.h"
+
+namespace scarp::cli {
+
+Result<void> finish_mesh(const SimplifyPlan& plan, SimplifyRun& run) {
+  Mesh& mesh = run.simplified.mesh;
+  run.vertices = mesh.vertex_count();
+  run.triangles = mesh.triangle_count();
+  if (!plan.base) return {};
+  if (auto closed = close_with_base(mesh, *plan.base); !closed) return closed;
+  run.solid_vertices = mesh.vertex_count();
+  run.solid_triangles = mesh.triangle_count();
+  return {};
+}
+
+void add_origin(const SimplifyPlan& plan, const std::string& command, const std::string& frame, const std::string& crs,
+                Mesh& mesh) {
+  mesh.metadata["generator"] = fmt::format("Scarp {}", version());
+  mesh.metadata["command"] = command;
+  mesh.metadata["frame"] = frame;
+  if (!crs.empty()) mesh.metadata["crs"] = crs;
+  if (!plan.read.crs.empty()) mesh.metadata["crs_option"] = plan.read.crs;
+}
+
+Json describe_goal(const SimplifyPlan& plan, const SimplifyRun& run) {
+  Json goal;
+  goal["max_error"] = or_null(run.asked);
+  goal["percent_of_relief"] =
+      plan.error_goal && plan.error_goal->percent_of_relief ? Json(plan.error_goal->value) : Json(nullptr);
+  goal["max_triangles"] = or_null(plan.simplify.max_triangles);
+  goal["max_points"] = or_null(plan.simplify.max_vertices);
+  return goal;
+}
+
+Json describe_seconds(const SimplifyRun& run) {
+  return Json{{"read", run.seconds_read},
+              {"refine", run.simplified.seconds_refine},
+              {"measure", run.simplified.seconds_measure},
+              {"write", run.seconds_write},
+              {"total", run.seconds_total}};
+}
+
+Json describe_outputs(const std::vector<ReadyFile>& files) {
+  Json outputs = Json::array();
+  for (const ReadyFile& file : files)
+    outputs.push_back(Json{{"path", file.path}, {"format", file.kind}, {"bytes", file.bytes.size()}});
+  return outputs;
+}
+
+void add_solid(Json& report, const SimplifyPlan& plan, const SimplifyRun& run) {
+  if (!plan.base) return;
+  report["solid"] = Json{{"base", *plan.base}, {"vertices", run.solid_vertices}, {"triangles", run.solid_triangles}};
+}
+
+std::string summary_line(const char* name, const std::string& value) {
+  return fmt::format("  {:<14}{}\n", name, value);
+}
+
+std::string files_lines(const SimplifyPlan& plan, const std::vector<ReadyFile>& files) {
+  std::string text;
+  for (const ReadyFile& file : files)
+    text += summary_line("written", fmt::format("{}, {}", file.path, format_bytes(file.bytes.size())));
+  return plan.report ? text + summary_line("written", *plan.report) : text;
+}
+
+std::string solid_line(const SimplifyPlan& plan, const SimplifyRun& run) {
+  if (!plan.base) return "";
+  return summary_line("solid", fmt::format("{}, base at {}", format_plural(run.solid_triangles, "triangle"),
+                                           format_number(*plan.base)));
+}
+
+std::string seconds_line(const SimplifyRun& run) {
+  return summary_line("seconds",
+                      fmt::format("read {}, refine {}, measure {}, write {}", format_seconds(run.seconds_read),
+                                  format_seconds(run.simplified.seconds_refine),
+                                  format_seconds(run.simplified.seconds_measure), format_seconds(run.seconds_write)));
+}
+
+std::string describe_end(const SimplifyPlan& plan, const SimplifyRun& run, const EndError& error) {
+  const std::string asked = run.asked ? format_number(*run.asked) : "";
+  const std::string missed = run.asked ? fmt::format(" (asked {}, not reached)", asked) : "";
+  switch (run.simplified.stop) {
+    case StopReason::kMaxError:
+      return fmt::format("Reached the error goal: {} (asked {}{})", error.text, asked, error.exceptions);
+    case StopReason::kMaxTriangles:
+      return fmt::format("Reached the triangle budget of {}: {}{}",
+                         format_count(plan.simplify.max_triangles.value_or(0)), error.text, missed);
+    case StopReason::kMaxVertices:
+      return fmt::format("Reached the point budget of {}: {}{}, {} vertices",
+                         format_count(plan.simplify.max_vertices.value_or(0)), error.text, missed,
+                         format_count(run.vertices));
+    case StopReason::kExact:
+      break;
+  }
+  return fmt::format(
+      "{}: {}{}",
+      error.is_exact ? fmt::format("Reproduced every {}", error.of) : "No vertex more would lower the error",
+      error.text, run.asked ? fmt::format(" (asked {})", asked) : "");
+}
+
+}  // namespace scarp::cli
