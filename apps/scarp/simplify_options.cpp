@@ -47,7 +47,8 @@ void SimplifyArguments::add_to(CLI::App& verb) {
       ->type_name("S")
       ->group("Missing samples");
 
-  companions.add_to(verb, true);
+  companions.add_to(verb,
+                    "Lines 's COL ROW' (becomes a vertex), 'i COL ROW' or\n'u COL ROW' (never does, and has no bound)");
   channels.add_to(verb);
   strategy.add_to(verb);
 

@@ -8,6 +8,7 @@
 
 #include "channels.h"
 #include "companions.h"
+#include "judge.h"
 #include "scarp/height_field.h"
 #include "scarp/simplify.h"
 #include "simplify_plan.h"
@@ -31,6 +32,8 @@ struct Outcome {
   std::uint64_t filled = 0;
   std::optional<double> asked;  ///< max error in z units
   Simplified simplified;
+  std::optional<LargestError> bounded;                    ///< where samples are ignored: of the others; images: norms
+  std::optional<double> bounded_goal;                     ///< where a script ignores them: of what the goal bounds
   std::uint64_t vertices = 0, triangles = 0;              ///< of the terrain
   std::uint64_t solid_vertices = 0, solid_triangles = 0;  ///< with --base
   std::optional<double> psnr;                             ///< of the rendering, in dB; +infinity if it is the image
@@ -45,7 +48,7 @@ struct Outcome {
   }
 };
 
-/// What the goal bounds, and how large it came out.
+/// What the goal bounds, and how large it came out; where a script ignores samples, of the others.
 struct GoalError {
   double value = 0;         ///< compared with the bound, without the rounding of samples
   const char* name = "";    ///< "max error", "weighted max error", …
