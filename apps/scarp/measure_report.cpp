@@ -94,12 +94,12 @@ std::string describe_pass(const Judged& judged) {
     const double error = has_mask          ? judged.weighted->bounded.value
                          : judged.combined ? judged.combined->bounded.value
                                            : judged.judgement.bounded.value;
-    kept += fmt::format("{}{}max error {}{} is within {}", kept.empty() ? "" : ", ",
+    kept += fmt::format("{}{}max error {}{}{} is within {}", kept.empty() ? "" : ", ",
                         has_mask          ? "weighted "
                         : judged.combined ? "combined "
                                           : "",
-                        format_number(error), describe_rounding(judged.field.sample_rounding),
-                        format_number(*judged.fail_above));
+                        format_number(error), judged.exceptions.count > 0 ? " of the bounded samples" : "",
+                        describe_rounding(judged.field.sample_rounding), format_number(*judged.fail_above));
   }
   return fmt::format("Passed: {}, every sample is covered, the mesh is sound\n", kept);
 }
