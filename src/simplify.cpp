@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "criterion.h"
+#include "goals.h"
 #include "grid/raster.h"
 #include "proof.h"
 #include "refine/domain.h"
@@ -27,16 +27,8 @@ namespace scarp {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-Result<void> check_goals(const HeightField& field, const SimplifyOptions& options) {
-  if (!options.max_error && !options.max_triangles && !options.max_vertices && options.tolerance.empty())
-    return fail(ErrorKind::kUsage, "no goal given: set max_error, max_triangles, max_vertices or tolerance");
-  if (options.max_error && !(*options.max_error >= 0 && std::isfinite(*options.max_error)))
-    return fail(ErrorKind::kUsage,
-                fmt::format("max_error must be a finite number of at least 0, not {}", *options.max_error));
+Result<void> check_options(const HeightField& field, const SimplifyOptions& options) {
+  if (auto goals = check_goals(options, true); !goals) return goals;
   if (!(options.outline_tolerance >= 0 && std::isfinite(options.outline_tolerance)))
     return fail(ErrorKind::kUsage, fmt::format("outline_tolerance must be a finite number of at least 0, not {}",
                                                options.outline_tolerance));
@@ -50,39 +42,6 @@ Result<void> check_goals(const HeightField& field, const SimplifyOptions& option
   return {};
 }
 
-Result<void> check_budget(const Domain& domain, std::uint64_t triangles, const SimplifyOptions& options) {
-  const std::uint64_t vertices = domain.tin.vertex_count() - domain.unused;
-  const char* culprit = options.script.empty() ? "the outline of the valid data alone needs"
-                                               : "the outline of the valid data and the script need";
-  const char* advice = domain.whole ? "" : ", or simplify the outline with an outline tolerance";
-  const auto refuse = [&](std::uint64_t budget, const char* what, std::uint64_t least) {
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} {} are too few: {} {}; allow more{}", budget, what, culprit, least, advice));
-  };
-  if (options.max_vertices && *options.max_vertices < vertices)
-    return refuse(*options.max_vertices, "vertices", vertices);
-  if (options.max_triangles && *options.max_triangles < triangles)
-    return refuse(*options.max_triangles, "triangles", triangles);
-  return {};
-}
-
-/// Reports progress at most ten times a second; false once the callback has said so.
-class Reporter {
- public:
-  explicit Reporter(const ProgressCallback& callback) : callback_(callback) {}
-  bool due() const { return callback_ && seconds_since(last_) > 0.1; }
-  bool report(std::string_view pass, double fraction, std::uint64_t vertices, double error) {
-    last_ = Clock::now();
-    fraction_ = std::max(fraction_, std::min(fraction, 1.0));
-    return !callback_ || callback_({pass, fraction_, vertices, error});
-  }
-
- private:
-  const ProgressCallback& callback_;
-  Clock::time_point last_ = Clock::now();
-  double fraction_ = 0;
-};
-
 /// One run of the engine towards the goals.
 class Run {
  public:
@@ -92,6 +51,7 @@ class Run {
         raster_(raster),
         options_(options),
         criterion_(criterion),
+        budget_(options),
         domain_(std::move(domain)),
         exact_(field.frame.is_affine() &&
                (!options.float32_positions || offsets_are_exact(field.frame, field.cols, field.rows))),
@@ -102,8 +62,10 @@ class Run {
 
   Result<Simplified> execute() {
     const auto start = Clock::now();
-    if (auto fits = check_budget(*domain_, refinement_->triangle_count(), options_); !fits)
-      return tl::unexpected(fits.error());
+    const char* culprit = options_.script.empty() ? "the outline of the valid data alone needs"
+                                                  : "the outline of the valid data and the script need";
+    const char* advice = domain_->whole ? "" : ", or simplify the outline with an outline tolerance";
+    if (auto fits = budget_.check(size(), culprit, advice); !fits) return tl::unexpected(fits.error());
     Simplified result;
     result.ignored = criterion_.ignored();
     if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
@@ -138,13 +100,8 @@ class Run {
 
   std::uint64_t vertices() const { return domain_->tin.vertex_count() - domain_->unused; }
 
-  /// The budget that one more vertex with `gain` more triangles would break.
-  std::optional<StopReason> exceeded(std::uint32_t gain) const {
-    if (options_.max_vertices && vertices() + 1 > *options_.max_vertices) return StopReason::kMaxVertices;
-    if (options_.max_triangles && refinement_->triangle_count() + gain > *options_.max_triangles)
-      return StopReason::kMaxTriangles;
-    return std::nullopt;
-  }
+  MeshSize size() const { return {vertices(), refinement_->triangle_count()}; }
+  std::optional<StopReason> exceeded(std::uint32_t gain) const { return budget_.exceeded(size(), gain); }
 
   std::optional<StopReason> reached() const {
     if (refinement_->done()) return criterion_.has_error_goal() ? StopReason::kMaxError : StopReason::kExact;
@@ -213,26 +170,14 @@ class Run {
   }
 
   double fraction(double first_error) const {
-    double fraction = 0;
-    if (options_.max_vertices) fraction = static_cast<double>(vertices()) / static_cast<double>(*options_.max_vertices);
-    if (options_.max_triangles)
-      fraction = std::max(
-          fraction, static_cast<double>(refinement_->triangle_count()) / static_cast<double>(*options_.max_triangles));
-    // The error falls about as the square root of the vertices grows: work done is a ratio of squares.
-    const double error = refinement_->worst_error();
-    const double goal = criterion_.judge().goal();
-    if (criterion_.has_error_goal() && goal > 0 && first_error > goal)
-      fraction = std::max(fraction, goal * goal / (error * error));
-    return fraction;
+    const double goal = criterion_.has_error_goal() ? criterion_.judge().goal() : 0;
+    return std::max(budget_.used(size()), error_progress(first_error, refinement_->worst_error(), goal));
   }
 
-  /// The last 5 % of what the budget allows: where the best prefix is looked for.
+  /// Where the best prefix is looked for.
   bool in_last_stretch() const {
-    if (!options_.best_of_budget || !criterion_.importance_is_error() || options_.importance.one_pass) return false;
-    const auto last = [](std::uint64_t count, const std::optional<std::uint64_t>& most) {
-      return most && static_cast<double>(count) >= 0.95 * static_cast<double>(*most);
-    };
-    return last(vertices(), options_.max_vertices) || last(refinement_->triangle_count(), options_.max_triangles);
+    return options_.best_of_budget && criterion_.importance_is_error() && !options_.importance.one_pass &&
+           budget_.in_last_stretch(size());
   }
 
   /// Max error is not monotone: a budget may stop on a spike. Insertion is deterministic, so an earlier mesh is had by
@@ -329,15 +274,11 @@ class Run {
     }
   }
 
-  struct Prefix {
-    std::size_t vertices;
-    double error;
-  };
-
   const HeightField& field_;
   const Raster& raster_;
   const SimplifyOptions& options_;
   const Criterion& criterion_;
+  Budget budget_;
   std::optional<Domain> domain_;  // the workbench: given back as soon as nothing can need it any more
   std::size_t seeds_ = 0;
   std::optional<Refinement> refinement_;
@@ -351,7 +292,7 @@ class Run {
 }  // namespace
 
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& options) try {
-  if (auto goals = check_goals(field, options); !goals) return tl::unexpected(goals.error());
+  if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
   auto samples = Samples::of(field);
   if (!samples) return tl::unexpected(samples.error());
   const auto criterion = Criterion::make(field, options, samples->raster());

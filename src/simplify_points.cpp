@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -14,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "goals.h"
 #include "grid/point_places.h"
 #include "measure/point_judge.h"
 #include "mesh/thin_triangles.h"
@@ -24,16 +24,8 @@ namespace scarp {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
 Result<void> check_options(const SimplifyOptions& options) {
-  if (!options.max_error && !options.max_triangles && !options.max_vertices)
-    return fail(ErrorKind::kUsage, "no goal given: set max_error, max_triangles or max_vertices");
-  if (options.max_error && !(*options.max_error >= 0 && std::isfinite(*options.max_error)))
-    return fail(ErrorKind::kUsage,
-                fmt::format("max_error must be a finite number of at least 0, not {}", *options.max_error));
+  if (auto goals = check_goals(options, false); !goals) return goals;
   const std::pair<bool, const char*> refused[] = {
       {options.outline_tolerance != 0, "outline_tolerance"},
       {!options.mask.empty(), "mask"},
@@ -95,15 +87,18 @@ class PointRun {
         places_(places),
         heights_(heights),
         options_(options),
+        budget_(options),
         bound_(options.max_error.value_or(0)),
         domain_(std::move(domain)),
         seeds_(domain_.place_of.size()),
-        refinement_(std::in_place, places, heights, domain_, bound_) {
+        refinement_(std::in_place, places, heights, domain_, bound_),
+        reporter_(options.progress) {
     for (double z : places.z) largest_height_ = std::max(largest_height_, std::abs(z));
   }
 
   Result<Simplified> execute(Clock::time_point start) {
-    if (auto fits = check_budget(); !fits) return tl::unexpected(fits.error());
+    if (auto fits = budget_.check(size(), "the convex hull of the points alone needs", ""); !fits)
+      return tl::unexpected(fits.error());
     Simplified result;
     if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
     take_best_prefix();
@@ -114,26 +109,8 @@ class PointRun {
   }
 
  private:
-  Result<void> check_budget() const {
-    const std::uint64_t vertices = domain_.vertex_count(), triangles = refinement_->triangle_count();
-    if (options_.max_vertices && *options_.max_vertices < vertices)
-      return fail(ErrorKind::kUsage,
-                  fmt::format("{} vertices are too few: the convex hull of the points alone has {}; allow more",
-                              *options_.max_vertices, vertices));
-    if (options_.max_triangles && *options_.max_triangles < triangles)
-      return fail(ErrorKind::kUsage,
-                  fmt::format("{} triangles are too few: the convex hull of the points alone needs {}; allow more",
-                              *options_.max_triangles, triangles));
-    return {};
-  }
-
-  /// The budget that one more vertex with `gain` more triangles would break.
-  std::optional<StopReason> exceeded(std::uint32_t gain) const {
-    if (options_.max_vertices && domain_.vertex_count() + 1 > *options_.max_vertices) return StopReason::kMaxVertices;
-    if (options_.max_triangles && refinement_->triangle_count() + gain > *options_.max_triangles)
-      return StopReason::kMaxTriangles;
-    return std::nullopt;
-  }
+  MeshSize size() const { return {domain_.vertex_count(), refinement_->triangle_count()}; }
+  std::optional<StopReason> exceeded(std::uint32_t gain) const { return budget_.exceeded(size(), gain); }
 
   Result<void> refine(StopReason& stop) {
     const double first_error = refinement_->worst_error();
@@ -149,7 +126,8 @@ class PointRun {
       }
       if (refinement_->is_full())
         return fail(ErrorKind::kInput, "the mesh would have more than 1,431 million triangles: allow a larger error");
-      if ((step < 1024 || step % 256 == 0) && !report(first_error))
+      if ((step < 1024 || step % 256 == 0) && reporter_.due() &&
+          !reporter_.report("refine", fraction(first_error), domain_.vertex_count(), refinement_->worst_error()))
         return fail(ErrorKind::kCancelled, "cancelled while refining");
       refinement_->insert_worst();
       ++insertions_;
@@ -158,31 +136,13 @@ class PointRun {
     }
   }
 
-  /// At most ten times a second; false once the callback has said so.
-  bool report(double first_error) {
-    if (!options_.progress || seconds_since(reported_) < 0.1) return true;
-    reported_ = Clock::now();
-    const double error = refinement_->worst_error();
-    const auto share = [](std::uint64_t count, const std::optional<std::uint64_t>& most) {
-      return most ? static_cast<double>(count) / static_cast<double>(*most) : 0;
-    };
-    fraction_ = std::max({fraction_, share(domain_.vertex_count(), options_.max_vertices),
-                          share(refinement_->triangle_count(), options_.max_triangles)});
-    // The error falls about as the square root of the vertices grows: work done is a ratio of squares.
-    if (options_.max_error && bound_ > 0 && first_error > bound_)
-      fraction_ = std::max(fraction_, bound_ * bound_ / (error * error));
-    return options_.progress({"refine", std::min(fraction_, 1.0), domain_.vertex_count(), error});
+  double fraction(double first_error) const {
+    const double goal = options_.max_error ? bound_ : 0;
+    return std::max(budget_.used(size()), error_progress(first_error, refinement_->worst_error(), goal));
   }
 
-  /// The last 5 % of what the budget allows: where the best prefix is looked for.
-  bool in_last_stretch() const {
-    if (!options_.best_of_budget) return false;
-    const auto last = [](std::uint64_t count, const std::optional<std::uint64_t>& most) {
-      return most && static_cast<double>(count) >= 0.95 * static_cast<double>(*most);
-    };
-    return last(domain_.vertex_count(), options_.max_vertices) ||
-           last(refinement_->triangle_count(), options_.max_triangles);
-  }
+  /// Where the best prefix is looked for.
+  bool in_last_stretch() const { return options_.best_of_budget && budget_.in_last_stretch(size()); }
 
   /// Max error is not monotone: a budget may stop on a spike. An earlier mesh is had by inserting the same places
   /// again.
@@ -218,7 +178,7 @@ class PointRun {
       if (tin.is_outside(t)) continue;
       for (const HalfEdge h : {3 * t, 3 * t + 2, 3 * t + 1}) mesh.triangles.push_back(ids[tin.origin(h)]);
     }
-    remove_thin_triangles(mesh, 4 * position_rounding(mesh));
+    remove_thin_triangles(mesh, 4 * position_rounding(mesh), thinnest_border_);
     optimize_order(mesh);
     if (refinement_) {
       result.effort.samples_scanned = refinement_->places_judged();
@@ -266,6 +226,18 @@ class PointRun {
     return true;
   }
 
+  /// Gives up thicker slivers along the hull than before: over one that is a millimetre high the surface may rise by
+  /// metres, so that the rounding of its corners breaks the bound. False once they are as thick as what the judge takes
+  /// for covered.
+  bool trim_border(const Mesh& mesh) {
+    const double thinnest = std::max(8 * thinnest_border_, 32 * position_rounding(mesh));
+    const double area = places_.lattice.step * places_.lattice.step * static_cast<double>(places_.lattice.cols) *
+                        static_cast<double>(places_.lattice.rows);
+    if (thinnest > std::sqrt(area / static_cast<double>(places_.size())) / 64) return false;
+    thinnest_border_ = thinnest;
+    return true;
+  }
+
   /// Judges the mesh as it will be written, at the points as they were given. Where snapping or float32 positions cost
   /// the bound, the points that break it are inserted and refinement goes on.
   Result<void> prove(Simplified& result) {
@@ -279,13 +251,15 @@ class PointRun {
       if (!measurement) return tl::unexpected(measurement.error());
       result.measurement = std::move(*measurement);
       result.seconds_measure += seconds_since(start);
-      if (!result.measurement.is_sound()) return fail(ErrorKind::kPromise, "the mesh folds over itself" + advice());
       const Measurement& m = result.measurement;
-      if (result.stop != StopReason::kMaxError || (m.max_error <= bound_ + allowance() && m.uncovered == 0)) return {};
+      const bool is_kept =
+          result.stop != StopReason::kMaxError || (m.max_error <= bound_ + allowance() && m.uncovered == 0);
+      if (m.is_sound() && is_kept) return {};
       const auto again = Clock::now();
-      const auto mended = mend(result);
+      const auto mended = m.is_sound() ? mend(result) : false;
       if (!mended) return tl::unexpected(mended.error());
-      if (!*mended) return fail(ErrorKind::kPromise, describe_broken(m) + advice());
+      if (!*mended && !trim_border(result.mesh))
+        return fail(ErrorKind::kPromise, (m.is_sound() ? describe_broken(m) : "the mesh folds over itself") + advice());
       freeze_into(result);
       result.seconds_refine += seconds_since(again);
     }
@@ -310,24 +284,19 @@ class PointRun {
                      places_.lattice.step);
   }
 
-  struct Prefix {
-    std::size_t vertices;
-    double error;
-  };
-
   const PointSet& points_;
   const PointPlaces& places_;
   std::span<const double> heights_;
   const SimplifyOptions& options_;
+  Budget budget_;
   double bound_;
-  double largest_height_ = 0;
+  double largest_height_ = 0, thinnest_border_ = 0;
   ScatteredDomain domain_;
   std::size_t seeds_;
   std::optional<ScatteredRefinement> refinement_;
   std::vector<std::uint32_t> places_by_point_;
   std::uint64_t insertions_ = 0;
-  Clock::time_point reported_ = Clock::now();
-  double fraction_ = 0;
+  Reporter reporter_;
   Prefix best_{0, std::numeric_limits<double>::infinity()};
 };
 

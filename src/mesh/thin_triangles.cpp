@@ -14,11 +14,12 @@ namespace {
 
 class Trimmer {
  public:
-  Trimmer(Mesh& mesh, double thinnest) : mesh_(mesh), corners_(mesh.triangles), thinnest_(thinnest) {}
+  Trimmer(Mesh& mesh, double thinnest, double thinnest_border)
+      : mesh_(mesh), corners_(mesh.triangles), thinnest_(thinnest), most_(std::max(thinnest, thinnest_border)) {}
 
   void run() {
     for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t) {
-      if (is_thin(t)) pending_.push_back(t);
+      if (may_be_thin(t)) pending_.push_back(t);
     }
     if (pending_.empty()) return;
     twins_ = build_twins(corners_);
@@ -30,7 +31,7 @@ class Trimmer {
     while (!pending_.empty()) {
       const std::uint32_t t = pending_.back();
       pending_.pop_back();
-      if (!dropped_[t] && is_thin(t)) mend(t);
+      if (!dropped_[t] && may_be_thin(t)) mend(t);
     }
     std::size_t kept = 0;
     for (std::uint32_t t = 0; t < dropped_.size(); ++t) {
@@ -57,6 +58,7 @@ class Trimmer {
   }
   double height(std::uint32_t t) const { return height(corner(3 * t), corner(3 * t + 1), corner(3 * t + 2)); }
   bool is_thin(std::uint32_t t) const { return height(t) <= 0 || height(t) < thinnest_; }
+  bool may_be_thin(std::uint32_t t) const { return height(t) <= 0 || height(t) < most_; }
 
   void mend(std::uint32_t t) {
     std::uint32_t longest = 3 * t;
@@ -64,7 +66,11 @@ class Trimmer {
       if (length(corner(h), corner(next_half_edge(h))) > length(corner(longest), corner(next_half_edge(longest))))
         longest = h;
     }
-    twins_[longest] == kNoHalfEdge ? drop(longest) : flip(longest);
+    if (twins_[longest] == kNoHalfEdge) {
+      drop(longest);
+    } else if (is_thin(t)) {
+      flip(longest);
+    }
   }
 
   void drop(std::uint32_t h) {
@@ -108,13 +114,15 @@ class Trimmer {
 
   Mesh& mesh_;
   std::vector<std::uint32_t>& corners_;
-  double thinnest_;
+  double thinnest_, most_;
   std::vector<std::uint32_t> twins_, pending_;
   std::vector<bool> on_border_, dropped_;
 };
 
 }  // namespace
 
-void remove_thin_triangles(Mesh& mesh, double thinnest) { Trimmer(mesh, thinnest).run(); }
+void remove_thin_triangles(Mesh& mesh, double thinnest, double thinnest_border) {
+  Trimmer(mesh, thinnest, thinnest_border).run();
+}
 
 }  // namespace scarp

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "geom/exact_error.h"
@@ -14,6 +15,9 @@
 namespace scarp {
 
 namespace {
+
+/// Samples of a row that are looked at together.
+constexpr std::int32_t kChunk = 64;
 
 /// Where the importance is 0 the error itself decides, far below any other importance.
 constexpr double kUnimportant = 1e-280;
@@ -34,9 +38,21 @@ void add_to_norm(Norm norm, double error, double& total) {
 
 }  // namespace
 
+/// A plane for each field. Few fields, the usual case, cost no allocation and no clearing of many planes.
 struct SampleJudge::Surface {
-  std::array<Plane, kMaxChannels + 1> planes;
+  static constexpr std::size_t kFew = 4;
+  std::array<Plane, kFew> few;
+  std::vector<Plane> more;
   double guard = 0;
+
+  void add(std::size_t k, const Plane& plane) {
+    if (k < kFew) {
+      few[k] = plane;
+    } else {
+      more.push_back(plane);
+    }
+  }
+  const Plane& plane(std::size_t k) const { return k < kFew ? few[k] : more[k - kFew]; }
 };
 
 SampleJudge::SampleJudge(Judging judging) : judging_(std::move(judging)) {}
@@ -49,23 +65,42 @@ std::array<float, 3> SampleJudge::values_at(const JudgedField& field, const std:
 SampleJudge::Surface SampleJudge::surface(const std::array<Point, 3>& corners) const {
   Surface surface;
   for (std::size_t k = 0; k < judging_.fields.size(); ++k) {
-    surface.planes[k] = Plane::through(corners, values_at(judging_.fields[k], corners));
-    surface.guard += judging_.fields[k].scale * surface.planes[k].guard;
+    surface.add(k, Plane::through(corners, values_at(judging_.fields[k], corners)));
+    surface.guard += judging_.fields[k].scale * surface.plane(k).guard;
   }
   return surface;
 }
 
-double SampleJudge::combine(const Surface& surface, Point p, std::size_t index) const {
-  if (judging_.fields.size() == 1)
-    return judging_.fields[0].scale *
-           std::abs(surface.planes[0].height_at(p) - double{judging_.fields[0].samples[index]});
-  double total = 0;
+void SampleJudge::combine_row(const Surface& surface, Point start, std::span<double> errors) const {
+  const std::size_t index = index_of(start);
+  std::fill(errors.begin(), errors.end(), 0.0);
   for (std::size_t k = 0; k < judging_.fields.size(); ++k) {
-    const JudgedField& field = judging_.fields[k];
-    add_to_norm(judging_.norm, field.scale * std::abs(surface.planes[k].height_at(p) - double{field.samples[index]}),
-                total);
+    const Plane& plane = surface.plane(k);
+    const double row_height = plane.row_height(start.y), scale = judging_.fields[k].scale;
+    const float* samples = judging_.fields[k].samples + index;
+    const auto each = [&](auto&& add) {
+      for (std::size_t i = 0; i < errors.size(); ++i) {
+        const double along = static_cast<double>(start.x - plane.base.x + static_cast<std::int32_t>(i));
+        add(errors[i], scale * std::abs(row_height + plane.slope_x * along - double{samples[i]}));
+      }
+    };
+    if (judging_.norm == Norm::kSum || judging_.fields.size() == 1) {
+      each([](double& total, double error) { total += error; });
+    } else if (judging_.norm == Norm::kSquares) {
+      each([](double& total, double error) { total += error * error; });
+    } else {
+      each([](double& total, double error) { total = std::max(total, error); });
+    }
   }
-  return judging_.norm == Norm::kSquares ? std::sqrt(total) : total;
+  if (judging_.norm == Norm::kSquares && judging_.fields.size() > 1) {
+    for (double& error : errors) error = std::sqrt(error);
+  }
+}
+
+double SampleJudge::combine(const Surface& surface, Point p) const {
+  double error = 0;
+  combine_row(surface, p, {&error, 1});
+  return error;
 }
 
 double SampleJudge::weighted(double error, std::size_t index) const {
@@ -82,23 +117,29 @@ Fit SampleJudge::fit(const std::array<Point, 3>& corners, const FitQuestion& que
   Fit fit;
   fit.guard = surface.guard;
   double doubtful = -1;
+  std::array<double, kChunk> errors;
   scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     if (!fit.complete) return;
     fit.scanned += static_cast<std::uint64_t>(last - first + 1);
-    std::size_t index = index_of({first, y});
-    for (std::int32_t x = first; x <= last; ++x, ++index) {
-      if (std::isnan(judging_.heights.samples[index])) continue;
-      const double error = combine(surface, {x, y}, index);
-      const double score = weighted(error, index);
-      fit.max_error = std::max(fit.max_error, score);
-      fit.sum_squares += score * score;
-      const double bound = bound_at(index), margin = surface.guard + kNormRounding * error;
-      if (error < bound - margin) continue;
-      const double value = importance(error, index);
-      if (error > bound + margin) {
-        if (value > fit.worst.error) fit.worst = {value, {x, y}};
-      } else {
-        doubtful = std::max(doubtful, value);
+    for (std::int32_t begin = first; begin <= last; begin += kChunk) {
+      const auto count = static_cast<std::size_t>(std::min(kChunk, last - begin + 1));
+      combine_row(surface, {begin, y}, {errors.data(), count});
+      const std::size_t index = index_of({begin, y});
+      for (std::size_t i = 0; i < count; ++i) {
+        const double error = errors[i];
+        if (std::isnan(judging_.heights.samples[index + i])) continue;
+        const double score = weighted(error, index + i);
+        fit.max_error = std::max(fit.max_error, score);
+        fit.sum_squares += score * score;
+        const double value = importance(error, index + i);
+        if (value <= fit.worst.error) continue;  // no candidate, whatever its bound
+        const double bound = bound_at(index + i), margin = surface.guard + kNormRounding * error;
+        if (error < bound - margin) continue;
+        if (error > bound + margin) {
+          fit.worst = {value, {begin + static_cast<std::int32_t>(i), y}};
+        } else {
+          doubtful = std::max(doubtful, value);
+        }
       }
     }
     fit.complete = !question.is_given_up(fit.max_error, fit.sum_squares);
@@ -113,7 +154,7 @@ void SampleJudge::refine_scores(const Surface& surface, const std::array<Point, 
   const auto error_at = [&](std::int32_t x, std::int32_t y, double fx, double fy) {
     double total = 0;
     for (std::size_t k = 0; k < judging_.fields.size(); ++k) {
-      const Plane& plane = surface.planes[k];
+      const Plane& plane = surface.plane(k);
       const double height = plane.height + plane.slope_y * (fy - plane.base.y) + plane.slope_x * (fx - plane.base.x);
       const double sample = interpolate(judging_.fields[k].samples, judging_.heights.cols, x, y, question.lattice);
       add_to_norm(judging_.norm, judging_.fields[k].scale * std::abs(height - sample), total);
@@ -155,7 +196,7 @@ std::optional<Candidate> SampleJudge::find_candidate(const std::array<Point, 3>&
       const Point p{x, y};
       const std::size_t index = index_of(p);
       if (std::isnan(judging_.heights.samples[index])) continue;
-      const double error = combine(surface, p, index), bound = bound_at(index);
+      const double error = combine(surface, p), bound = bound_at(index);
       const double margin = surface.guard + kNormRounding * error;
       if (!(std::abs(error - bound) <= margin)) continue;
       const Candidate candidate{importance(error, index), p};

@@ -1,6 +1,7 @@
 // The general judge: errors of heights and channels combined, a bound and a factor of importance for each sample.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "geom/plane.h"
@@ -43,7 +44,9 @@ class SampleJudge final : public Judge {
  private:
   struct Surface;
   Surface surface(const std::array<Point, 3>& corners) const;
-  double combine(const Surface& surface, Point p, std::size_t index) const;
+  /// The combined errors of consecutive samples of a row.
+  void combine_row(const Surface& surface, Point start, std::span<double> errors) const;
+  double combine(const Surface& surface, Point p) const;
   double bound_at(std::size_t index) const {
     return judging_.bounds != nullptr ? double{judging_.bounds[index]} : judging_.threshold;
   }

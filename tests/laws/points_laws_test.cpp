@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <random>
 #include <set>
 
 #include "grid/point_places.h"
@@ -246,6 +247,32 @@ RC_GTEST_PROP(points, of_a_raster_give_the_mesh_of_the_raster, ()) {
     a.insert({(m.vertex(v)[0] - 500015) / spacing, m.vertex(v)[1] / spacing, m.vertex(v)[2]});
   for (std::size_t v = 0; v < n.vertex_count(); ++v) b.insert(n.vertex(v));
   RC_ASSERT(a == b);
+}
+
+// Slivers of millimetres along the hull, across which the surface rises by metres: a step of float32 is felt there.
+TEST(points, keep_their_bound_where_slivers_along_the_hull_are_steep) {
+  for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+    std::mt19937 random(seed);
+    const auto millimetres = [&](double range) {
+      return static_cast<double>(random() % static_cast<std::uint32_t>(1000 * range)) / 1000;
+    };
+    PointSet points;
+    for (int k = 0; k < 5000; ++k) {
+      const double x = millimetres(10000), y = k % 20 == 0 ? 8000 - millimetres(1) : millimetres(8000);
+      points.x.push_back(500000 + x);
+      points.y.push_back(4000000 + y);
+      points.z.push_back(100 * std::sin(x / 700) * std::cos(y / 900) + millimetres(2));
+    }
+    for (const double bound : {3.0, 6.0}) {
+      const auto result = simplify_points(points, {.max_error = bound});
+      ASSERT_TRUE(result) << seed << ", " << bound << ": " << result.error().message;
+      const auto judged = measure_points(points, result->simplified.mesh, DuplicatePolicy::kFirst);
+      ASSERT_TRUE(judged);
+      EXPECT_TRUE(judged->is_sound());
+      EXPECT_EQ(judged->uncovered, 0u);
+      EXPECT_LE(judged->max_error, bound);
+    }
+  }
 }
 
 }  // namespace

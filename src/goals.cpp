@@ -1,0 +1,59 @@
+#include "goals.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scarp {
+
+Result<void> check_goals(const SimplifyOptions& options, bool may_have_tolerance) {
+  const bool has_tolerance = may_have_tolerance && !options.tolerance.empty();
+  if (!options.max_error && !options.max_triangles && !options.max_vertices && !has_tolerance)
+    return fail(ErrorKind::kUsage,
+                fmt::format("no goal given: set max_error, max_triangles{} max_vertices{}",
+                            may_have_tolerance ? "," : " or", may_have_tolerance ? " or tolerance" : ""));
+  if (options.max_error && !(*options.max_error >= 0 && std::isfinite(*options.max_error)))
+    return fail(ErrorKind::kUsage,
+                fmt::format("max_error must be a finite number of at least 0, not {}", *options.max_error));
+  return {};
+}
+
+Result<void> Budget::check(const MeshSize& least, const std::string& culprit, const std::string& advice) const {
+  const auto refuse = [&](std::uint64_t budget, const char* what, std::uint64_t needed) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} {} are too few: {} {}; allow more{}", budget, what, culprit, needed, advice));
+  };
+  if (options_.max_vertices && *options_.max_vertices < least.vertices)
+    return refuse(*options_.max_vertices, "vertices", least.vertices);
+  if (options_.max_triangles && *options_.max_triangles < least.triangles)
+    return refuse(*options_.max_triangles, "triangles", least.triangles);
+  return {};
+}
+
+std::optional<StopReason> Budget::exceeded(const MeshSize& size, std::uint32_t gain) const {
+  if (options_.max_vertices && size.vertices + 1 > *options_.max_vertices) return StopReason::kMaxVertices;
+  if (options_.max_triangles && size.triangles + gain > *options_.max_triangles) return StopReason::kMaxTriangles;
+  return std::nullopt;
+}
+
+bool Budget::in_last_stretch(const MeshSize& size) const { return used(size) >= 0.95; }
+
+double Budget::used(const MeshSize& size) const {
+  const auto share = [](std::uint64_t count, const std::optional<std::uint64_t>& most) {
+    return most ? static_cast<double>(count) / static_cast<double>(*most) : 0;
+  };
+  return std::max(share(size.vertices, options_.max_vertices), share(size.triangles, options_.max_triangles));
+}
+
+double error_progress(double first, double now, double goal) {
+  return goal > 0 && first > goal ? goal * goal / (now * now) : 0;
+}
+
+bool Reporter::report(std::string_view pass, double fraction, std::uint64_t vertices, double error) {
+  last_ = Clock::now();
+  fraction_ = std::max(fraction_, std::min(fraction, 1.0));
+  return !callback_ || callback_({pass, fraction_, vertices, error});
+}
+
+}  // namespace scarp
