@@ -59,7 +59,7 @@ _scarp() {
       measure)
         options+=' --points --duplicates --layer --z-field'
         options+=' --fail-above --json --map --error-raster --overwrite --num-threads'
-        options+=' --mask --tolerance --image --texture --texture-weight --norm --channel-weights'
+        options+=' --mask --tolerance --script --image --texture --texture-weight --norm --channel-weights'
         ;;
       info) options+=' --json' ;;
     esac

@@ -83,7 +83,7 @@ std::string suggest_command(const RasterInfo& raster, int cols, int rows, const 
 
 }  // namespace
 
-void CompanionArguments::add_to(CLI::App& verb, bool with_script) {
+void CompanionArguments::add_to(CLI::App& verb, const char* script_help) {
   const char* group = "Where it matters (rasters on the grid of the heights)";
   verb.add_option("--mask", mask,
                   "Weights of the samples' errors, 0 (no bound) to 1;\nif the largest is above 1, all are divided by "
@@ -95,11 +95,7 @@ void CompanionArguments::add_to(CLI::App& verb, bool with_script) {
                   "own")
       ->type_name("FILE")
       ->group(group);
-  if (!with_script) return;
-  verb.add_option("--script", script,
-                  "Lines 's COL ROW' (becomes a vertex), 'i COL ROW' or\n'u COL ROW' (never does, and has no bound)")
-      ->type_name("FILE")
-      ->group(group);
+  verb.add_option("--script", script, script_help)->type_name("FILE")->group(group);
 }
 
 Result<void> CompanionArguments::check() const {
@@ -139,9 +135,27 @@ double Companions::weigh(std::size_t sample, double error) const {
   return error / static_cast<double>(tolerance[sample]);
 }
 
-bool Companions::is_free(std::size_t sample) const {
-  if (!mask.empty()) return mask[sample] == 0;
-  return !tolerance.empty() && std::isinf(tolerance[sample]);
+Exceptions find_exceptions(const HeightField& heights, const Companions& companions, bool has_max_error) {
+  Exceptions found;
+  if (!companions.has_weights() && !companions.ignores_samples()) return found;
+  constexpr float kNone = std::numeric_limits<float>::infinity();
+  const auto cols = static_cast<std::size_t>(heights.cols);
+  found.limits.resize(cols * static_cast<std::size_t>(heights.rows), 0);
+  for (std::size_t k = 0; k < companions.mask.size(); ++k) {
+    if (companions.mask[k] == 0) found.limits[k] = kNone;
+  }
+  for (std::size_t k = 0; k < companions.tolerance.size() && !has_max_error; ++k) {
+    if (std::isinf(companions.tolerance[k])) found.limits[k] = kNone;
+  }
+  for (const ScriptStep& step : companions.script) {
+    if (step.action != ScriptStep::Action::kIgnore) continue;
+    found.limits[static_cast<std::size_t>(step.row) * cols + static_cast<std::size_t>(step.col)] = kNone;
+  }
+  for (std::size_t k = 0; k < found.limits.size(); ++k) {
+    found.count += found.limits[k] > 0 && std::isfinite(heights.samples[k]);
+  }
+  if (found.count == 0) found.limits.clear();
+  return found;
 }
 
 Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster, int cols, int rows,
@@ -165,6 +179,9 @@ Result<Companions> read_companions(const CompanionArguments& given, const Raster
     Result<std::vector<ScriptStep>> script = read_script(*given.script, cols, rows);
     if (!script) return tl::unexpected(std::move(script.error()));
     companions.script = std::move(*script);
+    if (companions.script.empty()) {
+      companions.warnings.push_back(fmt::format("--script {} holds no step: it changes nothing", *given.script));
+    }
   }
   return companions;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,8 @@ namespace scarp::cli {
 struct CompanionArguments {
   Given mask, tolerance, script;
 
-  /// --mask and --tolerance; `with_script`: --script too.
-  void add_to(CLI::App& verb, bool with_script);
+  /// `script_help` is the verb's own sentence on --script.
+  void add_to(CLI::App& verb, const char* script_help);
   /// Refuses --mask with --tolerance.
   Result<void> check() const;
   /// The files that were named.
@@ -35,8 +36,6 @@ struct Companions {
   bool ignores_samples() const;
   /// weight · error, or error / tolerance (0 / 0 is 0); the error itself where neither was given.
   double weigh(std::size_t sample, double error) const;
-  /// True if the sample has no bound: weight 0, or an infinite tolerance.
-  bool is_free(std::size_t sample) const;
 };
 
 /// Reads and checks the files, which must lie on the grid of `raster`.
@@ -44,6 +43,16 @@ struct Companions {
 /// Tolerance: values below 0 are refused; no value means no bound.
 Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster, int cols, int rows,
                                    const ProgressCallback& progress);
+
+/// The valid samples without a bound: by the script, by weight 0, by an infinite tolerance.
+struct Exceptions {
+  std::vector<float> limits;  ///< +infinity for them, 0 for the others; empty if there are none
+  std::uint64_t count = 0;
+
+  bool has(std::size_t sample) const { return !limits.empty() && limits[sample] > 0; }
+};
+/// `has_max_error`: a bound that holds beside the tolerances, also where they are infinite.
+Exceptions find_exceptions(const HeightField& heights, const Companions& companions, bool has_max_error);
 
 /// Fails, with the way out, unless `other` lies on the grid of `raster`. `option` named it.
 Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const char* option, const RasterInfo& other,

@@ -55,6 +55,18 @@ class UncoveredFinder {
   int col_ = -1, row_ = -1;
 };
 
+/// The largest error of a covered sample; the lowest row, then column, among equals.
+LargestError find_largest(const std::vector<Offender>& offenders) {
+  LargestError largest;
+  for (const Offender& offender : offenders) {
+    const double error = std::abs(offender.error);
+    if (std::isinf(error) || error < largest.value) continue;
+    const bool is_earlier = std::pair(offender.row, offender.col) < std::pair(largest.at[1], largest.at[0]);
+    if (error > largest.value || is_earlier) largest = {error, {offender.col, offender.row}};
+  }
+  return largest;
+}
+
 /// Adds |scaled error| to each sample's norm: squares until they are all in. A missing error adds nothing.
 void add_to_norms(std::span<double> norms, std::span<const float> errors, double scale, Norm norm) {
   for (std::size_t k = 0; k < errors.size(); ++k) {
@@ -109,6 +121,8 @@ Result<Judgement> judge(const HeightField& heights, const Mesh& mesh, const Chan
   MeasureOptions options;
   options.threads = request.threads;
   options.progress = request.progress;
+  options.topology = request.topology;
+  if (request.exceptions) options.tolerance = request.exceptions->limits;
   options.on_row = [&](int row, std::span<const float> errors) {
     uncovered.look_at(row, errors);
     const std::size_t start = static_cast<std::size_t>(row) * cols;
@@ -122,8 +136,12 @@ Result<Judgement> judge(const HeightField& heights, const Mesh& mesh, const Chan
   if (!measured) return tl::unexpected(std::move(measured.error()));
   judgement.heights = std::move(*measured);
   judgement.uncovered_sample = uncovered.found();
+  judgement.bounded = options.tolerance.empty()
+                          ? LargestError{judgement.heights.max_error, judgement.heights.max_error_at}
+                          : find_largest(std::exchange(judgement.heights.offenders, {}));
 
   options.topology = false;
+  options.tolerance = {};
   ChannelJudge channel_judge(heights, mesh);
   for (std::size_t k = 0; k < channels.count(); ++k) {
     options.on_row = [&, k](int row, std::span<const float> errors) {
@@ -173,7 +191,7 @@ Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::s
 }
 
 WeighedErrors weigh_errors(const Judgement& judgement, const HeightField& heights, const Channels& channels,
-                           const Companions& companions, double bound) {
+                           const Companions& companions, const Exceptions& exceptions, double bound) {
   WeighedErrors weighed;
   const double reserve = heights.sample_rounding * (channels.empty() ? 1 : channels.height_scale);
   const HeightRange range = height_range(heights);
@@ -184,16 +202,16 @@ WeighedErrors weigh_errors(const Judgement& judgement, const HeightField& height
   for (std::size_t k = 0; k < judgement.height_errors.size(); ++k) {
     if (std::isnan(judgement.height_errors[k])) continue;
     ++judged;
-    if (companions.is_free(k)) ++weighed.free;
     const double error =
         judgement.norms.empty() ? std::abs(static_cast<double>(judgement.height_errors[k])) : judgement.norms[k];
     const double value = companions.weigh(k, error);
     sum_of_squares += value * value;
-    if (value > weighed.max || weighed.max_at[0] < 0) {
-      weighed.max = value;
-      weighed.max_at = {static_cast<std::int32_t>(k % static_cast<std::size_t>(heights.cols)),
-                        static_cast<std::int32_t>(k / static_cast<std::size_t>(heights.cols))};
-    }
+    const LargestError here{value,
+                            {static_cast<std::int32_t>(k % static_cast<std::size_t>(heights.cols)),
+                             static_cast<std::int32_t>(k / static_cast<std::size_t>(heights.cols))}};
+    if (value > weighed.largest.value) weighed.largest = here;
+    if (exceptions.has(k)) continue;
+    if (value > weighed.bounded.value) weighed.bounded = here;
     if (companions.weigh(k, std::max(0.0, error + reserve - allowance)) > limit) ++weighed.over;
   }
   if (judged > 0) weighed.rmse = std::sqrt(sum_of_squares / static_cast<double>(judged));

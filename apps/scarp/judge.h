@@ -13,16 +13,25 @@
 
 namespace scarp::cli {
 
+/// The largest of some errors, without sign, and its sample (col, row): none, (−1, −1), if all are 0.
+struct LargestError {
+  double value = 0;
+  std::array<std::int32_t, 2> at{-1, -1};
+};
+
 struct Judgement {
   Measurement heights;
   std::vector<Measurement> channels;  ///< without topology
   std::vector<float> height_errors;   ///< signed, NaN where void or uncovered; if they were to be kept
   std::vector<double> norms;          ///< of all errors of a sample; with channels, if they were to be kept
+  LargestError bounded;               ///< of heights, over covered samples that are no JudgeOptions::exceptions
   std::string uncovered_sample;       ///< "the first at column 3, row 7"; empty if there is none
 };
 
 struct JudgeOptions {
   bool keep_errors = false;
+  bool topology = true;
+  const Exceptions* exceptions = nullptr;  ///< null or empty: none
   int threads = 0;
   ProgressCallback progress = {};
 };
@@ -41,16 +50,15 @@ Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::s
 
 /// What a bound is compared with: heights' errors or norms, under a mask or tolerances.
 struct WeighedErrors {
-  double max = 0;  ///< largest, without the rounding of the samples
-  std::array<std::int32_t, 2> max_at{-1, -1};
+  LargestError largest;    ///< of all judged samples, without their rounding
+  LargestError bounded;    ///< of those with a bound
   double rmse = 0;         ///< over all judged samples
-  std::uint64_t free = 0;  ///< judged samples without a bound
-  std::uint64_t over = 0;  ///< samples above `bound`, the rounding of the samples counted
+  std::uint64_t over = 0;  ///< samples above `bound`, their rounding counted; not those without a bound
 };
 
 /// REQUIRES: the errors were kept. A sample is above `bound` by more than the rounding of the judge: 1e-12 of the
 /// largest value, and 2^-23 of the bound, since the judge hands out errors as float32.
 WeighedErrors weigh_errors(const Judgement& judgement, const HeightField& heights, const Channels& channels,
-                           const Companions& companions, double bound);
+                           const Companions& companions, const Exceptions& exceptions, double bound);
 
 }  // namespace scarp::cli

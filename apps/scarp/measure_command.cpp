@@ -30,13 +30,14 @@ MeasureCommand::MeasureCommand(CLI::App& program)
       "says of\nitself, else what simplify does by default");
   points_.add_to(*verb_);
   verb_
-      ->add_option("--fail-above", fail_above_,
-                   "End with exit code 3 if any error is above this (units\nof the heights; weighted, with a mask; "
-                   "combined, with\nchannels), a sample is uncovered or the mesh is not\nsound. --tolerance fails "
-                   "without it")
+      ->add_option(
+          "--fail-above", fail_above_,
+          "End with exit code 3 if any error is above this (units\nof the heights; weighted, with a mask; combined, "
+          "with\nchannels; samples without a bound left out), a sample\nis uncovered or the mesh is not "
+          "sound. --tolerance\nfails without it")
       ->type_name("E")
       ->group("Verdict");
-  companions_.add_to(*verb_, false);
+  companions_.add_to(*verb_, "Samples that its lines 'i COL ROW' and 'u COL ROW'\nname have no bound (as in simplify)");
   channels_.add_to(*verb_);
   verb_->add_flag("--json", json_, "The report as JSON on stdout")->group("Output");
   verb_->add_option("--map", map_, "Draw the signed errors in diverging colours")
@@ -59,6 +60,7 @@ MeasureCommand::MeasureCommand(CLI::App& program)
       "  scarp measure dem.tif hills.glb --fail-above 1    exit code 3 unless every error is within 1 m\n"
       "  scarp measure dem.tif hills.obj --json --map error.png\n"
       "  scarp measure dem.tif hills.glb --tolerance t.tif exit code 3 if a sample is above its bound\n"
+      "  scarp measure dem.tif hills.glb --script outliers.txt --fail-above 1\n"
       "  scarp measure photo.png photo.glb --image --fail-above 8\n"
       "Errors are vertical, mesh minus sample, in the units of the heights.\n"
       "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.");
@@ -193,7 +195,9 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
   judged.seconds_read = seconds_since(start);
 
   const Clock::time_point measure_start = Clock::now();
+  judged.exceptions = find_exceptions(judged.field, judged.companions, judged.fail_above.has_value());
   JudgeOptions options;
+  options.exceptions = &judged.exceptions;
   options.keep_errors = map_ || error_raster_ || judged.companions.has_weights() || !judged.channels.empty();
   options.threads = *threads;
   options.progress = display.callback();

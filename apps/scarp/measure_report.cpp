@@ -25,15 +25,16 @@ std::optional<std::string> find_excess(const Judged& judged) {
     return fmt::format(
         "{} above {} tolerance, the worst {:.10g} times {}{}",
         judged.weighted->over == 1 ? "1 sample is" : format_count(judged.weighted->over) + " samples are",
-        judged.weighted->over == 1 ? "its" : "their", judged.weighted->max, describe_place(judged.weighted->max_at),
-        describe_rounding(rounding));
+        judged.weighted->over == 1 ? "its" : "their", judged.weighted->bounded.value,
+        describe_place(judged.weighted->bounded.at), describe_rounding(rounding));
   }
   if (!judged.fail_above) return std::nullopt;
   const bool has_mask = !judged.companions.mask.empty();
   const std::optional<WeighedErrors>& errors = has_mask ? judged.weighted : judged.combined;
   if (!errors || errors->over == 0) return std::nullopt;
-  return fmt::format("{} max error {:.10g} {}{} exceeds {:.10g}", has_mask ? "weighted" : "combined", errors->max,
-                     describe_place(errors->max_at), describe_rounding(rounding), *judged.fail_above);
+  return fmt::format("{} max error {:.10g} {}{} exceeds {:.10g}", has_mask ? "weighted" : "combined",
+                     errors->bounded.value, describe_place(errors->bounded.at), describe_rounding(rounding),
+                     *judged.fail_above);
 }
 
 std::string describe_heights(const Judged& judged) {
@@ -66,15 +67,21 @@ std::string describe_weighed(const Judged& judged) {
   }
   if (judged.channels.count() > kMostLines) text += line("", "further bands: see --json");
   if (judged.combined) {
-    text += line("combined", fmt::format("max error {} {} ({})", format_number(judged.combined->max),
-                                         describe_place(judged.combined->max_at), norm_name(judged.plan.norm)));
+    text += line("combined", fmt::format("max error {} {} ({})", format_number(judged.combined->largest.value),
+                                         describe_place(judged.combined->largest.at), norm_name(judged.plan.norm)));
   }
   if (judged.weighted) {
     const bool has_mask = !judged.companions.mask.empty();
-    text += line("weighted", fmt::format("{} {} {}, RMS {}", has_mask ? "max error" : "largest error / tolerance",
-                                         format_number(judged.weighted->max), describe_place(judged.weighted->max_at),
-                                         format_number(judged.weighted->rmse)));
-    text += line("samples ignored", format_count(judged.weighted->free) + ", without a bound");
+    text += line("weighted",
+                 fmt::format("{} {} {}, RMS {}", has_mask ? "max error" : "largest error / tolerance",
+                             format_number(judged.weighted->largest.value), describe_place(judged.weighted->largest.at),
+                             format_number(judged.weighted->rmse)));
+  }
+  if (judged.exceptions.count > 0) {
+    const LargestError bounded = judged.bounded();
+    text += line("samples ignored", format_count(judged.exceptions.count) + ", without a bound");
+    text += line("max error, bounded",
+                 format_number(bounded.value) + (bounded.at[0] < 0 ? "" : " " + describe_place(bounded.at)));
   }
   return text;
 }
@@ -84,15 +91,15 @@ std::string describe_pass(const Judged& judged) {
   if (!judged.companions.tolerance.empty()) kept = "every sample is within its tolerance";
   if (judged.fail_above) {
     const bool has_mask = !judged.companions.mask.empty();
-    const double error = has_mask          ? judged.weighted->max
-                         : judged.combined ? judged.combined->max
-                                           : judged.judgement.heights.max_error;
-    kept += fmt::format("{}{}max error {}{} is within {}", kept.empty() ? "" : ", ",
+    const double error = has_mask          ? judged.weighted->bounded.value
+                         : judged.combined ? judged.combined->bounded.value
+                                           : judged.judgement.bounded.value;
+    kept += fmt::format("{}{}max error {}{}{} is within {}", kept.empty() ? "" : ", ",
                         has_mask          ? "weighted "
                         : judged.combined ? "combined "
                                           : "",
-                        format_number(error), describe_rounding(judged.field.sample_rounding),
-                        format_number(*judged.fail_above));
+                        format_number(error), judged.exceptions.count > 0 ? " of the bounded samples" : "",
+                        describe_rounding(judged.field.sample_rounding), format_number(*judged.fail_above));
   }
   return fmt::format("Passed: {}, every sample is covered, the mesh is sound\n", kept);
 }
@@ -102,20 +109,23 @@ std::string describe_pass(const Judged& judged) {
 void decide(Judged& judged) {
   const double bound = judged.fail_above.value_or(HUGE_VAL);
   if (!judged.channels.empty()) {
-    judged.combined = weigh_errors(judged.judgement, judged.field, judged.channels, {}, bound);
+    judged.combined = weigh_errors(judged.judgement, judged.field, judged.channels, {}, judged.exceptions, bound);
   }
   if (judged.companions.has_weights()) {
     const bool has_mask = !judged.companions.mask.empty();
-    judged.weighted =
-        weigh_errors(judged.judgement, judged.field, judged.channels, judged.companions, has_mask ? bound : 1);
+    judged.weighted = weigh_errors(judged.judgement, judged.field, judged.channels, judged.companions,
+                                   judged.exceptions, has_mask ? bound : 1);
   }
   if (!judged.has_verdict()) return;
   judged.broken = find_excess(judged);
   if (judged.broken) return;
   const bool bounds_heights = judged.fail_above && judged.channels.empty() && judged.companions.mask.empty();
-  judged.broken = find_broken_promise(judged.judgement.heights, judged.field.sample_rounding,
-                                      bounds_heights ? *judged.fail_above : HUGE_VAL, height_range(judged.field),
-                                      judged.judgement.uncovered_sample);
+  Measurement bounded = judged.judgement.heights;
+  bounded.max_error = judged.judgement.bounded.value;
+  bounded.max_error_at = judged.judgement.bounded.at;
+  judged.broken =
+      find_broken_promise(bounded, judged.field.sample_rounding, bounds_heights ? *judged.fail_above : HUGE_VAL,
+                          height_range(judged.field), judged.judgement.uncovered_sample);
 }
 
 Json make_report(const Judged& judged, const std::string& mesh_path, const std::string& command_line) {
@@ -130,15 +140,16 @@ Json make_report(const Judged& judged, const std::string& mesh_path, const std::
   report["full_triangles"] = full_grid_triangles(judged.field);
   if (!judged.plan.image) add_errors(report, judged.judgement.heights, judged.field.sample_rounding);
   if (judged.weighted) {
-    report["weighted_max_error"] = finite_or_word(judged.weighted->max);
+    report["weighted_max_error"] = finite_or_word(judged.weighted->largest.value);
     report["weighted_rmse"] = finite_or_word(judged.weighted->rmse);
-    report["ignored"] = judged.weighted->free;
     if (!judged.companions.tolerance.empty()) report["over_tolerance"] = judged.weighted->over;
   }
+  if (judged.weighted || !judged.companions.script.empty()) report["ignored"] = judged.exceptions.count;
+  if (judged.exceptions.count > 0) add_bounded(report, judged.bounded());
   if (judged.combined) {
     report["norm"] = norm_name(judged.plan.norm);
     report["height_scale"] = judged.channels.height_scale;
-    report["combined_max_error"] = judged.combined->max;
+    report["combined_max_error"] = judged.combined->largest.value;
     report["channels"] = describe_channels(judged.channels.names, judged.channels.scales, judged.judgement.channels);
   }
   add_coverage(report, judged.judgement.heights);

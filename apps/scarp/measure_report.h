@@ -19,6 +19,7 @@ struct Judged {
   ChannelPlan plan;
   Channels channels;
   Companions companions;
+  Exceptions exceptions;
   Mesh mesh;
   Judgement judgement;
   std::optional<WeighedErrors> combined;  ///< of heights and channels, compared with fail_above
@@ -29,6 +30,8 @@ struct Judged {
   std::vector<std::string> warnings;
   double seconds_read = 0, seconds_measure = 0, seconds_total = 0;
 
+  /// Of the samples with a bound: the heights' error; of an image, the norm.
+  LargestError bounded() const { return plan.image ? combined->bounded : judgement.bounded; }
   bool has_verdict() const { return fail_above || !companions.tolerance.empty(); }
 };
 

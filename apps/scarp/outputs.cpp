@@ -4,6 +4,7 @@
 
 #include <cctype>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
@@ -34,6 +35,18 @@ bool are_same_file(const std::string& a, const std::string& b) {
   return !error && full_a == full_b;
 }
 
+/// Why no file can be made in the folder, which exists; empty if one can. Permissions do not tell, to root and in
+/// /proc.
+std::string find_obstacle(const fs::path& folder) {
+  std::string name = (folder / ".scarp-XXXXXX").string();
+  const int file = mkstemp(name.data());
+  if (file < 0 && errno == ENOENT) return fmt::format("the folder {} takes no new files", folder.string());
+  if (file < 0) return fmt::format("folder {}: {}", folder.string(), std::strerror(errno));
+  close(file);
+  unlink(name.c_str());
+  return "";
+}
+
 Result<void> check_output(const PlannedOutput& output, bool overwrite) {
   if (output.path.empty()) return fail(ErrorKind::kUsage, fmt::format("the name of {} is empty", output.option));
   if (is_stdout(output.path)) return {};
@@ -56,9 +69,8 @@ Result<void> check_output(const PlannedOutput& output, bool overwrite) {
     return fail(ErrorKind::kOutput,
                 fmt::format("{} cannot be written: there is no folder {}", output.path, folder.string()));
   }
-  if (access(folder.c_str(), W_OK | X_OK) != 0) {
-    return fail(ErrorKind::kOutput,
-                fmt::format("{} cannot be written: folder {}: {}", output.path, folder.string(), std::strerror(errno)));
+  if (const std::string why = find_obstacle(folder); !why.empty()) {
+    return fail(ErrorKind::kOutput, fmt::format("{} cannot be written: {}", output.path, why));
   }
   return {};
 }

@@ -33,8 +33,8 @@ void add_header(paper::Study& study) {
     study.page.paragraph(
         "In brackets: the figure of Scape 1.2, the report's own program, measured on the same fields, and our "
         "difference from "
-        "it. Section numbers are those of the specification (PAPER.md) that lists the figures. The fields are the "
-        "report's five: "
+        "it. The figures are listed, by section, in `apps/scarp/paper/figures.h`; the numbers in headings are those "
+        "sections. The fields are the report's five: "
         "Crater Lake, Ashby Gap, Ozark, the National Training Center (ntc) and the western US. Errors are vertical, in "
         "metres, over all samples.");
   } else {
@@ -68,7 +68,7 @@ Result<void> make_folder(const fs::path& folder) {
 
 /// The pictures, then the page that shows them.
 Result<void> write_all(const paper::Study& study, const fs::path& page, bool overwrite) {
-  Result<void> done = make_folder(page.parent_path() / "images" / "paper");
+  Result<void> done;
   for (const auto& picture : study.pictures()) {
     if (done) done = write_file((page.parent_path() / picture.path).string(), picture.bytes, overwrite);
   }
@@ -117,6 +117,9 @@ Result<void> PaperCommand::run() const {
   if (!has_gnuplot) return has_gnuplot;
   Result<paper::Fields> fields = paper::read_fields(data_);
   if (!fields) return tl::unexpected(std::move(fields.error()));
+  Result<void> has_place = make_folder(page.parent_path() / "images" / "paper");
+  if (has_place) has_place = check_outputs({{"--out", page.string()}}, {}, overwrite_);
+  if (!has_place) return has_place;
   paper::Study study(std::move(*fields), data_, !no_timing_, quiet_);
   add_header(study);
   for (const auto& add_experiment : kExperiments) {

@@ -115,6 +115,11 @@ void add_measurement(Json& report, const Measurement& measured, double sample_ro
   add_coverage(report, measured);
 }
 
+void add_bounded(Json& report, const LargestError& bounded) {
+  report["bounded_max_error"] = bounded.value;
+  report["bounded_max_error_at"] = bounded.at;
+}
+
 Json describe_channels(const std::vector<std::string>& names, const std::vector<double>& scales,
                        const std::vector<Measurement>& measured) {
   Json channels = Json::array();

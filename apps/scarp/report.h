@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "judge.h"
 #include "scarp/height_field.h"
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
@@ -34,6 +35,8 @@ void add_errors(Json& report, const Measurement& measured, double sample_roundin
 void add_coverage(Json& report, const Measurement& measured);
 /// Both.
 void add_measurement(Json& report, const Measurement& measured, double sample_rounding);
+/// Adds bounded_max_error and bounded_max_error_at, which is [-1, -1] if all errors are 0.
+void add_bounded(Json& report, const LargestError& bounded);
 /// The "channels" list: each channel's name, scale, max_error … p999 and samples, in its own units.
 Json describe_channels(const std::vector<std::string>& names, const std::vector<double>& scales,
                        const std::vector<Measurement>& measured);

@@ -73,6 +73,32 @@ Result<void> check_place_of_channels(SimplifyPlan& plan, const Channels& channel
   return {};
 }
 
+/// simplify() tells the largest errors of all samples; where some are ignored, this finds those of the others.
+Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& progress, Outcome& outcome) {
+  const Clock::time_point start = Clock::now();
+  const Companions& companions = outcome.companions;
+  const Exceptions exceptions = find_exceptions(outcome.field, companions, outcome.asked.has_value());
+  static const Channels kNoChannels;
+  const Channels& channels = companions.ignores_samples() || plan.channels.image ? outcome.channels : kNoChannels;
+  JudgeOptions options;
+  options.exceptions = &exceptions;
+  options.keep_errors = !channels.empty() || (companions.ignores_samples() && companions.has_weights());
+  options.topology = false;
+  options.threads = plan.simplify.threads;
+  options.progress = progress;
+  const Result<Judgement> judged = judge(outcome.field, outcome.simplified.mesh, channels, plan.channels.norm, options);
+  if (!judged) return tl::unexpected(judged.error());
+  const auto weigh = [&](const Companions& weights) {
+    return weigh_errors(*judged, outcome.field, channels, weights, exceptions, HUGE_VAL).bounded;
+  };
+  outcome.bounded = plan.channels.image ? weigh({}) : judged->bounded;
+  if (companions.ignores_samples()) {
+    outcome.bounded_goal = options.keep_errors ? weigh(companions).value : judged->bounded.value;
+  }
+  outcome.simplified.seconds_measure += seconds_since(start);
+  return {};
+}
+
 /// The engine proves its own result; a mesh whose proof does not hold is never written.
 Result<void> check_promise(const Outcome& outcome) {
   const Simplified& simplified = outcome.simplified;
@@ -82,7 +108,7 @@ Result<void> check_promise(const Outcome& outcome) {
   const bool has_budget_ended =
       simplified.stop == StopReason::kMaxTriangles || simplified.stop == StopReason::kMaxVertices;
   const std::optional<double> asked = has_tolerance ? 1 : outcome.asked;
-  if (asked && !has_budget_ended && !outcome.companions.ignores_samples()) {
+  if (asked && !has_budget_ended) {
     const double height_scale = outcome.channels.empty() ? 1 : outcome.channels.height_scale;
     // With weights the engine took the rounding of the samples off each bound before it weighed the errors.
     const double rounding = outcome.companions.has_weights() ? 0 : outcome.field.sample_rounding * height_scale;
@@ -159,6 +185,10 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
       options.float32_positions ? offsets_are_exact(field.frame, field.cols, field.rows) : field.frame.is_affine();
   if (plan->report && by_construction) {
     const Result<void> judged = judge_topology(display.callback(), plan->simplify.threads, outcome);
+    if (!judged) return judged;
+  }
+  if (outcome.simplified.ignored > 0) {
+    const Result<void> judged = judge_bounded(*plan, display.callback(), outcome);
     if (!judged) return judged;
   }
   const Result<void> promise = check_promise(outcome);

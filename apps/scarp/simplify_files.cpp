@@ -26,6 +26,7 @@ void add_metadata(const SimplifyPlan& plan, Outcome& outcome) {
     error["weighted_max_error"] = outcome.simplified.weighted_max_error;
   }
   if (outcome.simplified.ignored > 0) error["ignored"] = outcome.simplified.ignored;
+  if (outcome.bounded) error["bounded_max_error"] = outcome.bounded->value;
   metadata["error"] = error.dump();
 }
 
@@ -48,6 +49,7 @@ Result<void> add_error_raster(const SimplifyPlan& plan, const ProgressCallback& 
                               std::vector<ReadyFile>& files) {
   JudgeOptions options;
   options.keep_errors = true;
+  options.topology = false;
   options.threads = plan.simplify.threads;
   options.progress = progress;
   static const Channels kNoChannels;

@@ -47,7 +47,8 @@ void SimplifyArguments::add_to(CLI::App& verb) {
       ->type_name("S")
       ->group("Missing samples");
 
-  companions.add_to(verb, true);
+  companions.add_to(verb,
+                    "Lines 's COL ROW' (becomes a vertex), 'i COL ROW' or\n'u COL ROW' (never does, and has no bound)");
   channels.add_to(verb);
   strategy.add_to(verb);
 
@@ -95,7 +96,6 @@ void SimplifyArguments::add_to(CLI::App& verb) {
       "  scarp simplify dem.tif hills.glb -e 1 --edges data --edge-score tight    fewer triangles\n"
       "  scarp simplify dem.tif hills.glb -e 1 --texture ortho.tif                colours count too\n"
       "  scarp simplify photo.png photo.glb -p 2000 --image --render seen.png\n"
-      "  scarp simplify survey.csv hills.glb -e 0.5       scattered points: x, y, z\n"
       "'scarp info dem.tif' suggests errors. 'scarp measure dem.tif hills.glb' checks a mesh.\n"
       "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.");
 }

@@ -7,6 +7,7 @@
 
 #include "channels.h"
 #include "companions.h"
+#include "judge.h"
 #include "scarp/height_field.h"
 #include "simplify_run.h"
 
@@ -20,7 +21,9 @@ struct Outcome : SimplifyRun {
   Channels channels;
   Companions companions;
   std::uint64_t filled = 0;
-  std::optional<double> psnr;  ///< of the rendering, in dB; +infinity if it is the image
+  std::optional<LargestError> bounded;  ///< where samples are ignored: of the others; images: norms
+  std::optional<double> bounded_goal;   ///< where a script ignores them: of what the goal bounds
+  std::optional<double> psnr;           ///< of the rendering, in dB; +infinity if it is the image
 
   /// The field with its channels.
   HeightField view() const {
@@ -30,7 +33,7 @@ struct Outcome : SimplifyRun {
   }
 };
 
-/// What the goal bounds, and how large it came out.
+/// What the goal bounds, and how large it came out; where a script ignores samples, of the others.
 struct GoalError {
   double value = 0;         ///< compared with the bound, without the rounding of samples
   const char* name = "";    ///< "max error", "weighted max error", …

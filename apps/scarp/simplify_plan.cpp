@@ -133,6 +133,13 @@ Result<void> plan_attributes(const SimplifyArguments& given, SimplifyPlan& plan)
     return fail(ErrorKind::kUsage,
                 "--normals and --base contradict each other: a solid's walls have no terrain normal");
   }
+  if (given.normals && given.channels.image) {
+    return fail(ErrorKind::kUsage,
+                "--normals and --image contradict each other: an image is flat, and its normals say nothing");
+  }
+  if (format.kind == OutputKind::kDem && given.raster.crs) {
+    plan.warnings.push_back("a raster's approximation lies on the raster's own grid, whatever --crs says");
+  }
   if (format.holds_attributes()) return {};
   if (given.normals) {
     plan.warnings.push_back(fmt::format("{} has no place for vertex normals: --normals changes nothing", title));

@@ -21,6 +21,7 @@ void add_all_errors(Json& report, const SimplifyPlan& plan, const Outcome& outco
     report["weighted_rmse"] = finite_or_word(simplified.weighted_rmse);
   }
   report["ignored"] = simplified.ignored;
+  if (outcome.bounded) add_bounded(report, *outcome.bounded);
   if (!outcome.channels.empty()) {
     report["norm"] = norm_name(plan.channels.norm);
     report["height_scale"] = outcome.channels.height_scale;
@@ -43,7 +44,6 @@ std::string describe_errors(const SimplifyPlan& plan, const Outcome& outcome) {
   const std::string unit = outcome.as_read.unit.empty() ? "" : " " + outcome.as_read.unit;
   const std::string asked =
       outcome.asked ? fmt::format(" (asked {}{})", format_number(*outcome.asked), describe_exceptions(outcome)) : "";
-  const GoalError goal = find_goal_error(outcome);
   const bool bounds_heights = outcome.channels.empty() && outcome.companions.mask.empty();
   std::string text;
   if (!plan.channels.image) {
@@ -71,12 +71,16 @@ std::string describe_errors(const SimplifyPlan& plan, const Outcome& outcome) {
   }
   if (outcome.companions.has_weights()) {
     const bool has_mask = !outcome.companions.mask.empty();
-    text += summary_line("weighted",
-                         fmt::format("{} {}, RMS {}{}", has_mask ? "max error" : goal.name, format_number(goal.value),
-                                     format_number(simplified.weighted_rmse), has_mask ? asked : ""));
+    text +=
+        summary_line("weighted", fmt::format("{} {}, RMS {}{}", has_mask ? "max error" : "largest error / tolerance",
+                                             format_number(simplified.weighted_max_error),
+                                             format_number(simplified.weighted_rmse), has_mask ? asked : ""));
   }
-  if (simplified.ignored > 0)
-    text += summary_line("ignored", format_plural(simplified.ignored, "sample") + " without a bound");
+  if (simplified.ignored > 0) {
+    text += summary_line("ignored", fmt::format("{} without a bound; max error of the others {}",
+                                                format_plural(simplified.ignored, "sample"),
+                                                format_number(outcome.bounded.value_or(LargestError()).value)));
+  }
   return text;
 }
 
@@ -89,8 +93,8 @@ std::string describe_ending(const SimplifyPlan& plan, const Outcome& outcome) {
       format_plural(outcome.triangles, "triangle"),
       format_share(static_cast<double>(outcome.triangles), static_cast<double>(full_grid_triangles(outcome.field))),
       format_count(full_grid_triangles(outcome.field)), format_seconds(outcome.seconds_total));
-  EndError error{.text = fmt::format("{} {}", goal.name, format_number(goal.value)),
-                 .exceptions = describe_exceptions(outcome)};
+  EndError error{.text = fmt::format("{} {}{}", goal.name, format_number(goal.value),
+                                     outcome.bounded_goal ? " of the bounded samples" : "")};
   error.is_exact = goal.value == 0 && outcome.simplified.ignored == 0 && outcome.field.sample_rounding == 0;
   const bool keeps_tolerances =
       outcome.simplified.stop == StopReason::kMaxError && !outcome.companions.tolerance.empty();
@@ -103,12 +107,15 @@ std::string describe_ending(const SimplifyPlan& plan, const Outcome& outcome) {
 
 GoalError find_goal_error(const Outcome& outcome) {
   const Simplified& simplified = outcome.simplified;
+  const auto goal = [&](double of_all, const char* name, bool is_rounded) {
+    return GoalError{outcome.bounded_goal.value_or(of_all), name, is_rounded};
+  };
   if (!outcome.companions.tolerance.empty()) {
-    return {simplified.weighted_max_error, "largest error / tolerance", true};
+    return goal(simplified.weighted_max_error, "largest error / tolerance", true);
   }
-  if (!outcome.companions.mask.empty()) return {simplified.weighted_max_error, "weighted max error", true};
-  if (!outcome.channels.empty()) return {simplified.combined_max_error, "combined max error", true};
-  return {simplified.measurement.max_error, "max error", false};
+  if (!outcome.companions.mask.empty()) return goal(simplified.weighted_max_error, "weighted max error", true);
+  if (!outcome.channels.empty()) return goal(simplified.combined_max_error, "combined max error", true);
+  return goal(simplified.measurement.max_error, "max error", false);
 }
 
 Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::vector<ReadyFile>& files,

@@ -48,10 +48,9 @@ std::string seconds_line(const SimplifyRun& run);
 
 /// What the last line of the summary says of the error.
 struct EndError {
-  std::string text;             ///< "max error 0.5"
-  bool is_exact = false;        ///< nothing was lost
-  const char* of = "sample";    ///< what was reproduced if so
-  const char* exceptions = "";  ///< what the bound does not hold for
+  std::string text;           ///< "max error 0.5"
+  bool is_exact = false;      ///< nothing was lost
+  const char* of = "sample";  ///< what was reproduced if so
 };
 /// Which goal ended the run and what the error then is: "Reached the error goal: max error 0.5 (asked 0.5)".
 std::string describe_end(const SimplifyPlan& plan, const SimplifyRun& run, const EndError& error);

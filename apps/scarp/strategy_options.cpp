@@ -139,7 +139,8 @@ void StrategyArguments::add_to(CLI::App& verb) {
       ->type_name("FORMULA")
       ->group(group);
   verb.add_flag("--one-pass", one_pass,
-                "Rank all samples once, by a feature of the raster,\nand insert the best until a goal is reached")
+                "Rank all samples once, by a feature of the raster,\nand insert the best until a goal is reached: for "
+                "-t\nand -p (with -e it inserts nearly everything)")
       ->group(group);
   verb.add_option("--algorithm", algorithm,
                   "How the next sample is found: brute, local or heap\n(default): the report's algorithms I, II and "

@@ -62,7 +62,8 @@ std::optional<std::string> find_grid_difference(const RasterInfo& raster, int co
 
 /// Steps of a script for the engine (Terra's -s): a line each, "s x y" inserts, "i x y" ignores, "u x y" says that the
 /// height is unknown (as i); x and y are column and row from the top left. Empty lines and # comments are skipped.
-/// Fails with kInput for an unknown word, a number missing, a place outside cols × rows (names the line).
+/// Fails with kInput for an unknown word, a number missing, a place outside cols × rows (names the line), and for a
+/// sample that one line inserts and another ignores (names both).
 Result<std::vector<ScriptStep>> read_script(const std::string& path, int cols, int rows);
 
 /// A raster to be written: row-major, NaN is nodata.

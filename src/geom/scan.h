@@ -2,7 +2,7 @@
 //
 // Each edge is followed in integers: its crossing with a row is a quotient and a remainder that advance by a fixed step
 // (Bresenham's idea with floor and ceiling), so a point on an edge belongs to both triangles of the edge, always.
-// Nothing is rounded, no row and no column is skipped: the defects of PAPER section 8.2 cannot occur.
+// Nothing is rounded, no row and no column is skipped: spans that are rounded, as in Scape, lose samples.
 #pragma once
 
 #include <array>

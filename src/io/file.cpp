@@ -210,7 +210,12 @@ Result<void> write_file(const std::string& path, std::span<const std::uint8_t> b
   TemporaryFile temporary(folder_of(target));
   if (temporary.fd() < 0) {
     const int why = temporary.error();
-    if (why == ENOENT || why == ENOTDIR) return fail_writing(path, "its folder does not exist; create it first");
+    std::error_code ignored;
+    const std::filesystem::path folder = folder_of(target);
+    const bool has_folder = folder.empty() || std::filesystem::is_directory(folder, ignored);
+    if (!has_folder && (why == ENOENT || why == ENOTDIR))
+      return fail_writing(path, "its folder does not exist; create it first");
+    if (why == ENOENT) return fail_writing(path, "its folder takes no new files; choose another one");
     if (why == EACCES || why == EPERM) return fail_writing(path, "its folder may not be written");
     return fail_writing(path, reason(why));
   }

@@ -64,13 +64,8 @@ bool looks_like_text(std::span<const std::uint8_t> bytes) {
 
 std::string lower_extension(const std::string& name_or_path) {
   const std::size_t start = name_or_path.find_last_of("./");
-  std::string extension = start == std::string::npos   ? name_or_path
-                          : name_or_path[start] == '.' ? name_or_path.substr(start + 1)
-                                                       : std::string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return extension;
+  if (start == std::string::npos) return lowered(name_or_path);
+  return name_or_path[start] == '.' ? lowered(name_or_path.substr(start + 1)) : "";
 }
 
 /// By content; the name decides only where bytes alone do not, as in an STL file that was cut off.

@@ -60,6 +60,21 @@ bool parse_integer(std::string_view word, std::int64_t& value) {
   return parsed.ec == std::errc() && parsed.ptr == end;
 }
 
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kMost = 40;
+  std::string plain;
+  for (const char c : text.substr(0, kMost)) plain += c >= ' ' && c < 127 ? c : '?';
+  return "'" + plain + (text.size() > kMost ? "…'" : "'");
+}
+
+std::string lowered(std::string_view text) {
+  std::string small(text);
+  for (char& c : small) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return small;
+}
+
 std::string_view TextCursor::word() {
   for (;;) {
     while (at_ != end_ && is_blank(*at_)) ++at_;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace scarp {
@@ -13,6 +14,11 @@ namespace scarp {
 bool parse_number(std::string_view word, double& value);
 /// The whole word as a decimal integer. Returns false if it is none or beyond 64 bits.
 bool parse_integer(std::string_view word, std::int64_t& value);
+
+/// Text in quotes, fit for a sentence: characters that cannot be printed become '?', and long text is cut.
+std::string quoted(std::string_view text);
+/// The text with its ASCII letters small, whatever the locale.
+std::string lowered(std::string_view text);
 
 /// Walks over text word by word, line by line. Lines end with LF, CR or both.
 class TextCursor {

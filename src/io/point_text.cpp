@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
 #include <vector>
 
+#include "io/mesh_file_text.h"
 #include "io/point_source.h"
 
 namespace scarp {
@@ -106,13 +106,6 @@ std::optional<double> parse(std::string_view text) {
   return value;
 }
 
-/// A field for a message: one that is no text, or has no end, is cut.
-std::string quoted(std::string_view field) {
-  std::string text;
-  for (const char c : field.substr(0, 40)) text += std::isprint(static_cast<unsigned char>(c)) ? c : '?';
-  return "'" + text + (field.size() > 40 ? "…'" : "'");
-}
-
 /// The first of several fields that is a number but for its comma; empty if there is none.
 std::string_view find_decimal_comma(std::string_view line) {
   line = trimmed(line);
@@ -142,12 +135,10 @@ struct Columns {
   bool in_degrees = false;  ///< by the names in the header
 };
 
-std::string lower(std::string_view name) {
+/// The name of a column, without quotes and in small letters.
+std::string plain_name(std::string_view name) {
   if (name.size() >= 2 && name.front() == '"' && name.back() == '"') name = trimmed(name.substr(1, name.size() - 2));
-  std::string text(name);
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
+  return lowered(name);
 }
 
 Result<Columns> read_header(std::string_view line, const std::string& name, std::uint64_t number,
@@ -166,9 +157,9 @@ Result<Columns> read_header(std::string_view line, const std::string& name, std:
   }
   std::vector<std::string> names;
   rest = line;
-  while (const auto field = take_field(rest, columns.separator)) names.push_back(lower(*field));
+  while (const auto field = take_field(rest, columns.separator)) names.push_back(plain_name(*field));
   std::vector<std::string> heights{"z", "height", "elevation", "elev", "h"};
-  if (!options.z_field.empty()) heights = {lower(options.z_field)};
+  if (!options.z_field.empty()) heights = {plain_name(options.z_field)};
   const std::array<std::vector<std::string>, 3> wanted{{{"x", "easting", "east", "longitude", "lon", "long", "lng"},
                                                         {"y", "northing", "north", "latitude", "lat"},
                                                         heights}};

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/caught.h"
+#include "io/mesh_file_text.h"
 #include "io/point_source.h"
 #include "scarp/io.h"
 
@@ -18,12 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The end of the name from its last dot on, in small letters.
-std::string extension_of(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
+std::string extension_of(const std::string& path) { return lowered(fs::path(path).extension().string()); }
 
 template <std::size_t N>
 bool is_one_of(const std::string& extension, const std::array<std::string_view, N>& list) {

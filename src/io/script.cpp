@@ -3,20 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <unordered_map>
+#include <utility>
 
 #include "base/caught.h"
 #include "io/mesh_file_text.h"
 
 namespace scarp {
 namespace {
-
-/// A word from a file that may be anything, fit for a sentence.
-std::string quoted(std::string_view word) {
-  constexpr std::size_t kMost = 30;
-  const bool plain = std::all_of(word.begin(), word.end(), [](char c) { return c > ' ' && c < 127; });
-  return plain && word.size() <= kMost ? fmt::format("'{}'", word) : "something that is no word";
-}
 
 /// The complaint about the line at which the cursor stands; empty if there is none. Leaves the cursor within the line.
 std::string read_line(TextCursor& cursor, int cols, int rows, std::vector<ScriptStep>& steps) {
@@ -47,15 +41,36 @@ std::string read_line(TextCursor& cursor, int cols, int rows, std::vector<Script
   return {};
 }
 
+/// What the lines so far say of each sample.
+class Said {
+ public:
+  /// The complaint if an earlier line says the opposite; empty if none does.
+  std::string add(const ScriptStep& step, std::size_t line) {
+    const auto key = (static_cast<std::uint64_t>(step.row) << 32) | static_cast<std::uint32_t>(step.col);
+    const auto [found, is_new] = samples_.try_emplace(key, step.action, line);
+    const auto& [action, earlier] = found->second;
+    if (is_new || action == step.action) return {};
+    const bool inserts = step.action == ScriptStep::Action::kInsert;
+    return fmt::format("sample ({}, {}) is {}, but line {} {} it: remove one of the two", step.col, step.row,
+                       inserts ? "inserted" : "ignored", earlier, inserts ? "ignores" : "inserts");
+  }
+
+ private:
+  std::unordered_map<std::uint64_t, std::pair<ScriptStep::Action, std::size_t>> samples_;
+};
+
 }  // namespace
 
 Result<std::vector<ScriptStep>> decode_script(std::span<const std::uint8_t> bytes, const std::string& name, int cols,
                                               int rows) {
   TextCursor cursor(bytes);
   std::vector<ScriptStep> steps;
+  Said said;
   while (!cursor.at_end()) {
-    const std::size_t line = cursor.line();
-    if (const std::string why = read_line(cursor, cols, rows, steps); !why.empty()) {
+    const std::size_t line = cursor.line(), before = steps.size();
+    std::string why = read_line(cursor, cols, rows, steps);
+    if (steps.size() > before) why = said.add(steps.back(), line);
+    if (!why.empty()) {
       return fail(ErrorKind::kInput, fmt::format("{}: line {}: {}", name, line, why));
     }
     cursor.rest_of_line();

@@ -74,14 +74,56 @@ holds "$(json s.json ignored) == 2"
 succeeds "$scarp" simplify "$dem" scripted.ply -e 20 --script steps.txt
 grep -q 'ignored  *2 samples without a bound' "$logs/out" || fail "the summary does not tell what is ignored"
 # Where the script is right that a sample is an outlier, the rest is bounded, whatever else weighs.
-make_raster spiked.tif '900 if (col, row) == (150, 150) else 300 + col / 4'
+make_raster spiked.tif '900 if (col, row) == (150, 150) else 300 + col / 4 + row % 3'
 printf 'i 150 150\n' > steps.txt
 for more in "" "--mask ones.tif" "--batch const"; do
   # shellcheck disable=SC2086
   succeeds "$scarp" simplify spiked.tif flat.obj -e 5 --script steps.txt $more --overwrite --report s.json
   grep -q 'asked 5, ignored samples left out' "$logs/out" || fail "the summary does not tell of the exception"
   holds "$(json s.json max_error) > 500 && $(json s.json triangles) < 10 && $(json s.json p999) < 5"
+  grep -qE '^Reached the error goal: .* of the bounded samples' "$logs/out" || fail "the last line is about the outlier"
+  holds "$(json s.json bounded_max_error) <= 5 && $(json s.json bounded_max_error) > 0"
+  # The judge agrees, given the same script.
+  # shellcheck disable=SC2086
+  succeeds "$scarp" measure spiked.tif flat.obj --script steps.txt ${more%--batch*} --fail-above 5 --json
+  cp "$logs/out" m.json
+  same max_error bounded_max_error ignored rmse
+  [ "$(json m.json passed) $(json m.json ignored) $(json m.json bounded_max_error_at)" = \
+    "true 1 $(json s.json bounded_max_error_at)" ] || fail "simplify and measure differ about the bounded samples"
 done
+try "$scarp" measure spiked.tif flat.obj --fail-above 5
+[ "$code" = 3 ] || fail "without the script the outlier passes"
+succeeds "$scarp" measure spiked.tif flat.obj --fail-above 5 --script steps.txt
+grep -q 'samples ignored  *1, without a bound' "$logs/out" && grep -q 'Passed: max error [0-4].* of the bounded samples' "$logs/out" ||
+  fail "the table does not tell of the bounded samples"
+try "$scarp" measure spiked.tif flat.obj --fail-above 0.01 --script steps.txt
+[ "$code" = 3 ] || fail "a script switches the verdict off"
+if grep -q 'at column 150, row 150' "$logs/err"; then fail "the ignored sample is blamed"; fi
+# Tolerances, textures and images with a script: the outlier breaks nothing, and everything else is judged.
+make_raster five.tif 5
+make_image spots.tif '250 if (col, row) == (150, 150) else col // 4'
+for more in '--tolerance five.tif' '-e 5 --texture spots.tif'; do
+  # shellcheck disable=SC2086
+  succeeds "$scarp" simplify spiked.tif more.ply $more --script steps.txt --overwrite --report s.json
+  # shellcheck disable=SC2086
+  succeeds "$scarp" measure spiked.tif more.ply ${more#-e 5} --script steps.txt --fail-above 5 --json
+  cp "$logs/out" m.json
+  same max_error bounded_max_error ignored
+  holds "$(json m.json max_error) > 500 && $(json m.json bounded_max_error) <= 5"
+  # shellcheck disable=SC2086
+  try "$scarp" measure spiked.tif more.ply ${more#-e 5} --fail-above 5
+  [ "$code" = 3 ] || fail "without the script the outlier passes: $more"
+done
+succeeds "$scarp" simplify spots.tif spots.glb -e 6 --image --script steps.txt --report s.json --overwrite
+succeeds "$scarp" measure spots.tif spots.glb --fail-above 6 --image --script steps.txt --json
+cp "$logs/out" m.json
+same combined_max_error bounded_max_error ignored
+holds "$(json m.json combined_max_error) > 100 && $(json m.json bounded_max_error) <= 6"
+# Weights of 0 are left out as well.
+succeeds "$scarp" simplify "$dem" masked.glb -e 20 --mask weights.tif --report s.json --overwrite
+succeeds "$scarp" measure "$dem" masked.glb --mask weights.tif --json
+cp "$logs/out" m.json
+same max_error bounded_max_error
 
 # What does not fit is refused, with the way out.
 gdal_translate -q -outsize 100 100 weights.tif small.tif
@@ -107,5 +149,11 @@ for line in 'x 1 1' 's 1' 's one 2' 's 403 0' 'i 0 344' 's -1 0' 's 1.5 2'; do
   printf 's 1 1\n%s\n' "$line" > bad.txt
   refuses 2 "bad.txt: line 2" simplify -e 20 --script bad.txt
 done
+printf 'i 1 2\ns 3 4\ns 1 2\n' > bad.txt
+refuses 2 "bad.txt: line 3: sample (1, 2) is inserted, but line 1 ignores it: remove one of the two" simplify -e 20 --script bad.txt
+echo '# nothing' > nothing.txt
+succeeds simplify -e 100 --script nothing.txt --overwrite
+grep -q '^scarp: warning: --script nothing.txt holds no step' "$logs/err" || fail "no word about an empty script"
+rm out.glb
 refuses 2 "missing.txt" simplify -e 20 --script missing.txt
 echo "masks, tolerances and scripts are kept"

@@ -74,6 +74,19 @@ for output in s.stl s.tin s.svg s.tif; do
   succeeds "$scarp" simplify "$dem" $output -e 100 --normals
   grep -q 'has no place for vertex normals' "$logs/err" || fail "no word about lost normals in $output"
 done
+refuses 1 "--normals and --image contradict each other" "$scarp" simplify "$dem" out.glb -e 20 --image --normals
+# A raster's approximation stays on the raster's grid; drawings follow --crs.
+for output in crs.tif crs.pgm; do
+  succeeds "$scarp" simplify "$dem" $output -e 100 --crs EPSG:32616
+  grep -q "the raster's own grid, whatever --crs says" "$logs/err" || fail "no word that --crs does nothing to $output"
+done
+succeeds "$scarp" simplify "$dem" crs.svg -e 100 --crs EPSG:32616
+[ ! -s "$logs/err" ] || fail "a wrong word about --crs in crs.svg"
+# A folder that takes no files is found out before the work, and is not said to be missing.
+if [ -d /proc ]; then
+  refuses 4 "x.tif cannot be written: " "$scarp" simplify missing.tif out.glb -e 20 --error-raster /proc/x.tif
+  if grep -q 'not exist\|no folder' "$logs/err"; then fail "/proc is said not to exist"; fi
+fi
 # A PGM has no place for heights below 0: nothing is written.
 make_raster deep.tif '-col'
 refuses 4 "" "$scarp" simplify deep.tif out.pgm -e 20

@@ -14,6 +14,7 @@ need gnuplot
 refuses 2 'is not a folder' "$scarp" paper --data nowhere --out out
 refuses 2 'holds no raster' "$scarp" paper --data empty --out out -q
 
+if [ -d /proc ]; then refuses 4 '/proc/x' "$scarp" paper --data rasters --out /proc/x; fi  # before any experiment
 succeeds "$scarp" paper --data rasters --out out --no-timing
 grep -q '^paper: ' "$logs/err" || fail "nothing tells what is being done"
 succeeds "$scarp" paper --data rasters --out out/again --no-timing -q

@@ -108,7 +108,7 @@ RC_GTEST_PROP(data_dependent, edges_are_those_of_the_textbook_rule, ()) {
   }
 }
 
-// PAPER 8.2: Scape's data-dependent mode lost samples on edges, so that its reported max error was too small.
+// Scape's data-dependent mode lost samples on edges, so that its reported max error was too small.
 RC_GTEST_PROP(data_dependent, the_engines_largest_error_is_the_largest_error, ()) {
   const Field field = any_field(24);
   const Raster raster = field.raster();
@@ -143,7 +143,7 @@ RC_GTEST_PROP(data_dependent, settling_lowers_the_squares_and_raises_no_largest_
   RC_ASSERT(after->measurement.rmse <= before->measurement.rmse * (1 + 1e-12) + 1e-9);
 }
 
-// PAPER 3.7, synthetic fields: where the surface bends in one direction only, Delaunay's round triangles are wasted.
+// Synthetic fields: where the surface bends in one direction only, Delaunay's round triangles are wasted.
 TEST(data_dependent, follows_a_diagonal_step_far_better_than_delaunay) {
   const auto field = generate_field(FieldStyle::kDiagonalStep, 256, 256);
   ASSERT_TRUE(field);

@@ -241,7 +241,8 @@ TEST(Script, NamesTheLineThatIsWrong) {
                                    {"u -1 0", "(-1, 0)"},
                                    {"s 99999999999 0", "(99999999999, 0)"},
                                    {"s 99999999999999999999 0", "'99999999999999999999'"},
-                                   {"\x01\x02", "no word"}}) {
+                                   {"i 1 1", "sample (1, 1) is ignored, but line 1 inserts it"},
+                                   {"\x01\x02", "'\?\?'"}}) {
     testing::write_text(scratch.file("s.txt"), std::string("s 1 1\n\n") + line + "\ns 1 1\n");
     const auto steps = read_script(scratch.file("s.txt"), 10, 8);
     ASSERT_FALSE(steps) << line;

@@ -95,6 +95,7 @@ TEST_F(FileTest, LeavesTemporaryFilesOfOthersAlone) {
 TEST_F(FileTest, OneSentenceForEachFailure) {
   const std::pair<std::string, const char*> kCases[] = {
       {path("missing/a"), "its folder does not exist; create it first"},
+      {"/proc/scarp", "its folder takes no new files"},
       {folder_.string(), "it is a folder"},
       {path("x/"), "folder"},
       {path(std::string(300, 'n')), "the name is too long"},

@@ -1,5 +1,6 @@
-// What the experiments are compared with: figures of Scape 1.2, the report's own program, on its own five fields. The
-// numbers of the sections are those of PAPER.md, the specification. The rows of 5.3 are in reference_rows.h.
+// What the experiments are compared with: figures of Scape 1.2, the report's own program, measured on its own five
+// fields. Section numbers are those of this list, which the page's headings repeat. The rows of 5.3 are in
+// reference_rows.h.
 #pragma once
 
 #include <array>
@@ -38,8 +39,7 @@ inline constexpr SelectorFigures kTimesCurvature{{15.6, 9.51, 39.0}, {93, 51, 22
 inline constexpr SelectorFigures kTimesCurvaturePlusOne{{15.1, 8.89, 37.7}, {70, 47, 227}};
 inline constexpr SelectorFigures kTimesRootCurvature{{10.7, 7.28, 24.9}, {47, 32, 123}};
 
-/// 2.5: samples scanned on a field of 1024 x 1024, in millions. The specification does not name it: the counts are
-/// westUS's.
+/// 2.5: samples scanned on a field of 1024 x 1024, in millions. The counts are westUS's.
 inline constexpr const char* kScanField = "westUS";
 struct ScanFigure {
   std::uint64_t vertices;

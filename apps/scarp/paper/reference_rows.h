@@ -1,6 +1,6 @@
 // The reference runs that the engine is held to: Scape 1.2 (Garland & Heckbert's program, Delaunay) on its own five
-// fields, measured with the original program (PAPER.md 5.3). Vertices include the four corners, RMSE is over all
-// samples.
+// fields, measured with the original program (section 5.3 of figures.h). Vertices include the four corners, RMSE is
+// over all samples.
 #pragma once
 
 #include <cstdint>
