@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "goals.h"
+#include "grid/far_points.h"
 #include "grid/point_places.h"
 #include "measure/point_judge.h"
 #include "mesh/thin_triangles.h"
@@ -275,13 +276,15 @@ class PointRun {
                        points_.y[i], m.max_error);
   }
   std::string advice() const {
-    return options_.float32_positions
-               ? ": positions in the mesh are rounded to float32, which alone costs that much; ask for a larger error, "
-                 "or write OBJ or PLY, whose positions are double"
-               : fmt::format(
-                     ": points are snapped to a lattice of step {}, which alone costs that much; ask for a "
-                     "larger error, or split the points into smaller areas",
-                     places_.lattice.step);
+    const std::string far = describe_far_points(points_);
+    return (options_.float32_positions
+                ? ": positions in the mesh are rounded to float32, which alone costs that much; ask for a larger "
+                  "error, "
+                  "or write OBJ or PLY, whose positions are double"
+                : fmt::format(": points are snapped to a lattice of step {}, which alone costs that much; ask for a "
+                              "larger error, or split the points into smaller areas",
+                              places_.lattice.step)) +
+           (far.empty() ? "" : "; " + far);
   }
 
   const PointSet& points_;
