@@ -31,6 +31,8 @@ double divide_down(double value, double weight) {
   return high > value || (high == value && low > 0) ? std::nextafter(quotient, 0.0) : quotient;
 }
 
+tl::unexpected<Error> usage(std::string message) { return fail(ErrorKind::kUsage, std::move(message)); }
+
 Error at_sample(ErrorKind kind, const char* what, std::size_t index, std::int32_t cols, const std::string& rest) {
   const auto width = static_cast<std::size_t>(cols);
   return {kind, fmt::format("{} at sample ({}, {}) {}", what, index % width, index / width, rest)};
@@ -47,7 +49,9 @@ Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOption
   criterion.field_ = &field;
   criterion.options_ = &options;
   criterion.raster_ = raster;
-  if (auto sound = criterion.check(); !sound) return tl::unexpected(sound.error());
+  for (const auto check : {&Criterion::check_weights, &Criterion::check_strategy, &Criterion::check_channels}) {
+    if (auto sound = (criterion.*check)(); !sound) return tl::unexpected(sound.error());
+  }
   if (options.max_error) criterion.bound_ = tightened(*options.max_error, field.sample_rounding);
   if (auto set = criterion.set_bounds(); !set) return tl::unexpected(set.error());
   criterion.set_factors();
@@ -69,9 +73,8 @@ Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOption
   return criterion;
 }
 
-Result<void> Criterion::check() const {
+Result<void> Criterion::check_weights() const {
   const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
-  const auto usage = [](std::string message) { return fail(ErrorKind::kUsage, std::move(message)); };
   if (!options_->mask.empty() && !options_->tolerance.empty())
     return usage("a mask and tolerances contradict each other: give one of them");
   for (const auto& [name, values] : {std::pair{"the mask", options_->mask}, {"the tolerance", options_->tolerance}}) {
@@ -91,6 +94,10 @@ Result<void> Criterion::check() const {
       return usage(fmt::format("the script names sample ({}, {}), but the raster has {} x {} samples", step.col,
                                step.row, raster_.cols, raster_.rows));
   }
+  return {};
+}
+
+Result<void> Criterion::check_strategy() const {
   const Importance& importance = options_->importance;
   const bool has_feature = importance.feature != Importance::Feature::kNoFeature;
   if (!importance.global && !has_feature) return usage("an importance needs the global error or a feature");
@@ -104,7 +111,11 @@ Result<void> Criterion::check() const {
     return usage(fmt::format("the shape threshold must lie in 0 … 1, not {}", options_->edges.shape_threshold));
   if (!(options_->edges.supersample >= 0))
     return usage(fmt::format("supersampling needs a number of at least 0, not {}", options_->edges.supersample));
+  return {};
+}
 
+Result<void> Criterion::check_channels() const {
+  const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
   if (field_->channels.size() > static_cast<std::size_t>(kMaxChannels))
     return usage(fmt::format("{} channels are more than {}", field_->channels.size(), kMaxChannels));
   if (!(field_->height_scale >= 0 && std::isfinite(field_->height_scale)))

@@ -38,7 +38,9 @@ class Criterion {
   bool has_error_goal() const { return bound_.has_value() || !options_->tolerance.empty(); }
 
  private:
-  Result<void> check() const;
+  Result<void> check_weights() const;
+  Result<void> check_strategy() const;
+  Result<void> check_channels() const;
   Result<void> set_bounds();
   void set_factors();
   std::vector<JudgedField> judged_fields() const;
