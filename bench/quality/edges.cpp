@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <iostream>
 
-#include "find_raster.h"
+#include "files.h"
 #include "scarp/scarp.h"
 
 namespace {
@@ -89,12 +89,5 @@ int main(int argc, char** argv) {
   table += fmt::format("geometric mean of the ratios to delaunay over {} rasters,", rasters);
   for (const double sum : logs) table += fmt::format(",{:.4f}", std::exp(sum / rasters));
   table += "\n";
-  std::ofstream file(argv[2], std::ios::binary);
-  file << table;
-  file.close();
-  if (!file) {
-    fmt::print(stderr, "cannot write {}\n", argv[2]);
-    return 4;
-  }
-  return 0;
+  return bench::write_table(argv[2], table);
 }

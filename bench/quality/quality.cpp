@@ -6,11 +6,10 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <vector>
 
-#include "find_raster.h"
+#include "files.h"
 #include "scarp/scarp.h"
 
 namespace {
@@ -92,12 +91,5 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "{} rasters are not there: {} is left as it was\n", missing, argv[2]);
     return 2;
   }
-  std::ofstream file(argv[2], std::ios::binary);
-  file << table;
-  file.close();
-  if (!file) {
-    fmt::print(stderr, "cannot write {}\n", argv[2]);
-    return 4;
-  }
-  return 0;
+  return bench::write_table(argv[2], table);
 }

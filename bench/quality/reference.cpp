@@ -6,12 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <utility>
 
 #include "../../apps/scarp/paper/reference_rows.h"
-#include "find_raster.h"
+#include "files.h"
 #include "scarp/scarp.h"
 
 namespace {
@@ -94,13 +93,7 @@ int main(int argc, char** argv) {
     table += line;
   }
   table += fmt::format("\nLargest differences: RMSE {:.2f} %, triangles {:.3f} %.\n", worst_rmse, worst_triangles);
-  std::ofstream out(argv[2], std::ios::binary);
-  out << table;
-  out.close();
-  if (!out) {
-    fmt::print(stderr, "cannot write {}\n", argv[2]);
-    return 4;
-  }
+  if (const int code = bench::write_table(argv[2], table); code != 0) return code;
   const bool kept =
       worst_rmse <= 100 * scarp::paper::kRmseTolerance && worst_triangles <= 100 * scarp::paper::kTriangleTolerance;
   return kept ? 0 : 3;

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "../../bench/quality/find_raster.h"
+#include "../../bench/quality/files.h"
 #include "scarp/scarp.h"
 
 namespace {

@@ -1,6 +1,7 @@
-// Where the programs of bench/quality find their rasters.
+// What the programs of bench/quality read and write.
 #pragma once
 
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -29,6 +30,16 @@ inline std::vector<std::string> read_names(const std::filesystem::path& list) {
     if (!line.empty() && line[0] != '#') names.push_back(line);
   }
   return names;
+}
+
+/// Writes the table; the program's exit code.
+inline int write_table(const char* path, const std::string& table) {
+  std::ofstream file(path, std::ios::binary);
+  file << table;
+  file.close();
+  if (file) return 0;
+  std::fprintf(stderr, "cannot write %s\n", path);
+  return 4;
 }
 
 }  // namespace bench
