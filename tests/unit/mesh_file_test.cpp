@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -44,13 +45,16 @@ class MeshFile : public testing::TestWithParam<int> {
 };
 
 TEST_P(MeshFile, EveryCutFails) {
-  if (kFormats[GetParam()] == MeshFormat::kTin) GTEST_SKIP() << "a TIN has no end";
   const auto bytes = good(true);
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     // An exact copy of the cut, so that a sanitizer sees any read beyond it.
     const std::vector<std::uint8_t> cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
     const auto mesh = decode_mesh(cut, name());
     expect_sound(mesh, name(), size);
+    // A TIN has no end mark: cut between lines, or within a line's last number, it is another TIN.
+    const auto line = std::find(cut.rbegin(), cut.rend(), '\n').base();
+    const bool cuts_lines_only = line == cut.end() || std::count(line, cut.end(), ' ') == 9;
+    if (kFormats[GetParam()] == MeshFormat::kTin && size > 0 && cuts_lines_only) continue;
     const bool only_line_end_missing = GetParam() == 1 && size + 1 == bytes.size();
     EXPECT_EQ(mesh.has_value(), only_line_end_missing) << name() << " cut to " << size << " bytes";
   }
