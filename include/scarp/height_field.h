@@ -1,6 +1,7 @@
 // What is given: samples on a rectangular grid.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -15,6 +16,16 @@ namespace scarp {
 struct Channel {
   const float* samples = nullptr;  ///< cols·rows values; finite wherever the heights have a value
   double scale = 1;                ///< its error times this is comparable with an error in z units; at least 0
+};
+
+/// Samples that are not one array of floats: 16-bit values in memory, a file larger than memory.
+class SampleSource {
+ public:
+  virtual ~SampleSource() = default;
+  /// Writes the window of cols × rows samples whose first is (col, row) to `out`, row-major, `stride` floats from row to
+  /// row; voids as NaN. Several threads may call it at once. Fails with kInput, naming file and row.
+  /// REQUIRES: the window lies in the raster.
+  virtual Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const = 0;
 };
 
 /// A height field that borrows its samples.
@@ -35,6 +46,9 @@ struct HeightField {
   /// |error₁|, …). DEFAULT: none.
   std::vector<Channel> channels = {};
   double height_scale = 1;  ///< weight of the height error in that norm, at least 0. DEFAULT: 1.
+  /// Where `samples` is null: who is asked for them, borrowed. simplify() towards an error goal and measure() take it;
+  /// what else needs the samples as one array fails with kUsage. DEFAULT: none.
+  const SampleSource* source = nullptr;
 };
 
 inline constexpr int kMaxChannels = 64;
@@ -67,7 +81,7 @@ struct OwnedHeightField {
   RasterInfo info;
 
   /// Borrows this object's samples: valid while it is alive and `samples` is not resized.
-  HeightField view() const { return {samples.data(), cols, rows, std::nullopt, frame, sample_rounding, {}, 1}; }
+  HeightField view() const { return {samples.data(), cols, rows, std::nullopt, frame, sample_rounding, {}, 1, nullptr}; }
   operator HeightField() const { return view(); }  // NOLINT: the door takes both
 };
 

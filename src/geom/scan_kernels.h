@@ -1,0 +1,74 @@
+// The scan of a triangle in float32 vectors: which of its samples lies farthest off its plane.
+//
+// One source is compiled for every instruction set; the best that the machine has is chosen at run time. All of them,
+// and the scalar twin, give the same bits: each sample's error is the same sequence of separately rounded float32
+// operations everywhere (no fused multiply-add), and among equal errors the first sample in raster order wins, so
+// neither the width of a vector nor the order of work shows.
+//
+// What is computed for the triangle (a, b, c), heights za, zb, zc; a is the base:
+//   slopes in double from the differences to a, rounded once to float32: slope_x, slope_y
+//   surface(x, y) = slope_x·(x − a.x) + slope_y·(y − a.y)        each product and the sum rounded
+//   error(x, y)   = |surface − (z − za)|                          each difference rounded
+// Differences of heights near each other are exact, so rounding grows with the relief of the triangle, not with the
+// height above the sea. scan_guard() bounds it; what lies within the guard of a threshold is decided in exact
+// arithmetic by the caller.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "geom/tile_view.h"
+
+namespace scarp {
+
+/// The plane of a triangle as the kernels see it.
+struct ScanPlane {
+  float slope_x = 0, slope_y = 0, height = 0;  ///< height of the base
+  float guard = 0;  ///< |computed − exact error| at every sample of the closed triangle whose error is at most twice
+                    ///< the threshold that it was made for, threshold's own rounding to float32 included
+
+  /// REQUIRES: positive orientation; heights finite, at most kMaxScanHeight in magnitude.
+  static ScanPlane through(const TileView& tile, const std::array<Place, 3>& corners, double threshold);
+};
+
+/// Heights beyond this are for the slow path: products of them would overflow.
+inline constexpr float kMaxScanHeight = 0x1p96f;
+
+/// The farthest sample of a triangle.
+struct ScanHit {
+  float error = 0;   ///< 0: no sample's error is above threshold − guard
+  Place at = 0;      ///< the first in raster order among the samples of that error
+  float guard = 0;   ///< ScanPlane::guard: the sample is above the threshold for certain where error > threshold + guard
+};
+
+struct ScanKernels {
+  const char* name;  ///< "AVX3", "AVX2", "SSE4", "NEON", "WASM", "EMU128", … as Highway calls them; "SCALAR": the twin
+
+  /// hits[i] = the farthest sample of the closed triangle i, where its computed error is above threshold − guard.
+  /// `hints` are places that are likely to have large errors (candidates of the triangles that were there before): they
+  /// make the search in large triangles shorter and never change a hit. Void samples count for nothing.
+  /// Returns the number of samples and blocks compared with a plane.
+  /// REQUIRES: corners are valid samples of the tile, orient > 0; every |height| of the tile <= kMaxScanHeight.
+  std::uint64_t (*scan)(const TileView& tile, double threshold, std::span<const std::array<Place, 3>> triangles,
+                        std::span<const Place> hints, ScanHit* hits);
+
+  /// Fills the block arrays of a tile from its samples, padding included. `low` and `high` are the arrays that
+  /// tile.block_low and block_high point to. Returns the largest |height|, and in `voids` the number of NaN samples.
+  float (*fill_blocks)(const TileView& tile, float* low, float* high, std::uint64_t& voids);
+
+  /// For x in [0, count): error = |base + slope · (offset + x) − samples[x]| in double, each operation rounded, as
+  /// Plane::height_at() does. Where the largest exceeds `worst`, stores it there and the first such x in `at`; returns
+  /// whether it did. NaN samples count for nothing. The plain judge's row, bit for bit.
+  bool (*scan_row)(const float* samples, std::int32_t count, double base, double slope, std::int32_t offset,
+                   double& worst, std::int32_t& at);
+};
+
+/// The kernels in use: the best set of this machine, or the one that the environment variable SCARP_KERNEL names (any
+/// name of available_kernels(), in any case; others are ignored). Chosen once, at the first call.
+const ScanKernels& scan_kernels();
+
+/// All that run on this machine, best first, the scalar twin last.
+std::span<const ScanKernels> available_kernels();
+
+}  // namespace scarp

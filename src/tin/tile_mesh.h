@@ -1,0 +1,86 @@
+// The workbench of one tile: a constrained Delaunay triangulation that grows by cavities instead of flips.
+//
+// A triangle is 32 bytes, two to a cache line, and holds all that insertion looks at: corners as places, links, and two
+// words that belong to the owner (its candidate). There is no array of vertices: a vertex is its place. Each insertion
+// finds the cavity of the point (the triangles whose circle holds it, up to constrained edges), then writes every new
+// triangle once; Lawson's flips write most of them several times. Both give the same triangulation, up to cocircular
+// ties.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/array.h"
+#include "geom/tile_view.h"
+#include "tin/triangulation.h"
+
+namespace scarp {
+
+class TileMesh {
+ public:
+  using Id = std::uint32_t;
+  /// triangle << 3 | constrained << 2 | edge of that triangle; edge k runs from corner k to corner k + 1.
+  using Link = std::uint32_t;
+  static constexpr Link kBorder = 0xffffffffu;
+
+  struct alignas(32) Record {
+    std::array<Place, 3> corners;  // positive orientation
+    std::array<Link, 3> links;     // what lies beyond edge k
+    float rank;                    // the owner's: above 0 a candidate waits, 0 none; kOutside: not part of the domain
+    Place candidate;               // the owner's
+  };
+  static_assert(sizeof(Record) == 32);
+  static constexpr float kOutside = -1;
+
+  static constexpr Id triangle_of(Link link) { return link >> 3; }
+  static constexpr unsigned edge_of(Link link) { return link & 3; }
+  static constexpr bool is_constrained(Link link) { return link != kBorder && (link & 4) != 0; }
+
+  /// The rectangle as two triangles, diagonal as in Triangulation. Keeps the memory of what was there before.
+  void reset(std::int32_t cols, std::int32_t rows);
+  /// A triangulation of the same rectangle, its constraints and its outside; ranks are 0.
+  void assign(const Triangulation& tin);
+
+  std::size_t triangle_count() const { return records_.size(); }
+  std::size_t vertex_count() const { return vertices_; }
+  Record& operator[](Id t) { return records_[t]; }
+  const Record& operator[](Id t) const { return records_[t]; }
+  bool is_outside(Id t) const { return records_[t].rank < 0; }
+
+  /// What the insertion of p would change: the triangles it removes, and those beyond them. Valid until the next call.
+  /// REQUIRES: p in the closed triangle t, no corner of it.
+  struct Cavity {
+    std::span<const Id> removed;  ///< t first
+    struct Side {
+      Place from, to;  ///< the cavity lies to the left
+      Link beyond;
+      bool outside;    ///< of the removed triangle that the side belonged to
+    };
+    std::span<const Side> sides;  ///< counter-clockwise around p
+  };
+  Cavity find_cavity(Id t, Place p);
+
+  /// Replaces the cavity that find_cavity(t, p) found last by a fan around p; returns the new triangles, their ranks 0 or
+  /// kOutside. Removed ids are used again. Constraints and outsides are handed on.
+  std::span<const Id> fill_cavity(Place p);
+
+  /// Walks from `hint` to the triangle that holds p (closed).
+  Id locate(Place p, Id hint) const;
+  /// Inserts p wherever it lies; `hint` is any triangle. Returns one of the new triangles; where p is a vertex, one at p.
+  Id insert(Place p, Id hint);
+
+ private:
+  struct Pending;
+  Array<Record> records_;
+  std::size_t vertices_ = 0;
+  std::vector<Id> removed_, fresh_;
+  std::vector<Cavity::Side> sides_;
+  std::vector<Link> stack_;
+  // The constrained edge that p lies on, if any: both its halves stay constrained.
+  bool splits_constraint_ = false;
+  Place split_from_ = 0, split_to_ = 0;
+};
+
+}  // namespace scarp
