@@ -1,5 +1,6 @@
-// The main job as a list of passes. Milestones: after `build_domain` the outline is fixed; after `refine` and
-// `take_best_prefix` no vertex is added; after `freeze` nothing moves; what `prove` has seen is what is returned.
+// The main job as a list of passes. Milestones: after `build_domain`, or in each tile after `start_tile`, the outline
+// is fixed; after `refine` and `take_best_prefix`, or after the tiles, no vertex is added; after `freeze` nothing
+// moves; what `prove` has seen is what is returned.
 #include "scarp/simplify.h"
 
 #include <fmt/format.h>
@@ -20,8 +21,10 @@
 #include "refine/domain.h"
 #include "refine/freeze.h"
 #include "refine/refinement.h"
+#include "refine/release.h"
 #include "refine/samples.h"
 #include "refine/settle_edges.h"
+#include "refine/tiled.h"
 
 namespace scarp {
 
@@ -42,47 +45,98 @@ Result<void> check_options(const HeightField& field, const SimplifyOptions& opti
   return {};
 }
 
+/// What keeps a run from the dominant order; null if nothing does.
+const char* find_obstacle(const HeightField& field, const SimplifyOptions& options) {
+  if (!options.max_error) return "needs a max error";
+  if (options.max_triangles || options.max_vertices) return "has no budgets";
+  if (!options.mask.empty() || !options.tolerance.empty()) return "has no mask and no tolerances";
+  if (!field.channels.empty() || field.height_scale != 1) return "has no channels";
+  if (!options.script.empty()) return "has no script";
+  if (options.importance != Importance{}) return "ranks by the error alone";
+  if (options.algorithm != Algorithm::kHeap || options.batch != Batch{}) return "has no other algorithm and no batches";
+  if (options.edges.data_dependent) return "has Delaunay edges only";
+  if (options.outline_tolerance > 0) return "keeps the exact outline";
+  return nullptr;
+}
+
 /// One run of the engine towards the goals.
 class Run {
  public:
-  Run(const HeightField& field, const Raster& raster, const SimplifyOptions& options, const Criterion& criterion,
-      Domain domain)
+  Run(const HeightField& field, const Raster& raster, const SimplifyOptions& options, const Criterion& criterion)
       : field_(field),
         raster_(raster),
         options_(options),
         criterion_(criterion),
         budget_(options),
-        domain_(std::move(domain)),
         exact_(field.frame.is_affine() &&
                (!options.float32_positions || offsets_are_exact(field.frame, field.cols, field.rows))),
-        reporter_(options.progress) {
-    follow_script();
-    refinement_.emplace(criterion.judge(), domain_->tin, options.algorithm, options.edges);
-  }
+        reporter_(options.progress) {}
 
-  Result<Simplified> execute() {
+  /// In the dominant order where `tiled` is given, else greedily.
+  Result<Simplified> execute(std::optional<Tiled> tiled) {
     const auto start = Clock::now();
-    const char* culprit = options_.script.empty() ? "the outline of the valid data alone needs"
-                                                  : "the outline of the valid data and the script need";
-    const char* advice = domain_->whole ? "" : ", or simplify the outline with an outline tolerance";
-    if (auto fits = budget_.check(size(), culprit, advice); !fits) return tl::unexpected(fits.error());
     Simplified result;
     result.ignored = criterion_.ignored();
-    if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
-    finish_edges(result);
+    result.order = tiled ? Order::kDominant : Order::kGreedy;
+    auto refined = tiled ? free_seams(std::move(*tiled), result) : insert_greedily(result);
+    if (!refined) return tl::unexpected(refined.error());
     // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
     // proof.
     const bool final = result.stop != StopReason::kMaxError || exact_;
     if (final) refinement_.reset();
     freeze_into(result);
     if (final) domain_.reset();
-    optimize_order(result.mesh);
-    result.seconds_refine = seconds_since(start);
+    order(result);
+    result.seconds_refine += seconds_since(start);
     if (auto proven = prove_and_mend(result); !proven) return tl::unexpected(proven.error());
     return result;
   }
 
  private:
+  /// Adds a pass that began at `start`.
+  static void record(Simplified& result, std::string_view name, Clock::time_point start, const Effort& effort = {}) {
+    result.passes.push_back(
+        {name, seconds_since(start), effort.samples_scanned, effort.triangles_scanned, effort.passes});
+  }
+
+  Result<void> insert_greedily(Simplified& result) {
+    auto start = Clock::now();
+    auto domain = build_domain(raster_, options_.outline_tolerance, field_.frame);
+    if (!domain) return tl::unexpected(domain.error());
+    domain_ = std::move(*domain);
+    follow_script();
+    record(result, "domain", start);
+    start = Clock::now();
+    refinement_.emplace(criterion_.judge(), domain_->tin, options_.algorithm, options_.edges);
+    const char* culprit = options_.script.empty() ? "the outline of the valid data alone needs"
+                                                  : "the outline of the valid data and the script need";
+    const char* advice = domain_->whole ? "" : ", or simplify the outline with an outline tolerance";
+    if (auto fits = budget_.check(size(), culprit, advice); !fits) return fits;
+    if (auto refined = refine(result.stop); !refined) return refined;
+    finish_edges(result);
+    record(result, "refine", start, result.effort);
+    return {};
+  }
+
+  /// The tiles' mesh becomes one. In curved frames its border is fitted to the samples, and what that breaks is
+  /// refined.
+  Result<void> free_seams(Tiled tiled, Simplified& result) {
+    const auto start = Clock::now();
+    domain_ = std::move(tiled.domain);
+    result.effort = tiled.effort;
+    const Effort effort = release_seams(domain_->tin, criterion_.judge(), std::move(tiled.seams));
+    result.effort.samples_scanned += effort.samples_scanned;
+    result.effort.triangles_scanned += effort.triangles_scanned;
+    record(result, "seams", start, effort);
+    if (field_.frame.is_affine()) return {};
+    const auto again = Clock::now();
+    follow_curved_border(raster_, domain_->tin, field_.frame);
+    refinement_.emplace(criterion_.judge(), domain_->tin);
+    auto refined = refine(result.stop);
+    record(result, "refine", again, refinement_->effort());
+    return refined;
+  }
+
   /// Inserts what the script wants; samples outside the domain cannot become vertices.
   void follow_script() {
     for (const ScriptStep& step : options_.script) {
@@ -207,7 +261,14 @@ class Run {
     result.effort.triangles_scanned += settling.triangles_scanned;
   }
 
+  void order(Simplified& result) const {
+    const auto start = Clock::now();
+    optimize_order(result.mesh);
+    record(result, "order", start);
+  }
+
   void freeze_into(Simplified& result) const {
+    const auto start = Clock::now();
     result.mesh = freeze(raster_, domain_->tin, field_.frame, options_.float32_positions);
     const bool has_more = options_.normals || options_.uvs || !field_.channels.empty();
     const std::vector<Point> samples = has_more ? frozen_samples(domain_->tin) : std::vector<Point>();
@@ -220,6 +281,7 @@ class Run {
             channel.samples[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(raster_.cols) +
                             static_cast<std::size_t>(p.x)]);
     }
+    record(result, "freeze", start);
   }
 
   /// Inserts the samples that break the bound in the judge's eyes, as far as the budgets allow, and refines on. Returns
@@ -253,12 +315,16 @@ class Run {
       const auto proof = prove(field_, options_, criterion_, exact_, result);
       if (!proof) return tl::unexpected(proof.error());
       result.seconds_measure += seconds_since(start);
+      record(result, "prove", start);
       if (!exact_ && !result.measurement.is_sound())
         return fail(ErrorKind::kPromise,
                     "the mesh folds over itself: in this frame positions are rounded to float32, or edges are straight "
                     "where the grid's are curved; ask for a smaller error, or write in the local or grid frame");
       if (proof->kept) return {};
-      if (!refinement_) return fail(ErrorKind::kInternal, proof->broken);
+      if (!domain_) return fail(ErrorKind::kInternal, proof->broken);
+      if (!refinement_)
+        refinement_.emplace(criterion_.judge(), domain_->tin, options_.algorithm, options_.edges,
+                            Refinement::Start::kClean);
       const auto again = Clock::now();
       const auto mended = mend(proof->offenders, result);
       if (!mended) return tl::unexpected(mended.error());
@@ -268,8 +334,9 @@ class Run {
                         ": positions in the mesh are rounded to float32, which alone costs that much; ask for a larger "
                         "error, or "
                         "write OBJ or PLY, whose positions are double, or use the local or grid frame");
+      record(result, "refine", again);
       freeze_into(result);
-      optimize_order(result.mesh);
+      order(result);
       result.seconds_refine += seconds_since(again);
     }
   }
@@ -289,17 +356,51 @@ class Run {
   Prefix best_{0, std::numeric_limits<double>::infinity()};
 };
 
+Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const SimplifyOptions& options,
+                                          const Criterion& criterion) {
+  TiledOptions tiles;
+  tiles.threshold = *criterion.bound();
+  tiles.threads = options.threads;
+  Reporter reporter(options.progress);
+  if (options.progress)
+    tiles.progress = [&](double share, std::uint64_t vertices) {
+      return !reporter.due() || reporter.report("refine", share, vertices, 0);
+    };
+  return refine_tiled(field, tiles);
+}
+
 }  // namespace
 
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& options) try {
   if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
+  const char* obstacle = find_obstacle(field, options);
+  if (obstacle != nullptr && options.order == Order::kDominant)
+    return fail(ErrorKind::kUsage,
+                fmt::format("the dominant order {}: leave that out, or take the greedy order", obstacle));
   auto samples = Samples::of(field);
   if (!samples) return tl::unexpected(samples.error());
   const auto criterion = Criterion::make(field, options, samples->raster());
   if (!criterion) return tl::unexpected(criterion.error());
-  auto domain = build_domain(samples->raster(), options.outline_tolerance, field.frame);
-  if (!domain) return tl::unexpected(domain.error());
-  return Run(field, samples->raster(), options, *criterion, std::move(*domain)).execute();
+  std::optional<Tiled> tiled;
+  Pass pass{"tiles", 0, 0, 0, 0};
+  if (obstacle == nullptr && options.order != Order::kGreedy) {
+    const auto start = Clock::now();
+    auto made = refine_tiles(field, options, *criterion);
+    if (!made) return tl::unexpected(made.error());
+    tiled = std::move(*made);
+    pass.seconds = seconds_since(start);
+    if (tiled) {
+      pass.samples_scanned = tiled->effort.samples_scanned;
+      pass.triangles_scanned = tiled->effort.triangles_scanned;
+      pass.insertions = tiled->effort.passes;
+    }
+  }
+  auto result = Run(field, samples->raster(), options, *criterion).execute(std::move(tiled));
+  if (result && pass.seconds > 0) {
+    result->passes.insert(result->passes.begin(), pass);
+    result->seconds_refine += pass.seconds;
+  }
+  return result;
 } catch (const std::bad_alloc&) {
   return fail(ErrorKind::kInput, "not enough memory for this raster and goal: allow a larger error or fewer triangles");
 } catch (const std::exception& e) {

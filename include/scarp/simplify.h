@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scarp/height_field.h"
@@ -41,7 +42,10 @@ struct SimplifyOptions {
   /// DEFAULT: empty.
   std::span<const float> tolerance = {};
   std::vector<ScriptStep> script = {};  ///< carried out in order before the first scan. DEFAULT: nothing.
-  Importance importance = {};           ///< DEFAULT: global error
+  /// kDominant fails with kUsage together with a budget, a mask, tolerances, a script, channels, an importance, an
+  /// algorithm, batches, data-dependent edges or an outline tolerance; kAuto then is kGreedy. DEFAULT: kAuto.
+  Order order = Order::kAuto;
+  Importance importance = {};  ///< DEFAULT: global error
   Algorithm algorithm = Algorithm::kHeap;
   Batch batch = {};        ///< DEFAULT: one at a time
   EdgeRule edges = {};     ///< DEFAULT: Delaunay
@@ -55,6 +59,13 @@ struct SimplifyOptions {
   bool normals = false;
   int threads = 0;  ///< 0 = all cores. Never changes the result. DEFAULT: 0.
   ProgressCallback progress = {};
+};
+
+/// A pass of simplify() and what it cost.
+struct Pass {
+  std::string_view name;  ///< "tiles", "seams"; "domain", "refine"; "freeze", "order", "prove"
+  double seconds = 0;     ///< wall clock
+  std::uint64_t samples_scanned = 0, triangles_scanned = 0, insertions = 0;
 };
 
 /// Which goal ended the run.
@@ -72,11 +83,18 @@ struct Simplified {
   std::vector<Measurement> channel_measurements;  ///< of each channel, in its own units; without topology
   double combined_max_error = 0;                  ///< with channels: the largest norm
   Effort effort;                                  ///< what the engine did
+  Order order = Order::kGreedy;                   ///< the order that was taken, never kAuto
+  std::vector<Pass> passes;                       ///< in the order in which they ended
   double seconds_refine = 0;                      ///< outline, refinement and freezing
   double seconds_measure = 0;                     ///< the proof
 };
 
-/// Greedy insertion (Garland & Heckbert 1995, Algorithm III) on a constrained Delaunay triangulation of the valid data.
+/// Insertion of the worst samples (Garland & Heckbert 1995) into a constrained Delaunay triangulation of the valid
+/// data.
+///
+/// Order: towards an error goal the locally dominant order works tile by tile, on all threads; where two tiles meet, an
+/// edge that is not Delaunay is kept if the bound needs it. Budgets, and all that strategy.h offers, keep the greedy
+/// order (Algorithm III), which is one thread's work. What is promised is the same.
 ///
 /// Guarantees, for every input:
 /// (1) if max_error is given and no budget ended the run, every valid sample of the domain is covered and lies within

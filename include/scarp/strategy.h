@@ -42,6 +42,14 @@ enum class Algorithm {
   kHeap,        ///< III: rescan what changed, keep triangles in a heap. O((n + m) log m)
 };
 
+/// In which order candidates are inserted.
+enum class Order {
+  kAuto,      ///< kDominant where it applies, else kGreedy
+  kGreedy,    ///< the worst sample of the whole raster first, as the report's Algorithm III
+  kDominant,  ///< the worst sample of its neighbourhood first, tile by tile: many times faster, on all threads, with as
+              ///< many vertices. For an error goal alone, on heights alone, with Delaunay edges; see simplify().
+};
+
 /// Inserting many samples between two looks at the mesh ("parallel" insertion of the report; Scape's thresholds).
 struct Batch {
   enum class Rule {

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -92,6 +94,116 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
     work();
   }
   failure.rethrow();
+}
+
+namespace {
+
+/// Which tasks have started, ended and been committed.
+class Order {
+ public:
+  Order(std::size_t count, std::size_t ahead) : ended_(count, false), ahead_(ahead) {}
+
+  /// The next task; nothing if none is left to start. With `may_wait` waits for commits where too much is uncommitted.
+  std::optional<std::size_t> start(bool may_wait) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    const auto is_free = [this] { return is_over() || next_ < committed_ + ahead_; };
+    if (may_wait) changed_.wait(lock, is_free);
+    if (is_over() || !is_free()) return std::nullopt;
+    return next_++;
+  }
+  void end(std::size_t i) {
+    change([&] { ended_[i] = true; });
+  }
+  void stop() {
+    change([&] { stopped_ = true; });
+  }
+  void fail(std::size_t i, std::exception_ptr exception) {
+    change([&] {
+      stopped_ = true;
+      if (failure_ && failed_ < i) return;
+      failed_ = i;
+      failure_ = std::move(exception);
+    });
+  }
+  /// The task to commit next, if it has ended; with `may_wait` once it has. Nothing if there is none, or all is
+  /// stopped.
+  std::optional<std::size_t> ready(bool may_wait) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    const auto is_ready = [this] { return stopped_ || committed_ == ended_.size() || ended_[committed_]; };
+    if (may_wait) changed_.wait(lock, is_ready);
+    if (stopped_ || committed_ == ended_.size() || !ended_[committed_]) return std::nullopt;
+    return committed_;
+  }
+  void commit() {
+    change([&] { ++committed_; });
+  }
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  bool is_over() const { return stopped_ || next_ == ended_.size(); }
+  template <class Change>
+  void change(const Change& apply) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      apply();
+    }
+    changed_.notify_all();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<bool> ended_;
+  std::size_t ahead_, next_ = 0, committed_ = 0, failed_ = 0;
+  bool stopped_ = false;
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+void parallel_in_order(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& task,
+                       const std::function<bool(std::size_t)>& commit) {
+  const std::size_t workers = std::min<std::size_t>(count, static_cast<std::size_t>(thread_count(threads)));
+  Order order(count, 4 * workers);
+  const auto run = [&](std::size_t i, std::size_t worker) {
+    try {
+      task(i, worker);
+      order.end(i);
+    } catch (...) {
+      order.fail(i, std::current_exception());
+    }
+  };
+  const auto commit_ready = [&](bool may_wait) {
+    const auto i = order.ready(may_wait);
+    if (!i) return false;
+    try {
+      if (!commit(*i)) order.stop();
+    } catch (...) {
+      order.fail(*i, std::current_exception());
+    }
+    order.commit();
+    return true;
+  };
+  {
+    Pool pool(workers);
+    for (std::size_t k = 1; k < workers; ++k) {
+      const auto work = [&, k] {
+        while (const auto i = order.start(true)) run(*i, k);
+      };
+      if (!pool.start(work)) break;
+    }
+    for (;;) {
+      while (commit_ready(false)) {
+      }
+      if (const auto i = order.start(false)) {
+        run(*i, 0);
+      } else if (!commit_ready(true)) {
+        break;
+      }
+    }
+  }
+  order.rethrow();
 }
 
 }  // namespace scarp

@@ -15,4 +15,11 @@ int thread_count(int requested);
 /// is rethrown here once all threads have ended; tasks of higher indices may then have been left out.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& task);
 
+/// Calls task(i, worker) for i in 0 … count − 1 as parallel_for() does, with worker in 0 … thread_count(threads) − 1
+/// naming the thread (for scratch memory), and commit(i) in ascending order, on the calling thread only, once task i
+/// has ended; commit returns false to stop everything. No task starts more than a few places per thread before the next
+/// commit, so that uncommitted results stay few. Exceptions: as parallel_for(); those of commit end the loop too.
+void parallel_in_order(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& task,
+                       const std::function<bool(std::size_t)>& commit);
+
 }  // namespace scarp

@@ -25,6 +25,31 @@ Dyadic dyadic(double value) {
 
 int bits(std::int64_t value) { return static_cast<int>(std::bit_width(static_cast<std::uint64_t>(std::abs(value)))); }
 
+/// |Σ weights[i]·values[i]| > last weight · last value, where the last pair is the threshold's: all values scaled to
+/// integers by one power of two. True where that does not fit 128 bits.
+template <std::size_t N>
+bool sum_exceeds(const std::array<std::int64_t, N>& weights, const std::array<double, N>& values) {
+  std::array<Dyadic, N> terms;
+  int low = 0, weight_bits = 0;
+  bool any = false;
+  for (std::size_t k = 0; k < N; ++k) {
+    terms[k] = weights[k] == 0 ? Dyadic{} : dyadic(values[k]);
+    weight_bits = std::max(weight_bits, bits(weights[k]));
+    if (terms[k].mantissa == 0) continue;
+    low = any ? std::min(low, terms[k].exponent) : terms[k].exponent;
+    any = true;
+  }
+  Int128 sum = 0, limit = 0;
+  for (std::size_t k = 0; k < N; ++k) {
+    const int shift = terms[k].mantissa == 0 ? 0 : terms[k].exponent - low;
+    // Up to five products are added: three bits of head room and the sign.
+    if (shift + bits(terms[k].mantissa) + weight_bits > 123) return true;
+    const Int128 product = weights[k] * (Int128{terms[k].mantissa} * (Int128{1} << shift));
+    (k + 1 < N ? sum : limit) += product;
+  }
+  return (sum < 0 ? -sum : sum) > limit;
+}
+
 }  // namespace
 
 bool exceeds_exactly(const std::array<Point, 3>& corners, const std::array<double, 3>& heights, Point p, double sample,
@@ -32,28 +57,14 @@ bool exceeds_exactly(const std::array<Point, 3>& corners, const std::array<doubl
   for (int k = 0; k < 3; ++k) {
     if (corners[k] == p) return std::abs(heights[k] - sample) > threshold;
   }
-  const Dyadic values[5] = {dyadic(heights[0]), dyadic(heights[1]), dyadic(heights[2]), dyadic(sample),
-                            dyadic(threshold)};
-  int low = 0;
-  bool any = false;
-  for (const Dyadic& v : values) {
-    if (v.mantissa == 0) continue;
-    low = any ? std::min(low, v.exponent) : v.exponent;
-    any = true;
-  }
-  const std::int64_t weights[4] = {orient(corners[1], corners[2], p), orient(corners[2], corners[0], p),
-                                   orient(corners[0], corners[1], p), orient(corners[0], corners[1], corners[2])};
-  const int weight_bits = std::max({bits(weights[0]), bits(weights[1]), bits(weights[2]), bits(weights[3])});
-  Int128 scaled[5];
-  for (int k = 0; k < 5; ++k) {
-    const int shift = values[k].mantissa == 0 ? 0 : values[k].exponent - low;
-    // Five products are added below: three bits of head room and the sign.
-    if (shift + bits(values[k].mantissa) + weight_bits > 123) return true;
-    scaled[k] = Int128{values[k].mantissa} * (Int128{1} << shift);
-  }
-  const Int128 difference =
-      weights[0] * scaled[0] + weights[1] * scaled[1] + weights[2] * scaled[2] - weights[3] * scaled[3];
-  return (difference < 0 ? -difference : difference) > weights[3] * scaled[4];
+  const std::int64_t area = orient(corners[0], corners[1], corners[2]);
+  return sum_exceeds<5>({orient(corners[1], corners[2], p), orient(corners[2], corners[0], p),
+                         orient(corners[0], corners[1], p), -area, area},
+                        {heights[0], heights[1], heights[2], sample, threshold});
+}
+
+bool exceeds_exactly_between(float from, float to, std::int64_t k, std::int64_t n, float sample, double threshold) {
+  return sum_exceeds<4>({n - k, k, -n, n}, {from, to, sample, threshold});
 }
 
 }  // namespace scarp

@@ -22,4 +22,9 @@ inline bool exceeds_exactly(const std::array<Point, 3>& corners, const std::arra
                          threshold);
 }
 
+/// The same on a line: true if the point k of n steps from a height `from` to a height `to` differs from `sample` by
+/// more than `threshold`, as real numbers: |(n − k)·from + k·to − n·sample| > threshold · n. In 128 bits for all
+/// float32 heights whose magnitudes span less than some 2^90; beyond, true. REQUIRES: 0 < k < n <= 2^30.
+bool exceeds_exactly_between(float from, float to, std::int64_t k, std::int64_t n, float sample, double threshold);
+
 }  // namespace scarp

@@ -43,8 +43,20 @@ void mark_outside(const Raster& raster, Triangulation& tin) {
   }
 }
 
-/// Splits border edges of the domain whose chord in the frame strays from the samples under it. Void samples, over
-/// which a simplified outline may run, need no cover.
+std::uint32_t count_unused_corners(const Triangulation& tin) {
+  std::uint32_t unused = 0;
+  std::vector<Triangle> star;
+  for (Vertex v = 0; v < 4; ++v) {
+    tin.star(v, star);
+    bool used = false;
+    for (Triangle t : star) used = used || !tin.is_outside(t);
+    unused += !used;
+  }
+  return unused;
+}
+
+}  // namespace
+
 void follow_curved_border(const Raster& raster, Triangulation& tin, const Frame& frame) {
   constexpr double kStray = 1.0 / 512;
   struct Segment {
@@ -89,20 +101,6 @@ void follow_curved_border(const Raster& raster, Triangulation& tin, const Frame&
     stack.push_back({p, b});
   }
 }
-
-std::uint32_t count_unused_corners(const Triangulation& tin) {
-  std::uint32_t unused = 0;
-  std::vector<Triangle> star;
-  for (Vertex v = 0; v < 4; ++v) {
-    tin.star(v, star);
-    bool used = false;
-    for (Triangle t : star) used = used || !tin.is_outside(t);
-    unused += !used;
-  }
-  return unused;
-}
-
-}  // namespace
 
 Result<Domain> build_domain(const Raster& raster, double outline_tolerance, const Frame& frame) {
   Domain domain{Triangulation(raster.cols, raster.rows)};

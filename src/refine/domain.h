@@ -18,9 +18,12 @@ struct Domain {
 };
 
 /// The rectangle as two triangles if every sample is a height; else the outline's vertices, its edges constrained, all
-/// else marked outside. In frames that are not affine, border samples are added until each border edge runs within
-/// 1/512 sample of the samples under it.
+/// else marked outside. In frames that are not affine the border follows the samples (follow_curved_border()).
 /// Fails with kInput if no cell is surface.
 Result<Domain> build_domain(const Raster& raster, double outline_tolerance, const Frame& frame);
+
+/// In a frame that is not affine: adds samples to the domain's border until each border edge runs, in the frame, within
+/// 1/512 sample of the samples under it.
+void follow_curved_border(const Raster& raster, Triangulation& tin, const Frame& frame);
 
 }  // namespace scarp

@@ -4,7 +4,7 @@
 
 namespace scarp {
 
-Refinement::Refinement(const Judge& judge, Triangulation& tin, Algorithm algorithm, const EdgeRule& edges)
+Refinement::Refinement(const Judge& judge, Triangulation& tin, Algorithm algorithm, const EdgeRule& edges, Start start)
     : judge_(judge), tin_(tin), algorithm_(algorithm) {
   if (edges.data_dependent) rule_ = std::make_unique<DataDependentRule>(judge, edges);
   if (algorithm == Algorithm::kHeap) {
@@ -13,7 +13,11 @@ Refinement::Refinement(const Judge& judge, Triangulation& tin, Algorithm algorit
     candidates_ = std::make_unique<CandidateList>();
   }
   for (Triangle t = 0; t < tin.triangle_count(); ++t) inside_ += !tin.is_outside(t);
-  rescan_all();
+  if (start == Start::kScan) {
+    rescan_all();
+  } else {
+    candidates_->grow(tin.triangle_count());
+  }
 }
 
 void Refinement::rescan(Triangle t) {

@@ -26,10 +26,15 @@ namespace scarp {
 
 class Refinement {
  public:
-  /// Scans every triangle that is not outside. The judge and `tin` stay alive; nobody else changes them. Edges are
-  /// Delaunay, or follow the data where `edges` says so; triangles of `tin` stay as they are until a point is inserted.
-  Refinement(const Judge& judge, Triangulation& tin, Algorithm algorithm = Algorithm::kHeap,
-             const EdgeRule& edges = {});
+  /// Whether the triangles there are need a look.
+  enum class Start {
+    kScan,   ///< scan every triangle that is not outside
+    kClean,  ///< all keep their bounds already
+  };
+  /// The judge and `tin` stay alive; nobody else changes them. Edges are Delaunay, or follow the data where `edges`
+  /// says so; triangles of `tin` stay as they are until a point is inserted.
+  Refinement(const Judge& judge, Triangulation& tin, Algorithm algorithm = Algorithm::kHeap, const EdgeRule& edges = {},
+             Start start = Start::kScan);
 
   /// No sample breaks its bound any more.
   bool done() const { return candidates_->empty(); }

@@ -56,30 +56,31 @@ class TileMesh {
     struct Side {
       Place from, to;  ///< the cavity lies to the left
       Link beyond;
-      bool outside;    ///< of the removed triangle that the side belonged to
+      bool outside;  ///< of the removed triangle that the side belonged to
     };
     std::span<const Side> sides;  ///< counter-clockwise around p
   };
   Cavity find_cavity(Id t, Place p);
 
-  /// Replaces the cavity that find_cavity(t, p) found last by a fan around p; returns the new triangles, their ranks 0 or
-  /// kOutside. Removed ids are used again. Constraints and outsides are handed on.
+  /// Replaces the cavity that find_cavity(t, p) found last by a fan around p; returns the new triangles, their ranks 0
+  /// or kOutside. Removed ids are used again. Constraints and outsides are handed on.
   std::span<const Id> fill_cavity(Place p);
 
   /// Walks from `hint` to the triangle that holds p (closed).
   Id locate(Place p, Id hint) const;
-  /// Inserts p wherever it lies; `hint` is any triangle. Returns one of the new triangles; where p is a vertex, one at p.
+  /// Inserts p wherever it lies; `hint` is any triangle. Returns one of the new triangles; where p is a vertex, one at
+  /// p.
   Id insert(Place p, Id hint);
 
  private:
-  struct Pending;
+  void set_link(Link at, Link to) { records_[triangle_of(at)].links[edge_of(at)] = to; }
+
   Array<Record> records_;
   std::size_t vertices_ = 0;
   std::vector<Id> removed_, fresh_;
   std::vector<Cavity::Side> sides_;
   std::vector<Link> stack_;
-  // The constrained edge that p lies on, if any: both its halves stay constrained.
-  bool splits_constraint_ = false;
+  bool splits_constraint_ = false;  // p lies on a constrained edge, whose halves stay constrained
   Place split_from_ = 0, split_to_ = 0;
 };
 

@@ -97,7 +97,10 @@ class Triangulation {
   HalfEdge find_edge(Vertex a, Vertex b) const;
 
  private:
+  friend class Assembly;
   static constexpr std::uint8_t kOutside = 8;
+
+  Triangulation() = default;
 
   /// What a segment meets on its way from a vertex: the edges it crosses (each from its right end to its left end),
   /// then the vertex it comes to first.

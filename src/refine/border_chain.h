@@ -1,0 +1,29 @@
+// The border between two tiles: a line of samples, simplified on its own.
+//
+// A pure function of the samples on the line and of the cells beside it: both tiles that share a border compute the
+// same points, whatever else they hold, so that their meshes fit without a crack and without talking to each other.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scarp/height_field.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+/// A straight run of samples: from (col, row), `steps` steps to the right or down.
+struct BorderLine {
+  std::int32_t col = 0, row = 0, steps = 1;
+  bool is_vertical = false;
+};
+
+/// Steps, ascending and strictly between 0 and line.steps, that become vertices, such that every sample of the line
+/// that belongs to the surface on either side lies within `threshold`, as a real number, of the chain that they make:
+/// the farthest sample of a chord splits it (first among equals), again and again. Where the surface beside the line
+/// changes (a cell with a void sample), the sample is kept too, so that every corner of an outline on the line is a
+/// vertex. A line inside the raster; its field may have voids. Cost: O(steps · log steps), expected.
+/// Fails as the field's source does.
+Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, const BorderLine& line, double threshold);
+
+}  // namespace scarp

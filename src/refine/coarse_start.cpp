@@ -1,0 +1,53 @@
+#include "refine/coarse_start.h"
+
+#include <algorithm>
+
+#include "refine/dominant.h"
+
+namespace scarp {
+
+namespace {
+
+struct Attempt {
+  std::int32_t step;
+  double expected;  ///< tried where this share of the coarse samples or less is expected to be needed
+  double most;      ///< kept where this share or less is needed
+};
+constexpr Attempt kAttempts[] = {{8, 0.12, 0.16}, {4, 0.12, 0.08}};
+
+}  // namespace
+
+void CoarseStart::insert(const Tile& tile, const SharedSides& shared, double threshold, double density,
+                         TileMesh& mesh) {
+  const std::int32_t last_col = tile.view().cols - 1, last_row = tile.view().rows - 1;
+  for (const Attempt& attempt : kAttempts) {
+    const std::int32_t step = attempt.step;
+    // Fewer than some 16 coarse samples a side say nothing about the terrain.
+    if (density * step * step > attempt.expected || std::min(last_col, last_row) < 16 * step) continue;
+    if (!refine(tile, step, attempt.most, threshold)) continue;
+    TileMesh::Id last = 0;
+    for (const Place p : inserted_) {
+      const std::int32_t x = place_x(p) * step, y = place_y(p) * step;
+      const bool is_shared = (shared.left && x == 0) || (shared.top && y == 0) || (shared.right && x == last_col) ||
+                             (shared.bottom && y == last_row);
+      if (!is_shared) last = mesh.insert(place(x, y), last);
+    }
+    return;
+  }
+}
+
+bool CoarseStart::refine(const Tile& tile, std::int32_t step, double share, double threshold) {
+  coarse_.load_coarse(tile, step);
+  const TileView& view = coarse_.view();
+  mesh_.reset(view.cols, view.rows);
+  inserted_.clear();
+  TileScanner scanner(view, threshold);
+  const auto most = static_cast<std::size_t>(share * view.cols * view.rows);
+  const DominantRun run = refine_dominant(mesh_, scanner, most, &inserted_);
+  effort_.samples_scanned += scanner.samples_scanned();
+  effort_.triangles_scanned += scanner.triangles_scanned();
+  effort_.queue_moves += run.moves;
+  return run.finished;
+}
+
+}  // namespace scarp

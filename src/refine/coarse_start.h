@@ -1,0 +1,40 @@
+// Where refinement of a tile begins: two triangles, or the mesh of a coarser raster.
+//
+// The worst sample of a large triangle is an extreme of the noise as often as a peak of the terrain. On every 8th
+// sample the terrain is the same and the noise has 64 times fewer extremes, and a scan costs 64 times less. So where
+// the mesh is to be coarse, the subsampled tile is refined first, its vertices are inserted (a sample of the coarse
+// raster is one of the fine one), and refinement goes on from there with all samples. On real terrain that gives fewer
+// vertices, sooner (docs/performance.md, "Starts"). Where the coarse mesh would need a large part of the coarse samples
+// the vertices are too many and in the wrong places; then the tile starts from two triangles.
+#pragma once
+
+#include <vector>
+
+#include "refine/tile.h"
+#include "refine/tile_scanner.h"
+#include "scarp/strategy.h"
+#include "tin/tile_mesh.h"
+
+namespace scarp {
+
+class CoarseStart {
+ public:
+  /// Inserts into the started `mesh` of a whole tile what every 8th, or 4th, sample alone would need, where that is
+  /// few. `density`: vertices a sample to be expected of the finished mesh; it decides what is tried. A trial that
+  /// needs too many is broken off: at most one insertion for each 400 samples of the tile is in vain. No vertex is put
+  /// on a shared side.
+  void insert(const Tile& tile, const SharedSides& shared, double threshold, double density, TileMesh& mesh);
+
+  /// Of all calls.
+  const Effort& effort() const { return effort_; }
+
+ private:
+  bool refine(const Tile& tile, std::int32_t step, double share, double threshold);
+
+  Tile coarse_;
+  TileMesh mesh_;
+  std::vector<Place> inserted_;
+  Effort effort_;
+};
+
+}  // namespace scarp

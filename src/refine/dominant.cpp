@@ -1,0 +1,111 @@
+#include "refine/dominant.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace scarp {
+
+namespace {
+
+using Id = TileMesh::Id;
+
+/// 0 for triangles without a candidate, so that every candidate beats them.
+std::uint64_t key_of(const TileMesh::Record& record) {
+  return record.rank > 0 ? std::uint64_t{std::bit_cast<std::uint32_t>(record.rank)} << 32 |
+                               static_cast<std::uint32_t>(~record.candidate)
+                         : 0;
+}
+
+class Walk {
+ public:
+  Walk(TileMesh& mesh, TileScanner& scanner, std::vector<Place>* inserted)
+      : mesh_(mesh), scanner_(scanner), inserted_(inserted) {
+    std::vector<Id> all(mesh.triangle_count());
+    for (Id t = 0; t < all.size(); ++t) all[t] = t;
+    scanner.scan(mesh, all, {});
+    for (const Id t : all) push(t);
+  }
+
+  DominantRun run(std::size_t most) {
+    while (!stack_.empty()) {
+      const auto [key, t] = stack_.back();
+      if (key_of(mesh_[t]) != key) {
+        stack_.pop_back();  // changed since it was put there
+        continue;
+      }
+      const Place p = mesh_[t].candidate;
+      Entry worst{key, t};
+      for (const TileMesh::Link link : mesh_[t].links) consider(link, worst);
+      if (worst.triangle == t) {
+        const TileMesh::Cavity cavity = mesh_.find_cavity(t, p);
+        for (const Id removed : cavity.removed) consider_triangle(removed, worst);
+        for (const auto& side : cavity.sides) consider(side.beyond, worst);
+        if (worst.triangle == t) {
+          if (mesh_.vertex_count() >= most) {
+            done_.finished = false;
+            return done_;
+          }
+          stack_.pop_back();
+          insert(p, cavity);
+          continue;
+        }
+      }
+      stack_.push_back(worst);
+      ++done_.moves;
+    }
+    return done_;
+  }
+
+ private:
+  struct Entry {
+    std::uint64_t key;
+    Id triangle;
+  };
+
+  void push(Id t) {
+    if (const std::uint64_t key = key_of(mesh_[t]); key != 0) {
+      stack_.push_back({key, t});
+      ++done_.moves;
+    }
+  }
+  void consider_triangle(Id t, Entry& worst) const {
+    if (const std::uint64_t key = key_of(mesh_[t]); key > worst.key) worst = {key, t};
+  }
+  void consider(TileMesh::Link link, Entry& worst) const {
+    if (link != TileMesh::kBorder) consider_triangle(TileMesh::triangle_of(link), worst);
+  }
+
+  void insert(Place p, const TileMesh::Cavity& cavity) {
+    hints_.clear();
+    for (const Id t : cavity.removed) {
+      if (mesh_[t].rank > 0 && mesh_[t].candidate != p) hints_.push_back(mesh_[t].candidate);
+    }
+    const auto fresh = mesh_.fill_cavity(p);
+    scanner_.scan(mesh_, fresh, hints_);
+    const std::size_t first = stack_.size();
+    for (const Id t : fresh) push(t);
+    if (stack_.size() > first + 1) {
+      const auto worst = std::max_element(stack_.begin() + static_cast<std::ptrdiff_t>(first), stack_.end(),
+                                          [](const Entry& a, const Entry& b) { return a.key < b.key; });
+      std::swap(*worst, stack_.back());
+    }
+    ++done_.insertions;
+    if (inserted_ != nullptr) inserted_->push_back(p);
+  }
+
+  TileMesh& mesh_;
+  TileScanner& scanner_;
+  std::vector<Place>* inserted_;
+  std::vector<Entry> stack_;
+  std::vector<Place> hints_;
+  DominantRun done_;
+};
+
+}  // namespace
+
+DominantRun refine_dominant(TileMesh& mesh, TileScanner& scanner, std::size_t most, std::vector<Place>* inserted) {
+  return Walk(mesh, scanner, inserted).run(most);
+}
+
+}  // namespace scarp

@@ -1,0 +1,52 @@
+#include "refine/tile.h"
+
+#include "geom/scan_kernels.h"
+#include "grid/window.h"
+
+namespace scarp {
+
+namespace {
+
+void grow(std::vector<float>& values, std::ptrdiff_t least) {
+  if (values.size() < static_cast<std::size_t>(least)) values.resize(static_cast<std::size_t>(least));
+}
+
+}  // namespace
+
+float* Tile::resize(std::int32_t cols, std::int32_t rows) {
+  std::ptrdiff_t stride = (cols + kTilePadding - 1) / kTilePadding * kTilePadding + kTilePadding;
+  // Rows a multiple of 4 KiB apart would share a few lines of the cache.
+  if (stride % 1024 == 0) stride += kTilePadding;
+  const std::ptrdiff_t block_rows = (rows + kBlock - 1) / kBlock;
+  const std::ptrdiff_t block_stride = (cols + kBlock - 1) / kBlock + kTilePadding;
+  grow(samples_, stride * (rows + kTilePadding));
+  grow(low_, block_stride * block_rows);
+  grow(high_, block_stride * block_rows);
+  view_ = {samples_.data(), stride, cols, rows, low_.data(), high_.data(), block_stride};
+  return samples_.data();
+}
+
+void Tile::fill_blocks() {
+  voids_ = 0;
+  largest_height_ = scan_kernels().fill_blocks(view_, low_.data(), high_.data(), voids_);
+}
+
+Result<void> Tile::load(const HeightField& field, const TileWindow& window) {
+  float* samples = resize(window.cols, window.rows);
+  if (auto read = read_window(field, window.col, window.row, window.cols, window.rows, samples, view_.stride); !read)
+    return read;
+  fill_blocks();
+  return {};
+}
+
+void Tile::load_coarse(const Tile& fine, std::int32_t step) {
+  const TileView& from = fine.view();
+  float* samples = resize((from.cols - 1) / step + 1, (from.rows - 1) / step + 1);
+  for (std::int32_t y = 0; y < view_.rows; ++y) {
+    const float* row = from.row(y * step);
+    for (std::int32_t x = 0; x < view_.cols; ++x) samples[y * view_.stride + x] = row[x * step];
+  }
+  fill_blocks();
+}
+
+}  // namespace scarp

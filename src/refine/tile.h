@@ -1,0 +1,40 @@
+// The samples of one tile, in memory of their own.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geom/tile_view.h"
+#include "scarp/height_field.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+/// A window of the raster, corners included. Windows of neighbours share a row or a column of samples.
+struct TileWindow {
+  std::int32_t col = 0, row = 0, cols = 0, rows = 0;
+};
+
+/// Padded samples and blocks, filled again and again: memory is kept from tile to tile.
+class Tile {
+ public:
+  /// Fails as the field's source does. REQUIRES: a window in the raster, sides 2 … kMaxTileSide.
+  Result<void> load(const HeightField& field, const TileWindow& window);
+  /// Every `step`-th sample of a tile, from its first on. REQUIRES: at least two of them each way.
+  void load_coarse(const Tile& fine, std::int32_t step);
+
+  const TileView& view() const { return view_; }
+  bool is_whole() const { return voids_ == 0; }
+  float largest_height() const { return largest_height_; }  ///< magnitude; of the samples that are heights
+
+ private:
+  float* resize(std::int32_t cols, std::int32_t rows);
+  void fill_blocks();
+
+  std::vector<float> samples_, low_, high_;
+  TileView view_;
+  std::uint64_t voids_ = 0;
+  float largest_height_ = 0;
+};
+
+}  // namespace scarp

@@ -1,0 +1,35 @@
+#include "refine/tile_domain.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "refine/domain.h"
+
+namespace scarp {
+
+Result<void> start_tile(const Tile& tile, std::span<const Place> border, TileMesh& mesh) {
+  const TileView& view = tile.view();
+  if (tile.is_whole()) {
+    mesh.reset(view.cols, view.rows);
+    TileMesh::Id last = 0;
+    for (const Place p : border) last = mesh.insert(p, last);
+    return {};
+  }
+  std::vector<float> samples;
+  samples.reserve(static_cast<std::size_t>(view.cols) * static_cast<std::size_t>(view.rows));
+  for (std::int32_t y = 0; y < view.rows; ++y) samples.insert(samples.end(), view.row(y), view.row(y) + view.cols);
+  const Raster raster{samples.data(), view.cols, view.rows};
+  Triangulation tin(view.cols, view.rows);
+  if (auto domain = build_domain(raster, 0, Frame{})) {
+    tin = std::move(domain->tin);
+  } else if (domain.error().kind == ErrorKind::kInput) {  // no cell is surface
+    for (Triangle t = 0; t < tin.triangle_count(); ++t) tin.set_outside(t, true);
+  } else {
+    return tl::unexpected(domain.error());
+  }
+  for (const Place p : border) tin.insert(point_of(p), tin.locate(point_of(p), tin.last_touched()));
+  mesh.assign(tin);
+  return {};
+}
+
+}  // namespace scarp

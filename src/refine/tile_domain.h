@@ -1,0 +1,16 @@
+// The triangulation of a tile before any refinement.
+#pragma once
+
+#include <span>
+
+#include "refine/tile.h"
+#include "tin/tile_mesh.h"
+
+namespace scarp {
+
+/// Two triangles over the tile, with the outline of its valid data constrained where it has voids, and `border` (places
+/// on its sides) inserted. What is no surface is outside; that may be everything.
+/// Fails with kInternal if edges of the outline cross.
+Result<void> start_tile(const Tile& tile, std::span<const Place> border, TileMesh& mesh);
+
+}  // namespace scarp

@@ -1,0 +1,53 @@
+#include "refine/tile_scanner.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace scarp {
+
+TileScanner::TileScanner(const TileView& tile, double threshold)
+    : kernels_(scan_kernels()),
+      tile_(tile),
+      threshold_(threshold),
+      judge_(Raster{tile.samples, static_cast<std::int32_t>(tile.stride), tile.rows}, threshold) {}
+
+void TileScanner::scan(TileMesh& mesh, std::span<const TileMesh::Id> triangles, std::span<const Place> hints) {
+  corners_.clear();
+  ids_.clear();
+  for (const TileMesh::Id t : triangles) {
+    if (mesh.is_outside(t)) continue;
+    ids_.push_back(t);
+    corners_.push_back(mesh[t].corners);
+  }
+  hits_.resize(ids_.size());
+  samples_ += kernels_.scan(tile_, threshold_, corners_, hints, hits_.data());
+  triangles_ += ids_.size();
+  for (std::size_t i = 0; i < ids_.size(); ++i) {
+    TileMesh::Record& record = mesh[ids_[i]];
+    const ScanHit& hit = hits_[i];
+    record.rank = hit.error;
+    record.candidate = hit.at;
+    if (hit.error > 0 && !(double{hit.error} > threshold_ + double{hit.guard})) settle(record);
+  }
+}
+
+bool TileScanner::is_on_shared_side(Point p) const {
+  return (shared_.left && p.x == 0) || (shared_.top && p.y == 0) || (shared_.right && p.x == tile_.cols - 1) ||
+         (shared_.bottom && p.y == tile_.rows - 1);
+}
+
+void TileScanner::settle(TileMesh::Record& record) {
+  std::array<Point, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) corners[k] = point_of(record.corners[k]);
+  const auto candidate = judge_.find_candidate(corners, judge_.fit(corners, {}));
+  record.rank = 0;
+  if (!candidate) return;
+  if (is_on_shared_side(candidate->at)) {
+    has_given_up_ = true;
+    return;
+  }
+  record.rank = std::max(static_cast<float>(candidate->error), std::numeric_limits<float>::min());
+  record.candidate = place(candidate->at.x, candidate->at.y);
+}
+
+}  // namespace scarp

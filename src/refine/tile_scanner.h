@@ -1,0 +1,53 @@
+// Who tells the triangles of a tile their candidates.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geom/scan_kernels.h"
+#include "refine/height_judge.h"
+#include "tin/tile_mesh.h"
+
+namespace scarp {
+
+/// Sides of a tile that it shares with a neighbour.
+struct SharedSides {
+  bool left = false, top = false, right = false, bottom = false;
+};
+
+/// Heights against one threshold: the plain judge's promise, by the kernels' arithmetic. A triangle's rank is the
+/// largest error of a sample that exceeds the threshold as a real number, 0 if none does.
+class TileScanner {
+ public:
+  /// The tile's samples stay alive; each is at most kMaxScanHeight in magnitude.
+  TileScanner(const TileView& tile, double threshold);
+
+  /// Gives each triangle that is not outside its rank and candidate. `hints`: see ScanKernels::scan.
+  void scan(TileMesh& mesh, std::span<const TileMesh::Id> triangles, std::span<const Place> hints);
+
+  /// Sides on which no sample breaks its bound, whatever is inserted. Should exact arithmetic give up there (heights
+  /// whose magnitudes span some 2^90), the sample is no candidate and has_given_up() is true.
+  void set_shared(const SharedSides& sides) { shared_ = sides; }
+  bool has_given_up() const { return has_given_up_; }
+
+  std::uint64_t samples_scanned() const { return samples_; }
+  std::uint64_t triangles_scanned() const { return triangles_; }
+
+ private:
+  void settle(TileMesh::Record& record);
+  bool is_on_shared_side(Point p) const;
+
+  const ScanKernels& kernels_;
+  TileView tile_;
+  double threshold_;
+  HeightJudge judge_;  // decides what float32 cannot
+  SharedSides shared_;
+  bool has_given_up_ = false;
+  std::vector<std::array<Place, 3>> corners_;
+  std::vector<TileMesh::Id> ids_;
+  std::vector<ScanHit> hits_;
+  std::uint64_t samples_ = 0, triangles_ = 0;
+};
+
+}  // namespace scarp

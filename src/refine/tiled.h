@@ -1,0 +1,47 @@
+// Refinement tile by tile: the default engine for an error goal on plain heights.
+//
+// The raster is cut into tiles that share a row or a column of samples with their neighbours. A shared border is
+// simplified first, on its own, to the same bound (border_chain.h); then each tile is refined alone in the locally
+// dominant order (dominant.h): its samples lie in a buffer that fits the caches, its triangles are 32 bytes, its
+// coordinates are 16 bits. Tiles know nothing of each other, so any number of threads works on them and the result
+// depends on none; nor need more of the raster be in memory than the tiles at work. At the end the borders are set free
+// (release.h): edges across them become Delaunay and the few triangles that changed are refined again.
+//
+//     ·───────┬───────┬──      ─── shared border: kept vertices are a function of the samples on it
+//     │ tile  │ tile  │
+//     ├───────┼───────┼──      Measured, fixed borders cost no vertices: docs/performance.md, "Tiles".
+//     │ tile  │ tile  │
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "refine/domain.h"
+#include "scarp/height_field.h"
+#include "scarp/result.h"
+#include "scarp/strategy.h"
+
+namespace scarp {
+
+struct TiledOptions {
+  double threshold = 0;
+  int threads = 0;
+  std::int32_t tile_side = 0;  ///< 0: chosen from the density of the mesh that the borders let expect
+  /// Told the share of tiles that are done and the vertices so far, on the calling thread; false stops with kCancelled.
+  std::function<bool(double share, std::uint64_t vertices)> progress = {};
+};
+
+struct Tiled {
+  Domain domain;
+  std::vector<HalfEdge> seams;  ///< edges between tiles, for release_seams()
+  Effort effort;
+};
+
+/// Every sample of the surface lies within `threshold` of the triangulation. Nothing where this engine is of no use:
+/// the goal is so coarse that borders of tiles would cost vertices, or heights span magnitudes beyond exact arithmetic.
+/// Fails as the field's source does; with kInput if no cell is surface or the triangles are too many; kCancelled.
+Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options);
+
+}  // namespace scarp

@@ -1,0 +1,133 @@
+#include "tin/assembly.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace scarp {
+
+TilePiece PieceMaker::make(const TileMesh& mesh, Point first, std::int32_t cols, std::int32_t rows) {
+  TilePiece piece{first, cols, rows, {}, {}, {}, {}};
+  const auto width = static_cast<std::size_t>(cols);
+  const auto slot = [&](Place p) -> std::uint32_t& {
+    return ids_[static_cast<std::size_t>(place_y(p)) * width + static_cast<std::size_t>(place_x(p))];
+  };
+  if (const std::size_t samples = width * static_cast<std::size_t>(rows); ids_.size() < samples)
+    ids_.resize(samples, kNone);
+  const std::size_t count = mesh.triangle_count();
+  piece.points.reserve(mesh.vertex_count());
+  piece.corners.reserve(3 * count);
+  piece.links.reserve(3 * count);
+  piece.outside.reserve(count);
+  for (TileMesh::Id t = 0; t < count; ++t) {
+    const TileMesh::Record& record = mesh[t];
+    for (const Place p : record.corners) {
+      if (slot(p) == kNone) {
+        slot(p) = static_cast<std::uint32_t>(piece.points.size());
+        piece.points.push_back(p);
+      }
+      piece.corners.push_back(slot(p));
+    }
+    piece.links.insert(piece.links.end(), record.links.begin(), record.links.end());
+    piece.outside.push_back(mesh.is_outside(t));
+  }
+  for (const Place p : piece.points) slot(p) = kNone;
+  return piece;
+}
+
+Vertex Assembly::Border::find(std::int32_t at) const {
+  const auto found = std::lower_bound(vertices.begin(), vertices.end(), at,
+                                      [](const auto& entry, std::int32_t value) { return entry.first < value; });
+  assert(found != vertices.end() && found->first == at);
+  return found->second;
+}
+
+void Assembly::Border::sort() {
+  std::sort(vertices.begin(), vertices.end());
+  std::sort(edges.begin(), edges.end(), [](const BorderEdge& a, const BorderEdge& b) { return a.at < b.at; });
+}
+
+void Assembly::add_vertices(const TilePiece& piece) {
+  const bool has_left = column_ > 0, has_top = !is_first_row_;
+  ids_.clear();
+  for (const Place p : piece.points) {
+    const std::int32_t x = place_x(p), y = place_y(p);
+    Vertex v = kNone;
+    if (x == 0 && has_left) v = beside_.find(y);
+    if (y == 0 && has_top) v = below_[column_].find(x);
+    if (v == kNone) {
+      v = static_cast<Vertex>(tin_.points_.size());
+      tin_.points_.push_back({piece.first.x + x, piece.first.y + y});
+    }
+    ids_.push_back(v);
+    if (x == piece.cols - 1) right_.vertices.push_back({y, v});
+    if (y == piece.rows - 1) bottom_.vertices.push_back({x, v});
+  }
+}
+
+void Assembly::add_triangles(const TilePiece& piece) {
+  const auto base = static_cast<HalfEdge>(tin_.corners_.size());
+  const std::size_t count = piece.corners.size();
+  tin_.corners_.resize(base + count);
+  tin_.twins_.resize(base + count);
+  for (std::size_t h = 0; h < count; ++h) {
+    tin_.corners_[base + h] = ids_[piece.corners[h]];
+    const TileMesh::Link link = piece.links[h];
+    const auto here = base + static_cast<HalfEdge>(h);
+    if (link != TileMesh::kBorder) {
+      tin_.twins_[here] = base + 3 * TileMesh::triangle_of(link) + TileMesh::edge_of(link);
+      continue;
+    }
+    tin_.twins_[here] = kNone;
+    const Place from = piece.points[piece.corners[h]];
+    const Place to = piece.points[piece.corners[h % 3 == 2 ? h - 2 : h + 1]];
+    const std::int32_t x = place_x(from), y = place_y(from), x2 = place_x(to), y2 = place_y(to);
+    if (x == 0 && x2 == 0) left_.edges.push_back({std::min(y, y2), here});
+    if (x == piece.cols - 1 && x2 == x) right_.edges.push_back({std::min(y, y2), here});
+    if (y == 0 && y2 == 0) top_.edges.push_back({std::min(x, x2), here});
+    if (y == piece.rows - 1 && y2 == y) bottom_.edges.push_back({std::min(x, x2), here});
+  }
+  for (std::size_t t = 0; t < piece.outside.size(); ++t) {
+    std::uint8_t flags = piece.outside[t] ? Triangulation::kOutside : 0;
+    for (unsigned k = 0; k < 3; ++k) {
+      if (TileMesh::is_constrained(piece.links[3 * t + k])) flags |= static_cast<std::uint8_t>(1u << k);
+    }
+    tin_.flags_.push_back(flags);
+  }
+}
+
+void Assembly::sew(const Border& theirs, Border& ours) {
+  ours.sort();
+  assert(theirs.edges.size() == ours.edges.size());
+  for (std::size_t i = 0; i < ours.edges.size(); ++i) {
+    assert(theirs.edges[i].at == ours.edges[i].at);
+    const HalfEdge h = ours.edges[i].edge, g = theirs.edges[i].edge;
+    tin_.link(h, g);
+    const bool here = tin_.is_outside(h / 3), there = tin_.is_outside(g / 3);
+    if (here != there) tin_.set_constrained(h);
+    if (!here && !there) seams_.push_back(h);
+  }
+}
+
+void Assembly::append(const TilePiece& piece) {
+  for (Border* border : {&left_, &top_, &right_, &bottom_}) *border = {};
+  add_vertices(piece);
+  add_triangles(piece);
+  if (column_ > 0) sew(beside_, left_);
+  if (!is_first_row_) sew(below_[column_], top_);
+  right_.sort();
+  bottom_.sort();
+  beside_ = std::move(right_);
+  below_[column_] = std::move(bottom_);
+  if (++column_ == below_.size()) {
+    column_ = 0;
+    is_first_row_ = false;
+  }
+}
+
+Triangulation Assembly::finish(std::vector<HalfEdge>& seams) {
+  seams = std::move(seams_);
+  return std::move(tin_);
+}
+
+}  // namespace scarp

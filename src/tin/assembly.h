@@ -1,0 +1,73 @@
+// One triangulation from the meshes of tiles.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tin/tile_mesh.h"
+#include "tin/triangulation.h"
+
+namespace scarp {
+
+/// A finished tile without its workbench: 13 bytes a triangle less than Triangulation, and nothing that points outside.
+struct TilePiece {
+  Point first;  ///< the tile's first sample in the raster
+  std::int32_t cols = 0, rows = 0;
+  std::vector<Place> points;           ///< vertices, in the order of first use
+  std::vector<std::uint32_t> corners;  ///< 3 per triangle: indices into points
+  std::vector<TileMesh::Link> links;   ///< 3 per triangle
+  std::vector<bool> outside;           ///< 1 per triangle
+};
+
+/// Numbers the vertices of tile meshes; its scratch memory (4 bytes a sample of the tile) is kept.
+class PieceMaker {
+ public:
+  TilePiece make(const TileMesh& mesh, Point first, std::int32_t cols, std::int32_t rows);
+
+ private:
+  std::vector<std::uint32_t> ids_;  // by place, kNone between calls
+};
+
+/// Joins pieces that are appended row of tiles by row of tiles, each row from left to right. Vertices on shared borders
+/// become one; edges there become ordinary edges, or constrained ones where the domain ends.
+class Assembly {
+ public:
+  explicit Assembly(std::size_t tiles_per_row) : below_(tiles_per_row) {}
+
+  /// REQUIRES: neighbours have the same vertices on their shared border.
+  void append(const TilePiece& piece);
+
+  std::uint64_t vertex_count() const { return tin_.vertex_count(); }
+  std::uint64_t triangle_count() const { return tin_.triangle_count(); }
+
+  /// The whole. `seams`: the edges between tiles that are neither constrained nor outside, one half-edge each.
+  Triangulation finish(std::vector<HalfEdge>& seams);
+
+ private:
+  /// An edge on a border, by the coordinate where it begins.
+  struct BorderEdge {
+    std::int32_t at;
+    HalfEdge edge;
+  };
+  /// What one side of a tile has for its neighbour, by coordinate.
+  struct Border {
+    std::vector<std::pair<std::int32_t, Vertex>> vertices;
+    std::vector<BorderEdge> edges;
+    Vertex find(std::int32_t at) const;
+    void sort();
+  };
+  void add_vertices(const TilePiece& piece);
+  void add_triangles(const TilePiece& piece);
+  void sew(const Border& theirs, Border& ours);
+
+  Triangulation tin_;
+  std::size_t column_ = 0;  // of the next piece
+  bool is_first_row_ = true;
+  Border beside_;                       // right side of the piece to the left
+  std::vector<Border> below_;           // lower side of the piece above, by column
+  Border left_, top_, right_, bottom_;  // of the piece at hand
+  std::vector<Vertex> ids_;             // its vertices
+  std::vector<HalfEdge> seams_;
+};
+
+}  // namespace scarp
