@@ -10,7 +10,7 @@
 //   surface(x, y) = slope_x·(x − a.x) + slope_y·(y − a.y)        each product and the sum rounded
 //   error(x, y)   = |surface − (z − za)|                          each difference rounded
 // Differences of heights near each other are exact, so rounding grows with the relief of the triangle, not with the
-// height above the sea. scan_guard() bounds it; what lies within the guard of a threshold is decided in exact
+// height above the sea. ScanPlane::guard bounds it; what lies within the guard of a threshold is decided in exact
 // arithmetic by the caller.
 #pragma once
 
@@ -18,38 +18,35 @@
 #include <cstdint>
 #include <span>
 
+#include "geom/scan_plane.h"
 #include "geom/tile_view.h"
 
 namespace scarp {
 
-/// The plane of a triangle as the kernels see it.
-struct ScanPlane {
-  float slope_x = 0, slope_y = 0, height = 0;  ///< height of the base
-  float guard = 0;  ///< |computed − exact error| at every sample of the closed triangle whose error is at most twice
-                    ///< the threshold that it was made for, threshold's own rounding to float32 included
-
-  /// REQUIRES: positive orientation; heights finite, at most kMaxScanHeight in magnitude.
-  static ScanPlane through(const TileView& tile, const std::array<Place, 3>& corners, double threshold);
-};
-
-/// Heights beyond this are for the slow path: products of them would overflow.
-inline constexpr float kMaxScanHeight = 0x1p96f;
-
 /// The farthest sample of a triangle.
 struct ScanHit {
-  float error = 0;   ///< 0: no sample's error is above threshold − guard
-  Place at = 0;      ///< the first in raster order among the samples of that error
-  float guard = 0;   ///< ScanPlane::guard: the sample is above the threshold for certain where error > threshold + guard
+  float error = 0;  ///< 0: no sample's computed error is above scan_floor(threshold, guard); so none exceeds the
+                    ///< threshold, provided that guard <= threshold (else nothing is known without exact arithmetic)
+  Place at = 0;     ///< the first in raster order among the samples of that error
+  float guard = 0;  ///< ScanPlane::guard, hit or not: the sample is above the threshold for certain where
+                    ///< error > threshold + guard
 };
+
+/// What a computed error must exceed to count: threshold − guard, never below 0.
+inline float scan_floor(double threshold, float guard) {
+  return static_cast<float>(std::max(threshold - double{guard}, 0.0));
+}
 
 struct ScanKernels {
   const char* name;  ///< "AVX3", "AVX2", "SSE4", "NEON", "WASM", "EMU128", … as Highway calls them; "SCALAR": the twin
 
-  /// hits[i] = the farthest sample of the closed triangle i, where its computed error is above threshold − guard.
+  /// hits[i] = the farthest sample of the closed triangle i, where its computed error is above the floor.
   /// `hints` are places that are likely to have large errors (candidates of the triangles that were there before): they
   /// make the search in large triangles shorter and never change a hit. Void samples count for nothing.
-  /// Returns the number of samples and blocks compared with a plane.
-  /// REQUIRES: corners are valid samples of the tile, orient > 0; every |height| of the tile <= kMaxScanHeight.
+  /// Returns the number of samples and blocks compared with a plane: a statistic, the same for all vectors, not for the
+  /// scalar twin.
+  /// REQUIRES: corners are valid samples of the tile, orient > 0; every |height| of the tile <= kMaxScanHeight;
+  /// threshold >= 0.
   std::uint64_t (*scan)(const TileView& tile, double threshold, std::span<const std::array<Place, 3>> triangles,
                         std::span<const Place> hints, ScanHit* hits);
 

@@ -1,0 +1,30 @@
+// Which samples and blocks a triangle has on each row. Private to the scan kernels; no instruction set is known here.
+#pragma once
+
+#include "geom/scan_kernels_task.h"
+
+namespace scarp::detail {
+
+/// Columns of a row that belong to the triangle; first > last where there are none.
+struct Span {
+  std::int32_t first, last;
+};
+
+/// spans[k] = those of row task.top + k, exactly. Returns the number of samples. REQUIRES: room for task.height().
+std::uint64_t find_spans(const ScanTask& task, const std::array<Place, 3>& corners, Span* spans);
+
+/// Which columns of blocks can hold samples of the triangle: a superset.
+class BlockColumns {
+ public:
+  BlockColumns(const ScanTask& task, const std::array<Place, 3>& corners);
+
+  /// Blocks first … last of a row of blocks that meets the triangle's box.
+  Span of(std::int32_t block_row) const;
+
+ private:
+  const ScanTask& task_;
+  std::array<Point, 3> corners_;
+  std::array<double, 3> slant_;  ///< x a row, of the edge from corner i to the next
+};
+
+}  // namespace scarp::detail

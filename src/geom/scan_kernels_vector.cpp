@@ -1,0 +1,215 @@
+// The scan kernels in vectors: this file is compiled once for every instruction set, through Highway.
+//
+// Vectors of at most 16 lanes, so that TileView's padding is enough; any number of lanes is right. No lambdas and no
+// functions of the standard library between HWY_BEFORE_NAMESPACE and HWY_AFTER_NAMESPACE: they would be compiled for
+// one instruction set and linked for all.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "geom/scan_kernels_spans.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "geom/scan_kernels_vector.cpp"
+#include <hwy/foreach_target.h>
+//
+#include <hwy/highway.h>
+
+#include "geom/scan_kernels_blocks-inl.h"
+#include "geom/scan_kernels_box-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace scarp::HWY_NAMESPACE {
+
+/// Boxes up to this many samples are scanned along their rows, larger ones by blocks.
+constexpr std::int32_t kMaxRowsArea = 4096;
+
+std::uint64_t scan(const TileView& tile, double threshold, std::span<const std::array<Place, 3>> triangles,
+                   std::span<const Place> hints, ScanHit* hits) {
+  std::uint64_t scanned = 0;
+  for (const std::array<Place, 3>& corners : triangles) {
+    const ScanTask task(tile, corners, threshold);
+    const std::int32_t width = task.width(), height = task.height();
+    ScanBest best{task.floor, 0};
+    if (width <= 8) {
+      scan_box<8>(tile, task, task.left, task.top, width, height, best);
+      scanned += static_cast<std::uint64_t>(width * height);
+    } else if (width <= 16) {
+      scan_box<16>(tile, task, task.left, task.top, width, height, best);
+      scanned += static_cast<std::uint64_t>(width * height);
+    } else if (width * height <= kMaxRowsArea) {
+      Span spans[kMaxRowsArea / 16];
+      scanned += detail::find_spans(task, corners, spans);
+      scan_spans(tile, task, {spans, static_cast<std::size_t>(height)}, best);
+    } else {
+      scanned += scan_blocks(tile, task, corners, hints, best);
+    }
+    *hits++ = task.hit(best);
+  }
+  return scanned;
+}
+
+/// Smallest and largest of one block, NaN ignored; counts the NaN.
+template <class D>
+HWY_INLINE void fill_block(D d, const float* samples, std::ptrdiff_t stride, std::int32_t cols, std::int32_t rows,
+                           float& low, float& high, std::uint64_t& voids) {
+  const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
+  auto lowest = infinity, highest = hn::Neg(infinity);
+  const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
+  for (std::int32_t x = 0; x < cols; x += lanes) {
+    const auto inside = hn::FirstN(d, static_cast<std::size_t>(cols - x < lanes ? cols - x : lanes));
+    for (std::int32_t y = 0; y < rows; ++y) {
+      const auto sample = hn::LoadU(d, samples + y * stride + x);
+      lowest = hn::IfThenElse(hn::And(inside, hn::Lt(sample, lowest)), sample, lowest);
+      highest = hn::IfThenElse(hn::And(inside, hn::Gt(sample, highest)), sample, highest);
+      voids += hn::CountTrue(d, hn::And(inside, hn::IsNaN(sample)));
+    }
+  }
+  low = hn::GetLane(hn::MinOfLanes(d, lowest));
+  high = hn::GetLane(hn::MaxOfLanes(d, highest));
+}
+
+float fill_blocks(const TileView& tile, float* low, float* high, std::uint64_t& voids) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const hn::CappedTag<float, 8> d;
+  float most = 0;
+  voids = 0;
+  for (std::int32_t y = 0; y < tile.rows; y += kBlock) {
+    const std::int32_t rows = tile.rows - y < kBlock ? tile.rows - y : kBlock;
+    std::ptrdiff_t block = 0;
+    for (std::int32_t x = 0; x < tile.cols; x += kBlock, ++block) {
+      const std::int32_t cols = tile.cols - x < kBlock ? tile.cols - x : kBlock;
+      fill_block(d, tile.row(y) + x, tile.stride, cols, rows, low[block], high[block], voids);
+      if (high[block] > most) most = high[block];
+      if (-low[block] > most) most = -low[block];
+    }
+    for (; block < tile.block_stride; ++block) {
+      low[block] = kInfinity;
+      high[block] = -kInfinity;
+    }
+    low += tile.block_stride;
+    high += tile.block_stride;
+  }
+  return most;
+}
+
+bool scan_row(const float* samples, std::int32_t count, double base, double slope, std::int32_t offset, double& worst,
+              std::int32_t& at) {
+  const hn::ScalableTag<double> d;
+  const hn::Rebind<float, decltype(d)> df;
+  const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
+  const auto base_height = hn::Set(d, base), slopes = hn::Set(d, slope), step = hn::Set(d, static_cast<double>(lanes));
+  auto along = hn::Add(hn::Iota(d, 0), hn::Set(d, static_cast<double>(offset)));
+  auto most = hn::Set(d, worst);
+  auto here = hn::Iota(d, 0), places = here;
+  std::int32_t x = 0;
+  for (; x + lanes <= count; x += lanes) {
+    const auto sample = hn::PromoteTo(d, hn::LoadU(df, samples + x));
+    const auto error = hn::Abs(hn::Sub(hn::Add(base_height, hn::Mul(slopes, along)), sample));
+    const auto is_worse = hn::Gt(error, most);
+    most = hn::IfThenElse(is_worse, error, most);
+    places = hn::IfThenElse(is_worse, here, places);
+    along = hn::Add(along, step);
+    here = hn::Add(here, step);
+  }
+  bool found = false;
+  if (!hn::AllFalse(d, hn::Gt(most, hn::Set(d, worst)))) {
+    const auto largest = hn::MaxOfLanes(d, most);
+    worst = hn::GetLane(largest);
+    const auto none = hn::Set(d, static_cast<double>(count));
+    at = static_cast<std::int32_t>(hn::GetLane(hn::MinOfLanes(d, hn::IfThenElse(hn::Eq(most, largest), places, none))));
+    found = true;
+  }
+  for (; x < count; ++x) {
+    const double along_x = slope * static_cast<double>(offset + x);
+    const double signed_error = base + along_x - double{samples[x]};
+    const double error = signed_error < 0 ? -signed_error : signed_error;
+    if (error > worst) {
+      worst = error;
+      at = x;
+      found = true;
+    }
+  }
+  return found;
+}
+
+const ScanKernels& kernels() {
+  static const ScanKernels table{hwy::TargetName(HWY_TARGET), scan, fill_blocks, scan_row};
+  return table;
+}
+
+}  // namespace scarp::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace scarp::detail {
+
+namespace {
+
+/// Those of `table` that this machine has, in its order.
+std::vector<ScanKernels> find_kernels() {
+  const std::int64_t supported = hwy::SupportedTargets();
+  std::vector<ScanKernels> found;
+  const auto add = [&](std::int64_t target, const ScanKernels& kernels) {
+    if ((supported & target) != 0) found.push_back(kernels);
+  };
+#if HWY_TARGETS & HWY_AVX3_DL
+  add(HWY_AVX3_DL, N_AVX3_DL::kernels());
+#endif
+#if HWY_TARGETS & HWY_AVX3
+  add(HWY_AVX3, N_AVX3::kernels());
+#endif
+#if HWY_TARGETS & HWY_AVX2
+  add(HWY_AVX2, N_AVX2::kernels());
+#endif
+#if HWY_TARGETS & HWY_SSE4
+  add(HWY_SSE4, N_SSE4::kernels());
+#endif
+#if HWY_TARGETS & HWY_SSSE3
+  add(HWY_SSSE3, N_SSSE3::kernels());
+#endif
+#if HWY_TARGETS & HWY_SVE2_128
+  add(HWY_SVE2_128, N_SVE2_128::kernels());
+#endif
+#if HWY_TARGETS & HWY_SVE_256
+  add(HWY_SVE_256, N_SVE_256::kernels());
+#endif
+#if HWY_TARGETS & HWY_SVE2
+  add(HWY_SVE2, N_SVE2::kernels());
+#endif
+#if HWY_TARGETS & HWY_SVE
+  add(HWY_SVE, N_SVE::kernels());
+#endif
+#if HWY_TARGETS & HWY_NEON
+  add(HWY_NEON, N_NEON::kernels());
+#endif
+#if HWY_TARGETS & HWY_PPC8
+  add(HWY_PPC8, N_PPC8::kernels());
+#endif
+#if HWY_TARGETS & HWY_WASM
+  add(HWY_WASM, N_WASM::kernels());
+#endif
+#if HWY_TARGETS & HWY_RVV
+  add(HWY_RVV, N_RVV::kernels());
+#endif
+#if HWY_TARGETS & HWY_EMU128
+  add(HWY_EMU128, N_EMU128::kernels());
+#endif
+  return found;
+}
+
+}  // namespace
+
+std::span<const ScanKernels> vector_scan_kernels() {
+  static const std::vector<ScanKernels> found = find_kernels();
+  return found;
+}
+
+}  // namespace scarp::detail
+
+#endif

@@ -1,0 +1,75 @@
+// Tiles of their own buffers, and triangles in them, for the laws of the scan kernels.
+#pragma once
+
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "base/point.h"
+#include "geom/scan_kernels.h"
+#include "laws/fields.h"
+
+namespace scarp::testing {
+
+/// Padding holds what a reader must not notice.
+class ScanTile {
+ public:
+  explicit ScanTile(const Field& field) {
+    view_.cols = field.cols;
+    view_.rows = field.rows;
+    view_.stride = field.cols + kTilePadding + 3;
+    const std::int32_t blocks = (field.cols + kBlock - 1) / kBlock, block_rows = (field.rows + kBlock - 1) / kBlock;
+    view_.block_stride = blocks + kTilePadding;
+    samples_.assign(static_cast<std::size_t>(view_.stride * (field.rows + kTilePadding)), 1e30f);
+    for (std::size_t i = 0; i < samples_.size(); i += 3) samples_[i] = std::numeric_limits<float>::quiet_NaN();
+    for (std::int32_t y = 0; y < field.rows; ++y)
+      std::copy_n(field.samples.data() + static_cast<std::ptrdiff_t>(y) * field.cols, field.cols,
+                  samples_.data() + y * view_.stride);
+    low_.assign(static_cast<std::size_t>(view_.block_stride * block_rows), 0);
+    high_ = low_;
+    view_.samples = samples_.data();
+    view_.block_low = low_.data();
+    view_.block_high = high_.data();
+    fill(available_kernels().back());
+  }
+  ScanTile(const ScanTile&) = delete;
+  ScanTile& operator=(const ScanTile&) = delete;
+
+  float fill(const ScanKernels& kernels) { return kernels.fill_blocks(view_, low_.data(), high_.data(), voids_); }
+
+  const TileView& view() const { return view_; }
+  std::uint64_t voids() const { return voids_; }
+  const std::vector<float>& low() const { return low_; }
+  const std::vector<float>& high() const { return high_; }
+  bool is_void(Point p) const { return std::isnan(view_.at(place(p.x, p.y))); }
+
+ private:
+  std::vector<float> samples_, low_, high_;
+  TileView view_;
+  std::uint64_t voids_ = 0;
+};
+
+/// Triangles within the tile whose corners are heights, anywhere or all near each other, counter-clockwise.
+inline std::vector<std::array<Place, 3>> random_triangles(const ScanTile& tile, std::mt19937& random, int count) {
+  const TileView& view = tile.view();
+  std::vector<std::array<Place, 3>> triangles;
+  for (int tries = 0; tries < 50 * count && triangles.size() < static_cast<std::size_t>(count); ++tries) {
+    const std::int32_t reach_x = 1 << random() % 13, reach_y = 1 << random() % 13;
+    const auto below = [&](std::int32_t n) { return static_cast<std::int32_t>(random() % static_cast<unsigned>(n)); };
+    const std::int32_t x = below(view.cols), y = below(view.rows);
+    std::array<Point, 3> p;
+    for (Point& corner : p)
+      corner = {std::min(view.cols - 1, x + below(reach_x + 1)), std::min(view.rows - 1, y + below(reach_y + 1))};
+    if (orient(p[0], p[1], p[2]) < 0) std::swap(p[1], p[2]);
+    if (orient(p[0], p[1], p[2]) <= 0 || tile.is_void(p[0]) || tile.is_void(p[1]) || tile.is_void(p[2])) continue;
+    triangles.push_back({place(p[0].x, p[0].y), place(p[1].x, p[1].y), place(p[2].x, p[2].y)});
+  }
+  return triangles;
+}
+
+inline bool is_same(const ScanHit& a, const ScanHit& b) {
+  return std::memcmp(&a.error, &b.error, sizeof a.error) == 0 && a.at == b.at &&
+         std::memcmp(&a.guard, &b.guard, sizeof a.guard) == 0;
+}
+
+}  // namespace scarp::testing
