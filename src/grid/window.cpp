@@ -1,0 +1,22 @@
+#include "grid/window.h"
+
+#include <cmath>
+#include <limits>
+
+namespace scarp {
+
+Result<void> read_window(const HeightField& field, int col, int row, int cols, int rows, float* out,
+                         std::ptrdiff_t stride) {
+  if (field.samples == nullptr) return field.source->read(col, row, cols, rows, out, stride);
+  // NaN is equal to nothing, so without nodata nothing is replaced by it.
+  const float nodata = field.nodata.value_or(std::numeric_limits<float>::quiet_NaN());
+  for (int y = 0; y < rows; ++y) {
+    const float* from = field.samples + static_cast<std::ptrdiff_t>(row + y) * field.cols + col;
+    float* to = out + y * stride;
+    for (int x = 0; x < cols; ++x)
+      to[x] = std::isinf(from[x]) || from[x] == nodata ? std::numeric_limits<float>::quiet_NaN() : from[x];
+  }
+  return {};
+}
+
+}  // namespace scarp

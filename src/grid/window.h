@@ -1,0 +1,16 @@
+// A window of a height field's samples, wherever they are.
+#pragma once
+
+#include <cstddef>
+
+#include "scarp/height_field.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+/// Copies cols × rows samples from (col, row) on to `out`, `stride` floats a row; voids (NaN, the infinities, nodata)
+/// as NaN. Fails as the field's source does. REQUIRES: the window lies in the field.
+Result<void> read_window(const HeightField& field, int col, int row, int cols, int rows, float* out,
+                         std::ptrdiff_t stride);
+
+}  // namespace scarp
