@@ -26,8 +26,8 @@ struct SharedSides {
   bool left = false, top = false, right = false, bottom = false;
 };
 
-/// Heights against one threshold: the plain judge's promise, by the kernels' arithmetic. A triangle's rank is the
-/// largest error of a sample that exceeds the threshold as a real number, 0 if none does.
+/// Heights against one threshold: the plain judge's promise, by the kernels' arithmetic. A triangle's candidate is
+/// the sample with the largest error among those that exceed the threshold as real numbers.
 class TileScanner {
  public:
   /// The tile's samples stay alive; each is at most kMaxScanHeight in magnitude.
