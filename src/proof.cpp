@@ -119,6 +119,14 @@ void judge_samples(const SimplifyOptions& options, const Criterion& criterion, b
   result.weighted_rmse = count == 0 ? 0 : std::sqrt(squares / static_cast<double>(count));
 }
 
+/// Samples are no farther from 0 than this and the bound.
+double largest_height(const Mesh& mesh) {
+  double largest = 0;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
+    largest = std::max(largest, std::abs(mesh.origin[2] + mesh.positions[3 * v + 2]));
+  return largest;
+}
+
 std::string describe_breach(const Measurement& m, const SimplifyOptions& options) {
   if (m.uncovered > 0) return fmt::format("{} valid samples are not covered by the mesh", m.uncovered);
   return fmt::format("a max error of {} cannot be kept: at sample ({}, {}) the mesh is off by {}",
@@ -150,8 +158,7 @@ Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, co
     if (m.uncovered > 0 && result.stop == StopReason::kMaxError) proof.broken = describe_breach(m, options);
   } else if (result.stop == StopReason::kMaxError) {
     // The judge's own double arithmetic rounds: the exact proof is the engine's, this is the independent check of it.
-    const HeightRange range = height_range(field);
-    const double rounding = 1e-12 * (*criterion.bound() + std::max(std::abs(range.min), std::abs(range.max)));
+    const double rounding = 1e-12 * (*criterion.bound() + largest_height(result.mesh));
     if (!(m.max_error <= *criterion.bound() + rounding) || m.uncovered > 0) proof.broken = describe_breach(m, options);
   }
   proof.kept = proof.broken.empty();

@@ -32,6 +32,8 @@ Refiner& Refiner::operator=(Refiner&&) noexcept = default;
 Refiner::~Refiner() = default;
 
 Result<Refiner> Refiner::create(const HeightField& field, double outline_tolerance) try {
+  if (field.samples == nullptr && field.source != nullptr)
+    return fail(ErrorKind::kUsage, "a refiner needs the samples as one array of floats: read the raster as a whole");
   auto samples = Samples::of(field);
   if (!samples) return tl::unexpected(samples.error());
   auto domain = build_domain(samples->raster(), outline_tolerance, field.frame);
@@ -50,6 +52,6 @@ bool Refiner::insert_worst() {
 double Refiner::max_error() const { return impl_->refinement.worst_error(); }
 std::uint64_t Refiner::vertex_count() const { return impl_->domain.tin.vertex_count() - impl_->domain.unused; }
 std::uint64_t Refiner::triangle_count() const { return impl_->refinement.triangle_count(); }
-Mesh Refiner::mesh() const { return freeze(impl_->raster, impl_->domain.tin, impl_->field.frame, true); }
+Mesh Refiner::mesh() const { return freeze(SampleHeights(impl_->raster), impl_->domain.tin, impl_->field.frame, true); }
 
 }  // namespace scarp

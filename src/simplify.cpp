@@ -24,6 +24,7 @@
 #include "refine/release.h"
 #include "refine/samples.h"
 #include "refine/settle_edges.h"
+#include "refine/source_judge.h"
 #include "refine/tiled.h"
 
 namespace scarp {
@@ -82,10 +83,9 @@ class Run {
     if (!refined) return tl::unexpected(refined.error());
     // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
     // proof.
-    const bool final = result.stop != StopReason::kMaxError || exact_;
-    if (final) refinement_.reset();
-    freeze_into(result);
-    if (final) domain_.reset();
+    const bool is_final = result.stop != StopReason::kMaxError || exact_;
+    if (is_final) refinement_.reset();
+    freeze_into(result, is_final);
     order(result);
     result.seconds_refine += seconds_since(start);
     if (auto proven = prove_and_mend(result); !proven) return tl::unexpected(proven.error());
@@ -123,11 +123,14 @@ class Run {
   Result<void> free_seams(Tiled tiled, Simplified& result) {
     const auto start = Clock::now();
     domain_ = std::move(tiled.domain);
+    heights_ = std::move(tiled.heights);
     result.effort = tiled.effort;
-    const Effort effort = release_seams(domain_->tin, criterion_.judge(), std::move(tiled.seams));
-    result.effort.samples_scanned += effort.samples_scanned;
-    result.effort.triangles_scanned += effort.triangles_scanned;
-    record(result, "seams", start, effort);
+    if (field_.samples != nullptr || field_.source->is_in_memory()) {
+      const Effort effort = release_seams(domain_->tin, criterion_.judge(), std::move(tiled.seams));
+      result.effort.samples_scanned += effort.samples_scanned;
+      result.effort.triangles_scanned += effort.triangles_scanned;
+      record(result, "seams", start, effort);
+    }
     if (field_.frame.is_affine()) return {};
     const auto again = Clock::now();
     follow_curved_border(raster_, domain_->tin, field_.frame);
@@ -267,13 +270,20 @@ class Run {
     record(result, "order", start);
   }
 
-  void freeze_into(Simplified& result) const {
+  /// The last time the workbench's memory is given back on the way.
+  void freeze_into(Simplified& result, bool is_last) {
     const auto start = Clock::now();
-    result.mesh = freeze(raster_, domain_->tin, field_.frame, options_.float32_positions);
+    const SampleHeights heights = field_.samples != nullptr ? SampleHeights(raster_) : SampleHeights(field_, heights_);
     const bool has_more = options_.normals || options_.uvs || !field_.channels.empty();
     const std::vector<Point> samples = has_more ? frozen_samples(domain_->tin) : std::vector<Point>();
-    if (options_.normals) result.mesh.normals = sample_normals(raster_, field_.frame, samples);
-    if (options_.uvs) result.mesh.uvs = sample_uvs(raster_, samples);
+    if (is_last) {
+      result.mesh = melt_down(heights, std::move(domain_->tin), field_.frame, options_.float32_positions);
+      domain_.reset();
+    } else {
+      result.mesh = freeze(heights, domain_->tin, field_.frame, options_.float32_positions);
+    }
+    if (options_.normals) result.mesh.normals = sample_normals(heights, field_.frame, samples);
+    if (options_.uvs) result.mesh.uvs = sample_uvs(raster_.cols, raster_.rows, samples);
     result.mesh.channel_count = static_cast<int>(field_.channels.size());
     for (Point p : samples) {
       for (const Channel& channel : field_.channels)
@@ -335,7 +345,7 @@ class Run {
                         "error, or "
                         "write OBJ or PLY, whose positions are double, or use the local or grid frame");
       record(result, "refine", again);
-      freeze_into(result);
+      freeze_into(result, false);
       order(result);
       result.seconds_refine += seconds_since(again);
     }
@@ -347,6 +357,7 @@ class Run {
   const Criterion& criterion_;
   Budget budget_;
   std::optional<Domain> domain_;  // the workbench: given back as soon as nothing can need it any more
+  std::vector<float> heights_;    // of its vertices, where the field has a source
   std::size_t seeds_ = 0;
   std::optional<Refinement> refinement_;
   bool exact_;  // every vertex can lie exactly on its sample
@@ -369,38 +380,59 @@ Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const Simpli
   return refine_tiled(field, tiles);
 }
 
+/// The dominant order; greedily where that is of no use.
+Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOptions& options) {
+  // The engine reads voids as such; what else looks at samples beyond the mesh's own needs them cleaned.
+  Raster raster{field.samples, field.cols, field.rows};
+  std::optional<Samples> samples;
+  if (field.samples != nullptr && (options.normals || !field.frame.is_affine())) {
+    auto cleaned = Samples::of(field);
+    if (!cleaned) return tl::unexpected(cleaned.error());
+    raster = samples.emplace(std::move(*cleaned)).raster();
+  }
+  const auto criterion = Criterion::make(field, options, raster);
+  if (!criterion) return tl::unexpected(criterion.error());
+  const auto start = Clock::now();
+  auto tiled = refine_tiles(field, options, *criterion);
+  if (!tiled) return tl::unexpected(tiled.error());
+  if (!*tiled) {
+    if (field.samples == nullptr)
+      return fail(ErrorKind::kInput,
+                  "heights of such different magnitudes can only be refined in memory: read the raster as a whole");
+    SimplifyOptions greedy = options;
+    greedy.order = Order::kGreedy;
+    return simplify(field, greedy);
+  }
+  const Effort& effort = (*tiled)->effort;
+  const Pass pass{"tiles", seconds_since(start), effort.samples_scanned, effort.triangles_scanned, effort.passes};
+  auto result = Run(field, raster, options, *criterion).execute(std::move(*tiled));
+  if (!result) return result;
+  result->passes.insert(result->passes.begin(), pass);
+  result->seconds_refine += pass.seconds;
+  return result;
+}
+
 }  // namespace
 
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& options) try {
   if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
-  const char* obstacle = find_obstacle(field, options);
+  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
+  const char* obstacle = options.order == Order::kGreedy ? "is not the greedy one" : find_obstacle(field, options);
+  if (obstacle != nullptr && field.samples == nullptr)
+    return fail(ErrorKind::kUsage, fmt::format("a raster that is not in memory as a whole is refined in the dominant "
+                                               "order, which {}: leave that out, or read the raster as a whole",
+                                               obstacle));
   if (obstacle != nullptr && options.order == Order::kDominant)
     return fail(ErrorKind::kUsage,
                 fmt::format("the dominant order {}: leave that out, or take the greedy order", obstacle));
+  if (obstacle == nullptr) return simplify_tiles(field, options);
   auto samples = Samples::of(field);
   if (!samples) return tl::unexpected(samples.error());
   const auto criterion = Criterion::make(field, options, samples->raster());
   if (!criterion) return tl::unexpected(criterion.error());
-  std::optional<Tiled> tiled;
-  Pass pass{"tiles", 0, 0, 0, 0};
-  if (obstacle == nullptr && options.order != Order::kGreedy) {
-    const auto start = Clock::now();
-    auto made = refine_tiles(field, options, *criterion);
-    if (!made) return tl::unexpected(made.error());
-    tiled = std::move(*made);
-    pass.seconds = seconds_since(start);
-    if (tiled) {
-      pass.samples_scanned = tiled->effort.samples_scanned;
-      pass.triangles_scanned = tiled->effort.triangles_scanned;
-      pass.insertions = tiled->effort.passes;
-    }
-  }
-  auto result = Run(field, samples->raster(), options, *criterion).execute(std::move(tiled));
-  if (result && pass.seconds > 0) {
-    result->passes.insert(result->passes.begin(), pass);
-    result->seconds_refine += pass.seconds;
-  }
-  return result;
+  return Run(field, samples->raster(), options, *criterion).execute(std::nullopt);
+} catch (const SourceFailure& failure) {
+  return tl::unexpected(failure.error);
 } catch (const std::bad_alloc&) {
   return fail(ErrorKind::kInput, "not enough memory for this raster and goal: allow a larger error or fewer triangles");
 } catch (const std::exception& e) {

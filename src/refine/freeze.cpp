@@ -6,32 +6,43 @@
 #include <span>
 #include <utility>
 
+#include "refine/source_judge.h"
+
 namespace scarp {
 
 namespace {
 
-/// New id of each vertex that a triangle of the domain uses, kNone for the others.
-std::vector<std::uint32_t> number_vertices(const Triangulation& tin) {
-  std::vector<std::uint32_t> ids(tin.vertex_count(), kNone);
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-    if (!tin.is_outside(h / 3)) ids[tin.origin(h)] = 0;
+/// Ids of the vertices in the mesh.
+class VertexNumbers {
+ public:
+  explicit VertexNumbers(const Triangulation& tin) : count_(static_cast<std::uint32_t>(tin.vertex_count())) {
+    bool is_whole = true;
+    for (Triangle t = 0; t < tin.triangle_count() && is_whole; ++t) is_whole = !tin.is_outside(t);
+    if (is_whole) return;
+    ids_.assign(count_, kNone);
+    for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+      if (!tin.is_outside(h / 3)) ids_[tin.origin(h)] = 0;
+    }
+    count_ = 0;
+    for (auto& id : ids_) {
+      if (id != kNone) id = count_++;
+    }
   }
-  std::uint32_t count = 0;
-  for (auto& id : ids) {
-    if (id != kNone) id = count++;
-  }
-  return ids;
-}
+  std::uint32_t count() const { return count_; }
+  /// kNone where no triangle of the domain uses the vertex.
+  std::uint32_t of(Vertex v) const { return ids_.empty() ? v : ids_[v]; }
+
+ private:
+  std::uint32_t count_;
+  std::vector<std::uint32_t> ids_;  // empty: every vertex is used
+};
 
 /// Offsets of lattice points from the frame's origin, in double; a few thousand at a time, since double arrays of a
 /// whole mesh would be the peak of memory.
 class OffsetMap {
  public:
-  OffsetMap(const Raster& raster, const Frame& frame)
-      : frame_(frame),
-        col0_(raster.cols / 2),
-        row0_(raster.rows / 2),
-        origin_(frame_origin(frame, raster.cols, raster.rows)) {}
+  OffsetMap(std::int32_t cols, std::int32_t rows, const Frame& frame)
+      : frame_(frame), col0_(cols / 2), row0_(rows / 2), origin_(frame_origin(frame, cols, rows)) {}
 
   std::array<double, 2> origin() const { return origin_; }
 
@@ -76,66 +87,100 @@ double twice_area(const Mesh& mesh) {
   return sum;
 }
 
-}  // namespace
-
-std::vector<Point> frozen_samples(const Triangulation& tin) {
-  const auto ids = number_vertices(tin);
-  std::vector<Point> points;
-  for (Vertex v = 0; v < tin.vertex_count(); ++v) {
-    if (ids[v] != kNone) points.push_back(tin.point(v));
-  }
-  return points;
-}
-
-std::vector<float> sample_uvs(const Raster& raster, const std::vector<Point>& samples) {
-  std::vector<float> uvs;
-  uvs.reserve(2 * samples.size());
-  for (Point p : samples) {
-    uvs.push_back(static_cast<float>((p.x + 0.5) / raster.cols));
-    uvs.push_back(static_cast<float>((p.y + 0.5) / raster.rows));
-  }
-  return uvs;
-}
-
-Mesh freeze(const Raster& raster, const Triangulation& tin, const Frame& frame, bool round_to_float32) {
-  Mesh mesh;
-  const auto ids = number_vertices(tin);
+void add_triangles(const Triangulation& tin, const VertexNumbers& numbers, Mesh& mesh) {
   std::size_t count = 0;
   for (Triangle t = 0; t < tin.triangle_count(); ++t) count += !tin.is_outside(t);
   mesh.triangles.reserve(3 * count);
   for (Triangle t = 0; t < tin.triangle_count(); ++t) {
     if (tin.is_outside(t)) continue;
-    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) mesh.triangles.push_back(ids[tin.origin(h)]);
+    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) mesh.triangles.push_back(numbers.of(tin.origin(h)));
   }
-  const auto used =
-      static_cast<std::size_t>(std::count_if(ids.begin(), ids.end(), [](auto id) { return id != kNone; }));
-  mesh.positions.reserve(3 * used);
-  const OffsetMap offsets(raster, frame);
+}
+
+void add_positions(const SampleHeights& heights, const Triangulation& tin, const VertexNumbers& numbers,
+                   const Frame& frame, bool round_to_float32, Mesh& mesh) {
+  mesh.positions.reserve(3 * std::size_t{numbers.count()});
+  const OffsetMap offsets(heights.cols(), heights.rows(), frame);
+  std::vector<Vertex> vertices;
   std::vector<Point> chunk;
   std::vector<double> x, y;
   for (Vertex v = 0; v < tin.vertex_count(); ++v) {
-    if (ids[v] != kNone) chunk.push_back(tin.point(v));
+    if (numbers.of(v) != kNone) {
+      vertices.push_back(v);
+      chunk.push_back(tin.point(v));
+    }
     if (chunk.size() < kChunk && v + 1 < tin.vertex_count()) continue;
     offsets.map(chunk, x, y);
     for (std::size_t k = 0; k < chunk.size(); ++k) {
       for (double offset : {x[k], y[k]})
         mesh.positions.push_back(round_to_float32 ? static_cast<float>(offset) : offset);
-      mesh.positions.push_back(raster.at(chunk[k]));
+      mesh.positions.push_back(heights.at_vertex(vertices[k], chunk[k]));
     }
+    vertices.clear();
     chunk.clear();
   }
   mesh.origin = {offsets.origin()[0], offsets.origin()[1], 0};
-  if (twice_area(mesh) < 0) {
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-      std::swap(mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]);
+}
+
+/// Triangles are positive on the lattice; where the frame turns them over they are turned back.
+void face_up(const Frame& frame, Mesh& mesh) {
+  if (frame.is_affine() ? frame.determinant() > 0 : twice_area(mesh) >= 0) return;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
+    std::swap(mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]);
+}
+
+}  // namespace
+
+float SampleHeights::at(Point p) const {
+  if (source_ == nullptr) return raster_.at(p);
+  float height = 0;
+  if (auto read = source_->read(p.x, p.y, 1, 1, &height, 1); !read) throw SourceFailure{read.error()};
+  return height;
+}
+
+std::vector<Point> frozen_samples(const Triangulation& tin) {
+  const VertexNumbers numbers(tin);
+  std::vector<Point> points;
+  for (Vertex v = 0; v < tin.vertex_count(); ++v) {
+    if (numbers.of(v) != kNone) points.push_back(tin.point(v));
   }
+  return points;
+}
+
+std::vector<float> sample_uvs(std::int32_t cols, std::int32_t rows, const std::vector<Point>& samples) {
+  std::vector<float> uvs;
+  uvs.reserve(2 * samples.size());
+  for (Point p : samples) {
+    uvs.push_back(static_cast<float>((p.x + 0.5) / cols));
+    uvs.push_back(static_cast<float>((p.y + 0.5) / rows));
+  }
+  return uvs;
+}
+
+Mesh freeze(const SampleHeights& heights, const Triangulation& tin, const Frame& frame, bool round_to_float32) {
+  Mesh mesh;
+  const VertexNumbers numbers(tin);
+  add_triangles(tin, numbers, mesh);
+  add_positions(heights, tin, numbers, frame, round_to_float32, mesh);
+  face_up(frame, mesh);
   return mesh;
 }
 
-std::vector<float> sample_normals(const Raster& raster, const Frame& frame, const std::vector<Point>& samples) {
-  const OffsetMap offsets(raster, frame);
+Mesh melt_down(const SampleHeights& heights, Triangulation tin, const Frame& frame, bool round_to_float32) {
+  Mesh mesh;
+  tin.drop_links();
+  const VertexNumbers numbers(tin);
+  add_triangles(tin, numbers, mesh);
+  tin.drop_triangles();
+  add_positions(heights, tin, numbers, frame, round_to_float32, mesh);
+  face_up(frame, mesh);
+  return mesh;
+}
+
+std::vector<float> sample_normals(const SampleHeights& heights, const Frame& frame, const std::vector<Point>& samples) {
+  const OffsetMap offsets(heights.cols(), heights.rows(), frame);
   const auto usable = [&](Point p) {
-    return p.x >= 0 && p.y >= 0 && p.x < raster.cols && p.y < raster.rows && raster.is_valid(p);
+    return p.x >= 0 && p.y >= 0 && p.x < heights.cols() && p.y < heights.rows() && !std::isnan(heights.at(p));
   };
   std::vector<float> normals;
   normals.reserve(3 * samples.size());
@@ -151,7 +196,7 @@ std::vector<float> sample_normals(const Raster& raster, const Frame& frame, cons
     for (std::size_t k = 0; k < neighbours.size(); k += 4) {
       const auto difference = [&](std::size_t i, std::size_t j) {
         return std::array{x[j] - x[i], y[j] - y[i],
-                          double{raster.at(neighbours[j])} - double{raster.at(neighbours[i])}};
+                          double{heights.at(neighbours[j])} - double{heights.at(neighbours[i])}};
       };
       const auto u = difference(k, k + 1), v = difference(k + 2, k + 3);
       std::array normal{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};

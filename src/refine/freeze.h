@@ -1,25 +1,52 @@
 // From the workbench to the mesh that is given away.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "grid/raster.h"
 #include "scarp/frame.h"
+#include "scarp/height_field.h"
 #include "scarp/mesh.h"
 #include "tin/triangulation.h"
 
 namespace scarp {
 
+/// Heights of samples, wherever they are. Throws SourceFailure where a source fails.
+class SampleHeights {
+ public:
+  explicit SampleHeights(const Raster& raster) : raster_(raster) {}
+  /// Of a field with a source, which stays alive. `known`: heights of the first vertices, so that they need not be
+  /// read.
+  SampleHeights(const HeightField& field, std::span<const float> known)
+      : raster_{nullptr, field.cols, field.rows}, source_(field.source), known_(known) {}
+
+  std::int32_t cols() const { return raster_.cols; }
+  std::int32_t rows() const { return raster_.rows; }
+  float at(Point p) const;  ///< NaN is void
+  float at_vertex(Vertex v, Point p) const { return v < known_.size() ? known_[v] : at(p); }
+
+ private:
+  Raster raster_;
+  const SampleSource* source_ = nullptr;
+  std::span<const float> known_;
+};
+
 /// The triangles that are not outside, with the vertices they use, in the frame: offsets from frame_origin(), rounded
 /// to float32 if asked, heights as they are. Counter-clockwise from above whatever way the frame turns. Ids follow the
 /// order of insertion.
-Mesh freeze(const Raster& raster, const Triangulation& tin, const Frame& frame, bool round_to_float32);
+Mesh freeze(const SampleHeights& heights, const Triangulation& tin, const Frame& frame, bool round_to_float32);
+
+/// The same, and gives the triangulation's memory back on the way: at most 72 bytes a vertex are in use at a time.
+Mesh melt_down(const SampleHeights& heights, Triangulation tin, const Frame& frame, bool round_to_float32);
 
 /// Unit normals of the full-resolution surface at lattice points, in the frame: central differences, one-sided beside
 /// voids and borders; 3 values a point, z > 0.
-std::vector<float> sample_normals(const Raster& raster, const Frame& frame, const std::vector<Point>& samples);
+std::vector<float> sample_normals(const SampleHeights& heights, const Frame& frame, const std::vector<Point>& samples);
 
 /// Places in the raster's image: pixel centres, (0, 0) the image's top left corner and (1, 1) its bottom right; 2
 /// values a point.
-std::vector<float> sample_uvs(const Raster& raster, const std::vector<Point>& samples);
+std::vector<float> sample_uvs(std::int32_t cols, std::int32_t rows, const std::vector<Point>& samples);
 
 /// The lattice points of freeze()'s vertices, in its order.
 std::vector<Point> frozen_samples(const Triangulation& tin);

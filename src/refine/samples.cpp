@@ -8,13 +8,18 @@
 
 namespace scarp {
 
-Result<Samples> Samples::of(const HeightField& field) {
-  if (field.samples == nullptr || field.cols < 2 || field.rows < 2)
+Result<void> check_size(const HeightField& field) {
+  if ((field.samples == nullptr && field.source == nullptr) || field.cols < 2 || field.rows < 2)
     return fail(ErrorKind::kInput,
                 fmt::format("a height field needs at least 2 x 2 samples, not {} x {}", field.cols, field.rows));
   if (field.cols > kMaxCoordinate || field.rows > kMaxCoordinate)
     return fail(ErrorKind::kInput, fmt::format("a height field of {} x {} samples is too large: at most {} a side",
                                                field.cols, field.rows, kMaxCoordinate));
+  return {};
+}
+
+Result<Samples> Samples::of(const HeightField& field) {
+  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
   Samples samples;
   samples.raster_ = {field.samples, field.cols, field.rows};
   const std::size_t count = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);

@@ -9,11 +9,14 @@
 
 namespace scarp {
 
+/// Fails with kInput if the field is smaller than 2×2 or larger than the lattice, or has neither samples nor source.
+Result<void> check_size(const HeightField& field);
+
 /// Borrows the field's samples where void is NaN already (as readers deliver them); else owns a cleaned copy, 4 bytes a
 /// sample.
 class Samples {
  public:
-  /// Fails with kInput if the field is smaller than 2×2 or larger than the lattice.
+  /// Fails as check_size(). REQUIRES: the field has its samples in memory.
   static Result<Samples> of(const HeightField& field);
   Raster raster() const { return raster_; }
 

@@ -93,6 +93,13 @@ class Triangulation {
   /// A triangle at the vertex that was inserted last: a good hint for locate().
   Triangle last_touched() const { return last_; }
 
+  /// Give memory back. Without links nobody may ask for twins or insert; without triangles only vertices are left.
+  void drop_links() { twins_ = {}; }
+  void drop_triangles() {
+    corners_ = {};
+    flags_ = {};
+  }
+
   /// The half-edge from a to b, kNone if they are not neighbours. Cost: a walk to a, O(1) if it was touched last.
   HalfEdge find_edge(Vertex a, Vertex b) const;
 
