@@ -5,8 +5,8 @@
 
 namespace scarp {
 
-TileScanner::TileScanner(const TileView& tile, double threshold)
-    : kernels_(scan_kernels()),
+TileScanner::TileScanner(const TileView& tile, double threshold, const ScanKernels& kernels)
+    : kernels_(kernels),
       tile_(tile),
       threshold_(threshold),
       judge_(Raster{tile.samples, static_cast<std::int32_t>(tile.stride), tile.rows}, threshold) {}
@@ -26,7 +26,10 @@ void TileScanner::scan(TileMesh& mesh, std::span<const TileMesh::Id> triangles, 
     TileMesh::Record& record = mesh[ids_[i]];
     const ScanHit& hit = hits_[i];
     record.key = candidate_key(hit.error, hit.at);
-    if (hit.error > 0 && !(double{hit.error} > threshold_ + double{hit.guard})) settle(record);
+    const bool is_certain = double{hit.error} > threshold_ + double{hit.guard};
+    // Where the guard is wider than the threshold, an error computed as 0 may break the bound.
+    const bool is_in_doubt = hit.error > 0 || double{hit.guard} > threshold_;
+    if (is_in_doubt && !is_certain) settle(record);
   }
 }
 
