@@ -5,8 +5,8 @@
 
 namespace scarp {
 
-TileScanner::TileScanner(const TileView& tile, double threshold)
-    : kernels_(scan_kernels()),
+TileScanner::TileScanner(const TileView& tile, double threshold, const ScanKernels& kernels)
+    : kernels_(kernels),
       tile_(tile),
       threshold_(threshold),
       judge_(Raster{tile.samples, static_cast<std::int32_t>(tile.stride), tile.rows}, threshold) {}
@@ -26,8 +26,10 @@ void TileScanner::scan(TileMesh& mesh, std::span<const TileMesh::Id> triangles, 
     TileMesh::Record& record = mesh[ids_[i]];
     const ScanHit& hit = hits_[i];
     record.key = candidate_key(hit.error, hit.at);
-    const double guard = hit.guard;
-    if (hit.error > 0 ? !(double{hit.error} > threshold_ + guard) : guard > threshold_) settle(record);
+    const bool is_certain = double{hit.error} > threshold_ + double{hit.guard};
+    // Where the guard is wider than the threshold, an error computed as 0 may break the bound.
+    const bool is_in_doubt = hit.error > 0 || double{hit.guard} > threshold_;
+    if (is_in_doubt && !is_certain) settle(record);
   }
 }
 
@@ -39,8 +41,9 @@ bool TileScanner::is_on_shared_side(Point p) const {
 void TileScanner::settle(TileMesh::Record& record) {
   std::array<Point, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) corners[k] = point_of(record.corners[k]);
-  const auto candidate = judge_.find_candidate(corners, judge_.fit(corners, {}));
   record.key = 0;
+  if (orient(corners[0], corners[1], corners[2]) == 1) return;  // holds no sample but its corners (Pick)
+  const auto candidate = judge_.find_candidate(corners, judge_.fit(corners, {}));
   if (!candidate) return;
   if (is_on_shared_side(candidate->at)) {
     has_given_up_ = true;

@@ -31,7 +31,7 @@ struct SharedSides {
 class TileScanner {
  public:
   /// The tile's samples stay alive; each is at most kMaxScanHeight in magnitude.
-  TileScanner(const TileView& tile, double threshold);
+  TileScanner(const TileView& tile, double threshold, const ScanKernels& kernels = scan_kernels());
 
   /// Gives each triangle that is not outside its candidate_key(). `hints`: see ScanKernels::scan.
   void scan(TileMesh& mesh, std::span<const TileMesh::Id> triangles, std::span<const Place> hints);

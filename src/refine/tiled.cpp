@@ -30,14 +30,16 @@ std::int32_t side_for(double density) {
   return density < 0.04 ? 512 : 256;
 }
 
-/// From the borders that tiles of 512 samples would have.
+/// From the borders that tiles of 512 samples would have; from the raster's own where there would be none.
 Result<double> estimate_density(const HeightField& field, double threshold) {
   const TilePlan plan(field.cols, field.rows, 512);
+  const bool is_alone = plan.count() == 1;
   std::size_t kept = 0;
   std::int64_t steps = 0;
   for (std::size_t i = 0; i < plan.count(); ++i) {
     const SharedSides shared = plan.shared(i);
-    for (const BorderLine& line : shared_lines(plan.window(i), {shared.left, shared.top, false, false})) {
+    for (const BorderLine& line :
+         shared_lines(plan.window(i), {shared.left || is_alone, shared.top || is_alone, is_alone, is_alone})) {
       const auto chain = simplify_border(field, line, threshold);
       if (!chain) return tl::unexpected(chain.error());
       kept += chain->size();
@@ -59,7 +61,9 @@ struct Outcome {
 /// One thread's memory, kept from tile to tile.
 class Worker {
  public:
-  Outcome refine(const HeightField& field, const TileWindow& window, const SharedSides& shared, double threshold) {
+  /// `density`: of the whole mesh, as expected; 0 if unknown.
+  Outcome refine(const HeightField& field, const TileWindow& window, const SharedSides& shared, double threshold,
+                 double density) {
     Outcome outcome;
     if (outcome.status = tile_.load(field, window); !outcome.status) return outcome;
     if (!(tile_.largest_height() <= kMaxScanHeight)) {
@@ -68,7 +72,8 @@ class Worker {
     }
     if (outcome.status = find_border(field, window, shared, threshold); !outcome.status) return outcome;
     if (outcome.status = start_tile(tile_, border_, mesh_); !outcome.status) return outcome;
-    if (tile_.is_whole()) coarse_.insert(tile_, shared, threshold, density(), mesh_);
+    if (tile_.is_whole())
+      coarse_.insert(tile_, shared, threshold, steps_ > 0 ? expected_density(border_.size(), steps_) : density, mesh_);
     TileScanner scanner(tile_.view(), threshold);
     scanner.set_shared(shared);
     const DominantRun run = refine_dominant(mesh_, scanner);
@@ -96,9 +101,6 @@ class Worker {
     }
     return {};
   }
-
-  /// Vertices a sample to be expected, from those on the shared sides. Where there are none, from the raster's border.
-  double density() const { return expected_density(border_.size(), steps_); }
 
   Tile tile_;
   TileMesh mesh_;
@@ -156,9 +158,10 @@ class RowBand final : public SampleSource {
 /// One run over all tiles.
 class TiledRun {
  public:
-  TiledRun(const HeightField& field, const TiledOptions& options, const TilePlan& plan)
+  TiledRun(const HeightField& field, const TiledOptions& options, const TilePlan& plan, double density)
       : options_(options),
         plan_(plan),
+        density_(density),
         is_streamed_(field.samples == nullptr && !field.source->is_in_memory()),
         band_(field),
         field_(is_streamed_ ? band_.view() : field),
@@ -228,7 +231,8 @@ class TiledRun {
   }
 
   const TiledOptions& options_;
-  const TilePlan& plan_;
+  TilePlan plan_;
+  double density_;
   bool is_streamed_;
   RowBand band_;
   HeightField field_;
@@ -252,15 +256,16 @@ std::int32_t streamed_side(const HeightField& field, std::uint64_t memory) {
 }  // namespace
 
 Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options) {
-  std::int32_t side = options.tile_side;
-  if (side == 0 && field.samples == nullptr && !field.source->is_in_memory())
-    side = streamed_side(field, options.memory);
-  if (side == 0) {
-    const auto density = estimate_density(field, options.threshold);
-    if (!density) return tl::unexpected(density.error());
-    side = side_for(*density);
+  const bool is_streamed = field.samples == nullptr && !field.source->is_in_memory();
+  double density = 0;
+  if (!is_streamed) {
+    const auto estimate = estimate_density(field, options.threshold);
+    if (!estimate) return tl::unexpected(estimate.error());
+    density = *estimate;
   }
-  return TiledRun(field, options, TilePlan(field.cols, field.rows, side)).execute();
+  std::int32_t side = options.tile_side;
+  if (side == 0) side = is_streamed ? streamed_side(field, options.memory) : side_for(density);
+  return TiledRun(field, options, TilePlan(field.cols, field.rows, side), density).execute();
 }
 
 }  // namespace scarp

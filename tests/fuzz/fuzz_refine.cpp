@@ -80,6 +80,7 @@ void choose_strategy(Bytes& bytes, scarp::SimplifyOptions& options) {
   options.edges.shape_threshold = second / 10 % 5 / 4.0 - 0.25;
   options.edges.supersample = second / 50 % 2 * 0.8;
   options.edges.settle = second > 127;
+  options.order = static_cast<scarp::Order>((first ^ second) % 3);
 }
 
 void check_refiner(const scarp::HeightField& field, double outline_tolerance, int steps) {

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <set>
+
 #include "geom/exact_error.h"
 #include "laws/fields.h"
 #include "laws/mesh_laws.h"
@@ -9,6 +11,7 @@
 #include "refine/height_judge.h"
 #include "refine/refinement.h"
 #include "refine/textbook.h"
+#include "scarp/simplify.h"
 
 namespace scarp {
 namespace {
@@ -60,6 +63,34 @@ RC_GTEST_PROP(oracle, algorithms_one_two_and_three_insert_the_same_points, ()) {
     if (!(first[k] == second[k]) || !(first[k] == third[k]))
       RC_FAIL(fmt::format("insertion {}: I {}, II {}, III {}", k, name(first[k]), name(second[k]), name(third[k])));
   }
+}
+
+// The public door in the greedy order: the same vertices as the textbook, at any number of threads.
+RC_GTEST_PROP(oracle, simplify_in_the_greedy_order_takes_the_textbooks_vertices, ()) {
+  const Case c = random_case(18);
+  const Raster raster = c.field.raster();
+  auto domain = build_domain(raster, c.outline_tolerance, grid_frame(c.field.rows));
+  RC_PRE(domain.has_value());
+  insert_by_local_search(raster, domain->tin, c.threshold, 1u << 20);
+  SimplifyOptions options{.max_error = c.threshold, .outline_tolerance = c.outline_tolerance};
+  options.order = Order::kGreedy;
+  options.threads = *rc::gen::inRange(1, 4);
+  const auto result = simplify(c.field.view(), options);
+  RC_ASSERT(result.has_value());
+  RC_ASSERT(result->order == Order::kGreedy);
+  std::vector<std::pair<int, int>> expected, found;
+  std::set<Vertex> used;
+  for (HalfEdge h = 0; h < 3 * domain->tin.triangle_count(); ++h) {
+    if (!domain->tin.is_outside(h / 3)) used.insert(domain->tin.origin(h));
+  }
+  for (const Vertex v : used) expected.push_back({domain->tin.point(v).x, domain->tin.point(v).y});
+  for (std::size_t v = 0; v < result->mesh.vertex_count(); ++v) {
+    const auto p = result->mesh.vertex(v);
+    found.push_back({static_cast<int>(p[0]), c.field.rows - 1 - static_cast<int>(p[1])});
+  }
+  std::sort(expected.begin(), expected.end());
+  std::sort(found.begin(), found.end());
+  RC_ASSERT(found == expected);
 }
 
 // The promise, by integers and without any scan: every valid sample of every triangle that contains it.

@@ -163,6 +163,33 @@ TEST(simplify, threads_and_repetition_never_change_a_bit) {
   }
 }
 
+RC_GTEST_PROP(simplify, both_orders_keep_the_promise_and_threads_change_neither, ()) {
+  const Field field = any_field(60);
+  SimplifyOptions options{.max_error = *rc::gen::element(0.0, 0.5, 3.0, 20.0)};
+  options.order = *rc::gen::element(Order::kDominant, Order::kGreedy);
+  options.threads = 1;
+  const auto first = simplify(field.view(), options);
+  RC_PRE(first.has_value() || first.error().kind != ErrorKind::kInput);
+  RC_ASSERT(first.has_value());
+  RC_ASSERT(first->order == options.order);
+  RC_ASSERT(first->measurement.max_error <= *options.max_error);
+  for (const int threads : {2, 3, 8}) {
+    options.threads = threads;
+    const auto again = simplify(field.view(), options);
+    RC_ASSERT(again.has_value());
+    RC_ASSERT(again->mesh.positions == first->mesh.positions);
+    RC_ASSERT(again->mesh.triangles == first->mesh.triangles);
+    RC_ASSERT(again->effort.samples_scanned == first->effort.samples_scanned);
+  }
+}
+
+TEST(simplify, takes_the_dominant_order_towards_an_error_and_the_greedy_one_within_a_budget) {
+  const Field field = testing::random_field(9, 40, 30, Relief::kRidges);
+  EXPECT_EQ(simplify(field.view(), {.max_error = 2.0})->order, Order::kDominant);
+  EXPECT_EQ(simplify(field.view(), {.max_vertices = 50})->order, Order::kGreedy);
+  EXPECT_EQ(simplify(field.view(), {.max_error = 2.0, .max_vertices = 50})->order, Order::kGreedy);
+}
+
 TEST(simplify, is_cancelled_by_its_callback) {
   const Field field = testing::random_field(10, 700, 700, Relief::kReal);
   SimplifyOptions options{.max_error = 0.0};

@@ -47,6 +47,7 @@ inline SimplifyOptions any_strategy() {
     options.batch.fraction = *rc::gen::element(1.0, 0.7, 0.2);
   }
   if (*rc::gen::arbitrary<bool>()) options.edges = any_edge_rule();
+  options.order = *rc::gen::element(Order::kAuto, Order::kGreedy);
   options.norm = *rc::gen::element(Norm::kSum, Norm::kSquares, Norm::kMax);
   return options;
 }

@@ -68,6 +68,7 @@ RC_GTEST_PROP(strategies, algorithms_one_two_and_three_make_the_same_mesh, ()) {
   const Field field = any_field(18);
   SimplifyOptions options = testing::any_strategy();
   options.max_error = *rc::gen::element(0.0, 1.0, 5.0);
+  options.order = Order::kGreedy;
   std::vector<Mesh> meshes;
   for (const Algorithm algorithm : {Algorithm::kHeap, Algorithm::kLocal, Algorithm::kBruteForce}) {
     options.algorithm = algorithm;
@@ -134,6 +135,7 @@ RC_GTEST_PROP(strategies, a_mask_of_ones_changes_nothing, ()) {
   const Field field = any_field(22);
   SimplifyOptions options = testing::any_strategy();
   options.max_error = *rc::gen::element(0.5, 1.0, 8.0);
+  options.order = Order::kGreedy;
   const auto without = simplify(field.view(), options);
   RC_PRE(without.has_value());
   const std::vector<float> ones(field.samples.size(), 1.0f);
@@ -316,6 +318,43 @@ TEST(mask, must_be_finite) {
   EXPECT_NE(result.error().message.find("(1, 1)"), std::string::npos) << result.error().message;
 }
 
+TEST(order, what_the_dominant_one_cannot_do_is_refused_by_name_or_done_greedily) {
+  const Field field = testing::random_field(1, 20, 17, Relief::kReal);
+  const std::vector<float> ones(field.samples.size(), 1.0f);
+  const auto check = [&](const char* words, auto change) {
+    SimplifyOptions options{.max_error = 5.0};
+    HeightField view = field.view();
+    change(options, view);
+    options.order = Order::kDominant;
+    const auto refused = simplify(view, options);
+    ASSERT_FALSE(refused) << words;
+    EXPECT_EQ(refused.error().kind, ErrorKind::kUsage) << words;
+    EXPECT_NE(refused.error().message.find(words), std::string::npos) << refused.error().message;
+    options.order = Order::kAuto;
+    const auto automatic = simplify(view, options);
+    options.order = Order::kGreedy;
+    const auto greedy = simplify(view, options);
+    ASSERT_TRUE(automatic && greedy) << words;
+    EXPECT_EQ(automatic->order, Order::kGreedy) << words;
+    EXPECT_EQ(automatic->mesh.positions, greedy->mesh.positions) << words;
+    EXPECT_EQ(automatic->mesh.triangles, greedy->mesh.triangles) << words;
+  };
+  check("needs a max error", [](auto& o, auto&) {
+    o.max_error.reset();
+    o.max_vertices = 50;
+  });
+  check("budgets", [](auto& o, auto&) { o.max_triangles = 50; });
+  check("mask", [&](auto& o, auto&) { o.mask = ones; });
+  check("tolerances", [&](auto& o, auto&) { o.tolerance = ones; });
+  check("channels", [&](auto&, auto& v) { v.channels = {{ones.data(), 1}}; });
+  check("script", [](auto& o, auto&) { o.script = {{ScriptStep::Action::kInsert, 3, 3}}; });
+  check("error alone", [](auto& o, auto&) { o.importance.feature = Importance::Feature::kCurvature; });
+  check("algorithm", [](auto& o, auto&) { o.algorithm = Algorithm::kLocal; });
+  check("batches", [](auto& o, auto&) { o.batch.rule = Batch::Rule::kConstant; });
+  check("Delaunay", [](auto& o, auto&) { o.edges.data_dependent = true; });
+  check("outline", [](auto& o, auto&) { o.outline_tolerance = 1; });
+}
+
 TEST(features, vanish_on_a_plane_and_know_a_quadratic) {
   Field plane{9, 8, {}}, bowl{9, 8, {}};
   for (int y = 0; y < 8; ++y) {
@@ -339,6 +378,7 @@ TEST(features, vanish_on_a_plane_and_know_a_quadratic) {
 TEST(batches, independent_ones_cost_few_vertices_and_few_passes) {
   const Field field = testing::random_field(21, 200, 160, Relief::kRidges);
   SimplifyOptions options{.max_error = 4.0};
+  options.order = Order::kGreedy;
   const auto sequential = simplify(field.view(), options);
   options.batch.rule = Batch::Rule::kIndependent;
   const auto independent = simplify(field.view(), options);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <future>
@@ -10,11 +12,15 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "base/parallel.h"
 #include "scarp/io.h"
 #include "scarp/simplify.h"
+
+// After scarp/io.h: Decode::kNone would shadow kNone.
+#include "refine/tiled.h"
 
 namespace scarp {
 namespace {
@@ -71,6 +77,124 @@ TEST(Threads, TheExceptionOfTheLowestIndexComesThrough) {
       }
       EXPECT_EQ(thrown, "7") << threads << " threads";
     }
+  }
+}
+
+TEST(Threads, CommitsFollowInOrderOnTheCallingThread) {
+  const auto caller = std::this_thread::get_id();
+  for (int threads = 1; threads <= 8; ++threads) {
+    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{7}, std::size_t{500}}) {
+      std::vector<int> calls(count, 0);
+      std::vector<std::size_t> committed;
+      std::atomic<std::size_t> started{0};
+      std::size_t ahead = 0;
+      parallel_in_order(
+          count, threads,
+          [&](std::size_t i, std::size_t worker) {
+            EXPECT_LT(worker, static_cast<std::size_t>(threads));
+            ++started;
+            ++calls[i];
+          },
+          [&](std::size_t i) {
+            EXPECT_EQ(std::this_thread::get_id(), caller);
+            EXPECT_EQ(calls[i], 1);
+            ahead = std::max(ahead, started.load() - committed.size());
+            committed.push_back(i);
+            return true;
+          });
+      std::vector<std::size_t> expected(count);
+      std::iota(expected.begin(), expected.end(), std::size_t{0});
+      EXPECT_EQ(committed, expected) << count << " tasks on " << threads << " threads";
+      EXPECT_EQ(calls, std::vector<int>(count, 1));
+      EXPECT_LE(ahead, 4 * static_cast<std::size_t>(threads));
+    }
+  }
+}
+
+TEST(Threads, AWorkersMemoryIsItsOwn) {
+  for (const int threads : {2, 3, 8}) {
+    std::vector<std::size_t> sums(static_cast<std::size_t>(threads), 0);
+    parallel_in_order(
+        1000, threads, [&](std::size_t i, std::size_t worker) { sums[worker] += i; }, [](std::size_t) { return true; });
+    EXPECT_EQ(std::accumulate(sums.begin(), sums.end(), std::size_t{0}), 499500u);
+  }
+}
+
+TEST(Threads, ACommitStopsEverything) {
+  for (int threads = 1; threads <= 8; ++threads) {
+    for (int round = 0; round < 20; ++round) {
+      std::vector<std::size_t> committed;
+      std::atomic<std::size_t> last{0};
+      parallel_in_order(
+          100000, threads,
+          [&](std::size_t i, std::size_t) {
+            for (std::size_t seen = last; seen < i && !last.compare_exchange_weak(seen, i);) {
+            }
+          },
+          [&](std::size_t i) {
+            committed.push_back(i);
+            return i < 37;
+          });
+      EXPECT_EQ(committed.size(), 38u);
+      EXPECT_LE(last.load(), 37 + 4 * static_cast<std::size_t>(threads));
+    }
+  }
+}
+
+TEST(Threads, OrderedTasksThrowWhatTheLowestOfThemThrows) {
+  for (int threads = 1; threads <= 8; ++threads) {
+    for (int round = 0; round < 30; ++round) {
+      std::string thrown;
+      std::vector<std::size_t> committed;
+      try {
+        parallel_in_order(
+            200, threads,
+            [&](std::size_t i, std::size_t) {
+              if (i % 10 == 7) throw std::runtime_error(std::to_string(i));
+            },
+            [&](std::size_t i) {
+              committed.push_back(i);
+              return true;
+            });
+      } catch (const std::runtime_error& error) {
+        thrown = error.what();
+      }
+      EXPECT_EQ(thrown, "7") << threads << " threads";
+      EXPECT_LE(committed.size(), 7u);
+      for (std::size_t k = 0; k < committed.size(); ++k) EXPECT_EQ(committed[k], k);
+    }
+  }
+}
+
+TEST(Threads, ACommitThatThrowsEndsTheLoop) {
+  for (int threads = 1; threads <= 8; ++threads) {
+    std::size_t commits = 0;
+    EXPECT_THROW(parallel_in_order(
+                     5000, threads, [](std::size_t, std::size_t) {},
+                     [&](std::size_t i) {
+                       ++commits;
+                       if (i == 11) throw std::runtime_error("full");
+                       return true;
+                     }),
+                 std::runtime_error);
+    EXPECT_EQ(commits, 12u);
+  }
+}
+
+TEST(Threads, NeverChangeATiledMesh) {
+  const OwnedHeightField field = make_waves(300, 200);
+  const auto one = refine_tiled(field, {.threshold = 0.5, .threads = 1, .tile_side = 32});
+  ASSERT_TRUE(one && *one);
+  for (const int threads : {2, 3, 8}) {
+    const auto many = refine_tiled(field, {.threshold = 0.5, .threads = threads, .tile_side = 32});
+    ASSERT_TRUE(many && *many);
+    const Triangulation &a = (*one)->domain.tin, &b = (*many)->domain.tin;
+    ASSERT_EQ(a.triangle_count(), b.triangle_count());
+    for (HalfEdge h = 0; h < 3 * a.triangle_count(); ++h) {
+      ASSERT_EQ(a.origin(h), b.origin(h));
+      ASSERT_EQ(a.twin(h), b.twin(h));
+    }
+    EXPECT_EQ((*one)->seams, (*many)->seams);
   }
 }
 

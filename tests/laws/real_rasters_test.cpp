@@ -1,0 +1,102 @@
+// The promise on real terrain: every open raster that is small enough to be judged sample by sample.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "../../bench/quality/files.h"
+#include "scarp/scarp.h"
+
+// After scarp/io.h: Decode::kNone would shadow kNone.
+#include "laws/mesh_laws.h"
+#include "laws/tile_meshes.h"
+#include "refine/height_judge.h"
+#include "refine/release.h"
+#include "refine/samples.h"
+#include "refine/tiled.h"
+
+namespace scarp {
+namespace {
+
+class RealRasters : public ::testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    const auto path = bench::find_raster(SCARP_SOURCE_DIR, GetParam());
+    if (!path) GTEST_SKIP() << GetParam() << " is not in ../shared/data";
+    auto read = read_height_field(*path);
+    ASSERT_TRUE(read) << read.error().message;
+    field_ = std::move(*read);
+    auto samples = Samples::of(field_);
+    ASSERT_TRUE(samples) << samples.error().message;
+    samples_.emplace(std::move(*samples));
+    float low = INFINITY, high = -INFINITY;
+    const Raster raster = samples_->raster();
+    for (std::int32_t y = 0; y < raster.rows; ++y) {
+      for (std::int32_t x = 0; x < raster.cols; ++x) {
+        if (!raster.is_valid({x, y})) continue;
+        low = std::min(low, raster.at({x, y}));
+        high = std::max(high, raster.at({x, y}));
+      }
+    }
+    relief_ = double{high} - low;
+  }
+
+  OwnedHeightField field_;
+  std::optional<Samples> samples_;
+  double relief_ = 0;
+};
+
+TEST_P(RealRasters, KeepTheBoundInExactArithmeticWithAnyTiles) {
+  const Raster raster = samples_->raster();
+  const auto domain = build_domain(raster, 0, Frame{});
+  ASSERT_TRUE(domain) << domain.error().message;
+  for (const auto& [share, side] : {std::pair{0.003, 100}, {0.03, 256}, {0.03, 0}}) {
+    const double threshold = share * relief_;
+    auto tiled = refine_tiled(field_, {.threshold = threshold, .threads = 2, .tile_side = side});
+    ASSERT_TRUE(tiled && *tiled);
+    Triangulation& tin = (*tiled)->domain.tin;
+    const HeightJudge judge(raster, threshold);
+    release_seams(tin, judge, std::move((*tiled)->seams));
+    EXPECT_EQ(testing::verify_triangulation(tin, raster.cols, raster.rows, testing::Edges::kAny), "");
+    EXPECT_EQ(testing::find_broken_bound(raster, tin, threshold), "");
+    EXPECT_EQ(testing::outside_area2(tin), testing::outside_area2(domain->tin));
+  }
+}
+
+TEST_P(RealRasters, KeepThePromiseAtThePublicDoorWhateverTheThreads) {
+  const double goal = 0.01 * relief_ + field_.sample_rounding;
+  SimplifyOptions options{.max_error = goal};
+  options.float32_positions = false;
+  options.threads = 1;
+  const auto one = simplify(field_, options);
+  ASSERT_TRUE(one) << one.error().message;
+  EXPECT_EQ(one->order, Order::kDominant);
+  EXPECT_LE(one->measurement.max_error, goal);
+  EXPECT_EQ(one->measurement.uncovered, 0u);
+  options.threads = 3;
+  const auto three = simplify(field_, options);
+  ASSERT_TRUE(three) << three.error().message;
+  EXPECT_EQ(one->mesh.positions, three->mesh.positions);
+  EXPECT_EQ(one->mesh.triangles, three->mesh.triangles);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Open, RealRasters,
+    ::testing::Values("jacksboro_fault.tif", "athens_dem_1m.tif", "athens_dsm_1m.tif", "baltoro_srtm.tif",
+                      "bijou_gully_5m.asc", "cape_town_srtm_sea_nodata.tif", "crater.tif", "cuyuna_pits_lidar_1m.tif",
+                      "egm84_geoid_3857.tif", "everest_srtm_voids.tif", "grenoble_copernicus.tif",
+                      "korea_dem5m_34707051.tif", "korea_dem5m_34707052.tif", "korea_dem5m_34707053.tif",
+                      "lisbon_30m.tif", "mars_gale_hirise_1m.tif", "pyterra_dgm5.tif", "rainier_srtm_voids.tif",
+                      "sainte_helens.tif", "scape_ashby.stm", "scape_crater.stm", "scape_ozark.stm",
+                      "sierra_de_bejar_25m.tif", "terrarium_loaders.tif", "tidal_marsh_zSW3.asc", "volcano.tif",
+                      "wahoo_swath_nan.tif"),
+    [](const auto& raster) {
+      std::string name = raster.param;
+      std::replace_if(
+          name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+      return name;
+    });
+
+}  // namespace
+}  // namespace scarp

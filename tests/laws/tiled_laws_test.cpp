@@ -1,0 +1,257 @@
+// The tiled engine: pieces make one triangulation, and the whole keeps what the greedy engine promises.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <limits>
+#include <set>
+
+#include "laws/mesh_laws.h"
+#include "laws/tile_meshes.h"
+#include "refine/freeze.h"
+#include "refine/height_judge.h"
+#include "refine/release.h"
+#include "refine/tile_plan.h"
+#include "refine/tiled.h"
+#include "scarp/measure.h"
+#include "tin/assembly.h"
+
+namespace scarp {
+namespace {
+
+using testing::Field;
+using testing::Relief;
+
+/// A tile's mesh with the border that the neighbours have too, and a few points of its own.
+TilePiece random_piece(std::mt19937& random, const TileWindow& window, const SharedSides& shared, PieceMaker& maker) {
+  TileMesh mesh;
+  mesh.reset(window.cols, window.rows);
+  const auto insert = [&](std::int32_t x, std::int32_t y) { mesh.insert(place(x, y), 0); };
+  for (const BorderLine& line : shared_lines(window, shared)) {
+    for (std::int32_t step = 1; step < line.steps; ++step) {
+      const std::int32_t x = line.col + (line.is_vertical ? 0 : step), y = line.row + (line.is_vertical ? step : 0);
+      if ((x * 7 + y * 13) % 5 < 2) insert(x - window.col, y - window.row);
+    }
+  }
+  for (int k = 0; k < 30 && window.cols > 2 && window.rows > 2; ++k)
+    insert(1 + static_cast<std::int32_t>(random() % static_cast<unsigned>(window.cols - 2)),
+           1 + static_cast<std::int32_t>(random() % static_cast<unsigned>(window.rows - 2)));
+  return maker.make(mesh, {window.col, window.row}, window.cols, window.rows);
+}
+
+bool is_on_a_line(const TilePlan& plan, Point a, Point b) {
+  for (std::size_t i = 0; i < plan.count(); ++i) {
+    const TileWindow window = plan.window(i);
+    if ((a.x == b.x && a.x == window.col && a.x > 0) || (a.y == b.y && a.y == window.row && a.y > 0)) return true;
+  }
+  return false;
+}
+
+/// The seams are the free edges on the plan's lines between inside triangles, each once.
+std::string verify_seams(const Triangulation& tin, const TilePlan& plan, const std::vector<HalfEdge>& seams) {
+  std::set<HalfEdge> named;
+  for (const HalfEdge h : seams) {
+    if (!named.insert(std::min(h, tin.twin(h))).second) return fmt::format("seam {} is named twice", h);
+  }
+  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    const HalfEdge g = tin.twin(h);
+    if (g == kNone || g < h) continue;
+    const bool is_free = !tin.is_constrained(h) && !tin.is_outside(h / 3) && !tin.is_outside(g / 3);
+    const bool is_seam =
+        is_free && is_on_a_line(plan, tin.point(tin.origin(h)), tin.point(tin.origin(Triangulation::next(h))));
+    if (is_seam != (named.count(h) != 0)) return fmt::format("half-edge {} is {}a seam", h, is_seam ? "" : "no ");
+  }
+  return "";
+}
+
+RC_GTEST_PROP(assembly, joins_pieces_to_one_sound_triangulation, ()) {
+  const auto cols = *rc::gen::inRange(2, 150), rows = *rc::gen::inRange(2, 100);
+  const TilePlan plan(cols, rows, *rc::gen::element(1, 5, 8, 16, 31, 64));
+  RC_PRE(plan.count() < 600u);
+  std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
+  Assembly assembly(plan.per_row());
+  PieceMaker maker;
+  std::size_t triangles = 0;
+  for (std::size_t i = 0; i < plan.count(); ++i) {
+    const TilePiece piece = random_piece(random, plan.window(i), plan.shared(i), maker);
+    triangles += piece.outside.size();
+    assembly.append(piece);
+    RC_ASSERT(assembly.triangle_count() == triangles);
+  }
+  std::vector<HalfEdge> seams;
+  const Triangulation tin = assembly.finish(seams);
+  RC_ASSERT(tin.triangle_count() == triangles);
+  const std::string unsound = testing::verify_triangulation(tin, cols, rows, testing::Edges::kAny);
+  RC_ASSERT(unsound == "");
+  const std::string unsewn = verify_seams(tin, plan, seams);
+  RC_ASSERT(unsewn == "");
+}
+
+Field any_field() {
+  const auto largest = *rc::gen::element(3, 12, 40, 40, 120);
+  const auto cols = *rc::gen::inRange(2, largest * 5 / 3), rows = *rc::gen::inRange(2, largest);
+  const auto seed = *rc::gen::arbitrary<std::uint32_t>();
+  const int relief = *rc::gen::inRange(0, 6);
+  return relief == 5 ? testing::sloping_field(seed, cols, rows)
+                     : testing::random_field(seed, cols, rows, testing::kReliefs[relief],
+                                             *rc::gen::element(0.0, 0.0, 0.02, 0.1, 0.4));
+}
+
+TiledOptions any_options() {
+  TiledOptions options;
+  options.threshold = *rc::gen::element(0.0, 1e-7, 0.5, 1.0, 2.0, 7.3, 30.0, 1e6);
+  options.tile_side = *rc::gen::element(0, 8, 16, 31, 64);
+  options.threads = 2;
+  return options;
+}
+
+/// A free edge that is not Delaunay though both triangles of the other diagonal would keep the bound; "" if none.
+std::string find_needless_edge(const Triangulation& tin, const Judge& judge) {
+  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    const HalfEdge g = tin.twin(h);
+    if (g == kNone || tin.is_constrained(h) || tin.is_outside(h / 3)) continue;
+    const auto corner = [&](HalfEdge e) { return tin.point(tin.origin(e)); };
+    const Point a = corner(h), b = corner(g), c = corner(Triangulation::previous(h)),
+                d = corner(Triangulation::previous(g));
+    const auto keeps_bound = [&](const std::array<Point, 3>& corners) {
+      return !judge.find_candidate(corners, judge.fit(corners, {}));
+    };
+    if (in_circle(a, b, c, d) > 0 && keeps_bound({c, d, b}) && keeps_bound({d, c, a}))
+      return fmt::format("({}, {}) to ({}, {})", a.x, a.y, b.x, b.y);
+  }
+  return "";
+}
+
+RC_GTEST_PROP(tiled, keeps_the_bound_and_the_domain_with_any_tiles, ()) {
+  const Field field = any_field();
+  const Raster raster = field.raster();
+  const TiledOptions options = any_options();
+  const auto domain = build_domain(raster, 0, grid_frame(field.rows));
+  auto made = refine_tiled(field.view(), options);
+  RC_ASSERT(made.has_value() == domain.has_value());
+  if (!made) {
+    RC_ASSERT(made.error().kind == ErrorKind::kInput);
+    return;
+  }
+  RC_ASSERT(made->has_value());
+  Tiled& tiled = **made;
+  Triangulation& tin = tiled.domain.tin;
+  const std::string unsound = testing::verify_triangulation(tin, field.cols, field.rows, testing::Edges::kAny);
+  RC_ASSERT(unsound == "");
+  if (options.tile_side > 0) {
+    const std::string unsewn = verify_seams(tin, TilePlan(field.cols, field.rows, options.tile_side), tiled.seams);
+    RC_ASSERT(unsewn == "");
+  }
+  RC_ASSERT(testing::outside_area2(tin) == testing::outside_area2(domain->tin));
+  RC_ASSERT(tiled.domain.whole == domain->whole);
+  const std::string broken = testing::find_broken_bound(raster, tin, options.threshold);
+  RC_ASSERT(broken == "");
+
+  const HeightJudge judge(raster, options.threshold);
+  release_seams(tin, judge, std::move(tiled.seams));
+  const std::string unsound_after = testing::verify_triangulation(tin, field.cols, field.rows, testing::Edges::kAny);
+  RC_ASSERT(unsound_after == "");
+  RC_ASSERT(testing::outside_area2(tin) == testing::outside_area2(domain->tin));
+  const std::string broken_after = testing::find_broken_bound(raster, tin, options.threshold);
+  RC_ASSERT(broken_after == "");
+  const std::string needless = find_needless_edge(tin, judge);
+  RC_ASSERT(needless == "");
+
+  const auto judged = measure(field.view(), freeze(raster, tin, grid_frame(field.rows), true));
+  RC_ASSERT(judged.has_value());
+  RC_ASSERT(judged->uncovered == 0u);
+  RC_ASSERT(judged->void_cells_covered == 0u);
+  RC_ASSERT(judged->is_sound());
+  RC_ASSERT(judged->max_error <= options.threshold + 1e-9);
+  std::set<Vertex> used;
+  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    if (!tin.is_outside(h / 3)) used.insert(tin.origin(h));
+  }
+  RC_ASSERT(tin.vertex_count() - used.size() == tiled.domain.unused);
+}
+
+bool is_same(const Triangulation& a, const Triangulation& b) {
+  if (a.vertex_count() != b.vertex_count() || a.triangle_count() != b.triangle_count()) return false;
+  for (Vertex v = 0; v < a.vertex_count(); ++v) {
+    if (!(a.point(v) == b.point(v))) return false;
+  }
+  for (HalfEdge h = 0; h < 3 * a.triangle_count(); ++h) {
+    if (a.origin(h) != b.origin(h) || a.twin(h) != b.twin(h) || a.is_constrained(h) != b.is_constrained(h) ||
+        a.is_outside(h / 3) != b.is_outside(h / 3))
+      return false;
+  }
+  return true;
+}
+
+RC_GTEST_PROP(tiled, threads_change_nothing, ()) {
+  const Field field = any_field();
+  TiledOptions options = any_options();
+  options.threads = 1;
+  const auto first = refine_tiled(field.view(), options);
+  RC_PRE(first.has_value());
+  for (const int threads : {2, 3, 8}) {
+    options.threads = threads;
+    const auto again = refine_tiled(field.view(), options);
+    RC_ASSERT(again.has_value());
+    RC_ASSERT(is_same((*again)->domain.tin, (*first)->domain.tin));
+    RC_ASSERT((*again)->seams == (*first)->seams);
+    RC_ASSERT((*again)->effort.samples_scanned == (*first)->effort.samples_scanned);
+    RC_ASSERT((*again)->effort.passes == (*first)->effort.passes);
+  }
+}
+
+TEST(tiled, the_largest_small_raster_keeps_the_bound_at_every_tile_side) {
+  for (const double voids : {0.0, 0.02}) {
+    const Field field = testing::random_field(5, 200, 150, Relief::kRidges, voids);
+    for (const std::int32_t side : {8, 31, 64, 512}) {
+      const auto tiled = refine_tiled(field.view(), {.threshold = 3, .threads = 2, .tile_side = side});
+      ASSERT_TRUE(tiled && *tiled);
+      EXPECT_EQ(testing::find_broken_bound(field.raster(), (*tiled)->domain.tin, 3), "") << side;
+    }
+  }
+}
+
+TEST(tiled, magnitudes_beyond_float32_products_are_left_to_the_greedy_engine) {
+  Field field = testing::random_field(5, 40, 30, Relief::kReal);
+  field.samples[444] = 0x1p100f;
+  const auto tiled = refine_tiled(field.view(), {.threshold = 1, .threads = 2, .tile_side = 8});
+  ASSERT_TRUE(tiled);
+  EXPECT_FALSE(*tiled);
+}
+
+TEST(tiled, is_cancelled_by_its_callback_after_any_tile) {
+  const Field field = testing::random_field(5, 60, 50, Relief::kReal);
+  for (int most = 0; most < 4; ++most) {
+    int calls = 0;
+    double last = 0;
+    TiledOptions options{.threshold = 1, .threads = 3, .tile_side = 8};
+    options.progress = [&](double share, std::uint64_t) {
+      EXPECT_GT(share, last);
+      last = share;
+      return calls++ < most;
+    };
+    const auto tiled = refine_tiled(field.view(), options);
+    ASSERT_FALSE(tiled);
+    EXPECT_EQ(tiled.error().kind, ErrorKind::kCancelled);
+    EXPECT_EQ(calls, most + 1);
+  }
+}
+
+TEST(tiled, a_source_that_fails_is_reported_in_its_own_words) {
+  class Broken final : public SampleSource {
+   public:
+    Result<void> read(int, int row, int, int rows, float* out, std::ptrdiff_t) const override {
+      if (row + rows > 40) return fail(ErrorKind::kInput, "the file ends early");
+      *out = 0;
+      return {};
+    }
+  };
+  HeightField view{nullptr, 60, 50};
+  const Broken source;
+  view.source = &source;
+  const auto tiled = refine_tiled(view, {.threshold = 1, .threads = 3, .tile_side = 8});
+  ASSERT_FALSE(tiled);
+  EXPECT_EQ(tiled.error().message, "the file ends early");
+}
+
+}  // namespace
+}  // namespace scarp
