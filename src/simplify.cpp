@@ -126,7 +126,7 @@ class Run {
     heights_ = std::move(tiled.heights);
     result.effort = tiled.effort;
     if (field_.samples != nullptr || field_.source->is_in_memory()) {
-      const Effort effort = release_seams(domain_->tin, criterion_.judge(), std::move(tiled.seams));
+      const Effort effort = release_seams(domain_->tin, criterion_.judge(), std::move(tiled.seams), options_.threads);
       result.effort.samples_scanned += effort.samples_scanned;
       result.effort.triangles_scanned += effort.triangles_scanned;
       record(result, "seams", start, effort);

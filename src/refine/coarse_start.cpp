@@ -13,7 +13,7 @@ struct Attempt {
   double expected;  ///< tried where this share of the coarse samples or less is expected to be needed
   double most;      ///< kept where this share or less is needed
 };
-constexpr Attempt kAttempts[] = {{8, 0.12, 0.16}, {4, 0.12, 0.08}};
+constexpr Attempt kAttempts[] = {{8, 0.12, 0.08}, {4, 0.08, 0.04}};
 
 }  // namespace
 

@@ -21,7 +21,7 @@ class CoarseStart {
  public:
   /// Inserts into the started `mesh` of a whole tile what every 8th, or 4th, sample alone would need, where that is
   /// few. `density`: vertices a sample to be expected of the finished mesh; it decides what is tried. A trial that
-  /// needs too many is broken off: at most one insertion for each 400 samples of the tile is in vain. No vertex is put
+  /// needs too many is broken off: at most one insertion for each 260 samples of the tile is in vain. No vertex is put
   /// on a shared side.
   void insert(const Tile& tile, const SharedSides& shared, double threshold, double density, TileMesh& mesh);
 

@@ -201,7 +201,8 @@ class TiledRun {
         count, options_.threads,
         [&](std::size_t i, std::size_t worker) {
           const std::size_t tile = first + i;
-          outcomes_[tile] = workers_[worker].refine(field_, plan_.window(tile), plan_.shared(tile), options_.threshold);
+          outcomes_[tile] =
+              workers_[worker].refine(field_, plan_.window(tile), plan_.shared(tile), options_.threshold, density_);
         },
         [&](std::size_t i) { return commit(first + i); });
   }
