@@ -21,16 +21,29 @@ bool mark_heights(const float* samples, std::vector<std::uint8_t>& marks) {
   return all;
 }
 
-/// The range of all samples, in a loop that needs no branches.
+/// The range of all samples. Lanes, since one minimum would have to wait for the one before it.
 HeightRange find_range(std::span<const float> samples) {
-  float least = std::numeric_limits<float>::infinity(), most = -least;
-  std::uint64_t valid = 0;
-  for (const float z : samples) {
-    least = z < least ? z : least;
-    most = z > most ? z : most;
-    valid += z == z;
+  constexpr std::size_t kLanes = 8;
+  std::array<float, kLanes> least, most;
+  std::array<std::uint32_t, kLanes> valid{};
+  least.fill(std::numeric_limits<float>::infinity());
+  most.fill(-std::numeric_limits<float>::infinity());
+  const auto look = [&](std::size_t lane, float z) {
+    least[lane] = z < least[lane] ? z : least[lane];
+    most[lane] = z > most[lane] ? z : most[lane];
+    valid[lane] += z == z ? 1 : 0;
+  };
+  const std::size_t whole = samples.size() / kLanes * kLanes;
+  for (std::size_t i = 0; i < whole; i += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) look(lane, samples[i + lane]);
   }
-  return valid == 0 ? HeightRange() : HeightRange{valid, least, most};
+  for (std::size_t i = whole; i < samples.size(); ++i) look(i - whole, samples[i]);
+  HeightRange range;
+  for (const std::uint32_t count : valid) range.valid += count;
+  if (range.valid == 0) return range;
+  range.min = *std::min_element(least.begin(), least.end());
+  range.max = *std::max_element(most.begin(), most.end());
+  return range;
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "grid/window.h"
 #include "unit/raster_files.h"
