@@ -38,7 +38,7 @@ _scarp() {
       ;;
     -e | --max-error | -t | --max-triangles | -p | --max-points | --band | --nodata | --fill-distance | --background | \
       --outline-tolerance | --base | --shape-threshold | --supersample | --texture-weight | --channel-weights | -j | \
-      --num-threads | --fail-above | --layer | --z-field | --seed | --range | --size)
+      --num-threads | --memory | --fail-above | --layer | --z-field | --seed | --range | --size)
       return
       ;;
   esac
@@ -50,7 +50,7 @@ _scarp() {
       paper) options='--help --version --data --out --no-timing --overwrite --quiet' ;;
       simplify)
         options+=' --max-error --max-triangles --max-points --nodata-policy --fill-distance --background'
-        options+=' --outline-tolerance --of --normals --base --preview --report --overwrite --num-threads'
+        options+=' --outline-tolerance --of --normals --base --preview --report --overwrite --num-threads --memory'
         options+=' --mask --tolerance --script --image --texture --texture-weight --norm --channel-weights'
         options+=' --importance --one-pass --algorithm --batch --edges --edge-score --shape-threshold --supersample'
         options+=' --uvs --render --error-raster'
@@ -58,7 +58,7 @@ _scarp() {
         ;;
       measure)
         options+=' --points --duplicates --layer --z-field'
-        options+=' --fail-above --json --map --error-raster --overwrite --num-threads'
+        options+=' --fail-above --json --map --error-raster --overwrite --num-threads --memory'
         options+=' --mask --tolerance --script --image --texture --texture-weight --norm --channel-weights'
         ;;
       info) options+=' --json' ;;

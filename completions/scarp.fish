@@ -17,6 +17,7 @@ complete -c scarp -n "__fish_seen_subcommand_from $verbs" -l crs -x -a 'source l
 complete -c scarp -n "__fish_seen_subcommand_from $verbs" -s q -l quiet -d 'No progress, no warnings'
 complete -c scarp -n "__fish_seen_subcommand_from $verbs" -l json-progress -d 'Progress as JSON lines on stderr'
 
+complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l memory -x -d 'Most memory that the run may take'
 complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -s j -l num-threads -x -d 'Threads, 0 = all cores'
 complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l overwrite -d 'Replace files that exist'
 complete -c scarp -n '__fish_seen_subcommand_from measure info' -l json -d 'The report as JSON on stdout'

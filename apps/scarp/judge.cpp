@@ -14,47 +14,6 @@ namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-/// Finds the first sample of the domain that the judge hands out without an error.
-class UncoveredFinder {
- public:
-  explicit UncoveredFinder(const HeightField& field) : field_(field) {}
-
-  void look_at(int row, std::span<const float> errors) {
-    if (col_ >= 0) return;
-    for (int col = 0; col < field_.cols; ++col) {
-      if (std::isnan(errors[static_cast<std::size_t>(col)]) && is_in_domain(col, row)) {
-        col_ = col;
-        row_ = row;
-        return;
-      }
-    }
-  }
-
-  std::string found() const { return col_ < 0 ? "" : fmt::format("the first at column {}, row {}", col_, row_); }
-
- private:
-  bool is_valid(int col, int row) const {
-    if (col < 0 || row < 0 || col >= field_.cols || row >= field_.rows) return false;
-    const std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(field_.cols);
-    return std::isfinite(field_.samples[at + static_cast<std::size_t>(col)]);
-  }
-  /// A corner of a cell that has at least three valid corners.
-  bool is_in_domain(int col, int row) const {
-    if (!is_valid(col, row)) return false;
-    for (const int dc : {-1, 1}) {
-      for (const int dr : {-1, 1}) {
-        const int others = is_valid(col + dc, row) + is_valid(col, row + dr) + is_valid(col + dc, row + dr);
-        const bool inside = col + dc >= 0 && col + dc < field_.cols && row + dr >= 0 && row + dr < field_.rows;
-        if (inside && others >= 2) return true;
-      }
-    }
-    return false;
-  }
-
-  const HeightField& field_;
-  int col_ = -1, row_ = -1;
-};
-
 /// The largest error of a covered sample; the lowest row, then column, among equals.
 LargestError find_largest(const std::vector<Offender>& offenders) {
   LargestError largest;
@@ -116,26 +75,26 @@ Result<Judgement> judge(const HeightField& heights, const Mesh& mesh, const Chan
   const std::size_t samples = cols * static_cast<std::size_t>(heights.rows);
   if (request.keep_errors) judgement.height_errors.resize(samples, kNaN);
   if (request.keep_errors && !channels.empty()) judgement.norms.resize(samples, 0);
-  UncoveredFinder uncovered(heights);
 
   MeasureOptions options;
   options.threads = request.threads;
   options.progress = request.progress;
   options.topology = request.topology;
   if (request.exceptions) options.tolerance = request.exceptions->limits;
-  options.on_row = [&](int row, std::span<const float> errors) {
-    uncovered.look_at(row, errors);
+  const auto keep_errors = [&](int row, std::span<const float> errors) {
     const std::size_t start = static_cast<std::size_t>(row) * cols;
-    if (request.keep_errors) {
-      std::copy(errors.begin(), errors.end(), judgement.height_errors.begin() + static_cast<std::ptrdiff_t>(start));
-    }
+    std::copy(errors.begin(), errors.end(), judgement.height_errors.begin() + static_cast<std::ptrdiff_t>(start));
     if (judgement.norms.empty()) return;
     add_to_norms(std::span(judgement.norms).subspan(start, cols), errors, channels.height_scale, norm);
   };
+  if (request.keep_errors) options.on_row = keep_errors;
   Result<Measurement> measured = measure(heights, mesh, options);
   if (!measured) return tl::unexpected(std::move(measured.error()));
   judgement.heights = std::move(*measured);
-  judgement.uncovered_sample = uncovered.found();
+  if (judgement.heights.uncovered > 0) {
+    const auto& at = judgement.heights.uncovered_at;
+    judgement.uncovered_sample = fmt::format("the first at column {}, row {}", at[0], at[1]);
+  }
   judgement.bounded = options.tolerance.empty()
                           ? LargestError{judgement.heights.max_error, judgement.heights.max_error_at}
                           : find_largest(std::exchange(judgement.heights.offenders, {}));

@@ -52,6 +52,8 @@ MeasureCommand::MeasureCommand(CLI::App& program)
   verb_->add_option("-j,--num-threads", threads_, "Threads, 0 = all cores (default); never changes the result")
       ->type_name("N")
       ->group("Run");
+  memory_.add_to(*verb_,
+                 "Most memory that this run may take, such as 1G; a\nlarger raster is read row by row as it is judged");
   verb_->add_flag("-q,--quiet", quiet_, "No table, no progress, no warnings")->group("Run");
   verb_->add_flag("--json-progress", json_progress_, "Progress as one JSON object a line on stderr")->group("Run");
   verb_->footer(
@@ -154,13 +156,26 @@ Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judg
     judged.channels = std::move(image->channels);
     return {};
   }
-  Result<OwnedHeightField> field = read_height_field(raster_.path, options);
+  const Result<std::optional<std::uint64_t>> limit = memory_.parse();
+  if (!limit) return tl::unexpected(limit.error());
+  Result<OwnedHeightField> field = read_within(raster_.path, options, *limit);
   if (!field) return tl::unexpected(std::move(field.error()));
+  if (const std::optional<std::string> need = find_need_of_samples()) {
+    if (auto in_memory = check_in_memory(*field, *need); !in_memory) return in_memory;
+  }
   judged.field = std::move(*field);
   Result<Channels> textures = read_textures(judged.plan, judged.field, options.progress);
   if (!textures) return tl::unexpected(std::move(textures.error()));
   judged.channels = std::move(*textures);
   return {};
+}
+
+std::optional<std::string> MeasureCommand::find_need_of_samples() const {
+  if (map_) return "--map";
+  if (error_raster_) return "--error-raster";
+  const std::string others = companions_.canonical() + channels_.canonical();
+  if (others.empty()) return std::nullopt;
+  return others.substr(1, others.find(' ', 1) - 1);
 }
 
 Result<void> MeasureCommand::run(const std::string& command_line) const {
@@ -181,6 +196,11 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
   judged.plan = std::move(*plan);
   const Result<void> companions_agree = companions_.check();
   if (!companions_agree) return companions_agree;
+  const Result<std::optional<std::uint64_t>> limit = memory_.parse();
+  if (!limit) return tl::unexpected(limit.error());
+  if (*limit && judged.plan.image) {
+    return fail(ErrorKind::kUsage, "--memory and --image contradict each other: images are read as a whole");
+  }
   if (fail_above_) {
     const Result<double> bound = parse_non_negative("--fail-above", *fail_above_);
     if (!bound) return tl::unexpected(bound.error());
@@ -204,6 +224,7 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
   Result<Judgement> judgement = judge(judged.field, judged.mesh, judged.channels, judged.plan.norm, options);
   if (!judgement) return tl::unexpected(std::move(judgement.error()));
   judged.judgement = std::move(*judgement);
+  complete_info(judged.judgement.heights.heights, judged.field.info);
   judged.seconds_measure = seconds_since(measure_start);
   decide(judged);
   if (judged.judgement.heights.samples == 0) {

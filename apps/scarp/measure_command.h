@@ -7,6 +7,7 @@
 #include "channels.h"
 #include "companions.h"
 #include "measure_report.h"
+#include "memory.h"
 #include "options.h"
 #include "points_command.h"
 
@@ -27,6 +28,8 @@ class MeasureCommand {
   Result<void> check_outputs_of_run() const;
   Result<void> read_inputs(const ProgressCallback& progress, Judged& judged) const;
   Result<void> read_field(const ReadOptions& options, Judged& judged) const;
+  /// The first option that was given and needs all samples in memory; nothing if there is none.
+  std::optional<std::string> find_need_of_samples() const;
   Result<void> write_files(const Judged& judged) const;
 
   CLI::App* verb_;
@@ -35,6 +38,7 @@ class MeasureCommand {
   std::string mesh_;
   CompanionArguments companions_;
   ChannelArguments channels_;
+  MemoryArguments memory_;
   Given map_, error_raster_, fail_above_, threads_;
   bool json_ = false, overwrite_ = false, quiet_ = false, json_progress_ = false;
 };

@@ -125,7 +125,7 @@ void decide(Judged& judged) {
   bounded.max_error_at = judged.judgement.bounded.at;
   judged.broken =
       find_broken_promise(bounded, judged.field.sample_rounding, bounds_heights ? *judged.fail_above : HUGE_VAL,
-                          height_range(judged.field), judged.judgement.uncovered_sample);
+                          judged.judgement.heights.heights, judged.judgement.uncovered_sample);
 }
 
 Json make_report(const Judged& judged, const std::string& mesh_path, const std::string& command_line) {

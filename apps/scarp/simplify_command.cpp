@@ -20,8 +20,11 @@ namespace {
 constexpr const char* kBroken = "the mesh does not keep its promise and was not written; this is a bug in Scarp: ";
 
 Result<void> read_heights(const SimplifyPlan& plan, const ReadOptions& options, Outcome& outcome) {
-  Result<OwnedHeightField> field = read_height_field(plan.input, options);
+  Result<OwnedHeightField> field = read_within(plan.input, options, plan.memory);
   if (!field) return tl::unexpected(std::move(field.error()));
+  if (plan.needs_samples) {
+    if (auto in_memory = check_in_memory(*field, *plan.needs_samples); !in_memory) return in_memory;
+  }
   outcome.field = std::move(*field);
   outcome.as_read = outcome.field.info;
   if (plan.policy == NodataPolicy::kFill) outcome.filled = fill_voids(outcome.field, plan.fill_distance);
@@ -176,10 +179,13 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   Result<Simplified> simplified = simplify(outcome.view(), options);
   if (!simplified) {
     Error error = std::move(simplified.error());
-    if (error.kind == ErrorKind::kInput) error.message = fmt::format("{}: {}", plan->input, error.message);
+    if (error.kind == ErrorKind::kInput && !error.message.starts_with(plan->input))
+      error.message = fmt::format("{}: {}", plan->input, error.message);
     return tl::unexpected(std::move(error));
   }
   outcome.simplified = std::move(*simplified);
+  if (outcome.field.source) outcome.heights = outcome.simplified.measurement.heights;
+  complete_info(outcome.heights, outcome.as_read);
   const OwnedHeightField& field = outcome.field;
   const bool by_construction =
       options.float32_positions ? offsets_are_exact(field.frame, field.cols, field.rows) : field.frame.is_affine();

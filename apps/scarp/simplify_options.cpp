@@ -83,6 +83,10 @@ void SimplifyArguments::add_to(CLI::App& verb) {
   verb.add_option("-j,--num-threads", threads, "Threads, 0 = all cores (default); never changes the result")
       ->type_name("N")
       ->group("Run");
+  memory.add_to(
+      verb,
+      "Most memory that this run may take, such as 1G; what a\nlarger raster holds is read where it is needed "
+      "(see\ndocs/cli.md for what that leaves out)");
   verb.add_flag("-q,--quiet", quiet, "No summary, no progress, no warnings")->group("Run");
   verb.add_flag("--json-progress", json_progress, "Progress as one JSON object a line on stderr")->group("Run");
   verb.footer(

@@ -189,6 +189,42 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
   return check_outputs(outputs, inputs, given.overwrite);
 }
 
+/// The first option that was given and cannot do with a few samples at a time; nothing if there is none.
+std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, const SimplifyPlan& plan) {
+  const std::pair<const char*, bool> options[] = {
+      {"--max-triangles", given.max_triangles.has_value()},
+      {"--max-points", given.max_points.has_value()},
+      {"--nodata-policy", plan.policy != NodataPolicy::kHole},
+      {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
+      {"--normals", plan.simplify.normals},
+      {"--preview", given.preview.has_value()},
+      {"--render", given.render.has_value()},
+      {"--error-raster", given.error_raster.has_value()},
+      {"--of dem", plan.format.kind == OutputKind::kDem},
+  };
+  for (const auto& [name, is_given] : options) {
+    if (is_given) return name;
+  }
+  // " --name value --name value": the first of these will do.
+  const std::string others = given.companions.canonical() + given.channels.canonical() + given.strategy.canonical();
+  if (others.empty()) return std::nullopt;
+  return others.substr(1, others.find(' ', 1) - 1);
+}
+
+Result<void> plan_memory(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const Result<std::optional<std::uint64_t>> limit = given.memory.parse();
+  if (!limit) return tl::unexpected(limit.error());
+  plan.memory = *limit;
+  if (!plan.memory) return {};
+  if (plan.channels.image) {
+    return fail(ErrorKind::kUsage, "--memory and --image contradict each other: images are read as a whole");
+  }
+  plan.simplify.memory_limit = *plan.memory;
+  plan.needs_samples = find_need_of_samples(given, plan);
+  plan.read.with_range = plan.error_goal && plan.error_goal->percent_of_relief;
+  return {};
+}
+
 std::string canonical_command(const SimplifyArguments& given) {
   std::string command = "scarp simplify " + shell_word(base_name(given.raster.path)) + " OUTPUT";
   const std::pair<const char*, const Given*> options[] = {
@@ -231,7 +267,7 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   const Result<int> threads = parse_threads(given.threads);
   if (!threads) return tl::unexpected(threads.error());
   plan.simplify.threads = *threads;
-  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_outputs}) {
+  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_outputs, plan_memory}) {
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());
   }

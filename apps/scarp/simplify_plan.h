@@ -1,12 +1,14 @@
 // What `scarp simplify` was asked to do: its options, parsed and checked before any file is read.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "channels.h"
 #include "companions.h"
+#include "memory.h"
 #include "options.h"
 #include "output_kind.h"
 #include "scarp/simplify.h"
@@ -26,6 +28,7 @@ struct SimplifyArguments {
   StrategyArguments strategy;
   CompanionArguments companions;
   ChannelArguments channels;
+  MemoryArguments memory;
   bool normals = false, uvs = false, overwrite = false, quiet = false, json_progress = false;
 
   void add_to(CLI::App& verb);
@@ -45,6 +48,8 @@ struct SimplifyPlan {
   std::optional<double> base;
   std::optional<std::string> preview, render, error_raster, report;
   bool overwrite = false;
+  std::optional<std::uint64_t> memory;       ///< what the process may take
+  std::optional<std::string> needs_samples;  ///< an option that needs all samples in memory
   std::vector<std::string> warnings;
   /// The command for the mesh's metadata: options in a fixed order and with their long names, folders left out, and
   /// without what cannot change the mesh (threads, quietness, other outputs, the output's name).

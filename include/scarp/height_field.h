@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,14 +23,18 @@ struct Channel {
 class SampleSource {
  public:
   virtual ~SampleSource() = default;
-  /// Writes the window of cols × rows samples whose first is (col, row) to `out`, row-major, `stride` floats from row to
-  /// row; voids as NaN. Several threads may call it at once. Fails with kInput, naming file and row.
-  /// REQUIRES: the window lies in the raster.
+  /// Writes the window of cols × rows samples whose first is (col, row) to `out`, row-major, `stride` floats from row
+  /// to row; voids as NaN. Several threads may call it at once. Fails with kInput, naming file and row. REQUIRES: the
+  /// window lies in the raster.
   virtual Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const = 0;
   /// True if any window costs about as much as copying it. False: whole rows are asked for, from the top down, each once
   /// or a few times, and small windows only where there is no other way.
   virtual bool is_in_memory() const = 0;
 };
+
+/// A source of 16-bit samples in memory, 2 bytes each: `codes` are row-major, and code k stands for the height
+/// heights[k], NaN for a void. REQUIRES: `cols` codes to a row, a height for each code.
+std::unique_ptr<SampleSource> make_coded_source(std::vector<std::uint16_t> codes, int cols, std::vector<float> heights);
 
 /// A height field that borrows its samples.
 ///
@@ -69,26 +74,31 @@ struct RasterInfo {
   bool has_georeference = false;
   double cell_x = 1, cell_y = 1;      ///< size of a cell in the units of the file's CRS
   double cell_x_m = 0, cell_y_m = 0;  ///< the same in metres at the centre; 0 if unknown
+  bool has_range = true;              ///< false: valid, min and max are not known, for the raster has not been read yet
   std::uint64_t valid = 0;            ///< samples that are heights
   double min = 0, max = 0;            ///< of the valid samples
   std::vector<std::string> warnings;  ///< sentences for the user: infinities taken as nodata, …
 };
 
-/// A height field that owns its samples. nodata samples are NaN.
+/// A height field that owns its samples, or who is asked for them. nodata samples are NaN.
 struct OwnedHeightField {
-  std::vector<float> samples;
+  std::vector<float> samples;  ///< empty where `source` has them
   int cols = 0;
   int rows = 0;
   Frame frame;
   double sample_rounding = 0;
   RasterInfo info;
+  std::shared_ptr<const SampleSource> source = nullptr;  ///< see open_height_field(). DEFAULT: none.
 
   /// Borrows this object's samples: valid while it is alive and `samples` is not resized.
-  HeightField view() const { return {samples.data(), cols, rows, std::nullopt, frame, sample_rounding, {}, 1, nullptr}; }
+  HeightField view() const {
+    return {source ? nullptr : samples.data(), cols, rows, std::nullopt, frame, sample_rounding, {}, 1, source.get()};
+  }
   operator HeightField() const { return view(); }  // NOLINT: the door takes both
 };
 
-/// Number, minimum and maximum of the samples that are heights. min = max = 0 if there are none.
+/// Number, minimum and maximum of the samples that are heights. min = max = 0 if there are none, and for a field whose
+/// samples are not in memory: Measurement::heights tells theirs.
 struct HeightRange {
   std::uint64_t valid = 0;
   double min = 0, max = 0;
@@ -98,10 +108,11 @@ HeightRange height_range(const HeightField& field);
 /// Gives voids heights by interpolation: each void sample within `max_distance` samples (Euclidean, along the eight
 /// compass directions) of a valid one becomes the mean of the nearest valid samples in those directions, weighted by
 /// inverse squared distance. Samples farther away stay void. Returns the number of samples filled.
-/// REQUIRES: max_distance > 0. Cost: O(cols·rows), 16 extra bytes for each void sample.
+/// REQUIRES: max_distance > 0; the samples are in memory (those of a source stay as they are). Cost: O(cols·rows), 16
+/// extra bytes for each void sample.
 std::uint64_t fill_voids(OwnedHeightField& field, double max_distance);
 
-/// Gives every void sample the height `value`. Returns the number of samples filled.
+/// Gives every void sample the height `value`. Returns the number of samples filled. REQUIRES: as fill_voids().
 std::uint64_t fill_background(OwnedHeightField& field, float value);
 
 }  // namespace scarp

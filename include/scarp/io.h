@@ -26,8 +26,11 @@ struct ReadOptions {
   /// projected ones, the grid frame without georeference. "source": the raster's own coordinates. "local": the local
   /// metric frame. "grid": columns and rows. Anything else is a CRS for GDAL ("EPSG:32611", WKT, PROJ string).
   std::string crs = {};
-  /// Refuse to read a raster that needs more memory than this, in bytes; 0 = the machine's memory. DEFAULT: 0.
+  /// In bytes; 0 = the machine's memory. DEFAULT: 0. read_height_field() refuses to read a raster that needs more;
+  /// open_height_field() keeps as much of it in memory.
   std::uint64_t memory_limit = 0;
+  /// open_height_field() reads a raster that stays in its file once through, for its info's range. DEFAULT: false.
+  bool with_range = false;
   ProgressCallback progress = {};
 };
 
@@ -37,6 +40,18 @@ struct ReadOptions {
 /// Fails with kInput: missing, not a raster, truncated, fewer than 2×2 samples, band out of range, no valid sample;
 /// kUsage for a CRS that is unknown or cannot be reached.
 Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options = {});
+
+/// Opens one raster however large it is, for simplify() and measure(). If memory_limit holds its samples as floats (4
+/// bytes each) they are read as by read_height_field(). If it holds 16-bit samples as they are (2 bytes each: Byte,
+/// Int16 and UInt16 without a mask other than nodata) they are read so, and the field has a source. Else the raster
+/// stays in its file, and the source reads it window by window, one window at a time, through GDAL's block cache, which
+/// is given a half of memory_limit (at least 8 MB; unless GDAL_CACHEMAX is set). Then info has no range unless
+/// options.with_range asks for it, infinities are void without a warning, and a file without any height is no error;
+/// but samples that float32 may not hold (32-bit and larger integers, float64, scaled ones) are read once through all
+/// the same, since sample_rounding must be known.
+/// The samples are those of read_height_field(). Fails as it does; of a PGM or STM that memory_limit does not hold,
+/// since they are read as a whole.
+Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOptions& options = {});
 
 /// The bands of an image as channels: one value a sample and band.
 struct OwnedChannels {

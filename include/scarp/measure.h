@@ -46,9 +46,11 @@ struct Offender {
 struct Measurement {
   std::uint64_t vertices = 0, triangles = 0;
 
-  std::uint64_t samples = 0;    ///< valid samples judged (covered)
-  std::uint64_t uncovered = 0;  ///< valid samples of valid cells that no triangle covers
-  std::uint64_t stray = 0;      ///< valid samples outside every valid cell (no three valid corners): outside the domain
+  std::uint64_t samples = 0;                         ///< valid samples judged (covered)
+  std::uint64_t uncovered = 0;                       ///< valid samples of valid cells that no triangle covers
+  std::array<std::int32_t, 2> uncovered_at{-1, -1};  ///< (col, row) of the first of them, row by row; (−1, −1): none
+  std::uint64_t stray = 0;  ///< valid samples outside every valid cell (no three valid corners): outside the domain
+  HeightRange heights;      ///< of all valid samples: judged, uncovered and stray
   std::uint64_t void_cells_covered =
       0;  ///< cells (or half cells) without valid corners that the mesh covers at their centre
 
@@ -91,13 +93,15 @@ struct Measurement {
 
 /// Heights of the mesh at the samples of the field's grid, row-major: the approximation resampled (Terra's `dem`). NaN
 /// where the sample is void or uncovered. At samples that two triangles share, the one with the larger error counts, as
-/// in measure(). Same failures and cost as measure(), and 8 bytes a sample.
+/// in measure(). Same failures and cost as measure(), and 8 bytes a sample. kUsage for a field without samples in
+/// memory.
 Result<std::vector<float>> resample(const HeightField& field, const Mesh& mesh, int threads = 1);
 
 /// Judges `mesh` against every valid sample of `field`, in the field's frame. Shares no scan code with simplify().
 /// Fails with kInput if the mesh has an index out of range, a position that is not finite or beyond 1e100 (in its own
 /// coordinates or, in affine frames, in cells), or no triangles; with
-/// kCancelled if the callback says so. Cost: O(samples + triangles).
+/// kCancelled if the callback says so; as the field's source does. A field with a source is read by bands of rows, of
+/// which two a thread are in memory. Cost: O(samples + triangles).
 Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const MeasureOptions& options = {});
 
 }  // namespace scarp

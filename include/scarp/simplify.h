@@ -58,6 +58,8 @@ struct SimplifyOptions {
   /// Vertex normals from the full-resolution samples. DEFAULT: false.
   bool normals = false;
   int threads = 0;  ///< 0 = all cores. Never changes the result. DEFAULT: 0.
+  /// Bytes that the whole process is to stay under while a field with a source is simplified; 0 = no limit. DEFAULT: 0.
+  std::uint64_t memory_limit = 0;
   ProgressCallback progress = {};
 };
 

@@ -7,6 +7,7 @@ namespace scarp {
 
 HeightRange height_range(const HeightField& field) {
   HeightRange range;
+  if (field.samples == nullptr) return range;
   const auto count = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
   for (std::size_t k = 0; k < count; ++k) {
     const float z = field.samples[k];

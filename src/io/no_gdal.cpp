@@ -16,6 +16,8 @@ tl::unexpected<Error> refuse(const std::string& path) {
 
 Result<OwnedHeightField> read_gdal_raster(const std::string& path, const ReadOptions&) { return refuse(path); }
 
+Result<OwnedHeightField> open_gdal_raster(const std::string& path, const ReadOptions&) { return refuse(path); }
+
 Result<OwnedChannels> read_gdal_channels(const std::string& path, const ReadOptions&, bool) { return refuse(path); }
 
 Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage&) {

@@ -17,8 +17,7 @@ std::string format_memory(double bytes) {
   return fmt::format("{:.1f} {}", value, kUnits[unit]);
 }
 
-Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std::uint64_t rows,
-                               const ReadOptions& options, std::uint64_t bands) {
+Result<void> check_raster_sides(const std::string& name, std::uint64_t cols, std::uint64_t rows) {
   constexpr std::uint64_t kLargestSide = 0x7fffffff;
   if (cols < 2 || rows < 2) {
     return fail(
@@ -29,6 +28,12 @@ Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std:
     return fail(ErrorKind::kInput,
                 fmt::format("{}: {} x {} samples: a side may have at most {}", name, cols, rows, kLargestSide));
   }
+  return {};
+}
+
+Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std::uint64_t rows,
+                               const ReadOptions& options, std::uint64_t bands) {
+  if (auto checked = check_raster_sides(name, cols, rows); !checked) return checked;
   const std::uint64_t limit = max_samples(options.memory_limit);
   if (cols * rows > limit / bands) {
     return fail(
@@ -60,11 +65,15 @@ Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities) {
   field.info.valid = range.valid;
   field.info.min = range.min;
   field.info.max = range.max;
+  return finish_info(field, infinities);
+}
+
+Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities) {
   if (infinities > 0) {
     field.info.warnings.push_back(fmt::format("{} {} infinite or too large for a height and taken as nodata",
                                               infinities, infinities == 1 ? "sample is" : "samples are"));
   }
-  if (range.valid == 0) {
+  if (field.info.valid == 0) {
     return fail(ErrorKind::kInput, fmt::format("{}: none of its {} x {} samples is a height: all are nodata",
                                                field.info.path, field.cols, field.rows));
   }

@@ -9,7 +9,10 @@
 
 namespace scarp {
 
-/// kInput if the size is below 2×2, or needs more memory than `options` or the machine allow. The message has the
+/// kInput if the size is below 2×2, or a side is beyond an int.
+Result<void> check_raster_sides(const std::string& name, std::uint64_t cols, std::uint64_t rows);
+
+/// The same; kInput too if it needs more memory than `options` or the machine allow. The message has the
 /// figures.
 Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std::uint64_t rows,
                                const ReadOptions& options, std::uint64_t bands = 1);
@@ -17,8 +20,11 @@ Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std:
 /// Memory for the samples; kInput if the machine refuses it. Call check_raster_size() first.
 Result<void> allocate_samples(const std::string& name, OwnedHeightField& field);
 
-/// Fills in valid, min and max; warns of `infinities` samples that became nodata; kInput if no sample is a height.
+/// Fills in valid, min and max; then finish_info().
 Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities);
+
+/// Warns of `infinities` samples that became nodata; kInput if no sample is a height.
+Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities);
 
 /// The frame of a raster without georeference: kUsage if options.crs asks for anything but the grid.
 Result<Frame> ungeoreferenced_frame(const std::string& name, int rows, const std::string& crs);

@@ -13,6 +13,9 @@ namespace scarp {
 /// it fails with kInput and says so.
 Result<OwnedHeightField> read_gdal_raster(const std::string& path, const ReadOptions& options);
 
+/// open_height_field(), likewise.
+Result<OwnedHeightField> open_gdal_raster(const std::string& path, const ReadOptions& options);
+
 /// read_channels(), likewise.
 Result<OwnedChannels> read_gdal_channels(const std::string& path, const ReadOptions& options, bool all_bands);
 

@@ -1,4 +1,6 @@
 // One door for all rasters: the file's first bytes say whose reader it goes to.
+#include <fmt/format.h>
+
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -6,6 +8,7 @@
 
 #include "base/caught.h"
 #include "io/pgm.h"
+#include "io/raster_finish.h"
 #include "io/raster_source.h"
 #include "io/stm.h"
 
@@ -27,7 +30,30 @@ Reader find_reader(const std::string& path, std::vector<std::uint8_t>& head) {
   return Reader::kGdal;
 }
 
+/// kInput if the file and its samples as floats, read as a whole, need more than the limit.
+Result<void> check_whole_file(const std::string& path, const ReadOptions& options) {
+  std::error_code ignored;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
+  if (ignored || options.memory_limit == 0 || bytes <= options.memory_limit / 3) return {};
+  return fail(ErrorKind::kInput,
+              fmt::format("{}: PGM and STM are read as a whole, which needs {} of memory, but only {} are allowed for "
+                          "samples: allow more, or convert it to a format that is read by windows, such as GeoTIFF",
+                          path, format_memory(3 * static_cast<double>(bytes)),
+                          format_memory(static_cast<double>(options.memory_limit))));
+}
+
 }  // namespace
+
+Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOptions& options) try {
+  std::vector<std::uint8_t> head;
+  if (find_reader(path, head) == Reader::kGdal) return open_gdal_raster(path, options);
+  if (auto fits = check_whole_file(path, options); !fits) return tl::unexpected(fits.error());
+  ReadOptions whole = options;
+  whole.memory_limit = 0;
+  return read_height_field(path, whole);
+} catch (...) {
+  return caught(ErrorKind::kInput, "read " + path);
+}
 
 Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options) try {
   std::vector<std::uint8_t> head;

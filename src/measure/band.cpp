@@ -3,45 +3,77 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "grid/window.h"
 
 namespace scarp::judge {
 namespace {
 
-/// 1 for each sample of the row that is a height. Rows outside the field have none.
-bool mark_heights(const HeightField& field, int row, std::vector<std::uint8_t>& marks) {
-  if (row < 0 || row >= field.rows) {
-    std::fill(marks.begin(), marks.end(), std::uint8_t{0});
-    return false;
-  }
-  const auto cols = static_cast<std::size_t>(field.cols);
-  const float* samples = field.samples + static_cast<std::size_t>(row) * cols;
+/// 1 for each sample that is a height. Returns true if all are.
+bool mark_heights(const float* samples, std::vector<std::uint8_t>& marks) {
   bool all = true;
-  for (std::size_t i = 0; i < cols; ++i) {
-    const bool is_height = std::isfinite(samples[i]) && !(field.nodata && samples[i] == *field.nodata);
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const bool is_height = !std::isnan(samples[i]);
     marks[i] = is_height;
     all &= is_height;
   }
   return all;
 }
 
+/// The range of all samples. Lanes, since one minimum would have to wait for the one before it.
+HeightRange find_range(std::span<const float> samples) {
+  constexpr std::size_t kLanes = 8;
+  std::array<float, kLanes> least, most;
+  std::array<std::uint32_t, kLanes> valid{};
+  least.fill(std::numeric_limits<float>::infinity());
+  most.fill(-std::numeric_limits<float>::infinity());
+  const auto look = [&](std::size_t lane, float z) {
+    least[lane] = z < least[lane] ? z : least[lane];
+    most[lane] = z > most[lane] ? z : most[lane];
+    valid[lane] += z == z ? 1 : 0;
+  };
+  const std::size_t whole = samples.size() / kLanes * kLanes;
+  for (std::size_t i = 0; i < whole; i += kLanes) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane) look(lane, samples[i + lane]);
+  }
+  for (std::size_t i = whole; i < samples.size(); ++i) look(i - whole, samples[i]);
+  HeightRange range;
+  for (const std::uint32_t count : valid) range.valid += count;
+  if (range.valid == 0) return range;
+  range.min = *std::min_element(least.begin(), least.end());
+  range.max = *std::max_element(most.begin(), most.end());
+  return range;
+}
+
 }  // namespace
+
+Result<Band> Band::read(const HeightField& field, int first, int rows, const Limits& limits, double guard) {
+  Band band(field, first, rows, limits, guard);
+  const int top = std::max(first - 1, 0), bottom = std::min(band.end() + 1, field.rows);
+  float* samples = &band.heights_[band.height_at(0, top)];
+  if (auto read = read_window(field, 0, top, field.cols, bottom - top, samples, field.cols); !read)
+    return tl::unexpected(std::move(read.error()));
+  band.report_.heights = find_range({band.heights(first), band.errors_.size()});
+  band.classify();
+  return band;
+}
 
 Band::Band(const HeightField& field, int first, int rows, const Limits& limits, double guard)
     : cols_(field.cols),
       first_(first),
       rows_(rows),
+      has_row_below_(first + rows < field.rows),
       limits_(limits),
       least_limit_(limits.by_sample.empty() ? limits.everywhere : -HUGE_VAL),
       guard_(guard) {
   const std::size_t size = static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols_);
-  const float* samples = field.samples + static_cast<std::size_t>(first) * static_cast<std::size_t>(cols_);
-  heights_.assign(samples, samples + size);
+  heights_.assign(size + 2 * static_cast<std::size_t>(cols_), std::numeric_limits<float>::quiet_NaN());
   errors_.assign(size, std::numeric_limits<double>::quiet_NaN());
   row_void_cells_.assign(static_cast<std::size_t>(rows), 0);
-  classify(field);
 }
 
-void Band::classify(const HeightField& field) {
+void Band::classify() {
   const auto cols = static_cast<std::size_t>(cols_);
   const float nan = std::numeric_limits<float>::quiet_NaN();
   // marks: rows r − 1, r, r + 1. counts[c]: heights among the four corners of a cell, above and below row r.
@@ -52,19 +84,19 @@ void Band::classify(const HeightField& field) {
       counts[c] = static_cast<std::uint8_t>(top[c] + top[c + 1] + bottom[c] + bottom[c + 1]);
     }
   };
-  mark_heights(field, first_ - 1, before);
-  bool here_is_whole = mark_heights(field, first_, here);
+  mark_heights(heights(first_ - 1), before);
+  bool here_is_whole = mark_heights(heights(first_), here);
   count_cells(before, here, above);
   for (int row = first_; row < end(); ++row) {
-    const bool after_is_whole = mark_heights(field, row + 1, after);
+    const bool after_is_whole = mark_heights(heights(row + 1), after);
     if (here_is_whole && after_is_whole) {
       std::fill(below.begin(), below.end(), std::uint8_t{4});
     } else {
       count_cells(here, after, below);
     }
-    float* heights = &heights_[at(0, row)];
+    float* heights = &heights_[height_at(0, row)];
     // A whole row below a whole row needs no look at single samples; both count arrays stay true for the next row.
-    const bool has_cells = row + 1 < field.rows;
+    const bool has_cells = row + 1 < end() || has_row_below_;
     if (!(here_is_whole && after_is_whole && has_cells)) {
       for (std::size_t c = 0; c < cols; ++c) {
         if (!here[c]) {
@@ -79,7 +111,7 @@ void Band::classify(const HeightField& field) {
       }
       for (std::size_t c = 0; has_cells && c + 1 < cols; ++c) {
         if (below[c] == 4) continue;
-        if (cells_.empty()) cells_.assign(heights_.size(), kWhole);
+        if (cells_.empty()) cells_.assign(errors_.size(), kWhole);
         std::uint8_t kind = kVoid;
         if (below[c] == 3) {
           const int missing = !here[c] ? 0 : !here[c + 1] ? 1 : !after[c] ? 2 : 3;
@@ -118,7 +150,7 @@ bool Band::find_missing() {
     const double* error = errors(row);
     for (int c = 0; c < cols_; ++c) {
       if (!std::isnan(error[c]) || std::isnan(height[c])) continue;
-      if (!any) nearest_.assign(heights_.size(), {});
+      if (!any) nearest_.assign(errors_.size(), {});
       any = true;
       row_missing_[static_cast<std::size_t>(row - first_)] = 1;
       nearest_[at(c, row)].distance = HUGE_VAL;
@@ -147,7 +179,7 @@ BandReport Band::finish(Histogram& histogram, Keep keep) {
     for (int c = 0; !nearest_.empty() && c < cols_; ++c) {
       if (!is_missing(c, row)) continue;
       if (std::isnan(error[c])) {
-        ++report_.uncovered;
+        if (report_.uncovered++ == 0) report_.uncovered_at = {c, row};
         if (limits_.with_uncovered) report_.uncovered_offenders.push_back({c, row, HUGE_VAL});
       } else if (is_offender(c, row, error[c])) {
         add_offender(nearest_[at(c, row)].triangle, {c, row, error[c]});
@@ -161,8 +193,9 @@ BandReport Band::finish(Histogram& histogram, Keep keep) {
   offenders.erase(std::unique(offenders.begin(), offenders.end(), same), offenders.end());
   if (keep != Keep::kNothing) {
     report_.kept.resize(errors_.size());
+    const float* height = heights(first_);
     for (std::size_t i = 0; i < errors_.size(); ++i) {
-      report_.kept[i] = static_cast<float>(keep == Keep::kHeights ? double{heights_[i]} + errors_[i] : errors_[i]);
+      report_.kept[i] = static_cast<float>(keep == Keep::kHeights ? double{height[i]} + errors_[i] : errors_[i]);
     }
   }
   return std::move(report_);

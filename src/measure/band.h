@@ -12,6 +12,7 @@
 #include "measure/error_summary.h"
 #include "scarp/height_field.h"
 #include "scarp/measure.h"
+#include "scarp/result.h"
 
 namespace scarp::judge {
 
@@ -35,7 +36,9 @@ inline bool is_worse_of_triangle(const TriangleOffender& a, const TriangleOffend
 /// What one band says about the mesh. Depends on the band only.
 struct BandReport {
   std::vector<RowSums> rows;
+  HeightRange heights;
   std::uint64_t uncovered = 0, stray = 0, void_cells_covered = 0;
+  std::array<std::int32_t, 2> uncovered_at{-1, -1};  ///< the first one
   std::vector<TriangleOffender> offenders;
   std::vector<Offender> uncovered_offenders;
   std::uint64_t over_tolerance = 0;
@@ -52,19 +55,19 @@ struct Limits {
 /// What a band hands back for each sample: nothing, mesh − sample, or the mesh's height.
 enum class Keep { kNothing, kErrors, kHeights };
 
-/// Working copy of the rows [first, first + rows) of a field. Scanners read heights and cells, and write errors.
+/// The rows [first, first + rows) of a field, to work on. Scanners read heights and cells, and write errors.
 class Band {
  public:
   static int rows_per_band(int cols) { return cols <= 4096 ? 32 : std::max(8, 32 * 4096 / cols); }
 
-  /// Copies the rows, with every sample that need not be covered (void or stray) as NaN, and finds the cells that must
-  /// not be covered.
-  Band(const HeightField& field, int first, int rows, const Limits& limits, double guard);
+  /// Reads the rows, with every sample that need not be covered (void or stray) as NaN, and finds the cells that must
+  /// not be covered. Fails as the field's source does.
+  static Result<Band> read(const HeightField& field, int first, int rows, const Limits& limits, double guard);
 
   int first() const { return first_; }
   int end() const { return first_ + rows_; }
   int cols() const { return cols_; }
-  const float* heights(int row) const { return &heights_[at(0, row)]; }
+  const float* heights(int row) const { return &heights_[height_at(0, row)]; }
   double* errors(int row) { return &errors_[at(0, row)]; }
 
   /// Takes `error` for a sample of errors() if it is larger than what is `held` there; among equals the positive.
@@ -106,6 +109,8 @@ class Band {
   BandReport finish(Histogram& histogram, Keep keep);
 
  private:
+  Band(const HeightField& field, int first, int rows, const Limits& limits, double guard);
+
   struct Nearest {
     double distance = -1;  ///< −1: not missing; infinite: nothing near yet
     std::uint32_t triangle = 0;
@@ -114,6 +119,8 @@ class Band {
   std::size_t at(int col, int row) const {
     return static_cast<std::size_t>(row - first_) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(col);
   }
+  /// heights_ holds a row more above and below, for the cells there; NaN beyond the field.
+  std::size_t height_at(int col, int row) const { return at(col, row + 1); }
   bool is_close(int col, int row, double magnitude, double upper) const {
     const double lower = magnitude - (upper - magnitude);
     const auto is_between = [&](double limit) { return upper >= limit && lower <= limit; };
@@ -125,9 +132,10 @@ class Band {
                : double{limits_.by_sample[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols_) +
                                           static_cast<std::size_t>(col)]};
   }
-  void classify(const HeightField& field);
+  void classify();
 
   int cols_ = 0, first_ = 0, rows_ = 0;
+  bool has_row_below_ = false;  // in the field
   Limits limits_;
   double least_limit_ = HUGE_VAL;  // no sample has a smaller one
   double guard_ = 0, largest_ = 0;

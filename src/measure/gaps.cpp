@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "measure/bucket_grid.h"
+#include "measure/height_marks.h"
 #include "measure/scanner.h"
 #include "measure/topology.h"
 
@@ -26,19 +27,19 @@ struct Point {
 /// Which points of the grid belong to the domain.
 class Domain {
  public:
-  explicit Domain(const HeightField& field) : field_(field) {}
+  explicit Domain(const HeightField& field) : field_(field), marks_(field) {}
 
   double last_col() const { return field_.cols - 1.0; }
   double last_row() const { return field_.rows - 1.0; }
 
   /// True if p lies in a cell of four heights, or in the half cell of three; `q`, beside it, lies in the same one up to
   /// `noise` if it `is_beside`.
-  bool has_surface(const Point& p, const Point& q, double noise, bool& is_beside) const {
+  bool has_surface(const Point& p, const Point& q, double noise, bool& is_beside) {
     if (!(p.x >= 0 && p.y >= 0 && p.x < last_col() && p.y < last_row())) return false;
     const int col = static_cast<int>(p.x), row = static_cast<int>(p.y);
     int missing = -1;
     for (int k = 0; k < 4; ++k) {
-      if (is_height(col + k % 2, row + k / 2)) continue;
+      if (marks_.is_height(col + k % 2, row + k / 2)) continue;
       if (missing >= 0) return false;
       missing = k;
     }
@@ -52,14 +53,11 @@ class Domain {
     return from_corner(x, y) >= 1;
   }
 
- private:
-  bool is_height(int col, int row) const {
-    const float sample =
-        field_.samples[static_cast<std::size_t>(row) * static_cast<std::size_t>(field_.cols) + std::size_t(col)];
-    return std::isfinite(sample) && !(field_.nodata && sample == *field_.nodata);
-  }
+  const Result<void>& failure() const { return marks_.failure(); }
 
+ private:
   const HeightField& field_;
+  HeightMarks marks_;
 };
 
 /// Where the line from a to b crosses lattice lines, within the raster: ascending, in parts of the line, with both
@@ -190,8 +188,8 @@ void settle(const HeightField& field, const Mesh& mesh, const std::vector<Doubt>
 
 }  // namespace
 
-std::uint64_t count_gaps(const HeightField& field, const Mesh& mesh, std::span<const std::uint32_t> welded,
-                         std::span<const OpenEdge> open, double tolerance) {
+Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, std::span<const std::uint32_t> welded,
+                                 std::span<const OpenEdge> open, double tolerance) {
   if (open.empty()) return 0;
   // Ends of the edge, then the triangle's third corner.
   std::vector<std::uint32_t> vertices;
@@ -203,7 +201,7 @@ std::uint64_t count_gaps(const HeightField& field, const Mesh& mesh, std::span<c
     }
   }
   const std::vector<Point> points = map_to_grid(field, mesh, vertices);
-  const Domain domain(field);
+  Domain domain(field);
   const double step = std::clamp(4 * tolerance, 1.0 / 64, 0.25);
   // Less than any wedge between lattice edges of a raster in memory, more than the rounding of a mapped vertex.
   constexpr double kNoise = 1e-7;
@@ -239,6 +237,7 @@ std::uint64_t count_gaps(const HeightField& field, const Mesh& mesh, std::span<c
       }
     }
   }
+  if (!domain.failure()) return tl::unexpected(domain.failure().error());
   if (!doubts.empty()) settle(field, mesh, doubts, is_gap);
   return static_cast<std::uint64_t>(std::count(is_gap.begin(), is_gap.end(), true));
 }

@@ -29,7 +29,7 @@ using judge::ProgressGate;
 using judge::Sum;
 
 Result<void> check_input(const HeightField& field, const Mesh& mesh, const MeasureOptions& options) {
-  if (field.cols < 2 || field.rows < 2 || field.samples == nullptr) {
+  if (field.cols < 2 || field.rows < 2 || (field.samples == nullptr && field.source == nullptr)) {
     return fail(ErrorKind::kInput,
                 fmt::format("the height field has {}×{} samples; a mesh can be judged against at least 2×2", field.cols,
                             field.rows));
@@ -61,6 +61,8 @@ Result<void> check_input(const HeightField& field, const Mesh& mesh, const Measu
   return {};
 }
 
+tl::unexpected<Error> cancelled() { return fail(ErrorKind::kCancelled, "measuring was cancelled"); }
+
 /// 1 for counter-clockwise seen from above, −1 for clockwise, 0 without area.
 int facing(const Mesh& mesh, std::size_t t) {
   const double* a = &mesh.positions[3 * std::size_t{mesh.triangles[3 * t]}];
@@ -77,6 +79,8 @@ class Verdict {
       : options_(options), cols_(cols), result_(result) {}
 
   void add(int first_row, BandReport& report) {
+    add(report.heights);
+    if (result_.uncovered == 0) result_.uncovered_at = report.uncovered_at;
     result_.uncovered += report.uncovered;
     result_.over_tolerance += report.over_tolerance;
     result_.stray += report.stray;
@@ -121,6 +125,13 @@ class Verdict {
   }
 
  private:
+  void add(const HeightRange& range) {
+    HeightRange& all = result_.heights;
+    if (range.valid == 0) return;
+    all.min = all.valid == 0 ? range.min : std::min(all.min, range.min);
+    all.max = all.valid == 0 ? range.max : std::max(all.max, range.max);
+    all.valid += range.valid;
+  }
   /// A triangle in several bands has one offender, and so have two triangles that share a sample.
   void merge_offenders() {
     std::sort(offenders_.begin(), offenders_.end(), judge::is_worse_of_triangle);
@@ -156,9 +167,10 @@ double error_guard(const Mesh& mesh) {
   return kRounding * size;
 }
 
-/// Fills all that concerns heights; on_row is given what `keep` says. Returns false if the caller stopped it.
-bool judge_heights(const HeightField& field, const Mesh& mesh, const judge::Scanner& scanner,
-                   const MeasureOptions& options, judge::Keep keep, ProgressGate& gate, Measurement& result) {
+/// Fills all that concerns heights; on_row is given what `keep` says. Fails with kCancelled if the caller stops it, and
+/// as the field's source does.
+Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const judge::Scanner& scanner,
+                           const MeasureOptions& options, judge::Keep keep, ProgressGate& gate, Measurement& result) {
   const judge::Limits limits{options.collect_above.value_or(HUGE_VAL), options.tolerance,
                              options.collect_above.has_value() || !options.tolerance.empty()};
   const double guard = error_guard(mesh);
@@ -169,19 +181,26 @@ bool judge_heights(const HeightField& field, const Mesh& mesh, const judge::Scan
   std::vector<Histogram> histograms(static_cast<std::size_t>(std::min(window, bands)));
   Verdict verdict(options, field.cols, result);
   for (int first = 0; first < bands; first += window) {
-    if (!gate.go_on("measure", static_cast<double>(first) / bands, verdict.max_error())) return false;
-    std::vector<BandReport> reports(static_cast<std::size_t>(std::min(window, bands - first)));
+    if (!gate.go_on("measure", static_cast<double>(first) / bands, verdict.max_error())) return cancelled();
+    std::vector<Result<BandReport>> reports(static_cast<std::size_t>(std::min(window, bands - first)));
     parallel_for(reports.size(), options.threads, [&](std::size_t i) {
       const int row = (first + static_cast<int>(i)) * height;
-      Band band(field, row, std::min(height, field.rows - row), limits, guard);
-      scanner.scan(band);
-      reports[i] = band.finish(histograms[i], options.on_row ? keep : judge::Keep::kNothing);
+      Result<Band> band = Band::read(field, row, std::min(height, field.rows - row), limits, guard);
+      if (!band) {
+        reports[i] = tl::unexpected(std::move(band.error()));
+        return;
+      }
+      scanner.scan(*band);
+      reports[i] = band->finish(histograms[i], options.on_row ? keep : judge::Keep::kNothing);
     });
-    for (std::size_t i = 0; i < reports.size(); ++i) verdict.add((first + static_cast<int>(i)) * height, reports[i]);
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+      if (!reports[i]) return tl::unexpected(std::move(reports[i].error()));
+      verdict.add((first + static_cast<int>(i)) * height, *reports[i]);
+    }
   }
   for (std::size_t i = 1; i < histograms.size(); ++i) histograms[0].merge(histograms[i]);
   verdict.finish(histograms[0]);
-  return true;
+  return {};
 }
 
 /// Which triangles say something about heights: all, or the upward ones of a solid.
@@ -220,7 +239,6 @@ std::unique_ptr<judge::Scanner> make_scanner(const HeightField& field, const Mes
 Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const MeasureOptions& options) try {
   if (auto checked = check_input(field, mesh, options); !checked) return tl::unexpected<Error>(checked.error());
   ProgressGate gate(options.progress);
-  const auto cancelled = [] { return fail(ErrorKind::kCancelled, "measuring was cancelled"); };
 
   Measurement result;
   result.vertices = mesh.vertex_count();
@@ -231,7 +249,10 @@ Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const Me
 
   const double tolerance = options.coverage_tolerance;
   const auto scanner = make_scanner(field, mesh, judged, tolerance);
-  if (!judge_heights(field, mesh, *scanner, options, judge::Keep::kErrors, gate, result)) return cancelled();
+  if (auto judged_heights = judge_heights(field, mesh, *scanner, options, judge::Keep::kErrors, gate, result);
+      !judged_heights) {
+    return tl::unexpected(std::move(judged_heights.error()));
+  }
 
   if (options.topology) {
     if (!gate.go_on("topology", 0)) return cancelled();
@@ -241,7 +262,9 @@ Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const Me
     result.border_loops = edges.loops;
     judge::measure_shape(mesh, judged, result);
     result.t_junctions = judge::count_t_junctions(mesh, welded, edges.open);
-    result.gaps = judge::count_gaps(field, mesh, welded, edges.open, tolerance);
+    const Result<std::uint64_t> gaps = judge::count_gaps(field, mesh, welded, edges.open, tolerance);
+    if (!gaps) return tl::unexpected(gaps.error());
+    result.gaps = *gaps;
     bool is_stopped = false;
     result.overlaps = judge::count_overlaps(mesh, judged, options.threads, [&](double fraction) {
       is_stopped = !gate.go_on("topology", fraction);
@@ -258,6 +281,11 @@ Result<std::vector<float>> resample(const HeightField& field, const Mesh& mesh, 
   MeasureOptions options;
   options.threads = threads;
   if (auto checked = check_input(field, mesh, options); !checked) return tl::unexpected<Error>(checked.error());
+  if (field.samples == nullptr) {
+    return fail(ErrorKind::kUsage,
+                "a mesh is resampled to a raster in memory, and this height field's samples are not in memory as one "
+                "array: read it as a whole");
+  }
   std::vector<float> heights(static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows));
   options.on_row = [&](int row, std::span<const float> values) {
     std::copy(values.begin(), values.end(), heights.begin() + std::ptrdiff_t{row} * field.cols);
@@ -265,7 +293,8 @@ Result<std::vector<float>> resample(const HeightField& field, const Mesh& mesh, 
   const auto scanner = make_scanner(field, mesh, find_surface(mesh, false).judged, options.coverage_tolerance);
   ProgressGate gate(options.progress);
   Measurement ignored;
-  judge_heights(field, mesh, *scanner, options, judge::Keep::kHeights, gate, ignored);
+  auto judged = judge_heights(field, mesh, *scanner, options, judge::Keep::kHeights, gate, ignored);
+  if (!judged) return tl::unexpected(std::move(judged.error()));
   return heights;
 } catch (...) {
   return caught(ErrorKind::kInput, "resample the mesh");

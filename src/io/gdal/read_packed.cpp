@@ -4,13 +4,13 @@
 //   mapbox:     −10000 + (R·65536 + G·256 + B)·0.1   steps of 0.1 m: rounded to float32, the rounding recorded
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "io/gdal/read_samples.h"
-#include "io/gdal/windows.h"
 
 namespace scarp::gdal {
 namespace {
@@ -32,6 +32,62 @@ std::optional<std::array<std::uint8_t, 3>> find_void_colour(GDALDatasetH dataset
   return colour;
 }
 
+class PackedReader : public WindowReader {
+ public:
+  PackedReader(GDALDatasetH dataset, const ReadOptions& options)
+      : dataset_(dataset),
+        decode_(options.decode),
+        nodata_(options.nodata),
+        bands_(GDALGetRasterCount(dataset)),
+        red_(GDALGetRasterBand(dataset, 1)),
+        masked_(bands_ == 3 && (GDALGetMaskFlags(red_) & GMF_PER_DATASET) != 0),
+        void_colour_(options.nodata ? std::nullopt : find_void_colour(dataset)) {}
+
+  bool read(const Window& w, float* out, std::ptrdiff_t stride) override {
+    const auto count = static_cast<std::size_t>(w.cols) * static_cast<std::size_t>(w.rows);
+    const auto depth = static_cast<std::size_t>(bands_);
+    pixels_.resize(count * depth);
+    if (GDALDatasetRasterIOEx(dataset_, GF_Read, w.col, w.row, w.cols, w.rows, pixels_.data(), w.cols, w.rows, GDT_Byte,
+                              bands_, nullptr, bands_, static_cast<GSpacing>(bands_) * w.cols, 1, nullptr) != CE_None) {
+      return false;
+    }
+    if (masked_) {
+      mask_.resize(count);
+      if (GDALRasterIOEx(GDALGetMaskBand(red_), GF_Read, w.col, w.row, w.cols, w.rows, mask_.data(), w.cols, w.rows,
+                         GDT_Byte, 0, 0, nullptr) != CE_None) {
+        return false;
+      }
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto row = static_cast<std::ptrdiff_t>(k / static_cast<std::size_t>(w.cols));
+      const auto col = static_cast<std::ptrdiff_t>(k % static_cast<std::size_t>(w.cols));
+      out[row * stride + col] = height_of(pixels_.data() + k * depth, masked_ && mask_[k] == 0);
+    }
+    return true;
+  }
+
+ private:
+  float height_of(const std::uint8_t* rgb, bool is_masked) {
+    const double height = decode_height(decode_, rgb);
+    const bool is_void = (bands_ == 4 && rgb[3] == 0) || is_masked ||
+                         (void_colour_ && std::equal(rgb, rgb + 3, void_colour_->begin())) ||
+                         (nodata_ && static_cast<float>(*nodata_) == static_cast<float>(height));
+    if (is_void) return std::numeric_limits<float>::quiet_NaN();
+    const auto z = static_cast<float>(height);
+    findings_.rounding = std::max(findings_.rounding, std::abs(height - static_cast<double>(z)));
+    return z;
+  }
+
+  GDALDatasetH dataset_;
+  Decode decode_;
+  std::optional<double> nodata_;
+  int bands_;
+  GDALRasterBandH red_;
+  bool masked_;
+  std::optional<std::array<std::uint8_t, 3>> void_colour_;
+  std::vector<std::uint8_t> pixels_, mask_;
+};
+
 }  // namespace
 
 Result<void> verify_packed(GDALDatasetH dataset, const std::string& path) {
@@ -45,44 +101,8 @@ Result<void> verify_packed(GDALDatasetH dataset, const std::string& path) {
                   count, GDALGetDataTypeName(GDALGetRasterDataType(GDALGetRasterBand(dataset, 1)))));
 }
 
-Result<void> read_packed(Session& session, GDALDatasetH dataset, const ReadOptions& options, OwnedHeightField& field) {
-  const int bands = GDALGetRasterCount(dataset);
-  GDALRasterBandH red = GDALGetRasterBand(dataset, 1);
-  const int mask_flags = GDALGetMaskFlags(red);
-  const bool masked = bands == 3 && (mask_flags & GMF_PER_DATASET) != 0;
-  const auto void_colour = options.nodata ? std::nullopt : find_void_colour(dataset);
-  std::vector<std::uint8_t> pixels, mask;
-  return for_each_window(session, red, field, options.progress, [&](const Window& w) {
-    const auto count = static_cast<std::size_t>(w.cols) * static_cast<std::size_t>(w.rows);
-    const auto depth = static_cast<std::size_t>(bands);
-    pixels.resize(count * depth);
-    if (GDALDatasetRasterIOEx(dataset, GF_Read, w.col, w.row, w.cols, w.rows, pixels.data(), w.cols, w.rows, GDT_Byte,
-                              bands, nullptr, bands, static_cast<GSpacing>(bands) * w.cols, 1, nullptr) != CE_None) {
-      return false;
-    }
-    if (masked) {
-      mask.resize(count);
-      if (GDALRasterIOEx(GDALGetMaskBand(red), GF_Read, w.col, w.row, w.cols, w.rows, mask.data(), w.cols, w.rows,
-                         GDT_Byte, 0, 0, nullptr) != CE_None) {
-        return false;
-      }
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::uint8_t* rgb = pixels.data() + k * depth;
-      const std::size_t row = static_cast<std::size_t>(w.row) + k / static_cast<std::size_t>(w.cols);
-      const std::size_t col = static_cast<std::size_t>(w.col) + k % static_cast<std::size_t>(w.cols);
-      float& z = field.samples[row * static_cast<std::size_t>(field.cols) + col];
-      const double height = decode_height(options.decode, rgb);
-      const bool is_void = (bands == 4 && rgb[3] == 0) || (masked && mask[k] == 0) ||
-                           (void_colour && std::equal(rgb, rgb + 3, void_colour->begin())) ||
-                           (options.nodata && static_cast<float>(*options.nodata) == static_cast<float>(height));
-      z = is_void ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(height);
-      if (!is_void) {
-        field.sample_rounding = std::max(field.sample_rounding, std::abs(height - static_cast<double>(z)));
-      }
-    }
-    return true;
-  });
+std::unique_ptr<WindowReader> make_packed_reader(GDALDatasetH dataset, const ReadOptions& options) {
+  return std::make_unique<PackedReader>(dataset, options);
 }
 
 }  // namespace scarp::gdal

@@ -2,7 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
+#include <mutex>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "io/gdal/georeference.h"
 #include "io/gdal/open.h"
@@ -69,33 +74,141 @@ void add_gdal_warnings(const Session& session, RasterInfo& info) {
   for (const std::string& warning : session.warnings()) info.warnings.push_back("GDAL: " + warning);
 }
 
-Result<OwnedHeightField> read(const std::string& path, const ReadOptions& options) {
-  Session session(is_remote(path));
+/// A raster and all that is known before its samples are read.
+struct Opened {
+  Plan plan;
+  OwnedHeightField field;
+
+  std::unique_ptr<WindowReader> make_reader(const ReadOptions& options) const {
+    return options.decode == Decode::kNone ? make_band_reader(plan.band)
+                                           : make_packed_reader(plan.dataset.get(), options);
+  }
+  GDALRasterBandH first_band(const ReadOptions& options) const {
+    return options.decode == Decode::kNone ? plan.band.band : GDALGetRasterBand(plan.dataset.get(), 1);
+  }
+};
+
+Result<Opened> open(Session& session, const std::string& path, const ReadOptions& options) {
   auto plan = plan_raster(session, path, options);
   if (!plan) return tl::unexpected(plan.error());
   const Georeference& geo = plan->georeference;
-  if (auto fits =
-          check_raster_size(path, static_cast<std::uint64_t>(geo.cols), static_cast<std::uint64_t>(geo.rows), options);
-      !fits) {
-    return tl::unexpected(fits.error());
-  }
+  const auto cols = static_cast<std::uint64_t>(geo.cols), rows = static_cast<std::uint64_t>(geo.rows);
+  if (auto fits = check_raster_sides(path, cols, rows); !fits) return tl::unexpected(fits.error());
   auto frame = choose_frame(geo, options.crs, plan->info);
   if (!frame) return tl::unexpected(frame.error());
   warn_of_units(*frame, geo, plan->info);
+  Opened opened;
+  opened.field.cols = geo.cols;
+  opened.field.rows = geo.rows;
+  opened.field.frame = std::move(*frame);
+  opened.field.info = std::move(plan->info);
+  opened.plan = std::move(*plan);
+  return opened;
+}
 
-  OwnedHeightField field;
-  field.cols = geo.cols;
-  field.rows = geo.rows;
-  field.frame = std::move(*frame);
-  field.info = std::move(plan->info);
+Result<OwnedHeightField> read_samples(Session& session, Opened opened, const ReadOptions& options) {
+  OwnedHeightField& field = opened.field;
+  const std::string& path = field.info.path;
   if (auto allocated = allocate_samples(path, field); !allocated) return tl::unexpected(allocated.error());
   std::uint64_t infinities = 0;
-  auto samples = options.decode == Decode::kNone ? read_band(session, plan->band, options, field, infinities)
-                                                 : read_packed(session, plan->dataset.get(), options, field);
+  const auto reader = opened.make_reader(options);
+  auto samples = read_windows(session, opened.first_band(options), *reader, options, field, infinities);
   if (!samples) return tl::unexpected(samples.error());
   add_gdal_warnings(session, field.info);
   if (auto finished = finish_raster(field, infinities); !finished) return tl::unexpected(finished.error());
-  return field;
+  return std::move(field);
+}
+
+Result<OwnedHeightField> read(const std::string& path, const ReadOptions& options) {
+  Session session(is_remote(path));
+  auto opened = open(session, path, options);
+  if (!opened) return tl::unexpected(opened.error());
+  const auto cols = static_cast<std::uint64_t>(opened->field.cols),
+             rows = static_cast<std::uint64_t>(opened->field.rows);
+  if (auto fits = check_raster_size(path, cols, rows, options); !fits) return tl::unexpected(fits.error());
+  return read_samples(session, std::move(*opened), options);
+}
+
+/// Samples that stay in their file.
+class FileSource : public SampleSource {
+ public:
+  FileSource(Plan plan, std::unique_ptr<WindowReader> reader, std::string path)
+      : plan_(std::move(plan)), reader_(std::move(reader)), path_(std::move(path)), is_remote_(is_remote(path_)) {}
+
+  Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
+    const std::lock_guard lock(mutex_);
+    Session session(is_remote_);
+    return read_or_explain(session, {col, row, cols, rows}, path_, [&](const Window& window) {
+      return reader_->read(window, out + (window.row - row) * stride, stride);
+    });
+  }
+
+ private:
+  Plan plan_;
+  std::unique_ptr<WindowReader> reader_;
+  std::string path_;
+  bool is_remote_;
+  mutable std::mutex mutex_;
+};
+
+/// Reads all samples once, for their range and their rounding.
+Result<void> survey(Session& session, GDALRasterBandH band, WindowReader& reader, const ReadOptions& options,
+                    OwnedHeightField& field) {
+  RasterInfo& info = field.info;
+  info.min = HUGE_VAL;
+  info.max = -HUGE_VAL;
+  std::vector<float> heights;
+  const auto look = [&](const Window& window) {
+    heights.resize(static_cast<std::size_t>(window.cols) * static_cast<std::size_t>(window.rows));
+    if (!reader.read(window, heights.data(), window.cols)) return false;
+    for (const float z : heights) {
+      if (std::isnan(z)) continue;
+      ++info.valid;
+      info.min = std::min(info.min, double{z});
+      info.max = std::max(info.max, double{z});
+    }
+    return true;
+  };
+  const Extent extent{info.path, field.cols, field.rows};
+  if (auto done = for_each_window(session, band, extent, options.progress, look); !done) return done;
+  info.has_range = true;
+  field.sample_rounding = reader.findings().rounding;
+  return finish_info(field, reader.findings().infinities);
+}
+
+/// Leaves the samples in their file.
+Result<OwnedHeightField> keep_in_file(Session& session, Opened opened, const ReadOptions& options) {
+  widen_block_cache(options.memory_limit / 2);
+  OwnedHeightField& field = opened.field;
+  field.info.has_range = false;
+  auto reader = opened.make_reader(options);
+  const bool may_round =
+      options.decode == Decode::kMapbox || (options.decode == Decode::kNone && !is_float32(opened.plan.band));
+  if (options.with_range || may_round) {
+    auto seen = survey(session, opened.first_band(options), *reader, options, field);
+    if (!seen) return tl::unexpected(seen.error());
+  }
+  add_gdal_warnings(session, field.info);
+  field.source = std::make_shared<FileSource>(std::move(opened.plan), std::move(reader), field.info.path);
+  return std::move(field);
+}
+
+Result<OwnedHeightField> open_field(const std::string& path, const ReadOptions& options) {
+  Session session(is_remote(path));
+  auto opened = open(session, path, options);
+  if (!opened) return tl::unexpected(opened.error());
+  OwnedHeightField& field = opened->field;
+  const double samples = static_cast<double>(field.cols) * static_cast<double>(field.rows);
+  const double memory = 5.0 * static_cast<double>(max_samples(options.memory_limit));
+  if (sizeof(float) * samples <= memory) return read_samples(session, std::move(*opened), options);
+  const bool is_coded = options.decode == Decode::kNone && has_codes(opened->plan.band);
+  if (!is_coded || 2 * samples > memory) return keep_in_file(session, std::move(*opened), options);
+  std::uint64_t infinities = 0;
+  auto read = read_codes(session, opened->plan.band, options, field, infinities);
+  if (!read) return tl::unexpected(read.error());
+  add_gdal_warnings(session, field.info);
+  if (auto finished = finish_info(field, infinities); !finished) return tl::unexpected(finished.error());
+  return std::move(field);
 }
 
 }  // namespace
@@ -103,6 +216,10 @@ Result<OwnedHeightField> read(const std::string& path, const ReadOptions& option
 
 Result<OwnedHeightField> read_gdal_raster(const std::string& path, const ReadOptions& options) {
   return gdal::read(path, options);
+}
+
+Result<OwnedHeightField> open_gdal_raster(const std::string& path, const ReadOptions& options) {
+  return gdal::open_field(path, options);
 }
 
 }  // namespace scarp

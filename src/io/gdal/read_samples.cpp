@@ -13,8 +13,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/int128.h"
@@ -23,6 +25,7 @@
 namespace scarp::gdal {
 namespace {
 
+constexpr std::size_t kCodes = 65536;
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
 constexpr double kLargest = std::numeric_limits<float>::max();
 
@@ -59,18 +62,21 @@ double distance(Integer raw, float rounded) {
   return static_cast<double>(difference < 0 ? -difference : difference);
 }
 
-class BandReader {
- public:
-  BandReader(const BandPlan& plan, OwnedHeightField& field, std::uint64_t& infinities)
-      : plan_(plan), field_(field), infinities_(infinities) {}
+bool is_scaled(const BandPlan& plan) { return plan.scale != 1 || plan.offset != 0; }
 
-  bool read(const Window& window) {
+class BandReader : public WindowReader {
+ public:
+  explicit BandReader(const BandPlan& plan) : plan_(plan) {}
+
+  bool read(const Window& window, float* out, std::ptrdiff_t stride) override {
+    out_ = out;
+    stride_ = stride;
     bool done = false;
     if (plan_.type == GDT_Int64) {
       done = read_converted<std::int64_t>(window, GDT_Int64, NodataTest<std::int64_t>(plan_.nodata_int64));
     } else if (plan_.type == GDT_UInt64) {
       done = read_converted<std::uint64_t>(window, GDT_UInt64, NodataTest<std::uint64_t>(plan_.nodata_uint64));
-    } else if (is_direct()) {
+    } else if (is_float32(plan_)) {
       done = read_direct(window);
     } else {
       done = read_converted<double>(window, GDT_Float64, NodataTest<double>(plan_.nodata));
@@ -78,34 +84,28 @@ class BandReader {
     return done && apply_mask(window);
   }
 
- private:
-  bool is_scaled() const { return plan_.scale != 1 || plan_.offset != 0; }
-  bool is_direct() const {
-    const GDALDataType type = plan_.type;
-    return !is_scaled() && (type == GDT_Byte || type == GDT_Int16 || type == GDT_UInt16 || type == GDT_Float32);
-  }
+  /// The height that a value of the band stands for.
+  float height_of(double raw) { return convert(raw, NodataTest<double>(plan_.nodata)); }
 
-  float* row_of(const Window& window, int row) {
-    return field_.samples.data() + static_cast<std::size_t>(window.row + row) * static_cast<std::size_t>(field_.cols) +
-           window.col;
-  }
+ private:
+  float* row_of(int row) const { return out_ + row * stride_; }
 
   bool read_direct(const Window& window) {
-    const GSpacing line = static_cast<GSpacing>(field_.cols) * static_cast<GSpacing>(sizeof(float));
-    if (GDALRasterIOEx(plan_.band, GF_Read, window.col, window.row, window.cols, window.rows, row_of(window, 0),
-                       window.cols, window.rows, GDT_Float32, sizeof(float), line, nullptr) != CE_None) {
+    const GSpacing line = static_cast<GSpacing>(stride_) * static_cast<GSpacing>(sizeof(float));
+    if (GDALRasterIOEx(plan_.band, GF_Read, window.col, window.row, window.cols, window.rows, out_, window.cols,
+                       window.rows, GDT_Float32, sizeof(float), line, nullptr) != CE_None) {
       return false;
     }
     const NodataTest<float> is_nodata(narrowed_nodata());
     for (int row = 0; row < window.rows; ++row) {
-      float* z = row_of(window, row);
+      float* z = row_of(row);
       for (int col = 0; col < window.cols; ++col) {
         if (plan_.signed_byte && z[col] > 127) z[col] -= 256;
         if (is_nodata(z[col]) || std::isnan(z[col])) {
           z[col] = kVoid;
         } else if (std::isinf(z[col])) {
           z[col] = kVoid;
-          ++infinities_;
+          ++findings_.infinities;
         }
       }
     }
@@ -134,7 +134,7 @@ class BandReader {
       return false;
     }
     for (int row = 0; row < window.rows; ++row) {
-      float* z = row_of(window, row);
+      float* z = row_of(row);
       for (int col = 0; col < window.cols; ++col, ++raw) {
         z[col] = convert(*raw, is_nodata);
       }
@@ -148,14 +148,14 @@ class BandReader {
     if (is_nodata(raw)) return kVoid;
     double value = static_cast<double>(raw);
     if (std::isnan(value)) return kVoid;
-    if (is_scaled()) value = value * plan_.scale + plan_.offset;
+    if (is_scaled(plan_)) value = value * plan_.scale + plan_.offset;
     const float z = to_float32(value);
     if (std::isnan(z)) {
-      ++infinities_;
+      ++findings_.infinities;
       return kVoid;
     }
-    const double moved = is_scaled() || std::is_floating_point_v<Raw> ? distance(value, z) : distance(raw, z);
-    if (moved > field_.sample_rounding) field_.sample_rounding = moved;
+    const double moved = is_scaled(plan_) || std::is_floating_point_v<Raw> ? distance(value, z) : distance(raw, z);
+    findings_.rounding = std::max(findings_.rounding, moved);
     return z;
   }
 
@@ -169,7 +169,7 @@ class BandReader {
     }
     const std::uint8_t* shown = mask_.data();
     for (int row = 0; row < window.rows; ++row) {
-      float* z = row_of(window, row);
+      float* z = row_of(row);
       for (int col = 0; col < window.cols; ++col, ++shown) {
         if (*shown == 0) z[col] = kVoid;
       }
@@ -177,28 +177,99 @@ class BandReader {
     return true;
   }
 
-  const BandPlan& plan_;
-  OwnedHeightField& field_;
-  std::uint64_t& infinities_;
+  const BandPlan plan_;
+  float* out_ = nullptr;
+  std::ptrdiff_t stride_ = 0;
   std::vector<unsigned char> buffer_;  // of whatever type the window is read in
   std::vector<std::uint8_t> mask_;
 };
 
+bool read_into(WindowReader& reader, const Window& window, OwnedHeightField& field) {
+  const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(window.row) * field.cols + window.col;
+  return reader.read(window, field.samples.data() + first, field.cols);
+}
+
 }  // namespace
 
-Result<void> read_band(Session& session, const BandPlan& plan, const ReadOptions& options, OwnedHeightField& field,
-                       std::uint64_t& infinities) {
-  return read_bands(session, {&plan, 1}, options, {&field, 1}, infinities);
+bool is_float32(const BandPlan& plan) {
+  const GDALDataType type = plan.type;
+  return !is_scaled(plan) && (type == GDT_Byte || type == GDT_Int16 || type == GDT_UInt16 || type == GDT_Float32);
+}
+
+std::unique_ptr<WindowReader> make_band_reader(const BandPlan& plan) { return std::make_unique<BandReader>(plan); }
+
+Result<void> read_windows(Session& session, GDALRasterBandH band, WindowReader& reader, const ReadOptions& options,
+                          OwnedHeightField& field, std::uint64_t& infinities) {
+  const Extent extent{field.info.path, field.cols, field.rows};
+  auto done = for_each_window(session, band, extent, options.progress,
+                              [&](const Window& window) { return read_into(reader, window, field); });
+  field.sample_rounding = reader.findings().rounding;
+  infinities += reader.findings().infinities;
+  return done;
 }
 
 Result<void> read_bands(Session& session, std::span<const BandPlan> plans, const ReadOptions& options,
                         std::span<OwnedHeightField> fields, std::uint64_t& infinities) {
-  std::vector<BandReader> readers;
-  readers.reserve(plans.size());
-  for (std::size_t k = 0; k < plans.size(); ++k) readers.emplace_back(plans[k], fields[k], infinities);
-  return for_each_window(session, plans[0].band, fields[0], options.progress, [&](const Window& window) {
-    return std::all_of(readers.begin(), readers.end(), [&](BandReader& reader) { return reader.read(window); });
+  std::vector<BandReader> readers(plans.begin(), plans.end());
+  const Extent extent{fields[0].info.path, fields[0].cols, fields[0].rows};
+  auto done = for_each_window(session, plans[0].band, extent, options.progress, [&](const Window& window) {
+    bool all = true;
+    for (std::size_t k = 0; all && k < readers.size(); ++k) all = read_into(readers[k], window, fields[k]);
+    return all;
   });
+  for (std::size_t k = 0; k < readers.size(); ++k) {
+    fields[k].sample_rounding = readers[k].findings().rounding;
+    infinities += readers[k].findings().infinities;
+  }
+  return done;
+}
+
+bool has_codes(const BandPlan& plan) {
+  const bool is_16_bit = plan.type == GDT_Byte || plan.type == GDT_Int16 || plan.type == GDT_UInt16;
+  return is_16_bit && plan.mask == nullptr;
+}
+
+Result<void> read_codes(Session& session, const BandPlan& plan, const ReadOptions& options, OwnedHeightField& field,
+                        std::uint64_t& infinities) {
+  const auto cols = static_cast<std::size_t>(field.cols);
+  std::vector<std::uint16_t> codes;
+  try {
+    codes.resize(cols * static_cast<std::size_t>(field.rows));
+  } catch (const std::exception&) {
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: the machine refuses the memory that {} x {} samples of 16 bits need", field.info.path,
+                            field.cols, field.rows));
+  }
+  const GDALDataType type = plan.type == GDT_Int16 ? GDT_Int16 : GDT_UInt16;
+  std::vector<std::uint64_t> counts(kCodes);
+  const auto read = [&](const Window& window) {
+    std::uint16_t* first = codes.data() + static_cast<std::size_t>(window.row) * cols + window.col;
+    return GDALRasterIOEx(plan.band, GF_Read, window.col, window.row, window.cols, window.rows, first, window.cols,
+                          window.rows, type, sizeof(std::uint16_t), static_cast<GSpacing>(cols * sizeof(std::uint16_t)),
+                          nullptr) == CE_None;
+  };
+  const Extent extent{field.info.path, field.cols, field.rows};
+  if (auto done = for_each_window(session, plan.band, extent, options.progress, read); !done) return done;
+  for (const std::uint16_t code : codes) ++counts[code];
+
+  BandReader reader(plan);
+  RasterInfo& info = field.info;
+  std::vector<float> heights(kCodes, kVoid);
+  for (std::size_t code = 0; code < kCodes; ++code) {
+    if (counts[code] == 0) continue;
+    const std::uint64_t infinities_before = reader.findings().infinities;
+    const auto bits = static_cast<std::uint16_t>(code);
+    const float z = reader.height_of(type == GDT_Int16 ? static_cast<std::int16_t>(bits) : bits);
+    infinities += counts[code] * (reader.findings().infinities - infinities_before);
+    if (std::isnan(z)) continue;
+    heights[code] = z;
+    info.min = info.valid == 0 ? double{z} : std::min(info.min, double{z});
+    info.max = info.valid == 0 ? double{z} : std::max(info.max, double{z});
+    info.valid += counts[code];
+  }
+  field.sample_rounding = reader.findings().rounding;
+  field.source = make_coded_source(std::move(codes), field.cols, std::move(heights));
+  return {};
 }
 
 }  // namespace scarp::gdal

@@ -3,12 +3,15 @@
 
 #include <gdal.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "io/gdal/session.h"
+#include "io/gdal/windows.h"
 #include "scarp/io.h"
 
 namespace scarp::gdal {
@@ -31,19 +34,49 @@ Result<BandPlan> plan_band(GDALDatasetH dataset, const std::string& path, const 
 /// Adds what seems odd about a band of heights: that it is a colour or the number of one.
 void warn_of_colours(GDALDatasetH dataset, const BandPlan& plan, RasterInfo& info);
 
-/// Reads the band into field.samples (already allocated) by windows of a few MB that follow the file's own blocks. Void
-/// samples become NaN. Sets field.sample_rounding; counts infinities and values beyond float32 in `infinities`. kInput
-/// as soon as GDAL reports any failure, kCancelled if the callback says so.
-Result<void> read_band(Session& session, const BandPlan& plan, const ReadOptions& options, OwnedHeightField& field,
-                       std::uint64_t& infinities);
+/// What reading came upon.
+struct Findings {
+  std::uint64_t infinities = 0;  ///< infinities and values beyond float32, which became void
+  double rounding = 0;           ///< largest |value − float32 sample|
+};
+
+/// Reads windows of heights, void as NaN. Not for several threads at once.
+class WindowReader {
+ public:
+  virtual ~WindowReader() = default;
+  /// Writes the window to `out`, `stride` floats from row to row. False if GDAL fails.
+  virtual bool read(const Window& window, float* out, std::ptrdiff_t stride) = 0;
+  /// Of all windows so far.
+  const Findings& findings() const { return findings_; }
+
+ protected:
+  Findings findings_;
+};
+
+/// Of one band.
+std::unique_ptr<WindowReader> make_band_reader(const BandPlan& plan);
+/// Of heights packed into bands of colour.
+std::unique_ptr<WindowReader> make_packed_reader(GDALDatasetH dataset, const ReadOptions& options);
+
+/// Reads the raster of `band` into field.samples (already allocated) by windows of a few MB that follow the file's own
+/// blocks. Sets field.sample_rounding; adds to `infinities`. kInput as soon as GDAL reports any failure, kCancelled if
+/// the callback says so.
+Result<void> read_windows(Session& session, GDALRasterBandH band, WindowReader& reader, const ReadOptions& options,
+                          OwnedHeightField& field, std::uint64_t& infinities);
 
 /// The same for several bands of one raster, each into the field of its number; windows are read for all bands before
 /// the next, so that interleaved files are decoded once.
 Result<void> read_bands(Session& session, std::span<const BandPlan> plans, const ReadOptions& options,
                         std::span<OwnedHeightField> fields, std::uint64_t& infinities);
 
-/// The same for heights packed into bands of colour.
-Result<void> read_packed(Session& session, GDALDatasetH dataset, const ReadOptions& options, OwnedHeightField& field);
+/// True if every sample that the band can hold is a float32: no rounding is to be found.
+bool is_float32(const BandPlan& plan);
+/// True if the band's samples can be kept as 16-bit codes.
+bool has_codes(const BandPlan& plan);
+/// Reads such a band as codes into field.source. Sets field.sample_rounding and the range of field.info; counts
+/// infinities. Fails as read_windows(), and with kInput if the machine refuses the memory.
+Result<void> read_codes(Session& session, const BandPlan& plan, const ReadOptions& options, OwnedHeightField& field,
+                        std::uint64_t& infinities);
 
 /// kInput unless the dataset has 3 or 4 bands of unsigned bytes.
 Result<void> verify_packed(GDALDatasetH dataset, const std::string& path);

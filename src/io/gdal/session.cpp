@@ -36,6 +36,12 @@ std::string tidy(std::string text) {
 
 }  // namespace
 
+void widen_block_cache(std::uint64_t bytes) {
+  start_gdal_once();
+  if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr) != nullptr) return;
+  GDALSetCacheMax64(std::max(GDALGetCacheMax64(), static_cast<GIntBig>(bytes)));
+}
+
 Session::Session(bool remote) {
   CPLPushErrorHandlerEx(collect, this);
   start_gdal_once();

@@ -1,11 +1,15 @@
 // GDAL's global state, kept at bay.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace scarp::gdal {
+
+/// Lets GDAL's block cache, which all files of the process share, grow to at least this; not if GDAL_CACHEMAX is set.
+void widen_block_cache(std::uint64_t bytes);
 
 /// While a Session lives, what GDAL and PROJ have to say in this thread is collected instead of printed, and, for
 /// remote files, options that make range requests cheap and finite are set for this thread wherever the user has not

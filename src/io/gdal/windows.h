@@ -9,7 +9,6 @@
 #include <string>
 
 #include "io/gdal/session.h"
-#include "scarp/height_field.h"
 #include "scarp/progress.h"
 #include "scarp/result.h"
 
@@ -48,38 +47,49 @@ std::string name_damaged_rows(Session& session, const Window& window, Read read)
   return fmt::format("rows {} to {}", window.row, window.row + window.rows - 1);
 }
 
-/// Calls read(window) -> bool for all windows, rows of windows from the top. Fails with kInput if `read` returns false
-/// or GDAL has reported a failure meanwhile (a driver may report one and still hand out zeros), with kCancelled if the
-/// callback says so; calls the callback at most ten times a second.
+/// Calls read(window) -> bool once. Fails with kInput if it returns false or GDAL has reported a failure meanwhile (a
+/// driver may report one and still hand out zeros); `path` is named.
 template <class Read>
-Result<void> for_each_window(Session& session, GDALRasterBandH band, const OwnedHeightField& field,
+Result<void> read_or_explain(Session& session, const Window& window, const std::string& path, Read read) {
+  session.clear();
+  if (read(window) && !session.failed()) return {};
+  const std::string reason = session.reason();
+  if (session.out_of_memory()) {
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: the machine refuses the memory that reading it needs ({})", path, reason));
+  }
+  return fail(ErrorKind::kInput, fmt::format("{}: {} cannot be read, the file is truncated or damaged: {}", path,
+                                             name_damaged_rows(session, window, read), reason));
+}
+
+/// The raster whose windows are read.
+struct Extent {
+  const std::string& path;
+  int cols = 0, rows = 0;
+};
+
+/// Calls read(window) -> bool for all windows, rows of windows from the top. Fails as read_or_explain(), with
+/// kCancelled if the callback says so; calls the callback at most ten times a second.
+template <class Read>
+Result<void> for_each_window(Session& session, GDALRasterBandH band, const Extent& raster,
                              const ProgressCallback& progress, Read read) {
   using Clock = std::chrono::steady_clock;
-  const Window size = window_size(band, field.cols, field.rows);
+  const Window size = window_size(band, raster.cols, raster.rows);
   auto last = Clock::now();
-  session.clear();
-  for (int row = 0; row < field.rows; row += size.rows) {
-    const int rows = std::min(size.rows, field.rows - row);
-    for (int col = 0; col < field.cols; col += size.cols) {
-      const Window window{col, row, std::min(size.cols, field.cols - col), rows};
-      if (!read(window) || session.failed()) {
-        const std::string reason = session.reason();
-        if (session.out_of_memory()) {
-          return fail(ErrorKind::kInput, fmt::format("{}: the machine refuses the memory that reading it needs ({})",
-                                                     field.info.path, reason));
-        }
-        return fail(ErrorKind::kInput, fmt::format("{}: {} cannot be read, the file is truncated or damaged: {}",
-                                                   field.info.path, name_damaged_rows(session, window, read), reason));
-      }
+  for (int row = 0; row < raster.rows; row += size.rows) {
+    const int rows = std::min(size.rows, raster.rows - row);
+    for (int col = 0; col < raster.cols; col += size.cols) {
+      const Window window{col, row, std::min(size.cols, raster.cols - col), rows};
+      if (auto done = read_or_explain(session, window, raster.path, read); !done) return done;
       if (progress && Clock::now() - last > std::chrono::milliseconds(100)) {
         last = Clock::now();
         Progress now;
         now.pass = "read";
-        now.fraction = (row + static_cast<double>(rows) * (col + window.cols) / field.cols) / field.rows;
-        if (!progress(now)) return fail(ErrorKind::kCancelled, field.info.path + ": reading was cancelled");
+        now.fraction = (row + static_cast<double>(rows) * (col + window.cols) / raster.cols) / raster.rows;
+        if (!progress(now)) return fail(ErrorKind::kCancelled, raster.path + ": reading was cancelled");
       }
     }
-    if (row > field.rows - size.rows) break;  // row + size.rows may overflow
+    if (row > raster.rows - size.rows) break;  // row + size.rows may overflow
   }
   return {};
 }

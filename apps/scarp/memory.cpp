@@ -1,0 +1,90 @@
+#include "memory.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "text.h"
+
+namespace scarp::cli {
+namespace {
+
+constexpr std::uint64_t kProgramBytes = 64'000'000;  // the code, GDAL's included, and what it always needs
+constexpr std::uint64_t kBytesPerSample = 4;
+
+/// 1000 or 1024 to the power that the unit means; nothing for an unknown one.
+std::optional<double> find_unit(std::string unit) {
+  std::transform(unit.begin(), unit.end(), unit.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (!unit.empty() && unit.back() == 'b') unit.pop_back();
+  if (unit.empty()) return 1;
+  const std::size_t power = std::string_view("kmgt").find(unit[0]);
+  if (power == std::string_view::npos || (unit.size() > 1 && unit.substr(1) != "i")) return std::nullopt;
+  return std::pow(unit.size() > 1 ? 1024.0 : 1000.0, static_cast<double>(power + 1));
+}
+
+/// What the samples may take of the limit.
+std::uint64_t samples_share(std::uint64_t limit) { return limit > kProgramBytes ? (limit - kProgramBytes) / 2 : 0; }
+
+}  // namespace
+
+void MemoryArguments::add_to(CLI::App& verb, const std::string& help) {
+  verb.add_option("--memory", memory, help)->type_name("SIZE")->group("Run");
+}
+
+Result<std::optional<std::uint64_t>> MemoryArguments::parse() const {
+  if (!memory) return std::nullopt;
+  const Result<std::uint64_t> limit = parse_bytes("--memory", *memory);
+  if (!limit) return tl::unexpected(limit.error());
+  if (*limit < kProgramBytes) {
+    return fail(ErrorKind::kUsage, fmt::format("--memory {} is too little: the program alone takes {}M", *memory,
+                                               kProgramBytes / 1000000));
+  }
+  return *limit;
+}
+
+Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const char* last = text.data() + text.size();
+  const char* unit = end;
+  while (unit != last && *unit == ' ') ++unit;
+  const std::optional<double> factor = find_unit(std::string(unit, last));
+  const double bytes = number * factor.value_or(1);
+  if (error != std::errc() || !factor || !(bytes >= 1 && bytes < 0x1p60)) {
+    return fail(ErrorKind::kUsage, fmt::format("{} {} is no size of memory: give a number with k, M, G, T, Ki, Mi, Gi "
+                                               "or Ti behind it, such as 1G",
+                                               option, shell_word(text)));
+  }
+  return static_cast<std::uint64_t>(bytes);
+}
+
+Result<OwnedHeightField> read_within(const std::string& path, ReadOptions options,
+                                     const std::optional<std::uint64_t>& limit) {
+  if (!limit) return read_height_field(path, options);
+  options.memory_limit = std::max<std::uint64_t>(samples_share(*limit), 1);  // 0 would be no limit
+  return open_height_field(path, options);
+}
+
+Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option) {
+  if (!field.source) return {};
+  const double bytes = static_cast<double>(kBytesPerSample) * field.cols * field.rows;
+  return fail(ErrorKind::kUsage,
+              fmt::format("{} needs all samples in memory at once, and {} x {} samples are more than --memory leaves "
+                          "for them: leave {} out, or allow {}M",
+                          option, field.cols, field.rows, option,
+                          std::ceil((2 * bytes + static_cast<double>(kProgramBytes)) / 1e6) + 1));
+}
+
+void complete_info(const HeightRange& judged, RasterInfo& info) {
+  if (info.has_range) return;
+  info.has_range = true;
+  info.valid = judged.valid;
+  info.min = judged.min;
+  info.max = judged.max;
+}
+
+}  // namespace scarp::cli

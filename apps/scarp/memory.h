@@ -1,0 +1,37 @@
+// --memory: a raster larger than memory.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "options.h"
+#include "scarp/io.h"
+
+namespace scarp::cli {
+
+struct MemoryArguments {
+  Given memory;
+
+  /// `help` is the verb's own sentence.
+  void add_to(CLI::App& verb, const std::string& help);
+  /// Bytes that the process may take; nothing if not given.
+  Result<std::optional<std::uint64_t>> parse() const;
+};
+
+/// "1G", "1.5 GiB", "800M" as bytes: k, M, G, T are powers of 1000, Ki, Mi, Gi, Ti of 1024; a B may follow.
+Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& text);
+
+/// read_height_field(), or, with a limit, open_height_field(): one half of what the program itself leaves of it is for
+/// the samples or their file's cache.
+Result<OwnedHeightField> read_within(const std::string& path, ReadOptions options,
+                                     const std::optional<std::uint64_t>& limit);
+
+/// Fails with kUsage if the field's samples are not in memory as one array, which `option` needs; says what would do.
+Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option);
+
+/// Gives a raster that was not read before the range that the judge has found.
+void complete_info(const HeightRange& judged, RasterInfo& info);
+
+}  // namespace scarp::cli

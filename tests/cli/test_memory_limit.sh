@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# --memory: rasters that do not fit are read window by window, judged alike to the last bit, and what cannot do so says so.
+source "$(dirname "$0")/lib.sh"
+need gdal_translate gdalbuildvrt
+small=64M # leaves nothing for samples: every raster stays in its file
+
+succeeds "$scarp" simplify "$dem" hills.glb -e 5 -q
+succeeds "$scarp" measure "$dem" hills.glb --json
+grep -v '"seconds"\|"command"' "$logs/out" | sed '/"read":/,$d' > whole.json
+
+# The file itself, a mosaic of four of its parts, and 16-bit samples in memory.
+gdal_translate -q -srcwin 0 0 200 150 "$dem" p1.tif
+gdal_translate -q -srcwin 200 0 203 150 -co TILED=YES -co BLOCKXSIZE=64 -co BLOCKYSIZE=64 "$dem" p2.tif
+gdal_translate -q -srcwin 0 150 200 194 -co COMPRESS=DEFLATE "$dem" p3.tif
+gdal_translate -q -srcwin 200 150 203 194 "$dem" p4.tif
+gdalbuildvrt -q mosaic.vrt p1.tif p2.tif p3.tif p4.tif
+errors() { grep -E '"(max_error|rmse|mean_error|p50|p99|samples|uncovered|stray|gaps|valid|void|min|max|sound)"' "$1"; }
+errors whole.json > whole.txt
+for case in "$dem $small" "mosaic.vrt $small" "$dem 64.8M" "$dem 1G"; do
+  read -r raster limit <<< "$case"
+  for threads in 1 3; do
+    succeeds "$scarp" measure "$raster" hills.glb --json --memory "$limit" -j "$threads" --fail-above 5
+    cp "$logs/out" streamed.json
+    errors streamed.json | cmp - whole.txt || fail "other numbers from $raster with $limit and $threads threads"
+  done
+done
+
+# What needs all samples is refused by name, with the memory that would do; with that much it works.
+refuses 1 '--map needs all samples' "$scarp" measure "$dem" hills.glb --memory $small --map m.png
+refuses 1 '--error-raster needs all samples' "$scarp" measure "$dem" hills.glb --memory $small --error-raster e.tif
+refuses 1 '--script needs all samples' "$scarp" measure "$dem" hills.glb --memory $small --script /dev/null
+for option in "-t 100" "-p 100" "--preview p.png" "--render r.png" "--error-raster e.tif" "--nodata-policy fill" \
+  "--normals" "--edges data" "--outline-tolerance 1" "--mask $dem" "--script /dev/null" "--texture $dem"; do
+  # shellcheck disable=SC2086
+  refuses 1 'needs all samples in memory at once' "$scarp" simplify "$dem" o.glb -e 5 --memory $small $option
+done
+refuses 1 'needs all samples in memory at once' "$scarp" simplify "$dem" o.tif -e 5 --memory $small
+"$scarp" measure "$dem" hills.glb --memory $small --map m.png 2>&1 | grep -oE 'allow [0-9]+M' | tr -d -c '0-9M' > enough
+succeeds "$scarp" measure "$dem" hills.glb --memory "$(cat enough)" --map m.png
+
+# Sizes.
+for size in 1 x 1Q G -1G 1e30G nan 63M 10k; do
+  refuses 1 '--memory' "$scarp" measure "$dem" hills.glb --memory=$size
+done
+for size in 1G 1GiB 1.5g 900M "900 MB" 70000000 100Mi 1T; do
+  succeeds "$scarp" measure "$dem" hills.glb --memory "$size" -q
+done
+refuses 1 '--image' "$scarp" measure "$dem" hills.glb --memory 1G --image
+
+# A file that turns out to be damaged in the middle: exit code 2, file and row, nothing written.
+gdal_translate -q -co COMPRESS=DEFLATE -co BLOCKYSIZE=1 "$dem" cut.tif
+python3 - << 'PYTHON' 2> /dev/null || skip "needs python3"
+data = bytearray(open("cut.tif", "rb").read())
+middle = len(data) // 2
+data[middle:middle + 4000] = bytes(4000)
+open("cut.tif", "wb").write(data)
+PYTHON
+refuses 2 'cut.tif: row' "$scarp" measure cut.tif hills.glb --memory $small
+refuses 2 'cut.tif: row' "$scarp" simplify cut.tif o.glb -e 0.5% --memory $small
