@@ -55,7 +55,6 @@ HWY_INLINE void scan_box(const TileView& tile, const ScanTask& task, std::int32_
   const auto base = hn::Set(d, task.plane.height), one = hn::Set(d, 1.0f);
   const auto down_0 = hn::Set(di, task.along_y[0]), down_1 = hn::Set(di, task.along_y[1]),
              down_2 = hn::Set(di, task.along_y[2]);
-  const auto next_place = hn::Set(di, 1 << 16), minus_one = hn::Set(di, -1);
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
   for (std::int32_t end = x + width; x < end; x += lanes) {
     const float* samples = tile.row(y) + x;
@@ -64,26 +63,25 @@ HWY_INLINE void scan_box(const TileView& tile, const ScanTask& task, std::int32_
     auto w_1 = hn::Add(hn::Mul(iota, hn::Set(di, task.along_x[1])), hn::Set(di, task.edge(1, x, y)));
     auto w_2 = hn::Add(hn::Mul(iota, hn::Set(di, task.along_x[2])), hn::Set(di, task.edge(2, x, y)));
     auto dy = hn::Set(d, static_cast<float>(y - task.base.y));
-    auto here = hn::Add(iota, hn::Set(di, static_cast<std::int32_t>(place(x, y))));
-    auto most = hn::Set(d, start);
-    auto places = here;
+    auto most = hn::Set(d, start), most_dy = dy;
     for (std::int32_t row = 0; row < rows; row += 4) {
       for (int unrolled = 0; unrolled < 4; ++unrolled) {
         const auto surface = hn::Add(along, hn::Mul(slope_y, dy));
         const auto error = hn::Abs(hn::Sub(surface, hn::Sub(hn::LoadU(d, samples), base)));
-        const auto covered = hn::RebindMask(d, hn::Gt(hn::Or(hn::Or(w_0, w_1), w_2), minus_one));
-        const auto is_worse = hn::And(covered, hn::Gt(error, most));
+        const auto outside = hn::BroadcastSignBit(hn::Or(hn::Or(w_0, w_1), w_2));
+        const auto is_worse = hn::AndNot(hn::MaskFromVec(hn::BitCast(d, outside)), hn::Gt(error, most));
         most = hn::IfThenElse(is_worse, error, most);
-        places = hn::IfThenElse(hn::RebindMask(di, is_worse), here, places);
+        most_dy = hn::IfThenElse(is_worse, dy, most_dy);
         samples += tile.stride;
         w_0 = hn::Add(w_0, down_0);
         w_1 = hn::Add(w_1, down_1);
         w_2 = hn::Add(w_2, down_2);
         dy = hn::Add(dy, one);
-        here = hn::Add(here, next_place);
       }
     }
-    offer_lanes(d, most, places, start, best);
+    const auto row = hn::Add(hn::ConvertTo(di, most_dy), hn::Set(di, task.base.y));
+    const auto column = hn::Add(iota, hn::Set(di, x));
+    offer_lanes(d, most, hn::Or(hn::ShiftLeft<16>(row), column), start, best);
   }
 }
 

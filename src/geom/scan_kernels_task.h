@@ -31,7 +31,7 @@ struct ScanTask {
   std::array<std::int32_t, 3> along_x, along_y;  ///< edge functions: a step in x, in y; at most 2¹² each
   std::array<std::int32_t, 3> at_corner;         ///< their values at (left, top), below 2²⁵; negative is outside
 
-  ScanTask(const TileView& tile, const std::array<Place, 3>& corners, double threshold)
+  [[gnu::always_inline]] ScanTask(const TileView& tile, const std::array<Place, 3>& corners, double threshold)
       : plane(ScanPlane::through(tile, corners, threshold)),
         floor(scan_floor(threshold, plane.guard)),
         base(point_of(corners[0])) {

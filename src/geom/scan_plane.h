@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "base/point.h"
 #include "geom/tile_view.h"
@@ -24,25 +23,25 @@ struct ScanPlane {
   static ScanPlane through(const TileView& tile, const std::array<Place, 3>& corners, double threshold);
 };
 
-// The guard. u = 2⁻²⁴; X, Y = |slope|·extent bound |slope_x·dx|, |slope_y·dy| in the triangle; T = threshold.
-//   Slopes in double: five roundings of 2⁻⁵³ on terms that may cancel: 2⁻⁵⁰·reach, the terms' sum over the area.
+// The guard. u = 2⁻²⁴; X = |slope_x|·width, Y = |slope_y|·depth of the box bound the products; T = threshold.
+//   Slopes in double: five roundings of 2⁻⁵³ on terms that may cancel, over the triangle together at most
+//     2⁻⁵⁰·reach, reach = 2(|qz| + |rz|)·width·depth/area
 //   To float, its product, the sum of both:                                          3u(X + Y)
 //   z − za, which is at most X + Y + the error, and the last difference, an error:   u(X + Y + 2T) + 2uT
 //   threshold − guard to float:                                                       uT
-// 4u(X + Y) + 5uT; 8u leaves room for second-order terms and for X, Y having been rounded. Below the smallest normal
-// number each rounding adds up to 2⁻¹⁵⁰, that of a slope 2¹² times: 2⁻¹³⁶ in all. Level: slopes are exactly 0, z − za
-// and T round (3uT), and a difference of floats is exact where it is small; so a threshold of 0 has no guard.
-inline ScanPlane ScanPlane::through(const TileView& tile, const std::array<Place, 3>& corners, double threshold) {
+// 4u(X + Y) + 5uT + 2⁻⁵⁰·reach: below, each at least 1.6-fold, which leaves room for second-order terms and for the
+// roundings of the guard itself. Below the smallest normal number each rounding adds up to 2⁻¹⁵⁰, that of a slope 2¹²
+// times: less than 2⁻¹³⁶ in all. Level: slopes are exactly 0, z − za and T round (3uT), and a difference of floats is
+// exact where it is small; so a threshold of 0 has no guard.
+[[gnu::always_inline]] inline ScanPlane ScanPlane::through(const TileView& tile, const std::array<Place, 3>& corners,
+                                                           double threshold) {
   const auto [p, q, r] = std::array{point_of(corners[0]), point_of(corners[1]), point_of(corners[2])};
   const double height = tile.at(corners[0]);
   const double qz = tile.at(corners[1]) - height, rz = tile.at(corners[2]) - height;
-  const auto round_up = [](double guard) {
-    return static_cast<float>(guard * (1 + 0x1p-22)) + std::numeric_limits<float>::denorm_min();
-  };
   ScanPlane plane;
   plane.height = tile.at(corners[0]);
   if (qz == 0 && rz == 0) {
-    if (threshold > 0) plane.guard = round_up(0x1p-22 * threshold + 0x1p-149);
+    if (threshold > 0) plane.guard = static_cast<float>(0x1p-22 * threshold + 0x1p-148);
     return plane;
   }
   const std::int32_t qx = q.x - p.x, qy = q.y - p.y, rx = r.x - p.x, ry = r.y - p.y;
@@ -50,12 +49,11 @@ inline ScanPlane ScanPlane::through(const TileView& tile, const std::array<Place
   const double slope_x = (qz * ry - rz * qy) * per_area, slope_y = (rz * qx - qz * rx) * per_area;
   const double width = std::max({0, qx, rx}) - std::min({0, qx, rx});
   const double depth = std::max({0, qy, ry}) - std::min({0, qy, ry});
-  const double reach_x = (std::abs(qz * ry) + std::abs(rz * qy)) * per_area * width;
-  const double reach_y = (std::abs(rz * qx) + std::abs(qz * rx)) * per_area * depth;
+  const double reach = 2 * (std::abs(qz) + std::abs(rz)) * per_area * (width * depth);
   const double relief = std::abs(slope_x) * width + std::abs(slope_y) * depth;
   plane.slope_x = static_cast<float>(slope_x);
   plane.slope_y = static_cast<float>(slope_y);
-  plane.guard = round_up(0x1p-21 * (relief + threshold) + 0x1p-49 * (reach_x + reach_y) + 0x1p-136);
+  plane.guard = static_cast<float>(0x1p-21 * (relief + threshold) + 0x1p-49 * reach + 0x1p-136);
   return plane;
 }
 
