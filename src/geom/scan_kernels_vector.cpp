@@ -104,24 +104,23 @@ bool scan_row(const float* samples, std::int32_t count, double base, double slop
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
   const auto base_height = hn::Set(d, base), slopes = hn::Set(d, slope), step = hn::Set(d, static_cast<double>(lanes));
   auto along = hn::Add(hn::Iota(d, 0), hn::Set(d, static_cast<double>(offset)));
-  auto most = hn::Set(d, worst);
-  auto here = hn::Iota(d, 0), places = here;
+  auto most = hn::Set(d, worst), most_along = along;
   std::int32_t x = 0;
   for (; x + lanes <= count; x += lanes) {
     const auto sample = hn::PromoteTo(d, hn::LoadU(df, samples + x));
     const auto error = hn::Abs(hn::Sub(hn::Add(base_height, hn::Mul(slopes, along)), sample));
     const auto is_worse = hn::Gt(error, most);
     most = hn::IfThenElse(is_worse, error, most);
-    places = hn::IfThenElse(is_worse, here, places);
+    most_along = hn::IfThenElse(is_worse, along, most_along);
     along = hn::Add(along, step);
-    here = hn::Add(here, step);
   }
   bool found = false;
   if (!hn::AllFalse(d, hn::Gt(most, hn::Set(d, worst)))) {
     const auto largest = hn::MaxOfLanes(d, most);
     worst = hn::GetLane(largest);
-    const auto none = hn::Set(d, static_cast<double>(count));
-    at = static_cast<std::int32_t>(hn::GetLane(hn::MinOfLanes(d, hn::IfThenElse(hn::Eq(most, largest), places, none))));
+    const auto none = hn::Set(d, std::numeric_limits<double>::max());
+    const auto first = hn::MinOfLanes(d, hn::IfThenElse(hn::Eq(most, largest), most_along, none));
+    at = static_cast<std::int32_t>(hn::GetLane(first)) - offset;
     found = true;
   }
   for (; x < count; ++x) {

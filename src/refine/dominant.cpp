@@ -1,7 +1,6 @@
 #include "refine/dominant.h"
 
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 namespace scarp {
@@ -9,13 +8,6 @@ namespace scarp {
 namespace {
 
 using Id = TileMesh::Id;
-
-/// 0 for triangles without a candidate, so that every candidate beats them.
-std::uint64_t key_of(const TileMesh::Record& record) {
-  return record.rank > 0 ? std::uint64_t{std::bit_cast<std::uint32_t>(record.rank)} << 32 |
-                               static_cast<std::uint32_t>(~record.candidate)
-                         : 0;
-}
 
 class Walk {
  public:
@@ -30,11 +22,11 @@ class Walk {
   DominantRun run(std::size_t most) {
     while (!stack_.empty()) {
       const auto [key, t] = stack_.back();
-      if (key_of(mesh_[t]) != key) {
+      if (mesh_[t].key != key) {
         stack_.pop_back();  // changed since it was put there
         continue;
       }
-      const Place p = mesh_[t].candidate;
+      const Place p = candidate_of(key);
       Entry worst{key, t};
       for (const TileMesh::Link link : mesh_[t].links) consider(link, worst);
       if (worst.triangle == t) {
@@ -59,18 +51,18 @@ class Walk {
 
  private:
   struct Entry {
-    std::uint64_t key;
+    std::int64_t key;
     Id triangle;
   };
 
   void push(Id t) {
-    if (const std::uint64_t key = key_of(mesh_[t]); key != 0) {
+    if (const std::int64_t key = mesh_[t].key; key > 0) {
       stack_.push_back({key, t});
       ++done_.moves;
     }
   }
   void consider_triangle(Id t, Entry& worst) const {
-    if (const std::uint64_t key = key_of(mesh_[t]); key > worst.key) worst = {key, t};
+    if (const std::int64_t key = mesh_[t].key; key > worst.key) worst = {key, t};
   }
   void consider(TileMesh::Link link, Entry& worst) const {
     if (link != TileMesh::kBorder) consider_triangle(TileMesh::triangle_of(link), worst);
@@ -79,7 +71,8 @@ class Walk {
   void insert(Place p, const TileMesh::Cavity& cavity) {
     hints_.clear();
     for (const Id t : cavity.removed) {
-      if (mesh_[t].rank > 0 && mesh_[t].candidate != p) hints_.push_back(mesh_[t].candidate);
+      const std::int64_t key = mesh_[t].key;
+      if (key > 0 && candidate_of(key) != p) hints_.push_back(candidate_of(key));
     }
     const auto fresh = mesh_.fill_cavity(p);
     scanner_.scan(mesh_, fresh, hints_);

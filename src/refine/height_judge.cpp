@@ -6,6 +6,7 @@
 #include "geom/exact_error.h"
 #include "geom/plane.h"
 #include "geom/scan.h"
+#include "geom/scan_kernels.h"
 #include "refine/between.h"
 #include "refine/fine_lattice.h"
 
@@ -17,25 +18,54 @@ std::array<float, 3> heights_at(const Raster& raster, const std::array<Point, 3>
   return {raster.at(corners[0]), raster.at(corners[1]), raster.at(corners[2])};
 }
 
-/// By the plane's own arithmetic. NaN samples lose every comparison.
+/// Rows of fewer samples are faster without vectors.
+constexpr std::int32_t kMinVectorRow = 16;
+
+/// The worst of a row's samples that is worse than `worst`. NaN samples lose every comparison.
+void find_worst(const ScanKernels& kernels, const Plane& plane, const float* samples, std::int32_t y,
+                std::int32_t first, std::int32_t last, Candidate& worst) {
+  const double row_height = plane.row_height(y);
+  if (last - first + 1 >= kMinVectorRow) {
+    std::int32_t at = 0;
+    if (kernels.scan_row(samples + first, last - first + 1, row_height, plane.slope_x, first - plane.base.x,
+                         worst.error, at))
+      worst.at = {first + at, y};
+    return;
+  }
+  for (std::int32_t x = first; x <= last; ++x) {
+    const double error =
+        std::abs(row_height + plane.slope_x * static_cast<double>(x - plane.base.x) - double{samples[x]});
+    if (error > worst.error) worst = {error, {x, y}};
+  }
+}
+
+/// The worst and the squares of a row's samples.
+void add_row(const Plane& plane, const float* samples, std::int32_t y, std::int32_t first, std::int32_t last,
+             Candidate& worst, double& squares) {
+  const double row_height = plane.row_height(y);
+  for (std::int32_t x = first; x <= last; ++x) {
+    const double error =
+        std::abs(row_height + plane.slope_x * static_cast<double>(x - plane.base.x) - double{samples[x]});
+    if (error > worst.error) worst = {error, {x, y}};
+    if (!std::isnan(error)) squares += error * error;
+  }
+}
+
+/// By the plane's own arithmetic.
 template <bool kSquares>
 Fit scan(const Raster& raster, const std::array<Point, 3>& corners, const FitQuestion& question) {
   const Plane plane = Plane::through(corners, heights_at(raster, corners));
+  [[maybe_unused]] const ScanKernels& kernels = scan_kernels();
   Candidate worst{-1, {}};
   Fit fit;
   double squares = 0;
   scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     if (!fit.complete) return;
     fit.scanned += static_cast<std::uint64_t>(last - first + 1);
-    const float* samples = raster.row(y);
-    const double row_height = plane.row_height(y);
-    for (std::int32_t x = first; x <= last; ++x) {
-      const double error =
-          std::abs(row_height + plane.slope_x * static_cast<double>(x - plane.base.x) - double{samples[x]});
-      if (error > worst.error) worst = {error, {x, y}};
-      if constexpr (kSquares) {
-        if (!std::isnan(error)) squares += error * error;
-      }
+    if constexpr (kSquares) {
+      add_row(plane, raster.row(y), y, first, last, worst, squares);
+    } else {
+      find_worst(kernels, plane, raster.row(y), y, first, last, worst);
     }
     fit.complete = !question.is_given_up(worst.error, squares);
   });

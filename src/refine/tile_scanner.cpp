@@ -25,8 +25,7 @@ void TileScanner::scan(TileMesh& mesh, std::span<const TileMesh::Id> triangles, 
   for (std::size_t i = 0; i < ids_.size(); ++i) {
     TileMesh::Record& record = mesh[ids_[i]];
     const ScanHit& hit = hits_[i];
-    record.rank = hit.error;
-    record.candidate = hit.at;
+    record.key = candidate_key(hit.error, hit.at);
     if (hit.error > 0 && !(double{hit.error} > threshold_ + double{hit.guard})) settle(record);
   }
 }
@@ -40,14 +39,14 @@ void TileScanner::settle(TileMesh::Record& record) {
   std::array<Point, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) corners[k] = point_of(record.corners[k]);
   const auto candidate = judge_.find_candidate(corners, judge_.fit(corners, {}));
-  record.rank = 0;
+  record.key = 0;
   if (!candidate) return;
   if (is_on_shared_side(candidate->at)) {
     has_given_up_ = true;
     return;
   }
-  record.rank = std::max(static_cast<float>(candidate->error), std::numeric_limits<float>::min());
-  record.candidate = place(candidate->at.x, candidate->at.y);
+  record.key = candidate_key(std::max(static_cast<float>(candidate->error), std::numeric_limits<float>::min()),
+                             place(candidate->at.x, candidate->at.y));
 }
 
 }  // namespace scarp

@@ -1,6 +1,7 @@
 // Who tells the triangles of a tile their candidates.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,19 +12,28 @@
 
 namespace scarp {
 
+/// What waits in a triangle, as TileMesh's key: the error's bits above the complement of the candidate's place, so that
+/// the larger key is the larger error, or the first place in raster order among equal errors; 0 if nothing waits.
+constexpr std::int64_t candidate_key(float error, Place at) {
+  return error > 0 ? static_cast<std::int64_t>(std::uint64_t{std::bit_cast<std::uint32_t>(error)} << 32 |
+                                               static_cast<std::uint32_t>(~at))
+                   : 0;
+}
+constexpr Place candidate_of(std::int64_t key) { return ~static_cast<Place>(key); }
+
 /// Sides of a tile that it shares with a neighbour.
 struct SharedSides {
   bool left = false, top = false, right = false, bottom = false;
 };
 
-/// Heights against one threshold: the plain judge's promise, by the kernels' arithmetic. A triangle's rank is the
-/// largest error of a sample that exceeds the threshold as a real number, 0 if none does.
+/// Heights against one threshold: the plain judge's promise, by the kernels' arithmetic. A triangle's candidate is
+/// the sample with the largest error among those that exceed the threshold as real numbers.
 class TileScanner {
  public:
   /// The tile's samples stay alive; each is at most kMaxScanHeight in magnitude.
   TileScanner(const TileView& tile, double threshold);
 
-  /// Gives each triangle that is not outside its rank and candidate. `hints`: see ScanKernels::scan.
+  /// Gives each triangle that is not outside its candidate_key(). `hints`: see ScanKernels::scan.
   void scan(TileMesh& mesh, std::span<const TileMesh::Id> triangles, std::span<const Place> hints);
 
   /// Sides on which no sample breaks its bound, whatever is inserted. Should exact arithmetic give up there (heights

@@ -161,10 +161,9 @@ Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledO
   if (!status) return tl::unexpected(status.error());
   if (is_unsuited) return std::optional<Tiled>();
   std::vector<HalfEdge> seams;
-  Domain domain{assembly.finish(seams)};
-  domain.unused = count_unused(domain.tin);
-  domain.whole = domain.unused == 0;
-  for (Triangle t = 0; t < domain.tin.triangle_count() && domain.whole; ++t) domain.whole = !domain.tin.is_outside(t);
+  const bool is_whole = assembly.is_whole();
+  Domain domain{assembly.finish(seams), is_whole};
+  if (!is_whole) domain.unused = count_unused(domain.tin);
   if (domain.unused == domain.tin.vertex_count())
     return fail(
         ErrorKind::kInput,

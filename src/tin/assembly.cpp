@@ -16,20 +16,21 @@ TilePiece PieceMaker::make(const TileMesh& mesh, Point first, std::int32_t cols,
     ids_.resize(samples, kNone);
   const std::size_t count = mesh.triangle_count();
   piece.points.reserve(mesh.vertex_count());
-  piece.corners.reserve(3 * count);
-  piece.links.reserve(3 * count);
-  piece.outside.reserve(count);
+  piece.corners.resize(3 * count);
+  piece.links.resize(3 * count);
+  piece.outside.resize(count);
   for (TileMesh::Id t = 0; t < count; ++t) {
     const TileMesh::Record& record = mesh[t];
-    for (const Place p : record.corners) {
-      if (slot(p) == kNone) {
-        slot(p) = static_cast<std::uint32_t>(piece.points.size());
-        piece.points.push_back(p);
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t& id = slot(record.corners[k]);
+      if (id == kNone) {
+        id = static_cast<std::uint32_t>(piece.points.size());
+        piece.points.push_back(record.corners[k]);
       }
-      piece.corners.push_back(slot(p));
+      piece.corners[3 * t + k] = id;
+      piece.links[3 * t + k] = record.links[k];
     }
-    piece.links.insert(piece.links.end(), record.links.begin(), record.links.end());
-    piece.outside.push_back(mesh.is_outside(t));
+    piece.outside[t] = record.key < 0;
   }
   for (const Place p : piece.points) slot(p) = kNone;
   return piece;
@@ -88,7 +89,8 @@ void Assembly::add_triangles(const TilePiece& piece) {
     if (y == piece.rows - 1 && y2 == y) bottom_.edges.push_back({std::min(x, x2), here});
   }
   for (std::size_t t = 0; t < piece.outside.size(); ++t) {
-    std::uint8_t flags = piece.outside[t] ? Triangulation::kOutside : 0;
+    std::uint8_t flags = piece.outside[t] != 0 ? Triangulation::kOutside : 0;
+    is_whole_ = is_whole_ && flags == 0;
     for (unsigned k = 0; k < 3; ++k) {
       if (TileMesh::is_constrained(piece.links[3 * t + k])) flags |= static_cast<std::uint8_t>(1u << k);
     }

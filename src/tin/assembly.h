@@ -16,7 +16,7 @@ struct TilePiece {
   std::vector<Place> points;           ///< vertices, in the order of first use
   std::vector<std::uint32_t> corners;  ///< 3 per triangle: indices into points
   std::vector<TileMesh::Link> links;   ///< 3 per triangle
-  std::vector<bool> outside;           ///< 1 per triangle
+  std::vector<std::uint8_t> outside;   ///< 1 per triangle
 };
 
 /// Numbers the vertices of tile meshes; its scratch memory (4 bytes a sample of the tile) is kept.
@@ -40,6 +40,9 @@ class Assembly {
   std::uint64_t vertex_count() const { return tin_.vertex_count(); }
   std::uint64_t triangle_count() const { return tin_.triangle_count(); }
 
+  /// No triangle so far is outside.
+  bool is_whole() const { return is_whole_; }
+
   /// The whole. `seams`: the edges between tiles that are neither constrained nor outside, one half-edge each.
   Triangulation finish(std::vector<HalfEdge>& seams);
 
@@ -62,7 +65,7 @@ class Assembly {
 
   Triangulation tin_;
   std::size_t column_ = 0;  // of the next piece
-  bool is_first_row_ = true;
+  bool is_first_row_ = true, is_whole_ = true;
   Border beside_;                       // right side of the piece to the left
   std::vector<Border> below_;           // lower side of the piece above, by column
   Border left_, top_, right_, bottom_;  // of the piece at hand

@@ -33,8 +33,8 @@ void TileMesh::reset(std::int32_t cols, std::int32_t rows) {
   assert(cols >= 2 && rows >= 2 && cols <= kMaxTileSide && rows <= kMaxTileSide);
   const Place a = place(0, 0), b = place(cols - 1, 0), c = place(cols - 1, rows - 1), d = place(0, rows - 1);
   records_.resize(2);
-  records_[0] = {{a, b, d}, {kBorder, 1 << 3 | 2, kBorder}, 0, 0};
-  records_[1] = {{b, c, d}, {kBorder, kBorder, 0 << 3 | 1}, 0, 0};
+  records_[0] = {{a, b, d}, {kBorder, 1 << 3 | 2, kBorder}, 0};
+  records_[1] = {{b, c, d}, {kBorder, kBorder, 0 << 3 | 1}, 0};
   vertices_ = 4;
 }
 
@@ -48,8 +48,7 @@ void TileMesh::assign(const Triangulation& tin) {
       record.corners[k] = place(p.x, p.y);
       record.links[k] = twin == kNone ? kBorder : (twin / 3) << 3 | (tin.is_constrained(h) ? 4u : 0u) | twin % 3;
     }
-    record.rank = tin.is_outside(t) ? kOutside : 0;
-    record.candidate = 0;
+    record.key = tin.is_outside(t) ? kOutside : 0;
   }
   vertices_ = tin.vertex_count();
 }
@@ -90,7 +89,7 @@ TileMesh::Cavity TileMesh::find_cavity(Id t, Place p) {
       stack_.push_back(other << 3 | kPrevious[e]);
       stack_.push_back(other << 3 | kNext[e]);
     } else {
-      sides_.push_back({record.corners[k], record.corners[kNext[k]], beyond, record.rank < 0});
+      sides_.push_back({record.corners[k], record.corners[kNext[k]], beyond, record.key < 0});
     }
   }
   return {removed_, sides_};
@@ -123,8 +122,7 @@ std::span<const TileMesh::Id> TileMesh::fill_cavity(Place p) {
     records_[t] = {{p, side.from, side.to},
                    {before == kBorder ? kBorder : before | spoke_flag(side.from), side.beyond,
                     after == kBorder ? kBorder : after | spoke_flag(side.to)},
-                   side.outside ? kOutside : 0.0f,
-                   0};
+                   side.outside ? kOutside : 0};
     if (side.beyond != kBorder) set_link(side.beyond, t << 3 | (side.beyond & 4) | 1u);
   }
   ++vertices_;

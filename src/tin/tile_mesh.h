@@ -1,7 +1,7 @@
 // The workbench of one tile: a constrained Delaunay triangulation that grows by cavities instead of flips.
 //
-// A triangle is 32 bytes, two to a cache line, and holds all that insertion looks at: corners as places, links, and two
-// words that belong to the owner (its candidate). There is no array of vertices: a vertex is its place. Each insertion
+// A triangle is 32 bytes, two to a cache line, and holds all that insertion looks at: corners as places, links, and a
+// word that belongs to the owner (its candidate). There is no array of vertices: a vertex is its place. Each insertion
 // finds the cavity of the point (the triangles whose circle holds it, up to constrained edges), then writes every new
 // triangle once; Lawson's flips write most of them several times. Both give the same triangulation, up to cocircular
 // ties.
@@ -28,11 +28,10 @@ class TileMesh {
   struct alignas(32) Record {
     std::array<Place, 3> corners;  // positive orientation
     std::array<Link, 3> links;     // what lies beyond edge k
-    float rank;                    // the owner's: above 0 a candidate waits, 0 none; kOutside: not part of the domain
-    Place candidate;               // the owner's
+    std::int64_t key;              // the owner's, at least 0; kOutside: not part of the domain
   };
   static_assert(sizeof(Record) == 32);
-  static constexpr float kOutside = -1;
+  static constexpr std::int64_t kOutside = -1;
 
   static constexpr Id triangle_of(Link link) { return link >> 3; }
   static constexpr unsigned edge_of(Link link) { return link & 3; }
@@ -40,14 +39,14 @@ class TileMesh {
 
   /// The rectangle as two triangles, diagonal as in Triangulation. Keeps the memory of what was there before.
   void reset(std::int32_t cols, std::int32_t rows);
-  /// A triangulation of the same rectangle, its constraints and its outside; ranks are 0.
+  /// A triangulation of the same rectangle, its constraints and its outside; keys are 0.
   void assign(const Triangulation& tin);
 
   std::size_t triangle_count() const { return records_.size(); }
   std::size_t vertex_count() const { return vertices_; }
   Record& operator[](Id t) { return records_[t]; }
   const Record& operator[](Id t) const { return records_[t]; }
-  bool is_outside(Id t) const { return records_[t].rank < 0; }
+  bool is_outside(Id t) const { return records_[t].key < 0; }
 
   /// What the insertion of p would change: the triangles it removes, and those beyond them. Valid until the next call.
   /// REQUIRES: p in the closed triangle t, no corner of it.
@@ -62,7 +61,7 @@ class TileMesh {
   };
   Cavity find_cavity(Id t, Place p);
 
-  /// Replaces the cavity that find_cavity(t, p) found last by a fan around p; returns the new triangles, their ranks 0
+  /// Replaces the cavity that find_cavity(t, p) found last by a fan around p; returns the new triangles, their keys 0
   /// or kOutside. Removed ids are used again. Constraints and outsides are handed on.
   std::span<const Id> fill_cavity(Place p);
 
