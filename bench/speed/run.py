@@ -105,8 +105,8 @@ def time_peers(bench, name, raster, error):
         return run
 
     def order(which):
-        return lambda last: runner(which, bench.scarp(), ("--order", which, "--mesh"))(True) if last else call(
-            [*bench.scarp(), *raster, error, "--order", which])
+        judged_run = runner(which, bench.scarp(), ("--order", which, "--mesh"))
+        return lambda last: judged_run(True) if last else call(bench.scarp(*raster, error, "--order", which))
 
     commands = {
         "dominant": order("dominant"),
@@ -137,11 +137,16 @@ def time_peers(bench, name, raster, error):
         }
 
 
+def kernel_runs(bench, kernel, raster):
+    """The program ignores the sets that the machine lacks, and names the one that it used."""
+    return call(bench.scarp(*raster, 1e30), SCARP_KERNEL=kernel)[0]["kernel"] == kernel
+
+
 def time_kernels(bench, name, raster, error):
     def forced(kernel):
         return lambda last: call(bench.scarp(*raster, error), SCARP_KERNEL=kernel)
 
-    usable = [kernel for kernel in KERNELS if bench.kernel_runs(kernel, raster)]
+    usable = [kernel for kernel in KERNELS if kernel_runs(bench, kernel, raster)]
     for kernel, reports in bench.interleave({kernel: forced(kernel) for kernel in usable}, raster).items():
         yield {"raster": name, "samples": raster[1] * raster[2], "error": f"{error:g}", "kernel": kernel,
                "vertices": reports[-1]["vertices"], **times_of(reports)}
@@ -183,14 +188,6 @@ PARTS = {
     "calls": (time_calls, "calls.csv", ("raster", "error", "order", "call")),
     "tiles": (time_tiles, "tiles.csv", ("raster", "error", "side", "start")),
 }
-
-
-def kernel_runs(self, kernel, raster):
-    """Others are ignored by the program, which names the set that it used."""
-    return call(self.scarp(*raster, 1e30), SCARP_KERNEL=kernel)[0]["kernel"] == kernel
-
-
-Bench.kernel_runs = kernel_runs
 
 
 def merge(old, new, keys, complete):

@@ -106,7 +106,8 @@ class Verifier {
     for (std::size_t i = 0; i < hits_.size(); ++i) {
       if (hits_[i].error == 0) continue;
       ++pass.decided_exactly;
-      const std::array corners{point_of(corners_[i][0]), point_of(corners_[i][1]), point_of(corners_[i][2])};
+      const std::array corners{scarp::point_of(corners_[i][0]), scarp::point_of(corners_[i][1]),
+                               scarp::point_of(corners_[i][2])};
       pass.broken += judge.find_candidate(corners, judge.fit(corners, {})).has_value() ? 1 : 0;
     }
   }
