@@ -36,10 +36,10 @@ ERRORS = {
     "baltoro": (912, 220, 61),
     "essen_dom": (20.6, 11.1, 4.87),
     "everest": (659, 178, 60.1),
-    "sierra_3601": (238, 70.8, 23.6),
-    "moon_4096": (112, 18.4, 4.62),
-    "fractal_4096": (1,),
-    "sierra_mosaic": (1,),
+    "sierra_3601": (238, 119, 70.8, 23.6),
+    "moon_4096": (112, 37.1, 18.4, 4.62),
+    "fractal_4096": (13.9, 7.43, 4.81, 2.14),
+    "sierra_mosaic": (216, 110, 66, 22.2),
 }
 
 # Above this many samples there are fewer rounds and a shorter warm-up.

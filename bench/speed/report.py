@@ -227,6 +227,7 @@ def head():
         f"- machine: {machine.get('machine')}, {machine.get('processors')} logical processors; it {has} AVX-512; "
         f"load average at the start {machine.get('load')}",
         f"- compiler: {machine.get('compiler')}, CMake's Release flags and the project's",
+        *(f"- {remark}" for remark in machine.get("remarks", [])),
         *(f"- {name}: {version}" for name, version in machine.get("versions", {}).items()),
         "",
     ]

@@ -215,13 +215,14 @@ def keep(part, new, complete):
         writer.writerows(merge(old, new, keys, complete))
 
 
-def describe_machine(options, bench, load):
+def describe_machine(options, bench, load, partial):
+    """Remarks are written by hand, about rows of several sittings; a complete run needs none."""
     old = report.read_machine()
     flags = next((line for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("flags")), "")
     return {
         "machine": cpu_model(), "processors": os.cpu_count(),
         "avx512": "avx512f" in flags, "compiler": options.compiler or old.get("compiler", "not told"),
-        "load": f"{load:.1f}", "versions": {**old.get("versions", {}), **bench.versions},
+        "load": f"{load:.1f}", "remarks": old.get("remarks", []) if partial else [], "versions": {**old.get("versions", {}), **bench.versions},
     }
 
 
@@ -275,7 +276,7 @@ def main():
             if options.keep or not partial:
                 keep(part, rows, complete=not partial)
         if options.keep or not partial:
-            report.write_machine(describe_machine(options, bench, load))
+            report.write_machine(describe_machine(options, bench, load, partial))
             report.write()
     return None
 
