@@ -9,6 +9,7 @@
 #include "base/exact_arithmetic.h"
 #include "refine/height_judge.h"
 #include "refine/importance.h"
+#include "refine/source_judge.h"
 
 namespace scarp {
 
@@ -61,7 +62,11 @@ Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOption
   const bool plain =
       field.channels.empty() && field.height_scale == 1 && criterion.bounds_.empty() && criterion.factors_.empty();
   if (plain) {
-    criterion.judge_ = std::make_unique<HeightJudge>(raster, bound);
+    if (field.samples != nullptr) {
+      criterion.judge_ = std::make_unique<HeightJudge>(raster, bound);
+    } else {
+      criterion.judge_ = std::make_unique<SourceJudge>(field, bound);
+    }
   } else {
     Judging judging{raster, criterion.judged_fields(), options.norm, bound};
     if (!criterion.bounds_.empty()) judging.bounds = criterion.bounds_.data();

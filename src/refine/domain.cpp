@@ -89,7 +89,9 @@ void follow_curved_border(const Raster& raster, Triangulation& tin, const Frame&
     std::int32_t split = 0;
     for (std::int32_t i = 1; i < steps; ++i) {
       const double stray = std::abs(dx * (ys[i] - ys.front()) - dy * (xs[i] - xs.front())) / length;
-      if (stray > worst && raster.is_valid({a.x + i * unit.x, a.y + i * unit.y})) {
+      // Under an exact outline all are valid.
+      const bool is_valid = raster.samples == nullptr || raster.is_valid({a.x + i * unit.x, a.y + i * unit.y});
+      if (stray > worst && is_valid) {
         worst = stray;
         split = i;
       }

@@ -26,7 +26,8 @@ void TileScanner::scan(TileMesh& mesh, std::span<const TileMesh::Id> triangles, 
     TileMesh::Record& record = mesh[ids_[i]];
     const ScanHit& hit = hits_[i];
     record.key = candidate_key(hit.error, hit.at);
-    if (hit.error > 0 && !(double{hit.error} > threshold_ + double{hit.guard})) settle(record);
+    const double guard = hit.guard;
+    if (hit.error > 0 ? !(double{hit.error} > threshold_ + guard) : guard > threshold_) settle(record);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "grid/window.h"
 #include "refine/border_chain.h"
 #include "refine/coarse_start.h"
 #include "refine/dominant.h"
@@ -50,6 +51,7 @@ Result<double> estimate_density(const HeightField& field, double threshold) {
 struct Outcome {
   Result<void> status;
   TilePiece piece;
+  std::vector<float> heights;  // of the piece's points
   Effort effort;
   bool is_unsuited = false;
 };
@@ -73,6 +75,9 @@ class Worker {
     outcome.is_unsuited = scanner.has_given_up();
     outcome.effort = {scanner.samples_scanned(), scanner.triangles_scanned(), run.moves, run.insertions};
     outcome.piece = pieces_.make(mesh_, {window.col, window.row}, window.cols, window.rows);
+    if (field.samples == nullptr) {
+      for (const Place p : outcome.piece.points) outcome.heights.push_back(tile_.view().at(p));
+    }
     return outcome;
   }
 
@@ -119,56 +124,143 @@ void add(Effort& sum, const Effort& effort) {
   sum.passes += effort.passes;
 }
 
+/// Rows of a field whose source is slow, read once for all the tiles that want them.
+class RowBand final : public SampleSource {
+ public:
+  explicit RowBand(const HeightField& field) : field_(field) {}
+
+  Result<void> load(std::int32_t first, std::int32_t rows) {
+    first_ = first;
+    samples_.resize(static_cast<std::size_t>(field_.cols) * static_cast<std::size_t>(rows));
+    return read_window(field_, 0, first, field_.cols, rows, samples_.data(), field_.cols);
+  }
+  Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
+    for (int y = 0; y < rows; ++y)
+      std::copy_n(samples_.data() + static_cast<std::ptrdiff_t>(row + y - first_) * field_.cols + col, cols,
+                  out + y * stride);
+    return {};
+  }
+  bool is_in_memory() const override { return true; }
+  HeightField view() const {
+    HeightField field = field_;
+    field.source = this;
+    return field;
+  }
+
+ private:
+  const HeightField& field_;
+  std::int32_t first_ = 0;
+  std::vector<float> samples_;
+};
+
+/// One run over all tiles.
+class TiledRun {
+ public:
+  TiledRun(const HeightField& field, const TiledOptions& options, const TilePlan& plan)
+      : options_(options),
+        plan_(plan),
+        is_streamed_(field.samples == nullptr && !field.source->is_in_memory()),
+        band_(field),
+        field_(is_streamed_ ? band_.view() : field),
+        workers_(static_cast<std::size_t>(thread_count(options.threads))),
+        outcomes_(plan.count()),
+        assembly_(plan.per_row()) {}
+
+  Result<std::optional<Tiled>> execute() {
+    const std::size_t step = is_streamed_ ? plan_.per_row() : plan_.count();
+    for (std::size_t first = 0; first < plan_.count() && status_ && !is_unsuited_; first += step) {
+      if (is_streamed_) status_ = load_rows(first);
+      if (status_) refine(first, step);
+    }
+    if (!status_) return tl::unexpected(status_.error());
+    if (is_unsuited_) return std::optional<Tiled>();
+    const bool is_whole = assembly_.is_whole();
+    std::vector<HalfEdge> seams;
+    Domain domain{assembly_.finish(seams), is_whole};
+    if (!is_whole) domain.unused = count_unused(domain.tin);
+    if (domain.unused == domain.tin.vertex_count())
+      return fail(
+          ErrorKind::kInput,
+          "the raster has no grid cell with three valid corners, so there is no surface to simplify; check nodata");
+    return std::optional<Tiled>(Tiled{std::move(domain), std::move(seams), std::move(heights_), effort_});
+  }
+
+ private:
+  /// With the row above and the row below: borders look at the cells on both sides.
+  Result<void> load_rows(std::size_t tile) {
+    const TileWindow window = plan_.window(tile);
+    const std::int32_t first = std::max(window.row - 1, 0);
+    return band_.load(first, std::min(window.row + window.rows + 1, field_.rows) - first);
+  }
+
+  void refine(std::size_t first, std::size_t count) {
+    parallel_in_order(
+        count, options_.threads,
+        [&](std::size_t i, std::size_t worker) {
+          const std::size_t tile = first + i;
+          outcomes_[tile] = workers_[worker].refine(field_, plan_.window(tile), plan_.shared(tile), options_.threshold);
+        },
+        [&](std::size_t i) { return commit(first + i); });
+  }
+
+  bool commit(std::size_t tile) {
+    const Outcome outcome = *std::exchange(outcomes_[tile], std::nullopt);
+    status_ = outcome.status;
+    is_unsuited_ = outcome.is_unsuited;
+    if (!status_ || is_unsuited_) return false;
+    if (assembly_.triangle_count() + outcome.piece.outside.size() > kNone / 3 - 2) {
+      status_ = fail(ErrorKind::kInput, "the mesh would have more than 1,431 million triangles: allow a larger error");
+      return false;
+    }
+    assembly_.append(outcome.piece);
+    add(effort_, outcome.effort);
+    keep_heights(outcome.heights);
+    const double share = static_cast<double>(tile + 1) / static_cast<double>(plan_.count());
+    if (options_.progress && !options_.progress(share, assembly_.vertex_count()))
+      status_ = fail(ErrorKind::kCancelled, "cancelled while refining");
+    return status_.has_value();
+  }
+
+  void keep_heights(const std::vector<float>& heights) {
+    if (heights.empty()) return;
+    heights_.resize(assembly_.vertex_count());
+    for (std::size_t k = 0; k < heights.size(); ++k) heights_[assembly_.last_vertices()[k]] = heights[k];
+  }
+
+  const TiledOptions& options_;
+  const TilePlan& plan_;
+  bool is_streamed_;
+  RowBand band_;
+  HeightField field_;
+  std::vector<Worker> workers_;
+  std::vector<std::optional<Outcome>> outcomes_;
+  Assembly assembly_;
+  std::vector<float> heights_;
+  Effort effort_;
+  Result<void> status_;
+  bool is_unsuited_ = false;
+};
+
+/// Where the samples come from a file: tiles whose rows fit the memory.
+std::int32_t streamed_side(const HeightField& field, std::uint64_t memory) {
+  std::int32_t side = 512;
+  const auto bytes = [&] { return 4ull * static_cast<std::uint64_t>(field.cols) * static_cast<unsigned>(side); };
+  while (memory > 0 && side > 64 && bytes() > memory) side /= 2;
+  return side;
+}
+
 }  // namespace
 
 Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options) {
   std::int32_t side = options.tile_side;
+  if (side == 0 && field.samples == nullptr && !field.source->is_in_memory())
+    side = streamed_side(field, options.memory);
   if (side == 0) {
     const auto density = estimate_density(field, options.threshold);
     if (!density) return tl::unexpected(density.error());
     side = side_for(*density);
   }
-  const TilePlan plan(field.cols, field.rows, side);
-  std::vector<Worker> workers(
-      std::min<std::size_t>(plan.count(), static_cast<std::size_t>(thread_count(options.threads))));
-  std::vector<std::optional<Outcome>> outcomes(plan.count());
-  Assembly assembly(plan.per_row());
-  Effort effort;
-  Result<void> status;
-  bool is_unsuited = false;
-  parallel_in_order(
-      plan.count(), options.threads,
-      [&](std::size_t i, std::size_t worker) {
-        outcomes[i] = workers[worker].refine(field, plan.window(i), plan.shared(i), options.threshold);
-      },
-      [&](std::size_t i) {
-        const Outcome outcome = *std::exchange(outcomes[i], std::nullopt);
-        status = outcome.status;
-        is_unsuited = outcome.is_unsuited;
-        if (!status || is_unsuited) return false;
-        if (assembly.triangle_count() + outcome.piece.outside.size() > kNone / 3 - 2) {
-          status =
-              fail(ErrorKind::kInput, "the mesh would have more than 1,431 million triangles: allow a larger error");
-          return false;
-        }
-        assembly.append(outcome.piece);
-        add(effort, outcome.effort);
-        if (options.progress &&
-            !options.progress(static_cast<double>(i + 1) / static_cast<double>(plan.count()), assembly.vertex_count()))
-          status = fail(ErrorKind::kCancelled, "cancelled while refining");
-        return status.has_value();
-      });
-  if (!status) return tl::unexpected(status.error());
-  if (is_unsuited) return std::optional<Tiled>();
-  std::vector<HalfEdge> seams;
-  const bool is_whole = assembly.is_whole();
-  Domain domain{assembly.finish(seams), is_whole};
-  if (!is_whole) domain.unused = count_unused(domain.tin);
-  if (domain.unused == domain.tin.vertex_count())
-    return fail(
-        ErrorKind::kInput,
-        "the raster has no grid cell with three valid corners, so there is no surface to simplify; check nodata");
-  return std::optional<Tiled>(Tiled{std::move(domain), std::move(seams), effort});
+  return TiledRun(field, options, TilePlan(field.cols, field.rows, side)).execute();
 }
 
 }  // namespace scarp

@@ -29,6 +29,8 @@ struct TiledOptions {
   double threshold = 0;
   int threads = 0;
   std::int32_t tile_side = 0;  ///< 0: chosen from the density of the mesh that the borders let expect
+  /// Bytes that the samples of a row of tiles may take, where they come from a file. 0: no limit.
+  std::uint64_t memory = 0;
   /// Told the share of tiles that are done and the vertices so far, on the calling thread; false stops with kCancelled.
   std::function<bool(double share, std::uint64_t vertices)> progress = {};
 };
@@ -36,9 +38,12 @@ struct TiledOptions {
 struct Tiled {
   Domain domain;
   std::vector<HalfEdge> seams;  ///< edges between tiles, for release_seams()
+  std::vector<float> heights;   ///< of the vertices, where the field has a source instead of samples
   Effort effort;
 };
 
+/// Where the field's source is not in memory, one row of tiles after the other is read and refined.
+///
 /// Every sample of the surface lies within `threshold` of the triangulation. Nothing where this engine is of no use:
 /// the goal is so coarse that borders of tiles would cost vertices, or heights span magnitudes beyond exact arithmetic.
 /// Fails as the field's source does; with kInput if no cell is surface or the triangles are too many; kCancelled.

@@ -37,6 +37,9 @@ class Assembly {
   /// REQUIRES: neighbours have the same vertices on their shared border.
   void append(const TilePiece& piece);
 
+  /// The vertices of the points of the piece that was appended last.
+  const std::vector<Vertex>& last_vertices() const { return ids_; }
+
   std::uint64_t vertex_count() const { return tin_.vertex_count(); }
   std::uint64_t triangle_count() const { return tin_.triangle_count(); }
 

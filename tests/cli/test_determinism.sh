@@ -19,6 +19,11 @@ for format in glb obj ply stl; do
     cmp "$first" "$format/$name.again.$format" || fail "a second run or another output changes $format"
   done
 done
+# Every instruction set; names that the machine has not are ignored.
+for kernel in scalar ssse3 sse4 avx2 avx3 neon unknown; do
+  SCARP_KERNEL=$kernel succeeds "$scarp" simplify holes.tif "kernel.$kernel.glb" -e 20
+  cmp glb/holes.1.glb "kernel.$kernel.glb" || fail "the instruction set $kernel changes the mesh"
+done
 # Another folder, a relative path, the format by --of.
 mkdir elsewhere
 cp "$dem" elsewhere/

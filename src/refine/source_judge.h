@@ -1,0 +1,31 @@
+// The plain judge of samples that are not in memory as floats.
+#pragma once
+
+#include "refine/judge.h"
+#include "scarp/height_field.h"
+
+namespace scarp {
+
+/// HeightJudge's answers, bit for bit, each from a window of the source around the triangle: for few questions.
+/// Throws SourceFailure where the source fails.
+class SourceJudge final : public Judge {
+ public:
+  SourceJudge(const HeightField& field, double threshold) : field_(field), threshold_(threshold) {}
+
+  Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const override;
+  std::optional<Candidate> find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const override;
+  double goal() const override { return threshold_; }
+  double squares_between(Point a, Point b) const override;
+  double bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const override;
+
+ private:
+  const HeightField& field_;
+  double threshold_;
+};
+
+/// What a source said, on its way to the door.
+struct SourceFailure {
+  Error error;
+};
+
+}  // namespace scarp
