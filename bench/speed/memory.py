@@ -15,8 +15,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from rasters import HERE, make_raw
-from run import ERRORS
+from rasters import ERRORS, HERE, make_raw
 
 CASES = ("fuji", "essen_dom", "everest", "sierra_3601")
 PER_SAMPLE, PER_VERTEX = 5, 120
@@ -68,7 +67,7 @@ def main():
 
     with tempfile.TemporaryDirectory() as scratch:
         for name in CASES:
-            raster = make_raw(name, scratch)
+            raster = make_raw(name, scratch, options.bin)
             if raster is None:
                 continue
             raw = raster[0]

@@ -87,29 +87,53 @@ inline RawMesh read_raw_mesh(const char* path) {
   return mesh;
 }
 
-/// Wall clock and this process's CPU time since it was made, in seconds.
-class Stopwatch {
- public:
-  double wall() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(); }
-  double cpu() const { return cpu_now() - cpu_; }
+/// What a stretch of work took, all threads together.
+struct Times {
+  double wall = 0, user = 0, system = 0;  // seconds
+  double page_faults = 0;                 // pages mapped: exact where the kernel only samples system time
 
- private:
-  static double cpu_now() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
-           1e-6 * static_cast<double>(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
-  }
-  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-  double cpu_ = cpu_now();
+  double cpu() const { return user + system; }
 };
 
-/// The one line of a timed program, JSON.
-inline void print_result(const std::string& version, double wall, double cpu, std::size_t vertices,
-                         std::size_t triangles) {
-  std::printf(
-      "{\"version\": \"%s\", \"seconds\": %.6f, \"cpu_seconds\": %.6f, \"vertices\": %zu, \"triangles\": %zu}\n",
-      version.c_str(), wall, cpu, vertices, triangles);
+/// Since it was made.
+class Stopwatch {
+ public:
+  Times read() const {
+    const Times now = used();
+    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(), now.user - start_.user,
+            now.system - start_.system, now.page_faults - start_.page_faults};
+  }
+  double wall() const { return read().wall; }
+  double cpu() const { return read().cpu(); }
+
+ private:
+  static double seconds(const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  }
+  static Times used() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return {0, seconds(usage.ru_utime), seconds(usage.ru_stime), static_cast<double>(usage.ru_minflt)};
+  }
+  Times start_ = used();
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+};
+
+/// "seconds": …, of `times`, as members of a JSON object.
+inline std::string json_of(const Times& times) {
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "\"seconds\": %.6f, \"cpu_seconds\": %.6f, \"user_seconds\": %.6f, \"system_seconds\": %.6f, "
+                "\"page_faults\": %.1f",
+                times.wall, times.cpu(), times.user, times.system, times.page_faults);
+  return text;
+}
+
+/// The one line of a timed program, JSON; `more`: further members, each with a comma before it.
+inline void print_result(const std::string& version, const Times& times, std::size_t vertices, std::size_t triangles,
+                         const std::string& more = "") {
+  std::printf("{\"version\": \"%s\", %s, \"vertices\": %zu, \"triangles\": %zu%s}\n", version.c_str(),
+              json_of(times).c_str(), vertices, triangles, more.c_str());
 }
 
 }  // namespace bench

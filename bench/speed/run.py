@@ -1,12 +1,19 @@
 #!/usr/bin/env python3
-"""Times triangulation only: Scarp, delatin (node) and VTK, in interleaved rounds, and writes results.csv and results.md.
+"""Times triangulation only, in interleaved rounds; keeps CSV tables beside this file and writes results.md from them.
+
+  peers    Scarp's two orders, delatin (node), VTK, one verification of Scarp's mesh     results.csv
+  kernels  the instruction sets of this machine, forced one by one                       kernels.csv
+  threads  one thread against more                                                       threads.csv
+  calls    the first call of a process against later ones                                calls.csv
+  tiles    vertices and time by side of the tiles, with and without coarse starts        tiles.csv
 
 A round runs each program once on the same raw raster with the same error. Each is one process that warms up, then
 reports its own time; reading and writing are outside of it. In the last round each mesh is judged by measure().
 
-  run.py --bin build/bin              the whole table (about half an hour)
-  run.py --bin build/bin --only fuji  some rasters, results printed and not kept
-  run.py --bin build/bin --find       chooses the errors of ERRORS anew
+  run.py --bin build/bin                     everything (about an hour)
+  run.py --bin build/bin --only fuji         some rasters, printed only
+  run.py --bin build/bin --only fuji --keep  some rasters, their rows put in place of the old ones
+  run.py --bin build/bin --find              chooses the errors of rasters.py anew
 """
 
 import argparse
@@ -19,177 +26,259 @@ import sys
 import tempfile
 from pathlib import Path
 
-from rasters import HERE, RASTERS, cpu_model, make_raw
+import report
+from rasters import ERRORS, HERE, LARGE, RASTERS, SHARES, cpu_model, make_raw
 
-SHARES = (0.001, 0.01, 0.05)
+KERNELS = ("AVX3", "AVX2", "SSE4", "NEON", "WASM", "SCALAR")
+TILE_SIDES = (128, 256, 512, 1024, 2048, 4096)
 
-# The errors that keep about 0.1 %, 1 % and 5 % of the samples, as --find gave them, rounded to three digits.
-ERRORS = {
-    "jacksboro": (274, 92.4, 30),
-    "fuji": (217, 49.9, 16.9),
-    "crater": (107, 24.2, 6.46),
-    "puget_1k": (589, 180, 66),
-    "baltoro": (912, 220, 61),
-    "essen_dom": (20.6, 11.1, 4.87),
-    "everest": (659, 178, 60.1),
-    "sierra_3601": (238, 70.8, 23.6),
-    "moon_4096": (112, 18.4, 4.62),
+# Rasters of the parts that need not see all of them.
+PART_RASTERS = {
+    "peers": tuple(RASTERS),
+    "kernels": ("fuji", "essen_dom", "sierra_3601", "moon_4096"),
+    "threads": ("essen_dom", "sierra_3601", "moon_4096", "fractal_4096", "sierra_mosaic"),
+    "calls": ("fuji", "essen_dom"),
+    "tiles": ("essen_dom", "everest", "sierra_3601", "moon_4096", "fractal_4096"),
 }
 
-PEERS = ("delatin", "vtk")
 
-# Above this many samples there are fewer rounds, and VTK, the slowest by far, runs in the last one only.
-LARGE = 2_000_000
+def call(command, **environment):
+    done = subprocess.run([str(part) for part in command], check=True, stdout=subprocess.PIPE, text=True,
+                          env={**os.environ, **environment})
+    return [json.loads(line) for line in done.stdout.splitlines()]
 
 
-def programs(folder):
-    found = {"scarp": [str(folder / "speed_scarp")], "delatin": ["node", str(HERE / "speed_delatin.mjs")]}
-    if (folder / "speed_vtk").exists():
-        found["vtk"] = [str(folder / "speed_vtk")]
+class Bench:
+    """Where the programs are and how often they run."""
+
+    def __init__(self, options, scratch):
+        self.bin, self.scratch, self.options = options.bin, Path(scratch), options
+        self.versions = {}
+
+    def rounds(self, raster):
+        return self.options.rounds or (5 if raster[1] * raster[2] <= LARGE else 2)
+
+    def scarp(self, *arguments):
+        return [self.bin / "speed_scarp", *arguments]
+
+    def interleave(self, commands, raster, once=()):
+        """Reports of each command, by name; `commands` maps names to functions of "is this the last round"."""
+        reports = {name: [] for name in commands}
+        names, rounds = list(commands), self.rounds(raster)
+        for number in range(rounds):
+            last = number == rounds - 1
+            turn = number % len(names)
+            for name in names[turn:] + names[:turn]:
+                if last or name not in once:
+                    reports[name] += commands[name](last)
+        return reports
+
+
+def times_of(reports):
+    """Least and median, in milliseconds."""
+    cells = {"rounds": len(reports)}
+    for clock, key in (("wall", "seconds"), ("cpu", "cpu_seconds")):
+        times = [1e3 * one[key] for one in reports]
+        cells[f"{clock}_min_ms"] = f"{min(times):.3f}"
+        cells[f"{clock}_median_ms"] = f"{statistics.median(times):.3f}"
+    return cells
+
+
+def install_delatin():
     if not (HERE / "node_modules" / "delatin").is_dir():
         subprocess.run(["npm", "ci", "--no-audit", "--no-fund", "--ignore-scripts"], cwd=HERE, check=True)
-    return found
 
 
-def call(command):
-    done = subprocess.run([str(part) for part in command], check=True, stdout=subprocess.PIPE, text=True)
-    return json.loads(done.stdout)
+def time_peers(bench, name, raster, error):
+    """Each program: its times, its mesh, the judge's verdict."""
+    judged = {}
 
+    def runner(program, command, option=()):
+        def run(last):
+            if not last:
+                return call([*command, *raster, error])
+            mesh = bench.scratch / f"{program}.mesh"
+            done = call([*command, *raster, error, *option, mesh])
+            judged[program] = call([bench.bin / "speed_judge", *raster, mesh])[0]
+            mesh.unlink()
+            return done
+        return run
 
-def time_case(found, judge, raster, error, rounds, scratch):
-    """Per program: its last report with all its times and the judge's verdict."""
-    cases = {name: {"wall": [], "cpu": []} for name in found}
-    names = list(found)
-    for number in range(rounds):
-        last = number == rounds - 1
-        for name in names[number % len(names):] + names[:number % len(names)]:
-            if name == "vtk" and raster[1] * raster[2] > LARGE and not last:
-                continue
-            mesh = Path(scratch) / f"{name}.mesh"
-            report = call([*found[name], *raster, error, *([mesh] if last else [])])
-            case = cases[name]
-            case["wall"].append(report["seconds"])
-            case["cpu"].append(report["cpu_seconds"])
-            case.update(version=report["version"], vertices=report["vertices"], triangles=report["triangles"])
-            if last:
-                case["judged"] = call([judge, *raster, mesh])
-                mesh.unlink()
-    return cases
+    def order(which):
+        judged_run = runner(which, bench.scarp(), ("--order", which, "--mesh"))
+        return lambda last: judged_run(True) if last else call(bench.scarp(*raster, error, "--order", which))
 
-
-def rows_of(name, raster, error, cases):
+    commands = {
+        "dominant": order("dominant"),
+        "greedy": order("greedy"),
+        "delatin": runner("delatin", ["node", HERE / "speed_delatin.mjs"]),
+        "vtk": runner("vtk", [bench.bin / "speed_vtk"]),
+        "verify": lambda last: call([bench.bin / "speed_verify", *raster, error]),
+    }
+    wanted = bench.options.programs or list(commands)
+    if not (bench.bin / "speed_vtk").exists():
+        wanted = [program for program in wanted if program != "vtk"]
+    commands = {program: run for program, run in commands.items() if program in wanted}
+    if "delatin" in commands:
+        install_delatin()
     samples = raster[1] * raster[2]
-    for program, case in cases.items():
+    once = ("vtk", "delatin") if samples > 10 * LARGE else ("vtk",) if samples > LARGE else ()
+    for program, reports in bench.interleave(commands, raster, once).items():
+        last, verdict = reports[-1], judged.get(program, {})
+        bench.versions["scarp" if program in ("dominant", "greedy", "verify") else program] = last["version"]
         yield {
-            "raster": name,
-            "samples": samples,
-            "error": f"{error:g}",
-            "program": program,
-            "vertices": case["vertices"],
-            "triangles": case["triangles"],
-            "kept_percent": f"{100 * case['vertices'] / samples:.3f}",
-            "true_max_error": f"{case['judged']['max_error']:.6g}",
-            "rmse": f"{case['judged']['rmse']:.6g}",
-            "uncovered": case["judged"]["uncovered"],
-            "rounds": len(case["wall"]),
-            "wall_min_ms": f"{1e3 * min(case['wall']):.2f}",
-            "wall_median_ms": f"{1e3 * statistics.median(case['wall']):.2f}",
-            "cpu_min_ms": f"{1e3 * min(case['cpu']):.2f}",
-            "cpu_median_ms": f"{1e3 * statistics.median(case['cpu']):.2f}",
+            "raster": name, "samples": samples, "error": f"{error:g}", "program": program,
+            "engine": last.get("order", ""), "vertices": last["vertices"], "triangles": last["triangles"],
+            "kept_percent": f"{100 * last['vertices'] / samples:.3f}",
+            "true_max_error": f"{verdict['max_error']:.6g}" if verdict else "",
+            "rmse": f"{verdict['rmse']:.6g}" if verdict else "",
+            "uncovered": verdict.get("uncovered", ""), **times_of(reports),
+            "load_ms": f"{1e3 * min(one['load_seconds'] for one in reports):.3f}" if program == "verify" else "",
         }
 
 
-def by_case(rows):
-    cases = {}
-    for row in rows:
-        cases.setdefault((row["raster"], row["error"]), {})[row["program"]] = row
-    return cases
+def kernel_runs(bench, kernel, raster):
+    """The program ignores the sets that the machine lacks, and names the one that it used."""
+    return call(bench.scarp(*raster, 1e30), SCARP_KERNEL=kernel)[0]["kernel"] == kernel
 
 
-def ratio(peer, ours, column):
-    return float(peer[column]) / float(ours[column])
+def time_kernels(bench, name, raster, error):
+    def forced(kernel):
+        return lambda last: call(bench.scarp(*raster, error), SCARP_KERNEL=kernel)
+
+    usable = [kernel for kernel in KERNELS if kernel_runs(bench, kernel, raster)]
+    for kernel, reports in bench.interleave({kernel: forced(kernel) for kernel in usable}, raster).items():
+        yield {"raster": name, "samples": raster[1] * raster[2], "error": f"{error:g}", "kernel": kernel,
+               "vertices": reports[-1]["vertices"], **times_of(reports)}
 
 
-def markdown(rows, versions, compiler, load):
-    lines = [
-        "# Speed of the triangulation",
-        "",
-        "Written by `run.py` (see `bench/README.md`); the times of each program are in `results.csv`. Ratios are the",
-        "peer's time divided by Scarp's, above 1 where Scarp is faster: the minimum of all rounds and (the median). CPU",
-        "time is the process's own, all its threads (node collects garbage in others); wall clock also counts waiting for",
-        "a processor that others use. *true max* is a mesh's max error as `measure()` judges it, divided by the error that",
-        "was asked: above 1 the bound is broken.",
-        "",
-        f"- machine: {cpu_model()}, {os.cpu_count()} logical processors, one thread used; load average at the start {load:.1f}",
-        f"- compiler: {compiler}, CMake's Release flags and the project's",
-        *(f"- {name}: {version}" for name, version in versions.items()),
-        "",
-        "| raster | samples | error | kept % | Scarp CPU ms | delatin ÷ Scarp, CPU | wall | VTK ÷ Scarp, CPU | wall "
-        "| vertices delatin, VTK (Scarp = 1) | true max Scarp, delatin, VTK |",
-        "|---|---|---|---|---|---|---|---|---|---|---|",
-    ]
-    for (name, error), case in by_case(rows).items():
-        ours = case["scarp"]
-        cells = [name, ours["samples"], error, ours["kept_percent"], ours["cpu_min_ms"]]
-        peers = [case[peer] if peer in case else None for peer in PEERS]
-        for p in peers:
-            for clock in ("cpu", "wall"):
-                cells.append(f"{ratio(p, ours, clock + '_min_ms'):.2f} ({ratio(p, ours, clock + '_median_ms'):.2f})"
-                             if p else "–")
-        cells.append(", ".join(f"{ratio(p, ours, 'vertices'):.3f}" if p else "–" for p in peers))
-        cells.append(", ".join(
-            f"{float(p['true_max_error']) / float(error):.3f}" if p else "–" for p in [ours, *peers]))
-        lines.append("| " + " | ".join(str(cell) for cell in cells) + " |")
-    lines.append("")
-    for peer in PEERS:
-        for clock, words in (("cpu", "CPU"), ("wall", "wall clock")):
-            ratios = sorted(
-                ratio(case[peer], case["scarp"], clock + "_min_ms") for case in by_case(rows).values() if peer in case)
-            if ratios:
-                lines.append(f"- {peer} ÷ Scarp over all cases, {words}: lowest {ratios[0]:.2f}, median "
-                             f"{statistics.median(ratios):.2f}, highest {ratios[-1]:.2f}")
-    return "\n".join(lines) + "\n"
+def time_threads(bench, name, raster, error):
+    def threaded(threads):
+        return lambda last: call(bench.scarp(*raster, error, "--threads", threads))
+
+    commands = {threads: threaded(threads) for threads in bench.options.threads}
+    for threads, reports in bench.interleave(commands, raster).items():
+        yield {"raster": name, "samples": raster[1] * raster[2], "error": f"{error:g}", "threads": threads,
+               "vertices": reports[-1]["vertices"], **times_of(reports),
+               "user_min_ms": f"{1e3 * min(one['user_seconds'] for one in reports):.3f}"}
+
+
+def time_calls(bench, name, raster, error):
+    for order in ("dominant", "greedy"):
+        done = call(bench.scarp(*raster, error, "--order", order, "--repeat", 50))[0]
+        for which, times in (("first", done["first"]), ("later", done)):
+            yield {"raster": name, "samples": raster[1] * raster[2], "error": f"{error:g}", "order": order,
+                   "call": which, "wall_ms": f"{1e3 * times['seconds']:.3f}",
+                   "user_ms": f"{1e3 * times['user_seconds']:.3f}",
+                   "system_ms": f"{1e3 * times['system_seconds']:.3f}", "page_faults": f"{times['page_faults']:.1f}"}
+
+
+def time_tiles(bench, name, raster, error):
+    sides = [side for side in TILE_SIDES if side <= max(raster[1:])]
+    sides += [4096] if max(raster[1:]) <= 4097 and 4096 not in sides else []
+    for one in call([bench.bin / "speed_tiles", *raster, error, *sides]):
+        yield {"raster": name, "samples": raster[1] * raster[2], "error": f"{error:g}", "side": one["side"],
+               "start": one["start"], "vertices": one["vertices"], "cpu_ms": f"{1e3 * one['cpu_seconds']:.3f}"}
+
+
+PARTS = {
+    "peers": (time_peers, "results.csv", ("raster", "error", "program")),
+    "kernels": (time_kernels, "kernels.csv", ("raster", "error", "kernel")),
+    "threads": (time_threads, "threads.csv", ("raster", "error", "threads")),
+    "calls": (time_calls, "calls.csv", ("raster", "error", "order", "call")),
+    "tiles": (time_tiles, "tiles.csv", ("raster", "error", "side", "start")),
+}
+
+
+def merge(old, new, keys, complete):
+    """New rows in place of old ones of the same keys; the order is that of the rasters. Complete: no old ones stay."""
+    def key(row):
+        return tuple(str(row[name]) for name in keys)
+
+    rows = {} if complete else {key(row): row for row in old if float(row["error"]) in ERRORS[row["raster"]]}
+    rows.update((key(row), row) for row in new)
+    places = {name: place for place, name in enumerate(RASTERS)}
+    return sorted(rows.values(), key=lambda row: (places[row["raster"]], -float(row["error"])))
+
+
+def keep(part, new, complete):
+    _, file, keys = PARTS[part]
+    if not new:
+        return
+    path = HERE / file
+    old = report.read_table(path)
+    if old and list(old[0]) != list(new[0]):
+        old = []
+    with open(path, "w", newline="") as stream:
+        writer = csv.DictWriter(stream, new[0].keys(), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(merge(old, new, keys, complete))
+
+
+def describe_machine(options, bench, load, partial):
+    """Remarks are written by hand, about rows of several sittings; a complete run needs none."""
+    old = report.read_machine()
+    flags = next((line for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("flags")), "")
+    return {
+        "machine": cpu_model(), "processors": os.cpu_count(),
+        "avx512": "avx512f" in flags, "compiler": options.compiler or old.get("compiler", "not told"),
+        "load": f"{load:.1f}", "remarks": old.get("remarks", []) if partial else [], "versions": {**old.get("versions", {}), **bench.versions},
+    }
+
+
+def find_errors(bench, names):
+    for name in names:
+        raster = make_raw(name, bench.scratch, bench.bin)
+        if raster is not None:
+            done = subprocess.run([str(part) for part in bench.scarp(*raster, "--find", *SHARES)], check=True,
+                                  stdout=subprocess.PIPE, text=True)
+            errors = ", ".join(f"{float(error):.3g}" for error in done.stdout.split())
+            print(f'    "{name}": ({errors}),', flush=True)
+
+
+def powers_of_two(most):
+    return [1 << k for k in range(most.bit_length()) if 1 << k <= most]
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bin", type=Path, required=True, help="folder of the built programs")
+    parser.add_argument("--compiler", help="for the record")
+    parser.add_argument("--rounds", type=int, help="instead of 5, or 2 above 2 million samples")
+    parser.add_argument("--parts", nargs="+", choices=PARTS, default=list(PARTS), help="some of the tables")
+    parser.add_argument("--only", nargs="+", choices=RASTERS, help="some of the rasters; printed only")
+    parser.add_argument("--keep", action="store_true", help="with --only or --programs: keep the rows nevertheless")
+    parser.add_argument("--programs", nargs="+", choices=("dominant", "greedy", "delatin", "vtk", "verify"),
+                        help="some of the peers; printed only")
+    parser.add_argument("--threads", nargs="+", type=int, default=powers_of_two(os.cpu_count()),
+                        help="numbers of threads to compare (default: powers of two up to this machine's processors)")
+    parser.add_argument("--find", action="store_true", help="print the errors for rasters.py instead")
+    return parser.parse_args()
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bin", type=Path, required=True, help="folder of the built programs")
-    parser.add_argument("--compiler", default="not told", help="for the record")
-    parser.add_argument("--rounds", type=int, help="instead of 5, or 2 above 2 million samples")
-    parser.add_argument("--only", nargs="*", choices=RASTERS, help="these rasters; nothing is kept")
-    parser.add_argument("--find", action="store_true", help="print the errors for SHARES instead")
-    options = parser.parse_args()
+    options = parse()
     names = options.only or list(RASTERS)
     load = os.getloadavg()[0]
-    rows, versions = [], {}
+    partial = bool(options.only or options.programs)
     with tempfile.TemporaryDirectory() as scratch:
-        for name in names:
-            raster = make_raw(name, scratch)
-            if raster is None:
-                continue
-            if options.find:
-                errors = [call([options.bin / "speed_scarp", *raster, "--find", share]) for share in SHARES]
-                print(f'    "{name}": ({", ".join(f"{error:.3g}" for error in errors)}),', flush=True)
-                continue
-            rounds = options.rounds or (5 if raster[1] * raster[2] <= LARGE else 2)
-            for error in ERRORS[name]:
-                cases = time_case(programs(options.bin), options.bin / "speed_judge", raster, error, rounds,
-                                  scratch)
-                versions.update((program, case["version"]) for program, case in cases.items())
-                for row in rows_of(name, raster, error, cases):
-                    rows.append(row)
-                    print(*row.values(), sep=",", flush=True)
-    if options.find or not rows:
-        return
-    report = markdown(rows, versions, options.compiler, load)
-    if options.only:
-        print(report)
-        return
-    with open(HERE / "results.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, rows[0].keys(), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-    (HERE / "results.md").write_text(report)
+        bench = Bench(options, scratch)
+        if options.find:
+            return find_errors(bench, names)
+        for part in options.parts:
+            measure, rows = PARTS[part][0], []
+            for name in names:
+                raster = make_raw(name, scratch, options.bin) if name in PART_RASTERS[part] else None
+                for error in ERRORS[name] if raster else ():
+                    for row in measure(bench, name, raster, error):
+                        rows.append(row)
+                        print(part, *row.values(), sep=",", flush=True)
+            if options.keep or not partial:
+                keep(part, rows, complete=not partial)
+        if options.keep or not partial:
+            report.write_machine(describe_machine(options, bench, load, partial))
+            report.write()
+    return None
 
 
 if __name__ == "__main__":

@@ -1,49 +1,93 @@
-// Times Scarp's triangulation of a raw raster: domain and refinement until every sample is within ERROR; nothing is
-// read, measured or written inside the timed part.
+// Times Scarp's triangulation of a raw raster, until every sample is within ERROR; nothing is read, measured or written
+// inside the timed part.
 //
-//   speed_scarp RASTER COLS ROWS ERROR [MESH]     one JSON line; the mesh for speed_judge
-//   speed_scarp RASTER COLS ROWS --find SHARE     the error that keeps about SHARE of the samples
+//   speed_scarp RASTER COLS ROWS ERROR [--order dominant|greedy] [--threads N] [--tile SIDE] [--mesh FILE]
+//                                      [--repeat N]
+//   speed_scarp RASTER COLS ROWS --find SHARE...
+//
+// One JSON line; the environment variable SCARP_KERNEL forces an instruction set. --mesh: for speed_judge. --repeat: no
+// warm-up, but N calls, the first reported as "first", the mean of the others as the result. --find: the errors that
+// keep about SHARE... (ascending) of the samples in the greedy order.
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
+#include <vector>
 
-#include "raw.h"
-#include "refine/domain.h"
-#include "refine/height_judge.h"
-#include "refine/refinement.h"
+#include "engines.h"
+#include "geom/scan_kernels.h"
 #include "scarp/version.h"
 
 namespace {
 
-scarp::Domain build(const scarp::Raster& raster) {
-  auto domain = scarp::build_domain(raster, 0, scarp::grid_frame(raster.rows));
-  if (!domain) bench::die(domain.error().message);
-  return std::move(*domain);
+struct Options {
+  double error = 0;
+  scarp::Order order = scarp::Order::kDominant;
+  int threads = 1, side = 0, calls = 0;
+  const char* mesh = nullptr;
+  std::vector<double> shares;
+};
+
+[[noreturn]] void show_usage() {
+  bench::die(
+      "usage: speed_scarp RASTER COLS ROWS (ERROR [--order dominant|greedy] [--threads N] [--tile SIDE] [--mesh FILE] "
+      "[--repeat N] | --find SHARE...)");
 }
 
-scarp::Domain refine(const bench::RawRaster& raw, double error) {
-  const scarp::Raster raster{raw.samples.data(), raw.cols, raw.rows};
-  scarp::Domain domain = build(raster);
-  const scarp::HeightJudge judge(raster, error);
-  scarp::Refinement refinement(judge, domain.tin);
-  while (!refinement.done()) refinement.insert_worst();
-  return domain;
+scarp::Order order_of(const std::string& name) {
+  if (name == "greedy") return scarp::Order::kGreedy;
+  if (name != "dominant") show_usage();
+  return scarp::Order::kDominant;
 }
 
-/// Max error is not monotone in the vertices: the smallest that was seen on the way to SHARE.
-double find_error(const bench::RawRaster& raw, double share) {
-  const scarp::Raster raster{raw.samples.data(), raw.cols, raw.rows};
-  scarp::Domain domain = build(raster);
+Options parse(int argc, char** argv) {
+  Options options;
+  if (argc < 5) show_usage();
+  if (std::strcmp(argv[4], "--find") == 0) {
+    for (int i = 5; i < argc; ++i) options.shares.push_back(std::atof(argv[i]));
+    if (options.shares.empty()) show_usage();
+    return options;
+  }
+  options.error = std::atof(argv[4]);
+  if (argc % 2 == 0) show_usage();
+  for (int i = 5; i < argc; i += 2) {
+    const std::string name = argv[i];
+    const char* value = argv[i + 1];
+    if (name == "--order")
+      options.order = order_of(value);
+    else if (name == "--threads")
+      options.threads = std::atoi(value);
+    else if (name == "--tile")
+      options.side = std::atoi(value);
+    else if (name == "--mesh")
+      options.mesh = value;
+    else if (name == "--repeat")
+      options.calls = std::atoi(value);
+    else
+      show_usage();
+  }
+  return options;
+}
+
+bench::EngineRun refine(const bench::RawRaster& raw, const Options& options) {
+  if (options.order == scarp::Order::kGreedy) return bench::refine_greedily(raw, options.error);
+  return bench::refine_dominantly(raw, options.error, options.threads, options.side);
+}
+
+/// Max error is not monotone in the vertices: the smallest that was seen on the way to each share.
+void print_errors(const bench::RawRaster& raw, const std::vector<double>& shares) {
+  const scarp::Raster raster = bench::view_of(raw);
+  scarp::Domain domain = bench::start_greedy(raster);
   const scarp::HeightJudge judge(raster, 0);
   scarp::Refinement refinement(judge, domain.tin);
-  const double most = share * static_cast<double>(raw.samples.size());
   double error = std::numeric_limits<double>::infinity();
-  while (!refinement.done() && static_cast<double>(domain.tin.vertex_count()) < most) {
-    refinement.insert_worst();
-    error = std::min(error, refinement.worst_error());
+  for (const double share : shares) {
+    const double most = share * static_cast<double>(raw.samples.size());
+    while (!refinement.done() && static_cast<double>(domain.tin.vertex_count()) < most) {
+      refinement.insert_worst();
+      error = std::min(error, refinement.worst_error());
+    }
+    std::printf("%.9g\n", error);
   }
-  return error;
 }
 
 bench::RawMesh mesh_of(const scarp::Triangulation& tin) {
@@ -56,21 +100,47 @@ bench::RawMesh mesh_of(const scarp::Triangulation& tin) {
   return mesh;
 }
 
+/// Times of one call, its triangulation freed again inside the timed part.
+bench::Times time_call(const bench::RawRaster& raw, const Options& options) {
+  const bench::Stopwatch watch;
+  refine(raw, options);
+  return watch.read();
+}
+
+bench::Times mean_of_calls(const bench::RawRaster& raw, const Options& options, int calls) {
+  const bench::Stopwatch watch;
+  for (int call = 0; call < calls; ++call) refine(raw, options);
+  bench::Times sum = watch.read();
+  for (double* value : {&sum.wall, &sum.user, &sum.system, &sum.page_faults}) *value /= calls;
+  return sum;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool finds = argc == 6 && std::strcmp(argv[4], "--find") == 0;
-  if (argc != 5 && argc != 6) bench::die("usage: speed_scarp RASTER COLS ROWS (ERROR [MESH] | --find SHARE)");
+  const Options options = parse(argc, argv);
   const bench::RawRaster raster = bench::read_raw(argv[1], argv[2], argv[3]);
-  if (finds) {
-    std::printf("%.9g\n", find_error(raster, std::atof(argv[5])));
+  if (!options.shares.empty()) {
+    print_errors(raster, options.shares);
     return 0;
   }
-  const double error = std::atof(argv[4]);
-  refine(bench::warm_up_part(raster), error);
+  std::string more;
+  if (options.calls > 0) {
+    const bench::Times first = time_call(raster, options);
+    more += ", \"calls\": " + std::to_string(options.calls) + ", \"first\": {" + bench::json_of(first) + "}";
+  } else {
+    refine(bench::warm_up_part(raster), options);
+  }
+  bench::Times times;
+  if (options.calls > 1) times = mean_of_calls(raster, options, options.calls - 1);
   const bench::Stopwatch watch;
-  const scarp::Domain domain = refine(raster, error);
-  const double wall = watch.wall(), cpu = watch.cpu();
-  bench::print_result(scarp::version(), wall, cpu, domain.tin.vertex_count(), domain.tin.triangle_count());
-  if (argc == 6) bench::write_raw_mesh(argv[5], mesh_of(domain.tin));
+  const bench::EngineRun run = refine(raster, options);
+  if (options.calls <= 1) times = watch.read();
+  more += std::string(", \"order\": \"") + bench::name_of(run.order) + "\", \"kernel\": \"" +
+          scarp::scan_kernels().name + "\", \"threads\": " + std::to_string(options.threads) +
+          ", \"triangles_scanned\": " + std::to_string(run.effort.triangles_scanned) +
+          ", \"insertions\": " + std::to_string(run.effort.passes);
+  const scarp::Triangulation& tin = run.domain.tin;
+  bench::print_result(scarp::version(), times, tin.vertex_count(), tin.triangle_count(), more);
+  if (options.mesh != nullptr) bench::write_raw_mesh(options.mesh, mesh_of(tin));
 }

@@ -68,9 +68,9 @@ int main(int argc, char** argv) {
   vtkNew<vtkGreedyTerrainDecimation> decimation;
   const bench::Stopwatch watch;
   decimate(image, error, decimation);
-  const double wall = watch.wall(), cpu = watch.cpu();
+  const bench::Times times = watch.read();
   vtkPolyData* surface = decimation->GetOutput();
-  bench::print_result(SCARP_VTK_VERSION, wall, cpu, static_cast<std::size_t>(surface->GetNumberOfPoints()),
+  bench::print_result(SCARP_VTK_VERSION, times, static_cast<std::size_t>(surface->GetNumberOfPoints()),
                       static_cast<std::size_t>(surface->GetNumberOfCells()));
   if (argc == 6) bench::write_raw_mesh(argv[5], mesh_of(surface));
 }

@@ -20,6 +20,7 @@ class CodedSource : public SampleSource {
     }
     return {};
   }
+  bool is_in_memory() const override { return true; }
 
  private:
   std::vector<std::uint16_t> codes_;

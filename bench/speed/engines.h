@@ -1,0 +1,71 @@
+// Scarp's two engines as the programs of bench/speed run them: from samples in memory to the triangulation.
+#pragma once
+
+#include <cstring>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "raw.h"
+#include "refine/domain.h"
+#include "refine/height_judge.h"
+#include "refine/refinement.h"
+#include "refine/release.h"
+#include "refine/tiled.h"
+#include "scarp/height_field.h"
+
+namespace bench {
+
+struct EngineRun {
+  scarp::Domain domain;
+  scarp::Order order = scarp::Order::kGreedy;  // the one that did the work
+  scarp::Effort effort;
+};
+
+inline scarp::Raster view_of(const RawRaster& raw) { return {raw.samples.data(), raw.cols, raw.rows}; }
+
+inline scarp::HeightField field_of(const RawRaster& raw) {
+  scarp::HeightField field;
+  field.samples = raw.samples.data();
+  field.cols = raw.cols;
+  field.rows = raw.rows;
+  field.frame = scarp::grid_frame(raw.rows);
+  return field;
+}
+
+inline scarp::Domain start_greedy(const scarp::Raster& raster) {
+  auto domain = scarp::build_domain(raster, 0, scarp::grid_frame(raster.rows));
+  if (!domain) die(domain.error().message);
+  return std::move(*domain);
+}
+
+inline EngineRun refine_greedily(const RawRaster& raw, double error) {
+  const scarp::Raster raster = view_of(raw);
+  EngineRun run{start_greedy(raster), scarp::Order::kGreedy, {}};
+  const scarp::HeightJudge judge(raster, error);
+  scarp::Refinement refinement(judge, run.domain.tin);
+  while (!refinement.done()) refinement.insert_worst();
+  run.effort = refinement.effort();
+  return run;
+}
+
+/// The dominant order; greedy where that engine declines, as simplify() does. `side` 0: chosen by the engine.
+inline EngineRun refine_dominantly(const RawRaster& raw, double error, int threads, int side = 0) {
+  scarp::TiledOptions options;
+  options.threshold = error;
+  options.threads = threads;
+  options.tile_side = side;
+  auto tiled = scarp::refine_tiled(field_of(raw), options);
+  if (!tiled) die(tiled.error().message);
+  if (!*tiled) return refine_greedily(raw, error);
+  EngineRun run{std::move((*tiled)->domain), scarp::Order::kDominant, (*tiled)->effort};
+  const scarp::HeightJudge judge(view_of(raw), error);
+  const scarp::Effort seams = scarp::release_seams(run.domain.tin, judge, std::move((*tiled)->seams));
+  run.effort.samples_scanned += seams.samples_scanned;
+  run.effort.triangles_scanned += seams.triangles_scanned;
+  return run;
+}
+
+inline const char* name_of(scarp::Order order) { return order == scarp::Order::kDominant ? "dominant" : "greedy"; }
+
+}  // namespace bench

@@ -1,0 +1,242 @@
+#!/usr/bin/env python3
+"""Is HEAD slower or larger than BASE? Builds both, times both in interleaved rounds on the same rasters, says so.
+
+  guard.py BASE [HEAD]       two commits; HEAD is what is checked out if left out (its last commit)
+  guard.py --bins A B        two folders of programs that are built already
+
+Compared are the triangulation's CPU time as speed_scarp reports it (instructions of the whole process where `perf` can
+count them), least of the rounds, and the peak memory of the process. A case fails where a number grew by more than a
+ratio and by more than an amount: either alone is noise, or a triviality. What fails is measured again before it counts.
+A commit without speed_scarp is timed by `scarp simplify --report` (seconds of refinement, wall clock); then the other one
+is too. Options that a program does not know are left out, and that is said. Exit code: 0 well, 1 a case failed, 2 no
+comparison.
+"""
+
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+PROJECT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(PROJECT / "bench" / "speed"))
+from rasters import ERRORS, RASTERS, make_raw  # noqa: E402
+
+DEFAULT_RASTERS = ("fuji", "essen_dom", "sierra_3601")
+
+
+@dataclass(frozen=True)
+class Threshold:
+    """How much a number may grow: it fails beyond both."""
+    ratio: float
+    amount: float
+
+    def fails(self, base, head):
+        return head > base * self.ratio and head - base > self.amount
+
+
+@dataclass(frozen=True)
+class Limits:
+    seconds: Threshold
+    megabytes: Threshold
+    instructions: Threshold
+
+
+def least(runs, key):
+    found = [run[key] for run in runs if run.get(key) is not None]
+    return min(found) if found else None
+
+
+def judge(base, head, limits):
+    """Rows (what, base, head, fails) of one case from the runs of both sides; instructions rule out time."""
+    rows = []
+    counted = least(base, "instructions") is not None and least(head, "instructions") is not None
+    for what in ("instructions", "seconds", "megabytes"):
+        ours, theirs = least(base, what), least(head, what)
+        if ours is None or theirs is None:
+            continue
+        decides = what != "seconds" or not counted
+        rows.append((what, ours, theirs, decides and getattr(limits, what).fails(ours, theirs)))
+    return rows
+
+
+def run_child(command):
+    """(output, peak megabytes), or None if it fails. Peaks below this interpreter's own are not seen: a child starts as
+    its image."""
+    with tempfile.TemporaryFile("w+") as output, open(os.devnull, "w") as nowhere:
+        child = subprocess.Popen([str(part) for part in command], stdout=output, stderr=nowhere)
+        _, status, usage = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        output.seek(0)
+        return (output.read(), usage.ru_maxrss / 1024) if child.returncode == 0 else None
+
+
+def count_instructions(command, scratch):
+    """Instructions in user mode of one run, or None where they cannot be counted."""
+    if shutil.which("perf") is None:
+        return None
+    counts = scratch / "counts"
+    if run_child(["perf", "stat", "-x,", "-e", "instructions:u", "-o", counts, "--", *command]) is None:
+        return None
+    for line in counts.read_text().splitlines():
+        fields = line.split(",")
+        if len(fields) > 2 and "instructions" in fields[2] and fields[0].isdigit():
+            return int(fields[0])
+    return None
+
+
+class Side:
+    """One of the two builds."""
+
+    def __init__(self, name, folder, scratch):
+        self.name, self.folder, self.scratch = name, Path(folder).resolve(), scratch
+        self.dropped = []
+
+    def has_bench(self):
+        return (self.folder / "speed_scarp").exists()
+
+    def drop_unknown(self, raster, error, options):
+        """Leaves out the options, pairs of name and value, that the program does not know."""
+        self.options = []
+        for option in options:
+            known = run_child([self.folder / "speed_scarp", *raster, error, *option]) is not None
+            (self.options if known else self.dropped).append(option)
+
+    def run_bench(self, raster, error):
+        command = [self.folder / "speed_scarp", *raster, error, *(part for option in self.options for part in option)]
+        done = run_child(command)
+        if done is None:
+            raise SystemExit(f"{self.name}: {' '.join(map(str, command))} failed")
+        report = json.loads(done[0])
+        return {"seconds": report["cpu_seconds"], "megabytes": done[1],
+                "instructions": count_instructions(command, self.scratch)}
+
+    def run_program(self, tif, error):
+        report = self.scratch / "report.json"
+        command = [self.folder / "scarp", "simplify", tif, self.scratch / "mesh.ply", "-e", error, "--report", report,
+                   "-q", "--overwrite"]
+        done = run_child(command)
+        if done is None:
+            raise SystemExit(f"{self.name}: {' '.join(map(str, command))} failed")
+        seconds = json.loads(report.read_text())["seconds"]["refine"]
+        return {"seconds": seconds, "megabytes": done[1], "instructions": None}
+
+
+def measure_case(sides, run, rounds):
+    """Runs of each side, interleaved, the first of a round by turns."""
+    runs = {side.name: [] for side in sides}
+    for number in range(rounds):
+        for side in sides if number % 2 == 0 else sides[::-1]:
+            runs[side.name].append(run(side))
+    return [runs[side.name] for side in sides]
+
+
+def compare(sides, cases, rounds, limits):
+    """Prints the table; whether any case fails. `cases`: (title, function of a side)."""
+    failed = False
+    print("| case | what | base | head | head ÷ base | verdict |\n|---|---|---|---|---|---|")
+    for title, run in cases:
+        base, head = measure_case(sides, run, rounds)
+        rows = judge(base, head, limits)
+        if any(row[3] for row in rows):
+            more = measure_case(sides, run, 2 * rounds)
+            rows = judge(base + more[0], head + more[1], limits)
+        for what, ours, theirs, fails in rows:
+            quotient = theirs / ours if ours else 1
+            print(f"| {title} | {what} | {ours:.6g} | {theirs:.6g} | {quotient:.3f} | {'FAILS' if fails else 'ok'} |",
+                  flush=True)
+            failed = failed or fails
+    return failed
+
+
+def build(commit, folder):
+    """The programs of a commit, in a worktree of its own; their folder."""
+    subprocess.run(["git", "-C", PROJECT, "worktree", "add", "-q", "--detach", folder, commit], check=True)
+    launcher = [] if "CMAKE_CXX_COMPILER_LAUNCHER" in os.environ or shutil.which("ccache") is None else [
+        "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"]
+    made = folder / "build"
+    subprocess.run(["cmake", "-S", folder, "-B", made, "-DCMAKE_BUILD_TYPE=Release", "-DSCARP_BUILD_BENCH=ON",
+                    "-DSCARP_BUILD_TESTS=OFF", *launcher], check=True, stdout=subprocess.DEVNULL)
+    for target in ("speed_scarp", "scarp_program"):
+        done = subprocess.run(["cmake", "--build", made, "-j", str(os.cpu_count()), "--target", target],
+                              stdout=subprocess.DEVNULL)
+        if done.returncode != 0:
+            print(f"{commit} has no {target}", file=sys.stderr)
+    return made / "bin"
+
+
+def bench_cases(options, sides, scratch):
+    """Cases for speed_scarp, on raw rasters; for the program, on GeoTIFF, where one side lacks it."""
+    both = all(side.has_bench() for side in sides)
+    if not both:
+        print("timed by scarp simplify --report, since one side has no speed_scarp: wall clock")
+    for name in options.rasters:
+        raster = make_raw(name, scratch, sides[1].folder)
+        if raster is None:
+            continue
+        for error in ERRORS[name]:
+            if both:
+                if not hasattr(sides[0], "options"):
+                    for side in sides:
+                        side.drop_unknown(raster, error, [("--order", options.order)] if options.order else [])
+                        for option in side.dropped:
+                            print(f"{side.name} does not know {' '.join(option)}: run without")
+                yield f"{name}, {error:g}", lambda side, e=error, r=raster: side.run_bench(r, e)
+            else:
+                yield f"{name}, {error:g}", lambda side, e=error, r=raster: side.run_program(r[0], e)
+
+
+def parse(arguments):
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("commits", nargs="*", metavar="COMMIT", help="BASE, and HEAD if it is not the one at hand")
+    parser.add_argument("--bins", nargs=2, type=Path, metavar=("BASE", "HEAD"), help="compare built programs")
+    parser.add_argument("--rasters", nargs="+", choices=RASTERS, default=DEFAULT_RASTERS)
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--order", choices=("dominant", "greedy"), help="instead of each side's default")
+    parser.add_argument("--time-ratio", type=float, default=1.05)
+    parser.add_argument("--time-ms", type=float, default=5)
+    parser.add_argument("--memory-ratio", type=float, default=1.05)
+    parser.add_argument("--memory-mb", type=float, default=2)
+    options = parser.parse_args(arguments)
+    if bool(options.bins) == bool(options.commits) or len(options.commits) > 2:
+        parser.error("give BASE [HEAD], or --bins BASE HEAD")
+    return options
+
+
+def limits_of(options):
+    """Five million instructions take about a millisecond: the amount is that of the time."""
+    return Limits(Threshold(options.time_ratio, options.time_ms / 1e3),
+                  Threshold(options.memory_ratio, options.memory_mb),
+                  Threshold(options.time_ratio, options.time_ms * 5e6))
+
+
+def main(arguments=None):
+    options = parse(arguments)
+    worktrees = []
+    with tempfile.TemporaryDirectory() as folder:
+        scratch = Path(folder)
+        try:
+            if options.bins:
+                folders = options.bins
+            else:
+                folders = []
+                for name, commit in zip(("base", "head"), (*options.commits, "HEAD")):
+                    worktrees.append(scratch / name)
+                    folders.append(build(commit, scratch / name))
+            sides = [Side(name, path, scratch) for name, path in zip(("base", "head"), folders)]
+            if not all(side.has_bench() or (side.folder / "scarp").exists() for side in sides):
+                print("nothing to compare: a side has neither speed_scarp nor scarp", file=sys.stderr)
+                return 2
+            failed = compare(sides, bench_cases(options, sides, scratch), options.rounds, limits_of(options))
+        finally:
+            for tree in worktrees:
+                subprocess.run(["git", "-C", PROJECT, "worktree", "remove", "--force", tree], check=False)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
