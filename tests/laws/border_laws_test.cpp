@@ -123,6 +123,7 @@ RC_GTEST_PROP(border_chain, reads_a_source_as_it_reads_memory, ()) {
       for (int y = 0; y < rows; ++y) std::copy_n(field_.raster().row(row + y) + col, cols, out + y * stride);
       return {};
     }
+    bool is_in_memory() const override { return true; }
 
    private:
     const Field& field_;

@@ -25,6 +25,7 @@ class ArraySource : public SampleSource {
     if (row + rows > broken_row_) return fail(ErrorKind::kInput, "row " + std::to_string(broken_row_) + " is broken");
     return read_window(field_, col, row, cols, rows, out, stride);
   }
+  bool is_in_memory() const override { return false; }
 
  private:
   HeightField field_;

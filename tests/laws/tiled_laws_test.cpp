@@ -244,6 +244,7 @@ TEST(tiled, a_source_that_fails_is_reported_in_its_own_words) {
       *out = 0;
       return {};
     }
+    bool is_in_memory() const override { return true; }
   };
   HeightField view{nullptr, 60, 50};
   const Broken source;

@@ -142,6 +142,7 @@ class FileSource : public SampleSource {
       return reader_->read(window, out + (window.row - row) * stride, stride);
     });
   }
+  bool is_in_memory() const override { return false; }
 
  private:
   Plan plan_;
