@@ -26,7 +26,7 @@ struct SimplifyArguments {
   StrategyArguments strategy;
   CompanionArguments companions;
   ChannelArguments channels;
-  bool normals = false, uvs = false, overwrite = false, quiet = false, json_progress = false;
+  bool normals = false, uvs = false, overwrite = false, quiet = false, timing = false, json_progress = false;
 
   void add_to(CLI::App& verb);
 };
