@@ -53,7 +53,7 @@ _scarp() {
         options+=' --max-error --max-triangles --max-points --nodata-policy --fill-distance --background'
         options+=' --outline-tolerance --of --normals --base --preview --report --overwrite --num-threads'
         options+=' --mask --tolerance --script --image --texture --texture-weight --norm --channel-weights'
-        options+=' --importance --one-pass --order --algorithm --batch --edges --edge-score --shape-threshold --supersample'
+        options+=' --timing --importance --one-pass --order --algorithm --batch --edges --edge-score --shape-threshold --supersample'
         options+=' --uvs --render --error-raster'
         options+=' --points --duplicates --layer --z-field'
         ;;
