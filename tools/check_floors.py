@@ -29,7 +29,7 @@ ROOMS = {
            "bytes to values and back"),
     "refine": (3, ["base", "grid", "geom", "mesh", "tin"],
                ["frame", "height_field", "mesh", "points", "progress", "result", "strategy"],
-               "greedy insertion and its textbook twins"),
+               "insertion, greedy or tile by tile, and the textbook twins"),
     "measure": (3, ["base", "grid", "mesh"],
                 ["frame", "height_field", "measure", "mesh", "points", "progress", "result"],
                 "judging a mesh, without knowing how it was made"),

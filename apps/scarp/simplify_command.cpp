@@ -76,6 +76,13 @@ Result<void> check_place_of_channels(SimplifyPlan& plan, const Channels& channel
   return {};
 }
 
+/// A judgement beyond simplify()'s own proof.
+void add_judging(Clock::time_point start, Outcome& outcome) {
+  const double seconds = seconds_since(start);
+  outcome.simplified.passes.push_back({"judge", seconds});
+  outcome.simplified.seconds_measure += seconds;
+}
+
 /// simplify() tells the largest errors of all samples; where some are ignored, this finds those of the others.
 Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& progress, Outcome& outcome) {
   const Clock::time_point start = Clock::now();
@@ -98,7 +105,7 @@ Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& pro
   if (companions.ignores_samples()) {
     outcome.bounded_goal = options.keep_errors ? weigh(companions).value : judged->bounded.value;
   }
-  outcome.simplified.seconds_measure += seconds_since(start);
+  add_judging(start, outcome);
   return {};
 }
 
@@ -137,7 +144,7 @@ Result<void> judge_topology(const ProgressCallback& progress, int threads, Outco
   Result<Measurement> measured = measure(outcome.field, outcome.simplified.mesh, options);
   if (!measured) return tl::unexpected(std::move(measured.error()));
   outcome.simplified.measurement = std::move(*measured);
-  outcome.simplified.seconds_measure += seconds_since(start);
+  add_judging(start, outcome);
   return {};
 }
 
@@ -205,6 +212,11 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   for (const std::vector<std::string>* more : sources) {
     outcome.warnings.insert(outcome.warnings.end(), more->begin(), more->end());
   }
+  if (options.order == Order::kDominant && outcome.simplified.order != Order::kDominant) {
+    outcome.warnings.push_back(
+        "the greedy order was taken: the goal is so coarse that tiles would cost vertices, or the heights span "
+        "magnitudes beyond exact arithmetic");
+  }
   if (const std::string faults = list_faults(outcome.simplified.measurement); !faults.empty()) {
     outcome.warnings.push_back("the mesh keeps its error bound but is not sound: " + faults);
   }
@@ -232,7 +244,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
 
   if (given_.quiet) return {};
   print_warnings(outcome.warnings);
-  const std::string summary = make_summary(*plan, outcome, *files);
+  const std::string summary = make_summary(*plan, outcome, *files) + (given_.timing ? timing_lines(outcome) : "");
   bool stdout_is_data = is_stdout(plan->report.value_or(""));
   for (const ReadyFile& file : *files) stdout_is_data = stdout_is_data || is_stdout(file.path);
   if (stdout_is_data) {

@@ -88,6 +88,7 @@ void SimplifyArguments::add_to(CLI::App& verb) {
       "Most memory that this run may take, such as 1G; what a\nlarger raster holds is read where it is needed "
       "(see\ndocs/cli.md for what that leaves out)");
   verb.add_flag("-q,--quiet", quiet, "No summary, no progress, no warnings")->group("Run");
+  verb.add_flag("--timing", timing, "After the summary: what each pass took and did")->group("Run");
   verb.add_flag("--json-progress", json_progress, "Progress as one JSON object a line on stderr")->group("Run");
   verb.footer(
       "Examples:\n"

@@ -111,6 +111,29 @@ Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
   return {};
 }
 
+/// The dominant order is for an error goal alone, on heights alone. The library would refuse the rest too, but knows no
+/// options.
+Result<void> plan_order(const SimplifyArguments& given, SimplifyPlan& plan) {
+  if (plan.simplify.order != Order::kDominant) return {};
+  const std::pair<const char*, bool> greedy_only[] = {{"--max-triangles", given.max_triangles.has_value()},
+                                                      {"--max-points", given.max_points.has_value()},
+                                                      {"--mask", given.companions.mask.has_value()},
+                                                      {"--tolerance", given.companions.tolerance.has_value()},
+                                                      {"--script", given.companions.script.has_value()},
+                                                      {"--image", given.channels.image},
+                                                      {"--texture", !given.channels.textures.empty()},
+                                                      {"--outline-tolerance", plan.simplify.outline_tolerance > 0}};
+  const char* culprit = given.strategy.dominant_obstacle();
+  for (const auto& [name, is_given] : greedy_only) {
+    if (is_given) culprit = name;
+  }
+  if (culprit == nullptr) return {};
+  return fail(ErrorKind::kUsage,
+              fmt::format("--order dominant and {} contradict each other: that order is for a max error alone, on "
+                          "heights alone; leave one of them out",
+                          culprit));
+}
+
 /// What the format has no place for: refused where nothing would be left, else a warning.
 Result<void> plan_attributes(const SimplifyArguments& given, SimplifyPlan& plan) {
   const OutputFormat& format = plan.format;
@@ -245,6 +268,8 @@ std::string canonical_command(const SimplifyArguments& given) {
     command += canonical_option(name, *value);
   }
   command += given.companions.canonical() + given.channels.canonical() + given.strategy.canonical();
+  // Budgets are greedy anyhow.
+  if (given.strategy.asks_for_greedy() && !given.max_triangles && !given.max_points) command += " --order greedy";
   return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "");
 }
 
@@ -267,7 +292,8 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   const Result<int> threads = parse_threads(given.threads);
   if (!threads) return tl::unexpected(threads.error());
   plan.simplify.threads = *threads;
-  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_outputs, plan_memory}) {
+  for (const auto step :
+       {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_order, plan_outputs, plan_memory}) {
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());
   }

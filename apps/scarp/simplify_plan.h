@@ -29,7 +29,7 @@ struct SimplifyArguments {
   CompanionArguments companions;
   ChannelArguments channels;
   MemoryArguments memory;
-  bool normals = false, uvs = false, overwrite = false, quiet = false, json_progress = false;
+  bool normals = false, uvs = false, overwrite = false, quiet = false, timing = false, json_progress = false;
 
   void add_to(CLI::App& verb);
 };

@@ -127,7 +127,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["input"]["filled"] = outcome.filled;
   report["frame"] = describe_frame(outcome.field.frame);
   report["goal"] = describe_goal(plan, outcome);
-  report["strategy"] = describe_strategy(plan.simplify);
+  report["strategy"] = describe_strategy(plan.simplify, outcome.simplified.order);
   for (const auto& [key, file] : {std::pair{"mask", &plan.companions.mask},
                                   {"tolerance", &plan.companions.tolerance},
                                   {"script", &plan.companions.script}}) {
@@ -145,6 +145,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
                           {"triangles_scanned", effort.triangles_scanned},
                           {"queue_moves", effort.queue_moves},
                           {"passes", effort.passes}};
+  report["passes"] = describe_passes(outcome);
   report["seconds"] = describe_seconds(outcome);
   report["outputs"] = describe_outputs(files);
   report["warnings"] = outcome.warnings;

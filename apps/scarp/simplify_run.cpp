@@ -6,6 +6,17 @@
 #include "text.h"
 
 namespace scarp::cli {
+namespace {
+
+/// Those of simplify(), in the order in which they ended, between reading and writing.
+std::vector<Pass> list_passes(const SimplifyRun& run) {
+  std::vector<Pass> passes{{"read", run.seconds_read}};
+  passes.insert(passes.end(), run.simplified.passes.begin(), run.simplified.passes.end());
+  passes.push_back({"write", run.seconds_write});
+  return passes;
+}
+
+}  // namespace
 
 Result<void> finish_mesh(const SimplifyPlan& plan, SimplifyRun& run) {
   Mesh& mesh = run.simplified.mesh;
@@ -35,6 +46,18 @@ Json describe_goal(const SimplifyPlan& plan, const SimplifyRun& run) {
   goal["max_triangles"] = or_null(plan.simplify.max_triangles);
   goal["max_points"] = or_null(plan.simplify.max_vertices);
   return goal;
+}
+
+Json describe_passes(const SimplifyRun& run) {
+  Json list = Json::array();
+  for (const Pass& pass : list_passes(run)) {
+    list.push_back(Json{{"name", pass.name},
+                        {"seconds", pass.seconds},
+                        {"samples_scanned", pass.samples_scanned},
+                        {"triangles_scanned", pass.triangles_scanned},
+                        {"insertions", pass.insertions}});
+  }
+  return list;
 }
 
 Json describe_seconds(const SimplifyRun& run) {
@@ -79,6 +102,19 @@ std::string seconds_line(const SimplifyRun& run) {
                       fmt::format("read {}, refine {}, measure {}, write {}", format_seconds(run.seconds_read),
                                   format_seconds(run.simplified.seconds_refine),
                                   format_seconds(run.simplified.seconds_measure), format_seconds(run.seconds_write)));
+}
+
+std::string timing_lines(const SimplifyRun& run) {
+  const auto line = [](std::string_view name, const std::string& seconds, const std::string& samples,
+                       const std::string& triangles, const std::string& insertions) {
+    return fmt::format("  {:<8}{:>10}{:>19}{:>19}{:>14}\n", name, seconds, samples, triangles, insertions);
+  };
+  std::string text = line("pass", "seconds", "samples scanned", "triangles scanned", "insertions");
+  for (const Pass& pass : list_passes(run)) {
+    text += line(pass.name, fmt::format("{:.3f}", pass.seconds), format_count(pass.samples_scanned),
+                 format_count(pass.triangles_scanned), format_count(pass.insertions));
+  }
+  return text;
 }
 
 std::string describe_end(const SimplifyPlan& plan, const SimplifyRun& run, const EndError& error) {

@@ -34,8 +34,9 @@ Result<void> finish_mesh(const SimplifyPlan& plan, SimplifyRun& run);
 void add_origin(const SimplifyPlan& plan, const std::string& command, const std::string& frame, const std::string& crs,
                 Mesh& mesh);
 
-/// The "goal", "seconds" and "outputs" objects of the report; "solid", where there is one.
+/// The "goal", "passes", "seconds" and "outputs" of the report; "solid", where there is one.
 Json describe_goal(const SimplifyPlan& plan, const SimplifyRun& run);
+Json describe_passes(const SimplifyRun& run);
 Json describe_seconds(const SimplifyRun& run);
 Json describe_outputs(const std::vector<ReadyFile>& files);
 void add_solid(Json& report, const SimplifyPlan& plan, const SimplifyRun& run);
@@ -45,6 +46,9 @@ std::string summary_line(const char* name, const std::string& value);
 std::string files_lines(const SimplifyPlan& plan, const std::vector<ReadyFile>& files);
 std::string solid_line(const SimplifyPlan& plan, const SimplifyRun& run);
 std::string seconds_line(const SimplifyRun& run);
+
+/// The lines of --timing: a table of the passes, reading first and writing last.
+std::string timing_lines(const SimplifyRun& run);
 
 /// What the last line of the summary says of the error.
 struct EndError {

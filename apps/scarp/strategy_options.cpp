@@ -14,6 +14,7 @@ namespace {
 constexpr Choice<Importance::Feature> kFeatures[] = {{"local", Importance::Feature::kLocal4},
                                                      {"local8", Importance::Feature::kLocal8},
                                                      {"curvature", Importance::Feature::kCurvature}};
+constexpr Choice<Order> kOrders[] = {{"dominant", Order::kDominant}, {"greedy", Order::kGreedy}};
 constexpr Choice<Algorithm> kAlgorithms[] = {
     {"brute", Algorithm::kBruteForce}, {"local", Algorithm::kLocal}, {"heap", Algorithm::kHeap}};
 constexpr Choice<bool> kEdges[] = {{"delaunay", false}, {"data", true}};
@@ -142,9 +143,16 @@ void StrategyArguments::add_to(CLI::App& verb) {
                 "Rank all samples once, by a feature of the raster,\nand insert the best until a goal is reached: for "
                 "-t\nand -p (with -e it inserts nearly everything)")
       ->group(group);
-  verb.add_option("--algorithm", algorithm,
-                  "How the next sample is found: brute, local or heap\n(default): the report's algorithms I, II and "
-                  "III.\nThe mesh is the same")
+  verb.add_option(
+          "--order", order,
+          "dominant: the worst sample of its neighbourhood\nfirst, on all threads; for -e alone, and then the\n"
+          "default. greedy: the worst of the whole raster\nfirst, as the report has it; the default of all else")
+      ->type_name("NAME")
+      ->group(group);
+  verb.add_option(
+          "--algorithm", algorithm,
+          "How the greedy order finds the next sample: brute,\nlocal or heap (default): the report's algorithms "
+          "I,\nII and III. The mesh is the same")
       ->type_name("NAME")
       ->group(group);
   verb.add_option("--batch", batch,
@@ -186,6 +194,13 @@ Result<void> StrategyArguments::parse_into(SimplifyOptions& options) const {
                 "--importance local, local8 or curvature");
   }
   options.importance.one_pass = one_pass;
+  if (order) {
+    const Result<Order> parsed = choose("--order", *order, kOrders);
+    if (!parsed) return tl::unexpected(parsed.error());
+    options.order = *parsed;
+  } else if (algorithm) {
+    options.order = Order::kGreedy;
+  }
   if (algorithm) {
     const Result<Algorithm> parsed = choose("--algorithm", *algorithm, kAlgorithms);
     if (!parsed) return tl::unexpected(parsed.error());
@@ -205,6 +220,18 @@ Result<void> StrategyArguments::parse_into(SimplifyOptions& options) const {
   return {};
 }
 
+const char* StrategyArguments::dominant_obstacle() const {
+  const std::pair<const char*, bool> greedy_only[] = {{"--one-pass", one_pass},
+                                                      {"--importance", importance && *importance != "global"},
+                                                      {"--algorithm", algorithm.has_value()},
+                                                      {"--batch", batch.has_value()},
+                                                      {"--edges", edges && *edges != "delaunay"}};
+  for (const auto& [name, is_given] : greedy_only) {
+    if (is_given) return name;
+  }
+  return nullptr;
+}
+
 std::string StrategyArguments::canonical() const {
   return canonical_option("--importance", importance) + (one_pass ? " --one-pass" : "") +
          canonical_option("--batch", batch) + canonical_option("--edges", edges) +
@@ -212,11 +239,12 @@ std::string StrategyArguments::canonical() const {
          canonical_option("--supersample", supersample);
 }
 
-Json describe_strategy(const SimplifyOptions& options) {
+Json describe_strategy(const SimplifyOptions& options, Order taken) {
   Json strategy;
   strategy["importance"] = importance_name(options.importance);
   strategy["one_pass"] = options.importance.one_pass;
-  strategy["algorithm"] = name_of(options.algorithm, kAlgorithms);
+  strategy["order"] = name_of(taken, kOrders);
+  strategy["algorithm"] = taken == Order::kGreedy ? Json(name_of(options.algorithm, kAlgorithms)) : Json(nullptr);
   switch (options.batch.rule) {
     case Batch::Rule::kSequential:
       strategy["batch"] = nullptr;

@@ -1,4 +1,4 @@
-// Options that say how greedy insertion goes about its work.
+// Options that say how insertion goes about its work.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,13 +11,17 @@
 namespace scarp::cli {
 
 struct StrategyArguments {
-  Given importance, algorithm, batch, edges, edge_score, shape_threshold, supersample;
+  Given importance, order, algorithm, batch, edges, edge_score, shape_threshold, supersample;
   bool one_pass = false;
 
   void add_to(CLI::App& verb);
-  /// Sets importance, algorithm, batch and edges of the options.
+  /// Sets importance, order, algorithm, batch and edges of the options.
   Result<void> parse_into(SimplifyOptions& options) const;
-  /// The options that can change the mesh, for the canonical command.
+  /// The option among these that the dominant order has no place for; null if there is none.
+  const char* dominant_obstacle() const;
+  /// Whether the greedy order was asked for, by name or by naming one of its algorithms.
+  bool asks_for_greedy() const { return algorithm || order == "greedy"; }
+  /// The options that can change the mesh, for the canonical command; without the order, which most goals decide.
   std::string canonical() const;
 };
 
@@ -26,7 +30,7 @@ Result<Importance> parse_importance(const std::string& text);
 /// What parse_importance() reads as the same importance.
 std::string importance_name(const Importance& importance);
 
-/// The "strategy" object of a report, without masks, channels and scripts.
-Json describe_strategy(const SimplifyOptions& options);
+/// The "strategy" object of a report, without masks, channels and scripts. `taken`: Simplified::order.
+Json describe_strategy(const SimplifyOptions& options, Order taken);
 
 }  // namespace scarp::cli

@@ -28,13 +28,20 @@ done <<'LIST'
 --edges data --importance global*local --batch frac:0.95
 LIST
 
-# The algorithms insert the same samples in the same order, so the command in the metadata does not name them.
+# The algorithms insert the same samples in the same order, so the command in the metadata does not name them; but they
+# are ways of the greedy order, which it does name where another is the default.
 succeeds "$scarp" simplify "$dem" heap.glb -t 300
 for algorithm in brute local heap; do
   succeeds "$scarp" simplify "$dem" "$algorithm-.glb" -t 300 --algorithm "$algorithm" --report a.json --overwrite
   cmp heap.glb "$algorithm-.glb" || fail "--algorithm $algorithm makes another mesh"
   [ "$(json a.json strategy algorithm)" = "\"$algorithm\"" ] || fail "the report does not name $algorithm"
 done
+for algorithm in brute local heap; do
+  succeeds "$scarp" simplify "$dem" "$algorithm-e.glb" -e 150 --algorithm "$algorithm"
+  succeeds "$scarp" simplify "$dem" greedy.glb -e 150 --order greedy --overwrite
+  cmp greedy.glb "$algorithm-e.glb" || fail "--algorithm $algorithm is not the greedy order"
+done
+grep -aq 'OUTPUT --max-error 150 --order greedy"' greedy.glb || fail "the metadata does not tell the order"
 holds "$(json a.json effort samples_scanned) > 100000 && $(json a.json effort passes) > 100"
 
 # What can change the mesh is in its metadata, in a fixed order and as it was given.
@@ -43,7 +50,7 @@ grep -q "simplify jacksboro_fault.tif OUTPUT --max-triangles 300 --importance 'g
   fail "the metadata does not tell the strategy: $(grep -m 1 'simplify' meta.obj)"
 
 # Data-dependent edges need fewer triangles on this terrain, batches more; the report says what was done.
-succeeds "$scarp" simplify "$dem" d.glb -e 25 --report delaunay.json
+succeeds "$scarp" simplify "$dem" d.glb -e 25 --order greedy --report delaunay.json
 succeeds "$scarp" simplify "$dem" e.glb -e 25 --report data.json --edges data
 succeeds "$scarp" simplify "$dem" f.glb -e 25 --report batch.json --batch const
 holds "$(json data.json triangles) < $(json delaunay.json triangles)"
@@ -52,11 +59,69 @@ holds "$(json batch.json effort passes) < 0.01 * $(json delaunay.json effort pas
 python3 - data.json <<'PYTHON'
 import json, sys
 assert json.load(open(sys.argv[1]))["strategy"] == {
-    "importance": "global", "one_pass": False, "algorithm": "heap", "batch": None, "edges": "data", "edge_score": "sum",
+    "importance": "global", "one_pass": False, "order": "greedy", "algorithm": "heap", "batch": None, "edges": "data", "edge_score": "sum",
     "shape_threshold": 0.5, "supersample": 0.0, "mask": None, "tolerance": None, "script": None}
 PYTHON
 
+# The order: dominant where it may be, and the same if asked for; the report tells which was taken.
+succeeds "$scarp" simplify "$dem" auto.glb -e 25 --report auto.json
+succeeds "$scarp" simplify "$dem" dominant.glb -e 25 --order dominant --report dominant.json
+cmp auto.glb dominant.glb || fail "--order dominant is not the default"
+succeeds "$scarp" measure "$dem" dominant.glb --fail-above 25 -q
+[ "$(json auto.json strategy order)" = '"dominant"' ] || fail "the default order is $(json auto.json strategy order)"
+[ "$(json auto.json strategy algorithm)" = null ] || fail "the dominant order has no algorithm"
+[ "$(json delaunay.json strategy order)" = '"greedy"' ] || fail "the order is $(json delaunay.json strategy order)"
+holds "$(json auto.json triangles) < 1.1 * $(json delaunay.json triangles)"
+succeeds "$scarp" simplify "$dem" budget.glb -e 25 -t 100000 --report budget.json
+[ "$(json budget.json strategy order)" = '"greedy"' ] || fail "a budget takes $(json budget.json strategy order)"
+
+# What a run's passes took: each once in the table, and the same in the report.
+succeeds "$scarp" simplify "$dem" timed.glb -e 25 --timing --report timed.json
+cp "$logs/out" timed.txt
+python3 - timed.json timed.txt read tiles seams freeze order prove judge write <<'PYTHON'
+import json, sys
+passes = json.load(open(sys.argv[1]))["passes"]
+table = [line.split() for line in open(sys.argv[2])]
+assert [p["name"] for p in passes] == sys.argv[3:], passes
+for p in passes:
+    rows = [row for row in table if len(row) == 5 and row[0] == p["name"] and row[1].replace(".", "").isdigit()]
+    assert len(rows) == 1, (p["name"], rows)
+    told = [int(number.replace(",", "")) for number in rows[0][2:]]
+    assert told == [p["samples_scanned"], p["triangles_scanned"], p["insertions"]], rows
+    assert p["seconds"] >= 0 and abs(float(rows[0][1]) - p["seconds"]) < 0.001, rows
+tiles = passes[1]
+assert tiles["insertions"] > 1000 and tiles["samples_scanned"] > 100000 and tiles["triangles_scanned"] > tiles["insertions"]
+PYTHON
+succeeds "$scarp" simplify "$dem" timed.glb -e 25 --order greedy --timing --overwrite
+for pass in read domain refine freeze order prove write; do
+  [ "$(grep -cE "^  $pass +[0-9]+\.[0-9]{3} " "$logs/out")" = 1 ] || fail "--timing does not tell $pass once"
+done
+succeeds "$scarp" simplify "$dem" timed.glb -e 25 --timing -q --overwrite
+[ ! -s "$logs/out" ] && [ ! -s "$logs/err" ] || fail "--timing speaks in spite of -q"
+succeeds "$scarp" simplify "$dem" /dev/stdout --of ply -e 25 --timing
+grep -q '^  tiles ' "$logs/err" || fail "the passes are not on stderr where the mesh is on stdout"
+
 simplify() { "$scarp" simplify "$dem" out.glb -e 25 "$@"; }
+refuses 1 "--order best is unknown: choose dominant or greedy" simplify --order best
+while read -r option value; do
+  # shellcheck disable=SC2086
+  refuses 1 "--order dominant and $option contradict each other" simplify --order dominant $option $value
+done <<'LIST'
+--max-triangles 100
+--max-points 100
+--mask weights.tif
+--tolerance bounds.tif
+--script steps.txt
+--texture ortho.tif
+--image
+--outline-tolerance 1
+--importance local
+--one-pass --importance local
+--algorithm heap
+--batch const
+--edges data
+LIST
+refuses 1 "--order dominant" "$scarp" simplify "$dem" out.glb -t 100 --order dominant
 for bad in steep local16 'global*' 'global+local' '(local)' 'local*global' 'sqrt(local)' 'global*(global+1)' ''; do
   refuses 1 "--importance" simplify --importance "$bad"
 done

@@ -60,6 +60,7 @@ const Field* Study::find(const std::string& key) const {
 }
 
 Result<Simplified> Study::run(const HeightField& field, const std::string& name, SimplifyOptions options) const {
+  options.order = Order::kGreedy;  // the report's own
   options.progress = [](const Progress&) { return !cli::interrupted(); };
   Result<Simplified> result = simplify(field, options);
   if (cli::interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
