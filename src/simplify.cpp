@@ -373,10 +373,12 @@ Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const Simpli
   tiles.threshold = *criterion.bound();
   tiles.threads = options.threads;
   Reporter reporter(options.progress);
-  if (options.progress)
+  if (options.progress) {
+    if (!reporter.report("refine", 0, 0, 0)) return fail(ErrorKind::kCancelled, "cancelled while refining");
     tiles.progress = [&](double share, std::uint64_t vertices) {
       return !reporter.due() || reporter.report("refine", share, vertices, 0);
     };
+  }
   return refine_tiled(field, tiles);
 }
 

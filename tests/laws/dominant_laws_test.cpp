@@ -211,6 +211,7 @@ Field hills(std::int32_t cols, std::int32_t rows) {
 }
 
 TEST(coarse_start, puts_no_vertex_on_a_shared_side_and_leaves_a_sound_mesh) {
+  constexpr double kBound = 20;
   for (const auto& [cols, rows] : {std::pair{257, 257}, {300, 199}, {129, 131}, {40, 400}}) {
     const Field field = hills(cols, rows);
     for (const SharedSides shared :
@@ -218,7 +219,7 @@ TEST(coarse_start, puts_no_vertex_on_a_shared_side_and_leaves_a_sound_mesh) {
       Started started;
       ASSERT_TRUE(start(field, started));
       CoarseStart coarse;
-      coarse.insert(started.tile, shared, 5, 0, started.mesh);
+      coarse.insert(started.tile, shared, kBound, 0, started.mesh);
       EXPECT_EQ(testing::verify_tile_mesh(started.mesh, cols, rows), "");
       EXPECT_EQ(started.mesh.vertex_count() > 4, std::min(cols, rows) > 64);
       for (TileMesh::Id t = 0; t < started.mesh.triangle_count(); ++t) {
@@ -229,9 +230,9 @@ TEST(coarse_start, puts_no_vertex_on_a_shared_side_and_leaves_a_sound_mesh) {
                                      (shared.right && x == cols - 1) || (shared.bottom && y == rows - 1)));
         }
       }
-      TileScanner scanner(started.tile.view(), 5);
+      TileScanner scanner(started.tile.view(), kBound);
       refine_dominant(started.mesh, scanner);
-      EXPECT_EQ(testing::find_broken_bound(field.raster(), started.mesh, 5), "");
+      EXPECT_EQ(testing::find_broken_bound(field.raster(), started.mesh, kBound), "");
     }
   }
 }
