@@ -15,12 +15,13 @@
 #endif
 
 #include "geom/scan_kernels_box-inl.h"
-#include "geom/scan_kernels_spans.h"
+#include "geom/scan_kernels_columns.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace scarp::HWY_NAMESPACE {
 
 using detail::BlockColumns;
+using detail::Span;
 
 struct BlockBounds {
   const TileView& tile;

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "geom/scan_kernels_spans.h"
+#include "geom/scan_kernels_columns.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "geom/scan_kernels_vector.cpp"
@@ -25,8 +25,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace scarp::HWY_NAMESPACE {
 
-/// Boxes up to this many samples are scanned along their rows, larger ones by blocks.
-constexpr std::int32_t kMaxRowsArea = 4096;
+/// Boxes up to this many samples are scanned whole, larger ones by blocks.
+constexpr std::int32_t kMaxBoxArea = 4096;
 
 std::uint64_t scan(const TileView& tile, double threshold, std::span<const std::array<Place, 3>> triangles,
                    std::span<const Place> hints, ScanHit* hits) {
@@ -41,10 +41,9 @@ std::uint64_t scan(const TileView& tile, double threshold, std::span<const std::
     } else if (width <= 16) {
       scan_box<16>(tile, task, task.left, task.top, width, height, best);
       scanned += static_cast<std::uint64_t>(width * height);
-    } else if (width * height <= kMaxRowsArea) {
-      Span spans[kMaxRowsArea / 16];
-      scanned += detail::find_spans(task, corners, spans);
-      scan_spans(tile, task, {spans, static_cast<std::size_t>(height)}, best);
+    } else if (width * height <= kMaxBoxArea) {
+      scan_strips(tile, task, corners, best);
+      scanned += static_cast<std::uint64_t>(width * height);
     } else {
       scanned += scan_blocks(tile, task, corners, hints, best);
     }

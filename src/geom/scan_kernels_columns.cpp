@@ -1,6 +1,4 @@
-#include "geom/scan_kernels_spans.h"
-
-#include "geom/scan.h"
+#include "geom/scan_kernels_columns.h"
 
 namespace scarp::detail {
 
@@ -13,18 +11,6 @@ std::array<Point, 3> points_of(const std::array<Place, 3>& corners) {
 constexpr std::size_t next(std::size_t i) { return i == 2 ? 0 : i + 1; }
 
 }  // namespace
-
-std::uint64_t find_spans(const ScanTask& task, const std::array<Place, 3>& corners, Span* spans) {
-  std::uint64_t samples = 0;
-  std::int32_t next_row = task.top;
-  scan_rows(points_of(corners), [&](std::int32_t y, std::int32_t first, std::int32_t last) {
-    for (; next_row < y; ++next_row) *spans++ = {0, -1};
-    *spans++ = {first, last};
-    ++next_row;
-    samples += static_cast<std::uint64_t>(last - first + 1);
-  });
-  return samples;
-}
 
 BlockColumns::BlockColumns(const ScanTask& task, const std::array<Place, 3>& corners)
     : task_(task), corners_(points_of(corners)) {

@@ -1,17 +1,14 @@
-// Which samples and blocks a triangle has on each row. Private to the scan kernels; no instruction set is known here.
+// Which blocks a triangle has in each row of blocks. Private to the scan kernels; no instruction set is known here.
 #pragma once
 
 #include "geom/scan_kernels_task.h"
 
 namespace scarp::detail {
 
-/// Columns of a row that belong to the triangle; first > last where there are none.
+/// Columns or rows from the first to the last; first > last where there are none.
 struct Span {
   std::int32_t first, last;
 };
-
-/// spans[k] = those of row task.top + k, exactly. Returns the number of samples. REQUIRES: room for task.height().
-std::uint64_t find_spans(const ScanTask& task, const std::array<Place, 3>& corners, Span* spans);
 
 /// Which columns of blocks can hold samples of the triangle: a superset.
 class BlockColumns {
