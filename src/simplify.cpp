@@ -372,6 +372,8 @@ Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const Simpli
   TiledOptions tiles;
   tiles.threshold = *criterion.bound();
   tiles.threads = options.threads;
+  tiles.memory = options.memory_limit / 4;  // the rows of tiles at work; the rest is the mesh and the program
+  tiles.may_decline = options.order == Order::kAuto && field.samples != nullptr;
   Reporter reporter(options.progress);
   if (options.progress) {
     if (!reporter.report("refine", 0, 0, 0)) return fail(ErrorKind::kCancelled, "cancelled while refining");

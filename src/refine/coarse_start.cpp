@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "refine/dominant.h"
+#include "refine/tile_domain.h"
 
 namespace scarp {
 
@@ -13,7 +14,7 @@ struct Attempt {
   double expected;  ///< tried where this share of the coarse samples or less is expected to be needed
   double most;      ///< kept where this share or less is needed
 };
-constexpr Attempt kAttempts[] = {{8, 0.12, 0.08}, {4, 0.08, 0.04}};
+constexpr Attempt kAttempts[] = {{8, 0.12, 0.08}, {4, 0.08, 0.03}};
 
 }  // namespace
 
@@ -30,7 +31,9 @@ void CoarseStart::insert(const Tile& tile, const SharedSides& shared, double thr
       const std::int32_t x = place_x(p) * step, y = place_y(p) * step;
       const bool is_shared = (shared.left && x == 0) || (shared.top && y == 0) || (shared.right && x == last_col) ||
                              (shared.bottom && y == last_row);
-      if (!is_shared) last = mesh.insert(place(x, y), last);
+      if (is_shared) continue;
+      last = mesh.locate(place(x, y), last);
+      if (!mesh.is_outside(last)) last = mesh.insert(place(x, y), last);
     }
     return;
   }
@@ -39,7 +42,7 @@ void CoarseStart::insert(const Tile& tile, const SharedSides& shared, double thr
 bool CoarseStart::refine(const Tile& tile, std::int32_t step, double share, double threshold) {
   coarse_.load_coarse(tile, step);
   const TileView& view = coarse_.view();
-  mesh_.reset(view.cols, view.rows);
+  if (!start_tile(coarse_, {}, mesh_)) return false;
   inserted_.clear();
   TileScanner scanner(view, threshold);
   const auto most = static_cast<std::size_t>(share * view.cols * view.rows);

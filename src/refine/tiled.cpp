@@ -23,16 +23,19 @@ double expected_density(std::size_t kept, std::int64_t steps) {
   return 5 * along * along;
 }
 
+/// Below, a tile would hold a few dozen vertices, many of them on its borders.
+constexpr double kLeastDensity = 1e-5;
+
 /// Tiles of a coarse mesh are large, so that borders are few; those of a fine one fit the caches.
 std::int32_t side_for(double density) {
-  if (density < 0.0005) return 2048;
+  if (density < 0.001) return 2048;
   if (density < 0.003) return 1024;
   return density < 0.04 ? 512 : 256;
 }
 
-/// From the borders that tiles of 512 samples would have; from the raster's own where there would be none.
+/// From the borders that tiles of 256 samples would have; from the raster's own where there would be none.
 Result<double> estimate_density(const HeightField& field, double threshold) {
-  const TilePlan plan(field.cols, field.rows, 512);
+  const TilePlan plan(field.cols, field.rows, 256);
   const bool is_alone = plan.count() == 1;
   std::size_t kept = 0;
   std::int64_t steps = 0;
@@ -72,8 +75,7 @@ class Worker {
     }
     if (outcome.status = find_border(field, window, shared, threshold); !outcome.status) return outcome;
     if (outcome.status = start_tile(tile_, border_, mesh_); !outcome.status) return outcome;
-    if (tile_.is_whole())
-      coarse_.insert(tile_, shared, threshold, steps_ > 0 ? expected_density(border_.size(), steps_) : density, mesh_);
+    coarse_.insert(tile_, shared, threshold, steps_ > 0 ? expected_density(border_.size(), steps_) : density, mesh_);
     TileScanner scanner(tile_.view(), threshold);
     scanner.set_shared(shared);
     const DominantRun run = refine_dominant(mesh_, scanner);
@@ -265,6 +267,7 @@ Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledO
     density = *estimate;
   }
   std::int32_t side = options.tile_side;
+  if (options.may_decline && !is_streamed && density < kLeastDensity) return std::optional<Tiled>();
   if (side == 0) side = is_streamed ? streamed_side(field, options.memory) : side_for(density);
   return TiledRun(field, options, TilePlan(field.cols, field.rows, side), density).execute();
 }

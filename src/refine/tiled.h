@@ -29,6 +29,8 @@ struct TiledOptions {
   double threshold = 0;
   int threads = 0;
   std::int32_t tile_side = 0;  ///< 0: chosen from the density of the mesh that the borders let expect
+  /// Whether the answer may be nothing where the goal is so coarse that borders of tiles would cost vertices.
+  bool may_decline = false;
   /// Bytes that the samples of a row of tiles may take, where they come from a file. 0: no limit.
   std::uint64_t memory = 0;
   /// Told the share of tiles that are done and the vertices so far, on the calling thread; false stops with kCancelled.
@@ -44,9 +46,9 @@ struct Tiled {
 
 /// Where the field's source is not in memory, one row of tiles after the other is read and refined.
 ///
-/// Every sample of the surface lies within `threshold` of the triangulation. Nothing where this engine is of no use:
-/// the goal is so coarse that borders of tiles would cost vertices, or heights span magnitudes beyond exact arithmetic.
-/// Fails as the field's source does; with kInput if no cell is surface or the triangles are too many; kCancelled.
+/// Every sample of the surface lies within `threshold` of the triangulation. Nothing where heights span magnitudes
+/// beyond exact arithmetic, and where it may decline. Fails as the field's source does; with kInput if no cell is
+/// surface or the triangles are too many; kCancelled.
 Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options);
 
 }  // namespace scarp
