@@ -27,8 +27,8 @@ class SampleSource {
   /// to row; voids as NaN. Several threads may call it at once. Fails with kInput, naming file and row. REQUIRES: the
   /// window lies in the raster.
   virtual Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const = 0;
-  /// True if any window costs about as much as copying it. False: whole rows are asked for, from the top down, each once
-  /// or a few times, and small windows only where there is no other way.
+  /// True if any window costs about as much as copying it. False: whole rows are asked for, from the top down, each
+  /// once or a few times, and small windows only where there is no other way.
   virtual bool is_in_memory() const = 0;
 };
 

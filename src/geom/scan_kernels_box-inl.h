@@ -149,7 +149,6 @@ struct StripRows {
 HWY_NOINLINE void scan_strips(const TileView& tile, const ScanTask& task, const std::array<Place, 3>& corners,
                               ScanBest& best) {
   const hn::CappedTag<float, 16> d;
-  const hn::RebindToSigned<decltype(d)> di;
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
   const StripRows strip_rows(task, corners);
   const float start = entry(task, best);
