@@ -20,6 +20,7 @@ constexpr Attempt kAttempts[] = {{8, 0.12, 0.08}, {4, 0.08, 0.03}};
 
 void CoarseStart::insert(const Tile& tile, const SharedSides& shared, double threshold, double density,
                          TileMesh& mesh) {
+  effort_ = {};
   const std::int32_t last_col = tile.view().cols - 1, last_row = tile.view().rows - 1;
   for (const Attempt& attempt : kAttempts) {
     const std::int32_t step = attempt.step;

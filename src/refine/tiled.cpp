@@ -52,6 +52,13 @@ Result<double> estimate_density(const HeightField& field, double threshold) {
   return expected_density(kept, steps);
 }
 
+void add(Effort& sum, const Effort& effort) {
+  sum.samples_scanned += effort.samples_scanned;
+  sum.triangles_scanned += effort.triangles_scanned;
+  sum.queue_moves += effort.queue_moves;
+  sum.passes += effort.passes;
+}
+
 /// What a finished tile hands over.
 struct Outcome {
   Result<void> status;
@@ -81,6 +88,7 @@ class Worker {
     const DominantRun run = refine_dominant(mesh_, scanner);
     outcome.is_unsuited = scanner.has_given_up();
     outcome.effort = {scanner.samples_scanned(), scanner.triangles_scanned(), run.moves, run.insertions};
+    add(outcome.effort, coarse_.effort());
     outcome.piece = pieces_.make(mesh_, {window.col, window.row}, window.cols, window.rows);
     if (field.samples == nullptr) {
       for (const Place p : outcome.piece.points) outcome.heights.push_back(tile_.view().at(p));
@@ -119,13 +127,6 @@ std::uint32_t count_unused(const Triangulation& tin) {
     if (!tin.is_outside(h / 3)) is_used[tin.origin(h)] = true;
   }
   return static_cast<std::uint32_t>(std::count(is_used.begin(), is_used.end(), false));
-}
-
-void add(Effort& sum, const Effort& effort) {
-  sum.samples_scanned += effort.samples_scanned;
-  sum.triangles_scanned += effort.triangles_scanned;
-  sum.queue_moves += effort.queue_moves;
-  sum.passes += effort.passes;
 }
 
 /// Rows of a field whose source is slow, read once for all the tiles that want them.
