@@ -36,6 +36,7 @@ for option in "-t 100" "-p 100" "--preview p.png" "--render r.png" "--error-rast
 done
 refuses 1 'needs all samples in memory at once' "$scarp" simplify "$dem" o.tif -e 5 --memory $small
 "$scarp" measure "$dem" hills.glb --memory $small --map m.png 2>&1 | grep -oE 'allow [0-9]+M' | tr -d -c '0-9M' > enough || true
+[ -s enough ] || fail "--map does not say how much memory would do"
 succeeds "$scarp" measure "$dem" hills.glb --memory "$(cat enough)" --map m.png
 
 # Sizes.
