@@ -34,20 +34,35 @@ std::int32_t side_for(double density) {
 }
 
 /// From the borders that tiles of 256 samples would have; from the raster's own where there would be none.
-Result<double> estimate_density(const HeightField& field, double threshold) {
+Result<double> estimate_density(const HeightField& field, double threshold, int threads) {
   const TilePlan plan(field.cols, field.rows, 256);
   const bool is_alone = plan.count() == 1;
-  std::size_t kept = 0;
-  std::int64_t steps = 0;
-  for (std::size_t i = 0; i < plan.count(); ++i) {
+  struct Border {
+    Result<void> status;
+    std::size_t kept = 0;
+    std::int64_t steps = 0;
+  };
+  std::vector<Border> borders(plan.count());
+  parallel_for(plan.count(), threads, [&](std::size_t i) {
+    Border& border = borders[i];
     const SharedSides shared = plan.shared(i);
     for (const BorderLine& line :
          shared_lines(plan.window(i), {shared.left || is_alone, shared.top || is_alone, is_alone, is_alone})) {
       const auto chain = simplify_border(field, line, threshold);
-      if (!chain) return tl::unexpected(chain.error());
-      kept += chain->size();
-      steps += line.steps;
+      if (!chain) {
+        border.status = tl::unexpected(chain.error());
+        return;
+      }
+      border.kept += chain->size();
+      border.steps += line.steps;
     }
+  });
+  std::size_t kept = 0;
+  std::int64_t steps = 0;
+  for (const Border& border : borders) {
+    if (!border.status) return tl::unexpected(border.status.error());
+    kept += border.kept;
+    steps += border.steps;
   }
   return expected_density(kept, steps);
 }
@@ -263,7 +278,7 @@ Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledO
   const bool is_streamed = field.samples == nullptr && !field.source->is_in_memory();
   double density = 0;
   if (!is_streamed) {
-    const auto estimate = estimate_density(field, options.threshold);
+    const auto estimate = estimate_density(field, options.threshold, options.threads);
     if (!estimate) return tl::unexpected(estimate.error());
     density = *estimate;
   }
