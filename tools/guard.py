@@ -177,9 +177,10 @@ def build(commit, folder, jobs):
     subprocess.run(["git", "-C", PROJECT, "worktree", "add", "-q", "--detach", folder, commit], check=True)
     launcher = [] if "CMAKE_CXX_COMPILER_LAUNCHER" in os.environ or shutil.which("ccache") is None else [
         "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"]
+    generator = [] if "CMAKE_GENERATOR" in os.environ or shutil.which("ninja") is None else ["-G", "Ninja"]
     made = folder / "build"
     run_step(commit, ["cmake", "-S", folder, "-B", made, "-DCMAKE_BUILD_TYPE=Release", "-DSCARP_BUILD_BENCH=ON",
-                      "-DSCARP_BUILD_TESTS=OFF", *launcher])
+                      "-DSCARP_BUILD_TESTS=OFF", *generator, *launcher])
     for target in ("speed_scarp", "scarp_program"):
         if has_target(made, target):
             run_step(commit, ["cmake", "--build", made, "-j", str(jobs), "--target", target])
