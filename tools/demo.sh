@@ -10,11 +10,15 @@ dem=data/jacksboro_fault.tif
 goal=20
 python=$(command -pv python3 || command -v python3)
 
+# The command as a user would type it, then its run.
+run() {
+  echo "scarp $*"
+  "$scarp" "$@" --quiet
+}
+
 mkdir -p demo
-echo "scarp simplify $dem demo/jacksboro.glb -e $goal"
-"$scarp" simplify "$dem" demo/jacksboro.glb -e $goal --normals --quiet --overwrite \
-  --preview demo/jacksboro.png --report demo/jacksboro.json
-"$scarp" simplify "$dem" demo/jacksboro.obj -e $goal --quiet --overwrite
+run simplify "$dem" demo/jacksboro.glb -e $goal --normals --preview demo/jacksboro.png --report demo/jacksboro.json --overwrite
+run simplify "$dem" demo/jacksboro.obj -e $goal --overwrite
 echo "scarp measure $dem demo/jacksboro.glb --fail-above $goal"
 "$scarp" measure "$dem" demo/jacksboro.glb --fail-above $goal --json --quiet >demo/measured.json
 "$scarp" measure "$dem" demo/jacksboro.obj --fail-above $goal --quiet >/dev/null

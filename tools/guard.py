@@ -15,6 +15,7 @@ comparison.
 import argparse
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -89,6 +90,10 @@ def count_instructions(command, scratch):
     return None
 
 
+class NoComparison(Exception):
+    """Why there is nothing to compare."""
+
+
 class Side:
     """One of the two builds."""
 
@@ -110,7 +115,7 @@ class Side:
         command = [self.folder / "speed_scarp", *raster, error, *(part for option in self.options for part in option)]
         done = run_child(command)
         if done is None:
-            raise SystemExit(f"{self.name}: {' '.join(map(str, command))} failed")
+            raise NoComparison(f"{self.name}: {' '.join(map(str, command))} failed")
         report = json.loads(done[0])
         return {"seconds": report["cpu_seconds"], "megabytes": done[1],
                 "instructions": count_instructions(command, self.scratch)}
@@ -121,7 +126,7 @@ class Side:
                    "-q", "--overwrite"]
         done = run_child(command)
         if done is None:
-            raise SystemExit(f"{self.name}: {' '.join(map(str, command))} failed")
+            raise NoComparison(f"{self.name}: {' '.join(map(str, command))} failed")
         seconds = json.loads(report.read_text())["seconds"]["refine"]
         return {"seconds": seconds, "megabytes": done[1], "instructions": None}
 
@@ -153,20 +158,43 @@ def compare(sides, cases, rounds, limits):
     return failed
 
 
-def build(commit, folder):
+def find_commit(name):
+    """The commit's hash, by which a branch is meant as it stands now."""
+    found = subprocess.run(["git", "-C", PROJECT, "rev-parse", "--verify", "--quiet", f"{name}^{{commit}}"],
+                           capture_output=True, text=True)
+    if found.returncode != 0:
+        raise NoComparison(f"{name} is no commit of {PROJECT}")
+    return found.stdout.strip()
+
+
+def has_target(made, target):
+    listed = subprocess.run(["cmake", "--build", made, "--target", "help"], capture_output=True, text=True)
+    return any(target in re.split(r"[\s:]+", line) for line in listed.stdout.splitlines())
+
+
+def build(commit, folder, jobs):
     """The programs of a commit, in a worktree of its own; their folder."""
     subprocess.run(["git", "-C", PROJECT, "worktree", "add", "-q", "--detach", folder, commit], check=True)
     launcher = [] if "CMAKE_CXX_COMPILER_LAUNCHER" in os.environ or shutil.which("ccache") is None else [
         "-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"]
+    generator = [] if "CMAKE_GENERATOR" in os.environ or shutil.which("ninja") is None else ["-G", "Ninja"]
     made = folder / "build"
-    subprocess.run(["cmake", "-S", folder, "-B", made, "-DCMAKE_BUILD_TYPE=Release", "-DSCARP_BUILD_BENCH=ON",
-                    "-DSCARP_BUILD_TESTS=OFF", *launcher], check=True, stdout=subprocess.DEVNULL)
+    run_step(commit, ["cmake", "-S", folder, "-B", made, "-DCMAKE_BUILD_TYPE=Release", "-DSCARP_BUILD_BENCH=ON",
+                      "-DSCARP_BUILD_TESTS=OFF", *generator, *launcher])
     for target in ("speed_scarp", "scarp_program"):
-        done = subprocess.run(["cmake", "--build", made, "-j", str(os.cpu_count()), "--target", target],
-                              stdout=subprocess.DEVNULL)
-        if done.returncode != 0:
+        if has_target(made, target):
+            run_step(commit, ["cmake", "--build", made, "-j", str(jobs), "--target", target])
+        else:
             print(f"{commit} has no {target}", file=sys.stderr)
     return made / "bin"
+
+
+def run_step(commit, command):
+    """Its output is only shown if it fails."""
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    if done.returncode != 0:
+        sys.stderr.write(done.stdout[-4000:])
+        raise NoComparison(f"{commit} cannot be built: {' '.join(map(str, command))}")
 
 
 def bench_cases(options, sides, scratch):
@@ -196,6 +224,7 @@ def parse(arguments):
     parser.add_argument("--bins", nargs=2, type=Path, metavar=("BASE", "HEAD"), help="compare built programs")
     parser.add_argument("--rasters", nargs="+", choices=RASTERS, default=DEFAULT_RASTERS)
     parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="compilers at once, all processors if left out")
     parser.add_argument("--order", choices=("dominant", "greedy"), help="instead of each side's default")
     parser.add_argument("--time-ratio", type=float, default=1.05)
     parser.add_argument("--time-ms", type=float, default=5)
@@ -215,7 +244,14 @@ def limits_of(options):
 
 
 def main(arguments=None):
-    options = parse(arguments)
+    try:
+        return guard(parse(arguments))
+    except (NoComparison, OSError, subprocess.CalledProcessError) as reason:
+        print(f"guard: {reason}", file=sys.stderr)
+        return 2
+
+
+def guard(options):
     worktrees = []
     with tempfile.TemporaryDirectory() as folder:
         scratch = Path(folder)
@@ -224,14 +260,17 @@ def main(arguments=None):
                 folders = options.bins
             else:
                 folders = []
-                for name, commit in zip(("base", "head"), (*options.commits, "HEAD")):
+                commits = [find_commit(name) for name in (*options.commits, "HEAD")[:2]]
+                for name, commit in zip(("base", "head"), commits):
                     worktrees.append(scratch / name)
-                    folders.append(build(commit, scratch / name))
+                    folders.append(build(commit, scratch / name, options.jobs))
             sides = [Side(name, path, scratch) for name, path in zip(("base", "head"), folders)]
             if not all(side.has_bench() or (side.folder / "scarp").exists() for side in sides):
-                print("nothing to compare: a side has neither speed_scarp nor scarp", file=sys.stderr)
-                return 2
-            failed = compare(sides, bench_cases(options, sides, scratch), options.rounds, limits_of(options))
+                raise NoComparison("a side has neither speed_scarp nor scarp")
+            cases = list(bench_cases(options, sides, scratch))
+            if not cases:
+                raise NoComparison("none of the rasters is there")
+            failed = compare(sides, cases, options.rounds, limits_of(options))
         finally:
             for tree in worktrees:
                 subprocess.run(["git", "-C", PROJECT, "worktree", "remove", "--force", tree], check=False)

@@ -17,13 +17,6 @@ namespace {
 
 constexpr std::array<double, 3> kShares{0.01, 0.05, 0.20};
 
-/// Three significant digits, rounded up: a goal that is a little too small would miss its share.
-double round_up(double error) {
-  if (error <= 0) return 0;
-  const double digits = std::pow(10.0, 2 - std::floor(std::log10(error)));
-  return std::ceil(error * digits * (1 - 1e-12)) / digits;
-}
-
 Json make_report(const OwnedHeightField& field, const Suggestions& suggestions, int band,
                  const std::string& command_line) {
   Json report;
@@ -38,7 +31,7 @@ Json make_report(const OwnedHeightField& field, const Suggestions& suggestions, 
     rows.push_back(Json{{"share", row.share},
                         {"triangles", static_cast<std::uint64_t>(
                                           std::floor(row.share * static_cast<double>(full_grid_triangles(field))))},
-                        {"max_error", row.error ? Json(round_up(*row.error)) : Json(nullptr)}});
+                        {"max_error", row.error ? Json(*row.error) : Json(nullptr)}});
   }
   report["suggestions_are_estimates"] = suggestions.is_estimate;
   report["warnings"] = field.info.warnings;
@@ -89,7 +82,7 @@ std::string make_table(const OwnedHeightField& field, const Suggestions& suggest
     const auto triangles =
         static_cast<std::uint64_t>(std::floor(row.share * static_cast<double>(full_grid_triangles(field))));
     text += fmt::format("  {:>9}   {:>13.0f} %    {}\n", format_count(triangles), 100 * row.share,
-                        row.error ? fmt::format("-e {}", format_number(round_up(*row.error)))
+                        row.error ? fmt::format("-e {}", format_number(*row.error))
                                   : "not possible: the outline of the valid samples alone needs more");
   }
   return text;

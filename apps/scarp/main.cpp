@@ -12,6 +12,7 @@
 #include "generate_command.h"
 #include "info_command.h"
 #include "measure_command.h"
+#include "missing_value.h"
 #include "paper_command.h"
 #include "scarp/version.h"
 #include "signals.h"
@@ -58,6 +59,10 @@ std::string list_verbs(const CLI::App& program) {
   return text;
 }
 
+Error end_usage(const std::string& sentence, const std::string& verb) {
+  return {ErrorKind::kUsage, fmt::format("{}; see scarp{} --help", sentence, verb)};
+}
+
 /// What CLI11 objects to, as one sentence that ends with where to read more.
 Error describe(const CLI::ParseError& error, const CLI::App& program) {
   std::string verb, sentence;
@@ -75,7 +80,7 @@ Error describe(const CLI::ParseError& error, const CLI::App& program) {
   } else {
     sentence = error.what();
   }
-  return {ErrorKind::kUsage, fmt::format("{}; see scarp{} --help", sentence, verb)};
+  return end_usage(sentence, verb);
 }
 
 /// Prints the error, if there is one, and returns the exit code.
@@ -110,6 +115,8 @@ int run_program(int argc, char** argv) {
     verb->set_version_flag("--version", fmt::format("scarp {}", scarp::version()), "Print the version");
   }
 
+  if (const auto complaint = find_missing_value(program, argc, argv))
+    return report_end(tl::unexpected(end_usage(*complaint, std::string(" ") + argv[1])));
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <string_view>
 
 #include "text.h"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr std::uint64_t kProgramBytes = 64'000'000;  // the code, GDAL's included, and what it always needs
 constexpr std::uint64_t kBytesPerSample = 4;
+constexpr double kMostBytes = 1e18;
 
 /// 1000 or 1024 to the power that the unit means; nothing for an unknown one.
 std::optional<double> find_unit(std::string unit) {
@@ -49,15 +51,22 @@ Result<std::optional<std::uint64_t>> MemoryArguments::parse() const {
 Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& text) {
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error == std::errc::result_out_of_range) number = std::strtod(text.c_str(), nullptr);  // infinity, or next to 0
   const char* last = text.data() + text.size();
   const char* unit = end;
   while (unit != last && *unit == ' ') ++unit;
   const std::optional<double> factor = find_unit(std::string(unit, last));
   const double bytes = number * factor.value_or(1);
-  if (error != std::errc() || !factor || !(bytes >= 1 && bytes < 0x1p60)) {
+  const bool has_digits = text.find_first_of("0123456789") != std::string::npos;
+  if (error == std::errc::invalid_argument || !has_digits || !factor || bytes < 0) {
     return fail(ErrorKind::kUsage, fmt::format("{} {} is no size of memory: give a number with k, M, G, T, Ki, Mi, Gi "
                                                "or Ti behind it, such as 1G",
                                                option, shell_word(text)));
+  }
+  if (bytes > kMostBytes) {
+    return fail(ErrorKind::kUsage, fmt::format("{} {} is too large: give at most 1000000T, or leave {} out to have no "
+                                               "limit",
+                                               option, text, option));
   }
   return static_cast<std::uint64_t>(bytes);
 }

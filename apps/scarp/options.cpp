@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 namespace scarp::cli {
 namespace {
@@ -13,14 +14,21 @@ std::optional<double> find_number(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
+  if (end != text.data() + text.size() || error == std::errc::invalid_argument) return std::nullopt;
+  return error == std::errc() ? value : std::strtod(std::string(text).c_str(), nullptr);  // infinity, or next to 0
+}
+
+/// Fails for digits, as in 1e999, that stand for more than a number can be.
+Result<void> check_size(std::string_view option, const std::string& text, const std::optional<double>& value) {
+  if (!value || !std::isinf(*value) || text.find_first_of("0123456789") == std::string::npos) return {};
+  return fail(ErrorKind::kUsage, fmt::format("{} {} is too large: a number goes up to 1.79e308", option, text));
 }
 
 }  // namespace
 
 Result<double> parse_number(std::string_view option, const std::string& text) {
   const std::optional<double> value = find_number(text);
+  if (auto fits = check_size(option, text, value); !fits) return tl::unexpected(fits.error());
   if (!value || !std::isfinite(*value)) {
     return fail(ErrorKind::kUsage, fmt::format("{} {} is not a finite number", option, shell_word(text)));
   }
@@ -38,9 +46,13 @@ Result<double> parse_non_negative(std::string_view option, const std::string& te
 Result<std::uint64_t> parse_count(std::string_view option, const std::string& text, std::uint64_t least) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < least) {
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} {} is not a whole number of at least {}", option, shell_word(text), least));
+  const bool is_whole = end == text.data() + text.size();
+  if (is_whole && error == std::errc::result_out_of_range) {
+    return fail(ErrorKind::kUsage, fmt::format("{} {} is too large: give a smaller number", option, text));
+  }
+  if (!is_whole || error != std::errc() || value < least) {
+    return fail(ErrorKind::kUsage, fmt::format("{} {} is not a whole number of at least {}, in digits alone", option,
+                                               shell_word(text), least));
   }
   return value;
 }
@@ -50,7 +62,8 @@ Result<int> parse_threads(const Given& text) {
   const Result<std::uint64_t> threads = parse_count("--num-threads", *text, 0);
   if (!threads) return tl::unexpected(threads.error());
   if (*threads > 1024) {
-    return fail(ErrorKind::kUsage, fmt::format("--num-threads {} is more than 1024", *text));
+    return fail(ErrorKind::kUsage,
+                fmt::format("--num-threads {} is more than 1024: ask for fewer, or for 0, all cores", *text));
   }
   return static_cast<int>(*threads);
 }
@@ -64,6 +77,7 @@ Result<ErrorGoal> parse_error_goal(std::string_view option, const std::string& t
   goal.percent_of_relief = !text.empty() && text.back() == '%';
   const std::optional<double> value =
       find_number(std::string_view(text).substr(0, text.size() - (goal.percent_of_relief ? 1 : 0)));
+  if (auto fits = check_size(option, text, value); !fits) return tl::unexpected(fits.error());
   if (!value || !std::isfinite(*value)) {
     return fail(ErrorKind::kUsage, fmt::format("{} {} is neither a finite number, in the units of the heights, nor a "
                                                "percentage of the relief such as 0.5%",
@@ -105,6 +119,7 @@ Result<ReadOptions> RasterArguments::parse() const {
   }
   if (nodata) {
     const std::optional<double> value = find_number(*nodata);
+    if (auto fits = check_size("--nodata", *nodata, value); !fits) return tl::unexpected(fits.error());
     if (!value) {
       return fail(ErrorKind::kUsage, fmt::format("--nodata {} is not a number or nan", shell_word(*nodata)));
     }

@@ -13,6 +13,16 @@ refuses 1 "option --frobnicate is unknown" "$scarp" simplify "$dem" out.glb -e 1
 refuses 1 "scarp simplify --help" "$scarp" simplify "$dem" out.glb -e 1 --frobnicate
 refuses 1 "argument more.glb is unknown" "$scarp" simplify "$dem" out.glb more.glb -e 1
 refuses 1 "--max-error needs a value" "$scarp" simplify "$dem" out.glb -e
+for behind in --overwrite -q --order=greedy --frobnicate --help; do
+  for option in --order --max-error --report --memory --nodata --num-threads; do
+    refuses 1 "$option needs a value, and $behind behind it reads as an option" "$scarp" simplify "$dem" out.glb "$option" "$behind"
+  done
+done
+refuses 1 "--num-threads needs a value, and --json behind it" "$scarp" measure "$dem" out.glb -j --json
+refuses 1 "--crs needs a value, and -q behind it" "$scarp" info "$dem" --crs -q
+succeeds "$scarp" simplify "$dem" "$root/o.glb" -e 100 --report=--plain -q # a value that reads like an option
+[ -s ./--plain ] || fail "--report=--plain wrote no file of that name"
+rm ./--plain "$root/o.glb"
 refuses 1 "--max-error is given more than once" "$scarp" simplify "$dem" out.glb -e 1 -e 2
 for bad in -5 -0.1% nan NaN inf -inf garbage 5m 1e999 % "" "5 %" 0x10; do
   refuses 1 "" "$scarp" simplify "$dem" out.glb "--max-error=$bad"
@@ -24,6 +34,14 @@ for bad in 0 -1 nan 1.5 1e6 many 99999999999999999999; do
   refuses 1 "--max-triangles $bad" "$scarp" simplify "$dem" out.glb -t "$bad"
   refuses 1 "--max-points $bad" "$scarp" simplify "$dem" out.glb -p "$bad"
 done
+refuses 1 "--max-triangles 99999999999999999999 is too large" "$scarp" simplify "$dem" out.glb -t 99999999999999999999
+refuses 1 "--max-triangles 1e6 is not a whole number of at least 1, in digits alone" "$scarp" simplify "$dem" out.glb -t 1e6
+refuses 1 "--num-threads 99999999999999999999 is too large" "$scarp" simplify "$dem" out.glb -e 1 -j 99999999999999999999
+refuses 1 "--num-threads 1025 is more than 1024: ask for fewer" "$scarp" simplify "$dem" out.glb -e 1 -j 1025
+for option in --max-error --base --nodata --outline-tolerance; do
+  refuses 1 "$option 1e999 is too large" "$scarp" simplify "$dem" out.glb "$option=1e999" -t 10
+done
+refuses 1 "--max-error 1e999% is too large" "$scarp" simplify "$dem" out.glb -e 1e999%
 refuses 1 "--band 0" "$scarp" simplify "$dem" out.glb -e 1 --band 0
 refuses 1 "--band two" "$scarp" simplify "$dem" out.glb -e 1 --band two
 refuses 1 "--nodata none" "$scarp" simplify "$dem" out.glb -e 1 --nodata none

@@ -92,3 +92,12 @@ compare slow base
 mkdir "$scratch/empty"
 compare empty base
 [ $code -eq 2 ] || { echo "a folder without programs gave $code"; exit 1; }
+grep -q '^guard: a side has neither' "$scratch/err"
+printf '#!/bin/sh\nexit 3\n' >"$scratch/empty/speed_scarp"
+chmod +x "$scratch/empty/speed_scarp"
+compare empty base
+[ $code -eq 2 ] || { echo "a program that always fails gave $code"; exit 1; }
+grep -q '^guard: base: .* failed' "$scratch/err"
+code=0
+PYTHONDONTWRITEBYTECODE=1 "$python" "$source_tree/tools/guard.py" no-such-commit 2>"$scratch/err" || code=$?
+[ $code -eq 2 ] || { echo "a commit that is not there gave $code"; exit 1; }

@@ -40,10 +40,16 @@ refuses 1 'needs all samples in memory at once' "$scarp" simplify "$dem" o.tif -
 succeeds "$scarp" measure "$dem" hills.glb --memory "$(cat enough)" --map m.png
 
 # Sizes.
-for size in 1 x 1Q G -1G 1e30G nan 63M 10k; do
-  refuses 1 '--memory' "$scarp" measure "$dem" hills.glb --memory=$size
+for size in 999999999T 1e30G 1e400 1000001T; do
+  refuses 1 "--memory $size is too large: give at most 1000000T, or leave --memory out" "$scarp" measure "$dem" hills.glb --memory $size
 done
-for size in 1G 1GiB 1.5g 900M "900 MB" 70000000 100Mi 1T; do
+for size in 0 0.5 1e-400G 63M; do
+  refuses 1 "--memory $size is too little: the program alone takes 64M" "$scarp" measure "$dem" hills.glb --memory $size
+done
+for size in x 1Q G -1G nan inf infG 1e 1,5G 1GBB; do
+  refuses 1 "--memory $size is no size of memory" "$scarp" measure "$dem" hills.glb "--memory=$size"
+done
+for size in 1G 1GiB 1.5g 900M "900 MB" 70000000 100Mi 1T 1000000T; do
   succeeds "$scarp" measure "$dem" hills.glb --memory "$size" -q
 done
 refuses 1 '--image' "$scarp" measure "$dem" hills.glb --memory 1G --image

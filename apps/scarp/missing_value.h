@@ -1,0 +1,15 @@
+// An option without its value, directly before another option.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+namespace scarp::cli {
+
+/// The complaint about the first word that reads as an option where the value of the one before it belongs, as in
+/// "--report --overwrite", which CLI11 would take for a value. A value that reads like an option is given as
+/// "--report=--overwrite". Nothing if there is none. Looks at the options of the verb that argv names.
+std::optional<std::string> find_missing_value(const CLI::App& program, int argc, const char* const* argv);
+
+}  // namespace scarp::cli
