@@ -117,11 +117,11 @@ struct Simplified {
 /// are proven to a float32's rounding (2⁻²², and 2⁻²⁴ more a channel). Samples that are `ignored` have no bound.
 ///
 /// Budgets are upper bounds. Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex and some
-/// 20 MB. In the dominant order it is 4.6 bytes a sample plus 72 a vertex until the mesh is frozen, and a tile's samples,
-/// 1 to 17 MB, for each thread; ordering and the proof take the 120. With a mask, tolerances, a feature or a script that
-/// ignores, up to 12 more a sample; with channels 8 more a sample, and 4 a vertex and channel; with one pass 16 more a
-/// sample; with data-dependent edges about 300 more a vertex. Up to 32 MiB of work buffers stay in the process for later
-/// calls, on any thread: a second call on a small raster asks the system for next to nothing.
+/// 20 MB. In the dominant order it is 4.6 bytes a sample plus 72 a vertex until the mesh is frozen, and a tile's
+/// samples, 1 to 17 MB, for each thread; ordering and the proof take the 120. With a mask, tolerances, a feature or a
+/// script that ignores, up to 12 more a sample; with channels 8 more a sample, and 4 a vertex and channel; with one
+/// pass 16 more a sample; with data-dependent edges about 300 more a vertex. Up to 32 MiB of work buffers stay in the
+/// process for later calls, on any thread: a second call on a small raster asks the system for next to nothing.
 ///
 /// Strategies (strategy.h) change which samples become vertices, never what is promised.
 ///
