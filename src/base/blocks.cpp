@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdlib>
-#include <utility>
+#include <new>
 
 #include "base/parallel.h"
 
@@ -42,9 +43,10 @@ class Shelf {
   std::size_t count_ = 0, bytes_ = 0;
 };
 
-/// Never destroyed: arrays may be, after all that is static.
+/// Never destroyed: arrays may be, after all that is static. In memory of its own, so that it cannot fail.
 Shared<Shelf>& shared_shelf() {
-  static auto& shelf = *new Shared<Shelf>;
+  alignas(Shared<Shelf>) static std::byte place[sizeof(Shared<Shelf>)];
+  static auto& shelf = *new (place) Shared<Shelf>;
   return shelf;
 }
 
