@@ -7,6 +7,11 @@
 
 namespace scarp {
 
+MemoryBudget memory_budget(const SimplifyOptions& options) {
+  constexpr std::uint64_t kMesh = 48, kProof = 145;
+  return {options.memory_limit, options.memory_taken, std::max(kProof, kMesh + options.memory_per_vertex)};
+}
+
 Result<void> check_goals(const SimplifyOptions& options, bool may_have_tolerance) {
   const bool has_tolerance = may_have_tolerance && !options.tolerance.empty();
   if (!options.max_error && !options.max_triangles && !options.max_vertices && !has_tolerance)

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "refine/memory_budget.h"
 #include "scarp/progress.h"
 #include "scarp/result.h"
 #include "scarp/simplify.h"
@@ -21,6 +22,9 @@ inline double seconds_since(Clock::time_point start) {
 
 /// Fails unless there is a goal (tolerances count where they are allowed) and max_error is a number of at least 0.
 Result<void> check_goals(const SimplifyOptions& options, bool may_have_tolerance);
+
+/// Bytes a vertex: what a run takes most of, in the proof or while the mesh is written.
+MemoryBudget memory_budget(const SimplifyOptions& options);
 
 struct MeshSize {
   std::uint64_t vertices = 0, triangles = 0;

@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
+#include "goals.h"
+#include "measure/band.h"
+
 namespace scarp {
 
 namespace {
@@ -127,6 +131,18 @@ double largest_height(const Mesh& mesh) {
   return largest;
 }
 
+/// Of the band that a thread judges.
+std::uint64_t band_bytes(const HeightField& field) {
+  constexpr std::uint64_t kPerSample = 16;
+  return kPerSample * static_cast<std::uint64_t>(field.cols) *
+         static_cast<unsigned>(judge::Band::rows_per_band(field.cols));
+}
+
+/// As many as the memory holds bands at work.
+int threads_within(const HeightField& field, const SimplifyOptions& options) {
+  return memory_budget(options).threads_within(band_bytes(field), thread_count(options.threads));
+}
+
 std::string describe_breach(const Measurement& m, const SimplifyOptions& options) {
   if (m.uncovered > 0) return fmt::format("{} valid samples are not covered by the mesh", m.uncovered);
   return fmt::format("a max error of {} cannot be kept: at sample ({}, {}) the mesh is off by {}",
@@ -135,12 +151,16 @@ std::string describe_breach(const Measurement& m, const SimplifyOptions& options
 
 }  // namespace
 
+std::uint64_t proof_bytes(const HeightField& field, const SimplifyOptions& options) {
+  return static_cast<std::uint64_t>(threads_within(field, options)) * band_bytes(field);
+}
+
 Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, const Criterion& criterion, bool exact,
                     Simplified& result) {
   const bool by_sample = !criterion.bounds().empty() || !field.channels.empty() || field.height_scale != 1;
   MeasureOptions judge;
   judge.topology = !exact;
-  judge.threads = options.threads;
+  judge.threads = threads_within(field, options);
   judge.progress = options.progress;
   if (result.stop == StopReason::kMaxError) judge.collect_above = by_sample ? HUGE_VAL : *criterion.bound();
   std::optional<Tally> tally;

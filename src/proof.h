@@ -1,6 +1,7 @@
 // The mesh as it will be written, judged against everything that was promised.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,5 +22,8 @@ struct Proof {
 /// which holds by construction, is left out. Fails as measure() does.
 Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, const Criterion& criterion, bool exact,
                     Simplified& result);
+
+/// What prove() takes whatever the mesh.
+std::uint64_t proof_bytes(const HeightField& field, const SimplifyOptions& options);
 
 }  // namespace scarp

@@ -69,6 +69,7 @@ class Run {
         options_(options),
         criterion_(criterion),
         budget_(options),
+        memory_(memory_budget(options)),
         exact_(field.frame.is_affine() &&
                (!options.float32_positions || offsets_are_exact(field.frame, field.cols, field.rows))),
         reporter_(options.progress) {}
@@ -180,6 +181,9 @@ class Run {
       if ((step < 1024 || step % 256 == 0 || options_.batch.rule != Batch::Rule::kSequential) && reporter_.due() &&
           !reporter_.report("refine", fraction(first_error), vertices(), refinement_->worst_error()))
         return fail(ErrorKind::kCancelled, "cancelled while refining");
+      if (step % 256 == 0) {
+        if (auto fits = memory_.check_mesh(0, vertices(), fraction(first_error)); !fits) return fits;
+      }
       if (const auto budget = take_step()) {
         stop = *budget;
         return {};
@@ -356,6 +360,7 @@ class Run {
   const SimplifyOptions& options_;
   const Criterion& criterion_;
   Budget budget_;
+  MemoryBudget memory_;
   std::optional<Domain> domain_;  // the workbench: given back as soon as nothing can need it any more
   std::vector<float> heights_;    // of its vertices, where the field has a source
   std::size_t seeds_ = 0;
@@ -372,7 +377,7 @@ Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const Simpli
   TiledOptions tiles;
   tiles.threshold = *criterion.bound();
   tiles.threads = options.threads;
-  tiles.memory = options.memory_limit / 4;  // the rows of tiles at work; the rest is the mesh and the program
+  tiles.memory = memory_budget(options);
   tiles.may_decline = options.order == Order::kAuto && field.samples != nullptr;
   Reporter reporter(options.progress);
   if (options.progress) {
@@ -396,6 +401,9 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
   }
   const auto criterion = Criterion::make(field, options, raster);
   if (!criterion) return tl::unexpected(criterion.error());
+  const MemoryBudget memory = memory_budget(options);
+  const std::uint64_t work = proof_bytes(field, options);
+  if (auto fits = memory.check_start(work); !fits) return tl::unexpected(fits.error());
   const auto start = Clock::now();
   auto tiled = refine_tiles(field, options, *criterion);
   if (!tiled) return tl::unexpected(tiled.error());
@@ -407,6 +415,9 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
     greedy.order = Order::kGreedy;
     return simplify(field, greedy);
   }
+  const Domain& domain = (*tiled)->domain;
+  if (auto fits = memory.check_mesh(work, domain.tin.vertex_count() - domain.unused, 1); !fits)
+    return tl::unexpected(fits.error());
   const Effort& effort = (*tiled)->effort;
   const Pass pass{"tiles", seconds_since(start), effort.samples_scanned, effort.triangles_scanned, effort.passes};
   auto result = Run(field, raster, options, *criterion).execute(std::move(*tiled));

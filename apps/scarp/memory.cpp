@@ -15,6 +15,8 @@ namespace scarp::cli {
 namespace {
 
 constexpr std::uint64_t kProgramBytes = 64'000'000;  // the code, GDAL's included, and what it always needs
+constexpr std::uint64_t kCodeBytes = 52'000'000;     // of it the code alone
+constexpr std::uint64_t kCacheBytes = 8'400'000;     // what the cache of a file has beside its share of the samples
 constexpr std::uint64_t kBytesPerSample = 4;
 constexpr double kMostBytes = 1e18;
 
@@ -76,6 +78,13 @@ Result<OwnedHeightField> read_within(const std::string& path, ReadOptions option
   if (!limit) return read_height_field(path, options);
   options.memory_limit = std::max<std::uint64_t>(samples_share(*limit), 1);  // 0 would be no limit
   return open_height_field(path, options);
+}
+
+std::uint64_t bytes_taken(const OwnedHeightField& field, std::uint64_t limit) {
+  const std::uint64_t samples = static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(field.rows);
+  if (!field.source) return kCodeBytes + kBytesPerSample * samples;
+  if (field.source->is_in_memory()) return kCodeBytes + kBytesPerSample / 2 * samples;
+  return kCodeBytes + kCacheBytes + samples_share(limit);
 }
 
 Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option) {

@@ -28,6 +28,10 @@ Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& te
 Result<OwnedHeightField> read_within(const std::string& path, ReadOptions options,
                                      const std::optional<std::uint64_t>& limit);
 
+/// What of `limit` a run on a field that was read within it has not for itself: the program, and the samples or the
+/// cache of their file.
+std::uint64_t bytes_taken(const OwnedHeightField& field, std::uint64_t limit);
+
 /// Fails with kUsage if the field's samples are not in memory as one array, which `option` needs; says what would do.
 Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option);
 

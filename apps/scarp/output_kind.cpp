@@ -72,6 +72,23 @@ std::string OutputFormat::title() const {
   return kind == OutputKind::kDem ? "a raster" : text;
 }
 
+std::uint64_t OutputFormat::bytes_per_vertex() const {
+  if (kind != OutputKind::kMesh) return 300;
+  switch (mesh) {
+    case MeshFormat::kGlb:
+      return 80;
+    case MeshFormat::kObj:
+      return 190;
+    case MeshFormat::kPly:
+      return 100;
+    case MeshFormat::kStl:
+      return 220;
+    case MeshFormat::kTin:
+      return 400;
+  }
+  return 0;
+}
+
 Result<OutputFormat> choose_output_format(const Given& of, const std::string& output) {
   if (output.empty()) return fail(ErrorKind::kUsage, "the name of OUTPUT is empty");
   if (output == "-") {

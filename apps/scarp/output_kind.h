@@ -22,6 +22,8 @@ struct OutputFormat {
   const char* name() const;
   /// "GLB", "SVG", …: for sentences.
   std::string title() const;
+  /// About what encode_as() takes for a vertex and its two triangles, the file's bytes included.
+  std::uint64_t bytes_per_vertex() const;
   bool is_mesh() const { return kind == OutputKind::kMesh; }
   /// Positions are rounded to float32.
   bool is_float32() const { return is_mesh() && (mesh == MeshFormat::kGlb || mesh == MeshFormat::kStl); }

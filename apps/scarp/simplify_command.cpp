@@ -183,9 +183,13 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   options.tolerance = outcome.companions.tolerance;
   options.script = outcome.companions.script;
   options.progress = display.callback();
+  if (plan->memory) options.memory_taken = bytes_taken(outcome.field, *plan->memory);
   Result<Simplified> simplified = simplify(outcome.view(), options);
   if (!simplified) {
     Error error = std::move(simplified.error());
+    constexpr std::string_view kLimit = "memory_limit";
+    if (error.message.starts_with(kLimit))
+      error.message.replace(0, kLimit.size(), "--memory " + shell_word(*given_.memory.memory));
     if (error.kind == ErrorKind::kInput && !error.message.starts_with(plan->input))
       error.message = fmt::format("{}: {}", plan->input, error.message);
     return tl::unexpected(std::move(error));

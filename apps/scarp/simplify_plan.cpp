@@ -243,6 +243,9 @@ Result<void> plan_memory(const SimplifyArguments& given, SimplifyPlan& plan) {
     return fail(ErrorKind::kUsage, "--memory and --image contradict each other: images are read as a whole");
   }
   plan.simplify.memory_limit = *plan.memory;
+  plan.simplify.memory_per_vertex = plan.format.bytes_per_vertex();
+  // A solid's bottom and walls are as many vertices again.
+  if (plan.base) plan.simplify.memory_per_vertex = 2 * plan.simplify.memory_per_vertex + 48;
   plan.needs_samples = find_need_of_samples(given, plan);
   plan.read.with_range = plan.error_goal && plan.error_goal->percent_of_relief;
   return {};

@@ -1,14 +1,12 @@
-// Peak memory of domain and refinement on a raw raster, samples included, above what the process needs before it
-// starts.
+// Peak memory of the engine on a raw raster, from samples in memory to the frozen mesh, samples included, above what
+// the process needs before it starts.
 //
-//   speed_memory RASTER COLS ROWS ERROR     one JSON line
+//   speed_memory RASTER COLS ROWS ERROR [--order dominant|greedy] [--threads N]     one JSON line
 
 #include <cstring>
 
-#include "raw.h"
-#include "refine/domain.h"
-#include "refine/height_judge.h"
-#include "refine/refinement.h"
+#include "engines.h"
+#include "refine/freeze.h"
 
 namespace {
 
@@ -23,18 +21,31 @@ std::size_t peak_memory() {
   bench::die("/proc/self/status tells no VmHWM");
 }
 
+[[noreturn]] void show_usage() {
+  bench::die("usage: speed_memory RASTER COLS ROWS ERROR [--order dominant|greedy] [--threads N]");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5) bench::die("usage: speed_memory RASTER COLS ROWS ERROR");
+  if (argc < 5 || argc % 2 == 0) show_usage();
+  const double error = std::atof(argv[4]);
+  bool is_greedy = false;
+  int threads = 1;
+  for (int i = 5; i < argc; i += 2) {
+    const std::string name = argv[i], value = argv[i + 1];
+    if (name == "--order" && (value == "greedy" || value == "dominant"))
+      is_greedy = value == "greedy";
+    else if (name == "--threads")
+      threads = std::atoi(value.c_str());
+    else
+      show_usage();
+  }
   const std::size_t before = peak_memory();
   const bench::RawRaster raw = bench::read_raw(argv[1], argv[2], argv[3]);
-  const scarp::Raster raster{raw.samples.data(), raw.cols, raw.rows};
-  auto domain = scarp::build_domain(raster, 0, scarp::grid_frame(raster.rows));
-  if (!domain) bench::die(domain.error().message);
-  const scarp::HeightJudge judge(raster, std::atof(argv[4]));
-  scarp::Refinement refinement(judge, domain->tin);
-  while (!refinement.done()) refinement.insert_worst();
-  std::printf("{\"samples\": %zu, \"vertices\": %zu, \"bytes\": %zu}\n", raw.samples.size(), domain->tin.vertex_count(),
-              peak_memory() - before);
+  bench::EngineRun run = is_greedy ? bench::refine_greedily(raw, error) : bench::refine_dominantly(raw, error, threads);
+  const scarp::Mesh mesh = scarp::melt_down(scarp::SampleHeights(bench::view_of(raw)), std::move(run.domain.tin),
+                                            scarp::grid_frame(raw.rows), true);
+  std::printf("{\"samples\": %zu, \"order\": \"%s\", \"threads\": %d, \"vertices\": %zu, \"bytes\": %zu}\n",
+              raw.samples.size(), bench::name_of(run.order), threads, mesh.vertex_count(), peak_memory() - before);
 }

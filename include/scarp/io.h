@@ -45,12 +45,12 @@ Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOp
 /// bytes each) they are read as by read_height_field(). If it holds 16-bit samples as they are (2 bytes each: Byte,
 /// Int16 and UInt16 without a mask other than nodata) they are read so, and the field has a source. Else the raster
 /// stays in its file, and the source reads it window by window, one window at a time, through GDAL's block cache, which
-/// is given a half of memory_limit (at least 8 MB; unless GDAL_CACHEMAX is set). Then info has no range unless
-/// options.with_range asks for it, infinities are void without a warning, and a file without any height is no error;
-/// but samples that float32 may not hold (32-bit and larger integers, float64, scaled ones) are read once through all
-/// the same, since sample_rounding must be known.
-/// The samples are those of read_height_field(). Fails as it does; of a PGM or STM that memory_limit does not hold,
-/// since they are read as a whole.
+/// is given memory_limit and 8 MB (unless GDAL_CACHEMAX is set). A file whose rows of blocks fit twice is decoded once
+/// or twice a pass, else again for every few rows. Then info has no range unless options.with_range asks for it,
+/// infinities are void without a warning, and a file without any height is no error; but samples that float32 may not
+/// hold (32-bit and larger integers, float64, scaled ones) are read once through all the same, since sample_rounding
+/// must be known. The samples are those of read_height_field(). Fails as it does; of a PGM or STM that memory_limit
+/// does not hold, since they are read as a whole.
 Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOptions& options = {});
 
 /// The bands of an image as channels: one value a sample and band.

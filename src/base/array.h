@@ -3,15 +3,19 @@
 
 #include <cstddef>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 #include <type_traits>
 #include <utility>
+
+#include "base/blocks.h"
 
 namespace scarp {
 
 /// Like std::vector for trivially copyable T, with two differences that a mesh of millions of triangles feels: new
 /// elements are not cleared, and growth goes through realloc, which moves pages instead of copying them, so that
-/// the memory in use stays at what was written and never doubles while growing.
+/// the memory in use stays at what was written and never doubles while growing. Blocks that others left (blocks.h) are
+/// taken before new ones, and left to others in turn.
 template <class T>
 class Array {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -29,7 +33,12 @@ class Array {
     std::swap(capacity_, taken.capacity_);
     return *this;
   }
-  ~Array() { std::free(data_); }
+  ~Array() { leave_block({data_, capacity_bytes()}); }
+  /// Gives the memory back to the system, and the elements up.
+  void release() {
+    std::free(std::exchange(data_, nullptr));
+    size_ = capacity_ = 0;
+  }
 
   T& operator[](std::size_t i) { return data_[i]; }
   const T& operator[](std::size_t i) const { return data_[i]; }
@@ -39,6 +48,8 @@ class Array {
   T* end() { return data_ + size_; }
   const T* begin() const { return data_; }
   const T* end() const { return data_ + size_; }
+  T* data() { return data_; }
+  const T* data() const { return data_; }
   T& back() { return data_[size_ - 1]; }
 
   void push_back(T value) {
@@ -53,9 +64,17 @@ class Array {
   }
 
  private:
+  std::size_t capacity_bytes() const { return capacity_ * sizeof(T); }
   void grow(std::size_t least) {
     std::size_t capacity = capacity_ + capacity_ / 2 + 16;
     if (capacity < least) capacity = least;
+    if (const Block kept = take_block(capacity * sizeof(T)); kept.data != nullptr) {
+      if (size_ > 0) std::memcpy(kept.data, data_, size_ * sizeof(T));
+      leave_block({data_, capacity_bytes()});
+      data_ = static_cast<T*>(kept.data);
+      capacity_ = kept.bytes / sizeof(T);
+      return;
+    }
     void* moved = std::realloc(static_cast<void*>(data_), capacity * sizeof(T));
     if (moved == nullptr) throw std::bad_alloc();
     data_ = static_cast<T*>(moved);

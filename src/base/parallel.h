@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <mutex>
 
 namespace scarp {
 
@@ -21,5 +22,21 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
 /// commit, so that uncommitted results stay few. Exceptions: as parallel_for(); those of commit end the loop too.
 void parallel_in_order(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& task,
                        const std::function<bool(std::size_t)>& commit);
+
+/// A value that threads use one after the other.
+template <class T>
+class Shared {
+ public:
+  /// Returns use(value) while no other thread has it.
+  template <class Use>
+  auto with(Use use) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return use(value_);
+  }
+
+ private:
+  std::mutex mutex_;
+  T value_;
+};
 
 }  // namespace scarp

@@ -7,7 +7,7 @@ namespace scarp {
 
 namespace {
 
-void grow(std::vector<float>& values, std::ptrdiff_t least) {
+void grow(Array<float>& values, std::ptrdiff_t least) {
   if (values.size() < static_cast<std::size_t>(least)) values.resize(static_cast<std::size_t>(least));
 }
 

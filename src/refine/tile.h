@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "base/array.h"
 #include "geom/tile_view.h"
 #include "scarp/height_field.h"
 #include "scarp/result.h"
@@ -31,7 +31,7 @@ class Tile {
   float* resize(std::int32_t cols, std::int32_t rows);
   void fill_blocks();
 
-  std::vector<float> samples_, low_, high_;
+  Array<float> samples_, low_, high_;
   TileView view_;
   std::uint64_t voids_ = 0;
   float largest_height_ = 0;

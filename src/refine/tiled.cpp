@@ -6,22 +6,13 @@
 #include "base/parallel.h"
 #include "grid/window.h"
 #include "refine/border_chain.h"
-#include "refine/coarse_start.h"
-#include "refine/dominant.h"
-#include "refine/tile_domain.h"
 #include "refine/tile_plan.h"
+#include "refine/tile_worker.h"
 #include "tin/assembly.h"
 
 namespace scarp {
 
 namespace {
-
-/// Vertices a sample of the plane where so many were kept along lines: the square of the density along a line, times
-/// what was found on terrain of all kinds (2 to 10).
-double expected_density(std::size_t kept, std::int64_t steps) {
-  const double along = static_cast<double>(kept) / static_cast<double>(std::max<std::int64_t>(1, steps));
-  return 5 * along * along;
-}
 
 /// Below, a tile would hold a few dozen vertices, many of them on its borders.
 constexpr double kLeastDensity = 1e-5;
@@ -67,74 +58,6 @@ Result<double> estimate_density(const HeightField& field, double threshold, int 
   return expected_density(kept, steps);
 }
 
-void add(Effort& sum, const Effort& effort) {
-  sum.samples_scanned += effort.samples_scanned;
-  sum.triangles_scanned += effort.triangles_scanned;
-  sum.queue_moves += effort.queue_moves;
-  sum.passes += effort.passes;
-}
-
-/// What a finished tile hands over.
-struct Outcome {
-  Result<void> status;
-  TilePiece piece;
-  std::vector<float> heights;  // of the piece's points
-  Effort effort;
-  bool is_unsuited = false;
-};
-
-/// One thread's memory, kept from tile to tile.
-class Worker {
- public:
-  /// `density`: of the whole mesh, as expected; 0 if unknown.
-  Outcome refine(const HeightField& field, const TileWindow& window, const SharedSides& shared, double threshold,
-                 double density) {
-    Outcome outcome;
-    if (outcome.status = tile_.load(field, window); !outcome.status) return outcome;
-    if (!(tile_.largest_height() <= kMaxScanHeight)) {
-      outcome.is_unsuited = true;
-      return outcome;
-    }
-    if (outcome.status = find_border(field, window, shared, threshold); !outcome.status) return outcome;
-    if (outcome.status = start_tile(tile_, border_, mesh_); !outcome.status) return outcome;
-    coarse_.insert(tile_, shared, threshold, steps_ > 0 ? expected_density(border_.size(), steps_) : density, mesh_);
-    TileScanner scanner(tile_.view(), threshold);
-    scanner.set_shared(shared);
-    const DominantRun run = refine_dominant(mesh_, scanner);
-    outcome.is_unsuited = scanner.has_given_up();
-    outcome.effort = {scanner.samples_scanned(), scanner.triangles_scanned(), run.moves, run.insertions};
-    add(outcome.effort, coarse_.effort());
-    outcome.piece = pieces_.make(mesh_, {window.col, window.row}, window.cols, window.rows);
-    if (field.samples == nullptr) {
-      for (const Place p : outcome.piece.points) outcome.heights.push_back(tile_.view().at(p));
-    }
-    return outcome;
-  }
-
- private:
-  Result<void> find_border(const HeightField& field, const TileWindow& window, const SharedSides& shared,
-                           double threshold) {
-    border_.clear();
-    steps_ = 0;
-    for (const BorderLine& line : shared_lines(window, shared)) {
-      const auto kept = simplify_border(field, line, threshold);
-      if (!kept) return tl::unexpected(kept.error());
-      steps_ += line.steps;
-      for (const std::int32_t step : *kept)
-        border_.push_back(place(line.col - window.col + (line.is_vertical ? 0 : step),
-                                line.row - window.row + (line.is_vertical ? step : 0)));
-    }
-    return {};
-  }
-
-  Tile tile_;
-  TileMesh mesh_;
-  CoarseStart coarse_;
-  PieceMaker pieces_;
-  std::vector<Place> border_;
-  std::int64_t steps_ = 0;  // along the shared sides
-};
-
 /// Vertices that no triangle of the domain uses.
 std::uint32_t count_unused(const Triangulation& tin) {
   std::vector<bool> is_used(tin.vertex_count(), false);
@@ -143,6 +66,9 @@ std::uint32_t count_unused(const Triangulation& tin) {
   }
   return static_cast<std::uint32_t>(std::count(is_used.begin(), is_used.end(), false));
 }
+
+/// The samples are neither in one array nor in a source that copies them.
+bool is_in_file(const HeightField& field) { return field.samples == nullptr && !field.source->is_in_memory(); }
 
 /// Rows of a field whose source is slow, read once for all the tiles that want them.
 class RowBand final : public SampleSource {
@@ -173,25 +99,44 @@ class RowBand final : public SampleSource {
   std::vector<float> samples_;
 };
 
+/// Of the samples of the highest row of tiles, where they come from a file.
+std::uint64_t row_bytes(const HeightField& field, const TilePlan& plan) {
+  if (!is_in_file(field)) return 0;
+  std::int32_t rows = 0;
+  for (std::size_t i = 0; i < plan.count(); i += plan.per_row()) rows = std::max(rows, plan.window(i).rows);
+  return sizeof(float) * static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(rows + 2);
+}
+
+/// Of a thread's buffers and finished tiles that wait, beside their vertices: some twice the samples of a tile.
+std::uint64_t worker_bytes(const TilePlan& plan) {
+  const TileWindow window = plan.window(0);
+  return 2 * sizeof(float) * static_cast<std::uint64_t>(window.cols) * static_cast<std::uint64_t>(window.rows);
+}
+
 /// One run over all tiles.
 class TiledRun {
  public:
   TiledRun(const HeightField& field, const TiledOptions& options, const TilePlan& plan, double density)
       : options_(options),
+        work_(row_bytes(field, plan)),
         plan_(plan),
         density_(density),
-        is_streamed_(field.samples == nullptr && !field.source->is_in_memory()),
+        is_streamed_(is_in_file(field)),
         band_(field),
         field_(is_streamed_ ? band_.view() : field),
-        workers_(static_cast<std::size_t>(thread_count(options.threads))),
+        step_(is_streamed_ ? plan.per_row() : plan.count()),
+        threads_(options.memory.threads_within(worker_bytes(plan), thread_count(options.threads))),
+        workers_(static_cast<std::size_t>(threads_)),
         outcomes_(plan.count()),
-        assembly_(plan.per_row()) {}
+        assembly_(plan.per_row()) {
+    work_ += std::min<std::uint64_t>(workers_.size(), step_) * worker_bytes(plan);
+  }
 
   Result<std::optional<Tiled>> execute() {
-    const std::size_t step = is_streamed_ ? plan_.per_row() : plan_.count();
-    for (std::size_t first = 0; first < plan_.count() && status_ && !is_unsuited_; first += step) {
+    if (auto fits = options_.memory.check_start(work_); !fits) return tl::unexpected(fits.error());
+    for (std::size_t first = 0; first < plan_.count() && status_ && !is_unsuited_; first += step_) {
       if (is_streamed_) status_ = load_rows(first);
-      if (status_) refine(first, step);
+      if (status_) refine(first, step_);
     }
     if (!status_) return tl::unexpected(status_.error());
     if (is_unsuited_) return std::optional<Tiled>();
@@ -216,7 +161,7 @@ class TiledRun {
 
   void refine(std::size_t first, std::size_t count) {
     parallel_in_order(
-        count, options_.threads,
+        count, threads_,
         [&](std::size_t i, std::size_t worker) {
           const std::size_t tile = first + i;
           outcomes_[tile] =
@@ -226,7 +171,7 @@ class TiledRun {
   }
 
   bool commit(std::size_t tile) {
-    const Outcome outcome = *std::exchange(outcomes_[tile], std::nullopt);
+    const TileOutcome outcome = *std::exchange(outcomes_[tile], std::nullopt);
     status_ = outcome.status;
     is_unsuited_ = outcome.is_unsuited;
     if (!status_ || is_unsuited_) return false;
@@ -238,6 +183,7 @@ class TiledRun {
     add(effort_, outcome.effort);
     keep_heights(outcome.heights);
     const double share = static_cast<double>(tile + 1) / static_cast<double>(plan_.count());
+    if (status_ = options_.memory.check_mesh(work_, assembly_.vertex_count(), share); !status_) return false;
     if (options_.progress && !options_.progress(share, assembly_.vertex_count()))
       status_ = fail(ErrorKind::kCancelled, "cancelled while refining");
     return status_.has_value();
@@ -250,13 +196,16 @@ class TiledRun {
   }
 
   const TiledOptions& options_;
+  std::uint64_t work_;  // bytes taken whatever the mesh
   TilePlan plan_;
   double density_;
   bool is_streamed_;
   RowBand band_;
   HeightField field_;
-  std::vector<Worker> workers_;
-  std::vector<std::optional<Outcome>> outcomes_;
+  std::size_t step_;  // tiles that are refined between one reading of rows and the next
+  int threads_;
+  std::vector<TileWorker> workers_;
+  std::vector<std::optional<TileOutcome>> outcomes_;
   Assembly assembly_;
   std::vector<float> heights_;
   Effort effort_;
@@ -264,18 +213,18 @@ class TiledRun {
   bool is_unsuited_ = false;
 };
 
-/// Where the samples come from a file: tiles whose rows fit the memory.
-std::int32_t streamed_side(const HeightField& field, std::uint64_t memory) {
+/// Where the samples come from a file: tiles whose rows fit a quarter of the memory.
+std::int32_t streamed_side(const HeightField& field, const MemoryBudget& memory) {
   std::int32_t side = 512;
   const auto bytes = [&] { return 4ull * static_cast<std::uint64_t>(field.cols) * static_cast<unsigned>(side); };
-  while (memory > 0 && side > 64 && bytes() > memory) side /= 2;
+  while (memory.is_limited() && side > 64 && bytes() > memory.rest() / 4) side /= 2;
   return side;
 }
 
 }  // namespace
 
 Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options) {
-  const bool is_streamed = field.samples == nullptr && !field.source->is_in_memory();
+  const bool is_streamed = is_in_file(field);
   double density = 0;
   if (!is_streamed) {
     const auto estimate = estimate_density(field, options.threshold, options.threads);

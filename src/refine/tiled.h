@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "refine/domain.h"
+#include "refine/memory_budget.h"
 #include "scarp/height_field.h"
 #include "scarp/result.h"
 #include "scarp/strategy.h"
@@ -31,8 +32,8 @@ struct TiledOptions {
   std::int32_t tile_side = 0;  ///< 0: chosen from the density of the mesh that the borders let expect
   /// Whether the answer may be nothing where the goal is so coarse that borders of tiles would cost vertices.
   bool may_decline = false;
-  /// Bytes that the samples of a row of tiles may take, where they come from a file. 0: no limit.
-  std::uint64_t memory = 0;
+  /// Fewer threads, smaller tiles where the samples come from a file, and at last a refusal keep a run within it.
+  MemoryBudget memory = {};
   /// Told the share of tiles that are done and the vertices so far, on the calling thread; false stops with kCancelled.
   std::function<bool(double share, std::uint64_t vertices)> progress = {};
 };
@@ -48,7 +49,7 @@ struct Tiled {
 ///
 /// Every sample of the surface lies within `threshold` of the triangulation. Nothing where heights span magnitudes
 /// beyond exact arithmetic, and where it may decline. Fails as the field's source does; with kInput if no cell is
-/// surface or the triangles are too many; kCancelled.
+/// surface or the triangles are too many; with kUsage if the memory is too little; kCancelled.
 Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options);
 
 }  // namespace scarp

@@ -6,33 +6,43 @@
 
 namespace scarp {
 
+/// At least half of the slots stay free.
+void PieceMaker::clear(std::size_t vertices) {
+  unsigned bits = 4;
+  while ((std::size_t{1} << bits) < 2 * vertices) ++bits;
+  shift_ = 32 - bits;
+  slots_.resize(std::size_t{1} << bits);
+  std::fill(slots_.begin(), slots_.end(), Slot{0, kNone});
+}
+
+/// Where p is, or would be.
+PieceMaker::Slot& PieceMaker::find(Place p) {
+  constexpr std::uint32_t kGolden = 2654435769;  // 2^32 / golden ratio: neighbours are spread
+  std::size_t i = (p * kGolden) >> shift_;
+  while (slots_[i].id != kNone && slots_[i].at != p) i = (i + 1) & (slots_.size() - 1);
+  return slots_[i];
+}
+
 TilePiece PieceMaker::make(const TileMesh& mesh, Point first, std::int32_t cols, std::int32_t rows) {
   TilePiece piece{first, cols, rows, {}, {}, {}, {}};
-  const auto width = static_cast<std::size_t>(cols);
-  const auto slot = [&](Place p) -> std::uint32_t& {
-    return ids_[static_cast<std::size_t>(place_y(p)) * width + static_cast<std::size_t>(place_x(p))];
-  };
-  if (const std::size_t samples = width * static_cast<std::size_t>(rows); ids_.size() < samples)
-    ids_.resize(samples, kNone);
+  clear(mesh.vertex_count());
   const std::size_t count = mesh.triangle_count();
-  piece.points.reserve(mesh.vertex_count());
   piece.corners.resize(3 * count);
   piece.links.resize(3 * count);
   piece.outside.resize(count);
   for (TileMesh::Id t = 0; t < count; ++t) {
     const TileMesh::Record& record = mesh[t];
     for (std::size_t k = 0; k < 3; ++k) {
-      std::uint32_t& id = slot(record.corners[k]);
-      if (id == kNone) {
-        id = static_cast<std::uint32_t>(piece.points.size());
+      Slot& slot = find(record.corners[k]);
+      if (slot.id == kNone) {
+        slot = {record.corners[k], static_cast<std::uint32_t>(piece.points.size())};
         piece.points.push_back(record.corners[k]);
       }
-      piece.corners[3 * t + k] = id;
+      piece.corners[3 * t + k] = slot.id;
       piece.links[3 * t + k] = record.links[k];
     }
     piece.outside[t] = record.key < 0;
   }
-  for (const Place p : piece.points) slot(p) = kNone;
   return piece;
 }
 

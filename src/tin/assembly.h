@@ -13,19 +13,27 @@ namespace scarp {
 struct TilePiece {
   Point first;  ///< the tile's first sample in the raster
   std::int32_t cols = 0, rows = 0;
-  std::vector<Place> points;           ///< vertices, in the order of first use
-  std::vector<std::uint32_t> corners;  ///< 3 per triangle: indices into points
-  std::vector<TileMesh::Link> links;   ///< 3 per triangle
-  std::vector<std::uint8_t> outside;   ///< 1 per triangle
+  Array<Place> points;           ///< vertices, in the order of first use
+  Array<std::uint32_t> corners;  ///< 3 per triangle: indices into points
+  Array<TileMesh::Link> links;   ///< 3 per triangle
+  Array<std::uint8_t> outside;   ///< 1 per triangle
 };
 
-/// Numbers the vertices of tile meshes; its scratch memory (4 bytes a sample of the tile) is kept.
+/// Numbers the vertices of tile meshes; its scratch memory (16 to 32 bytes a vertex) is kept.
 class PieceMaker {
  public:
   TilePiece make(const TileMesh& mesh, Point first, std::int32_t cols, std::int32_t rows);
 
  private:
-  std::vector<std::uint32_t> ids_;  // by place, kNone between calls
+  struct Slot {
+    Place at;
+    std::uint32_t id;  // kNone: free
+  };
+  void clear(std::size_t vertices);
+  Slot& find(Place p);
+
+  Array<Slot> slots_;  // a hash table, open addressing
+  unsigned shift_ = 0;
 };
 
 /// Joins pieces that are appended row of tiles by row of tiles, each row from left to right. Vertices on shared borders

@@ -94,10 +94,10 @@ class Triangulation {
   Triangle last_touched() const { return last_; }
 
   /// Give memory back. Without links nobody may ask for twins or insert; without triangles only vertices are left.
-  void drop_links() { twins_ = {}; }
+  void drop_links() { twins_.release(); }
   void drop_triangles() {
-    corners_ = {};
-    flags_ = {};
+    corners_.release();
+    flags_.release();
   }
 
   /// The half-edge from a to b, kNone if they are not neighbours. Cost: a walk to a, O(1) if it was touched last.

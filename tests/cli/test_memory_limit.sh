@@ -39,6 +39,20 @@ refuses 1 'needs all samples in memory at once' "$scarp" simplify "$dem" o.tif -
 [ -s enough ] || fail "--map does not say how much memory would do"
 succeeds "$scarp" measure "$dem" hills.glb --memory "$(cat enough)" --map m.png
 
+# What outgrows the limit is refused, with what would do; that much does.
+succeeds "$scarp" generate fractal 900 900 fractal.tif -q
+for raster in fractal.tif "$dem"; do
+  for limit in 64M 66M; do
+    refuses 1 "--memory $limit is too little: the mesh has" "$scarp" simplify "$raster" o.glb -e 0 --memory $limit
+  done
+  grep -oE 'would need about [0-9]+M' "$logs/err" | tr -d -c '0-9M' > enough
+  succeeds "$scarp" simplify "$raster" o.glb -e 0 --memory "$(cat enough)" -q
+  rm o.glb
+done
+gdal_translate -q -of VRT -outsize 300000 100 "$dem" wide.vrt
+refuses 1 '--memory 70M is too little: ' "$scarp" simplify wide.vrt o.glb -e 5 --memory 70M
+grep -q 'M are needed before the mesh' "$logs/err" || fail "rows of tiles that do not fit are not said to be the reason"
+
 # Sizes.
 for size in 999999999T 1e30G 1e400 1000001T; do
   refuses 1 "--memory $size is too large: give at most 1000000T, or leave --memory out" "$scarp" measure "$dem" hills.glb --memory $size

@@ -248,6 +248,25 @@ TEST(Threads, CallersMayUseTheLibraryFromTheirOwn) {
   EXPECT_EQ(a->mesh.triangles, b->mesh.triangles);
 }
 
+TEST(Threads, BuffersThatOtherRastersLeftChangeNothing) {
+  const OwnedHeightField small = make_waves(90, 70), large = make_waves(700, 400);
+  const auto mesh_of = [](const OwnedHeightField& field, double error) {
+    return [&field, error] { return simplify(field, {.max_error = error, .threads = 3})->mesh; };
+  };
+  const Mesh fine = mesh_of(small, 0.1)(), coarse = mesh_of(large, 2)();
+  for (int round = 0; round < 3; ++round) {
+    auto a = std::async(std::launch::async, mesh_of(large, 2)), b = std::async(std::launch::async, mesh_of(small, 0.1)),
+         c = std::async(std::launch::async, mesh_of(small, 0.1));
+    const Mesh first = a.get(), second = b.get(), third = c.get();
+    EXPECT_EQ(first.positions, coarse.positions);
+    EXPECT_EQ(first.triangles, coarse.triangles);
+    for (const Mesh* mesh : {&second, &third}) {
+      EXPECT_EQ(mesh->positions, fine.positions);
+      EXPECT_EQ(mesh->triangles, fine.triangles);
+    }
+  }
+}
+
 TEST(Threads, FilesWrittenAtOnceAreEachWhole) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("scarp_threads_" + std::to_string(getpid()));

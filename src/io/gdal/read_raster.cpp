@@ -179,7 +179,9 @@ Result<void> survey(Session& session, GDALRasterBandH band, WindowReader& reader
 
 /// Leaves the samples in their file.
 Result<OwnedHeightField> keep_in_file(Session& session, Opened opened, const ReadOptions& options) {
-  widen_block_cache(options.memory_limit / 2);
+  // Bands of rows are read one after the other: a file in blocks is decoded once if a row of its blocks, and what the
+  // next one begins with, is still there.
+  widen_block_cache(options.memory_limit);
   OwnedHeightField& field = opened.field;
   field.info.has_range = false;
   auto reader = opened.make_reader(options);

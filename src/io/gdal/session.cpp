@@ -39,7 +39,8 @@ std::string tidy(std::string text) {
 void widen_block_cache(std::uint64_t bytes) {
   start_gdal_once();
   if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr) != nullptr) return;
-  GDALSetCacheMax64(std::max(GDALGetCacheMax64(), static_cast<GIntBig>(bytes)));
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 62;
+  GDALSetCacheMax64(std::max(GDALGetCacheMax64(), kBlockCacheBytes + static_cast<GIntBig>(std::min(bytes, kMost))));
 }
 
 Session::Session(bool remote) {

@@ -8,7 +8,8 @@
 
 namespace scarp::gdal {
 
-/// Lets GDAL's block cache, which all files of the process share, grow to at least this; not if GDAL_CACHEMAX is set.
+/// Lets GDAL's block cache, which all files of the process share, grow by at least this beyond its 8 MB; not if
+/// GDAL_CACHEMAX is set.
 void widen_block_cache(std::uint64_t bytes);
 
 /// While a Session lives, what GDAL and PROJ have to say in this thread is collected instead of printed, and, for

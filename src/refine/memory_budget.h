@@ -1,0 +1,28 @@
+// Whether a run keeps within the memory that it was given.
+#pragma once
+
+#include <cstdint>
+
+#include "scarp/result.h"
+
+namespace scarp {
+
+/// Bytes of the process, as the caller's options tell them; without a limit nothing is refused.
+struct MemoryBudget {
+  std::uint64_t limit = 0;       ///< 0: none
+  std::uint64_t taken = 0;       ///< of it, by the caller: the program, the samples
+  std::uint64_t per_vertex = 0;  ///< of the mesh, at the moment of a run that needs most
+
+  bool is_limited() const { return limit > 0; }
+  std::uint64_t rest() const { return limit > taken ? limit - taken : 0; }
+  /// At least one thread, at most `threads`, as many as a quarter of the rest holds at `bytes` each.
+  int threads_within(std::uint64_t bytes, int threads) const;
+
+  /// Fails with kUsage if what a run takes whatever its mesh does not leave room for a small mesh.
+  Result<void> check_start(std::uint64_t work) const;
+  /// Fails with kUsage if `work` and so many vertices do not fit. `share`: of the run that is done, for what would be
+  /// needed.
+  Result<void> check_mesh(std::uint64_t work, std::uint64_t vertices, double share) const;
+};
+
+}  // namespace scarp
