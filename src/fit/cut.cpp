@@ -1,0 +1,219 @@
+#include "fit/cut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace scarp {
+
+namespace {
+
+/// The smallest window that holds points.
+struct Box {
+  Point low{kMaxCoordinate, kMaxCoordinate}, high{0, 0};
+  void add(Point p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  bool fits() const {
+    constexpr std::int32_t kMost = kMaxFitSteps / kLatticeSteps;
+    return high.x - low.x <= kMost && high.y - low.y <= kMost;
+  }
+};
+
+}  // namespace
+
+/// A triangulation in the making.
+struct PatchCutter::Parts {
+  Triangulation::Arrays arrays;
+  std::vector<HalfEdge> renamed;                       // by old half-edge, where it was kept as a border
+  std::vector<std::pair<HalfEdge, HalfEdge>> to_link;  // new half-edges and what their twins were called
+  std::vector<Vertex> numbers;
+
+  Triangle next_triangle() const { return static_cast<Triangle>(arrays.flags.size()); }
+};
+
+PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const PatchGrid& grid, bool sides_are_free)
+    : raster_(raster), tin_(tin), grid_(grid), sides_are_free_(sides_are_free) {
+  const auto squares = [&](std::int32_t samples) {
+    return static_cast<std::size_t>((std::int64_t{samples} + grid.shift) / grid.side + 1);
+  };
+  squares_per_row_ = squares(raster.cols);
+  const std::size_t outside = squares_per_row_ * squares(raster.rows);
+  const auto count = static_cast<Triangle>(tin.triangle_count());
+  begins_.assign(outside + 2, 0);
+  square_.resize(count);
+  for (Triangle t = 0; t < count; ++t) {
+    square_[t] = static_cast<std::uint32_t>(tin.is_outside(t) ? outside : square_of(t));
+    ++begins_[square_[t] + 1];
+  }
+  for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
+  std::vector<std::uint32_t> filled(outside + 1, 0);
+  order_.resize(count);
+  place_.resize(count);
+  for (Triangle t = 0; t < count; ++t) {
+    place_[t] = filled[square_[t]]++;
+    order_[begins_[square_[t]] + place_[t]] = t;
+  }
+  begins_.pop_back();
+}
+
+std::size_t PatchCutter::square_of(Triangle t) const {
+  const auto [a, b, c] = tin_.corners(t);
+  const auto square = [&](std::int64_t three_times) {
+    return static_cast<std::size_t>((three_times + 3 * std::int64_t{grid_.shift}) / (3 * std::int64_t{grid_.side}));
+  };
+  return square(std::int64_t{a.y} + b.y + c.y) * squares_per_row_ + square(std::int64_t{a.x} + b.x + c.x);
+}
+
+bool PatchCutter::is_inner(HalfEdge h, std::size_t i) const {
+  return !tin_.is_constrained(h) && square_[tin_.twin(h) / 3] == i;
+}
+
+Patch PatchCutter::cut(std::size_t i, Scratch& scratch, std::vector<Vertex>& vertices) const {
+  Patch patch;
+  const bool fits = add_nodes(i, scratch, patch, vertices);
+  add_faces(i, scratch, patch);
+  for (const Vertex v : vertices) scratch.ids[v] = kNone;
+  if (fits) {
+    lock(patch);
+  } else {
+    std::fill(patch.locked_.begin(), patch.locked_.end(), std::uint8_t{1});
+  }
+  return patch;
+}
+
+bool PatchCutter::add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::vector<Vertex>& vertices) const {
+  vertices.clear();
+  if (scratch.ids.size() < tin_.vertex_count()) scratch.ids.resize(tin_.vertex_count(), kNone);
+  Box box;
+  for (std::size_t k = begins_[i]; k < begins_[i + 1]; ++k) {
+    for (HalfEdge h = 3 * order_[k]; h < 3 * order_[k] + 3; ++h) {
+      const Vertex v = tin_.origin(h);
+      if (scratch.ids[v] != kNone) continue;
+      scratch.ids[v] = static_cast<std::uint32_t>(vertices.size());
+      vertices.push_back(v);
+      box.add(tin_.point(v));
+    }
+  }
+  patch.first_ = box.low;
+  patch.nodes_.resize(vertices.size());
+  patch.locked_.assign(vertices.size(), 0);
+  if (!box.fits()) return false;
+  bool fits = true;
+  for (std::size_t n = 0; n < vertices.size(); ++n) {
+    const Point p = tin_.point(vertices[n]);
+    const float z = raster_.at(p);
+    patch.nodes_[n].at = {(p.x - box.low.x) * kLatticeSteps, (p.y - box.low.y) * kLatticeSteps, z};
+    fits = fits && std::abs(z) <= kMaxScanHeight;
+  }
+  return fits;
+}
+
+void PatchCutter::add_faces(std::size_t i, const Scratch& scratch, Patch& patch) const {
+  patch.faces_.resize(begins_[i + 1] - begins_[i]);
+  for (Patch::Id f = 0; f < patch.faces_.size(); ++f) {
+    Patch::Face& face = patch.faces_[f];
+    face.worst = face.energy = -1;
+    for (unsigned k = 0; k < 3; ++k) {
+      const HalfEdge h = 3 * order_[begins_[i] + f] + k, g = tin_.twin(h);
+      face.corners[k] = scratch.ids[tin_.origin(h)];
+      patch.nodes_[face.corners[k]].face = f;
+      if (g == kNone) {
+        face.links[k] = tin_.is_constrained(h) ? Patch::kConstrainedSide : Patch::kSide;
+      } else if (is_inner(h, i)) {
+        face.links[k] = place_[g / 3] << 2 | g % 3;
+      } else {
+        face.links[k] = Patch::kBorder | static_cast<Patch::Link>(patch.fixed_.size());
+        patch.fixed_.push_back(h);
+      }
+    }
+  }
+}
+
+void PatchCutter::lock(Patch& patch) const {
+  for (const Patch::Face& face : patch.faces_) {
+    for (unsigned k = 0; k < 3; ++k) {
+      const Patch::Link link = face.links[k];
+      const bool is_fixed = Patch::is_border(link) && !(sides_are_free_ && Patch::is_side(link));
+      for (const Patch::Id end : {face.corners[k], face.corners[k == 2 ? 0 : k + 1]}) {
+        const FitCorner& at = patch.nodes_[end].at;
+        const std::int32_t x = at.x / kLatticeSteps + patch.first_.x, y = at.y / kLatticeSteps + patch.first_.y;
+        const bool is_corner = (x == 0 || x == raster_.cols - 1) && (y == 0 || y == raster_.rows - 1);
+        if (is_fixed || is_corner) patch.locked_[end] = 1;
+      }
+    }
+  }
+}
+
+Triangulation PatchCutter::join(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
+                                std::vector<Vertex>& numbers) const {
+  Parts parts;
+  parts.numbers.assign(tin_.vertex_count(), 0);
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    for (Patch::Id v = 0; v < patches[i].node_count(); ++v) {
+      if (patches[i].is_removed(v)) parts.numbers[vertices[i][v]] = kNone;
+    }
+  }
+  for (Vertex v = 0; v < tin_.vertex_count(); ++v) {
+    if (parts.numbers[v] == kNone) continue;
+    parts.numbers[v] = static_cast<Vertex>(parts.arrays.points.size());
+    parts.arrays.points.push_back(tin_.point(v));
+  }
+  parts.renamed.assign(3 * tin_.triangle_count(), kNone);
+  for (std::size_t i = 0; i < patches.size(); ++i) add_patch(patches[i], vertices[i], parts);
+  add_outside(parts);
+  for (const auto& [h, old_twin] : parts.to_link)
+    parts.arrays.twins[h] = old_twin == kNone ? kNone : parts.renamed[old_twin];
+  numbers = std::move(parts.numbers);
+  return Triangulation(std::move(parts.arrays));
+}
+
+void PatchCutter::add_patch(const Patch& patch, const std::vector<Vertex>& names, Parts& parts) const {
+  std::vector<Triangle> ids(patch.face_count(), kNone);
+  Triangle next = parts.next_triangle();
+  for (Patch::Id f = 0; f < patch.face_count(); ++f) {
+    if (patch.is_alive(f)) ids[f] = next++;
+  }
+  for (Patch::Id f = 0; f < patch.face_count(); ++f) {
+    if (!patch.is_alive(f)) continue;
+    const Patch::Face& face = patch.face(f);
+    std::uint8_t flags = 0;
+    for (unsigned k = 0; k < 3; ++k) {
+      const HalfEdge h = 3 * ids[f] + k;
+      const Patch::Link link = face.links[k];
+      parts.arrays.corners.push_back(parts.numbers[names[face.corners[k]]]);
+      HalfEdge twin = kNone;
+      bool is_constrained = link == Patch::kConstrainedSide;
+      if (!Patch::is_border(link)) {
+        twin = 3 * ids[Patch::triangle_of(link)] + Patch::edge_of(link);
+      } else if (!Patch::is_side(link)) {
+        const HalfEdge old = patch.fixed()[link & ~Patch::kBorder];
+        parts.renamed[old] = h;
+        parts.to_link.push_back({h, tin_.twin(old)});
+        is_constrained = tin_.is_constrained(old);
+      }
+      parts.arrays.twins.push_back(twin);
+      if (is_constrained) flags |= static_cast<std::uint8_t>(1u << k);
+    }
+    parts.arrays.flags.push_back(flags);
+  }
+}
+
+void PatchCutter::add_outside(Parts& parts) const {
+  for (std::size_t n = begins_.back(); n < order_.size(); ++n) {
+    const HalfEdge base = 3 * parts.next_triangle();
+    std::uint8_t flags = Triangulation::Arrays::kOutside;
+    for (unsigned k = 0; k < 3; ++k) {
+      const HalfEdge old = 3 * order_[n] + k;
+      parts.arrays.corners.push_back(parts.numbers[tin_.origin(old)]);
+      parts.arrays.twins.push_back(kNone);
+      parts.renamed[old] = base + k;
+      parts.to_link.push_back({base + k, tin_.twin(old)});
+      if (tin_.is_constrained(old)) flags |= static_cast<std::uint8_t>(1u << k);
+    }
+    parts.arrays.flags.push_back(flags);
+  }
+}
+
+}  // namespace scarp

@@ -1,0 +1,93 @@
+#include "fit/fit.h"
+
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+#include "fit/cut.h"
+#include "fit/removal.h"
+
+namespace scarp {
+
+namespace {
+
+constexpr std::int64_t kOnePatch = 300'000;  // samples
+
+/// One round after the other, on squares that are shifted against each other.
+class Rounds {
+ public:
+  Rounds(const Raster& raster, Triangulation tin, const FitOptions& options)
+      : raster_(raster),
+        options_(options),
+        fitted_{std::move(tin), {}},
+        settled_(fitted_.tin.vertex_count(), 0),
+        scratch_(static_cast<std::size_t>(thread_count(options.threads))) {}
+
+  void run(const PatchGrid& grid) {
+    const PatchCutter cutter(raster_, fitted_.tin, grid, options_.sides_are_free);
+    std::vector<Patch> patches(cutter.count());
+    std::vector<std::vector<Vertex>> vertices(cutter.count());
+    const auto work = [&](std::size_t i, std::size_t worker) {
+      patches[i] = cutter.cut(i, scratch_[worker], vertices[i]);
+      counts_[i] = fit(patches[i], vertices[i]);
+    };
+    counts_.assign(cutter.count(), {});
+    parallel_in_order(cutter.count(), options_.threads, work, [](std::size_t) { return true; });
+    for (const RemovalCounts& counts : counts_) {
+      fitted_.counts.removed += counts.removed;
+      fitted_.counts.searches += counts.searches;
+    }
+    std::vector<Vertex> numbers;
+    Triangulation joined = cutter.join(patches, vertices, numbers);
+    renumber(numbers, joined.vertex_count());
+    fitted_.tin = std::move(joined);
+  }
+
+  Fitted finish() { return std::move(fitted_); }
+
+ private:
+  /// A vertex that is free in one patch is in no other, so patches write to places of their own.
+  RemovalCounts fit(Patch& patch, const std::vector<Vertex>& vertices) {
+    std::vector<std::uint8_t> settled;
+    settled.reserve(vertices.size());
+    for (const Vertex v : vertices) settled.push_back(settled_[v]);
+    const TriangleError error(raster_, patch.first(), options_.threshold);
+    const RemovalCounts counts = remove_vertices(patch, error, settled);
+    for (Patch::Id v = 0; v < vertices.size(); ++v) {
+      if (!patch.is_locked(v)) settled_[vertices[v]] = settled[v];
+    }
+    return counts;
+  }
+
+  void renumber(const std::vector<Vertex>& numbers, std::size_t count) {
+    std::vector<std::uint8_t> settled(count);
+    for (Vertex v = 0; v < numbers.size(); ++v) {
+      if (numbers[v] != kNone) settled[numbers[v]] = settled_[v];
+    }
+    settled_ = std::move(settled);
+  }
+
+  const Raster& raster_;
+  const FitOptions& options_;
+  Fitted fitted_;
+  std::vector<std::uint8_t> settled_;  // by vertex
+  std::vector<PatchCutter::Scratch> scratch_;
+  std::vector<RemovalCounts> counts_;
+};
+
+}  // namespace
+
+Fitted fit(const Raster& raster, Triangulation tin, const FitOptions& options) {
+  Rounds rounds(raster, std::move(tin), options);
+  const bool is_small = std::int64_t{raster.cols} * raster.rows <= kOnePatch;
+  if (options.patch_side == 0 && is_small) {
+    rounds.run({std::max(raster.cols, raster.rows), 0});
+    return rounds.finish();
+  }
+  const std::int32_t side = options.patch_side > 0 ? options.patch_side : kPatchSide;
+  rounds.run({side, 0});
+  rounds.run({side, side / 2});
+  return rounds.finish();
+}
+
+}  // namespace scarp

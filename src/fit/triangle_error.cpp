@@ -1,0 +1,221 @@
+#include "fit/triangle_error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "geom/exact_error.h"
+#include "geom/scan_kernels.h"
+
+namespace scarp {
+
+namespace {
+
+// Rows are looked at eight samples at a time, as two vectors of four: the width that every machine has. The order of
+// the sums is part of the result.
+using Floats = float __attribute__((vector_size(16)));
+using Masks = std::int32_t __attribute__((vector_size(16)));
+using Words = std::int64_t __attribute__((vector_size(16)));
+constexpr std::int32_t kLanes = 8;
+
+Floats load(const float* from) {
+  Floats four;
+  std::memcpy(&four, from, sizeof four);
+  return four;
+}
+Floats all(float value) { return Floats{value, value, value, value}; }
+bool any(Masks mask) {
+  const auto words = reinterpret_cast<Words>(mask);
+  return (words[0] | words[1]) != 0;
+}
+
+/// Largest error and sum of squares, lane by lane.
+struct Sums {
+  Floats worst_low{}, worst_high{}, energy_low{}, energy_high{};
+
+  void add(Floats error, bool high) {
+    Floats& worst = high ? worst_high : worst_low;
+    worst = error > worst ? error : worst;
+  }
+  float worst() const {
+    const Floats w = worst_low > worst_high ? worst_low : worst_high;
+    return std::max(std::max(w[0], w[2]), std::max(w[1], w[3]));
+  }
+  float energy() const {
+    const Floats e = energy_low + energy_high;
+    return (e[0] + e[2]) + (e[1] + e[3]);
+  }
+  bool exceeds(float cut) const { return any((worst_low > all(cut)) | (worst_high > all(cut))); }
+};
+
+/// The crossing of an edge with a row is off by less than 2⁻³², and, where it is no whole number, at least 2⁻²⁵ away
+/// from one: a multiple of 1/(8·rows) for less than kMaxFitSteps rows of the lattice.
+constexpr double kOnSample = 0x1p-28;
+
+constexpr int kRowsPerLook = 4;  // between looks at the energy
+
+}  // namespace
+
+/// A triangle ready to be scanned: corners from top to bottom in samples, its plane.
+struct TriangleError::Task {
+  struct Place {
+    double x, y;
+  };
+  std::array<FitCorner, 3> corners;
+  Place top, middle, bottom;
+  float base_x, base_y;
+  ScanPlane plane;
+  float doubt, cut;  // computed errors up to `doubt` are none, above `cut` are certain
+
+  Task(const FitCorner& a, const FitCorner& b, const FitCorner& c, double threshold) : corners{a, b, c} {
+    constexpr double kStep = 1.0 / kLatticeSteps;
+    const Place pa{a.x * kStep, a.y * kStep}, pb{b.x * kStep, b.y * kStep}, pc{c.x * kStep, c.y * kStep};
+    top = pa;
+    middle = pb;
+    bottom = pc;
+    if (middle.y < top.y) std::swap(top, middle);
+    if (bottom.y < top.y) std::swap(top, bottom);
+    if (bottom.y < middle.y) std::swap(middle, bottom);
+    base_x = static_cast<float>(pa.x);
+    base_y = static_cast<float>(pa.y);
+    plane = ScanPlane::spanned(
+        a.z, {pb.x - pa.x, pb.y - pa.y, pc.x - pa.x, pc.y - pa.y, double{b.z} - double{a.z}, double{c.z} - double{a.z}},
+        threshold);
+    doubt = scan_floor(threshold, plane.guard);
+    cut = static_cast<float>(threshold + double{plane.guard});
+  }
+
+  float row_height(std::int32_t y) const { return plane.slope_y * (static_cast<float>(y) - base_y); }
+  float error(std::int32_t x, float row, float sample) const {
+    return std::abs((plane.slope_x * (static_cast<float>(x) - base_x) + row) - (sample - plane.height));
+  }
+};
+
+TriangleError::TriangleError(const Raster& raster, Point first, double threshold)
+    : raster_(raster),
+      first_(first),
+      threshold_(threshold),
+      per_threshold_(threshold > 0x1p-100 ? static_cast<float>(1 / threshold) : 0),
+      end_(raster.row(raster.rows)) {}
+
+/// Calls row(y, first, last) for each row with samples, top down, until it answers false; whether it never did.
+template <class Row>
+bool TriangleError::each_row(const Task& task, const Row& row) {
+  const Task::Place top = task.top, middle = task.middle, bottom = task.bottom;
+  const double along = (bottom.x - top.x) / (bottom.y - top.y);
+  const double upper = middle.y > top.y ? (middle.x - top.x) / (middle.y - top.y) : 0;
+  const double lower = bottom.y > middle.y ? (bottom.x - middle.x) / (bottom.y - middle.y) : 0;
+  const auto last_row = static_cast<std::int32_t>(bottom.y);
+  for (auto y = static_cast<std::int32_t>(std::ceil(top.y)); y <= last_row; ++y) {
+    const double from = top.x + (y - top.y) * along;
+    const double to = y < middle.y ? top.x + (y - top.y) * upper : middle.x + (y - middle.y) * lower;
+    const auto first = static_cast<std::int32_t>(std::min(from, to) + (1 - kOnSample));
+    const auto last = static_cast<std::int32_t>(std::max(from, to) + kOnSample);
+    if (first <= last && !row(y, first, last)) return false;
+  }
+  return true;
+}
+
+namespace {
+
+/// Eight samples of a row from `samples` on, of which the first `count` are meant.
+struct RowSamples {
+  std::array<float, kLanes> copy;
+  const float* from;
+  RowSamples(const float* samples, const float* end) : from(samples) {
+    if (end - samples >= kLanes) return;
+    copy.fill(0);
+    std::copy(samples, end, copy.begin());
+    from = copy.data();
+  }
+};
+
+}  // namespace
+
+TriangleError::Verdict TriangleError::judge(const FitCorner& a, const FitCorner& b, const FitCorner& c,
+                                            float energy_limit) const {
+  const Task task(a, b, c, threshold_);
+  Verdict verdict;
+  Sums sums;
+  int rows = 0;
+  const Floats slope = all(task.plane.slope_x), height = all(task.plane.height), scale = all(per_threshold_);
+  const bool is_whole = each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    const float* const samples = raster_.row(first_.y + y) + first_.x;
+    const Floats row = all(task.row_height(y));
+    for (std::int32_t x = first; x <= last; x += kLanes) {
+      const RowSamples eight(samples + x, end_);
+      const float offset = static_cast<float>(x) - task.base_x;
+      const Floats left = all(offset) + Floats{0, 1, 2, 3}, right = all(offset) + Floats{4, 5, 6, 7};
+      const std::int32_t count = last - x + 1;
+      const Masks counts{count, count, count, count};
+      const Floats raw_low = (slope * left + row) - (load(eight.from) - height);
+      const Floats raw_high = (slope * right + row) - (load(eight.from + 4) - height);
+      // Void samples have no error: NaN is not equal to itself.
+      const Floats low = (Masks{0, 1, 2, 3} < counts) & (raw_low == raw_low) ? raw_low : Floats{};
+      const Floats high = (Masks{4, 5, 6, 7} < counts) & (raw_high == raw_high) ? raw_high : Floats{};
+      sums.add(low < 0 ? -low : low, false);
+      sums.add(high < 0 ? -high : high, true);
+      sums.energy_low += (low * scale) * (low * scale);
+      sums.energy_high += (high * scale) * (high * scale);
+    }
+    if (sums.exceeds(task.cut)) {
+      verdict.kind = Verdict::Kind::kBreaks;
+      verdict.witness = find_worst(task, y, first, last);
+      return false;
+    }
+    if (++rows % kRowsPerLook == 0 && sums.energy() >= energy_limit) {
+      verdict.kind = Verdict::Kind::kCostly;
+      return false;
+    }
+    return true;
+  });
+  if (!is_whole) return verdict;
+  verdict.worst = sums.worst();
+  verdict.energy = sums.energy();
+  if (verdict.energy >= energy_limit) {
+    verdict.kind = Verdict::Kind::kCostly;
+  } else if (verdict.worst > task.doubt || double{task.plane.guard} > threshold_) {
+    if (!settle(task, verdict)) verdict.kind = Verdict::Kind::kBreaks;
+  }
+  return verdict;
+}
+
+/// Decides in exact arithmetic about the samples that rounding leaves in doubt; false where one breaks the threshold.
+bool TriangleError::settle(const Task& task, Verdict& verdict) const {
+  std::array<Point, 3> corners;
+  std::array<float, 3> heights;
+  for (std::size_t k = 0; k < 3; ++k) {
+    corners[k] = {task.corners[k].x, task.corners[k].y};
+    heights[k] = task.corners[k].z;
+  }
+  const bool all_in_doubt = double{task.plane.guard} > threshold_;
+  return each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    const float row = task.row_height(y);
+    for (std::int32_t x = first; x <= last; ++x) {
+      const float sample = height_at({x, y});
+      if (std::isnan(sample) || (!all_in_doubt && !(task.error(x, row, sample) > task.doubt))) continue;
+      verdict.witness = {x, y};
+      if (exceeds_exactly(corners, heights, {x * kLatticeSteps, y * kLatticeSteps}, sample, threshold_)) return false;
+    }
+    return true;
+  });
+}
+
+/// The sample of a row with the largest error.
+Point TriangleError::find_worst(const Task& task, std::int32_t y, std::int32_t first, std::int32_t last) const {
+  const float row = task.row_height(y);
+  float worst = -1;
+  Point at{first, y};
+  for (std::int32_t x = first; x <= last; ++x) {
+    if (const float error = task.error(x, row, height_at({x, y})); error > worst) {
+      worst = error;
+      at.x = x;
+    }
+  }
+  return at;
+}
+
+}  // namespace scarp
