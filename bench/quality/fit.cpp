@@ -1,6 +1,6 @@
 // Triangles before and after removal, and the time of both, one thread: the greedy mesh at goals from coarse to fine.
 //
-//   scarp_fit PROJECT [RASTER]...     without names, those of which docs/quality.md speaks
+//   scarp_fit PROJECT SIDE [RASTER]...     patches of SIDE samples, 0: as the library chooses
 
 #include "fit/fit.h"
 
@@ -34,7 +34,7 @@ std::size_t count_inside(const scarp::Triangulation& tin) {
   return count;
 }
 
-bool measure(const std::string& name, const scarp::OwnedHeightField& field) {
+bool measure(const std::string& name, const scarp::OwnedHeightField& field, std::int32_t side) {
   const auto samples = scarp::Samples::of(field);
   if (!samples) return false;
   const scarp::Raster raster = samples->raster();
@@ -51,7 +51,8 @@ bool measure(const std::string& name, const scarp::OwnedHeightField& field) {
     const double greedy = seconds_since(start);
     const std::size_t before = count_inside(domain->tin);
     const auto again = Clock::now();
-    const auto fitted = scarp::fit(raster, std::move(domain->tin), {.threshold = error, .threads = 1});
+    const auto fitted =
+        scarp::fit(raster, std::move(domain->tin), {.threshold = error, .threads = 1, .patch_side = side});
     const double seconds = seconds_since(again);
     const std::size_t after = count_inside(fitted.tin);
     fmt::print("{:22} {:5.1f} %  {:8}  {:8}  {:.4f}   {:8.4f} s  {:8.4f} s  {:.2f}x  {:.2f} searches a vertex\n", name,
@@ -65,11 +66,11 @@ bool measure(const std::string& name, const scarp::OwnedHeightField& field) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    fmt::print(stderr, "usage: scarp_fit PROJECT [RASTER]...\n");
+  if (argc < 3) {
+    fmt::print(stderr, "usage: scarp_fit PROJECT SIDE [RASTER]...\n");
     return 1;
   }
-  std::vector<std::string> names(argv + 2, argv + argc);
+  std::vector<std::string> names(argv + 3, argv + argc);
   if (names.empty()) names.assign(std::begin(kRasters), std::end(kRasters));
   fmt::print("{:22} {:>7}  {:>8}  {:>8}  {:>6}   {:>10}  {:>10}\n", "raster", "error", "greedy", "fitted", "ratio",
              "greedy", "fit");
@@ -82,7 +83,7 @@ int main(int argc, char** argv) {
       fmt::print(stderr, "{}\n", field.error().message);
       return 2;
     }
-    if (!measure(name, *field)) return 3;
+    if (!measure(name, *field, std::atoi(argv[2]))) return 3;
   }
   return 0;
 }
