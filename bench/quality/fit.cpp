@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <optional>
 
 #include "files.h"
@@ -24,9 +24,8 @@ constexpr double kErrorsOfRelief[] = {0.05, 0.02, 0.01, 0.005, 0.002};
 constexpr const char* kRasters[] = {"fuji.tif", "crater.tif", "jacksboro_fault.tif", "bigtujunga30m.tif",
                                     "nrw_dom1_essen.tif"};
 
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+/// Of this process: other programs on the machine count less.
+double seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 std::size_t count_inside(const scarp::Triangulation& tin) {
   std::size_t count = 0;
@@ -40,7 +39,7 @@ bool measure(const std::string& name, const scarp::OwnedHeightField& field, std:
   const scarp::Raster raster = samples->raster();
   for (const double share : kErrorsOfRelief) {
     const double error = share * (field.info.max - field.info.min);
-    const auto start = Clock::now();
+    const double start = seconds();
     auto domain = scarp::build_domain(raster, 0, field.frame);
     if (!domain) return false;
     const scarp::HeightJudge judge(raster, error);
@@ -48,16 +47,16 @@ bool measure(const std::string& name, const scarp::OwnedHeightField& field, std:
       scarp::Refinement refinement(judge, domain->tin);
       while (!refinement.done()) refinement.insert_worst();
     }
-    const double greedy = seconds_since(start);
+    const double greedy = seconds() - start;
     const std::size_t before = count_inside(domain->tin);
-    const auto again = Clock::now();
+    const double again = seconds();
     const auto fitted =
         scarp::fit(raster, std::move(domain->tin), {.threshold = error, .threads = 1, .patch_side = side});
-    const double seconds = seconds_since(again);
+    const double fit = seconds() - again;
     const std::size_t after = count_inside(fitted.tin);
     fmt::print("{:22} {:5.1f} %  {:8}  {:8}  {:.4f}   {:8.4f} s  {:8.4f} s  {:.2f}x  {:.2f} searches a vertex\n", name,
-               100 * share, before, after, static_cast<double>(after) / static_cast<double>(before), greedy, seconds,
-               seconds / greedy, static_cast<double>(fitted.counts.searches) / (static_cast<double>(before) / 2));
+               100 * share, before, after, static_cast<double>(after) / static_cast<double>(before), greedy, fit,
+               fit / greedy, static_cast<double>(fitted.counts.searches) / (static_cast<double>(before) / 2));
     std::fflush(stdout);
   }
   return true;

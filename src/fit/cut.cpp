@@ -8,6 +8,10 @@ namespace scarp {
 
 namespace {
 
+/// Triangles of a square lie in memory block by block, so that neighbours are near each other.
+constexpr std::int64_t kBlocksPerSide = 8;
+constexpr std::size_t kBlocks = 64;
+
 /// The smallest window that holds points.
 struct Box {
   Point low{kMaxCoordinate, kMaxCoordinate}, high{0, 0};
@@ -40,30 +44,46 @@ PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const P
   };
   squares_per_row_ = squares(raster.cols);
   const std::size_t outside = squares_per_row_ * squares(raster.rows);
-  const auto count = static_cast<Triangle>(tin.triangle_count());
+  const std::vector<std::uint32_t> blocks = assign_squares(outside);
+  sort_by(blocks, (outside + 1) * kBlocks);
   begins_.assign(outside + 2, 0);
-  square_.resize(count);
-  for (Triangle t = 0; t < count; ++t) {
-    square_[t] = static_cast<std::uint32_t>(tin.is_outside(t) ? outside : square_of(t));
-    ++begins_[square_[t] + 1];
-  }
+  for (const std::uint32_t square : square_) ++begins_[square + 1];
   for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
-  std::vector<std::uint32_t> filled(outside + 1, 0);
-  order_.resize(count);
-  place_.resize(count);
-  for (Triangle t = 0; t < count; ++t) {
-    place_[t] = filled[square_[t]]++;
-    order_[begins_[square_[t]] + place_[t]] = t;
-  }
+  place_.resize(order_.size());
+  for (std::size_t n = 0; n < order_.size(); ++n)
+    place_[order_[n]] = static_cast<std::uint32_t>(n - begins_[square_[order_[n]]]);
   begins_.pop_back();
 }
 
-std::size_t PatchCutter::square_of(Triangle t) const {
-  const auto [a, b, c] = tin_.corners(t);
-  const auto square = [&](std::int64_t three_times) {
-    return static_cast<std::size_t>((three_times + 3 * std::int64_t{grid_.shift}) / (3 * std::int64_t{grid_.side}));
-  };
-  return square(std::int64_t{a.y} + b.y + c.y) * squares_per_row_ + square(std::int64_t{a.x} + b.x + c.x);
+/// Fills square_; the squares' blocks, in the order in which they are to lie in memory.
+std::vector<std::uint32_t> PatchCutter::assign_squares(std::size_t outside) {
+  const auto count = static_cast<Triangle>(tin_.triangle_count());
+  std::vector<std::uint32_t> blocks(count);
+  square_.resize(count);
+  const std::int64_t side = 3 * std::int64_t{grid_.side}, shift = 3 * std::int64_t{grid_.shift};
+  for (Triangle t = 0; t < count; ++t) {
+    if (tin_.is_outside(t)) {
+      square_[t] = static_cast<std::uint32_t>(outside);
+      blocks[t] = static_cast<std::uint32_t>(outside * kBlocks);
+      continue;
+    }
+    const auto [a, b, c] = tin_.corners(t);
+    const std::int64_t x = std::int64_t{a.x} + b.x + c.x + shift, y = std::int64_t{a.y} + b.y + c.y + shift;
+    const auto square = static_cast<std::size_t>(y / side) * squares_per_row_ + static_cast<std::size_t>(x / side);
+    const auto block =
+        static_cast<std::size_t>(y % side * kBlocksPerSide / side * kBlocksPerSide + x % side * kBlocksPerSide / side);
+    square_[t] = static_cast<std::uint32_t>(square);
+    blocks[t] = static_cast<std::uint32_t>(square * kBlocks + block);
+  }
+  return blocks;
+}
+
+void PatchCutter::sort_by(const std::vector<std::uint32_t>& blocks, std::size_t count) {
+  std::vector<std::size_t> begins(count + 1, 0);
+  for (const std::uint32_t block : blocks) ++begins[block + 1];
+  for (std::size_t i = 1; i < begins.size(); ++i) begins[i] += begins[i - 1];
+  order_.resize(blocks.size());
+  for (Triangle t = 0; t < blocks.size(); ++t) order_[begins[blocks[t]]++] = t;
 }
 
 bool PatchCutter::is_inner(HalfEdge h, std::size_t i) const {

@@ -42,7 +42,8 @@ class PatchCutter {
  private:
   struct Parts;
 
-  std::size_t square_of(Triangle t) const;
+  std::vector<std::uint32_t> assign_squares(std::size_t outside);
+  void sort_by(const std::vector<std::uint32_t>& blocks, std::size_t count);
   bool is_inner(HalfEdge h, std::size_t i) const;
   bool add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::vector<Vertex>& vertices) const;
   void add_faces(std::size_t i, const Scratch& scratch, Patch& patch) const;

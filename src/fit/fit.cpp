@@ -1,5 +1,7 @@
 #include "fit/fit.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -11,7 +13,15 @@ namespace scarp {
 
 namespace {
 
-constexpr std::int64_t kOnePatch = 300'000;  // samples
+/// Side of squares of some kPatchTriangles; of one that holds all where they are not many more.
+std::int32_t patch_side(const Raster& raster, const Triangulation& tin) {
+  const auto triangles = static_cast<double>(tin.triangle_count());
+  const std::int32_t longest = std::max(raster.cols, raster.rows);
+  if (triangles <= 2.0 * kPatchTriangles) return longest;
+  const double samples = static_cast<double>(raster.cols) * raster.rows;
+  const double side = std::sqrt(samples * kPatchTriangles / triangles);
+  return std::clamp(static_cast<std::int32_t>(side), 2, longest);
+}
 
 /// One round after the other, on squares that are shifted against each other.
 class Rounds {
@@ -78,15 +88,10 @@ class Rounds {
 }  // namespace
 
 Fitted fit(const Raster& raster, Triangulation tin, const FitOptions& options) {
+  const std::int32_t side = options.patch_side > 0 ? options.patch_side : patch_side(raster, tin);
   Rounds rounds(raster, std::move(tin), options);
-  const bool is_small = std::int64_t{raster.cols} * raster.rows <= kOnePatch;
-  if (options.patch_side == 0 && is_small) {
-    rounds.run({std::max(raster.cols, raster.rows), 0});
-    return rounds.finish();
-  }
-  const std::int32_t side = options.patch_side > 0 ? options.patch_side : kPatchSide;
   rounds.run({side, 0});
-  rounds.run({side, side / 2});
+  if (side < std::max(raster.cols, raster.rows)) rounds.run({side, side / 2});
   return rounds.finish();
 }
 

@@ -12,9 +12,6 @@ namespace {
 
 using Id = Patch::Id;
 
-/// Of a vertex that could not go when it was looked at last, and may now.
-constexpr float kUnknown = std::numeric_limits<float>::infinity();
-
 class Removal {
  public:
   Removal(Patch& patch, const TriangleError& error, std::vector<std::uint8_t>& settled)
@@ -27,7 +24,10 @@ class Removal {
     for (Id v = 0; v < patch_.node_count(); ++v) {
       if (!patch_.is_locked(v) && settled_[v] == 0) offer(v);
     }
-    while (!queue_.empty()) take();
+    while (!queue_.empty()) {
+      while (!queue_.empty()) take();
+      ask_again();
+    }
     return counts_;
   }
 
@@ -39,27 +39,23 @@ class Removal {
   struct Note {
     std::uint64_t code = 0;  // the triangles that would take the vertex' place
     Point witness;           // against its removal
-    bool is_queued = false, is_stale = false;
+    bool is_queued = false;  // or waits
+    bool is_stale = false;
   };
 
   /// The later one, as heaps want it.
-  struct Later {
-    const Patch& patch;
-    bool operator()(const Entry& a, const Entry& b) const {
-      if (a.price != b.price) return a.price > b.price;
-      const FitCorner &p = patch.at(a.vertex), &q = patch.at(b.vertex);
-      return before(Point{q.x, q.y}, Point{p.x, p.y});
-    }
-  };
+  static bool is_later(const Entry& a, const Entry& b) {
+    return a.price != b.price ? a.price > b.price : a.vertex > b.vertex;
+  }
 
   void push(Entry entry) {
     notes_[entry.vertex].is_queued = true;
     queue_.push_back(entry);
-    std::push_heap(queue_.begin(), queue_.end(), Later{patch_});
+    std::push_heap(queue_.begin(), queue_.end(), is_later);
   }
 
   Entry pop() {
-    std::pop_heap(queue_.begin(), queue_.end(), Later{patch_});
+    std::pop_heap(queue_.begin(), queue_.end(), is_later);
     const Entry entry = queue_.back();
     queue_.pop_back();
     notes_[entry.vertex].is_queued = false;
@@ -109,7 +105,7 @@ class Removal {
     }
     Entry entry{0, v};
     if (!look_at(v, entry.price)) return;
-    if (!queue_.empty() && Later{patch_}(entry, queue_.front())) {
+    if (!queue_.empty() && is_later(entry, queue_.front())) {
       push(entry);
       return;
     }
@@ -123,8 +119,20 @@ class Removal {
     for (const Id u : star_.ring) {
       if (patch_.is_locked(u)) continue;
       notes_[u].is_stale = true;
-      if (!notes_[u].is_queued) push({kUnknown, u});
+      if (notes_[u].is_queued) continue;
+      notes_[u].is_queued = true;
+      waiting_.push_back(u);
     }
+  }
+
+  /// The queue is empty: what could not go before the changes around it may go now.
+  void ask_again() {
+    std::swap(waiting_, asked_);
+    for (const Id v : asked_) {
+      notes_[v].is_queued = false;
+      if (!patch_.is_removed(v)) offer(v);
+    }
+    asked_.clear();
   }
 
   Patch& patch_;
@@ -133,6 +141,7 @@ class Removal {
   RingSearch search_;
   std::vector<Note> notes_;
   std::vector<Entry> queue_;
+  std::vector<Id> waiting_, asked_;  // could not go, but have changed since
   Patch::Star star_;
   std::vector<FitCorner> ring_;
   std::vector<Patch::RingTriangle> triangles_;

@@ -12,7 +12,7 @@
 // at the end for their turn, when most changes around them have happened. So the pass ends with a mesh in which no
 // vertex can go alone. It takes away 45 to 50 % of what greedy insertion left.
 //
-// Vertices of equal price go in raster order; nothing else is compared, so the outcome is a function of the patch.
+// Vertices of equal price go in the order of the patch, so the outcome is a function of the patch alone.
 #pragma once
 
 #include <cstdint>

@@ -37,9 +37,12 @@ bool RingSearch::find(std::span<const FitCorner> ring, const FitCorner& hub, Poi
   ring_ = ring;
   size_ = ring.size();
   const Point centre{(hub.x + kLatticeSteps / 2) / kLatticeSteps, (hub.y + kLatticeSteps / 2) / kLatticeSteps};
-  keep_positive(centre);
+  look_from(centre);
+  keep_positive();
+  cross_out(centre);
   if (!connect()) return false;
   if (witness != centre) {
+    look_from(witness);
     cross_out(witness);
     if (!connect()) return false;
   }
@@ -70,6 +73,7 @@ bool RingSearch::improve(std::size_t first, std::size_t last, Point& witness) {
     } else if (verdict.kind == TriangleError::Verdict::Kind::kBreaks) {
       witness = verdict.witness;
       allowed_[first][last] &= ~only(q);
+      look_from(witness);
       cross_out(witness);
       if (!connect()) return false;
       left &= choices_[first][last];
@@ -89,8 +93,7 @@ void RingSearch::look_from(Point sample) {
   }
 }
 
-void RingSearch::keep_positive(Point hub) {
-  look_from(hub);
+void RingSearch::keep_positive() {
   for (std::size_t i = 0; i + 2 < size_; ++i) {
     for (std::size_t j = i + 2; j < size_; ++j) {
       Set set = 0;
@@ -100,13 +103,11 @@ void RingSearch::keep_positive(Point hub) {
       allowed_[i][j] = set;
     }
   }
-  cross_out(hub);
 }
 
-/// Forbids the triangles that hold the sample and break the threshold there. Rounding may forbid one at the threshold
-/// itself, never allow one: what is allowed is scanned.
+/// Forbids the triangles that hold the sample that is looked from and break the threshold there. Rounding may forbid
+/// one at the threshold itself, never allow one: what is allowed is scanned.
 void RingSearch::cross_out(Point sample) {
-  look_from(sample);
   const double height = error_.height_at(sample), threshold = error_.threshold();
   for (std::size_t i = 0; i + 2 < size_; ++i) {
     for (std::size_t j = i + 2; j < size_; ++j) {

@@ -54,9 +54,9 @@ class RingSearch {
   template <class T>
   using Table = std::array<std::array<T, kMostCorners>, kMostCorners>;
 
-  void keep_positive(Point hub);
-  void cross_out(Point sample);
   void look_from(Point sample);
+  void keep_positive();
+  void cross_out(Point sample);
   bool connect();
   bool is_needed(std::size_t first, std::size_t last) const {
     return ((needed_from_[first] >> last | needed_to_[last] >> first) & 1) != 0;

@@ -121,6 +121,12 @@ bool TriangleError::each_row(const Task& task, const Row& row) {
 
 namespace {
 
+/// By Pick's theorem: the smallest triangle whose corners are samples.
+bool holds_corners_only(const FitCorner& a, const FitCorner& b, const FitCorner& c) {
+  if (((a.x | a.y | b.x | b.y | c.x | c.y) & (kLatticeSteps - 1)) != 0) return false;
+  return orient({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) == kLatticeSteps * kLatticeSteps;
+}
+
 /// Eight samples of a row from `samples` on, of which the first `count` are meant.
 struct RowSamples {
   std::array<float, kLanes> copy;
@@ -137,6 +143,7 @@ struct RowSamples {
 
 TriangleError::Verdict TriangleError::judge(const FitCorner& a, const FitCorner& b, const FitCorner& c,
                                             float energy_limit) const {
+  if (holds_corners_only(a, b, c)) return judge_corners({a, b, c}, energy_limit);
   const Task task(a, b, c, threshold_);
   Verdict verdict;
   Sums sums;
@@ -180,6 +187,26 @@ TriangleError::Verdict TriangleError::judge(const FitCorner& a, const FitCorner&
   } else if (verdict.worst > task.doubt || double{task.plane.guard} > threshold_) {
     if (!settle(task, verdict)) verdict.kind = Verdict::Kind::kBreaks;
   }
+  return verdict;
+}
+
+/// REQUIRES: corners are samples' places, and no other sample lies in the triangle.
+TriangleError::Verdict TriangleError::judge_corners(const std::array<FitCorner, 3>& corners, float energy_limit) const {
+  Verdict verdict;
+  for (const FitCorner& corner : corners) {
+    const Point at{corner.x / kLatticeSteps, corner.y / kLatticeSteps};
+    const double error = std::abs(double{corner.z} - double{height_at(at)});
+    if (std::isnan(error)) continue;
+    if (error > threshold_) {
+      verdict.kind = Verdict::Kind::kBreaks;
+      verdict.witness = at;
+      return verdict;
+    }
+    const float share = static_cast<float>(error) * per_threshold_;
+    verdict.worst = std::max(verdict.worst, static_cast<float>(error));
+    verdict.energy += share * share;
+  }
+  if (verdict.energy >= energy_limit) verdict.kind = Verdict::Kind::kCostly;
   return verdict;
 }
 

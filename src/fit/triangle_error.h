@@ -6,6 +6,7 @@
 // within the guard of the threshold is decided exactly.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "base/point.h"
@@ -54,6 +55,7 @@ class TriangleError {
   struct Task;
   template <class Row>
   static bool each_row(const Task& task, const Row& row);
+  Verdict judge_corners(const std::array<FitCorner, 3>& corners, float energy_limit) const;
   bool settle(const Task& task, Verdict& verdict) const;
   Point find_worst(const Task& task, std::int32_t y, std::int32_t first, std::int32_t last) const;
 
