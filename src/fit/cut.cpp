@@ -116,7 +116,7 @@ bool PatchCutter::add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::
       box.add(tin_.point(v));
     }
   }
-  patch.first_ = box.low;
+  if (!vertices.empty()) patch.window_ = {box.low, box.high.x - box.low.x + 1, box.high.y - box.low.y + 1};
   patch.nodes_.resize(vertices.size());
   patch.locked_.assign(vertices.size(), 0);
   if (!box.fits()) return false;
@@ -158,7 +158,8 @@ void PatchCutter::lock(Patch& patch) const {
       const bool is_fixed = Patch::is_border(link) && !(sides_are_free_ && Patch::is_side(link));
       for (const Patch::Id end : {face.corners[k], face.corners[k == 2 ? 0 : k + 1]}) {
         const FitCorner& at = patch.nodes_[end].at;
-        const std::int32_t x = at.x / kLatticeSteps + patch.first_.x, y = at.y / kLatticeSteps + patch.first_.y;
+        const std::int32_t x = at.x / kLatticeSteps + patch.window_.first.x,
+                           y = at.y / kLatticeSteps + patch.window_.first.y;
         const bool is_corner = (x == 0 || x == raster_.cols - 1) && (y == 0 || y == raster_.rows - 1);
         if (is_fixed || is_corner) patch.locked_[end] = 1;
       }

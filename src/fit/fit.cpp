@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "fit/cut.h"
 #include "fit/removal.h"
+#include "fit/sample_window.h"
 
 namespace scarp {
 
@@ -31,7 +32,8 @@ class Rounds {
         options_(options),
         fitted_{std::move(tin), {}},
         settled_(fitted_.tin.vertex_count(), 0),
-        scratch_(static_cast<std::size_t>(thread_count(options.threads))) {}
+        scratch_(static_cast<std::size_t>(thread_count(options.threads))),
+        windows_(scratch_.size()) {}
 
   void run(const PatchGrid& grid) {
     const PatchCutter cutter(raster_, fitted_.tin, grid, options_.sides_are_free);
@@ -39,7 +41,7 @@ class Rounds {
     std::vector<std::vector<Vertex>> vertices(cutter.count());
     const auto work = [&](std::size_t i, std::size_t worker) {
       patches[i] = cutter.cut(i, scratch_[worker], vertices[i]);
-      counts_[i] = fit(patches[i], vertices[i]);
+      counts_[i] = fit(patches[i], vertices[i], windows_[worker]);
     };
     counts_.assign(cutter.count(), {});
     parallel_in_order(cutter.count(), options_.threads, work, [](std::size_t) { return true; });
@@ -57,11 +59,11 @@ class Rounds {
 
  private:
   /// A vertex that is free in one patch is in no other, so patches write to places of their own.
-  RemovalCounts fit(Patch& patch, const std::vector<Vertex>& vertices) {
+  RemovalCounts fit(Patch& patch, const std::vector<Vertex>& vertices, SampleWindow& window) {
     std::vector<std::uint8_t> settled;
     settled.reserve(vertices.size());
     for (const Vertex v : vertices) settled.push_back(settled_[v]);
-    const TriangleError error(raster_, patch.first(), options_.threshold);
+    const TriangleError error = window.errors(raster_, patch, options_.threshold);
     const RemovalCounts counts = remove_vertices(patch, error, settled);
     for (Patch::Id v = 0; v < vertices.size(); ++v) {
       if (!patch.is_locked(v)) settled_[vertices[v]] = settled[v];
@@ -80,8 +82,9 @@ class Rounds {
   const Raster& raster_;
   const FitOptions& options_;
   Fitted fitted_;
-  std::vector<std::uint8_t> settled_;  // by vertex
-  std::vector<PatchCutter::Scratch> scratch_;
+  std::vector<std::uint8_t> settled_;          // by vertex
+  std::vector<PatchCutter::Scratch> scratch_;  // by thread
+  std::vector<SampleWindow> windows_;
   std::vector<RemovalCounts> counts_;
 };
 

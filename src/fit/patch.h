@@ -73,7 +73,12 @@ class Patch {
   bool is_locked(Id v) const { return locked_[v] != 0; }
   /// The half-edges of the triangulation that became borders, by index.
   const std::vector<HalfEdge>& fixed() const { return fixed_; }
-  Point first() const { return first_; }
+  /// The samples that the triangles may look at.
+  struct Window {
+    Point first;  ///< where lattice places are counted from
+    std::int32_t cols = 0, rows = 0;
+  };
+  const Window& window() const { return window_; }
 
   void set_measure(Id f, float worst, float energy) {
     faces_[f].worst = worst;
@@ -94,7 +99,7 @@ class Patch {
   bool walk(Id f, unsigned corner, Star& star) const;
   void attach(Id f, unsigned edge, Link beyond);
 
-  Point first_;  // where lattice places are counted from
+  Window window_;
   std::vector<Face> faces_;
   std::vector<Node> nodes_;
   std::vector<std::uint8_t> locked_;

@@ -39,12 +39,11 @@ bool RingSearch::find(std::span<const FitCorner> ring, const FitCorner& hub, Poi
   const Point centre{(hub.x + kLatticeSteps / 2) / kLatticeSteps, (hub.y + kLatticeSteps / 2) / kLatticeSteps};
   look_from(centre);
   keep_positive();
-  cross_out(centre);
+  cross_out();
   if (!connect()) return false;
   if (witness != centre) {
     look_from(witness);
-    cross_out(witness);
-    if (!connect()) return false;
+    if (cross_out() && !connect()) return false;
   }
   for (std::size_t i = 0; i + 1 < size_; ++i) cost_[i][i + 1] = 0;
   for (std::size_t length = 2; length < size_; ++length) {
@@ -74,7 +73,7 @@ bool RingSearch::improve(std::size_t first, std::size_t last, Point& witness) {
       witness = verdict.witness;
       allowed_[first][last] &= ~only(q);
       look_from(witness);
-      cross_out(witness);
+      cross_out();
       if (!connect()) return false;
       left &= choices_[first][last];
     }
@@ -84,12 +83,22 @@ bool RingSearch::improve(std::size_t first, std::size_t last, Point& witness) {
 
 /// Moves the corners so that the sample is the origin, and multiplies them pairwise.
 void RingSearch::look_from(Point sample) {
+  const double height = error_.height_at(sample);
   for (std::size_t i = 0; i < size_; ++i) {
     x_[i] = ring_[i].x - sample.x * kLatticeSteps;
     y_[i] = ring_[i].y - sample.y * kLatticeSteps;
+    z_[i] = ring_[i].z - height;
+    right_of_[i] = 0;
   }
   for (std::size_t i = 0; i < size_; ++i) {
-    for (std::size_t j = i + 1; j < size_; ++j) cross_[i][j] = x_[i] * y_[j] - x_[j] * y_[i];
+    Set left = 0;
+    for (std::size_t j = i + 1; j < size_; ++j) {
+      cross_[i][j] = x_[i] * y_[j] - x_[j] * y_[i];
+      const Set is_left = cross_[i][j] >= 0 ? 1 : 0;
+      left |= is_left << j;
+      right_of_[j] |= is_left << i;
+    }
+    left_of_[i] = left;
   }
 }
 
@@ -105,23 +114,25 @@ void RingSearch::keep_positive() {
   }
 }
 
-/// Forbids the triangles that hold the sample that is looked from and break the threshold there. Rounding may forbid
-/// one at the threshold itself, never allow one: what is allowed is scanned.
-void RingSearch::cross_out(Point sample) {
-  const double height = error_.height_at(sample), threshold = error_.threshold();
+/// Forbids the triangles that hold the sample that is looked from and break the threshold there; whether there are any.
+/// Rounding may forbid one at the threshold itself, never allow one: what is allowed is scanned.
+bool RingSearch::cross_out() {
+  const double threshold = error_.threshold();
+  bool any = false;
   for (std::size_t i = 0; i + 2 < size_; ++i) {
     for (std::size_t j = i + 2; j < size_; ++j) {
       const double wq = -cross_[i][j];
       if (wq < 0) continue;
-      for (Set left = allowed_[i][j]; left != 0; left &= left - 1) {
+      for (Set left = allowed_[i][j] & left_of_[i] & right_of_[j]; left != 0; left &= left - 1) {
         const std::size_t q = lowest(left);
         const double wj = cross_[i][q], wi = cross_[q][j];
-        if (wi < 0 || wj < 0) continue;
-        const double above = wi * (ring_[i].z - height) + wq * (ring_[q].z - height) + wj * (ring_[j].z - height);
-        if (std::abs(above) > threshold * (wi + wq + wj)) allowed_[i][j] &= ~only(q);
+        if (!(std::abs(wi * z_[i] + wq * z_[q] + wj * z_[j]) > threshold * (wi + wq + wj))) continue;
+        allowed_[i][j] &= ~only(q);
+        any = true;
       }
     }
   }
+  return any;
 }
 
 /// Finds the intervals that can be triangulated, then those that a triangulation of the whole needs; false if the whole

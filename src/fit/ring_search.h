@@ -56,7 +56,7 @@ class RingSearch {
 
   void look_from(Point sample);
   void keep_positive();
-  void cross_out(Point sample);
+  bool cross_out();
   bool connect();
   bool is_needed(std::size_t first, std::size_t last) const {
     return ((needed_from_[first] >> last | needed_to_[last] >> first) & 1) != 0;
@@ -66,10 +66,11 @@ class RingSearch {
   const TriangleError& error_;
   std::size_t size_ = 0;
   std::span<const FitCorner> ring_;
-  std::array<double, kMostCorners> x_, y_;  // corners as seen from a sample
-  Table<double> cross_;                     // products of them
-  Table<Set> allowed_;                      // middles of triangles that are not crossed out
-  Table<Set> choices_;                      // those that leave intervals with triangulations on both sides
+  std::array<double, kMostCorners> x_, y_, z_;        // corners as seen from a sample
+  Table<double> cross_;                               // products of them
+  std::array<Set, kMostCorners> left_of_, right_of_;  // last by first, first by last: where they are not negative
+  Table<Set> allowed_;                                // middles of triangles that are not crossed out
+  Table<Set> choices_;                                // those that leave intervals with triangulations on both sides
   std::array<Set, kMostCorners> open_from_, open_to_, needed_from_, needed_to_;
   Table<float> cost_, worst_, energy_;  // of the best triangulation; of its triangle at the interval
   Table<std::uint8_t> middle_;
