@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/parallel.h"
+
 namespace scarp {
 
 namespace {
@@ -30,15 +32,14 @@ struct Box {
 /// A triangulation in the making.
 struct PatchCutter::Parts {
   Triangulation::Arrays arrays;
-  std::vector<HalfEdge> renamed;                       // by old half-edge, where it was kept as a border
-  std::vector<std::pair<HalfEdge, HalfEdge>> to_link;  // new half-edges and what their twins were called
-  std::vector<Vertex> numbers;
-
-  Triangle next_triangle() const { return static_cast<Triangle>(arrays.flags.size()); }
+  std::vector<Vertex> numbers;      // by old vertex
+  std::vector<HalfEdge> renamed;    // by old half-edge, where it is still there: borders of patches, outside
+  std::vector<std::size_t> begins;  // by patch, its first triangle; the last: those outside
 };
 
-PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const PatchGrid& grid, bool sides_are_free)
-    : raster_(raster), tin_(tin), grid_(grid), sides_are_free_(sides_are_free) {
+PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const PatchGrid& grid, bool sides_are_free,
+                         int threads)
+    : raster_(raster), tin_(tin), grid_(grid), sides_are_free_(sides_are_free), threads_(threads) {
   const auto squares = [&](std::int32_t samples) {
     return static_cast<std::size_t>((std::int64_t{samples} + grid.shift) / grid.side + 1);
   };
@@ -61,11 +62,11 @@ std::vector<std::uint32_t> PatchCutter::assign_squares(std::size_t outside) {
   std::vector<std::uint32_t> blocks(count);
   square_.resize(count);
   const std::int64_t side = 3 * std::int64_t{grid_.side}, shift = 3 * std::int64_t{grid_.shift};
-  for (Triangle t = 0; t < count; ++t) {
+  const auto assign = [&](Triangle t) {
     if (tin_.is_outside(t)) {
       square_[t] = static_cast<std::uint32_t>(outside);
       blocks[t] = static_cast<std::uint32_t>(outside * kBlocks);
-      continue;
+      return;
     }
     const auto [a, b, c] = tin_.corners(t);
     const std::int64_t x = std::int64_t{a.x} + b.x + c.x + shift, y = std::int64_t{a.y} + b.y + c.y + shift;
@@ -74,7 +75,12 @@ std::vector<std::uint32_t> PatchCutter::assign_squares(std::size_t outside) {
         static_cast<std::size_t>(y % side * kBlocksPerSide / side * kBlocksPerSide + x % side * kBlocksPerSide / side);
     square_[t] = static_cast<std::uint32_t>(square);
     blocks[t] = static_cast<std::uint32_t>(square * kBlocks + block);
-  }
+  };
+  constexpr std::size_t kChunk = 65'536;
+  parallel_for((count + kChunk - 1) / kChunk, threads_, [&](std::size_t chunk) {
+    const auto end = std::min<std::size_t>(count, (chunk + 1) * kChunk);
+    for (std::size_t t = chunk * kChunk; t < end; ++t) assign(static_cast<Triangle>(t));
+  });
   return blocks;
 }
 
@@ -170,6 +176,32 @@ void PatchCutter::lock(Patch& patch) const {
 Triangulation PatchCutter::join(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
                                 std::vector<Vertex>& numbers) const {
   Parts parts;
+  number_vertices(patches, vertices, parts);
+  parts.renamed.assign(3 * tin_.triangle_count(), kNone);
+  parts.begins.assign(1, 0);
+  for (const Patch& patch : patches) parts.begins.push_back(parts.begins.back() + patch.triangle_count());
+  const std::size_t count = parts.begins.back() + (order_.size() - begins_.back());
+  parts.arrays.corners.resize(3 * count);
+  parts.arrays.twins.resize(3 * count);
+  parts.arrays.flags.resize(count);
+  parallel_for(patches.size(), threads_, [&](std::size_t i) { add_patch(patches[i], vertices[i], i, parts); });
+  add_outside(parts);
+  const auto link = [&](HalfEdge old) {
+    const HalfEdge twin = tin_.twin(old);
+    parts.arrays.twins[parts.renamed[old]] = twin == kNone ? kNone : parts.renamed[twin];
+  };
+  parallel_for(patches.size(), threads_, [&](std::size_t i) {
+    for (const HalfEdge old : patches[i].fixed()) link(old);
+  });
+  for (std::size_t n = begins_.back(); n < order_.size(); ++n) {
+    for (HalfEdge old = 3 * order_[n]; old < 3 * order_[n] + 3; ++old) link(old);
+  }
+  numbers = std::move(parts.numbers);
+  return Triangulation(std::move(parts.arrays));
+}
+
+void PatchCutter::number_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
+                                  Parts& parts) const {
   parts.numbers.assign(tin_.vertex_count(), 0);
   for (std::size_t i = 0; i < patches.size(); ++i) {
     for (Patch::Id v = 0; v < patches[i].node_count(); ++v) {
@@ -181,18 +213,12 @@ Triangulation PatchCutter::join(const std::vector<Patch>& patches, const std::ve
     parts.numbers[v] = static_cast<Vertex>(parts.arrays.points.size());
     parts.arrays.points.push_back(tin_.point(v));
   }
-  parts.renamed.assign(3 * tin_.triangle_count(), kNone);
-  for (std::size_t i = 0; i < patches.size(); ++i) add_patch(patches[i], vertices[i], parts);
-  add_outside(parts);
-  for (const auto& [h, old_twin] : parts.to_link)
-    parts.arrays.twins[h] = old_twin == kNone ? kNone : parts.renamed[old_twin];
-  numbers = std::move(parts.numbers);
-  return Triangulation(std::move(parts.arrays));
 }
 
-void PatchCutter::add_patch(const Patch& patch, const std::vector<Vertex>& names, Parts& parts) const {
+/// Writes to the patch's own places only.
+void PatchCutter::add_patch(const Patch& patch, const std::vector<Vertex>& names, std::size_t i, Parts& parts) const {
   std::vector<Triangle> ids(patch.face_count(), kNone);
-  Triangle next = parts.next_triangle();
+  auto next = static_cast<Triangle>(parts.begins[i]);
   for (Patch::Id f = 0; f < patch.face_count(); ++f) {
     if (patch.is_alive(f)) ids[f] = next++;
   }
@@ -203,37 +229,33 @@ void PatchCutter::add_patch(const Patch& patch, const std::vector<Vertex>& names
     for (unsigned k = 0; k < 3; ++k) {
       const HalfEdge h = 3 * ids[f] + k;
       const Patch::Link link = face.links[k];
-      parts.arrays.corners.push_back(parts.numbers[names[face.corners[k]]]);
-      HalfEdge twin = kNone;
+      parts.arrays.corners[h] = parts.numbers[names[face.corners[k]]];
+      parts.arrays.twins[h] = kNone;
       bool is_constrained = link == Patch::kConstrainedSide;
       if (!Patch::is_border(link)) {
-        twin = 3 * ids[Patch::triangle_of(link)] + Patch::edge_of(link);
+        parts.arrays.twins[h] = 3 * ids[Patch::triangle_of(link)] + Patch::edge_of(link);
       } else if (!Patch::is_side(link)) {
         const HalfEdge old = patch.fixed()[link & ~Patch::kBorder];
         parts.renamed[old] = h;
-        parts.to_link.push_back({h, tin_.twin(old)});
         is_constrained = tin_.is_constrained(old);
       }
-      parts.arrays.twins.push_back(twin);
       if (is_constrained) flags |= static_cast<std::uint8_t>(1u << k);
     }
-    parts.arrays.flags.push_back(flags);
+    parts.arrays.flags[ids[f]] = flags;
   }
 }
 
 void PatchCutter::add_outside(Parts& parts) const {
-  for (std::size_t n = begins_.back(); n < order_.size(); ++n) {
-    const HalfEdge base = 3 * parts.next_triangle();
+  auto t = static_cast<Triangle>(parts.begins.back());
+  for (std::size_t n = begins_.back(); n < order_.size(); ++n, ++t) {
     std::uint8_t flags = Triangulation::Arrays::kOutside;
     for (unsigned k = 0; k < 3; ++k) {
       const HalfEdge old = 3 * order_[n] + k;
-      parts.arrays.corners.push_back(parts.numbers[tin_.origin(old)]);
-      parts.arrays.twins.push_back(kNone);
-      parts.renamed[old] = base + k;
-      parts.to_link.push_back({base + k, tin_.twin(old)});
+      parts.arrays.corners[3 * t + k] = parts.numbers[tin_.origin(old)];
+      parts.renamed[old] = 3 * t + k;
       if (tin_.is_constrained(old)) flags |= static_cast<std::uint8_t>(1u << k);
     }
-    parts.arrays.flags.push_back(flags);
+    parts.arrays.flags[t] = flags;
   }
 }
 

@@ -22,7 +22,7 @@ struct PatchGrid {
 class PatchCutter {
  public:
   /// `sides_are_free`: whether vertices on the sides of the rectangle may go. Raster and triangulation stay alive.
-  PatchCutter(const Raster& raster, const Triangulation& tin, const PatchGrid& grid, bool sides_are_free);
+  PatchCutter(const Raster& raster, const Triangulation& tin, const PatchGrid& grid, bool sides_are_free, int threads);
 
   std::size_t count() const { return begins_.size() - 1; }
 
@@ -48,13 +48,16 @@ class PatchCutter {
   bool add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::vector<Vertex>& vertices) const;
   void add_faces(std::size_t i, const Scratch& scratch, Patch& patch) const;
   void lock(Patch& patch) const;
-  void add_patch(const Patch& patch, const std::vector<Vertex>& names, Parts& parts) const;
+  void number_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
+                       Parts& parts) const;
+  void add_patch(const Patch& patch, const std::vector<Vertex>& names, std::size_t i, Parts& parts) const;
   void add_outside(Parts& parts) const;
 
   const Raster& raster_;
   const Triangulation& tin_;
   PatchGrid grid_;
   bool sides_are_free_;
+  int threads_;
   std::size_t squares_per_row_;
   std::vector<std::size_t> begins_;  // by patch, where its triangles begin in order_; the last patch: outside
   std::vector<Triangle> order_;

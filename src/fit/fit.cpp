@@ -36,7 +36,7 @@ class Rounds {
         windows_(scratch_.size()) {}
 
   void run(const PatchGrid& grid) {
-    const PatchCutter cutter(raster_, fitted_.tin, grid, options_.sides_are_free);
+    const PatchCutter cutter(raster_, fitted_.tin, grid, options_.sides_are_free, options_.threads);
     std::vector<Patch> patches(cutter.count());
     std::vector<std::vector<Vertex>> vertices(cutter.count());
     const auto work = [&](std::size_t i, std::size_t worker) {

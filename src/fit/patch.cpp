@@ -80,6 +80,7 @@ void Patch::remove(Id v, const Star& star, std::span<const RingTriangle> triangl
     }
   }
   for (std::size_t i = triangles.size(); i < star.faces.size(); ++i) faces_[star.faces[i]].corners[0] = kNone;
+  dropped_ += star.faces.size() - triangles.size();
   nodes_[v].face = kNone;
 }
 

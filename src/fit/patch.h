@@ -64,7 +64,8 @@ class Patch {
     float worst, energy;
   };
 
-  std::size_t face_count() const { return faces_.size(); }
+  std::size_t face_count() const { return faces_.size(); }  ///< with those that are no triangles any more
+  std::size_t triangle_count() const { return faces_.size() - dropped_; }
   std::size_t node_count() const { return nodes_.size(); }
   const Face& face(Id f) const { return faces_[f]; }
   const FitCorner& at(Id v) const { return nodes_[v].at; }
@@ -101,6 +102,7 @@ class Patch {
 
   Window window_;
   std::vector<Face> faces_;
+  std::size_t dropped_ = 0;
   std::vector<Node> nodes_;
   std::vector<std::uint8_t> locked_;
   std::vector<HalfEdge> fixed_;

@@ -32,23 +32,29 @@ bool any(Masks mask) {
   return (words[0] | words[1]) != 0;
 }
 
+/// Four errors' magnitudes; 0 where they are not meant, and where the sample is void: NaN is not equal to itself.
+Floats magnitudes(Floats errors, Masks meant) {
+  constexpr std::int32_t kAllButSign = 0x7fffffff;
+  const Masks kept = meant & (errors == errors) & Masks{kAllButSign, kAllButSign, kAllButSign, kAllButSign};
+  return reinterpret_cast<Floats>(reinterpret_cast<Masks>(errors) & kept);
+}
+
 /// Largest error and sum of squares, lane by lane.
 struct Sums {
-  Floats worst_low{}, worst_high{}, energy_low{}, energy_high{};
+  Floats worst{}, squares_low{}, squares_high{};
 
-  void add(Floats error, bool high) {
-    Floats& worst = high ? worst_high : worst_low;
-    worst = error > worst ? error : worst;
+  void add(Floats low, Floats high) {
+    const Floats larger = low > high ? low : high;
+    worst = larger > worst ? larger : worst;
+    squares_low += low * low;
+    squares_high += high * high;
   }
-  float worst() const {
-    const Floats w = worst_low > worst_high ? worst_low : worst_high;
-    return std::max(std::max(w[0], w[2]), std::max(w[1], w[3]));
+  bool exceeds(float cut) const { return any(worst > all(cut)); }
+  float largest() const { return std::max(std::max(worst[0], worst[2]), std::max(worst[1], worst[3])); }
+  float squares() const {
+    const Floats s = squares_low + squares_high;
+    return std::min((s[0] + s[2]) + (s[1] + s[3]), std::numeric_limits<float>::max());
   }
-  float energy() const {
-    const Floats e = energy_low + energy_high;
-    return (e[0] + e[2]) + (e[1] + e[3]);
-  }
-  bool exceeds(float cut) const { return any((worst_low > all(cut)) | (worst_high > all(cut))); }
 };
 
 /// The crossing of an edge with a row is off by less than 2⁻³², and, where it is no whole number, at least 2⁻²⁵ away
@@ -98,7 +104,7 @@ TriangleError::TriangleError(const Raster& raster, Point first, double threshold
     : raster_(raster),
       first_(first),
       threshold_(threshold),
-      per_threshold_(threshold > 0x1p-100 ? static_cast<float>(1 / threshold) : 0),
+      per_square_(threshold > 0x1p-60 && threshold < 0x1p60 ? static_cast<float>(1 / (threshold * threshold)) : 0),
       end_(raster.row(raster.rows)) {}
 
 /// Calls row(y, first, last) for each row with samples, top down, until it answers false; whether it never did.
@@ -108,13 +114,12 @@ bool TriangleError::each_row(const Task& task, const Row& row) {
   const double along = (bottom.x - top.x) / (bottom.y - top.y);
   const double upper = middle.y > top.y ? (middle.x - top.x) / (middle.y - top.y) : 0;
   const double lower = bottom.y > middle.y ? (bottom.x - middle.x) / (bottom.y - middle.y) : 0;
-  const auto last_row = static_cast<std::int32_t>(bottom.y);
-  for (auto y = static_cast<std::int32_t>(std::ceil(top.y)); y <= last_row; ++y) {
+  for (double y = std::ceil(top.y); y <= bottom.y; ++y) {
     const double from = top.x + (y - top.y) * along;
     const double to = y < middle.y ? top.x + (y - top.y) * upper : middle.x + (y - middle.y) * lower;
     const auto first = static_cast<std::int32_t>(std::min(from, to) + (1 - kOnSample));
     const auto last = static_cast<std::int32_t>(std::max(from, to) + kOnSample);
-    if (first <= last && !row(y, first, last)) return false;
+    if (first <= last && !row(static_cast<std::int32_t>(y), first, last)) return false;
   }
   return true;
 }
@@ -148,7 +153,7 @@ TriangleError::Verdict TriangleError::judge(const FitCorner& a, const FitCorner&
   Verdict verdict;
   Sums sums;
   int rows = 0;
-  const Floats slope = all(task.plane.slope_x), height = all(task.plane.height), scale = all(per_threshold_);
+  const Floats slope = all(task.plane.slope_x), height = all(task.plane.height);
   const bool is_whole = each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     const float* const samples = raster_.row(first_.y + y) + first_.x;
     const Floats row = all(task.row_height(y));
@@ -158,30 +163,24 @@ TriangleError::Verdict TriangleError::judge(const FitCorner& a, const FitCorner&
       const Floats left = all(offset) + Floats{0, 1, 2, 3}, right = all(offset) + Floats{4, 5, 6, 7};
       const std::int32_t count = last - x + 1;
       const Masks counts{count, count, count, count};
-      const Floats raw_low = (slope * left + row) - (load(eight.from) - height);
-      const Floats raw_high = (slope * right + row) - (load(eight.from + 4) - height);
-      // Void samples have no error: NaN is not equal to itself.
-      const Floats low = (Masks{0, 1, 2, 3} < counts) & (raw_low == raw_low) ? raw_low : Floats{};
-      const Floats high = (Masks{4, 5, 6, 7} < counts) & (raw_high == raw_high) ? raw_high : Floats{};
-      sums.add(low < 0 ? -low : low, false);
-      sums.add(high < 0 ? -high : high, true);
-      sums.energy_low += (low * scale) * (low * scale);
-      sums.energy_high += (high * scale) * (high * scale);
+      const Floats low = (slope * left + row) - (load(eight.from) - height);
+      const Floats high = (slope * right + row) - (load(eight.from + 4) - height);
+      sums.add(magnitudes(low, Masks{0, 1, 2, 3} < counts), magnitudes(high, Masks{4, 5, 6, 7} < counts));
     }
     if (sums.exceeds(task.cut)) {
       verdict.kind = Verdict::Kind::kBreaks;
       verdict.witness = find_worst(task, y, first, last);
       return false;
     }
-    if (++rows % kRowsPerLook == 0 && sums.energy() >= energy_limit) {
+    if (++rows % kRowsPerLook == 0 && sums.squares() * per_square_ >= energy_limit) {
       verdict.kind = Verdict::Kind::kCostly;
       return false;
     }
     return true;
   });
   if (!is_whole) return verdict;
-  verdict.worst = sums.worst();
-  verdict.energy = sums.energy();
+  verdict.worst = sums.largest();
+  verdict.energy = sums.squares() * per_square_;
   if (verdict.energy >= energy_limit) {
     verdict.kind = Verdict::Kind::kCostly;
   } else if (verdict.worst > task.doubt || double{task.plane.guard} > threshold_) {
@@ -202,9 +201,8 @@ TriangleError::Verdict TriangleError::judge_corners(const std::array<FitCorner, 
       verdict.witness = at;
       return verdict;
     }
-    const float share = static_cast<float>(error) * per_threshold_;
     verdict.worst = std::max(verdict.worst, static_cast<float>(error));
-    verdict.energy += share * share;
+    verdict.energy += static_cast<float>(error * error) * per_square_;
   }
   if (verdict.energy >= energy_limit) verdict.kind = Verdict::Kind::kCostly;
   return verdict;

@@ -41,7 +41,8 @@ class TriangleError {
     };
     Kind kind = Kind::kKeeps;
     float worst = 0;   ///< kKeeps: the largest error as computed
-    float energy = 0;  ///< kKeeps: Σ (error / threshold)² over the samples of the closed triangle
+    float energy = 0;  ///< kKeeps: Σ (error / threshold)² over the samples of the closed triangle; 0 where the
+                       ///< threshold is not within 2⁻⁶⁰ … 2⁶⁰
     Point witness;     ///< kBreaks: a sample, counted from the first of the window
   };
   /// REQUIRES: (a, b, c) positive. Cost: O(rows) + samples / 8, less where it breaks; void samples count for nothing.
@@ -62,8 +63,8 @@ class TriangleError {
   Raster raster_;
   Point first_;
   double threshold_;
-  float per_threshold_;  // 0 where the threshold is (next to) nothing
-  const float* end_;     // of the samples
+  float per_square_;  // of the threshold; 0 where squares of float32 come to an end
+  const float* end_;  // of the samples
 };
 
 }  // namespace scarp
