@@ -179,7 +179,7 @@ Triangulation PatchCutter::join(const std::vector<Patch>& patches, const std::ve
   number_vertices(patches, vertices, parts);
   parts.renamed.assign(3 * tin_.triangle_count(), kNone);
   parts.begins.assign(1, 0);
-  for (const Patch& patch : patches) parts.begins.push_back(parts.begins.back() + patch.triangle_count());
+  for (const Patch& patch : patches) parts.begins.push_back(parts.begins.back() + patch.face_count());
   const std::size_t count = parts.begins.back() + (order_.size() - begins_.back());
   parts.arrays.corners.resize(3 * count);
   parts.arrays.twins.resize(3 * count);
@@ -217,23 +217,18 @@ void PatchCutter::number_vertices(const std::vector<Patch>& patches, const std::
 
 /// Writes to the patch's own places only.
 void PatchCutter::add_patch(const Patch& patch, const std::vector<Vertex>& names, std::size_t i, Parts& parts) const {
-  std::vector<Triangle> ids(patch.face_count(), kNone);
-  auto next = static_cast<Triangle>(parts.begins[i]);
+  const auto base = static_cast<Triangle>(parts.begins[i]);
   for (Patch::Id f = 0; f < patch.face_count(); ++f) {
-    if (patch.is_alive(f)) ids[f] = next++;
-  }
-  for (Patch::Id f = 0; f < patch.face_count(); ++f) {
-    if (!patch.is_alive(f)) continue;
     const Patch::Face& face = patch.face(f);
     std::uint8_t flags = 0;
     for (unsigned k = 0; k < 3; ++k) {
-      const HalfEdge h = 3 * ids[f] + k;
+      const HalfEdge h = 3 * (base + f) + k;
       const Patch::Link link = face.links[k];
       parts.arrays.corners[h] = parts.numbers[names[face.corners[k]]];
       parts.arrays.twins[h] = kNone;
       bool is_constrained = link == Patch::kConstrainedSide;
       if (!Patch::is_border(link)) {
-        parts.arrays.twins[h] = 3 * ids[Patch::triangle_of(link)] + Patch::edge_of(link);
+        parts.arrays.twins[h] = 3 * (base + Patch::triangle_of(link)) + Patch::edge_of(link);
       } else if (!Patch::is_side(link)) {
         const HalfEdge old = patch.fixed()[link & ~Patch::kBorder];
         parts.renamed[old] = h;
@@ -241,7 +236,7 @@ void PatchCutter::add_patch(const Patch& patch, const std::vector<Vertex>& names
       }
       if (is_constrained) flags |= static_cast<std::uint8_t>(1u << k);
     }
-    parts.arrays.flags[ids[f]] = flags;
+    parts.arrays.flags[base + f] = flags;
   }
 }
 

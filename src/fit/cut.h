@@ -36,6 +36,7 @@ class PatchCutter {
 
   /// The triangulation with the patches in the place of their triangles, patch by patch, then those outside; vertices
   /// that are removed in a patch are left out. `numbers`: by old vertex its new number, or kNone.
+  /// REQUIRES: patches are packed.
   Triangulation join(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
                      std::vector<Vertex>& numbers) const;
 

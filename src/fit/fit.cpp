@@ -65,6 +65,7 @@ class Rounds {
     for (const Vertex v : vertices) settled.push_back(settled_[v]);
     const TriangleError error = window.errors(raster_, patch, options_.threshold);
     const RemovalCounts counts = remove_vertices(patch, error, settled);
+    patch.pack();
     for (Patch::Id v = 0; v < vertices.size(); ++v) {
       if (!patch.is_locked(v)) settled_[vertices[v]] = settled[v];
     }

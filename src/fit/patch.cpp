@@ -1,5 +1,7 @@
 #include "fit/patch.h"
 
+#include <utility>
+
 namespace scarp {
 
 namespace {
@@ -80,8 +82,25 @@ void Patch::remove(Id v, const Star& star, std::span<const RingTriangle> triangl
     }
   }
   for (std::size_t i = triangles.size(); i < star.faces.size(); ++i) faces_[star.faces[i]].corners[0] = kNone;
-  dropped_ += star.faces.size() - triangles.size();
   nodes_[v].face = kNone;
+}
+
+void Patch::pack() {
+  std::vector<Id> ids(faces_.size(), kNone);
+  Id count = 0;
+  for (Id f = 0; f < faces_.size(); ++f) {
+    if (faces_[f].corners[0] != kNone) ids[f] = count++;
+  }
+  std::vector<Face> packed(count);
+  for (Id f = 0; f < faces_.size(); ++f) {
+    if (ids[f] == kNone) continue;
+    Face& face = packed[ids[f]] = faces_[f];
+    for (Link& link : face.links) {
+      if (!is_border(link)) link = link_to(ids[triangle_of(link)], edge_of(link));
+    }
+    for (const Id corner : face.corners) nodes_[corner].face = ids[f];
+  }
+  faces_ = std::move(packed);
 }
 
 }  // namespace scarp

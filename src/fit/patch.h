@@ -64,12 +64,10 @@ class Patch {
     float worst, energy;
   };
 
-  std::size_t face_count() const { return faces_.size(); }  ///< with those that are no triangles any more
-  std::size_t triangle_count() const { return faces_.size() - dropped_; }
+  std::size_t face_count() const { return faces_.size(); }  ///< until pack(), with those that are no triangles any more
   std::size_t node_count() const { return nodes_.size(); }
   const Face& face(Id f) const { return faces_[f]; }
   const FitCorner& at(Id v) const { return nodes_[v].at; }
-  bool is_alive(Id f) const { return faces_[f].corners[0] != kNone; }
   bool is_removed(Id v) const { return nodes_[v].face == kNone; }
   bool is_locked(Id v) const { return locked_[v] != 0; }
   /// The half-edges of the triangulation that became borders, by index.
@@ -93,6 +91,9 @@ class Patch {
   /// all positive, in order.
   void remove(Id v, const Star& star, std::span<const RingTriangle> triangles);
 
+  /// Numbers the faces anew, without gaps, and gives back the memory of those that are gone.
+  void pack();
+
  private:
   friend class PatchCutter;
 
@@ -102,7 +103,6 @@ class Patch {
 
   Window window_;
   std::vector<Face> faces_;
-  std::size_t dropped_ = 0;
   std::vector<Node> nodes_;
   std::vector<std::uint8_t> locked_;
   std::vector<HalfEdge> fixed_;

@@ -176,10 +176,13 @@ TEST(fit, heights_beyond_float32_products_are_left_alone) {
   EXPECT_EQ(fit(field.raster(), *refined(field, 1), {.threshold = 1}).tin.triangle_count(), before_fit);
 }
 
-struct Trial {
-  Field field;
-  std::array<FitCorner, 3> corners;
-};
+TEST(fit, triangles_beyond_its_arithmetic_are_left_alone) {
+  const std::int32_t cols = kMaxFitSteps / kLatticeSteps + 100;
+  const std::vector<float> samples(2 * static_cast<std::size_t>(cols), 7.0f);
+  Triangulation tin(cols, 2);
+  tin.insert({cols / 2, 0}, tin.locate({cols / 2, 0}, 0));
+  EXPECT_EQ(fit({samples.data(), cols, 2}, std::move(tin), {.threshold = 1}).counts.removed, 0u);
+}
 
 std::int64_t area_of(const FitCorner& a, const FitCorner& b, const FitCorner& c) {
   return orient({a.x, a.y}, {b.x, b.y}, {c.x, c.y});
