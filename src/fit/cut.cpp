@@ -1,6 +1,7 @@
 #include "fit/cut.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -29,12 +30,17 @@ struct Box {
 
 }  // namespace
 
+/// Half-edges on the border of a patch: what they were called, in the order of cutting, and what they are called now.
+struct PatchCutter::Borders {
+  std::vector<HalfEdge> before, now;
+};
+
 /// A triangulation in the making.
 struct PatchCutter::Parts {
   Triangulation::Arrays arrays;
   std::vector<Vertex> numbers;      // by old vertex
-  std::vector<HalfEdge> renamed;    // by old half-edge, where it is still there: borders of patches, outside
   std::vector<std::size_t> begins;  // by patch, its first triangle; the last: those outside
+  std::vector<Borders> borders;     // by patch
 };
 
 PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const PatchGrid& grid, bool sides_are_free,
@@ -173,31 +179,47 @@ void PatchCutter::lock(Patch& patch) const {
   }
 }
 
-Triangulation PatchCutter::join(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
+Triangulation PatchCutter::join(std::vector<Patch> patches, const std::vector<std::vector<Vertex>>& vertices,
                                 std::vector<Vertex>& numbers) const {
   Parts parts;
   number_vertices(patches, vertices, parts);
-  parts.renamed.assign(3 * tin_.triangle_count(), kNone);
   parts.begins.assign(1, 0);
   for (const Patch& patch : patches) parts.begins.push_back(parts.begins.back() + patch.face_count());
   const std::size_t count = parts.begins.back() + (order_.size() - begins_.back());
   parts.arrays.corners.resize(3 * count);
   parts.arrays.twins.resize(3 * count);
   parts.arrays.flags.resize(count);
-  parallel_for(patches.size(), threads_, [&](std::size_t i) { add_patch(patches[i], vertices[i], i, parts); });
+  parts.borders.resize(patches.size());
+  parallel_for(patches.size(), threads_, [&](std::size_t i) {
+    add_patch(patches[i], vertices[i], i, parts);
+    patches[i] = {};
+  });
   add_outside(parts);
-  const auto link = [&](HalfEdge old) {
-    const HalfEdge twin = tin_.twin(old);
-    parts.arrays.twins[parts.renamed[old]] = twin == kNone ? kNone : parts.renamed[twin];
+  const auto link = [&](HalfEdge before, HalfEdge now) {
+    const HalfEdge twin = tin_.twin(before);
+    parts.arrays.twins[now] = twin == kNone ? kNone : name_now(twin, parts);
   };
   parallel_for(patches.size(), threads_, [&](std::size_t i) {
-    for (const HalfEdge old : patches[i].fixed()) link(old);
+    const Borders& borders = parts.borders[i];
+    for (std::size_t n = 0; n < borders.before.size(); ++n) link(borders.before[n], borders.now[n]);
   });
   for (std::size_t n = begins_.back(); n < order_.size(); ++n) {
-    for (HalfEdge old = 3 * order_[n]; old < 3 * order_[n] + 3; ++old) link(old);
+    for (HalfEdge h = 3 * order_[n]; h < 3 * order_[n] + 3; ++h) link(h, name_now(h, parts));
   }
   numbers = std::move(parts.numbers);
   return Triangulation(std::move(parts.arrays));
+}
+
+/// Of a half-edge on the border of a patch, or outside.
+HalfEdge PatchCutter::name_now(HalfEdge before, const Parts& parts) const {
+  const std::size_t square = square_[before / 3];
+  if (square == count()) return static_cast<HalfEdge>(3 * (parts.begins.back() + place_[before / 3]) + before % 3);
+  const auto& [names, now] = parts.borders[square];
+  const auto rank = [this](HalfEdge h) { return 3 * std::uint64_t{place_[h / 3]} + h % 3; };
+  const auto found =
+      std::lower_bound(names.begin(), names.end(), before, [&](HalfEdge a, HalfEdge b) { return rank(a) < rank(b); });
+  assert(found != names.end() && *found == before);
+  return now[static_cast<std::size_t>(found - names.begin())];
 }
 
 void PatchCutter::number_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
@@ -218,6 +240,9 @@ void PatchCutter::number_vertices(const std::vector<Patch>& patches, const std::
 /// Writes to the patch's own places only.
 void PatchCutter::add_patch(const Patch& patch, const std::vector<Vertex>& names, std::size_t i, Parts& parts) const {
   const auto base = static_cast<Triangle>(parts.begins[i]);
+  Borders& borders = parts.borders[i];
+  borders.before = patch.fixed();
+  borders.now.resize(borders.before.size());
   for (Patch::Id f = 0; f < patch.face_count(); ++f) {
     const Patch::Face& face = patch.face(f);
     std::uint8_t flags = 0;
@@ -230,9 +255,9 @@ void PatchCutter::add_patch(const Patch& patch, const std::vector<Vertex>& names
       if (!Patch::is_border(link)) {
         parts.arrays.twins[h] = 3 * (base + Patch::triangle_of(link)) + Patch::edge_of(link);
       } else if (!Patch::is_side(link)) {
-        const HalfEdge old = patch.fixed()[link & ~Patch::kBorder];
-        parts.renamed[old] = h;
-        is_constrained = tin_.is_constrained(old);
+        const Patch::Link n = link & ~Patch::kBorder;
+        borders.now[n] = h;
+        is_constrained = tin_.is_constrained(borders.before[n]);
       }
       if (is_constrained) flags |= static_cast<std::uint8_t>(1u << k);
     }
@@ -247,7 +272,6 @@ void PatchCutter::add_outside(Parts& parts) const {
     for (unsigned k = 0; k < 3; ++k) {
       const HalfEdge old = 3 * order_[n] + k;
       parts.arrays.corners[3 * t + k] = parts.numbers[tin_.origin(old)];
-      parts.renamed[old] = 3 * t + k;
       if (tin_.is_constrained(old)) flags |= static_cast<std::uint8_t>(1u << k);
     }
     parts.arrays.flags[t] = flags;

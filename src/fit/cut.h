@@ -30,17 +30,18 @@ class PatchCutter {
   struct Scratch {
     std::vector<std::uint32_t> ids;
   };
-  /// The patch, and in `vertices` what its nodes are called in the triangulation. Empty where there is nothing to do
-  /// for the arithmetic of fitting: a triangle longer than kMaxFitSteps, heights beyond kMaxScanHeight.
+  /// The patch, and in `vertices` what its nodes are called in the triangulation. All are locked where the arithmetic of
+  /// fitting ends: a triangle longer than kMaxFitSteps, heights beyond kMaxScanHeight.
   Patch cut(std::size_t i, Scratch& scratch, std::vector<Vertex>& vertices) const;
 
   /// The triangulation with the patches in the place of their triangles, patch by patch, then those outside; vertices
   /// that are removed in a patch are left out. `numbers`: by old vertex its new number, or kNone.
   /// REQUIRES: patches are packed.
-  Triangulation join(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
+  Triangulation join(std::vector<Patch> patches, const std::vector<std::vector<Vertex>>& vertices,
                      std::vector<Vertex>& numbers) const;
 
  private:
+  struct Borders;
   struct Parts;
 
   std::vector<std::uint32_t> assign_squares(std::size_t outside);
@@ -53,6 +54,7 @@ class PatchCutter {
                        Parts& parts) const;
   void add_patch(const Patch& patch, const std::vector<Vertex>& names, std::size_t i, Parts& parts) const;
   void add_outside(Parts& parts) const;
+  HalfEdge name_now(HalfEdge before, const Parts& parts) const;
 
   const Raster& raster_;
   const Triangulation& tin_;

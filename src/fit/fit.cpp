@@ -50,7 +50,7 @@ class Rounds {
       fitted_.counts.searches += counts.searches;
     }
     std::vector<Vertex> numbers;
-    Triangulation joined = cutter.join(patches, vertices, numbers);
+    Triangulation joined = cutter.join(std::move(patches), vertices, numbers);
     renumber(numbers, joined.vertex_count());
     fitted_.tin = std::move(joined);
   }
