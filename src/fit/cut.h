@@ -30,8 +30,8 @@ class PatchCutter {
   struct Scratch {
     std::vector<std::uint32_t> ids;
   };
-  /// The patch, and in `vertices` what its nodes are called in the triangulation. All are locked where the arithmetic of
-  /// fitting ends: a triangle longer than kMaxFitSteps, heights beyond kMaxScanHeight.
+  /// The patch, and in `vertices` what its nodes are called in the triangulation. All are locked where the arithmetic
+  /// of fitting ends: a triangle longer than kMaxFitSteps, heights beyond kMaxScanHeight.
   Patch cut(std::size_t i, Scratch& scratch, std::vector<Vertex>& vertices) const;
 
   /// The triangulation with the patches in the place of their triangles, patch by patch, then those outside; vertices

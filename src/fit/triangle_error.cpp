@@ -57,6 +57,18 @@ struct Sums {
   }
 };
 
+/// Eight samples of a row from `samples` on, of which the first `count` are meant.
+struct RowSamples {
+  std::array<float, kLanes> copy;
+  const float* from;
+  RowSamples(const float* samples, const float* end) : from(samples) {
+    if (end - samples >= kLanes) return;
+    copy.fill(0);
+    std::copy(samples, end, copy.begin());
+    from = copy.data();
+  }
+};
+
 /// The crossing of an edge with a row is off by less than 2⁻³², and, where it is no whole number, at least 2⁻²⁵ away
 /// from one: a multiple of 1/(8·rows) for less than kMaxFitSteps rows of the lattice.
 constexpr double kOnSample = 0x1p-28;
@@ -132,33 +144,24 @@ bool holds_corners_only(const FitCorner& a, const FitCorner& b, const FitCorner&
   return orient({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) == kLatticeSteps * kLatticeSteps;
 }
 
-/// Eight samples of a row from `samples` on, of which the first `count` are meant.
-struct RowSamples {
-  std::array<float, kLanes> copy;
-  const float* from;
-  RowSamples(const float* samples, const float* end) : from(samples) {
-    if (end - samples >= kLanes) return;
-    copy.fill(0);
-    std::copy(samples, end, copy.begin());
-    from = copy.data();
-  }
-};
-
 }  // namespace
 
-TriangleError::Verdict TriangleError::judge(const FitCorner& a, const FitCorner& b, const FitCorner& c,
-                                            float energy_limit) const {
-  if (holds_corners_only(a, b, c)) return judge_corners({a, b, c}, energy_limit);
-  const Task task(a, b, c, threshold_);
-  Verdict verdict;
+/// A scan on its way through the rows of a triangle.
+struct TriangleError::Scan {
+  const Task& task;
+  const float* end;  // of the samples
+  Floats slope, height;
   Sums sums;
   int rows = 0;
-  const Floats slope = all(task.plane.slope_x), height = all(task.plane.height);
-  const bool is_whole = each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
-    const float* const samples = raster_.row(first_.y + y) + first_.x;
+
+  Scan(const Task& of, const float* samples_end)
+      : task(of), end(samples_end), slope(all(of.plane.slope_x)), height(all(of.plane.height)) {}
+
+  /// `samples`: the row, from its first sample in the window.
+  void add_row(const float* samples, std::int32_t y, std::int32_t first, std::int32_t last) {
     const Floats row = all(task.row_height(y));
     for (std::int32_t x = first; x <= last; x += kLanes) {
-      const RowSamples eight(samples + x, end_);
+      const RowSamples eight(samples + x, end);
       const float offset = static_cast<float>(x) - task.base_x;
       const Floats left = all(offset) + Floats{0, 1, 2, 3}, right = all(offset) + Floats{4, 5, 6, 7};
       const std::int32_t count = last - x + 1;
@@ -167,24 +170,38 @@ TriangleError::Verdict TriangleError::judge(const FitCorner& a, const FitCorner&
       const Floats high = (slope * right + row) - (load(eight.from + 4) - height);
       sums.add(magnitudes(low, Masks{0, 1, 2, 3} < counts), magnitudes(high, Masks{4, 5, 6, 7} < counts));
     }
-    if (sums.exceeds(task.cut)) {
+    ++rows;
+  }
+  bool is_time_to_look() const { return rows % kRowsPerLook == 0; }
+};
+
+TriangleError::Verdict TriangleError::judge(const FitCorner& a, const FitCorner& b, const FitCorner& c,
+                                            float energy_limit) const {
+  if (holds_corners_only(a, b, c)) return judge_corners({a, b, c}, energy_limit);
+  const Task task(a, b, c, threshold_);
+  Scan scan(task, end_);
+  Verdict verdict;
+  const bool is_whole = each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    scan.add_row(raster_.row(first_.y + y) + first_.x, y, first, last);
+    if (scan.sums.exceeds(task.cut)) {
       verdict.kind = Verdict::Kind::kBreaks;
       verdict.witness = find_worst(task, y, first, last);
       return false;
     }
-    if (++rows % kRowsPerLook == 0 && sums.squares() * per_square_ >= energy_limit) {
+    if (scan.is_time_to_look() && scan.sums.squares() * per_square_ >= energy_limit) {
       verdict.kind = Verdict::Kind::kCostly;
       return false;
     }
     return true;
   });
   if (!is_whole) return verdict;
-  verdict.worst = sums.largest();
-  verdict.energy = sums.squares() * per_square_;
+  verdict.worst = scan.sums.largest();
+  verdict.energy = scan.sums.squares() * per_square_;
+  const bool in_doubt = verdict.worst > task.doubt || double{task.plane.guard} > threshold_;
   if (verdict.energy >= energy_limit) {
     verdict.kind = Verdict::Kind::kCostly;
-  } else if (verdict.worst > task.doubt || double{task.plane.guard} > threshold_) {
-    if (!settle(task, verdict)) verdict.kind = Verdict::Kind::kBreaks;
+  } else if (in_doubt && !settle(task, verdict)) {
+    verdict.kind = Verdict::Kind::kBreaks;
   }
   return verdict;
 }

@@ -54,6 +54,7 @@ class TriangleError {
 
  private:
   struct Task;
+  struct Scan;
   template <class Row>
   static bool each_row(const Task& task, const Row& row);
   Verdict judge_corners(const std::array<FitCorner, 3>& corners, float energy_limit) const;
