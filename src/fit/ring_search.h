@@ -26,7 +26,7 @@ namespace scarp {
 
 class RingSearch {
  public:
-  /// Longer rings are not looked at: they hold some in a thousand vertices.
+  /// Longer rings are not looked at: at most two in ten thousand are.
   static constexpr std::size_t kMostCorners = 16;
 
   /// The errors stay alive.
