@@ -21,6 +21,14 @@ struct ScanPlane {
 
   /// REQUIRES: positive orientation; heights finite, at most kMaxScanHeight in magnitude; threshold >= 0.
   static ScanPlane through(const TileView& tile, const std::array<Place, 3>& corners, double threshold);
+
+  /// Two corners as seen from the base, in samples, and how much higher than the base they are.
+  struct Span {
+    double qx, qy, rx, ry;  ///< multiples of 1/8, at most 2¹⁹ in magnitude
+    double qz, rz;
+  };
+  /// The same for a base at `height`. REQUIRES: q before r as seen from the base, counter-clockwise.
+  static ScanPlane spanned(float height, const Span& span, double threshold);
 };
 
 // The guard. u = 2⁻²⁴; X = |slope_x|·width, Y = |slope_y|·depth of the box bound the products; T = threshold.
@@ -37,18 +45,23 @@ struct ScanPlane {
                                                            double threshold) {
   const auto [p, q, r] = std::array{point_of(corners[0]), point_of(corners[1]), point_of(corners[2])};
   const double height = tile.at(corners[0]);
-  const double qz = tile.at(corners[1]) - height, rz = tile.at(corners[2]) - height;
+  const Span span{static_cast<double>(q.x - p.x), static_cast<double>(q.y - p.y), static_cast<double>(r.x - p.x),
+                  static_cast<double>(r.y - p.y), tile.at(corners[1]) - height,   tile.at(corners[2]) - height};
+  return spanned(tile.at(corners[0]), span, threshold);
+}
+
+[[gnu::always_inline]] inline ScanPlane ScanPlane::spanned(float height, const Span& span, double threshold) {
+  const auto& [qx, qy, rx, ry, qz, rz] = span;
   ScanPlane plane;
-  plane.height = tile.at(corners[0]);
+  plane.height = height;
   if (qz == 0 && rz == 0) {
     if (threshold > 0) plane.guard = static_cast<float>(0x1p-22 * threshold + 0x1p-148);
     return plane;
   }
-  const std::int32_t qx = q.x - p.x, qy = q.y - p.y, rx = r.x - p.x, ry = r.y - p.y;
-  const double per_area = 1 / static_cast<double>(qx * ry - qy * rx);
+  const double per_area = 1 / (qx * ry - qy * rx);
   const double slope_x = (qz * ry - rz * qy) * per_area, slope_y = (rz * qx - qz * rx) * per_area;
-  const double width = std::max({0, qx, rx}) - std::min({0, qx, rx});
-  const double depth = std::max({0, qy, ry}) - std::min({0, qy, ry});
+  const double width = std::max({0.0, qx, rx}) - std::min({0.0, qx, rx});
+  const double depth = std::max({0.0, qy, ry}) - std::min({0.0, qy, ry});
   const double reach = 2 * (std::abs(qz) + std::abs(rz)) * per_area * (width * depth);
   const double relief = std::abs(slope_x) * width + std::abs(slope_y) * depth;
   plane.slope_x = static_cast<float>(slope_x);

@@ -4,6 +4,12 @@
 
 namespace scarp {
 
+Triangulation::Triangulation(Arrays arrays)
+    : points_(std::move(arrays.points)),
+      corners_(std::move(arrays.corners)),
+      twins_(std::move(arrays.twins)),
+      flags_(std::move(arrays.flags)) {}
+
 Triangulation::Triangulation(std::int32_t cols, std::int32_t rows) {
   assert(cols >= 2 && rows >= 2 && cols <= kMaxCoordinate + 1 && rows <= kMaxCoordinate + 1);
   for (Point p : {Point{0, 0}, Point{cols - 1, 0}, Point{cols - 1, rows - 1}, Point{0, rows - 1}}) points_.push_back(p);

@@ -45,6 +45,17 @@ class Triangulation {
   /// REQUIRES: cols, rows in 2 … kMaxCoordinate + 1.
   Triangulation(std::int32_t cols, std::int32_t rows);
 
+  /// What it is made of, for those who change many triangles at once.
+  struct Arrays {
+    static constexpr std::uint8_t kOutside = 8;
+    Array<Point> points;
+    Array<Vertex> corners;      ///< 3 per triangle
+    Array<HalfEdge> twins;      ///< 3 per triangle
+    Array<std::uint8_t> flags;  ///< bits 0..2: edge k is constrained; kOutside
+  };
+  /// REQUIRES: positive triangles that cover a rectangle, linked and constrained alike on both sides of every edge.
+  explicit Triangulation(Arrays arrays);
+
   std::size_t vertex_count() const { return points_.size(); }
   std::size_t triangle_count() const { return flags_.size(); }
   Point point(Vertex v) const { return points_[v]; }
@@ -105,7 +116,7 @@ class Triangulation {
 
  private:
   friend class Assembly;
-  static constexpr std::uint8_t kOutside = 8;
+  static constexpr std::uint8_t kOutside = Arrays::kOutside;
 
   Triangulation() = default;
 

@@ -9,6 +9,7 @@
 #include "scarp/scarp.h"
 
 // After scarp/io.h: Decode::kNone would shadow kNone.
+#include "fit/fit.h"
 #include "laws/mesh_laws.h"
 #include "laws/tile_meshes.h"
 #include "refine/height_judge.h"
@@ -61,6 +62,24 @@ TEST_P(RealRasters, KeepTheBoundInExactArithmeticWithAnyTiles) {
     EXPECT_EQ(testing::verify_triangulation(tin, raster.cols, raster.rows, testing::Edges::kAny), "");
     EXPECT_EQ(testing::find_broken_bound(raster, tin, threshold), "");
     EXPECT_EQ(testing::outside_area2(tin), testing::outside_area2(domain->tin));
+  }
+}
+
+TEST_P(RealRasters, KeepTheBoundInExactArithmeticWithFewerVertices) {
+  const Raster raster = samples_->raster();
+  for (const double share : {0.003, 0.03}) {
+    const double threshold = share * relief_;
+    auto tiled = refine_tiled(field_, {.threshold = threshold, .threads = 2});
+    ASSERT_TRUE(tiled && *tiled);
+    const Triangulation& tin = (*tiled)->domain.tin;
+    const std::int64_t outside = testing::outside_area2(tin);
+    const std::size_t vertices = tin.vertex_count();
+    const Fitted fitted = fit(raster, std::move((*tiled)->domain.tin), {.threshold = threshold, .threads = 2});
+    EXPECT_EQ(testing::verify_triangulation(fitted.tin, raster.cols, raster.rows, testing::Edges::kAny), "");
+    EXPECT_EQ(testing::find_broken_bound(raster, fitted.tin, threshold), "");
+    EXPECT_EQ(testing::outside_area2(fitted.tin), outside);
+    EXPECT_EQ(fitted.tin.vertex_count() + fitted.counts.removed, vertices);
+    EXPECT_LT(fitted.tin.vertex_count(), vertices);
   }
 }
 

@@ -20,6 +20,7 @@
 #include "scarp/simplify.h"
 
 // After scarp/io.h: Decode::kNone would shadow kNone.
+#include "fit/fit.h"
 #include "refine/tiled.h"
 
 namespace scarp {
@@ -195,6 +196,26 @@ TEST(Threads, NeverChangeATiledMesh) {
       ASSERT_EQ(a.twin(h), b.twin(h));
     }
     EXPECT_EQ((*one)->seams, (*many)->seams);
+  }
+}
+
+TEST(Threads, NeverChangeAFittedMesh) {
+  const OwnedHeightField field = make_waves(300, 200);
+  const auto fitted = [&](int threads) {
+    auto tiled = refine_tiled(field, {.threshold = 0.5, .threads = threads, .tile_side = 32});
+    const Raster raster{field.samples.data(), field.cols, field.rows};
+    return fit(raster, std::move((*tiled)->domain.tin), {.threshold = 0.5, .threads = threads, .patch_side = 50});
+  };
+  const Fitted one = fitted(1);
+  EXPECT_GT(one.counts.removed, 0u);
+  for (const int threads : {2, 3, 8}) {
+    const Fitted many = fitted(threads);
+    ASSERT_EQ(one.tin.triangle_count(), many.tin.triangle_count());
+    for (HalfEdge h = 0; h < 3 * one.tin.triangle_count(); ++h) {
+      ASSERT_EQ(one.tin.origin(h), many.tin.origin(h));
+      ASSERT_EQ(one.tin.twin(h), many.tin.twin(h));
+    }
+    EXPECT_EQ(one.counts.searches, many.counts.searches);
   }
 }
 

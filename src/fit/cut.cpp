@@ -1,0 +1,281 @@
+#include "fit/cut.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel.h"
+
+namespace scarp {
+
+namespace {
+
+/// Triangles of a square lie in memory block by block, so that neighbours are near each other.
+constexpr std::int64_t kBlocksPerSide = 8;
+constexpr std::size_t kBlocks = 64;
+
+/// The smallest window that holds points.
+struct Box {
+  Point low{kMaxCoordinate, kMaxCoordinate}, high{0, 0};
+  void add(Point p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  bool fits() const {
+    constexpr std::int32_t kMost = kMaxFitSteps / kLatticeSteps;
+    return high.x - low.x <= kMost && high.y - low.y <= kMost;
+  }
+};
+
+}  // namespace
+
+/// Half-edges on the border of a patch: what they were called, in the order of cutting, and what they are called now.
+struct PatchCutter::Borders {
+  std::vector<HalfEdge> before, now;
+};
+
+/// A triangulation in the making.
+struct PatchCutter::Parts {
+  Triangulation::Arrays arrays;
+  std::vector<Vertex> numbers;      // by old vertex
+  std::vector<std::size_t> begins;  // by patch, its first triangle; the last: those outside
+  std::vector<Borders> borders;     // by patch
+};
+
+PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const PatchGrid& grid, bool sides_are_free,
+                         int threads)
+    : raster_(raster), tin_(tin), grid_(grid), sides_are_free_(sides_are_free), threads_(threads) {
+  const auto squares = [&](std::int32_t samples) {
+    return static_cast<std::size_t>((std::int64_t{samples} + grid.shift) / grid.side + 1);
+  };
+  squares_per_row_ = squares(raster.cols);
+  const std::size_t outside = squares_per_row_ * squares(raster.rows);
+  const std::vector<std::uint32_t> blocks = assign_squares(outside);
+  sort_by(blocks, (outside + 1) * kBlocks);
+  begins_.assign(outside + 2, 0);
+  for (const std::uint32_t square : square_) ++begins_[square + 1];
+  for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
+  place_.resize(order_.size());
+  for (std::size_t n = 0; n < order_.size(); ++n)
+    place_[order_[n]] = static_cast<std::uint32_t>(n - begins_[square_[order_[n]]]);
+  begins_.pop_back();
+}
+
+/// Fills square_; the squares' blocks, in the order in which they are to lie in memory.
+std::vector<std::uint32_t> PatchCutter::assign_squares(std::size_t outside) {
+  const auto count = static_cast<Triangle>(tin_.triangle_count());
+  std::vector<std::uint32_t> blocks(count);
+  square_.resize(count);
+  const std::int64_t side = 3 * std::int64_t{grid_.side}, shift = 3 * std::int64_t{grid_.shift};
+  const auto assign = [&](Triangle t) {
+    if (tin_.is_outside(t)) {
+      square_[t] = static_cast<std::uint32_t>(outside);
+      blocks[t] = static_cast<std::uint32_t>(outside * kBlocks);
+      return;
+    }
+    const auto [a, b, c] = tin_.corners(t);
+    const std::int64_t x = std::int64_t{a.x} + b.x + c.x + shift, y = std::int64_t{a.y} + b.y + c.y + shift;
+    const auto square = static_cast<std::size_t>(y / side) * squares_per_row_ + static_cast<std::size_t>(x / side);
+    const auto block =
+        static_cast<std::size_t>(y % side * kBlocksPerSide / side * kBlocksPerSide + x % side * kBlocksPerSide / side);
+    square_[t] = static_cast<std::uint32_t>(square);
+    blocks[t] = static_cast<std::uint32_t>(square * kBlocks + block);
+  };
+  constexpr std::size_t kChunk = 65'536;
+  parallel_for((count + kChunk - 1) / kChunk, threads_, [&](std::size_t chunk) {
+    const auto end = std::min<std::size_t>(count, (chunk + 1) * kChunk);
+    for (std::size_t t = chunk * kChunk; t < end; ++t) assign(static_cast<Triangle>(t));
+  });
+  return blocks;
+}
+
+void PatchCutter::sort_by(const std::vector<std::uint32_t>& blocks, std::size_t count) {
+  std::vector<std::size_t> begins(count + 1, 0);
+  for (const std::uint32_t block : blocks) ++begins[block + 1];
+  for (std::size_t i = 1; i < begins.size(); ++i) begins[i] += begins[i - 1];
+  order_.resize(blocks.size());
+  for (Triangle t = 0; t < blocks.size(); ++t) order_[begins[blocks[t]]++] = t;
+}
+
+bool PatchCutter::is_inner(HalfEdge h, std::size_t i) const {
+  return !tin_.is_constrained(h) && square_[tin_.twin(h) / 3] == i;
+}
+
+Patch PatchCutter::cut(std::size_t i, Scratch& scratch, std::vector<Vertex>& vertices) const {
+  Patch patch;
+  const bool fits = add_nodes(i, scratch, patch, vertices);
+  add_faces(i, scratch, patch);
+  for (const Vertex v : vertices) scratch.ids[v] = kNone;
+  if (fits) {
+    lock(patch);
+  } else {
+    std::fill(patch.locked_.begin(), patch.locked_.end(), std::uint8_t{1});
+  }
+  return patch;
+}
+
+bool PatchCutter::add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::vector<Vertex>& vertices) const {
+  vertices.clear();
+  if (scratch.ids.size() < tin_.vertex_count()) scratch.ids.resize(tin_.vertex_count(), kNone);
+  Box box;
+  for (std::size_t k = begins_[i]; k < begins_[i + 1]; ++k) {
+    for (HalfEdge h = 3 * order_[k]; h < 3 * order_[k] + 3; ++h) {
+      const Vertex v = tin_.origin(h);
+      if (scratch.ids[v] != kNone) continue;
+      scratch.ids[v] = static_cast<std::uint32_t>(vertices.size());
+      vertices.push_back(v);
+      box.add(tin_.point(v));
+    }
+  }
+  if (!vertices.empty()) patch.window_ = {box.low, box.high.x - box.low.x + 1, box.high.y - box.low.y + 1};
+  patch.nodes_.resize(vertices.size());
+  patch.locked_.assign(vertices.size(), 0);
+  if (!box.fits()) return false;
+  bool fits = true;
+  for (std::size_t n = 0; n < vertices.size(); ++n) {
+    const Point p = tin_.point(vertices[n]);
+    const float z = raster_.at(p);
+    patch.nodes_[n].at = {(p.x - box.low.x) * kLatticeSteps, (p.y - box.low.y) * kLatticeSteps, z};
+    fits = fits && std::abs(z) <= kMaxScanHeight;
+  }
+  return fits;
+}
+
+void PatchCutter::add_faces(std::size_t i, const Scratch& scratch, Patch& patch) const {
+  patch.faces_.resize(begins_[i + 1] - begins_[i]);
+  for (Patch::Id f = 0; f < patch.faces_.size(); ++f) {
+    Patch::Face& face = patch.faces_[f];
+    face.worst = face.energy = -1;
+    for (unsigned k = 0; k < 3; ++k) {
+      const HalfEdge h = 3 * order_[begins_[i] + f] + k, g = tin_.twin(h);
+      face.corners[k] = scratch.ids[tin_.origin(h)];
+      patch.nodes_[face.corners[k]].face = f;
+      if (g == kNone) {
+        face.links[k] = tin_.is_constrained(h) ? Patch::kConstrainedSide : Patch::kSide;
+      } else if (is_inner(h, i)) {
+        face.links[k] = place_[g / 3] << 2 | g % 3;
+      } else {
+        face.links[k] = Patch::kBorder | static_cast<Patch::Link>(patch.fixed_.size());
+        patch.fixed_.push_back(h);
+      }
+    }
+  }
+}
+
+void PatchCutter::lock(Patch& patch) const {
+  for (const Patch::Face& face : patch.faces_) {
+    for (unsigned k = 0; k < 3; ++k) {
+      const Patch::Link link = face.links[k];
+      const bool is_fixed = Patch::is_border(link) && !(sides_are_free_ && Patch::is_side(link));
+      for (const Patch::Id end : {face.corners[k], face.corners[k == 2 ? 0 : k + 1]}) {
+        const FitCorner& at = patch.nodes_[end].at;
+        const std::int32_t x = at.x / kLatticeSteps + patch.window_.first.x,
+                           y = at.y / kLatticeSteps + patch.window_.first.y;
+        const bool is_corner = (x == 0 || x == raster_.cols - 1) && (y == 0 || y == raster_.rows - 1);
+        if (is_fixed || is_corner) patch.locked_[end] = 1;
+      }
+    }
+  }
+}
+
+Triangulation PatchCutter::join(std::vector<Patch> patches, const std::vector<std::vector<Vertex>>& vertices,
+                                std::vector<Vertex>& numbers) const {
+  Parts parts;
+  number_vertices(patches, vertices, parts);
+  parts.begins.assign(1, 0);
+  for (const Patch& patch : patches) parts.begins.push_back(parts.begins.back() + patch.face_count());
+  const std::size_t count = parts.begins.back() + (order_.size() - begins_.back());
+  parts.arrays.corners.resize(3 * count);
+  parts.arrays.twins.resize(3 * count);
+  parts.arrays.flags.resize(count);
+  parts.borders.resize(patches.size());
+  parallel_for(patches.size(), threads_, [&](std::size_t i) {
+    add_patch(patches[i], vertices[i], i, parts);
+    patches[i] = {};
+  });
+  add_outside(parts);
+  const auto link = [&](HalfEdge before, HalfEdge now) {
+    const HalfEdge twin = tin_.twin(before);
+    parts.arrays.twins[now] = twin == kNone ? kNone : name_now(twin, parts);
+  };
+  parallel_for(patches.size(), threads_, [&](std::size_t i) {
+    const Borders& borders = parts.borders[i];
+    for (std::size_t n = 0; n < borders.before.size(); ++n) link(borders.before[n], borders.now[n]);
+  });
+  for (std::size_t n = begins_.back(); n < order_.size(); ++n) {
+    for (HalfEdge h = 3 * order_[n]; h < 3 * order_[n] + 3; ++h) link(h, name_now(h, parts));
+  }
+  numbers = std::move(parts.numbers);
+  return Triangulation(std::move(parts.arrays));
+}
+
+/// Of a half-edge on the border of a patch, or outside.
+HalfEdge PatchCutter::name_now(HalfEdge before, const Parts& parts) const {
+  const std::size_t square = square_[before / 3];
+  if (square == count()) return static_cast<HalfEdge>(3 * (parts.begins.back() + place_[before / 3]) + before % 3);
+  const auto& [names, now] = parts.borders[square];
+  const auto rank = [this](HalfEdge h) { return 3 * std::uint64_t{place_[h / 3]} + h % 3; };
+  const auto found =
+      std::lower_bound(names.begin(), names.end(), before, [&](HalfEdge a, HalfEdge b) { return rank(a) < rank(b); });
+  assert(found != names.end() && *found == before);
+  return now[static_cast<std::size_t>(found - names.begin())];
+}
+
+void PatchCutter::number_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
+                                  Parts& parts) const {
+  parts.numbers.assign(tin_.vertex_count(), 0);
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    for (Patch::Id v = 0; v < patches[i].node_count(); ++v) {
+      if (patches[i].is_removed(v)) parts.numbers[vertices[i][v]] = kNone;
+    }
+  }
+  for (Vertex v = 0; v < tin_.vertex_count(); ++v) {
+    if (parts.numbers[v] == kNone) continue;
+    parts.numbers[v] = static_cast<Vertex>(parts.arrays.points.size());
+    parts.arrays.points.push_back(tin_.point(v));
+  }
+}
+
+/// Writes to the patch's own places only.
+void PatchCutter::add_patch(const Patch& patch, const std::vector<Vertex>& names, std::size_t i, Parts& parts) const {
+  const auto base = static_cast<Triangle>(parts.begins[i]);
+  Borders& borders = parts.borders[i];
+  borders.before = patch.fixed();
+  borders.now.resize(borders.before.size());
+  for (Patch::Id f = 0; f < patch.face_count(); ++f) {
+    const Patch::Face& face = patch.face(f);
+    std::uint8_t flags = 0;
+    for (unsigned k = 0; k < 3; ++k) {
+      const HalfEdge h = 3 * (base + f) + k;
+      const Patch::Link link = face.links[k];
+      parts.arrays.corners[h] = parts.numbers[names[face.corners[k]]];
+      parts.arrays.twins[h] = kNone;
+      bool is_constrained = link == Patch::kConstrainedSide;
+      if (!Patch::is_border(link)) {
+        parts.arrays.twins[h] = 3 * (base + Patch::triangle_of(link)) + Patch::edge_of(link);
+      } else if (!Patch::is_side(link)) {
+        const Patch::Link n = link & ~Patch::kBorder;
+        borders.now[n] = h;
+        is_constrained = tin_.is_constrained(borders.before[n]);
+      }
+      if (is_constrained) flags |= static_cast<std::uint8_t>(1u << k);
+    }
+    parts.arrays.flags[base + f] = flags;
+  }
+}
+
+void PatchCutter::add_outside(Parts& parts) const {
+  auto t = static_cast<Triangle>(parts.begins.back());
+  for (std::size_t n = begins_.back(); n < order_.size(); ++n, ++t) {
+    std::uint8_t flags = Triangulation::Arrays::kOutside;
+    for (unsigned k = 0; k < 3; ++k) {
+      const HalfEdge old = 3 * order_[n] + k;
+      parts.arrays.corners[3 * t + k] = parts.numbers[tin_.origin(old)];
+      if (tin_.is_constrained(old)) flags |= static_cast<std::uint8_t>(1u << k);
+    }
+    parts.arrays.flags[t] = flags;
+  }
+}
+
+}  // namespace scarp

@@ -1,0 +1,71 @@
+// A triangulation cut into patches, and joined again.
+//
+// A triangle belongs to the square of samples that its centre lies in: a rule of geometry alone, so that patches are
+// the same on any number of threads. Where edges between patches cost vertices, squares shifted by half set them free.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fit/patch.h"
+#include "grid/raster.h"
+#include "tin/triangulation.h"
+
+namespace scarp {
+
+/// Squares of `side` samples, the first of which begins `shift` samples before the raster in both directions.
+struct PatchGrid {
+  std::int32_t side = 0, shift = 0;
+};
+
+/// Which triangles go where.
+class PatchCutter {
+ public:
+  /// `sides_are_free`: whether vertices on the sides of the rectangle may go. Raster and triangulation stay alive.
+  PatchCutter(const Raster& raster, const Triangulation& tin, const PatchGrid& grid, bool sides_are_free, int threads);
+
+  std::size_t count() const { return begins_.size() - 1; }
+
+  /// Memory of one thread: a number for each vertex of the triangulation, kept between calls.
+  struct Scratch {
+    std::vector<std::uint32_t> ids;
+  };
+  /// The patch, and in `vertices` what its nodes are called in the triangulation. All are locked where the arithmetic
+  /// of fitting ends: a triangle longer than kMaxFitSteps, heights beyond kMaxScanHeight.
+  Patch cut(std::size_t i, Scratch& scratch, std::vector<Vertex>& vertices) const;
+
+  /// The triangulation with the patches in the place of their triangles, patch by patch, then those outside; vertices
+  /// that are removed in a patch are left out. `numbers`: by old vertex its new number, or kNone.
+  /// REQUIRES: patches are packed.
+  Triangulation join(std::vector<Patch> patches, const std::vector<std::vector<Vertex>>& vertices,
+                     std::vector<Vertex>& numbers) const;
+
+ private:
+  struct Borders;
+  struct Parts;
+
+  std::vector<std::uint32_t> assign_squares(std::size_t outside);
+  void sort_by(const std::vector<std::uint32_t>& blocks, std::size_t count);
+  bool is_inner(HalfEdge h, std::size_t i) const;
+  bool add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::vector<Vertex>& vertices) const;
+  void add_faces(std::size_t i, const Scratch& scratch, Patch& patch) const;
+  void lock(Patch& patch) const;
+  void number_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
+                       Parts& parts) const;
+  void add_patch(const Patch& patch, const std::vector<Vertex>& names, std::size_t i, Parts& parts) const;
+  void add_outside(Parts& parts) const;
+  HalfEdge name_now(HalfEdge before, const Parts& parts) const;
+
+  const Raster& raster_;
+  const Triangulation& tin_;
+  PatchGrid grid_;
+  bool sides_are_free_;
+  int threads_;
+  std::size_t squares_per_row_;
+  std::vector<std::size_t> begins_;  // by patch, where its triangles begin in order_; the last patch: outside
+  std::vector<Triangle> order_;
+  std::vector<std::uint32_t> place_;   // by triangle, its index among those of its patch
+  std::vector<std::uint32_t> square_;  // by triangle
+};
+
+}  // namespace scarp

@@ -1,0 +1,112 @@
+// The workbench of fitting: a piece of a triangulation that is changed in place, a star at a time.
+//
+// A patch holds triangles of the domain only. Whatever must not change is its border: edges to triangles of other
+// patches, to the outside, and constrained ones, which are borders on both sides; their ends are locked. The
+// rectangle's own sides are borders too, but a vertex on one of them may go if the side stays as it is: corners are
+// locked, the others are not.
+//
+//     beyond[2]  r3 ──── r2  beyond[1]      the star of v: triangles (v, r_i, r_i+1) in positive order; closed, or from
+//               /  \   /  \                 side to side
+//              r4 ── v ── r1                its ring: r_0 … r_k-1, a polygon that lies to the left of its edges
+//               \  /   \  /
+//                r5 ──── r0  beyond[0]
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fit/triangle_error.h"
+#include "tin/triangulation.h"
+
+namespace scarp {
+
+class Patch {
+ public:
+  using Id = std::uint32_t;
+  /// triangle << 2 | edge of that triangle, edge k from corner k to corner k + 1; or a border.
+  using Link = std::uint32_t;
+  static constexpr Link kBorder = 0x80000000u;  ///< kBorder | index into fixed(), or one of the two:
+  static constexpr Link kSide = 0xffffffffu;    ///< the rectangle's side
+  static constexpr Link kConstrainedSide = 0xfffffffeu;
+  static constexpr bool is_border(Link link) { return (link & kBorder) != 0; }
+  static constexpr bool is_side(Link link) { return link >= kConstrainedSide; }
+  static constexpr Id triangle_of(Link link) { return link >> 2; }
+  static constexpr unsigned edge_of(Link link) { return link & 3; }
+
+  /// Half a cache line.
+  struct alignas(32) Face {
+    std::array<Id, 3> corners;  ///< positive; corners[0] is kNone where there is no triangle any more
+    std::array<Link, 3> links;
+    float worst, energy;  ///< of TriangleError::Verdict; negative: not known yet
+  };
+  static_assert(sizeof(Face) == 32);
+
+  struct Node {
+    FitCorner at;
+    Id face = kNone;  ///< one of its triangles; kNone once it is removed
+  };
+
+  /// Triangles around a vertex, and what lies beyond them.
+  struct Star {
+    bool closed = true;
+    std::vector<Id> faces;     ///< face i is (v, ring i, ring i + 1)
+    std::vector<Id> ring;      ///< one more than faces in an open star
+    std::vector<Link> beyond;  ///< what lies beyond the edge from ring i to ring i + 1
+    Link side = kSide;         ///< open: what the edge from the last of the ring to the first becomes
+  };
+
+  /// One triangle of a triangulated ring, by indices into it, first < middle < last. A list of them is in order if each
+  /// is followed by those beyond its edge first → middle, then by those beyond middle → last.
+  struct RingTriangle {
+    std::uint8_t first, middle, last;
+    float worst, energy;
+  };
+
+  std::size_t face_count() const { return faces_.size(); }  ///< until pack(), with those that are no triangles any more
+  std::size_t node_count() const { return nodes_.size(); }
+  const Face& face(Id f) const { return faces_[f]; }
+  const FitCorner& at(Id v) const { return nodes_[v].at; }
+  bool is_removed(Id v) const { return nodes_[v].face == kNone; }
+  bool is_locked(Id v) const { return locked_[v] != 0; }
+  /// The half-edges of the triangulation that became borders, by index.
+  const std::vector<HalfEdge>& fixed() const { return fixed_; }
+  /// The samples that the triangles may look at.
+  struct Window {
+    Point first;  ///< where lattice places are counted from
+    std::int32_t cols = 0, rows = 0;
+  };
+  const Window& window() const { return window_; }
+
+  void set_measure(Id f, float worst, float energy) {
+    faces_[f].worst = worst;
+    faces_[f].energy = energy;
+  }
+
+  /// REQUIRES: v is neither locked nor removed. Cost: O(its degree).
+  void find_star(Id v, Star& star) const;
+
+  /// Removes v, whose star is given, and puts the triangles in its place. REQUIRES: they triangulate the star's ring,
+  /// all positive, in order.
+  void remove(Id v, const Star& star, std::span<const RingTriangle> triangles);
+
+  /// Numbers the faces anew, without gaps, and gives back the memory of those that are gone.
+  void pack();
+
+ private:
+  friend class PatchCutter;
+
+  /// The star from a triangle on, whose corner it belongs to; false where it ends at a border.
+  bool walk(Id f, unsigned corner, Star& star) const;
+  void attach(Id f, unsigned edge, Link beyond);
+
+  Window window_;
+  std::vector<Face> faces_;
+  std::vector<Node> nodes_;
+  std::vector<std::uint8_t> locked_;
+  std::vector<HalfEdge> fixed_;
+  std::vector<Link> open_;  // edges whose triangles are still to come
+};
+
+}  // namespace scarp

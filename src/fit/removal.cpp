@@ -1,0 +1,157 @@
+#include "fit/removal.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "fit/ring_search.h"
+
+namespace scarp {
+
+namespace {
+
+using Id = Patch::Id;
+
+class Removal {
+ public:
+  Removal(Patch& patch, const TriangleError& error, std::vector<std::uint8_t>& settled)
+      : patch_(patch), error_(error), settled_(settled), search_(error), notes_(patch.node_count()) {
+    for (Id v = 0; v < patch.node_count(); ++v)
+      notes_[v].witness = {patch.at(v).x / kLatticeSteps, patch.at(v).y / kLatticeSteps};
+  }
+
+  RemovalCounts run() {
+    for (Id v = 0; v < patch_.node_count(); ++v) {
+      if (!patch_.is_locked(v) && settled_[v] == 0) offer(v);
+    }
+    while (!queue_.empty()) {
+      while (!queue_.empty()) take();
+      ask_again();
+    }
+    return counts_;
+  }
+
+ private:
+  struct Entry {
+    float price;
+    Id vertex;
+  };
+  struct Note {
+    std::uint64_t code = 0;  // the triangles that would take the vertex' place
+    Point witness;           // against its removal
+    bool is_queued = false;  // or waits
+    bool is_stale = false;
+  };
+
+  /// The later one, as heaps want it.
+  static bool is_later(const Entry& a, const Entry& b) {
+    return a.price != b.price ? a.price > b.price : a.vertex > b.vertex;
+  }
+
+  void push(Entry entry) {
+    notes_[entry.vertex].is_queued = true;
+    queue_.push_back(entry);
+    std::push_heap(queue_.begin(), queue_.end(), is_later);
+  }
+
+  Entry pop() {
+    std::pop_heap(queue_.begin(), queue_.end(), is_later);
+    const Entry entry = queue_.back();
+    queue_.pop_back();
+    notes_[entry.vertex].is_queued = false;
+    return entry;
+  }
+
+  float energy_of(Id f) {
+    const Patch::Face& face = patch_.face(f);
+    if (face.energy < 0) {
+      const auto verdict = error_.judge(patch_.at(face.corners[0]), patch_.at(face.corners[1]),
+                                        patch_.at(face.corners[2]), std::numeric_limits<float>::infinity());
+      patch_.set_measure(f, verdict.worst, verdict.energy);
+    }
+    return face.energy;
+  }
+
+  /// Whether v can go; leaves its star in star_ and the best triangles in search_.
+  bool look_at(Id v, float& price) {
+    ++counts_.searches;
+    Note& note = notes_[v];
+    note.is_stale = false;
+    patch_.find_star(v, star_);
+    if (star_.ring.size() > RingSearch::kMostCorners) return false;
+    ring_.clear();
+    for (const Id corner : star_.ring) ring_.push_back(patch_.at(corner));
+    if (!search_.find(ring_, patch_.at(v), note.witness)) return false;
+    note.code = search_.code();
+    float now = 0;
+    for (const Id f : star_.faces) now += energy_of(f);
+    price = search_.energy() - now;
+    return true;
+  }
+
+  void offer(Id v) {
+    float price = 0;
+    settled_[v] = 1;
+    if (look_at(v, price)) push({price, v});
+  }
+
+  void take() {
+    const Id v = pop().vertex;
+    if (!notes_[v].is_stale) {
+      patch_.find_star(v, star_);
+      RingSearch::decode(notes_[v].code, star_.ring.size(), triangles_);
+      remove(v);
+      return;
+    }
+    Entry entry{0, v};
+    if (!look_at(v, entry.price)) return;
+    if (!queue_.empty() && is_later(entry, queue_.front())) {
+      push(entry);
+      return;
+    }
+    search_.triangles(triangles_);
+    remove(v);
+  }
+
+  void remove(Id v) {
+    patch_.remove(v, star_, triangles_);
+    ++counts_.removed;
+    for (const Id u : star_.ring) {
+      if (patch_.is_locked(u)) continue;
+      notes_[u].is_stale = true;
+      if (notes_[u].is_queued) continue;
+      notes_[u].is_queued = true;
+      waiting_.push_back(u);
+    }
+  }
+
+  /// The queue is empty: what could not go before the changes around it may go now.
+  void ask_again() {
+    std::swap(waiting_, asked_);
+    for (const Id v : asked_) {
+      notes_[v].is_queued = false;
+      if (!patch_.is_removed(v)) offer(v);
+    }
+    asked_.clear();
+  }
+
+  Patch& patch_;
+  const TriangleError& error_;
+  std::vector<std::uint8_t>& settled_;
+  RingSearch search_;
+  std::vector<Note> notes_;
+  std::vector<Entry> queue_;
+  std::vector<Id> waiting_, asked_;  // could not go, but have changed since
+  Patch::Star star_;
+  std::vector<FitCorner> ring_;
+  std::vector<Patch::RingTriangle> triangles_;
+  RemovalCounts counts_;
+};
+
+}  // namespace
+
+RemovalCounts remove_vertices(Patch& patch, const TriangleError& error, std::vector<std::uint8_t>& settled) {
+  return Removal(patch, error, settled).run();
+}
+
+}  // namespace scarp

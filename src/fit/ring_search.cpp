@@ -1,0 +1,204 @@
+#include "fit/ring_search.h"
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace scarp {
+
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+std::size_t lowest(std::uint32_t set) { return static_cast<std::size_t>(std::countr_zero(set)); }
+constexpr std::uint32_t only(std::size_t corner) { return 1u << corner; }
+
+/// Visits the triangles of a triangulation in order: `middle` tells the third corner of the one at an interval.
+template <class Middle, class Visit>
+void each_triangle(std::size_t corners, const Middle& middle, const Visit& visit) {
+  struct Interval {
+    std::size_t first, last;
+  };
+  std::array<Interval, RingSearch::kMostCorners> open;
+  std::size_t depth = 0;
+  open[depth++] = {0, corners - 1};
+  while (depth > 0) {
+    const auto [first, last] = open[--depth];
+    const std::size_t q = middle(first, last);
+    visit(first, q, last);
+    if (last > q + 1) open[depth++] = {q, last};
+    if (q > first + 1) open[depth++] = {first, q};
+  }
+}
+
+}  // namespace
+
+bool RingSearch::find(std::span<const FitCorner> ring, const FitCorner& hub, Point& witness) {
+  ring_ = ring;
+  size_ = ring.size();
+  const Point centre{(hub.x + kLatticeSteps / 2) / kLatticeSteps, (hub.y + kLatticeSteps / 2) / kLatticeSteps};
+  look_from(centre);
+  keep_positive();
+  cross_out();
+  if (!connect()) return false;
+  if (witness != centre) {
+    look_from(witness);
+    if (cross_out() && !connect()) return false;
+  }
+  for (std::size_t i = 0; i + 1 < size_; ++i) cost_[i][i + 1] = 0;
+  for (std::size_t length = 2; length < size_; ++length) {
+    for (std::size_t first = 0; first + length < size_; ++first) {
+      if (is_needed(first, first + length) && !improve(first, first + length, witness)) return false;
+    }
+  }
+  return true;
+}
+
+/// Fills the table of an interval; false where the ring turns out to have no triangulation.
+bool RingSearch::improve(std::size_t first, std::size_t last, Point& witness) {
+  float& best = cost_[first][last];
+  best = kInfinity;
+  for (Set left = choices_[first][last]; left != 0;) {
+    const std::size_t q = lowest(left);
+    left &= left - 1;
+    const float beyond = cost_[first][q] + cost_[q][last];
+    if (!(beyond < best)) continue;
+    const auto verdict = error_.judge(ring_[first], ring_[q], ring_[last], best - beyond);
+    if (verdict.kind == TriangleError::Verdict::Kind::kKeeps) {
+      best = beyond + verdict.energy;
+      middle_[first][last] = static_cast<std::uint8_t>(q);
+      worst_[first][last] = verdict.worst;
+      energy_[first][last] = verdict.energy;
+    } else if (verdict.kind == TriangleError::Verdict::Kind::kBreaks) {
+      witness = verdict.witness;
+      allowed_[first][last] &= ~only(q);
+      look_from(witness);
+      cross_out();
+      if (!connect()) return false;
+      left &= choices_[first][last];
+    }
+  }
+  return true;
+}
+
+/// Moves the corners so that the sample is the origin, and multiplies them pairwise.
+void RingSearch::look_from(Point sample) {
+  const double height = error_.height_at(sample);
+  for (std::size_t i = 0; i < size_; ++i) {
+    x_[i] = ring_[i].x - sample.x * kLatticeSteps;
+    y_[i] = ring_[i].y - sample.y * kLatticeSteps;
+    z_[i] = ring_[i].z - height;
+    right_of_[i] = 0;
+  }
+  for (std::size_t i = 0; i < size_; ++i) {
+    Set left = 0;
+    for (std::size_t j = i + 1; j < size_; ++j) {
+      cross_[i][j] = x_[i] * y_[j] - x_[j] * y_[i];
+      const Set is_left = cross_[i][j] >= 0 ? 1 : 0;
+      left |= is_left << j;
+      right_of_[j] |= is_left << i;
+    }
+    left_of_[i] = left;
+  }
+}
+
+void RingSearch::keep_positive() {
+  for (std::size_t i = 0; i + 2 < size_; ++i) {
+    for (std::size_t j = i + 2; j < size_; ++j) {
+      Set set = 0;
+      for (std::size_t q = i + 1; q < j; ++q) {
+        if (cross_[i][q] + cross_[q][j] > cross_[i][j]) set |= only(q);
+      }
+      allowed_[i][j] = set;
+    }
+  }
+}
+
+/// Forbids the triangles that hold the sample that is looked from and break the threshold there; whether there are any.
+/// Rounding may forbid one at the threshold itself, never allow one: what is allowed is scanned.
+bool RingSearch::cross_out() {
+  const double threshold = error_.threshold();
+  bool any = false;
+  for (std::size_t i = 0; i + 2 < size_; ++i) {
+    for (std::size_t j = i + 2; j < size_; ++j) {
+      const double wq = -cross_[i][j];
+      if (wq < 0) continue;
+      for (Set left = allowed_[i][j] & left_of_[i] & right_of_[j]; left != 0; left &= left - 1) {
+        const std::size_t q = lowest(left);
+        const double wj = cross_[i][q], wi = cross_[q][j];
+        if (!(std::abs(wi * z_[i] + wq * z_[q] + wj * z_[j]) > threshold * (wi + wq + wj))) continue;
+        allowed_[i][j] &= ~only(q);
+        any = true;
+      }
+    }
+  }
+  return any;
+}
+
+/// Finds the intervals that can be triangulated, then those that a triangulation of the whole needs; false if the whole
+/// cannot.
+bool RingSearch::connect() {
+  for (std::size_t i = 0; i < size_; ++i) {
+    open_from_[i] = only(i + 1);
+    open_to_[i] = i > 0 ? only(i - 1) : 0;
+    needed_from_[i] = needed_to_[i] = 0;
+  }
+  for (std::size_t length = 2; length < size_; ++length) {
+    for (std::size_t i = 0; i + length < size_; ++i) {
+      const std::size_t j = i + length;
+      choices_[i][j] = allowed_[i][j] & open_from_[i] & open_to_[j];
+      if (choices_[i][j] == 0) continue;
+      open_from_[i] |= only(j);
+      open_to_[j] |= only(i);
+    }
+  }
+  const std::size_t last = size_ - 1;
+  if (choices_[0][last] == 0) return false;
+  needed_from_[0] = only(last);
+  for (std::size_t length = last; length >= 2; --length) {
+    for (std::size_t i = 0; i + length < size_; ++i) {
+      const std::size_t j = i + length;
+      if (!is_needed(i, j)) continue;
+      needed_from_[i] |= choices_[i][j];
+      needed_to_[j] |= choices_[i][j];
+    }
+  }
+  return true;
+}
+
+std::uint64_t RingSearch::code() const {
+  std::uint64_t code = 0;
+  unsigned shift = 0;
+  each_triangle(
+      size_, [&](std::size_t first, std::size_t last) { return middle_[first][last]; },
+      [&](std::size_t, std::size_t q, std::size_t) {
+        code |= std::uint64_t{q} << shift;
+        shift += 4;
+      });
+  return code;
+}
+
+void RingSearch::triangles(std::vector<Patch::RingTriangle>& list) const {
+  list.clear();
+  each_triangle(
+      size_, [&](std::size_t first, std::size_t last) { return middle_[first][last]; },
+      [&](std::size_t first, std::size_t q, std::size_t last) {
+        list.push_back({static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(q), static_cast<std::uint8_t>(last),
+                        worst_[first][last], energy_[first][last]});
+      });
+}
+
+void RingSearch::decode(std::uint64_t code, std::size_t corners, std::vector<Patch::RingTriangle>& list) {
+  list.clear();
+  const auto next = [&](std::size_t, std::size_t) {
+    const auto q = static_cast<std::size_t>(code & 15);
+    code >>= 4;
+    return q;
+  };
+  each_triangle(corners, next, [&](std::size_t first, std::size_t q, std::size_t last) {
+    list.push_back(
+        {static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(q), static_cast<std::uint8_t>(last), -1, -1});
+  });
+}
+
+}  // namespace scarp

@@ -1,0 +1,263 @@
+#include "fit/triangle_error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "geom/exact_error.h"
+#include "geom/scan_kernels.h"
+
+namespace scarp {
+
+namespace {
+
+// Rows are looked at eight samples at a time, as two vectors of four: the width that every machine has. The order of
+// the sums is part of the result.
+using Floats = float __attribute__((vector_size(16)));
+using Masks = std::int32_t __attribute__((vector_size(16)));
+using Words = std::int64_t __attribute__((vector_size(16)));
+constexpr std::int32_t kLanes = 8;
+
+Floats load(const float* from) {
+  Floats four;
+  std::memcpy(&four, from, sizeof four);
+  return four;
+}
+Floats all(float value) { return Floats{value, value, value, value}; }
+bool any(Masks mask) {
+  const auto words = reinterpret_cast<Words>(mask);
+  return (words[0] | words[1]) != 0;
+}
+
+/// Four errors' magnitudes; 0 where they are not meant, and where the sample is void: NaN is not equal to itself.
+Floats magnitudes(Floats errors, Masks meant) {
+  constexpr std::int32_t kAllButSign = 0x7fffffff;
+  const Masks kept = meant & (errors == errors) & Masks{kAllButSign, kAllButSign, kAllButSign, kAllButSign};
+  return reinterpret_cast<Floats>(reinterpret_cast<Masks>(errors) & kept);
+}
+
+/// Largest error and sum of squares, lane by lane.
+struct Sums {
+  Floats worst{}, squares_low{}, squares_high{};
+
+  void add(Floats low, Floats high) {
+    const Floats larger = low > high ? low : high;
+    worst = larger > worst ? larger : worst;
+    squares_low += low * low;
+    squares_high += high * high;
+  }
+  bool exceeds(float cut) const { return any(worst > all(cut)); }
+  float largest() const { return std::max(std::max(worst[0], worst[2]), std::max(worst[1], worst[3])); }
+  float squares() const {
+    const Floats s = squares_low + squares_high;
+    return std::min((s[0] + s[2]) + (s[1] + s[3]), std::numeric_limits<float>::max());
+  }
+};
+
+/// Eight samples of a row from `samples` on, of which the first `count` are meant.
+struct RowSamples {
+  std::array<float, kLanes> copy;
+  const float* from;
+  RowSamples(const float* samples, const float* end) : from(samples) {
+    if (end - samples >= kLanes) return;
+    copy.fill(0);
+    std::copy(samples, end, copy.begin());
+    from = copy.data();
+  }
+};
+
+/// The crossing of an edge with a row is off by less than 2⁻³², and, where it is no whole number, at least 2⁻²⁵ away
+/// from one: a multiple of 1/(8·rows) for less than kMaxFitSteps rows of the lattice.
+constexpr double kOnSample = 0x1p-28;
+
+constexpr int kRowsPerLook = 4;  // between looks at the energy
+
+}  // namespace
+
+/// A triangle ready to be scanned: corners from top to bottom in samples, its plane.
+struct TriangleError::Task {
+  struct Place {
+    double x, y;
+  };
+  std::array<FitCorner, 3> corners;
+  Place top, middle, bottom;
+  float base_x, base_y;
+  ScanPlane plane;
+  float doubt, cut;  // computed errors up to `doubt` are none, above `cut` are certain
+
+  Task(const FitCorner& a, const FitCorner& b, const FitCorner& c, double threshold) : corners{a, b, c} {
+    constexpr double kStep = 1.0 / kLatticeSteps;
+    const Place pa{a.x * kStep, a.y * kStep}, pb{b.x * kStep, b.y * kStep}, pc{c.x * kStep, c.y * kStep};
+    top = pa;
+    middle = pb;
+    bottom = pc;
+    if (middle.y < top.y) std::swap(top, middle);
+    if (bottom.y < top.y) std::swap(top, bottom);
+    if (bottom.y < middle.y) std::swap(middle, bottom);
+    base_x = static_cast<float>(pa.x);
+    base_y = static_cast<float>(pa.y);
+    plane = ScanPlane::spanned(
+        a.z, {pb.x - pa.x, pb.y - pa.y, pc.x - pa.x, pc.y - pa.y, double{b.z} - double{a.z}, double{c.z} - double{a.z}},
+        threshold);
+    doubt = scan_floor(threshold, plane.guard);
+    cut = static_cast<float>(threshold + double{plane.guard});
+  }
+
+  float row_height(std::int32_t y) const { return plane.slope_y * (static_cast<float>(y) - base_y); }
+  float error(std::int32_t x, float row, float sample) const {
+    return std::abs((plane.slope_x * (static_cast<float>(x) - base_x) + row) - (sample - plane.height));
+  }
+};
+
+TriangleError::TriangleError(const Raster& raster, Point first, double threshold)
+    : raster_(raster),
+      first_(first),
+      threshold_(threshold),
+      per_square_(threshold > 0x1p-60 && threshold < 0x1p60 ? static_cast<float>(1 / (threshold * threshold)) : 0),
+      end_(raster.row(raster.rows)) {}
+
+/// Calls row(y, first, last) for each row with samples, top down, until it answers false; whether it never did.
+template <class Row>
+bool TriangleError::each_row(const Task& task, const Row& row) {
+  const Task::Place top = task.top, middle = task.middle, bottom = task.bottom;
+  const double along = (bottom.x - top.x) / (bottom.y - top.y);
+  const double upper = middle.y > top.y ? (middle.x - top.x) / (middle.y - top.y) : 0;
+  const double lower = bottom.y > middle.y ? (bottom.x - middle.x) / (bottom.y - middle.y) : 0;
+  for (double y = std::ceil(top.y); y <= bottom.y; ++y) {
+    const double from = top.x + (y - top.y) * along;
+    const double to = y < middle.y ? top.x + (y - top.y) * upper : middle.x + (y - middle.y) * lower;
+    const auto first = static_cast<std::int32_t>(std::min(from, to) + (1 - kOnSample));
+    const auto last = static_cast<std::int32_t>(std::max(from, to) + kOnSample);
+    if (first <= last && !row(static_cast<std::int32_t>(y), first, last)) return false;
+  }
+  return true;
+}
+
+namespace {
+
+/// By Pick's theorem: the smallest triangle whose corners are samples.
+bool holds_corners_only(const FitCorner& a, const FitCorner& b, const FitCorner& c) {
+  if (((a.x | a.y | b.x | b.y | c.x | c.y) & (kLatticeSteps - 1)) != 0) return false;
+  return orient({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) == kLatticeSteps * kLatticeSteps;
+}
+
+}  // namespace
+
+/// A scan on its way through the rows of a triangle.
+struct TriangleError::Scan {
+  const Task& task;
+  const float* end;  // of the samples
+  Floats slope, height;
+  Sums sums;
+  int rows = 0;
+
+  Scan(const Task& of, const float* samples_end)
+      : task(of), end(samples_end), slope(all(of.plane.slope_x)), height(all(of.plane.height)) {}
+
+  /// `samples`: the row, from its first sample in the window.
+  void add_row(const float* samples, std::int32_t y, std::int32_t first, std::int32_t last) {
+    const Floats row = all(task.row_height(y));
+    for (std::int32_t x = first; x <= last; x += kLanes) {
+      const RowSamples eight(samples + x, end);
+      const float offset = static_cast<float>(x) - task.base_x;
+      const Floats left = all(offset) + Floats{0, 1, 2, 3}, right = all(offset) + Floats{4, 5, 6, 7};
+      const std::int32_t count = last - x + 1;
+      const Masks counts{count, count, count, count};
+      const Floats low = (slope * left + row) - (load(eight.from) - height);
+      const Floats high = (slope * right + row) - (load(eight.from + 4) - height);
+      sums.add(magnitudes(low, Masks{0, 1, 2, 3} < counts), magnitudes(high, Masks{4, 5, 6, 7} < counts));
+    }
+    ++rows;
+  }
+  bool is_time_to_look() const { return rows % kRowsPerLook == 0; }
+};
+
+TriangleError::Verdict TriangleError::judge(const FitCorner& a, const FitCorner& b, const FitCorner& c,
+                                            float energy_limit) const {
+  if (holds_corners_only(a, b, c)) return judge_corners({a, b, c}, energy_limit);
+  const Task task(a, b, c, threshold_);
+  Scan scan(task, end_);
+  Verdict verdict;
+  const bool is_whole = each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    scan.add_row(raster_.row(first_.y + y) + first_.x, y, first, last);
+    if (scan.sums.exceeds(task.cut)) {
+      verdict.kind = Verdict::Kind::kBreaks;
+      verdict.witness = find_worst(task, y, first, last);
+      return false;
+    }
+    if (scan.is_time_to_look() && scan.sums.squares() * per_square_ >= energy_limit) {
+      verdict.kind = Verdict::Kind::kCostly;
+      return false;
+    }
+    return true;
+  });
+  if (!is_whole) return verdict;
+  verdict.worst = scan.sums.largest();
+  verdict.energy = scan.sums.squares() * per_square_;
+  const bool in_doubt = verdict.worst > task.doubt || double{task.plane.guard} > threshold_;
+  if (verdict.energy >= energy_limit) {
+    verdict.kind = Verdict::Kind::kCostly;
+  } else if (in_doubt && !settle(task, verdict)) {
+    verdict.kind = Verdict::Kind::kBreaks;
+  }
+  return verdict;
+}
+
+/// REQUIRES: corners are samples' places, and no other sample lies in the triangle.
+TriangleError::Verdict TriangleError::judge_corners(const std::array<FitCorner, 3>& corners, float energy_limit) const {
+  Verdict verdict;
+  for (const FitCorner& corner : corners) {
+    const Point at{corner.x / kLatticeSteps, corner.y / kLatticeSteps};
+    const double error = std::abs(double{corner.z} - double{height_at(at)});
+    if (std::isnan(error)) continue;
+    if (error > threshold_) {
+      verdict.kind = Verdict::Kind::kBreaks;
+      verdict.witness = at;
+      return verdict;
+    }
+    verdict.worst = std::max(verdict.worst, static_cast<float>(error));
+    verdict.energy += static_cast<float>(error * error) * per_square_;
+  }
+  if (verdict.energy >= energy_limit) verdict.kind = Verdict::Kind::kCostly;
+  return verdict;
+}
+
+/// Decides in exact arithmetic about the samples that rounding leaves in doubt; false where one breaks the threshold.
+bool TriangleError::settle(const Task& task, Verdict& verdict) const {
+  std::array<Point, 3> corners;
+  std::array<float, 3> heights;
+  for (std::size_t k = 0; k < 3; ++k) {
+    corners[k] = {task.corners[k].x, task.corners[k].y};
+    heights[k] = task.corners[k].z;
+  }
+  const bool all_in_doubt = double{task.plane.guard} > threshold_;
+  return each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    const float row = task.row_height(y);
+    for (std::int32_t x = first; x <= last; ++x) {
+      const float sample = height_at({x, y});
+      if (std::isnan(sample) || (!all_in_doubt && !(task.error(x, row, sample) > task.doubt))) continue;
+      verdict.witness = {x, y};
+      if (exceeds_exactly(corners, heights, {x * kLatticeSteps, y * kLatticeSteps}, sample, threshold_)) return false;
+    }
+    return true;
+  });
+}
+
+/// The sample of a row with the largest error.
+Point TriangleError::find_worst(const Task& task, std::int32_t y, std::int32_t first, std::int32_t last) const {
+  const float row = task.row_height(y);
+  float worst = -1;
+  Point at{first, y};
+  for (std::int32_t x = first; x <= last; ++x) {
+    if (const float error = task.error(x, row, height_at({x, y})); error > worst) {
+      worst = error;
+      at.x = x;
+    }
+  }
+  return at;
+}
+
+}  // namespace scarp

@@ -1,0 +1,71 @@
+// How far the samples of one trial triangle lie off its plane: the innermost loop of fitting.
+//
+// Most trial triangles break the bound, so the scan ends at the first row in which a sample does, and tells which one:
+// the sample is likely to break other triangles over the same place. Arithmetic is that of the scan kernels
+// (geom/scan_kernels.h) on a lattice of eighths of a sample, summed in eight lanes whatever the machine has; what lies
+// within the guard of the threshold is decided exactly.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "base/point.h"
+#include "geom/scan_plane.h"
+#include "grid/raster.h"
+
+namespace scarp {
+
+/// Steps of the lattice of fitting between two samples.
+inline constexpr std::int32_t kLatticeSteps = 8;
+
+/// A corner of a trial triangle.
+struct FitCorner {
+  std::int32_t x = 0, y = 0;  ///< in lattice steps from the first sample of the window, 0 … kMaxFitSteps
+  float z = 0;                ///< at most kMaxScanHeight in magnitude
+};
+
+/// Longest side of a window: crossings of edges with rows are then rational numbers farther apart than the roundings
+/// of double (triangle_error.cpp).
+inline constexpr std::int32_t kMaxFitSteps = 1 << 22;
+
+class TriangleError {
+ public:
+  /// Errors of the raster's samples around `first`, from where corners are counted. REQUIRES: threshold >= 0, finite.
+  TriangleError(const Raster& raster, Point first, double threshold);
+
+  struct Verdict {
+    enum class Kind : std::uint8_t {
+      kKeeps,   ///< every sample of the closed triangle lies within the threshold, in exact arithmetic
+      kBreaks,  ///< one does not: the witness
+      kCostly,  ///< the energy reaches the limit, whatever the samples
+    };
+    Kind kind = Kind::kKeeps;
+    float worst = 0;   ///< kKeeps: the largest error as computed
+    float energy = 0;  ///< kKeeps: Σ (error / threshold)² over the samples of the closed triangle; 0 where the
+                       ///< threshold is not within 2⁻⁶⁰ … 2⁶⁰
+    Point witness;     ///< kBreaks: a sample, counted from the first of the window
+  };
+  /// REQUIRES: (a, b, c) positive. Cost: O(rows) + samples / 8, less where it breaks; void samples count for nothing.
+  Verdict judge(const FitCorner& a, const FitCorner& b, const FitCorner& c, float energy_limit) const;
+
+  double threshold() const { return threshold_; }
+  /// Of a sample counted from the first of the window.
+  float height_at(Point sample) const { return raster_.at({first_.x + sample.x, first_.y + sample.y}); }
+
+ private:
+  struct Task;
+  struct Scan;
+  template <class Row>
+  static bool each_row(const Task& task, const Row& row);
+  Verdict judge_corners(const std::array<FitCorner, 3>& corners, float energy_limit) const;
+  bool settle(const Task& task, Verdict& verdict) const;
+  Point find_worst(const Task& task, std::int32_t y, std::int32_t first, std::int32_t last) const;
+
+  Raster raster_;
+  Point first_;
+  double threshold_;
+  float per_square_;  // of the threshold; 0 where squares of float32 come to an end
+  const float* end_;  // of the samples
+};
+
+}  // namespace scarp

@@ -1,0 +1,330 @@
+// Fitting: a mesh with fewer vertices that keeps the bound, the domain and the constraints of the one before.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "fit/fit.h"
+#include "fit/ring_search.h"
+#include "geom/exact_error.h"
+#include "laws/mesh_laws.h"
+#include "laws/tile_meshes.h"
+#include "refine/domain.h"
+#include "refine/height_judge.h"
+#include "refine/refinement.h"
+
+namespace scarp {
+namespace {
+
+using testing::Field;
+using testing::Relief;
+
+Field any_field() {
+  const auto largest = *rc::gen::element(3, 12, 40, 80);
+  const auto cols = *rc::gen::inRange(2, largest * 5 / 3), rows = *rc::gen::inRange(2, largest);
+  const auto seed = *rc::gen::arbitrary<std::uint32_t>();
+  const int relief = *rc::gen::inRange(0, 6);
+  return relief == 5 ? testing::sloping_field(seed, cols, rows)
+                     : testing::random_field(seed, cols, rows, testing::kReliefs[relief],
+                                             *rc::gen::element(0.0, 0.0, 0.02, 0.1, 0.4));
+}
+
+double any_threshold() { return *rc::gen::element(0.0, 1e-7, 0.5, 1.0, 2.0, 7.3, 30.0, 1e6); }
+
+/// The greedy mesh; nothing if the field has no surface.
+std::optional<Triangulation> refined(const Field& field, double threshold) {
+  auto domain = build_domain(field.raster(), 0, grid_frame(field.rows));
+  if (!domain) return std::nullopt;
+  const HeightJudge judge(field.raster(), threshold);
+  Refinement refinement(judge, domain->tin);
+  while (!refinement.done()) refinement.insert_worst();
+  return std::move(domain->tin);
+}
+
+using Points = std::set<std::pair<std::int32_t, std::int32_t>>;
+
+Points vertices_of(const Triangulation& tin) {
+  Points points;
+  for (Vertex v = 0; v < tin.vertex_count(); ++v) points.insert({tin.point(v).x, tin.point(v).y});
+  return points;
+}
+
+bool is_on_side(Point p, const Field& field) {
+  return p.x == 0 || p.y == 0 || p.x == field.cols - 1 || p.y == field.rows - 1;
+}
+
+/// Ends of constrained edges within the rectangle.
+Points outline_of(const Triangulation& tin, const Field& field) {
+  Points points;
+  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    const Point p = tin.point(tin.origin(h));
+    if (tin.is_constrained(h) && !is_on_side(p, field)) points.insert({p.x, p.y});
+  }
+  return points;
+}
+
+bool includes(const Points& all, const Points& some) {
+  return std::includes(all.begin(), all.end(), some.begin(), some.end());
+}
+
+RC_GTEST_PROP(fit, keeps_the_bound_the_domain_and_the_outline, ()) {
+  const Field field = any_field();
+  const double threshold = any_threshold();
+  auto tin = refined(field, threshold);
+  RC_PRE(tin.has_value());
+  const Points vertices = vertices_of(*tin), outline = outline_of(*tin, field);
+  const std::int64_t outside = testing::outside_area2(*tin);
+  const auto fitted = fit(field.raster(), std::move(*tin),
+                          {.threshold = threshold, .threads = 2, .patch_side = *rc::gen::element(0, 1, 5, 16, 40)});
+  const std::string unsound = testing::verify_triangulation(fitted.tin, field.cols, field.rows, testing::Edges::kAny);
+  RC_ASSERT(unsound == "");
+  const std::string broken = testing::find_broken_bound(field.raster(), fitted.tin, threshold);
+  RC_ASSERT(broken == "");
+  RC_ASSERT(testing::outside_area2(fitted.tin) == outside);
+  const Points left = vertices_of(fitted.tin);
+  RC_ASSERT(left.size() == fitted.tin.vertex_count());
+  RC_ASSERT(left.size() + fitted.counts.removed == vertices.size());
+  RC_ASSERT(includes(vertices, left));
+  RC_ASSERT(outline_of(fitted.tin, field) == outline);
+}
+
+RC_GTEST_PROP(fit, leaves_the_sides_alone_where_they_are_not_free, ()) {
+  const Field field = any_field();
+  const double threshold = any_threshold();
+  auto tin = refined(field, threshold);
+  RC_PRE(tin.has_value());
+  const auto on_sides = [&](const Triangulation& of) {
+    Points points;
+    for (const auto& [x, y] : vertices_of(of)) {
+      if (is_on_side({x, y}, field)) points.insert({x, y});
+    }
+    return points;
+  };
+  const Points before_fit = on_sides(*tin);
+  const auto fitted = fit(field.raster(), std::move(*tin), {.threshold = threshold, .sides_are_free = false});
+  RC_ASSERT(on_sides(fitted.tin) == before_fit);
+}
+
+bool is_same(const Triangulation& a, const Triangulation& b) {
+  if (a.vertex_count() != b.vertex_count() || a.triangle_count() != b.triangle_count()) return false;
+  for (Vertex v = 0; v < a.vertex_count(); ++v) {
+    if (!(a.point(v) == b.point(v))) return false;
+  }
+  for (HalfEdge h = 0; h < 3 * a.triangle_count(); ++h) {
+    if (a.origin(h) != b.origin(h) || a.twin(h) != b.twin(h) || a.is_constrained(h) != b.is_constrained(h) ||
+        a.is_outside(h / 3) != b.is_outside(h / 3))
+      return false;
+  }
+  return true;
+}
+
+RC_GTEST_PROP(fit, threads_change_nothing, ()) {
+  const Field field = any_field();
+  const double threshold = any_threshold();
+  RC_PRE(refined(field, threshold).has_value());
+  FitOptions options{.threshold = threshold, .threads = 1, .patch_side = *rc::gen::element(3, 8, 16)};
+  const auto first = fit(field.raster(), *refined(field, threshold), options);
+  for (const int threads : {2, 7}) {
+    options.threads = threads;
+    const auto again = fit(field.raster(), *refined(field, threshold), options);
+    RC_ASSERT(is_same(again.tin, first.tin));
+    RC_ASSERT(again.counts.searches == first.counts.searches);
+  }
+}
+
+RC_GTEST_PROP(fit, a_second_run_finds_nothing_more, ()) {
+  const Field field = any_field();
+  const double threshold = any_threshold();
+  auto tin = refined(field, threshold);
+  RC_PRE(tin.has_value());
+  auto first = fit(field.raster(), std::move(*tin), {.threshold = threshold});
+  const auto second = fit(field.raster(), std::move(first.tin), {.threshold = threshold});
+  RC_ASSERT(second.counts.removed == 0u);
+}
+
+TEST(fit, a_plane_is_left_with_two_triangles) {
+  Field field{30, 20, {}};
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 30; ++x) field.samples.push_back(static_cast<float>(3 * x - 2 * y));
+  Triangulation tin(30, 20);
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 30; ++x) tin.insert({x, y}, tin.locate({x, y}, tin.last_touched()));
+  for (const std::int32_t side : {0, 8}) {
+    const auto fitted = fit(field.raster(), *refined(field, 0), {.threshold = 0, .threads = 1, .patch_side = side});
+    EXPECT_EQ(fitted.tin.triangle_count(), 2u);
+  }
+  EXPECT_EQ(fit(field.raster(), std::move(tin), {.threshold = 0, .threads = 1}).tin.triangle_count(), 2u);
+}
+
+TEST(fit, halves_a_greedy_mesh) {
+  const Field field = testing::random_field(7, 200, 150, Relief::kRidges);
+  const auto before_fit = refined(field, 4)->triangle_count();
+  const auto whole = fit(field.raster(), *refined(field, 4), {.threshold = 4, .threads = 2});
+  EXPECT_LT(static_cast<double>(whole.tin.triangle_count()), 0.75 * static_cast<double>(before_fit));
+  // Borders of patches cost next to nothing once the second round has freed them.
+  const auto patches = fit(field.raster(), *refined(field, 4), {.threshold = 4, .threads = 2, .patch_side = 64});
+  EXPECT_LT(static_cast<double>(patches.tin.triangle_count()), 1.02 * static_cast<double>(whole.tin.triangle_count()));
+}
+
+TEST(fit, heights_beyond_float32_products_are_left_alone) {
+  Field field = testing::random_field(5, 20, 20, Relief::kFlat);
+  field.samples[210] = 0x1p100f;
+  const auto before_fit = refined(field, 1)->triangle_count();
+  EXPECT_EQ(fit(field.raster(), *refined(field, 1), {.threshold = 1}).tin.triangle_count(), before_fit);
+}
+
+TEST(fit, triangles_beyond_its_arithmetic_are_left_alone) {
+  const std::int32_t cols = kMaxFitSteps / kLatticeSteps + 100;
+  const std::vector<float> samples(2 * static_cast<std::size_t>(cols), 7.0f);
+  Triangulation tin(cols, 2);
+  tin.insert({cols / 2, 0}, tin.locate({cols / 2, 0}, 0));
+  EXPECT_EQ(fit({samples.data(), cols, 2}, std::move(tin), {.threshold = 1}).counts.removed, 0u);
+}
+
+std::int64_t area_of(const FitCorner& a, const FitCorner& b, const FitCorner& c) {
+  return orient({a.x, a.y}, {b.x, b.y}, {c.x, c.y});
+}
+
+FitCorner any_corner(const Field& field) {
+  const int whole = *rc::gen::element(1, kLatticeSteps);
+  FitCorner corner;
+  corner.x = *rc::gen::inRange(0, (field.cols - 1) * kLatticeSteps / whole + 1) * whole;
+  corner.y = *rc::gen::inRange(0, (field.rows - 1) * kLatticeSteps / whole + 1) * whole;
+  const float near = field.raster().at({corner.x / kLatticeSteps, corner.y / kLatticeSteps});
+  corner.z = std::isnan(near) ? 1.0f : near;
+  return corner;
+}
+
+/// The verdict and the energy by looking at every sample of the raster.
+struct Oracle {
+  bool keeps = true;
+  double energy = 0;
+
+  Oracle(const Raster& raster, const std::array<FitCorner, 3>& corners, double threshold) {
+    std::array<Point, 3> places;
+    std::array<float, 3> heights;
+    for (std::size_t k = 0; k < 3; ++k) {
+      places[k] = {corners[k].x, corners[k].y};
+      heights[k] = corners[k].z;
+    }
+    const auto area = static_cast<double>(orient(places[0], places[1], places[2]));
+    for (Point p{0, 0}; p.y < raster.rows; ++p.y) {
+      for (p.x = 0; p.x < raster.cols; ++p.x) {
+        const Point at{p.x * kLatticeSteps, p.y * kLatticeSteps};
+        double height = 0;
+        bool inside = raster.is_valid(p);
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::int64_t weight = orient(places[(k + 1) % 3], places[(k + 2) % 3], at);
+          inside = inside && weight >= 0;
+          height += static_cast<double>(weight) * double{heights[k]} / area;
+        }
+        if (!inside) continue;
+        keeps = keeps && !exceeds_exactly(places, heights, at, raster.at(p), threshold);
+        const double error = (height - raster.at(p)) / threshold;
+        energy += error * error;
+      }
+    }
+  }
+};
+
+RC_GTEST_PROP(triangle_error, decides_as_exact_arithmetic_does_at_every_sample, ()) {
+  const Field field = any_field();
+  const double threshold = any_threshold();
+  std::array<FitCorner, 3> corners{any_corner(field), any_corner(field), any_corner(field)};
+  RC_PRE(area_of(corners[0], corners[1], corners[2]) != 0);
+  if (area_of(corners[0], corners[1], corners[2]) < 0) std::swap(corners[1], corners[2]);
+  const TriangleError error(field.raster(), {0, 0}, threshold);
+  const auto verdict = error.judge(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
+  const Oracle oracle(field.raster(), corners, threshold);
+  RC_ASSERT((verdict.kind == TriangleError::Verdict::Kind::kKeeps) == oracle.keeps);
+  if (oracle.keeps && threshold > 1e-6)
+    RC_ASSERT(std::abs(static_cast<double>(verdict.energy) - oracle.energy) <= 1e-3 * (1 + oracle.energy));
+  if (!oracle.keeps) {
+    const std::array<Point, 3> places{
+        Point{corners[0].x, corners[0].y}, {corners[1].x, corners[1].y}, {corners[2].x, corners[2].y}};
+    const Point at{verdict.witness.x * kLatticeSteps, verdict.witness.y * kLatticeSteps};
+    RC_ASSERT(orient(places[0], places[1], at) >= 0);
+    RC_ASSERT(orient(places[1], places[2], at) >= 0);
+    RC_ASSERT(orient(places[2], places[0], at) >= 0);
+    RC_ASSERT(exceeds_exactly(places, {corners[0].z, corners[1].z, corners[2].z}, at,
+                              field.raster().at(verdict.witness), threshold));
+  }
+}
+
+RC_GTEST_PROP(triangle_error, gives_up_only_where_the_energy_reaches_the_limit, ()) {
+  const Field field = any_field();
+  const double threshold = *rc::gen::element(2.0, 7.3, 30.0, 1e6);
+  std::array<FitCorner, 3> corners{any_corner(field), any_corner(field), any_corner(field)};
+  RC_PRE(area_of(corners[0], corners[1], corners[2]) > 0);
+  const TriangleError error(field.raster(), {0, 0}, threshold);
+  const auto whole = error.judge(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
+  RC_PRE(whole.kind == TriangleError::Verdict::Kind::kKeeps);
+  const auto limit = static_cast<float>(*rc::gen::element(0.0, 0.1, 1.0, 5.0));
+  const auto limited = error.judge(corners[0], corners[1], corners[2], limit);
+  RC_ASSERT((limited.kind == TriangleError::Verdict::Kind::kKeeps) == (whole.energy < limit));
+}
+
+/// The least energy over all triangulations of the corners first … last of a ring, by trying each; infinite if none.
+double least_energy(const TriangleError& error, const std::vector<FitCorner>& ring, std::size_t first,
+                    std::size_t last) {
+  if (last == first + 1) return 0;
+  double best = std::numeric_limits<double>::infinity();
+  for (std::size_t q = first + 1; q < last; ++q) {
+    if (area_of(ring[first], ring[q], ring[last]) <= 0) continue;
+    const auto verdict = error.judge(ring[first], ring[q], ring[last], std::numeric_limits<float>::infinity());
+    if (verdict.kind != TriangleError::Verdict::Kind::kKeeps) continue;
+    best = std::min(best,
+                    double{verdict.energy} + least_energy(error, ring, first, q) + least_energy(error, ring, q, last));
+  }
+  return best;
+}
+
+/// Corners around a hub at the middle of the field, in positive order: a polygon whose inside the hub sees.
+std::vector<FitCorner> any_ring(const Field& field, FitCorner hub) {
+  std::vector<FitCorner> ring;
+  const auto count = *rc::gen::inRange(3, 9);
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * 3.14159265358979 * (i + *rc::gen::element(0.0, 0.3)) / count;
+    const auto reach = *rc::gen::inRange(2, std::min(field.cols, field.rows) / 2);
+    FitCorner corner;
+    corner.x = hub.x + static_cast<std::int32_t>(std::lround(reach * std::cos(angle))) * kLatticeSteps;
+    corner.y = hub.y + static_cast<std::int32_t>(std::lround(reach * std::sin(angle))) * kLatticeSteps;
+    corner.z = field.raster().at({corner.x / kLatticeSteps, corner.y / kLatticeSteps});
+    ring.push_back(corner);
+  }
+  return ring;
+}
+
+RC_GTEST_PROP(ring_search, finds_the_least_energy_of_all_triangulations, ()) {
+  const auto seed = *rc::gen::arbitrary<std::uint32_t>();
+  const Field field = testing::random_field(seed, 24, 24, *rc::gen::element(Relief::kTies, Relief::kRidges));
+  const FitCorner hub{12 * kLatticeSteps, 12 * kLatticeSteps, field.raster().at({12, 12})};
+  const std::vector<FitCorner> ring = any_ring(field, hub);
+  for (std::size_t i = 0; i < ring.size(); ++i) RC_PRE(area_of(hub, ring[i], ring[(i + 1) % ring.size()]) > 0);
+  const double threshold = *rc::gen::element(0.5, 1.0, 2.0, 3.0, 15.0, 40.0);
+  const TriangleError error(field.raster(), {0, 0}, threshold);
+  const double best = least_energy(error, ring, 0, ring.size() - 1);
+  RingSearch search(error);
+  Point witness{12, 12};
+  const bool found = search.find(ring, hub, witness);
+  RC_ASSERT(found == std::isfinite(best));
+  if (!found) return;
+  RC_ASSERT(std::abs(double{search.energy()} - best) <= 1e-4 * (1 + best));
+  std::vector<Patch::RingTriangle> triangles, decoded;
+  search.triangles(triangles);
+  RingSearch::decode(search.code(), ring.size(), decoded);
+  RC_ASSERT(triangles.size() == ring.size() - 2);
+  RC_ASSERT(decoded.size() == triangles.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    RC_ASSERT(triangles[i].middle == decoded[i].middle);
+    sum += double{triangles[i].energy};
+  }
+  RC_ASSERT(std::abs(sum - best) <= 1e-4 * (1 + best));
+}
+
+}  // namespace
+}  // namespace scarp
