@@ -26,6 +26,7 @@ _scarp() {
       COMPREPLY=($(compgen -W 'global local local8 curvature global*local global*local8 global*curvature' -- "$current"))
       return
       ;;
+    --effort) COMPREPLY=($(compgen -W 'fast normal' -- "$current")) && return ;;
     --order) COMPREPLY=($(compgen -W 'dominant greedy' -- "$current")) && return ;;
     --algorithm) COMPREPLY=($(compgen -W 'brute local heap' -- "$current")) && return ;;
     --batch) COMPREPLY=($(compgen -W 'const frac: independent' -- "$current")) && return ;;
@@ -53,7 +54,7 @@ _scarp() {
         options+=' --max-error --max-triangles --max-points --nodata-policy --fill-distance --background'
         options+=' --outline-tolerance --of --normals --base --preview --report --overwrite --num-threads --memory'
         options+=' --mask --tolerance --script --image --texture --texture-weight --norm --channel-weights'
-        options+=' --timing --importance --one-pass --order --algorithm --batch --edges --edge-score --shape-threshold --supersample'
+        options+=' --timing --effort --importance --one-pass --order --algorithm --batch --edges --edge-score --shape-threshold --supersample'
         options+=' --uvs --render --error-raster'
         options+=' --points --duplicates --layer --z-field'
         ;;

@@ -1,6 +1,6 @@
 // The main job as a list of passes. Milestones: after `build_domain`, or in each tile after `start_tile`, the outline
-// is fixed; after `refine` and `take_best_prefix`, or after the tiles, no vertex is added; after `freeze` nothing
-// moves; what `prove` has seen is what is returned.
+// is fixed; after `refine` and `take_best_prefix`, or after the tiles, no vertex is added, after `remove_vertices`
+// none removed; after `freeze` nothing moves; what `prove` has seen is what is returned.
 #include "scarp/simplify.h"
 
 #include <fmt/format.h>
@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "criterion.h"
+#include "fit/fit.h"
 #include "goals.h"
 #include "grid/raster.h"
 #include "proof.h"
@@ -60,6 +61,19 @@ const char* find_obstacle(const HeightField& field, const SimplifyOptions& optio
   return nullptr;
 }
 
+/// What keeps a run from removing vertices; null if nothing does.
+const char* find_fit_obstacle(const HeightField& field, const SimplifyOptions& options) {
+  if (!options.max_error) return "needs a max error";
+  if (options.max_triangles || options.max_vertices) return "has no budgets";
+  if (!options.mask.empty() || !options.tolerance.empty()) return "has no mask and no tolerances";
+  if (!field.channels.empty() || field.height_scale != 1) return "has no channels";
+  if (!options.script.empty()) return "has no script";
+  if (options.edges.data_dependent) return "chooses edges itself";
+  if (options.outline_tolerance > 0) return "keeps the exact outline";
+  if (field.samples == nullptr) return "needs the raster in memory as a whole";
+  return nullptr;
+}
+
 /// One run of the engine towards the goals.
 class Run {
  public:
@@ -82,6 +96,7 @@ class Run {
     result.order = tiled ? Order::kDominant : Order::kGreedy;
     auto refined = tiled ? free_seams(std::move(*tiled), result) : insert_greedily(result);
     if (!refined) return tl::unexpected(refined.error());
+    if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
     // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
     // proof.
     const bool is_final = result.stop != StopReason::kMaxError || exact_;
@@ -95,9 +110,8 @@ class Run {
 
  private:
   /// Adds a pass that began at `start`.
-  static void record(Simplified& result, std::string_view name, Clock::time_point start, const Effort& effort = {}) {
-    result.passes.push_back(
-        {name, seconds_since(start), effort.samples_scanned, effort.triangles_scanned, effort.passes});
+  static void record(Simplified& result, std::string_view name, Clock::time_point start, const Work& work = {}) {
+    result.passes.push_back({name, seconds_since(start), work.samples_scanned, work.triangles_scanned, work.passes});
   }
 
   Result<void> insert_greedily(Simplified& result) {
@@ -115,7 +129,7 @@ class Run {
     if (auto fits = budget_.check(size(), culprit, advice); !fits) return fits;
     if (auto refined = refine(result.stop); !refined) return refined;
     finish_edges(result);
-    record(result, "refine", start, result.effort);
+    record(result, "refine", start, result.work);
     return {};
   }
 
@@ -125,19 +139,19 @@ class Run {
     const auto start = Clock::now();
     domain_ = std::move(tiled.domain);
     heights_ = std::move(tiled.heights);
-    result.effort = tiled.effort;
+    result.work = tiled.work;
     if (field_.samples != nullptr || field_.source->is_in_memory()) {
-      const Effort effort = release_seams(domain_->tin, criterion_.judge(), std::move(tiled.seams), options_.threads);
-      result.effort.samples_scanned += effort.samples_scanned;
-      result.effort.triangles_scanned += effort.triangles_scanned;
-      record(result, "seams", start, effort);
+      const Work work = release_seams(domain_->tin, criterion_.judge(), std::move(tiled.seams), options_.threads);
+      result.work.samples_scanned += work.samples_scanned;
+      result.work.triangles_scanned += work.triangles_scanned;
+      record(result, "seams", start, work);
     }
     if (field_.frame.is_affine()) return {};
     const auto again = Clock::now();
     follow_curved_border(raster_, domain_->tin, field_.frame);
     refinement_.emplace(criterion_.judge(), domain_->tin);
     auto refined = refine(result.stop);
-    record(result, "refine", again, refinement_->effort());
+    record(result, "refine", again, refinement_->work());
     return refined;
   }
 
@@ -260,12 +274,35 @@ class Run {
   }
 
   void finish_edges(Simplified& result) {
-    result.effort = refinement_->effort();
+    result.work = refinement_->work();
     take_best_prefix();
-    const Effort settling = settle_edges(domain_->tin, criterion_.judge(), options_.edges,
-                                         result.stop == StopReason::kMaxError || result.stop == StopReason::kExact);
-    result.effort.samples_scanned += settling.samples_scanned;
-    result.effort.triangles_scanned += settling.triangles_scanned;
+    const Work settling = settle_edges(domain_->tin, criterion_.judge(), options_.edges,
+                                       result.stop == StopReason::kMaxError || result.stop == StopReason::kExact);
+    result.work.samples_scanned += settling.samples_scanned;
+    result.work.triangles_scanned += settling.triangles_scanned;
+  }
+
+  /// Vertices that the bound can do without go.
+  Result<void> remove_vertices(Simplified& result) {
+    if (options_.effort == Effort::kFast) return {};
+    const auto start = Clock::now();
+    refinement_.reset();
+    FitOptions options;
+    options.threshold = *criterion_.bound();
+    options.threads = options_.threads;
+    options.sides_are_free = field_.frame.is_affine();
+    Reporter reporter(options_.progress);
+    if (options_.progress) {
+      options.progress = [&](double share, std::uint64_t vertices) {
+        return !reporter.due() || reporter.report("fit", share, vertices, 0);
+      };
+    }
+    auto fitted = fit(raster_, std::move(domain_->tin), options);
+    if (!fitted) return tl::unexpected(fitted.error());
+    domain_->tin = std::move(fitted->tin);
+    record(result, "fit", start);
+    result.passes.back().removals = fitted->counts.removed;
+    return {};
   }
 
   void order(Simplified& result) const {
@@ -394,7 +431,8 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
   // The engine reads voids as such; what else looks at samples beyond the mesh's own needs them cleaned.
   Raster raster{field.samples, field.cols, field.rows};
   std::optional<Samples> samples;
-  if (field.samples != nullptr && (options.normals || !field.frame.is_affine())) {
+  if (field.samples != nullptr &&
+      (options.normals || !field.frame.is_affine() || options.effort != Effort::kFast)) {
     auto cleaned = Samples::of(field);
     if (!cleaned) return tl::unexpected(cleaned.error());
     raster = samples.emplace(std::move(*cleaned)).raster();
@@ -418,8 +456,8 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
   const Domain& domain = (*tiled)->domain;
   if (auto fits = memory.check_mesh(work, domain.tin.vertex_count() - domain.unused, 1); !fits)
     return tl::unexpected(fits.error());
-  const Effort& effort = (*tiled)->effort;
-  const Pass pass{"tiles", seconds_since(start), effort.samples_scanned, effort.triangles_scanned, effort.passes};
+  const Work& work = (*tiled)->work;
+  const Pass pass{"tiles", seconds_since(start), work.samples_scanned, work.triangles_scanned, work.passes};
   auto result = Run(field, raster, options, *criterion).execute(std::move(*tiled));
   if (!result) return result;
   result->passes.insert(result->passes.begin(), pass);
@@ -440,6 +478,10 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& opt
   if (obstacle != nullptr && options.order == Order::kDominant)
     return fail(ErrorKind::kUsage,
                 fmt::format("the dominant order {}: leave that out, or take the greedy order", obstacle));
+  const char* fit_obstacle = options.effort == Effort::kFast ? nullptr : find_fit_obstacle(field, options);
+  if (fit_obstacle != nullptr)
+    return fail(ErrorKind::kUsage,
+                fmt::format("normal effort {}: leave that out, or take fast effort", fit_obstacle));
   if (obstacle == nullptr) return simplify_tiles(field, options);
   auto samples = Samples::of(field);
   if (!samples) return tl::unexpected(samples.error());

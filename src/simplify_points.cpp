@@ -182,10 +182,10 @@ class PointRun {
     remove_thin_triangles(mesh, 4 * position_rounding(mesh), thinnest_border_);
     optimize_order(mesh);
     if (refinement_) {
-      result.effort.samples_scanned = refinement_->places_judged();
-      result.effort.triangles_scanned = refinement_->lists_dealt();
+      result.work.samples_scanned = refinement_->places_judged();
+      result.work.triangles_scanned = refinement_->lists_dealt();
     }
-    result.effort.passes = insertions_;
+    result.work.passes = insertions_;
   }
 
   /// How far vertices may lie from their places on the lattice, along x or y.

@@ -134,6 +134,29 @@ Result<void> plan_order(const SimplifyArguments& given, SimplifyPlan& plan) {
                           culprit));
 }
 
+/// Removal, too, looks at heights and one error alone.
+Result<void> plan_effort(const SimplifyArguments& given, SimplifyPlan& plan) {
+  if (plan.simplify.effort == Effort::kFast) return {};
+  const std::pair<const char*, bool> obstacles[] = {
+      {"--max-triangles", given.max_triangles.has_value()},
+      {"--max-points", given.max_points.has_value()},
+      {"--mask", given.companions.mask.has_value()},
+      {"--tolerance", given.companions.tolerance.has_value()},
+      {"--script", given.companions.script.has_value()},
+      {"--image", given.channels.image},
+      {"--texture", !given.channels.textures.empty()},
+      {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
+      {"--edges data", plan.simplify.edges.data_dependent}};
+  for (const auto& [name, is_given] : obstacles) {
+    if (is_given)
+      return fail(ErrorKind::kUsage,
+                  fmt::format("--effort normal and {} contradict each other: vertices are removed towards a max error "
+                              "alone, on heights alone; leave one of them out",
+                              name));
+  }
+  return {};
+}
+
 /// What the format has no place for: refused where nothing would be left, else a warning.
 Result<void> plan_attributes(const SimplifyArguments& given, SimplifyPlan& plan) {
   const OutputFormat& format = plan.format;
@@ -296,7 +319,7 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   if (!threads) return tl::unexpected(threads.error());
   plan.simplify.threads = *threads;
   for (const auto step :
-       {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_order, plan_outputs, plan_memory}) {
+       {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_order, plan_effort, plan_outputs, plan_memory}) {
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());
   }

@@ -140,11 +140,11 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   add_all_errors(report, plan, outcome);
   add_coverage(report, outcome.simplified.measurement);
   add_solid(report, plan, outcome);
-  const Effort& effort = outcome.simplified.effort;
-  report["effort"] = Json{{"samples_scanned", effort.samples_scanned},
-                          {"triangles_scanned", effort.triangles_scanned},
-                          {"queue_moves", effort.queue_moves},
-                          {"passes", effort.passes}};
+  const Work& work = outcome.simplified.work;
+  report["work"] = Json{{"samples_scanned", work.samples_scanned},
+                        {"triangles_scanned", work.triangles_scanned},
+                        {"queue_moves", work.queue_moves},
+                        {"passes", work.passes}};
   report["passes"] = describe_passes(outcome);
   report["seconds"] = describe_seconds(outcome);
   report["outputs"] = describe_outputs(files);

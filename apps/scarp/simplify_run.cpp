@@ -55,7 +55,8 @@ Json describe_passes(const SimplifyRun& run) {
                         {"seconds", pass.seconds},
                         {"samples_scanned", pass.samples_scanned},
                         {"triangles_scanned", pass.triangles_scanned},
-                        {"insertions", pass.insertions}});
+                        {"insertions", pass.insertions},
+                        {"removals", pass.removals}});
   }
   return list;
 }
@@ -106,13 +107,14 @@ std::string seconds_line(const SimplifyRun& run) {
 
 std::string timing_lines(const SimplifyRun& run) {
   const auto line = [](std::string_view name, const std::string& seconds, const std::string& samples,
-                       const std::string& triangles, const std::string& insertions) {
-    return fmt::format("  {:<8}{:>10}{:>19}{:>19}{:>14}\n", name, seconds, samples, triangles, insertions);
+                       const std::string& triangles, const std::string& insertions, const std::string& removals) {
+    return fmt::format("  {:<8}{:>10}{:>19}{:>19}{:>14}{:>14}\n", name, seconds, samples, triangles, insertions,
+                       removals);
   };
-  std::string text = line("pass", "seconds", "samples scanned", "triangles scanned", "insertions");
+  std::string text = line("pass", "seconds", "samples scanned", "triangles scanned", "insertions", "removals");
   for (const Pass& pass : list_passes(run)) {
     text += line(pass.name, fmt::format("{:.3f}", pass.seconds), format_count(pass.samples_scanned),
-                 format_count(pass.triangles_scanned), format_count(pass.insertions));
+                 format_count(pass.triangles_scanned), format_count(pass.insertions), format_count(pass.removals));
   }
   return text;
 }

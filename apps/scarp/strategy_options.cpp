@@ -14,6 +14,7 @@ namespace {
 constexpr Choice<Importance::Feature> kFeatures[] = {{"local", Importance::Feature::kLocal4},
                                                      {"local8", Importance::Feature::kLocal8},
                                                      {"curvature", Importance::Feature::kCurvature}};
+constexpr Choice<Effort> kEfforts[] = {{"fast", Effort::kFast}, {"normal", Effort::kNormal}};
 constexpr Choice<Order> kOrders[] = {{"dominant", Order::kDominant}, {"greedy", Order::kGreedy}};
 constexpr Choice<Algorithm> kAlgorithms[] = {
     {"brute", Algorithm::kBruteForce}, {"local", Algorithm::kLocal}, {"heap", Algorithm::kHeap}};
@@ -132,6 +133,10 @@ std::string importance_name(const Importance& importance) {
 }
 
 void StrategyArguments::add_to(CLI::App& verb) {
+  verb.add_option("--effort", effort,
+                  "fast (default): the mesh as refined. normal: then\nremoves vertices for as long as every sample keeps "
+                  "the\nbound: about half the triangles. For -e on heights alone")
+      ->type_name("LEVEL");
   const char* group = "Strategy (which samples become vertices; the promise stays the same)";
   verb.add_option("--importance", importance,
                   "What is inserted next: the sample with the largest\nglobal (error of the mesh; default), local or "
@@ -183,6 +188,11 @@ void StrategyArguments::add_to(CLI::App& verb) {
 }
 
 Result<void> StrategyArguments::parse_into(SimplifyOptions& options) const {
+  if (effort) {
+    const Result<Effort> parsed = choose("--effort", *effort, kEfforts);
+    if (!parsed) return tl::unexpected(parsed.error());
+    options.effort = *parsed;
+  }
   if (importance) {
     const Result<Importance> parsed = parse_importance(*importance);
     if (!parsed) return tl::unexpected(parsed.error());
@@ -233,7 +243,7 @@ const char* StrategyArguments::dominant_obstacle() const {
 }
 
 std::string StrategyArguments::canonical() const {
-  return canonical_option("--importance", importance) + (one_pass ? " --one-pass" : "") +
+  return (effort == "normal" ? " --effort normal" : "") + canonical_option("--importance", importance) + (one_pass ? " --one-pass" : "") +
          canonical_option("--batch", batch) + canonical_option("--edges", edges) +
          canonical_option("--edge-score", edge_score) + canonical_option("--shape-threshold", shape_threshold) +
          canonical_option("--supersample", supersample);
@@ -243,6 +253,7 @@ Json describe_strategy(const SimplifyOptions& options, Order taken) {
   Json strategy;
   strategy["importance"] = importance_name(options.importance);
   strategy["one_pass"] = options.importance.one_pass;
+  strategy["effort"] = name_of(options.effort, kEfforts);
   strategy["order"] = name_of(taken, kOrders);
   strategy["algorithm"] = taken == Order::kGreedy ? Json(name_of(options.algorithm, kAlgorithms)) : Json(nullptr);
   switch (options.batch.rule) {

@@ -11,11 +11,11 @@
 namespace scarp::cli {
 
 struct StrategyArguments {
-  Given importance, order, algorithm, batch, edges, edge_score, shape_threshold, supersample;
+  Given effort, importance, order, algorithm, batch, edges, edge_score, shape_threshold, supersample;
   bool one_pass = false;
 
   void add_to(CLI::App& verb);
-  /// Sets importance, order, algorithm, batch and edges of the options.
+  /// Sets effort, importance, order, algorithm, batch and edges of the options.
   Result<void> parse_into(SimplifyOptions& options) const;
   /// The option among these that the dominant order has no place for; null if there is none.
   const char* dominant_obstacle() const;

@@ -3,8 +3,6 @@
 //
 //   scarp_fit PROJECT SIDE [RASTER]...     patches of SIDE samples; 0: as the library chooses
 
-#include "fit/fit.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,13 +11,15 @@
 #include <optional>
 
 #include "files.h"
+#include "scarp/scarp.h"
+//
+#include "fit/fit.h"
 #include "refine/domain.h"
 #include "refine/height_judge.h"
 #include "refine/refinement.h"
 #include "refine/release.h"
 #include "refine/samples.h"
 #include "refine/tiled.h"
-#include "scarp/scarp.h"
 
 namespace {
 
@@ -71,7 +71,7 @@ Stage fit(const scarp::Raster& raster, Stage& from, double error, std::int32_t s
   Stage stage;
   if (!from.tin) return stage;
   const double start = cpu_seconds();
-  auto fitted = scarp::fit(raster, std::move(*from.tin), {.threshold = error, .threads = 1, .patch_side = side});
+  auto fitted = *scarp::fit(raster, std::move(*from.tin), {.threshold = error, .threads = 1, .patch_side = side});
   stage.finish(std::move(fitted.tin), start);
   return stage;
 }

@@ -19,7 +19,7 @@ namespace bench {
 struct EngineRun {
   scarp::Domain domain;
   scarp::Order order = scarp::Order::kGreedy;  // the one that did the work
-  scarp::Effort effort;
+  scarp::Work work;
 };
 
 inline scarp::Raster view_of(const RawRaster& raw) { return {raw.samples.data(), raw.cols, raw.rows}; }
@@ -45,7 +45,7 @@ inline EngineRun refine_greedily(const RawRaster& raw, double error) {
   const scarp::HeightJudge judge(raster, error);
   scarp::Refinement refinement(judge, run.domain.tin);
   while (!refinement.done()) refinement.insert_worst();
-  run.effort = refinement.effort();
+  run.work = refinement.work();
   return run;
 }
 
@@ -58,11 +58,11 @@ inline EngineRun refine_dominantly(const RawRaster& raw, double error, int threa
   auto tiled = scarp::refine_tiled(field_of(raw), options);
   if (!tiled) die(tiled.error().message);
   if (!*tiled) return refine_greedily(raw, error);
-  EngineRun run{std::move((*tiled)->domain), scarp::Order::kDominant, (*tiled)->effort};
+  EngineRun run{std::move((*tiled)->domain), scarp::Order::kDominant, (*tiled)->work};
   const scarp::HeightJudge judge(view_of(raw), error);
-  const scarp::Effort seams = scarp::release_seams(run.domain.tin, judge, std::move((*tiled)->seams));
-  run.effort.samples_scanned += seams.samples_scanned;
-  run.effort.triangles_scanned += seams.triangles_scanned;
+  const scarp::Work seams = scarp::release_seams(run.domain.tin, judge, std::move((*tiled)->seams));
+  run.work.samples_scanned += seams.samples_scanned;
+  run.work.triangles_scanned += seams.triangles_scanned;
   return run;
 }
 

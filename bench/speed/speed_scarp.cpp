@@ -138,8 +138,8 @@ int main(int argc, char** argv) {
   if (options.calls <= 1) times = watch.read();
   more += std::string(", \"order\": \"") + bench::name_of(run.order) + "\", \"kernel\": \"" +
           scarp::scan_kernels().name + "\", \"threads\": " + std::to_string(options.threads) +
-          ", \"triangles_scanned\": " + std::to_string(run.effort.triangles_scanned) +
-          ", \"insertions\": " + std::to_string(run.effort.passes);
+          ", \"triangles_scanned\": " + std::to_string(run.work.triangles_scanned) +
+          ", \"insertions\": " + std::to_string(run.work.passes);
   const scarp::Triangulation& tin = run.domain.tin;
   bench::print_result(scarp::version(), times, tin.vertex_count(), tin.triangle_count(), more);
   if (options.mesh != nullptr) bench::write_raw_mesh(options.mesh, mesh_of(tin));

@@ -45,6 +45,9 @@ struct SimplifyOptions {
   /// kDominant fails with kUsage together with a budget, a mask, tolerances, a script, channels, an importance, an
   /// algorithm, batches, data-dependent edges or an outline tolerance; kAuto then is kGreedy. DEFAULT: kAuto.
   Order order = Order::kAuto;
+  /// kNormal fails with kUsage together with a budget, a mask, tolerances, a script, channels, data-dependent edges, an
+  /// outline tolerance, or without the samples in memory. DEFAULT: kFast.
+  Effort effort = Effort::kFast;
   Importance importance = {};  ///< DEFAULT: global error
   Algorithm algorithm = Algorithm::kHeap;
   Batch batch = {};        ///< DEFAULT: one at a time
@@ -71,9 +74,9 @@ struct SimplifyOptions {
 
 /// A pass of simplify() and what it cost.
 struct Pass {
-  std::string_view name;  ///< "tiles", "seams"; "domain", "refine"; "freeze", "order", "prove"
+  std::string_view name;  ///< "tiles", "seams"; "domain", "refine"; "fit"; "freeze", "order", "prove"
   double seconds = 0;     ///< wall clock
-  std::uint64_t samples_scanned = 0, triangles_scanned = 0, insertions = 0;
+  std::uint64_t samples_scanned = 0, triangles_scanned = 0, insertions = 0, removals = 0;
 };
 
 /// Which goal ended the run.
@@ -90,7 +93,7 @@ struct Simplified {
   double weighted_rmse = 0;       ///< root of the mean square of the same
   std::vector<Measurement> channel_measurements;  ///< of each channel, in its own units; without topology
   double combined_max_error = 0;                  ///< with channels: the largest norm
-  Effort effort;                                  ///< what the engine did
+  Work work;                                      ///< what the engine did
   Order order = Order::kGreedy;                   ///< the order that was taken, never kAuto
   std::vector<Pass> passes;                       ///< in the order in which they ended
   double seconds_refine = 0;                      ///< outline, refinement and freezing
@@ -103,6 +106,10 @@ struct Simplified {
 /// Order: towards an error goal the locally dominant order works tile by tile, on all threads; where two tiles meet, an
 /// edge that is not Delaunay is kept if the bound needs it. Budgets, and all that strategy.h offers, keep the greedy
 /// order (Algorithm III), which is one thread's work. What is promised is the same.
+///
+/// Effort: kNormal then removes each vertex whose place the vertices around it can take, all triangulations of the ring
+/// that it leaves considered, the one with the least squared error taken; those that cost least go first. What is left
+/// are samples with their own heights, and no vertex can go alone.
 ///
 /// Guarantees, for every input:
 /// (1) if max_error is given and no budget ended the run, every valid sample of the domain is covered and lies within

@@ -50,6 +50,13 @@ enum class Order {
               ///< many vertices. For an error goal alone, on heights alone, with Delaunay edges; see simplify().
 };
 
+/// How much is done, once the bound is kept, for a smaller mesh that keeps it too.
+enum class Effort {
+  kFast,    ///< nothing: what refinement inserted stays
+  kNormal,  ///< vertices are removed for as long as every sample keeps the bound: half the triangles, for a few times the
+            ///< time. For an error goal alone, on heights alone, in memory; see simplify().
+};
+
 /// Inserting many samples between two looks at the mesh ("parallel" insertion of the report; Scape's thresholds).
 struct Batch {
   enum class Rule {
@@ -111,7 +118,7 @@ struct ScriptStep {
 };
 
 /// What a run did.
-struct Effort {
+struct Work {
   std::uint64_t samples_scanned = 0;    ///< samples compared with a plane
   std::uint64_t triangles_scanned = 0;  ///< triangles looked at
   std::uint64_t queue_moves = 0;        ///< entries moved in the queue (kHeap) or looked through (kLocal)

@@ -5,8 +5,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "grid/raster.h"
+#include "scarp/result.h"
 #include "tin/triangulation.h"
 
 namespace scarp {
@@ -18,6 +20,8 @@ struct FitOptions {
   /// the mesh's frame.
   bool sides_are_free = true;
   std::int32_t patch_side = 0;  ///< in samples; 0: squares of kPatchTriangles, one for small meshes
+  /// Told the share that is done and the vertices that are left, on the calling thread; false stops with kCancelled.
+  std::function<bool(double share, std::uint64_t vertices)> progress = {};
 };
 
 /// A patch of so many triangles and what belongs to it fits the caches of one core; its borders cost less than one
@@ -37,7 +41,8 @@ struct Fitted {
 /// A triangulation of some of the vertices with the same domain and constraints, whose triangles keep the threshold at
 /// every sample of the domain, in exact arithmetic. Vertices of the outline stay, but for those on the sides of the
 /// rectangle. Where heights or extents are beyond kMaxScanHeight, kMaxFitSteps, triangles stay as they are.
-/// REQUIRES: the triangles inside keep the threshold and hold valid corners; threshold >= 0 and finite.
-Fitted fit(const Raster& raster, Triangulation tin, const FitOptions& options);
+/// Fails with kCancelled only. REQUIRES: the triangles inside keep the threshold and hold valid corners; threshold >= 0
+/// and finite.
+Result<Fitted> fit(const Raster& raster, Triangulation tin, const FitOptions& options);
 
 }  // namespace scarp

@@ -20,7 +20,7 @@ constexpr Attempt kAttempts[] = {{8, 0.12, 0.08}, {4, 0.08, 0.03}};
 
 void CoarseStart::insert(const Tile& tile, const SharedSides& shared, double threshold, double density,
                          TileMesh& mesh) {
-  effort_ = {};
+  work_ = {};
   const std::int32_t last_col = tile.view().cols - 1, last_row = tile.view().rows - 1;
   for (const Attempt& attempt : kAttempts) {
     const std::int32_t step = attempt.step;
@@ -48,9 +48,9 @@ bool CoarseStart::refine(const Tile& tile, std::int32_t step, double share, doub
   TileScanner scanner(view, threshold);
   const auto most = static_cast<std::size_t>(share * view.cols * view.rows);
   const DominantRun run = refine_dominant(mesh_, scanner, most, &inserted_);
-  effort_.samples_scanned += scanner.samples_scanned();
-  effort_.triangles_scanned += scanner.triangles_scanned();
-  effort_.queue_moves += run.moves;
+  work_.samples_scanned += scanner.samples_scanned();
+  work_.triangles_scanned += scanner.triangles_scanned();
+  work_.queue_moves += run.moves;
   return run.finished;
 }
 

@@ -21,12 +21,12 @@ class CoarseStart {
  public:
   /// Inserts into the started `mesh` of a tile what every 8th, or 4th, sample alone would need, where that is few.
   /// `density`: vertices a sample to be expected of the finished mesh; it decides what is tried. A trial that needs too
-  /// many is broken off: at most one insertion for each 260 samples of the tile is in vain. No vertex is put on a shared
-  /// side, or outside the surface.
+  /// many is broken off: at most one insertion for each 260 samples of the tile is in vain. No vertex is put on a
+  /// shared side, or outside the surface.
   void insert(const Tile& tile, const SharedSides& shared, double threshold, double density, TileMesh& mesh);
 
   /// Of the last call.
-  const Effort& effort() const { return effort_; }
+  const Work& work() const { return work_; }
 
  private:
   bool refine(const Tile& tile, std::int32_t step, double share, double threshold);
@@ -34,7 +34,7 @@ class CoarseStart {
   Tile coarse_;
   TileMesh mesh_;
   std::vector<Place> inserted_;
-  Effort effort_;
+  Work work_;
 };
 
 }  // namespace scarp

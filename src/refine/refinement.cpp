@@ -121,13 +121,13 @@ void Refinement::rescan_changed() {
   if (algorithm_ == Algorithm::kBruteForce) rescan_all();
 }
 
-Effort Refinement::effort() const {
-  Effort effort{samples_, triangles_, candidates_->moves(), passes_};
+Work Refinement::work() const {
+  Work work{samples_, triangles_, candidates_->moves(), passes_};
   if (rule_) {
-    effort.samples_scanned += rule_->samples_scanned();
-    effort.triangles_scanned += rule_->triangles_scanned();
+    work.samples_scanned += rule_->samples_scanned();
+    work.triangles_scanned += rule_->triangles_scanned();
   }
-  return effort;
+  return work;
 }
 
 }  // namespace scarp

@@ -65,7 +65,7 @@ class Refinement {
   void rescan_changed();
 
   std::uint64_t triangle_count() const { return inside_; }
-  Effort effort() const;
+  Work work() const;
 
  private:
   void insert_at(Point p, Triangulation::Location location);

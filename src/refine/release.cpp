@@ -69,26 +69,26 @@ class CarefulRule final : public FlipRule {
     if (flips) changed_.insert({t, u});
     return flips;
   }
-  const Effort& effort() const { return effort_; }
+  const Work& work() const { return work_; }
 
  private:
   void count(const Verdict& verdict) {
-    effort_.samples_scanned += verdict.samples;
-    effort_.triangles_scanned += verdict.triangles;
+    work_.samples_scanned += verdict.samples;
+    work_.triangles_scanned += verdict.triangles;
   }
 
   const Judge& judge_;
   std::unordered_map<HalfEdge, bool> verdicts_;
   std::unordered_set<Triangle> changed_;
-  Effort effort_;
+  Work work_;
 };
 
 }  // namespace
 
-Effort release_seams(Triangulation& tin, const Judge& judge, std::vector<HalfEdge> seams, int threads) {
+Work release_seams(Triangulation& tin, const Judge& judge, std::vector<HalfEdge> seams, int threads) {
   CarefulRule rule(tin, judge, seams, threads);
   tin.improve(seams, rule, SIZE_MAX);
-  return rule.effort();
+  return rule.work();
 }
 
 }  // namespace scarp

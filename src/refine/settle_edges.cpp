@@ -38,7 +38,7 @@ class SettlingRule final : public FlipRule {
     return true;
   }
 
-  Effort effort() const { return {cache_.samples_scanned(), cache_.triangles_scanned(), 0, 0}; }
+  Work work() const { return {cache_.samples_scanned(), cache_.triangles_scanned(), 0, 0}; }
 
  private:
   const Judge& judge_;
@@ -48,7 +48,7 @@ class SettlingRule final : public FlipRule {
 
 }  // namespace
 
-Effort settle_edges(Triangulation& tin, const Judge& judge, const EdgeRule& rule, bool keep_bounds) {
+Work settle_edges(Triangulation& tin, const Judge& judge, const EdgeRule& rule, bool keep_bounds) {
   if (!rule.data_dependent || !rule.settle || rule.score == EdgeScore::kNormals) return {};
   std::vector<HalfEdge> edges;
   for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
@@ -57,7 +57,7 @@ Effort settle_edges(Triangulation& tin, const Judge& judge, const EdgeRule& rule
   SettlingRule settling(judge, keep_bounds);
   const std::size_t most = 4 * edges.size();
   tin.improve(edges, settling, most);
-  return settling.effort();
+  return settling.work();
 }
 
 }  // namespace scarp

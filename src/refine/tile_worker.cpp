@@ -15,11 +15,11 @@ double expected_density(std::size_t kept, std::int64_t steps) {
   return 5 * along * along;
 }
 
-void add(Effort& sum, const Effort& effort) {
-  sum.samples_scanned += effort.samples_scanned;
-  sum.triangles_scanned += effort.triangles_scanned;
-  sum.queue_moves += effort.queue_moves;
-  sum.passes += effort.passes;
+void add(Work& sum, const Work& work) {
+  sum.samples_scanned += work.samples_scanned;
+  sum.triangles_scanned += work.triangles_scanned;
+  sum.queue_moves += work.queue_moves;
+  sum.passes += work.passes;
 }
 
 TileOutcome TileWorker::refine(const HeightField& field, const TileWindow& window, const SharedSides& shared,
@@ -37,8 +37,8 @@ TileOutcome TileWorker::refine(const HeightField& field, const TileWindow& windo
   scanner.set_shared(shared);
   const DominantRun run = refine_dominant(mesh_, scanner);
   outcome.is_unsuited = scanner.has_given_up();
-  outcome.effort = {scanner.samples_scanned(), scanner.triangles_scanned(), run.moves, run.insertions};
-  add(outcome.effort, coarse_.effort());
+  outcome.work = {scanner.samples_scanned(), scanner.triangles_scanned(), run.moves, run.insertions};
+  add(outcome.work, coarse_.work());
   outcome.piece = pieces_.make(mesh_, {window.col, window.row}, window.cols, window.rows);
   if (field.samples == nullptr) {
     for (const Place p : outcome.piece.points) outcome.heights.push_back(tile_.view().at(p));

@@ -20,14 +20,14 @@ struct TileOutcome {
   Result<void> status;
   TilePiece piece;
   std::vector<float> heights;  ///< of the piece's points, where the field has a source
-  Effort effort;
+  Work work;
   bool is_unsuited = false;  ///< heights span magnitudes beyond exact arithmetic
 };
 
 /// Vertices a sample of the plane where `kept` were kept along lines of so many steps.
 double expected_density(std::size_t kept, std::int64_t steps);
 
-void add(Effort& sum, const Effort& effort);
+void add(Work& sum, const Work& work);
 
 class TileWorker {
  public:

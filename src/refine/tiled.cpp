@@ -118,7 +118,7 @@ class TiledRun {
  public:
   TiledRun(const HeightField& field, const TiledOptions& options, const TilePlan& plan, double density)
       : options_(options),
-        work_(row_bytes(field, plan)),
+        base_bytes_(row_bytes(field, plan)),
         plan_(plan),
         density_(density),
         is_streamed_(is_in_file(field)),
@@ -129,11 +129,11 @@ class TiledRun {
         workers_(static_cast<std::size_t>(threads_)),
         outcomes_(plan.count()),
         assembly_(plan.per_row()) {
-    work_ += std::min<std::uint64_t>(workers_.size(), step_) * worker_bytes(plan);
+    base_bytes_ += std::min<std::uint64_t>(workers_.size(), step_) * worker_bytes(plan);
   }
 
   Result<std::optional<Tiled>> execute() {
-    if (auto fits = options_.memory.check_start(work_); !fits) return tl::unexpected(fits.error());
+    if (auto fits = options_.memory.check_start(base_bytes_); !fits) return tl::unexpected(fits.error());
     for (std::size_t first = 0; first < plan_.count() && status_ && !is_unsuited_; first += step_) {
       if (is_streamed_) status_ = load_rows(first);
       if (status_) refine(first, step_);
@@ -148,7 +148,7 @@ class TiledRun {
       return fail(
           ErrorKind::kInput,
           "the raster has no grid cell with three valid corners, so there is no surface to simplify; check nodata");
-    return std::optional<Tiled>(Tiled{std::move(domain), std::move(seams), std::move(heights_), effort_});
+    return std::optional<Tiled>(Tiled{std::move(domain), std::move(seams), std::move(heights_), work_});
   }
 
  private:
@@ -180,10 +180,10 @@ class TiledRun {
       return false;
     }
     assembly_.append(outcome.piece);
-    add(effort_, outcome.effort);
+    add(work_, outcome.work);
     keep_heights(outcome.heights);
     const double share = static_cast<double>(tile + 1) / static_cast<double>(plan_.count());
-    if (status_ = options_.memory.check_mesh(work_, assembly_.vertex_count(), share); !status_) return false;
+    if (status_ = options_.memory.check_mesh(base_bytes_, assembly_.vertex_count(), share); !status_) return false;
     if (options_.progress && !options_.progress(share, assembly_.vertex_count()))
       status_ = fail(ErrorKind::kCancelled, "cancelled while refining");
     return status_.has_value();
@@ -196,7 +196,7 @@ class TiledRun {
   }
 
   const TiledOptions& options_;
-  std::uint64_t work_;  // bytes taken whatever the mesh
+  std::uint64_t base_bytes_;  // bytes taken whatever the mesh
   TilePlan plan_;
   double density_;
   bool is_streamed_;
@@ -208,7 +208,7 @@ class TiledRun {
   std::vector<std::optional<TileOutcome>> outcomes_;
   Assembly assembly_;
   std::vector<float> heights_;
-  Effort effort_;
+  Work work_;
   Result<void> status_;
   bool is_unsuited_ = false;
 };

@@ -42,7 +42,7 @@ struct Tiled {
   Domain domain;
   std::vector<HalfEdge> seams;  ///< edges between tiles, for release_seams()
   std::vector<float> heights;   ///< of the vertices, where the field has a source instead of samples
-  Effort effort;
+  Work work;
 };
 
 /// Where the field's source is not in memory, one row of tiles after the other is read and refined.

@@ -42,7 +42,7 @@ for algorithm in brute local heap; do
   cmp greedy.glb "$algorithm-e.glb" || fail "--algorithm $algorithm is not the greedy order"
 done
 grep -aq 'OUTPUT --max-error 150 --order greedy"' greedy.glb || fail "the metadata does not tell the order"
-holds "$(json a.json effort samples_scanned) > 100000 && $(json a.json effort passes) > 100"
+holds "$(json a.json work samples_scanned) > 100000 && $(json a.json work passes) > 100"
 
 # What can change the mesh is in its metadata, in a fixed order and as it was given.
 succeeds "$scarp" simplify "$dem" meta.obj -t 300 --edge-score tight --edges data --importance 'global*(local+1)' -q
@@ -55,7 +55,7 @@ succeeds "$scarp" simplify "$dem" e.glb -e 25 --report data.json --edges data
 succeeds "$scarp" simplify "$dem" f.glb -e 25 --report batch.json --batch const
 holds "$(json data.json triangles) < $(json delaunay.json triangles)"
 holds "$(json batch.json triangles) > $(json delaunay.json triangles)"
-holds "$(json batch.json effort passes) < 0.01 * $(json delaunay.json effort passes)"
+holds "$(json batch.json work passes) < 0.01 * $(json delaunay.json work passes)"
 python3 - data.json <<'PYTHON'
 import json, sys
 assert json.load(open(sys.argv[1]))["strategy"] == {
@@ -84,10 +84,10 @@ passes = json.load(open(sys.argv[1]))["passes"]
 table = [line.split() for line in open(sys.argv[2])]
 assert [p["name"] for p in passes] == sys.argv[3:], passes
 for p in passes:
-    rows = [row for row in table if len(row) == 5 and row[0] == p["name"] and row[1].replace(".", "").isdigit()]
+    rows = [row for row in table if len(row) == 6 and row[0] == p["name"] and row[1].replace(".", "").isdigit()]
     assert len(rows) == 1, (p["name"], rows)
     told = [int(number.replace(",", "")) for number in rows[0][2:]]
-    assert told == [p["samples_scanned"], p["triangles_scanned"], p["insertions"]], rows
+    assert told == [p["samples_scanned"], p["triangles_scanned"], p["insertions"], p["removals"]], rows
     assert p["seconds"] >= 0 and abs(float(rows[0][1]) - p["seconds"]) < 0.001, rows
 tiles = passes[1]
 assert tiles["insertions"] > 1000 and tiles["samples_scanned"] > 100000 and tiles["triangles_scanned"] > tiles["insertions"]

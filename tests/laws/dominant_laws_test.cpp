@@ -244,7 +244,7 @@ TEST(coarse_start, is_left_out_where_the_mesh_will_be_dense) {
   CoarseStart coarse;
   coarse.insert(started.tile, {}, 5, 0.5, started.mesh);
   EXPECT_EQ(started.mesh.vertex_count(), 4u);
-  EXPECT_EQ(coarse.effort().triangles_scanned, 0u);
+  EXPECT_EQ(coarse.work().triangles_scanned, 0u);
 }
 
 }  // namespace

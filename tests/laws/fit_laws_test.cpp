@@ -77,8 +77,8 @@ RC_GTEST_PROP(fit, keeps_the_bound_the_domain_and_the_outline, ()) {
   RC_PRE(tin.has_value());
   const Points vertices = vertices_of(*tin), outline = outline_of(*tin, field);
   const std::int64_t outside = testing::outside_area2(*tin);
-  const auto fitted = fit(field.raster(), std::move(*tin),
-                          {.threshold = threshold, .threads = 2, .patch_side = *rc::gen::element(0, 1, 5, 16, 40)});
+  const auto fitted = *fit(field.raster(), std::move(*tin),
+                           {.threshold = threshold, .threads = 2, .patch_side = *rc::gen::element(0, 1, 5, 16, 40)});
   const std::string unsound = testing::verify_triangulation(fitted.tin, field.cols, field.rows, testing::Edges::kAny);
   RC_ASSERT(unsound == "");
   const std::string broken = testing::find_broken_bound(field.raster(), fitted.tin, threshold);
@@ -104,7 +104,7 @@ RC_GTEST_PROP(fit, leaves_the_sides_alone_where_they_are_not_free, ()) {
     return points;
   };
   const Points before_fit = on_sides(*tin);
-  const auto fitted = fit(field.raster(), std::move(*tin), {.threshold = threshold, .sides_are_free = false});
+  const auto fitted = *fit(field.raster(), std::move(*tin), {.threshold = threshold, .sides_are_free = false});
   RC_ASSERT(on_sides(fitted.tin) == before_fit);
 }
 
@@ -126,10 +126,10 @@ RC_GTEST_PROP(fit, threads_change_nothing, ()) {
   const double threshold = any_threshold();
   RC_PRE(refined(field, threshold).has_value());
   FitOptions options{.threshold = threshold, .threads = 1, .patch_side = *rc::gen::element(3, 8, 16)};
-  const auto first = fit(field.raster(), *refined(field, threshold), options);
+  const auto first = *fit(field.raster(), *refined(field, threshold), options);
   for (const int threads : {2, 7}) {
     options.threads = threads;
-    const auto again = fit(field.raster(), *refined(field, threshold), options);
+    const auto again = *fit(field.raster(), *refined(field, threshold), options);
     RC_ASSERT(is_same(again.tin, first.tin));
     RC_ASSERT(again.counts.searches == first.counts.searches);
   }
@@ -140,8 +140,8 @@ RC_GTEST_PROP(fit, a_second_run_finds_nothing_more, ()) {
   const double threshold = any_threshold();
   auto tin = refined(field, threshold);
   RC_PRE(tin.has_value());
-  auto first = fit(field.raster(), std::move(*tin), {.threshold = threshold});
-  const auto second = fit(field.raster(), std::move(first.tin), {.threshold = threshold});
+  auto first = *fit(field.raster(), std::move(*tin), {.threshold = threshold});
+  const auto second = *fit(field.raster(), std::move(first.tin), {.threshold = threshold});
   RC_ASSERT(second.counts.removed == 0u);
 }
 
@@ -153,19 +153,19 @@ TEST(fit, a_plane_is_left_with_two_triangles) {
   for (int y = 0; y < 20; ++y)
     for (int x = 0; x < 30; ++x) tin.insert({x, y}, tin.locate({x, y}, tin.last_touched()));
   for (const std::int32_t side : {0, 8}) {
-    const auto fitted = fit(field.raster(), *refined(field, 0), {.threshold = 0, .threads = 1, .patch_side = side});
+    const auto fitted = *fit(field.raster(), *refined(field, 0), {.threshold = 0, .threads = 1, .patch_side = side});
     EXPECT_EQ(fitted.tin.triangle_count(), 2u);
   }
-  EXPECT_EQ(fit(field.raster(), std::move(tin), {.threshold = 0, .threads = 1}).tin.triangle_count(), 2u);
+  EXPECT_EQ(fit(field.raster(), std::move(tin), {.threshold = 0, .threads = 1})->tin.triangle_count(), 2u);
 }
 
 TEST(fit, halves_a_greedy_mesh) {
   const Field field = testing::random_field(7, 200, 150, Relief::kRidges);
   const auto before_fit = refined(field, 4)->triangle_count();
-  const auto whole = fit(field.raster(), *refined(field, 4), {.threshold = 4, .threads = 2});
+  const auto whole = *fit(field.raster(), *refined(field, 4), {.threshold = 4, .threads = 2});
   EXPECT_LT(static_cast<double>(whole.tin.triangle_count()), 0.75 * static_cast<double>(before_fit));
   // Borders of patches cost next to nothing once the second round has freed them.
-  const auto patches = fit(field.raster(), *refined(field, 4), {.threshold = 4, .threads = 2, .patch_side = 64});
+  const auto patches = *fit(field.raster(), *refined(field, 4), {.threshold = 4, .threads = 2, .patch_side = 64});
   EXPECT_LT(static_cast<double>(patches.tin.triangle_count()), 1.02 * static_cast<double>(whole.tin.triangle_count()));
 }
 
@@ -173,7 +173,7 @@ TEST(fit, heights_beyond_float32_products_are_left_alone) {
   Field field = testing::random_field(5, 20, 20, Relief::kFlat);
   field.samples[210] = 0x1p100f;
   const auto before_fit = refined(field, 1)->triangle_count();
-  EXPECT_EQ(fit(field.raster(), *refined(field, 1), {.threshold = 1}).tin.triangle_count(), before_fit);
+  EXPECT_EQ(fit(field.raster(), *refined(field, 1), {.threshold = 1})->tin.triangle_count(), before_fit);
 }
 
 TEST(fit, triangles_beyond_its_arithmetic_are_left_alone) {
@@ -181,7 +181,7 @@ TEST(fit, triangles_beyond_its_arithmetic_are_left_alone) {
   const std::vector<float> samples(2 * static_cast<std::size_t>(cols), 7.0f);
   Triangulation tin(cols, 2);
   tin.insert({cols / 2, 0}, tin.locate({cols / 2, 0}, 0));
-  EXPECT_EQ(fit({samples.data(), cols, 2}, std::move(tin), {.threshold = 1}).counts.removed, 0u);
+  EXPECT_EQ(fit({samples.data(), cols, 2}, std::move(tin), {.threshold = 1})->counts.removed, 0u);
 }
 
 std::int64_t area_of(const FitCorner& a, const FitCorner& b, const FitCorner& c) {

@@ -74,7 +74,7 @@ TEST_P(RealRasters, KeepTheBoundInExactArithmeticWithFewerVertices) {
     const Triangulation& tin = (*tiled)->domain.tin;
     const std::int64_t outside = testing::outside_area2(tin);
     const std::size_t vertices = tin.vertex_count();
-    const Fitted fitted = fit(raster, std::move((*tiled)->domain.tin), {.threshold = threshold, .threads = 2});
+    const Fitted fitted = *fit(raster, std::move((*tiled)->domain.tin), {.threshold = threshold, .threads = 2});
     EXPECT_EQ(testing::verify_triangulation(fitted.tin, raster.cols, raster.rows, testing::Edges::kAny), "");
     EXPECT_EQ(testing::find_broken_bound(raster, fitted.tin, threshold), "");
     EXPECT_EQ(testing::outside_area2(fitted.tin), outside);

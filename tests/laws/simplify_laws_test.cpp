@@ -179,7 +179,7 @@ RC_GTEST_PROP(simplify, both_orders_keep_the_promise_and_threads_change_neither,
     RC_ASSERT(again.has_value());
     RC_ASSERT(again->mesh.positions == first->mesh.positions);
     RC_ASSERT(again->mesh.triangles == first->mesh.triangles);
-    RC_ASSERT(again->effort.samples_scanned == first->effort.samples_scanned);
+    RC_ASSERT(again->work.samples_scanned == first->work.samples_scanned);
   }
 }
 

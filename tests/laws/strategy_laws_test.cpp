@@ -387,8 +387,8 @@ TEST(batches, independent_ones_cost_few_vertices_and_few_passes) {
   ASSERT_TRUE(sequential && independent && constant);
   EXPECT_LT(independent->mesh.vertex_count(), sequential->mesh.vertex_count() * 108 / 100);
   EXPECT_GT(constant->mesh.vertex_count(), independent->mesh.vertex_count());
-  EXPECT_LT(independent->effort.passes, sequential->effort.passes / 10);
-  EXPECT_LE(constant->effort.passes, independent->effort.passes);
+  EXPECT_LT(independent->work.passes, sequential->work.passes / 10);
+  EXPECT_LE(constant->work.passes, independent->work.passes);
 }
 
 TEST(strategies, contradictions_are_refused_in_one_sentence) {

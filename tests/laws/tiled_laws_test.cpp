@@ -194,8 +194,8 @@ RC_GTEST_PROP(tiled, threads_change_nothing, ()) {
     RC_ASSERT(again.has_value());
     RC_ASSERT(is_same((*again)->domain.tin, (*first)->domain.tin));
     RC_ASSERT((*again)->seams == (*first)->seams);
-    RC_ASSERT((*again)->effort.samples_scanned == (*first)->effort.samples_scanned);
-    RC_ASSERT((*again)->effort.passes == (*first)->effort.passes);
+    RC_ASSERT((*again)->work.samples_scanned == (*first)->work.samples_scanned);
+    RC_ASSERT((*again)->work.passes == (*first)->work.passes);
   }
 }
 

@@ -204,7 +204,7 @@ TEST(Threads, NeverChangeAFittedMesh) {
   const auto fitted = [&](int threads) {
     auto tiled = refine_tiled(field, {.threshold = 0.5, .threads = threads, .tile_side = 32});
     const Raster raster{field.samples.data(), field.cols, field.rows};
-    return fit(raster, std::move((*tiled)->domain.tin), {.threshold = 0.5, .threads = threads, .patch_side = 50});
+    return *fit(raster, std::move((*tiled)->domain.tin), {.threshold = 0.5, .threads = threads, .patch_side = 50});
   };
   const Fitted one = fitted(1);
   EXPECT_GT(one.counts.removed, 0u);

@@ -13,7 +13,7 @@ constexpr std::array kAlgorithms{Algorithm::kBruteForce, Algorithm::kLocal, Algo
 constexpr std::array kNames{"I", "II", "III"};
 
 struct Runs {
-  std::array<Effort, 3> efforts;
+  std::array<Work, 3> works;
   std::array<double, 3> seconds{};
   bool same = true;  ///< meshes, to the last bit
 };
@@ -26,7 +26,7 @@ Result<Runs> run(const Study& study, const Field& field, std::uint64_t vertices)
     options.algorithm = kAlgorithms[k];
     const Result<Simplified> result = study.run(field.heights, field.file, exactly(vertices, options));
     if (!result) return tl::unexpected(result.error());
-    runs.efforts[k] = result->effort;
+    runs.works[k] = result->work;
     runs.seconds[k] = result->seconds_refine;
     if (k == 0) first = result->mesh;
     runs.same = runs.same && result->mesh.positions == first.positions && result->mesh.triangles == first.triangles;
@@ -53,7 +53,7 @@ Result<Plot> make_plot(Study& study, const Field& field) {
     const Result<Runs> runs = run(study, field, m);
     if (!runs) return tl::unexpected(runs.error());
     for (std::size_t k = 0; k < kNames.size(); ++k)
-      plot.curves[k].points.push_back({static_cast<double>(m), static_cast<double>(runs->efforts[k].samples_scanned)});
+      plot.curves[k].points.push_back({static_cast<double>(m), static_cast<double>(runs->works[k].samples_scanned)});
   }
   return plot;
 }
@@ -71,7 +71,7 @@ Result<void> add_algorithms(Study& study) {
     const Result<Runs> runs = run(study, *field, vertices);
     if (!runs) return tl::unexpected(runs.error());
     all_same = all_same && runs->same;
-    const auto& [one, two, three] = runs->efforts;
+    const auto& [one, two, three] = runs->works;
     std::vector<std::string> row{field->key,
                                  fmt::format("{}", vertices),
                                  number(millions(one.samples_scanned)),

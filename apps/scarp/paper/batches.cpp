@@ -61,11 +61,11 @@ Result<void> add_batches(Study& study) {
       }
       const std::string what = fmt::format("{} on {}", rule.name, fields[f]->key);
       vertices.add(what, static_cast<double>(trial->vertices), scape_vertices);
-      passes.add(what, static_cast<double>(trial->effort.passes), scape_passes);
+      passes.add(what, static_cast<double>(trial->work.passes), scape_passes);
       line.push_back(beside_count(trial->vertices, scape_vertices));
       line.push_back(
           percent_of_change(static_cast<double>(trial->vertices), static_cast<double>(trials[0][f].vertices)));
-      line.push_back(beside_count(trial->effort.passes, scape_passes));
+      line.push_back(beside_count(trial->work.passes, scape_passes));
     }
     cells.push_back(std::move(line));
   }

@@ -134,8 +134,8 @@ Result<void> add_gain_table(Study& study, const ModeTrials& trials) {
     rows.push_back({field.key, percent_of_change(sum_5->rmse, delaunay_5->rmse), percent(*saving), percent(*tight),
                     fmt::format("{:.1f} %", delaunay.thin_share), fmt::format("{:.1f} %", sum.thin_share),
                     fmt::format("{:.1f} %", pure.thin_share),
-                    number(static_cast<double>(sum.effort.samples_scanned) /
-                           static_cast<double>(std::max<std::uint64_t>(delaunay.effort.samples_scanned, 1)))});
+                    number(static_cast<double>(sum.work.samples_scanned) /
+                           static_cast<double>(std::max<std::uint64_t>(delaunay.work.samples_scanned, 1)))});
   }
   if (study.fields.are_reports) {
     rows.push_back({"*Scape*", fmt::format("−{:g} to −{:g} %", kGainAt5Least, kGainAt5Most),

@@ -39,7 +39,7 @@ struct Series {
 
 /// Samples scanned but for the three corners of each triangle: Scape passes over samples that are vertices.
 double scans(const Trial& trial) {
-  return static_cast<double>(trial.effort.samples_scanned) - 3 * static_cast<double>(trial.effort.triangles_scanned);
+  return static_cast<double>(trial.work.samples_scanned) - 3 * static_cast<double>(trial.work.triangles_scanned);
 }
 
 Result<Series> run(Study& study, const Field& field) {
@@ -110,14 +110,14 @@ Result<void> add_effort(Study& study) {
     for (std::size_t k = 0; k < series->trials.size(); ++k) {
       const Trial& trial = series->trials[k];
       const double millions = scans(trial) / 1e6;
-      const double moves = static_cast<double>(trial.effort.queue_moves) / static_cast<double>(trial.vertices);
+      const double moves = static_cast<double>(trial.work.queue_moves) / static_cast<double>(trial.vertices);
       const auto scape = scape_scans(study, *field, series->vertices[k]);
       counts.add(fmt::format("{} at {} vertices", field->key, series->vertices[k]), millions, scape);
       least = std::min(least, moves);
       most = std::max(most, moves);
       rows.push_back({field->key, fmt::format("{}", trial.vertices),
-                      number(static_cast<double>(trial.effort.samples_scanned) / 1e6), beside(millions, scape),
-                      number(static_cast<double>(trial.effort.triangles_scanned) / static_cast<double>(trial.vertices)),
+                      number(static_cast<double>(trial.work.samples_scanned) / 1e6), beside(millions, scape),
+                      number(static_cast<double>(trial.work.triangles_scanned) / static_cast<double>(trial.vertices)),
                       number(moves)});
     }
     all.push_back(std::move(*series));

@@ -38,7 +38,7 @@ Trial summarize(const Simplified& run) {
   std::size_t thin = 0;
   for (std::size_t t = 0; t < run.mesh.triangle_count(); ++t) thin += is_thin(run.mesh, t) ? 1 : 0;
   trial.thin_share = 100 * static_cast<double>(thin) / static_cast<double>(std::max<std::uint64_t>(trial.triangles, 1));
-  trial.effort = run.effort;
+  trial.work = run.work;
   trial.seconds = run.seconds_refine;
   return trial;
 }

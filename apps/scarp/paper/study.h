@@ -22,7 +22,7 @@ struct Trial {
   std::uint64_t vertices = 0, triangles = 0;
   double max_error = 0, rmse = 0;
   double thin_share = 0;  ///< percent of triangles with an angle below 5 degrees, seen from above
-  Effort effort;
+  Work work;
   double seconds = 0;  ///< outline, refinement and freezing
 };
 
