@@ -431,8 +431,7 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
   // The engine reads voids as such; what else looks at samples beyond the mesh's own needs them cleaned.
   Raster raster{field.samples, field.cols, field.rows};
   std::optional<Samples> samples;
-  if (field.samples != nullptr &&
-      (options.normals || !field.frame.is_affine() || options.effort != Effort::kFast)) {
+  if (field.samples != nullptr && (options.normals || !field.frame.is_affine() || options.effort != Effort::kFast)) {
     auto cleaned = Samples::of(field);
     if (!cleaned) return tl::unexpected(cleaned.error());
     raster = samples.emplace(std::move(*cleaned)).raster();
@@ -440,8 +439,8 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
   const auto criterion = Criterion::make(field, options, raster);
   if (!criterion) return tl::unexpected(criterion.error());
   const MemoryBudget memory = memory_budget(options);
-  const std::uint64_t work = proof_bytes(field, options);
-  if (auto fits = memory.check_start(work); !fits) return tl::unexpected(fits.error());
+  const std::uint64_t bytes = proof_bytes(field, options);
+  if (auto fits = memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
   const auto start = Clock::now();
   auto tiled = refine_tiles(field, options, *criterion);
   if (!tiled) return tl::unexpected(tiled.error());
@@ -454,7 +453,7 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
     return simplify(field, greedy);
   }
   const Domain& domain = (*tiled)->domain;
-  if (auto fits = memory.check_mesh(work, domain.tin.vertex_count() - domain.unused, 1); !fits)
+  if (auto fits = memory.check_mesh(bytes, domain.tin.vertex_count() - domain.unused, 1); !fits)
     return tl::unexpected(fits.error());
   const Work& work = (*tiled)->work;
   const Pass pass{"tiles", seconds_since(start), work.samples_scanned, work.triangles_scanned, work.passes};
@@ -480,8 +479,7 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& opt
                 fmt::format("the dominant order {}: leave that out, or take the greedy order", obstacle));
   const char* fit_obstacle = options.effort == Effort::kFast ? nullptr : find_fit_obstacle(field, options);
   if (fit_obstacle != nullptr)
-    return fail(ErrorKind::kUsage,
-                fmt::format("normal effort {}: leave that out, or take fast effort", fit_obstacle));
+    return fail(ErrorKind::kUsage, fmt::format("normal effort {}: leave that out, or take fast effort", fit_obstacle));
   if (obstacle == nullptr) return simplify_tiles(field, options);
   auto samples = Samples::of(field);
   if (!samples) return tl::unexpected(samples.error());

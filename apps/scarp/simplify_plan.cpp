@@ -137,16 +137,15 @@ Result<void> plan_order(const SimplifyArguments& given, SimplifyPlan& plan) {
 /// Removal, too, looks at heights and one error alone.
 Result<void> plan_effort(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (plan.simplify.effort == Effort::kFast) return {};
-  const std::pair<const char*, bool> obstacles[] = {
-      {"--max-triangles", given.max_triangles.has_value()},
-      {"--max-points", given.max_points.has_value()},
-      {"--mask", given.companions.mask.has_value()},
-      {"--tolerance", given.companions.tolerance.has_value()},
-      {"--script", given.companions.script.has_value()},
-      {"--image", given.channels.image},
-      {"--texture", !given.channels.textures.empty()},
-      {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
-      {"--edges data", plan.simplify.edges.data_dependent}};
+  const std::pair<const char*, bool> obstacles[] = {{"--max-triangles", given.max_triangles.has_value()},
+                                                    {"--max-points", given.max_points.has_value()},
+                                                    {"--mask", given.companions.mask.has_value()},
+                                                    {"--tolerance", given.companions.tolerance.has_value()},
+                                                    {"--script", given.companions.script.has_value()},
+                                                    {"--image", given.channels.image},
+                                                    {"--texture", !given.channels.textures.empty()},
+                                                    {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
+                                                    {"--edges data", plan.simplify.edges.data_dependent}};
   for (const auto& [name, is_given] : obstacles) {
     if (is_given)
       return fail(ErrorKind::kUsage,

@@ -133,9 +133,10 @@ std::string importance_name(const Importance& importance) {
 }
 
 void StrategyArguments::add_to(CLI::App& verb) {
-  verb.add_option("--effort", effort,
-                  "fast (default): the mesh as refined. normal: then\nremoves vertices for as long as every sample keeps "
-                  "the\nbound: about half the triangles. For -e on heights alone")
+  verb.add_option(
+          "--effort", effort,
+          "fast (default): the mesh as refined. normal: then\nremoves vertices for as long as every sample keeps "
+          "the\nbound: about half the triangles. For -e on heights alone")
       ->type_name("LEVEL");
   const char* group = "Strategy (which samples become vertices; the promise stays the same)";
   verb.add_option("--importance", importance,
@@ -243,8 +244,8 @@ const char* StrategyArguments::dominant_obstacle() const {
 }
 
 std::string StrategyArguments::canonical() const {
-  return (effort == "normal" ? " --effort normal" : "") + canonical_option("--importance", importance) + (one_pass ? " --one-pass" : "") +
-         canonical_option("--batch", batch) + canonical_option("--edges", edges) +
+  return (effort == "normal" ? " --effort normal" : "") + canonical_option("--importance", importance) +
+         (one_pass ? " --one-pass" : "") + canonical_option("--batch", batch) + canonical_option("--edges", edges) +
          canonical_option("--edge-score", edge_score) + canonical_option("--shape-threshold", shape_threshold) +
          canonical_option("--supersample", supersample);
 }
