@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/fit.h"
+
 namespace scarp {
 
 MemoryBudget memory_budget(const SimplifyOptions& options) {
   constexpr std::uint64_t kMesh = 48, kProof = 145;
-  return {options.memory_limit, options.memory_taken, std::max(kProof, kMesh + options.memory_per_vertex)};
+  const std::uint64_t fit = options.effort == Effort::kFast ? 0 : kFitBytesPerVertex + kFitBytesPerVertexAndThread;
+  return {options.memory_limit, options.memory_taken, std::max({kProof, kMesh + options.memory_per_vertex, fit})};
 }
 
 Result<void> check_goals(const SimplifyOptions& options, bool may_have_tolerance) {

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel.h"
 #include "criterion.h"
 #include "fit/fit.h"
 #include "goals.h"
@@ -289,7 +290,7 @@ class Run {
     refinement_.reset();
     FitOptions options;
     options.threshold = *criterion_.bound();
-    options.threads = options_.threads;
+    options.threads = fit_threads();
     options.sides_are_free = field_.frame.is_affine();
     Reporter reporter(options_.progress);
     if (options_.progress) {
@@ -303,6 +304,15 @@ class Run {
     record(result, "fit", start);
     result.passes.back().removals = fitted->counts.removed;
     return {};
+  }
+
+  /// As many as the memory leaves room for.
+  int fit_threads() const {
+    const int threads = thread_count(options_.threads);
+    if (!memory_.is_limited()) return threads;
+    const std::uint64_t vertices = domain_->tin.vertex_count(), taken = kFitBytesPerVertex * vertices;
+    const std::uint64_t most = (std::max(memory_.rest(), taken) - taken) / (kFitBytesPerVertexAndThread * vertices);
+    return static_cast<int>(std::clamp<std::uint64_t>(most, 1, static_cast<std::uint64_t>(threads)));
   }
 
   void order(Simplified& result) const {

@@ -14,8 +14,8 @@
 namespace scarp::cli {
 namespace {
 
-constexpr std::uint64_t kProgramBytes = 64'000'000;  // the code, GDAL's included, and what it always needs
-constexpr std::uint64_t kCodeBytes = 52'000'000;     // of it the code alone
+constexpr std::uint64_t kProgramBytes = 72'000'000;  // the code, GDAL's included, and what it always needs
+constexpr std::uint64_t kCodeBytes = 60'000'000;     // of it the code alone
 constexpr std::uint64_t kCacheBytes = 8'400'000;     // what the cache of a file has beside its share of the samples
 constexpr std::uint64_t kBytesPerSample = 4;
 constexpr double kMostBytes = 1e18;

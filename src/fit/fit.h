@@ -28,6 +28,11 @@ struct FitOptions {
 /// vertex in a thousand.
 inline constexpr std::int64_t kPatchTriangles = 8192;
 
+/// What a run takes at most for a vertex of the mesh that it is given, that mesh included: with one thread these two,
+/// with each more the second.
+inline constexpr std::uint64_t kFitBytesPerVertex = 200;
+inline constexpr std::uint64_t kFitBytesPerVertexAndThread = 6;
+
 struct FitCounts {
   std::uint64_t removed = 0;   ///< vertices
   std::uint64_t searches = 0;  ///< rings that were looked at

@@ -34,8 +34,8 @@ Result<void> MemoryBudget::check_start(std::uint64_t work) const {
 Result<void> MemoryBudget::check_mesh(std::uint64_t work, std::uint64_t vertices, double share) const {
   if (!is_limited() || work + vertices * per_vertex <= rest()) return {};
   const double whole = static_cast<double>(vertices) / std::clamp(share, 1e-6, 1.0);
-  // A tenth more, since what is left may be rougher than what is done.
-  const double needed = static_cast<double>(taken + work) + 1.1 * whole * static_cast<double>(per_vertex);
+  // A quarter more, since what is left may be rougher than what is done.
+  const double needed = static_cast<double>(taken + work) + 1.25 * whole * static_cast<double>(per_vertex);
   return fail(ErrorKind::kUsage,
               fmt::format("memory_limit is too little: the mesh has {} vertices when {:.0f} % of the run is done, and "
                           "the whole would need about {}M; allow that much, or a larger max error",
