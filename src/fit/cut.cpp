@@ -235,6 +235,15 @@ void PatchCutter::number_vertices(const std::vector<Patch>& patches, const std::
     parts.numbers[v] = static_cast<Vertex>(parts.arrays.points.size());
     parts.arrays.points.push_back(tin_.point(v));
   }
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const Point first = patches[i].window().first;
+    for (Patch::Id v = 0; v < patches[i].node_count(); ++v) {
+      if (patches[i].is_locked(v) || patches[i].is_removed(v)) continue;
+      const FitCorner& at = patches[i].at(v);
+      parts.arrays.points[parts.numbers[vertices[i][v]]] = {first.x + at.x / kLatticeSteps,
+                                                            first.y + at.y / kLatticeSteps};
+    }
+  }
 }
 
 /// Writes to the patch's own places only.

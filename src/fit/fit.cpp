@@ -9,6 +9,7 @@
 #include "fit/cut.h"
 #include "fit/removal.h"
 #include "fit/sample_window.h"
+#include "fit/schedule.h"
 
 namespace scarp {
 
@@ -35,19 +36,43 @@ class Rounds {
         scratch_(static_cast<std::size_t>(thread_count(options.threads))),
         windows_(scratch_.size()) {}
 
+  /// Of removal.
   void run(const PatchGrid& grid) {
+    work_on(grid, [this](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
+      return remove(patch, vertices, error);
+    });
+  }
+
+  /// Of removal with repair.
+  void repair(const PatchGrid& grid) {
+    work_on(grid, [this](Patch& patch, const std::vector<Vertex>&, const TriangleError& error) {
+      const RepairCounts counts = repair_vertices(patch, error, options_.repair_depth);
+      return FitCounts{counts.removed, 0, counts.removed, counts.tried};
+    });
+  }
+
+  Fitted finish() { return std::move(fitted_); }
+
+ private:
+  /// Cuts, lets work(patch, vertices, error) count what it does to each patch, and joins.
+  template <class Work>
+  void work_on(const PatchGrid& grid, const Work& work) {
     const PatchCutter cutter(raster_, fitted_.tin, grid, options_.sides_are_free, options_.threads);
     std::vector<Patch> patches(cutter.count());
     std::vector<std::vector<Vertex>> vertices(cutter.count());
-    const auto work = [&](std::size_t i, std::size_t worker) {
-      patches[i] = cutter.cut(i, scratch_[worker], vertices[i]);
-      counts_[i] = fit(patches[i], vertices[i], windows_[worker]);
-    };
     counts_.assign(cutter.count(), {});
-    parallel_in_order(cutter.count(), options_.threads, work, [](std::size_t) { return true; });
-    for (const RemovalCounts& counts : counts_) {
+    const auto one = [&](std::size_t i, std::size_t worker) {
+      patches[i] = cutter.cut(i, scratch_[worker], vertices[i]);
+      const TriangleError error = windows_[worker].errors(raster_, patches[i], options_.threshold);
+      counts_[i] = work(patches[i], vertices[i], error);
+      patches[i].pack();
+    };
+    parallel_in_order(cutter.count(), options_.threads, one, [](std::size_t) { return true; });
+    for (const FitCounts& counts : counts_) {
       fitted_.counts.removed += counts.removed;
       fitted_.counts.searches += counts.searches;
+      fitted_.counts.repaired += counts.repaired;
+      fitted_.counts.tried += counts.tried;
     }
     std::vector<Vertex> numbers;
     Triangulation joined = cutter.join(std::move(patches), vertices, numbers);
@@ -55,21 +80,16 @@ class Rounds {
     fitted_.tin = std::move(joined);
   }
 
-  Fitted finish() { return std::move(fitted_); }
-
- private:
   /// A vertex that is free in one patch is in no other, so patches write to places of their own.
-  RemovalCounts fit(Patch& patch, const std::vector<Vertex>& vertices, SampleWindow& window) {
+  FitCounts remove(Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
     std::vector<std::uint8_t> settled;
     settled.reserve(vertices.size());
     for (const Vertex v : vertices) settled.push_back(settled_[v]);
-    const TriangleError error = window.errors(raster_, patch, options_.threshold);
     const RemovalCounts counts = remove_vertices(patch, error, settled);
-    patch.pack();
     for (Patch::Id v = 0; v < vertices.size(); ++v) {
       if (!patch.is_locked(v)) settled_[vertices[v]] = settled[v];
     }
-    return counts;
+    return {counts.removed, counts.searches, 0, 0};
   }
 
   void renumber(const std::vector<Vertex>& numbers, std::size_t count) {
@@ -86,7 +106,7 @@ class Rounds {
   std::vector<std::uint8_t> settled_;          // by vertex
   std::vector<PatchCutter::Scratch> scratch_;  // by thread
   std::vector<SampleWindow> windows_;
-  std::vector<RemovalCounts> counts_;
+  std::vector<FitCounts> counts_;
 };
 
 }  // namespace
@@ -95,7 +115,11 @@ Fitted fit(const Raster& raster, Triangulation tin, const FitOptions& options) {
   const std::int32_t side = options.patch_side > 0 ? options.patch_side : patch_side(raster, tin);
   Rounds rounds(raster, std::move(tin), options);
   rounds.run({side, 0});
-  if (side < std::max(raster.cols, raster.rows)) rounds.run({side, side / 2});
+  const bool is_cut = side < std::max(raster.cols, raster.rows);
+  if (is_cut) rounds.run({side, side / 2});
+  const bool has_energies = options.threshold > 0x1p-60 && options.threshold < 0x1p60;
+  for (int round = 0; has_energies && round < options.repair_rounds; ++round)
+    rounds.repair({side, is_cut && round % 2 == 1 ? side / 2 : 0});
   return rounds.finish();
 }
 

@@ -17,6 +17,10 @@ struct FitOptions {
   /// Whether vertices on the sides of the rectangle may go. They must stay where those sides are no straight lines in
   /// the mesh's frame.
   bool sides_are_free = true;
+  /// After removal: rounds over all vertices of removal with repair (schedule.h). Vertices are then other samples than
+  /// before.
+  int repair_rounds = 0;
+  int repair_depth = 4;         ///< rounds of repair for one vertex
   std::int32_t patch_side = 0;  ///< in samples; 0: squares of kPatchTriangles, one for small meshes
 };
 
@@ -27,6 +31,8 @@ inline constexpr std::int64_t kPatchTriangles = 8192;
 struct FitCounts {
   std::uint64_t removed = 0;   ///< vertices
   std::uint64_t searches = 0;  ///< rings that were looked at
+  std::uint64_t repaired = 0;  ///< of the removed vertices, those that went with repair
+  std::uint64_t tried = 0;     ///< removals with repair that were begun
 };
 
 struct Fitted {

@@ -39,22 +39,48 @@ Floats magnitudes(Floats errors, Masks meant) {
   return reinterpret_cast<Floats>(reinterpret_cast<Masks>(errors) & kept);
 }
 
-/// Largest error and sum of squares, lane by lane.
-struct Sums {
-  Floats worst{}, squares_low{}, squares_high{};
+/// Adds up lanes, in an order that is part of the result.
+float sum_of(Floats low, Floats high) {
+  const Floats s = low + high;
+  return std::min((s[0] + s[2]) + (s[1] + s[3]), std::numeric_limits<float>::max());
+}
+
+/// Largest error, lane by lane.
+struct Largest {
+  Floats worst{};
 
   void add(Floats low, Floats high) {
     const Floats larger = low > high ? low : high;
     worst = larger > worst ? larger : worst;
-    squares_low += low * low;
-    squares_high += high * high;
   }
   bool exceeds(float cut) const { return any(worst > all(cut)); }
   float largest() const { return std::max(std::max(worst[0], worst[2]), std::max(worst[1], worst[3])); }
-  float squares() const {
-    const Floats s = squares_low + squares_high;
-    return std::min((s[0] + s[2]) + (s[1] + s[3]), std::numeric_limits<float>::max());
+};
+
+/// And the sum of squares.
+struct Squares : Largest {
+  Floats low_sum{}, high_sum{};
+
+  void add(Floats low, Floats high, float) {
+    Largest::add(low, high);
+    low_sum += low * low;
+    high_sum += high * high;
   }
+  float energy(float per_square) const { return sum_of(low_sum, high_sum) * per_square; }
+};
+
+/// Or of eighth powers, of errors in thresholds.
+struct EighthPowers : Largest {
+  Floats low_sum{}, high_sum{};
+
+  void add(Floats low, Floats high, float per_square) {
+    Largest::add(low, high);
+    const Floats low2 = low * low * all(per_square), high2 = high * high * all(per_square);
+    const Floats low4 = low2 * low2, high4 = high2 * high2;
+    low_sum += low4 * low4;
+    high_sum += high4 * high4;
+  }
+  float energy(float) const { return sum_of(low_sum, high_sum); }
 };
 
 /// Eight samples of a row from `samples` on, of which the first `count` are meant.
@@ -86,9 +112,10 @@ struct TriangleError::Task {
   Place top, middle, bottom;
   float base_x, base_y;
   ScanPlane plane;
-  float doubt, cut;  // computed errors up to `doubt` are none, above `cut` are certain
+  float doubt, certain;  // computed errors up to `doubt` keep the threshold, above `certain` break it
+  float cut;             // above it they break the limit
 
-  Task(const FitCorner& a, const FitCorner& b, const FitCorner& c, double threshold) : corners{a, b, c} {
+  Task(const FitCorner& a, const FitCorner& b, const FitCorner& c, double threshold, double limit) : corners{a, b, c} {
     constexpr double kStep = 1.0 / kLatticeSteps;
     const Place pa{a.x * kStep, a.y * kStep}, pb{b.x * kStep, b.y * kStep}, pc{c.x * kStep, c.y * kStep};
     top = pa;
@@ -101,9 +128,10 @@ struct TriangleError::Task {
     base_y = static_cast<float>(pa.y);
     plane = ScanPlane::spanned(
         a.z, {pb.x - pa.x, pb.y - pa.y, pc.x - pa.x, pc.y - pa.y, double{b.z} - double{a.z}, double{c.z} - double{a.z}},
-        threshold);
+        limit);
     doubt = scan_floor(threshold, plane.guard);
-    cut = static_cast<float>(threshold + double{plane.guard});
+    certain = static_cast<float>(threshold + double{plane.guard});
+    cut = static_cast<float>(limit + double{plane.guard});
   }
 
   float row_height(std::int32_t y) const { return plane.slope_y * (static_cast<float>(y) - base_y); }
@@ -112,11 +140,14 @@ struct TriangleError::Task {
   }
 };
 
-TriangleError::TriangleError(const Raster& raster, Point first, double threshold)
+TriangleError::TriangleError(const Raster& raster, Point first, double threshold, const ErrorRule& rule)
     : raster_(raster),
       first_(first),
       threshold_(threshold),
-      per_square_(threshold > 0x1p-60 && threshold < 0x1p60 ? static_cast<float>(1 / (threshold * threshold)) : 0),
+      limit_(rule.slack * threshold),
+      power_(rule.power),
+      per_threshold_(threshold > 0x1p-60 && threshold < 0x1p60 ? static_cast<float>(1 / threshold) : 0),
+      per_square_(per_threshold_ > 0 ? static_cast<float>(1 / (threshold * threshold)) : 0),
       end_(raster.row(raster.rows)) {}
 
 /// Calls row(y, first, last) for each row with samples, top down, until it answers false; whether it never did.
@@ -151,14 +182,15 @@ struct TriangleError::Scan {
   const Task& task;
   const float* end;  // of the samples
   Floats slope, height;
-  Sums sums;
   int rows = 0;
 
   Scan(const Task& of, const float* samples_end)
       : task(of), end(samples_end), slope(all(of.plane.slope_x)), height(all(of.plane.height)) {}
 
-  /// `samples`: the row, from its first sample in the window.
-  void add_row(const float* samples, std::int32_t y, std::int32_t first, std::int32_t last) {
+  /// Calls visit(left, low, low_meant, high, high_meant) for each eight samples: the first four's offset from the base,
+  /// errors, and which are meant. `samples`: the row, from its first sample in the window.
+  template <class Visit>
+  void each_eight(const float* samples, std::int32_t y, std::int32_t first, std::int32_t last, const Visit& visit) {
     const Floats row = all(task.row_height(y));
     for (std::int32_t x = first; x <= last; x += kLanes) {
       const RowSamples eight(samples + x, end);
@@ -168,7 +200,7 @@ struct TriangleError::Scan {
       const Masks counts{count, count, count, count};
       const Floats low = (slope * left + row) - (load(eight.from) - height);
       const Floats high = (slope * right + row) - (load(eight.from + 4) - height);
-      sums.add(magnitudes(low, Masks{0, 1, 2, 3} < counts), magnitudes(high, Masks{4, 5, 6, 7} < counts));
+      visit(left, low, Masks{0, 1, 2, 3} < counts, high, Masks{4, 5, 6, 7} < counts);
     }
     ++rows;
   }
@@ -178,32 +210,89 @@ struct TriangleError::Scan {
 TriangleError::Verdict TriangleError::judge(const FitCorner& a, const FitCorner& b, const FitCorner& c,
                                             float energy_limit) const {
   if (holds_corners_only(a, b, c)) return judge_corners({a, b, c}, energy_limit);
-  const Task task(a, b, c, threshold_);
+  return power_ == ErrorRule::Power::kTwo ? judge_by<Squares>(a, b, c, energy_limit)
+                                          : judge_by<EighthPowers>(a, b, c, energy_limit);
+}
+
+template <class Sums>
+TriangleError::Verdict TriangleError::judge_by(const FitCorner& a, const FitCorner& b, const FitCorner& c,
+                                               float energy_limit) const {
+  const Task task(a, b, c, threshold_, limit_);
   Scan scan(task, end_);
+  Sums sums;
   Verdict verdict;
+  const auto add = [&](Floats, Floats low, Masks low_meant, Floats high, Masks high_meant) {
+    sums.add(magnitudes(low, low_meant), magnitudes(high, high_meant), per_square_);
+  };
   const bool is_whole = each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
-    scan.add_row(raster_.row(first_.y + y) + first_.x, y, first, last);
-    if (scan.sums.exceeds(task.cut)) {
+    scan.each_eight(raster_.row(first_.y + y) + first_.x, y, first, last, add);
+    if (sums.exceeds(task.cut)) {
       verdict.kind = Verdict::Kind::kBreaks;
       verdict.witness = find_worst(task, y, first, last);
       return false;
     }
-    if (scan.is_time_to_look() && scan.sums.squares() * per_square_ >= energy_limit) {
+    if (scan.is_time_to_look() && sums.energy(per_square_) >= energy_limit) {
       verdict.kind = Verdict::Kind::kCostly;
       return false;
     }
     return true;
   });
   if (!is_whole) return verdict;
-  verdict.worst = scan.sums.largest();
-  verdict.energy = scan.sums.squares() * per_square_;
-  const bool in_doubt = verdict.worst > task.doubt || double{task.plane.guard} > threshold_;
+  verdict.worst = sums.largest();
+  verdict.energy = sums.energy(per_square_);
   if (verdict.energy >= energy_limit) {
     verdict.kind = Verdict::Kind::kCostly;
-  } else if (in_doubt && !settle(task, verdict)) {
+  } else if (!decide(task, verdict) && limit_ == threshold_) {
     verdict.kind = Verdict::Kind::kBreaks;
   }
   return verdict;
+}
+
+/// Whether the triangle keeps the threshold; moves `worst` to the side of it where it belongs.
+bool TriangleError::decide(const Task& task, Verdict& verdict) const {
+  const bool in_doubt = verdict.worst > task.doubt || double{task.plane.guard} > threshold_;
+  const bool keeps = !(verdict.worst > task.certain) && (!in_doubt || settle(task, verdict));
+  auto nearest = static_cast<float>(threshold_);
+  if (keeps) {
+    if (double{nearest} > threshold_) nearest = std::nextafter(nearest, 0.0f);
+    verdict.worst = std::min(verdict.worst, nearest);
+  } else {
+    if (double{nearest} <= threshold_) nearest = std::nextafter(nearest, std::numeric_limits<float>::infinity());
+    verdict.worst = std::max(verdict.worst, nearest);
+  }
+  return keeps;
+}
+
+TriangleError::Pull TriangleError::pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
+  const Task task(a, b, c, threshold_, limit_);
+  constexpr double kStep = 1.0 / kLatticeSteps;
+  const ScanPlane weight = ScanPlane::spanned(
+      1, {(b.x - a.x) * kStep, (b.y - a.y) * kStep, (c.x - a.x) * kStep, (c.y - a.y) * kStep, -1, -1}, 0);
+  Scan scan(task, end_);
+  Floats stiffness{}, push{};
+  each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    const Floats row = all(1 + weight.slope_y * (static_cast<float>(y) - task.base_y));
+    const auto add = [&](Floats offset, Floats error, Masks meant) {
+      const Floats t = magnitudes(error, meant) * all(per_threshold_), share = row + all(weight.slope_x) * offset;
+      const Floats t2 = t * t, t6 = t2 * t2 * t2, signed_t = error < 0.0f ? -t : t;
+      stiffness += t6 * share * share;
+      push += t6 * signed_t * share;
+    };
+    scan.each_eight(raster_.row(first_.y + y) + first_.x, y, first, last,
+                    [&](Floats left, Floats low, Masks low_meant, Floats high, Masks high_meant) {
+                      add(left, low, low_meant);
+                      add(left + all(4), high, high_meant);
+                    });
+    return true;
+  });
+  return {(double{stiffness[0]} + stiffness[2]) + (double{stiffness[1]} + stiffness[3]),
+          (double{push[0]} + push[2]) + (double{push[1]} + push[3]), double{task.plane.slope_x} / threshold_,
+          double{task.plane.slope_y} / threshold_};
+}
+
+float TriangleError::energy_of(float error) const {
+  const float square = error * error * per_square_;
+  return power_ == ErrorRule::Power::kTwo ? square : square * square * (square * square);
 }
 
 /// REQUIRES: corners are samples' places, and no other sample lies in the triangle.
@@ -213,13 +302,13 @@ TriangleError::Verdict TriangleError::judge_corners(const std::array<FitCorner, 
     const Point at{corner.x / kLatticeSteps, corner.y / kLatticeSteps};
     const double error = std::abs(double{corner.z} - double{height_at(at)});
     if (std::isnan(error)) continue;
-    if (error > threshold_) {
+    if (error > limit_) {
       verdict.kind = Verdict::Kind::kBreaks;
       verdict.witness = at;
       return verdict;
     }
     verdict.worst = std::max(verdict.worst, static_cast<float>(error));
-    verdict.energy += static_cast<float>(error * error) * per_square_;
+    verdict.energy += energy_of(static_cast<float>(error));
   }
   if (verdict.energy >= energy_limit) verdict.kind = Verdict::Kind::kCostly;
   return verdict;

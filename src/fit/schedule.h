@@ -1,0 +1,24 @@
+// Which vertices are removed with repair, and in which order.
+//
+// As in removal (removal.h) the cheapest goes first, its price the rise of energy of the best triangulation of its
+// ring, but with the slack of repair and with Σ t⁸, which weighs what is near the bound. A successful repair makes the
+// prices of all corners of changed triangles stale. Before, one sweep of flips and steps over the whole patch, under
+// the bound itself, puts vertices and edges where removal wants them: without it a second round would find what the
+// first left.
+#pragma once
+
+#include "fit/patch.h"
+#include "fit/triangle_error.h"
+
+namespace scarp {
+
+struct RepairCounts {
+  std::uint64_t removed = 0;  ///< vertices
+  std::uint64_t tried = 0;    ///< removals that were begun
+};
+
+/// Removes vertices of the patch, with at most `depth` rounds of repair for each.
+/// REQUIRES: every triangle of the patch keeps the threshold of `error`, which has energies.
+RepairCounts repair_vertices(Patch& patch, const TriangleError& error, int depth);
+
+}  // namespace scarp
