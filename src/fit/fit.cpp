@@ -31,22 +31,23 @@ class Rounds {
   Rounds(const Raster& raster, Triangulation tin, const FitOptions& options)
       : raster_(raster),
         options_(options),
-        fitted_{std::move(tin), {}},
+        fitted_{std::move(tin), {}, {}},
         settled_(fitted_.tin.vertex_count(), 0),
         scratch_(static_cast<std::size_t>(thread_count(options.threads))),
         windows_(scratch_.size()) {}
 
   /// Of removal.
   void run(const PatchGrid& grid) {
-    work_on(grid, [this](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
+    work_on(grid, 1, [this](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
       return remove(patch, vertices, error);
     });
   }
 
   /// Of removal with repair.
-  void repair(const PatchGrid& grid) {
-    work_on(grid, [this](Patch& patch, const std::vector<Vertex>&, const TriangleError& error) {
-      const RepairCounts counts = repair_vertices(patch, error, options_.repair_depth);
+  void repair(const PatchGrid& grid, Freedom freedom) {
+    const std::int32_t steps = freedom == Freedom::kLattice ? kLatticeSteps : 1;
+    work_on(grid, steps, [this, freedom](Patch& patch, const std::vector<Vertex>&, const TriangleError& error) {
+      const RepairCounts counts = repair_vertices(patch, error, {options_.repair_depth, freedom});
       return FitCounts{counts.removed, 0, counts.removed, counts.tried};
     });
   }
@@ -54,10 +55,10 @@ class Rounds {
   Fitted finish() { return std::move(fitted_); }
 
  private:
-  /// Cuts, lets work(patch, vertices, error) count what it does to each patch, and joins.
+  /// Cuts, lets work(patch, vertices, error) count what it does to each patch, and joins, to places of so many steps.
   template <class Work>
-  void work_on(const PatchGrid& grid, const Work& work) {
-    const PatchCutter cutter(raster_, fitted_.tin, grid, options_.sides_are_free, options_.threads);
+  void work_on(const PatchGrid& grid, std::int32_t steps, const Work& work) {
+    const PatchCutter cutter(raster_, fitted_.tin, fitted_.places, grid, options_.sides_are_free, options_.threads);
     std::vector<Patch> patches(cutter.count());
     std::vector<std::vector<Vertex>> vertices(cutter.count());
     counts_.assign(cutter.count(), {});
@@ -75,9 +76,11 @@ class Rounds {
       fitted_.counts.tried += counts.tried;
     }
     std::vector<Vertex> numbers;
-    Triangulation joined = cutter.join(std::move(patches), vertices, numbers);
+    VertexPlaces places{steps, {}};
+    Triangulation joined = cutter.join(std::move(patches), vertices, numbers, places);
     renumber(numbers, joined.vertex_count());
     fitted_.tin = std::move(joined);
+    fitted_.places = std::move(places);
   }
 
   /// A vertex that is free in one patch is in no other, so patches write to places of their own.
@@ -118,8 +121,10 @@ Fitted fit(const Raster& raster, Triangulation tin, const FitOptions& options) {
   const bool is_cut = side < std::max(raster.cols, raster.rows);
   if (is_cut) rounds.run({side, side / 2});
   const bool has_energies = options.threshold > 0x1p-60 && options.threshold < 0x1p60;
+  const bool has_room = std::max(raster.cols, raster.rows) <= kMaxCoordinate / kLatticeSteps;
+  const Freedom freedom = options.vertices_are_free && has_room ? Freedom::kLattice : Freedom::kSamples;
   for (int round = 0; has_energies && round < options.repair_rounds; ++round)
-    rounds.repair({side, is_cut && round % 2 == 1 ? side / 2 : 0});
+    rounds.repair({side, is_cut && round % 2 == 1 ? side / 2 : 0}, freedom);
   return rounds.finish();
 }
 

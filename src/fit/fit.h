@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "fit/cut.h"
 #include "grid/raster.h"
 #include "tin/triangulation.h"
 
@@ -20,7 +21,9 @@ struct FitOptions {
   /// After removal: rounds over all vertices of removal with repair (schedule.h). Vertices are then other samples than
   /// before.
   int repair_rounds = 0;
-  int repair_depth = 4;         ///< rounds of repair for one vertex
+  int repair_depth = 4;  ///< rounds of repair for one vertex
+  /// Repair may put vertices between samples, on the lattice of fitting, and at heights of their own.
+  bool vertices_are_free = false;
   std::int32_t patch_side = 0;  ///< in samples; 0: squares of kPatchTriangles, one for small meshes
 };
 
@@ -38,6 +41,9 @@ struct FitCounts {
 struct Fitted {
   Triangulation tin;
   FitCounts counts;
+  /// Steps of kLatticeSteps, and heights, if vertices were let free; else they are samples. Heights may leave the
+  /// range of the samples by about the threshold.
+  VertexPlaces places;
 };
 
 /// A triangulation of some of the vertices with the same domain and constraints, whose triangles keep the threshold at

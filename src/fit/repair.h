@@ -25,8 +25,8 @@ inline constexpr double kRepairSlack = 1.5;
 class Repair {
  public:
   /// `loose`: with the slack that repair begins with; `rounds`: of steps and flips. Patch and errors stay alive.
-  Repair(Patch& patch, const TriangleError& loose, int rounds)
-      : patch_(patch), loose_(loose), rounds_(rounds), flips_(patch), step_(patch) {}
+  Repair(Patch& patch, const TriangleError& loose, int rounds, Freedom freedom)
+      : patch_(patch), loose_(loose), rounds_(rounds), flips_(patch), step_(patch, freedom) {}
 
   /// Removes v, whose star is given, for these triangles of its ring; false, and nothing has changed, where the bound
   /// cannot be repaired. REQUIRES: every triangle of the patch keeps the bound, energies are known.

@@ -14,12 +14,13 @@ using Id = Patch::Id;
 
 class Schedule {
  public:
-  Schedule(Patch& patch, const TriangleError& error, int depth)
+  Schedule(Patch& patch, const TriangleError& error, const RepairOptions& options)
       : patch_(patch),
         strict_(error.with({1, ErrorRule::Power::kEight})),
         loose_(error.with({kRepairSlack, ErrorRule::Power::kEight})),
         search_(loose_),
-        repair_(patch, loose_, depth),
+        freedom_(options.freedom),
+        repair_(patch, loose_, options.depth, options.freedom),
         notes_(patch.node_count()),
         queue_(patch.node_count()) {}
 
@@ -60,7 +61,7 @@ class Schedule {
 
   void sweep() {
     Flips flips(patch_);
-    VertexStep step(patch_);
+    VertexStep step(patch_, freedom_);
     for (Id f = 0; f < patch_.face_count(); ++f) {
       if (patch_.face(f).corners[0] == kNone) continue;
       for (unsigned edge = 0; edge < 3; ++edge) flips.improve(strict_, f, edge);
@@ -120,6 +121,7 @@ class Schedule {
   Patch& patch_;
   TriangleError strict_, loose_;
   RingSearch search_;
+  Freedom freedom_;
   Repair repair_;
   std::vector<Note> notes_;
   LazyQueue queue_;
@@ -131,8 +133,8 @@ class Schedule {
 
 }  // namespace
 
-RepairCounts repair_vertices(Patch& patch, const TriangleError& error, int depth) {
-  return Schedule(patch, error, depth).run();
+RepairCounts repair_vertices(Patch& patch, const TriangleError& error, const RepairOptions& options) {
+  return Schedule(patch, error, options).run();
 }
 
 }  // namespace scarp

@@ -9,16 +9,22 @@
 
 #include "fit/patch.h"
 #include "fit/triangle_error.h"
+#include "fit/vertex_step.h"
 
 namespace scarp {
+
+struct RepairOptions {
+  int depth = 4;  ///< rounds of repair for one vertex
+  Freedom freedom = Freedom::kSamples;
+};
 
 struct RepairCounts {
   std::uint64_t removed = 0;  ///< vertices
   std::uint64_t tried = 0;    ///< removals that were begun
 };
 
-/// Removes vertices of the patch, with at most `depth` rounds of repair for each.
+/// Removes vertices of the patch.
 /// REQUIRES: every triangle of the patch keeps the threshold of `error`, which has energies.
-RepairCounts repair_vertices(Patch& patch, const TriangleError& error, int depth);
+RepairCounts repair_vertices(Patch& patch, const TriangleError& error, const RepairOptions& options);
 
 }  // namespace scarp

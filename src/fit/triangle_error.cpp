@@ -32,11 +32,12 @@ bool any(Masks mask) {
   return (words[0] | words[1]) != 0;
 }
 
+/// Four values; 0 where they are not meant.
+Floats kept(Floats values, Masks meant) { return reinterpret_cast<Floats>(reinterpret_cast<Masks>(values) & meant); }
 /// Four errors' magnitudes; 0 where they are not meant, and where the sample is void: NaN is not equal to itself.
 Floats magnitudes(Floats errors, Masks meant) {
   constexpr std::int32_t kAllButSign = 0x7fffffff;
-  const Masks kept = meant & (errors == errors) & Masks{kAllButSign, kAllButSign, kAllButSign, kAllButSign};
-  return reinterpret_cast<Floats>(reinterpret_cast<Masks>(errors) & kept);
+  return kept(errors, meant & (errors == errors) & Masks{kAllButSign, kAllButSign, kAllButSign, kAllButSign});
 }
 
 /// Adds up lanes, in an order that is part of the result.
@@ -44,6 +45,8 @@ float sum_of(Floats low, Floats high) {
   const Floats s = low + high;
   return std::min((s[0] + s[2]) + (s[1] + s[3]), std::numeric_limits<float>::max());
 }
+
+double exact_sum_of(Floats s) { return (double{s[0]} + s[2]) + (double{s[1]} + s[3]); }
 
 /// Largest error, lane by lane.
 struct Largest {
@@ -169,6 +172,19 @@ bool TriangleError::each_row(const Task& task, const Row& row) {
 
 namespace {
 
+/// A triangle as exact arithmetic wants it.
+struct Outline {
+  std::array<Point, 3> corners;
+  std::array<float, 3> heights;
+
+  explicit Outline(const std::array<FitCorner, 3>& of) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = {of[k].x, of[k].y};
+      heights[k] = of[k].z;
+    }
+  }
+};
+
 /// By Pick's theorem: the smallest triangle whose corners are samples.
 bool holds_corners_only(const FitCorner& a, const FitCorner& b, const FitCorner& c) {
   if (((a.x | a.y | b.x | b.y | c.x | c.y) & (kLatticeSteps - 1)) != 0) return false;
@@ -248,10 +264,16 @@ TriangleError::Verdict TriangleError::judge_by(const FitCorner& a, const FitCorn
   return verdict;
 }
 
-/// Whether the triangle keeps the threshold; moves `worst` to the side of it where it belongs.
+/// Whether the triangle keeps the threshold; `worst` is brought into line.
 bool TriangleError::decide(const Task& task, Verdict& verdict) const {
   const bool in_doubt = verdict.worst > task.doubt || double{task.plane.guard} > threshold_;
   const bool keeps = !(verdict.worst > task.certain) && (!in_doubt || settle(task, verdict));
+  take_side(keeps, verdict);
+  return keeps;
+}
+
+/// Moves `worst` to the side of the threshold where it belongs.
+void TriangleError::take_side(bool keeps, Verdict& verdict) const {
   auto nearest = static_cast<float>(threshold_);
   if (keeps) {
     if (double{nearest} > threshold_) nearest = std::nextafter(nearest, 0.0f);
@@ -260,34 +282,61 @@ bool TriangleError::decide(const Task& task, Verdict& verdict) const {
     if (double{nearest} <= threshold_) nearest = std::nextafter(nearest, std::numeric_limits<float>::infinity());
     verdict.worst = std::max(verdict.worst, nearest);
   }
-  return keeps;
 }
 
-TriangleError::Pull TriangleError::pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
-  const Task task(a, b, c, threshold_, limit_);
+/// Calls add(t, λ) for each four samples: errors in thresholds, and weights of the first corner; both 0
+/// where none is meant.
+template <class Add>
+void TriangleError::each_residual(const Task& task, const std::array<FitCorner, 3>& corners, const Add& add) const {
+  const auto& [a, b, c] = corners;
   constexpr double kStep = 1.0 / kLatticeSteps;
   const ScanPlane weight = ScanPlane::spanned(
       1, {(b.x - a.x) * kStep, (b.y - a.y) * kStep, (c.x - a.x) * kStep, (c.y - a.y) * kStep, -1, -1}, 0);
   Scan scan(task, end_);
-  Floats stiffness{}, push{};
   each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     const Floats row = all(1 + weight.slope_y * (static_cast<float>(y) - task.base_y));
-    const auto add = [&](Floats offset, Floats error, Masks meant) {
-      const Floats t = magnitudes(error, meant) * all(per_threshold_), share = row + all(weight.slope_x) * offset;
-      const Floats t2 = t * t, t6 = t2 * t2 * t2, signed_t = error < 0.0f ? -t : t;
-      stiffness += t6 * share * share;
-      push += t6 * signed_t * share;
+    const auto give = [&](Floats offset, Floats error, Masks meant) {
+      const Floats share = row + all(weight.slope_x) * offset;
+      const Masks counts = meant & (error == error);
+      add(kept(error, counts) * all(per_threshold_), kept(share, counts));
     };
     scan.each_eight(raster_.row(first_.y + y) + first_.x, y, first, last,
                     [&](Floats left, Floats low, Masks low_meant, Floats high, Masks high_meant) {
-                      add(left, low, low_meant);
-                      add(left + all(4), high, high_meant);
+                      give(left, low, low_meant);
+                      give(left + all(4), high, high_meant);
                     });
     return true;
   });
-  return {(double{stiffness[0]} + stiffness[2]) + (double{stiffness[1]} + stiffness[3]),
-          (double{push[0]} + push[2]) + (double{push[1]} + push[3]), double{task.plane.slope_x} / threshold_,
+}
+
+TriangleError::Pull TriangleError::pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
+  const Task task(a, b, c, threshold_, limit_);
+  Floats stiffness{}, push{};
+  each_residual(task, {a, b, c}, [&](Floats t, Floats share) {
+    const Floats t2 = t * t, t6_share = t2 * t2 * t2 * share;
+    stiffness += t6_share * share;
+    push += t6_share * t;
+  });
+  return {exact_sum_of(stiffness), exact_sum_of(push), double{task.plane.slope_x} / threshold_,
           double{task.plane.slope_y} / threshold_};
+}
+
+void TriangleError::add_moments(const FitCorner& a, const FitCorner& b, const FitCorner& c, Moments& moments) const {
+  const Task task(a, b, c, threshold_, limit_);
+  std::array<Floats, 9> sums{};
+  each_residual(task, {a, b, c}, [&](Floats t, Floats share) {
+    const Floats t2 = t * t, t4 = t2 * t2, share2 = share * share, share4 = share2 * share2, both = t * share;
+    sums[0] += t4 * t4;
+    sums[1] += t4 * t2 * both;
+    sums[2] += t4 * t2 * share2;
+    sums[3] += t4 * both * share2;
+    sums[4] += t4 * share4;
+    sums[5] += t2 * both * share4;
+    sums[6] += t2 * share4 * share2;
+    sums[7] += both * share4 * share2;
+    sums[8] += share4 * share4;
+  });
+  for (std::size_t k = 0; k < sums.size(); ++k) moments[k] += exact_sum_of(sums[k]);
 }
 
 float TriangleError::energy_of(float error) const {
@@ -297,31 +346,32 @@ float TriangleError::energy_of(float error) const {
 
 /// REQUIRES: corners are samples' places, and no other sample lies in the triangle.
 TriangleError::Verdict TriangleError::judge_corners(const std::array<FitCorner, 3>& corners, float energy_limit) const {
+  const Outline outline(corners);
   Verdict verdict;
+  bool keeps = true;
   for (const FitCorner& corner : corners) {
     const Point at{corner.x / kLatticeSteps, corner.y / kLatticeSteps};
-    const double error = std::abs(double{corner.z} - double{height_at(at)});
-    if (std::isnan(error)) continue;
-    if (error > limit_) {
-      verdict.kind = Verdict::Kind::kBreaks;
-      verdict.witness = at;
-      return verdict;
+    const float sample = height_at(at), error = std::abs(corner.z - sample);
+    if (corner.z == sample || std::isnan(error)) continue;
+    if (exceeds_exactly(outline.corners, outline.heights, {corner.x, corner.y}, sample, threshold_)) {
+      keeps = false;
+      if (limit_ == threshold_ || double{error} > limit_) {
+        verdict.kind = Verdict::Kind::kBreaks;
+        verdict.witness = at;
+        return verdict;
+      }
     }
-    verdict.worst = std::max(verdict.worst, static_cast<float>(error));
-    verdict.energy += energy_of(static_cast<float>(error));
+    verdict.worst = std::max(verdict.worst, error);
+    verdict.energy += energy_of(error);
   }
+  take_side(keeps, verdict);
   if (verdict.energy >= energy_limit) verdict.kind = Verdict::Kind::kCostly;
   return verdict;
 }
 
 /// Decides in exact arithmetic about the samples that rounding leaves in doubt; false where one breaks the threshold.
 bool TriangleError::settle(const Task& task, Verdict& verdict) const {
-  std::array<Point, 3> corners;
-  std::array<float, 3> heights;
-  for (std::size_t k = 0; k < 3; ++k) {
-    corners[k] = {task.corners[k].x, task.corners[k].y};
-    heights[k] = task.corners[k].z;
-  }
+  const Outline outline(task.corners);
   const bool all_in_doubt = double{task.plane.guard} > threshold_;
   return each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     const float row = task.row_height(y);
@@ -329,7 +379,8 @@ bool TriangleError::settle(const Task& task, Verdict& verdict) const {
       const float sample = height_at({x, y});
       if (std::isnan(sample) || (!all_in_doubt && !(task.error(x, row, sample) > task.doubt))) continue;
       verdict.witness = {x, y};
-      if (exceeds_exactly(corners, heights, {x * kLatticeSteps, y * kLatticeSteps}, sample, threshold_)) return false;
+      if (exceeds_exactly(outline.corners, outline.heights, {x * kLatticeSteps, y * kLatticeSteps}, sample, threshold_))
+        return false;
     }
     return true;
   });

@@ -73,6 +73,12 @@ class TriangleError {
   /// REQUIRES: (a, b, c) positive, has_energy(). Cost: as judge().
   Pull pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const;
 
+  /// What the energy Σ t⁸ becomes when corner a rises by d thresholds: Σ over k of C(8, k)·moments[k]·dᵏ,
+  /// moments[k] = Σ t⁸⁻ᵏ λᵏ.
+  using Moments = std::array<double, 9>;
+  /// Adds a triangle's. REQUIRES, cost: as pull().
+  void add_moments(const FitCorner& a, const FitCorner& b, const FitCorner& c, Moments& moments) const;
+
   double threshold() const { return threshold_; }
   double limit() const { return limit_; }  ///< slack × threshold
   bool has_energy() const { return per_threshold_ > 0; }
@@ -84,11 +90,14 @@ class TriangleError {
   struct Scan;
   template <class Row>
   static bool each_row(const Task& task, const Row& row);
+  template <class Add>
+  void each_residual(const Task& task, const std::array<FitCorner, 3>& corners, const Add& add) const;
   template <class Sums>
   Verdict judge_by(const FitCorner& a, const FitCorner& b, const FitCorner& c, float energy_limit) const;
   Verdict judge_corners(const std::array<FitCorner, 3>& corners, float energy_limit) const;
   float energy_of(float error) const;
   bool decide(const Task& task, Verdict& verdict) const;
+  void take_side(bool keeps, Verdict& verdict) const;
   bool settle(const Task& task, Verdict& verdict) const;
   Point find_worst(const Task& task, std::int32_t y, std::int32_t first, std::int32_t last) const;
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/height_step.h"
+
 namespace scarp {
 
 namespace {
@@ -12,12 +14,69 @@ constexpr float kGain = 2e-3f;
 /// Lengths of a step: times Newton's, but at most this share of the mean edge.
 constexpr std::array<double, 3> kLengths{1.5, 0.45, 0.12};
 constexpr std::array<double, 3> kReaches{0.4, 0.12, 0.032};
-/// Keeps the system solvable where the samples say nothing about a direction.
-constexpr double kDamping = 1e-3;
 
 Point sample_at(const FitCorner& corner) { return {corner.x / kLatticeSteps, corner.y / kLatticeSteps}; }
 
-/// The nearest sample in the direction of a step that is too short for one.
+/// Between samples, by bilinear interpolation; NaN beside a void.
+float terrain_height(const TriangleError& error, const Patch::Window& window, const FitCorner& place) {
+  const Point p = sample_at(place);
+  const Point q{std::min(p.x + 1, window.cols - 1), std::min(p.y + 1, window.rows - 1)};
+  const float x = static_cast<float>(place.x % kLatticeSteps) / kLatticeSteps;
+  const float y = static_cast<float>(place.y % kLatticeSteps) / kLatticeSteps;
+  const float above = error.height_at(p) * (1 - x) + error.height_at({q.x, p.y}) * x;
+  const float below = error.height_at({p.x, q.y}) * (1 - x) + error.height_at(q) * x;
+  return above * (1 - y) + below * y;
+}
+
+/// Σ A u uᵀ d = −Σ B u for d = (z, x, y).
+class NormalEquations {
+ public:
+  using Row = std::array<double, 3>;
+
+  void add(const TriangleError::Pull& pull, const Row& u) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      right_[i] -= pull.push * u[i];
+      for (std::size_t j = 0; j < 3; ++j) left_[i][j] += pull.stiffness * u[i] * u[j];
+    }
+  }
+  /// Keeps it solvable where the samples say nothing about a direction.
+  void damp() {
+    constexpr double kPlaces = 1e-3, kHeights = 1e-4;
+    const double damping = kPlaces * (left_[1][1] + left_[2][2]);
+    left_[0][0] *= 1 + kHeights;
+    left_[1][1] += damping;
+    left_[2][2] += damping;
+  }
+  void fix(std::size_t k) {
+    for (std::size_t i = 0; i < 3; ++i) left_[k][i] = left_[i][k] = 0;
+    left_[k][k] = 1;
+    right_[k] = 0;
+  }
+  /// By Cramer's rule; zeros where there is no solution.
+  Row solve() const {
+    const double det = determinant(left_);
+    if (!(std::abs(det) > 0)) return {};
+    Row solution;
+    for (std::size_t k = 0; k < 3; ++k) {
+      auto replaced = left_;
+      for (std::size_t i = 0; i < 3; ++i) replaced[i][k] = right_[i];
+      solution[k] = determinant(replaced) / det;
+    }
+    return solution;
+  }
+
+ private:
+  using Matrix = std::array<Row, 3>;
+  static double determinant(const Matrix& m) {
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  }
+
+  Matrix left_{};
+  Row right_{};
+};
+
+/// The nearest place in the direction of a step that is too short for one.
 Point unit_step(double x, double y) {
   const std::int32_t right = x > 0 ? 1 : -1, down = y > 0 ? 1 : -1;
   constexpr double kDiagonal = 0.4;
@@ -42,39 +101,28 @@ VertexStep::Vector VertexStep::terrain_slope(const TriangleError& error, const F
 }
 
 /// In samples; along the side for a vertex on one.
-VertexStep::Vector VertexStep::newton_step(const TriangleError& error, Patch::Id v) const {
-  const FitCorner& at = patch_.at(v);
-  const Vector terrain = terrain_slope(error, at);
-  double xx = 0, xy = 0, yy = 0, bx = 0, by = 0;
+VertexStep::Vector VertexStep::newton_step(const TriangleError& error, const FitCorner& at) const {
+  const bool is_free = freedom_ == Freedom::kLattice;
+  const Vector terrain = is_free ? Vector{} : terrain_slope(error, at);
+  NormalEquations system;
   for (std::size_t i = 0; i < star_.faces.size(); ++i) {
-    const auto pull = error.pull(at, patch_.at(star_.ring[i]), patch_.at(star_.ring[(i + 1) % star_.ring.size()]));
-    const double ux = terrain.x - pull.slope_x, uy = terrain.y - pull.slope_y;
-    xx += pull.stiffness * ux * ux;
-    xy += pull.stiffness * ux * uy;
-    yy += pull.stiffness * uy * uy;
-    bx -= pull.push * ux;
-    by -= pull.push * uy;
+    const auto pull = error.pull(at, ring(i), ring(i + 1));
+    system.add(pull, {is_free ? 1.0 : 0.0, terrain.x - pull.slope_x, terrain.y - pull.slope_y});
   }
-  const double damping = kDamping * (xx + yy);
-  xx += damping;
-  yy += damping;
-  if (!star_.closed) {
-    const bool is_level = patch_.at(star_.ring.front()).y == at.y;
-    return is_level ? Vector{xx > 0 ? bx / xx : 0, 0} : Vector{0, yy > 0 ? by / yy : 0};
-  }
-  const double det = xx * yy - xy * xy;
-  if (!(det > 0)) return {};
-  return {(bx * yy - by * xy) / det, (by * xx - bx * xy) / det};
+  system.damp();
+  if (!is_free) system.fix(0);
+  if (!star_.closed) system.fix(ring(0).y == at.y ? 2 : 1);
+  const auto [z, x, y] = system.solve();
+  return {x, y};
 }
 
-double VertexStep::mean_edge(Patch::Id v) const {
-  const FitCorner& at = patch_.at(v);
+double VertexStep::mean_edge(const FitCorner& at) const {
   double sum = 0;
-  for (const Patch::Id u : star_.ring) {
-    const double x = patch_.at(u).x - at.x, y = patch_.at(u).y - at.y;
+  for (std::size_t i = 0; i < star_.ring.size(); ++i) {
+    const double x = ring(i).x - at.x, y = ring(i).y - at.y;
     sum += std::sqrt(x * x + y * y);
   }
-  return sum / (kLatticeSteps * static_cast<double>(star_.ring.size()));
+  return sum / static_cast<double>(star_.ring.size());
 }
 
 bool VertexStep::improve(const TriangleError& error, Patch::Id v) {
@@ -84,37 +132,54 @@ bool VertexStep::improve(const TriangleError& error, Patch::Id v) {
   float limit = 0;
   for (const Patch::Id f : star_.faces) limit += patch_.face(f).energy;
   limit *= 1 - kGain;
-  const Vector step = newton_step(error, v);
-  const double length = std::sqrt(step.x * step.x + step.y * step.y);
-  if (!(length > 0 && length < 1e9)) return false;
-  const double edge = mean_edge(v);
   const FitCorner from = patch_.at(v);
+  const Vector step = newton_step(error, from);
+  const double length = std::sqrt(step.x * step.x + step.y * step.y) * kLatticeSteps;
+  const std::int32_t unit = freedom_ == Freedom::kLattice ? 1 : kLatticeSteps;
+  const double edge = mean_edge(from);
   Point last{0, 0};
-  for (std::size_t i = 0; i < kLengths.size(); ++i) {
-    const double scale = std::min(kLengths[i], kReaches[i] * edge / length);
+  for (std::size_t i = 0; length > 0 && length < 1e9 && i < kLengths.size(); ++i) {
+    const double scale = std::min(kLengths[i], kReaches[i] * edge / length) * kLatticeSteps / unit;
     Point by{static_cast<std::int32_t>(std::lround(step.x * scale)),
              static_cast<std::int32_t>(std::lround(step.y * scale))};
     if (by == Point{0, 0}) by = unit_step(step.x, step.y);
     if (by == last) continue;
     last = by;
-    FitCorner to{from.x + by.x * kLatticeSteps, from.y + by.y * kLatticeSteps, 0};
-    if (try_place(error, v, to, limit)) return true;
+    FitCorner place{from.x + by.x * unit, from.y + by.y * unit, 0};
+    if (fits(place) && find_height(error, from, place, limit) && try_place(error, v, place, limit)) return true;
   }
-  return false;
+  if (freedom_ == Freedom::kSamples) return false;
+  FitCorner place = from;
+  return find_height(error, from, place, limit) && place.z != from.z && try_place(error, v, place, limit);
 }
 
-bool VertexStep::try_place(const TriangleError& error, Patch::Id v, const FitCorner& to, float limit) {
-  const std::size_t count = star_.ring.size();
-  const auto next = [&](std::size_t i) -> const FitCorner& { return patch_.at(star_.ring[(i + 1) % count]); };
+/// Whether the star's triangles stay positive.
+bool VertexStep::fits(const FitCorner& place) const {
   for (std::size_t i = 0; i < star_.faces.size(); ++i) {
-    if (area2(to, patch_.at(star_.ring[i]), next(i)) <= 0) return false;
+    if (area2(place, ring(i), ring(i + 1)) <= 0) return false;
   }
-  FitCorner place = to;
-  place.z = error.height_at(sample_at(to));
-  if (!(std::abs(place.z) <= kMaxScanHeight)) return false;
+  return true;
+}
+
+/// Gives the place its height; false where that cannot bring the energy below the limit.
+bool VertexStep::find_height(const TriangleError& error, const FitCorner& from, FitCorner& place, float limit) const {
+  if (freedom_ == Freedom::kSamples) {
+    place.z = error.height_at(sample_at(place));
+    return std::abs(place.z) <= kMaxScanHeight;
+  }
+  const float rise = terrain_height(error, patch_.window(), place) - terrain_height(error, patch_.window(), from);
+  place.z = std::isnan(rise) ? from.z : from.z + rise;
+  TriangleError::Moments moments{};
+  for (std::size_t i = 0; i < star_.faces.size(); ++i) error.add_moments(place, ring(i), ring(i + 1), moments);
+  const HeightStep best = best_height(moments);
+  place.z = static_cast<float>(double{place.z} + best.rise * error.threshold());
+  return best.energy < double{limit} && std::abs(place.z) <= kMaxScanHeight;
+}
+
+bool VertexStep::try_place(const TriangleError& error, Patch::Id v, FitCorner place, float limit) {
   verdicts_.clear();
   for (std::size_t i = 0; i < star_.faces.size(); ++i) {
-    verdicts_.push_back(error.judge(place, patch_.at(star_.ring[i]), next(i), limit));
+    verdicts_.push_back(error.judge(place, ring(i), ring(i + 1), limit));
     if (verdicts_.back().kind != TriangleError::Verdict::Kind::kKeeps) return false;
     limit -= verdicts_.back().energy;
   }

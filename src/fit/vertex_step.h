@@ -1,17 +1,19 @@
 // A step of one vertex to a better place, its neighbours held fast.
 //
-// Vertices are samples: the place decides the height. Moving a vertex by (dx, dy) along the terrain changes the
-// residual t (error / threshold) at a sample by λ·(s − g)·(dx, dy): λ the weight of the vertex at the sample, g the
-// slope of the triangle, s that of the terrain at the vertex. The energy Σ t⁸ is lowest where the Gauss–Newton system
+// Moving a vertex by (dz, dx, dy) changes the residual t (error / threshold) at a sample by λ·(dz − g·(dx, dy)): λ the
+// weight of the vertex at the sample, g the slope of the triangle. The energy Σ t⁸ is lowest where the Gauss–Newton
+// system
 //
-//   Σ_f A_f u_f u_fᵀ (dx, dy) = −Σ_f B_f u_f,   u_f = s − g_f,  A_f = Σ t⁶ λ²,  B_f = Σ t⁷ λ over the samples of f
+//   Σ_f A_f u_f u_fᵀ (dz, dx, dy) = −Σ_f B_f u_f,   u_f = (1, −g_f),  A_f = Σ t⁶ λ²,  B_f = Σ t⁷ λ over the samples of
+//   f
 //
-// says. The step is tried at three lengths, rounded to samples, and taken where the exact energy of the star falls.
-// Vertices on a side of the rectangle slide along it; locked ones stay.
+// says. Where vertices are samples the place decides the height: u_f = (0, s − g_f) with s the slope of the terrain.
+// The step is tried at three lengths, rounded to the lattice. At each place a free vertex gets its best height, which
+// is exact (height_step.h). The first place is taken at which the energy of the star falls; if there is none, a free
+// vertex may still rise or fall where it is. Vertices on a side of the rectangle slide along it; locked ones stay.
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "fit/patch.h"
@@ -19,26 +21,36 @@
 
 namespace scarp {
 
+/// Where vertices may be.
+enum class Freedom : std::uint8_t {
+  kSamples,  ///< on valid samples, at their heights
+  kLattice,  ///< on the lattice of fitting, at any height
+};
+
 class VertexStep {
  public:
   /// The patch stays alive.
-  explicit VertexStep(Patch& patch) : patch_(patch) {}
+  VertexStep(Patch& patch, Freedom freedom) : patch_(patch), freedom_(freedom) {}
 
   /// Moves v if a step lowers the energy of its star, every triangle of which the rule of `error` lets through; whether
   /// it did. REQUIRES: v is not removed, energies of its triangles are known. Cost: a scan of the star, and one for
-  /// each length that is tried, most of which end early.
+  /// each length that is tried, most of which end early; with free heights two.
   bool improve(const TriangleError& error, Patch::Id v);
 
  private:
   struct Vector {
     double x = 0, y = 0;
   };
+  const FitCorner& ring(std::size_t i) const { return patch_.at(star_.ring[i % star_.ring.size()]); }
   Vector terrain_slope(const TriangleError& error, const FitCorner& at) const;
-  Vector newton_step(const TriangleError& error, Patch::Id v) const;
-  double mean_edge(Patch::Id v) const;
-  bool try_place(const TriangleError& error, Patch::Id v, const FitCorner& to, float limit);
+  Vector newton_step(const TriangleError& error, const FitCorner& at) const;
+  double mean_edge(const FitCorner& at) const;
+  bool fits(const FitCorner& place) const;
+  bool find_height(const TriangleError& error, const FitCorner& from, FitCorner& place, float limit) const;
+  bool try_place(const TriangleError& error, Patch::Id v, FitCorner place, float limit);
 
   Patch& patch_;
+  Freedom freedom_;
   Patch::Star star_;
   std::vector<TriangleError::Verdict> verdicts_;
 };

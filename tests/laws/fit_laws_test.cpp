@@ -236,6 +236,11 @@ RC_GTEST_PROP(triangle_error, pulls_as_the_samples_do, ()) {
   const auto pull = error.pull(corners[0], corners[1], corners[2]);
   RC_ASSERT(std::abs(pull.stiffness - oracle.stiffness) <= 1e-2 * (1 + oracle.stiffness));
   RC_ASSERT(std::abs(pull.push - oracle.push) <= 1e-2 * (1 + oracle.eighth));
+  TriangleError::Moments moments{};
+  error.add_moments(corners[0], corners[1], corners[2], moments);
+  RC_ASSERT(std::abs(moments[0] - oracle.eighth) <= 1e-2 * (1 + oracle.eighth));
+  RC_ASSERT(std::abs(moments[1] - oracle.push) <= 1e-2 * (1 + oracle.eighth));
+  RC_ASSERT(std::abs(moments[2] - oracle.stiffness) <= 1e-2 * (1 + oracle.stiffness));
 }
 
 RC_GTEST_PROP(triangle_error, gives_up_only_where_the_energy_reaches_the_limit, ()) {

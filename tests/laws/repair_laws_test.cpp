@@ -2,15 +2,18 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <bit>
 #include <limits>
 #include <utility>
 
 #include "fit/cut.h"
 #include "fit/fit.h"
 #include "fit/flips.h"
+#include "fit/height_step.h"
 #include "fit/repair.h"
 #include "fit/ring_search.h"
 #include "fit/vertex_step.h"
+#include "geom/exact_error.h"
 #include "laws/fit_meshes.h"
 #include "laws/mesh_laws.h"
 #include "laws/tile_meshes.h"
@@ -71,6 +74,61 @@ RC_GTEST_PROP(repair, keeps_the_bound_the_domain_and_the_constraints, ()) {
   RC_ASSERT(fitted.counts.repaired <= fitted.counts.tried);
 }
 
+/// The first sample that breaks the bound by exact arithmetic, whose triangles have corners on the lattice.
+std::string find_broken_bound(const Field& field, const Fitted& fitted, double threshold) {
+  for (Triangle t = 0; t < fitted.tin.triangle_count(); ++t) {
+    if (fitted.tin.is_outside(t)) continue;
+    const std::array<Point, 3> corners = fitted.tin.corners(t);
+    std::array<float, 3> heights;
+    for (unsigned k = 0; k < 3; ++k) heights[k] = fitted.places.heights[fitted.tin.origin(3 * t + k)];
+    const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
+    const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+    for (Point s{left / kLatticeSteps, top / kLatticeSteps}; s.y * kLatticeSteps <= bottom; ++s.y) {
+      for (s.x = left / kLatticeSteps; s.x * kLatticeSteps <= right; ++s.x) {
+        const Point p{s.x * kLatticeSteps, s.y * kLatticeSteps};
+        bool inside = field.raster().is_valid(s);
+        for (unsigned k = 0; k < 3; ++k) inside = inside && orient(corners[k], corners[(k + 1) % 3], p) >= 0;
+        if (inside && exceeds_exactly(corners, heights, p, field.raster().at(s), threshold))
+          return fmt::format("sample ({}, {}) breaks the bound {}", s.x, s.y, threshold);
+      }
+    }
+  }
+  return "";
+}
+
+std::int32_t in_steps(std::int32_t side) { return (side - 1) * kLatticeSteps + 1; }
+
+RC_GTEST_PROP(repair, of_free_vertices_keeps_the_bound_the_domain_and_the_constraints, ()) {
+  const Field field = any_field();
+  const double threshold = *rc::gen::element(0.5, 1.0, 2.0, 7.3, 30.0, 1e6);
+  auto tin = refined(field, threshold);
+  RC_PRE(tin.has_value());
+  const std::size_t constraints = constraints_of(*tin).size(), vertices = tin->vertex_count();
+  const std::int64_t outside = testing::outside_area2(*tin);
+  const auto fitted = fit(field.raster(), std::move(*tin),
+                          {.threshold = threshold,
+                           .threads = 2,
+                           .repair_rounds = *rc::gen::inRange(1, 4),
+                           .repair_depth = *rc::gen::inRange(0, 7),
+                           .vertices_are_free = true,
+                           .patch_side = *rc::gen::element(0, 1, 5, 16, 40)});
+  RC_ASSERT(fitted.places.steps == kLatticeSteps);
+  RC_ASSERT(fitted.places.heights.size() == fitted.tin.vertex_count());
+  const std::string unsound =
+      testing::verify_triangulation(fitted.tin, in_steps(field.cols), in_steps(field.rows), testing::Edges::kAny);
+  RC_ASSERT(unsound == "");
+  const std::string broken = find_broken_bound(field, fitted, threshold);
+  RC_ASSERT(broken == "");
+  RC_ASSERT(testing::outside_area2(fitted.tin) == outside * kLatticeSteps * kLatticeSteps);
+  const auto left = constraints_of(fitted.tin);
+  RC_ASSERT(left.size() == constraints);
+  for (const auto& [p, q] : left) {
+    RC_ASSERT(p.first % kLatticeSteps == 0 && p.second % kLatticeSteps == 0);
+    RC_ASSERT(q.first % kLatticeSteps == 0 && q.second % kLatticeSteps == 0);
+  }
+  RC_ASSERT(fitted.tin.vertex_count() + fitted.counts.removed == vertices);
+}
+
 RC_GTEST_PROP(repair, leaves_the_sides_alone_where_they_are_not_free, ()) {
   const Field field = any_field();
   const double threshold = any_threshold();
@@ -82,17 +140,27 @@ RC_GTEST_PROP(repair, leaves_the_sides_alone_where_they_are_not_free, ()) {
   RC_ASSERT(side_vertices_of(fitted.tin, field) == sides);
 }
 
+bool have_same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](float x, float y) {
+           return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
+         });
+}
+
 RC_GTEST_PROP(repair, threads_change_nothing, ()) {
   const Field field = any_field();
   const double threshold = any_threshold();
   RC_PRE(refined(field, threshold).has_value());
-  FitOptions options{
-      .threshold = threshold, .threads = 1, .repair_rounds = 2, .patch_side = *rc::gen::element(3, 8, 16)};
+  FitOptions options{.threshold = threshold,
+                     .threads = 1,
+                     .repair_rounds = 2,
+                     .vertices_are_free = *rc::gen::arbitrary<bool>(),
+                     .patch_side = *rc::gen::element(3, 8, 16)};
   const auto first = fit(field.raster(), *refined(field, threshold), options);
   for (const int threads : {2, 7}) {
     options.threads = threads;
     const auto again = fit(field.raster(), *refined(field, threshold), options);
     RC_ASSERT(is_same(again.tin, first.tin));
+    RC_ASSERT(have_same_bits(again.places.heights, first.places.heights));
     RC_ASSERT(again.counts.tried == first.counts.tried);
   }
 }
@@ -103,11 +171,13 @@ TEST(repair, takes_a_quarter_of_what_removal_leaves) {
     for (int x = 0; x < field.cols; ++x)
       field.samples.push_back(static_cast<float>(std::sin(x * 0.11) * 40 + std::sin(y * 0.07 + x * 0.05) * 60));
   }
-  const auto triangles = [&](int rounds, std::int32_t side) {
-    const FitOptions options{.threshold = 3, .threads = 2, .repair_rounds = rounds, .patch_side = side};
+  const auto triangles = [&](int rounds, std::int32_t side, bool are_free = false) {
+    const FitOptions options{
+        .threshold = 3, .threads = 2, .repair_rounds = rounds, .vertices_are_free = are_free, .patch_side = side};
     return static_cast<double>(fit(field.raster(), *refined(field, 3), options).tin.triangle_count());
   };
   EXPECT_LT(triangles(2, 0), 0.75 * triangles(0, 0));
+  EXPECT_LT(triangles(2, 0, true), 0.9 * triangles(2, 0));
   EXPECT_LT(triangles(2, 80), 1.1 * triangles(2, 0));
 }
 
@@ -130,13 +200,15 @@ struct Bench {
   Field field = any_field();
   double threshold = *rc::gen::element(0.5, 1.0, 2.0, 7.3, 30.0);
   std::optional<Triangulation> tin = refined(field, threshold);
+  VertexPlaces places;
   Patch patch;
   std::vector<Vertex> vertices;
 
   bool cut() {
     if (!tin) return false;
     PatchCutter::Scratch scratch;
-    patch = PatchCutter(field.raster(), *tin, {std::max(field.cols, field.rows), 0}, true, 1).cut(0, scratch, vertices);
+    patch = PatchCutter(field.raster(), *tin, places, {std::max(field.cols, field.rows), 0}, true, 1)
+                .cut(0, scratch, vertices);
     return patch.face_count() > 0;
   }
   TriangleError errors(const ErrorRule& rule) const {
@@ -291,13 +363,14 @@ RC_GTEST_PROP(flips, lower_the_energy_and_keep_the_bound, ()) {
   RC_ASSERT(is_measured(bench.patch, error));
 }
 
-RC_GTEST_PROP(vertex_step, lowers_the_energy_keeps_the_bound_and_ends_on_a_sample, ()) {
+RC_GTEST_PROP(vertex_step, lowers_the_energy_keeps_the_bound_and_ends_where_vertices_may_be, ()) {
   Bench bench;
   RC_PRE(bench.cut());
   Patch& patch = bench.patch;
   const TriangleError error = bench.errors({1, ErrorRule::Power::kEight});
   for (Patch::Id f = 0; f < patch.face_count(); ++f) measure(patch, error, f);
-  VertexStep step(patch);
+  const auto freedom = *rc::gen::element(Freedom::kSamples, Freedom::kLattice);
+  VertexStep step(patch, freedom);
   for (Patch::Id v = 0; v < patch.node_count(); ++v) {
     const Picture before(patch);
     const FitCorner from = patch.at(v);
@@ -305,12 +378,34 @@ RC_GTEST_PROP(vertex_step, lowers_the_energy_keeps_the_bound_and_ends_on_a_sampl
     RC_ASSERT((moved ? rise_of_energy(patch, before) < 0 : Picture(patch) == before));
     const FitCorner& to = patch.at(v);
     RC_ASSERT(!moved || !patch.is_locked(v));
+    RC_ASSERT(moved == (to.x != from.x || to.y != from.y || to.z != from.z));
+    if (freedom == Freedom::kLattice) continue;
     RC_ASSERT(to.x % kLatticeSteps == 0 && to.y % kLatticeSteps == 0);
     RC_ASSERT(to.z == error.height_at({to.x / kLatticeSteps, to.y / kLatticeSteps}));
-    RC_ASSERT(moved == (to.x != from.x || to.y != from.y));
   }
   RC_ASSERT(verify(patch) == "");
   RC_ASSERT(is_measured(patch, error));
+}
+
+RC_GTEST_PROP(height_step, finds_the_lowest_energy, ()) {
+  std::vector<std::pair<double, double>> samples;
+  const auto count = *rc::gen::inRange(1, 20);
+  for (int i = 0; i < count; ++i)
+    samples.push_back({*rc::gen::inRange(-150, 150) / 100.0, *rc::gen::inRange(0, 100) / 100.0});
+  const auto energy_at = [&](double rise) {
+    double sum = 0;
+    for (const auto& [t, share] : samples) sum += std::pow(t + share * rise, 8);
+    return sum;
+  };
+  TriangleError::Moments moments{};
+  for (const auto& [t, share] : samples) {
+    for (std::size_t k = 0; k < moments.size(); ++k)
+      moments[k] += std::pow(t, 8 - static_cast<int>(k)) * std::pow(share, static_cast<int>(k));
+  }
+  const HeightStep best = best_height(moments);
+  RC_ASSERT(best.energy <= energy_at(0) * (1 + 1e-12));
+  RC_ASSERT(std::abs(best.energy - energy_at(best.rise)) <= 1e-6 * (1e-9 + energy_at(0)));
+  for (double rise = -4; rise <= 4; rise += 0.01) RC_ASSERT(best.energy <= energy_at(rise) + 1e-6 * energy_at(0));
 }
 
 }  // namespace
