@@ -3,50 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
-#include <utility>
 
+#include "fit/triangle_scan.h"
 #include "geom/exact_error.h"
-#include "geom/scan_kernels.h"
 
 namespace scarp {
 
 namespace {
-
-// Rows are looked at eight samples at a time, as two vectors of four: the width that every machine has. The order of
-// the sums is part of the result.
-using Floats = float __attribute__((vector_size(16)));
-using Masks = std::int32_t __attribute__((vector_size(16)));
-using Words = std::int64_t __attribute__((vector_size(16)));
-constexpr std::int32_t kLanes = 8;
-
-Floats load(const float* from) {
-  Floats four;
-  std::memcpy(&four, from, sizeof four);
-  return four;
-}
-Floats all(float value) { return Floats{value, value, value, value}; }
-bool any(Masks mask) {
-  const auto words = reinterpret_cast<Words>(mask);
-  return (words[0] | words[1]) != 0;
-}
-
-/// Four values; 0 where they are not meant.
-Floats kept(Floats values, Masks meant) { return reinterpret_cast<Floats>(reinterpret_cast<Masks>(values) & meant); }
-/// Four errors' magnitudes; 0 where they are not meant, and where the sample is void: NaN is not equal to itself.
-Floats magnitudes(Floats errors, Masks meant) {
-  constexpr std::int32_t kAllButSign = 0x7fffffff;
-  return kept(errors, meant & (errors == errors) & Masks{kAllButSign, kAllButSign, kAllButSign, kAllButSign});
-}
 
 /// Adds up lanes, in an order that is part of the result.
 float sum_of(Floats low, Floats high) {
   const Floats s = low + high;
   return std::min((s[0] + s[2]) + (s[1] + s[3]), std::numeric_limits<float>::max());
 }
-
-double exact_sum_of(Floats s) { return (double{s[0]} + s[2]) + (double{s[1]} + s[3]); }
 
 /// Largest error, lane by lane.
 struct Largest {
@@ -86,62 +56,7 @@ struct EighthPowers : Largest {
   float energy(float) const { return sum_of(low_sum, high_sum); }
 };
 
-/// Eight samples of a row from `samples` on, of which the first `count` are meant.
-struct RowSamples {
-  std::array<float, kLanes> copy;
-  const float* from;
-  RowSamples(const float* samples, const float* end) : from(samples) {
-    if (end - samples >= kLanes) return;
-    copy.fill(0);
-    std::copy(samples, end, copy.begin());
-    from = copy.data();
-  }
-};
-
-/// The crossing of an edge with a row is off by less than 2⁻³², and, where it is no whole number, at least 2⁻²⁵ away
-/// from one: a multiple of 1/(8·rows) for less than kMaxFitSteps rows of the lattice.
-constexpr double kOnSample = 0x1p-28;
-
-constexpr int kRowsPerLook = 4;  // between looks at the energy
-
 }  // namespace
-
-/// A triangle ready to be scanned: corners from top to bottom in samples, its plane.
-struct TriangleError::Task {
-  struct Place {
-    double x, y;
-  };
-  std::array<FitCorner, 3> corners;
-  Place top, middle, bottom;
-  float base_x, base_y;
-  ScanPlane plane;
-  float doubt, certain;  // computed errors up to `doubt` keep the threshold, above `certain` break it
-  float cut;             // above it they break the limit
-
-  Task(const FitCorner& a, const FitCorner& b, const FitCorner& c, double threshold, double limit) : corners{a, b, c} {
-    constexpr double kStep = 1.0 / kLatticeSteps;
-    const Place pa{a.x * kStep, a.y * kStep}, pb{b.x * kStep, b.y * kStep}, pc{c.x * kStep, c.y * kStep};
-    top = pa;
-    middle = pb;
-    bottom = pc;
-    if (middle.y < top.y) std::swap(top, middle);
-    if (bottom.y < top.y) std::swap(top, bottom);
-    if (bottom.y < middle.y) std::swap(middle, bottom);
-    base_x = static_cast<float>(pa.x);
-    base_y = static_cast<float>(pa.y);
-    plane = ScanPlane::spanned(
-        a.z, {pb.x - pa.x, pb.y - pa.y, pc.x - pa.x, pc.y - pa.y, double{b.z} - double{a.z}, double{c.z} - double{a.z}},
-        limit);
-    doubt = scan_floor(threshold, plane.guard);
-    certain = static_cast<float>(threshold + double{plane.guard});
-    cut = static_cast<float>(limit + double{plane.guard});
-  }
-
-  float row_height(std::int32_t y) const { return plane.slope_y * (static_cast<float>(y) - base_y); }
-  float error(std::int32_t x, float row, float sample) const {
-    return std::abs((plane.slope_x * (static_cast<float>(x) - base_x) + row) - (sample - plane.height));
-  }
-};
 
 TriangleError::TriangleError(const Raster& raster, Point first, double threshold, const ErrorRule& rule)
     : raster_(raster),
@@ -152,23 +67,6 @@ TriangleError::TriangleError(const Raster& raster, Point first, double threshold
       per_threshold_(threshold > 0x1p-60 && threshold < 0x1p60 ? static_cast<float>(1 / threshold) : 0),
       per_square_(per_threshold_ > 0 ? static_cast<float>(1 / (threshold * threshold)) : 0),
       end_(raster.row(raster.rows)) {}
-
-/// Calls row(y, first, last) for each row with samples, top down, until it answers false; whether it never did.
-template <class Row>
-bool TriangleError::each_row(const Task& task, const Row& row) {
-  const Task::Place top = task.top, middle = task.middle, bottom = task.bottom;
-  const double along = (bottom.x - top.x) / (bottom.y - top.y);
-  const double upper = middle.y > top.y ? (middle.x - top.x) / (middle.y - top.y) : 0;
-  const double lower = bottom.y > middle.y ? (bottom.x - middle.x) / (bottom.y - middle.y) : 0;
-  for (double y = std::ceil(top.y); y <= bottom.y; ++y) {
-    const double from = top.x + (y - top.y) * along;
-    const double to = y < middle.y ? top.x + (y - top.y) * upper : middle.x + (y - middle.y) * lower;
-    const auto first = static_cast<std::int32_t>(std::min(from, to) + (1 - kOnSample));
-    const auto last = static_cast<std::int32_t>(std::max(from, to) + kOnSample);
-    if (first <= last && !row(static_cast<std::int32_t>(y), first, last)) return false;
-  }
-  return true;
-}
 
 namespace {
 
@@ -193,36 +91,6 @@ bool holds_corners_only(const FitCorner& a, const FitCorner& b, const FitCorner&
 
 }  // namespace
 
-/// A scan on its way through the rows of a triangle.
-struct TriangleError::Scan {
-  const Task& task;
-  const float* end;  // of the samples
-  Floats slope, height;
-  int rows = 0;
-
-  Scan(const Task& of, const float* samples_end)
-      : task(of), end(samples_end), slope(all(of.plane.slope_x)), height(all(of.plane.height)) {}
-
-  /// Calls visit(left, low, low_meant, high, high_meant) for each eight samples: the first four's offset from the base,
-  /// errors, and which are meant. `samples`: the row, from its first sample in the window.
-  template <class Visit>
-  void each_eight(const float* samples, std::int32_t y, std::int32_t first, std::int32_t last, const Visit& visit) {
-    const Floats row = all(task.row_height(y));
-    for (std::int32_t x = first; x <= last; x += kLanes) {
-      const RowSamples eight(samples + x, end);
-      const float offset = static_cast<float>(x) - task.base_x;
-      const Floats left = all(offset) + Floats{0, 1, 2, 3}, right = all(offset) + Floats{4, 5, 6, 7};
-      const std::int32_t count = last - x + 1;
-      const Masks counts{count, count, count, count};
-      const Floats low = (slope * left + row) - (load(eight.from) - height);
-      const Floats high = (slope * right + row) - (load(eight.from + 4) - height);
-      visit(left, low, Masks{0, 1, 2, 3} < counts, high, Masks{4, 5, 6, 7} < counts);
-    }
-    ++rows;
-  }
-  bool is_time_to_look() const { return rows % kRowsPerLook == 0; }
-};
-
 TriangleError::Verdict TriangleError::judge(const FitCorner& a, const FitCorner& b, const FitCorner& c,
                                             float energy_limit) const {
   if (holds_corners_only(a, b, c)) return judge_corners({a, b, c}, energy_limit);
@@ -233,8 +101,8 @@ TriangleError::Verdict TriangleError::judge(const FitCorner& a, const FitCorner&
 template <class Sums>
 TriangleError::Verdict TriangleError::judge_by(const FitCorner& a, const FitCorner& b, const FitCorner& c,
                                                float energy_limit) const {
-  const Task task(a, b, c, threshold_, limit_);
-  Scan scan(task, end_);
+  const TriangleTask task(a, b, c, threshold_, limit_);
+  TriangleScan scan(task, end_);
   Sums sums;
   Verdict verdict;
   const auto add = [&](Floats, Floats low, Masks low_meant, Floats high, Masks high_meant) {
@@ -265,7 +133,7 @@ TriangleError::Verdict TriangleError::judge_by(const FitCorner& a, const FitCorn
 }
 
 /// Whether the triangle keeps the threshold; `worst` is brought into line.
-bool TriangleError::decide(const Task& task, Verdict& verdict) const {
+bool TriangleError::decide(const TriangleTask& task, Verdict& verdict) const {
   const bool in_doubt = verdict.worst > task.doubt || double{task.plane.guard} > threshold_;
   const bool keeps = !(verdict.worst > task.certain) && (!in_doubt || settle(task, verdict));
   take_side(keeps, verdict);
@@ -282,61 +150,6 @@ void TriangleError::take_side(bool keeps, Verdict& verdict) const {
     if (double{nearest} <= threshold_) nearest = std::nextafter(nearest, std::numeric_limits<float>::infinity());
     verdict.worst = std::max(verdict.worst, nearest);
   }
-}
-
-/// Calls add(t, λ) for each four samples: errors in thresholds, and weights of the first corner; both 0
-/// where none is meant.
-template <class Add>
-void TriangleError::each_residual(const Task& task, const std::array<FitCorner, 3>& corners, const Add& add) const {
-  const auto& [a, b, c] = corners;
-  constexpr double kStep = 1.0 / kLatticeSteps;
-  const ScanPlane weight = ScanPlane::spanned(
-      1, {(b.x - a.x) * kStep, (b.y - a.y) * kStep, (c.x - a.x) * kStep, (c.y - a.y) * kStep, -1, -1}, 0);
-  Scan scan(task, end_);
-  each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
-    const Floats row = all(1 + weight.slope_y * (static_cast<float>(y) - task.base_y));
-    const auto give = [&](Floats offset, Floats error, Masks meant) {
-      const Floats share = row + all(weight.slope_x) * offset;
-      const Masks counts = meant & (error == error);
-      add(kept(error, counts) * all(per_threshold_), kept(share, counts));
-    };
-    scan.each_eight(raster_.row(first_.y + y) + first_.x, y, first, last,
-                    [&](Floats left, Floats low, Masks low_meant, Floats high, Masks high_meant) {
-                      give(left, low, low_meant);
-                      give(left + all(4), high, high_meant);
-                    });
-    return true;
-  });
-}
-
-TriangleError::Pull TriangleError::pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
-  const Task task(a, b, c, threshold_, limit_);
-  Floats stiffness{}, push{};
-  each_residual(task, {a, b, c}, [&](Floats t, Floats share) {
-    const Floats t2 = t * t, t6_share = t2 * t2 * t2 * share;
-    stiffness += t6_share * share;
-    push += t6_share * t;
-  });
-  return {exact_sum_of(stiffness), exact_sum_of(push), double{task.plane.slope_x} / threshold_,
-          double{task.plane.slope_y} / threshold_};
-}
-
-void TriangleError::add_moments(const FitCorner& a, const FitCorner& b, const FitCorner& c, Moments& moments) const {
-  const Task task(a, b, c, threshold_, limit_);
-  std::array<Floats, 9> sums{};
-  each_residual(task, {a, b, c}, [&](Floats t, Floats share) {
-    const Floats t2 = t * t, t4 = t2 * t2, share2 = share * share, share4 = share2 * share2, both = t * share;
-    sums[0] += t4 * t4;
-    sums[1] += t4 * t2 * both;
-    sums[2] += t4 * t2 * share2;
-    sums[3] += t4 * both * share2;
-    sums[4] += t4 * share4;
-    sums[5] += t2 * both * share4;
-    sums[6] += t2 * share4 * share2;
-    sums[7] += both * share4 * share2;
-    sums[8] += share4 * share4;
-  });
-  for (std::size_t k = 0; k < sums.size(); ++k) moments[k] += exact_sum_of(sums[k]);
 }
 
 float TriangleError::energy_of(float error) const {
@@ -370,7 +183,7 @@ TriangleError::Verdict TriangleError::judge_corners(const std::array<FitCorner, 
 }
 
 /// Decides in exact arithmetic about the samples that rounding leaves in doubt; false where one breaks the threshold.
-bool TriangleError::settle(const Task& task, Verdict& verdict) const {
+bool TriangleError::settle(const TriangleTask& task, Verdict& verdict) const {
   const Outline outline(task.corners);
   const bool all_in_doubt = double{task.plane.guard} > threshold_;
   return each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
@@ -387,7 +200,7 @@ bool TriangleError::settle(const Task& task, Verdict& verdict) const {
 }
 
 /// The sample of a row with the largest error.
-Point TriangleError::find_worst(const Task& task, std::int32_t y, std::int32_t first, std::int32_t last) const {
+Point TriangleError::find_worst(const TriangleTask& task, std::int32_t y, std::int32_t first, std::int32_t last) const {
   const float row = task.row_height(y);
   float worst = -1;
   Point at{first, y};

@@ -41,6 +41,8 @@ struct ErrorRule {
   Power power = Power::kTwo;  ///< p of the energy Σ (error / threshold)^p
 };
 
+struct TriangleTask;
+
 class TriangleError {
  public:
   /// Errors of the raster's samples around `first`, from where corners are counted. REQUIRES: threshold >= 0, finite.
@@ -86,20 +88,16 @@ class TriangleError {
   float height_at(Point sample) const { return raster_.at({first_.x + sample.x, first_.y + sample.y}); }
 
  private:
-  struct Task;
-  struct Scan;
-  template <class Row>
-  static bool each_row(const Task& task, const Row& row);
   template <class Add>
-  void each_residual(const Task& task, const std::array<FitCorner, 3>& corners, const Add& add) const;
+  void each_residual(const TriangleTask& task, const std::array<FitCorner, 3>& corners, const Add& add) const;
   template <class Sums>
   Verdict judge_by(const FitCorner& a, const FitCorner& b, const FitCorner& c, float energy_limit) const;
   Verdict judge_corners(const std::array<FitCorner, 3>& corners, float energy_limit) const;
   float energy_of(float error) const;
-  bool decide(const Task& task, Verdict& verdict) const;
+  bool decide(const TriangleTask& task, Verdict& verdict) const;
   void take_side(bool keeps, Verdict& verdict) const;
-  bool settle(const Task& task, Verdict& verdict) const;
-  Point find_worst(const Task& task, std::int32_t y, std::int32_t first, std::int32_t last) const;
+  bool settle(const TriangleTask& task, Verdict& verdict) const;
+  Point find_worst(const TriangleTask& task, std::int32_t y, std::int32_t first, std::int32_t last) const;
 
   Raster raster_;
   Point first_;
