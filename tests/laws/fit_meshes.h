@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "fit/fit.h"
+#include "geom/exact_error.h"
 #include "laws/fields.h"
 #include "laws/tile_meshes.h"
 #include "refine/domain.h"
@@ -75,5 +77,31 @@ inline bool is_same(const Triangulation& a, const Triangulation& b) {
   }
   return true;
 }
+
+/// The first sample that breaks the bound by exact arithmetic, whose triangles have corners on the lattice.
+inline std::string find_broken_bound(const Raster& raster, const Fitted& fitted, double threshold) {
+  for (Triangle t = 0; t < fitted.tin.triangle_count(); ++t) {
+    if (fitted.tin.is_outside(t)) continue;
+    const std::array<Point, 3> corners = fitted.tin.corners(t);
+    std::array<float, 3> heights;
+    for (unsigned k = 0; k < 3; ++k) heights[k] = fitted.places.heights[fitted.tin.origin(3 * t + k)];
+    const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
+    const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+    for (Point s{left / kLatticeSteps, top / kLatticeSteps}; s.y * kLatticeSteps <= bottom; ++s.y) {
+      for (s.x = left / kLatticeSteps; s.x * kLatticeSteps <= right; ++s.x) {
+        const Point p{s.x * kLatticeSteps, s.y * kLatticeSteps};
+        bool inside = raster.is_valid(s);
+        for (unsigned k = 0; k < 3; ++k) inside = inside && orient(corners[k], corners[(k + 1) % 3], p) >= 0;
+        if (!inside || is_clearly_kept(corners, heights, p, raster.at(s), threshold)) continue;
+        if (exceeds_exactly(corners, heights, p, raster.at(s), threshold))
+          return fmt::format("sample ({}, {}) breaks the bound {}", s.x, s.y, threshold);
+      }
+    }
+  }
+  return "";
+}
+
+/// A side of the rectangle that vertices on the lattice of fitting live in.
+inline std::int32_t in_steps(std::int32_t side) { return (side - 1) * kLatticeSteps + 1; }
 
 }  // namespace scarp::testing

@@ -74,30 +74,6 @@ RC_GTEST_PROP(repair, keeps_the_bound_the_domain_and_the_constraints, ()) {
   RC_ASSERT(fitted.counts.repaired <= fitted.counts.tried);
 }
 
-/// The first sample that breaks the bound by exact arithmetic, whose triangles have corners on the lattice.
-std::string find_broken_bound(const Field& field, const Fitted& fitted, double threshold) {
-  for (Triangle t = 0; t < fitted.tin.triangle_count(); ++t) {
-    if (fitted.tin.is_outside(t)) continue;
-    const std::array<Point, 3> corners = fitted.tin.corners(t);
-    std::array<float, 3> heights;
-    for (unsigned k = 0; k < 3; ++k) heights[k] = fitted.places.heights[fitted.tin.origin(3 * t + k)];
-    const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
-    const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
-    for (Point s{left / kLatticeSteps, top / kLatticeSteps}; s.y * kLatticeSteps <= bottom; ++s.y) {
-      for (s.x = left / kLatticeSteps; s.x * kLatticeSteps <= right; ++s.x) {
-        const Point p{s.x * kLatticeSteps, s.y * kLatticeSteps};
-        bool inside = field.raster().is_valid(s);
-        for (unsigned k = 0; k < 3; ++k) inside = inside && orient(corners[k], corners[(k + 1) % 3], p) >= 0;
-        if (inside && exceeds_exactly(corners, heights, p, field.raster().at(s), threshold))
-          return fmt::format("sample ({}, {}) breaks the bound {}", s.x, s.y, threshold);
-      }
-    }
-  }
-  return "";
-}
-
-std::int32_t in_steps(std::int32_t side) { return (side - 1) * kLatticeSteps + 1; }
-
 RC_GTEST_PROP(repair, of_free_vertices_keeps_the_bound_the_domain_and_the_constraints, ()) {
   const Field field = any_field();
   const double threshold = *rc::gen::element(0.5, 1.0, 2.0, 7.3, 30.0, 1e6);
@@ -114,10 +90,10 @@ RC_GTEST_PROP(repair, of_free_vertices_keeps_the_bound_the_domain_and_the_constr
                            .patch_side = *rc::gen::element(0, 1, 5, 16, 40)});
   RC_ASSERT(fitted.places.steps == kLatticeSteps);
   RC_ASSERT(fitted.places.heights.size() == fitted.tin.vertex_count());
-  const std::string unsound =
-      testing::verify_triangulation(fitted.tin, in_steps(field.cols), in_steps(field.rows), testing::Edges::kAny);
+  const std::string unsound = testing::verify_triangulation(fitted.tin, testing::in_steps(field.cols),
+                                                            testing::in_steps(field.rows), testing::Edges::kAny);
   RC_ASSERT(unsound == "");
-  const std::string broken = find_broken_bound(field, fitted, threshold);
+  const std::string broken = testing::find_broken_bound(field.raster(), fitted, threshold);
   RC_ASSERT(broken == "");
   RC_ASSERT(testing::outside_area2(fitted.tin) == outside * kLatticeSteps * kLatticeSteps);
   const auto left = constraints_of(fitted.tin);
