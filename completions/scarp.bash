@@ -26,7 +26,7 @@ _scarp() {
       COMPREPLY=($(compgen -W 'global local local8 curvature global*local global*local8 global*curvature' -- "$current"))
       return
       ;;
-    --effort) COMPREPLY=($(compgen -W 'fast normal' -- "$current")) && return ;;
+    --effort) COMPREPLY=($(compgen -W 'fast normal high' -- "$current")) && return ;;
     --order) COMPREPLY=($(compgen -W 'dominant greedy' -- "$current")) && return ;;
     --algorithm) COMPREPLY=($(compgen -W 'brute local heap' -- "$current")) && return ;;
     --batch) COMPREPLY=($(compgen -W 'const frac: independent' -- "$current")) && return ;;

@@ -47,7 +47,7 @@ complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l script -r
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l importance -x -a 'global local local8 curvature global*local global*local8 global*curvature' -d 'What is inserted next'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l timing -d 'What each pass took and did'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l one-pass -d 'Rank all samples once, by a feature'
-complete -c scarp -n '__fish_seen_subcommand_from simplify' -l effort -x -a 'fast normal' -d 'What is done for fewer triangles'
+complete -c scarp -n '__fish_seen_subcommand_from simplify' -l effort -x -a 'fast normal high' -d 'What is done for fewer triangles'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l order -x -a 'dominant greedy' -d 'Which candidates come first'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l algorithm -x -a 'brute local heap' -d 'How the next sample is found'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l batch -x -a 'const frac: independent' -d 'Insert many samples between two looks'

@@ -291,6 +291,7 @@ class Run {
     FitOptions options;
     options.threshold = *criterion_.bound();
     options.threads = fit_threads();
+    options.repair_rounds = options_.effort == Effort::kHigh ? 2 : 0;
     options.sides_are_free = field_.frame.is_affine();
     Reporter reporter(options_.progress);
     if (options_.progress) {
@@ -489,7 +490,8 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& opt
                 fmt::format("the dominant order {}: leave that out, or take the greedy order", obstacle));
   const char* fit_obstacle = options.effort == Effort::kFast ? nullptr : find_fit_obstacle(field, options);
   if (fit_obstacle != nullptr)
-    return fail(ErrorKind::kUsage, fmt::format("normal effort {}: leave that out, or take fast effort", fit_obstacle));
+    return fail(ErrorKind::kUsage,
+                fmt::format("more than fast effort {}: leave that out, or take fast effort", fit_obstacle));
   if (obstacle == nullptr) return simplify_tiles(field, options);
   auto samples = Samples::of(field);
   if (!samples) return tl::unexpected(samples.error());

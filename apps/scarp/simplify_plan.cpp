@@ -148,10 +148,11 @@ Result<void> plan_effort(const SimplifyArguments& given, SimplifyPlan& plan) {
                                                     {"--edges data", plan.simplify.edges.data_dependent}};
   for (const auto& [name, is_given] : obstacles) {
     if (is_given)
-      return fail(ErrorKind::kUsage,
-                  fmt::format("--effort normal and {} contradict each other: vertices are removed towards a max error "
-                              "alone, on heights alone; leave one of them out",
-                              name));
+      return fail(
+          ErrorKind::kUsage,
+          fmt::format("--effort {} and {} contradict each other: vertices are removed towards a max error alone, "
+                      "on heights alone; leave one of them out",
+                      *given.strategy.effort, name));
   }
   return {};
 }

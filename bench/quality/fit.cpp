@@ -67,11 +67,11 @@ Stage refine_in_tiles(const scarp::HeightField& field, const scarp::Raster& rast
   return stage;
 }
 
-Stage fit(const scarp::Raster& raster, Stage& from, double error, std::int32_t side) {
+Stage fit(const scarp::Raster& raster, Stage from, const scarp::FitOptions& options) {
   Stage stage;
   if (!from.tin) return stage;
   const double start = cpu_seconds();
-  auto fitted = *scarp::fit(raster, std::move(*from.tin), {.threshold = error, .threads = 1, .patch_side = side});
+  auto fitted = *scarp::fit(raster, std::move(*from.tin), options);
   stage.finish(std::move(fitted.tin), start);
   return stage;
 }
@@ -83,11 +83,20 @@ void measure(const std::string& name, const scarp::OwnedHeightField& field, std:
     const double error = share * (field.info.max - field.info.min);
     Stage greedy = refine_greedily(raster, field.frame, error);
     Stage tiled = refine_in_tiles(field, raster, error);
-    const Stage after_greedy = fit(raster, greedy, error, side), after_tiled = fit(raster, tiled, error, side);
+    const scarp::FitOptions removal{.threshold = error, .threads = 1, .patch_side = side};
+    scarp::FitOptions repair = removal;
+    repair.repair_rounds = 2;
+    scarp::FitOptions free = repair;
+    free.vertices_are_free = true;
+    const Stage after_greedy = fit(raster, std::move(greedy), removal),
+                after_tiled = fit(raster, std::move(tiled), removal);
+    const Stage freed = fit(raster, refine_greedily(raster, field.frame, error), free);
+    const Stage repaired = fit(raster, refine_greedily(raster, field.frame, error), repair);
     const auto triangles = static_cast<double>(greedy.triangles);
     const auto ratio = [&](const Stage& stage) { return static_cast<double>(stage.triangles) / triangles; };
-    fmt::print("{:20} {:4.1f} %{:9}{:9.3f}{:8.2f}   ", name, 100 * share, greedy.triangles, ratio(after_greedy),
-               after_greedy.seconds / greedy.seconds);
+    fmt::print("{:20} {:4.1f} %{:9}{:9.3f}{:8.2f}{:9.3f}{:8.2f}{:9.3f}{:8.2f}   ", name, 100 * share, greedy.triangles,
+               ratio(after_greedy), after_greedy.seconds / greedy.seconds, ratio(repaired),
+               repaired.seconds / greedy.seconds, ratio(freed), freed.seconds / greedy.seconds);
     if (after_tiled.tin) {
       fmt::print("{:8.3f}{:8.3f}{:8.2f}{:8.2f}", ratio(tiled), ratio(after_tiled), tiled.seconds / greedy.seconds,
                  (tiled.seconds + after_tiled.seconds) / greedy.seconds);
@@ -106,8 +115,8 @@ int main(int argc, char** argv) {
   }
   std::vector<std::string> names(argv + 3, argv + argc);
   if (names.empty()) names.assign(std::begin(kRasters), std::end(kRasters));
-  fmt::print("{:27}{:>9}{:>9}{:>8}   {:>8}{:>8}{:>8}{:>8}\n", "raster, error of relief", "greedy", "+fit", "time",
-             "tiles", "+fit", "time", "in all");
+  fmt::print("{:27}{:>9}{:>9}{:>8}{:>9}{:>8}{:>9}{:>8}   {:>8}{:>8}{:>8}{:>8}\n", "raster, error of relief", "greedy",
+             "+fit", "time", "+repair", "time", "+free", "time", "tiles", "+fit", "time", "in all");
   for (const std::string& name : names) {
     const auto path = bench::find_raster(argv[1], name);
     if (!path) {

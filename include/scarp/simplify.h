@@ -45,7 +45,7 @@ struct SimplifyOptions {
   /// kDominant fails with kUsage together with a budget, a mask, tolerances, a script, channels, an importance, an
   /// algorithm, batches, data-dependent edges or an outline tolerance; kAuto then is kGreedy. DEFAULT: kAuto.
   Order order = Order::kAuto;
-  /// kNormal fails with kUsage together with a budget, a mask, tolerances, a script, channels, data-dependent edges, an
+  /// kNormal and kHigh fail with kUsage together with a budget, a mask, tolerances, a script, channels, data-dependent edges, an
   /// outline tolerance, or without the samples in memory. DEFAULT: kFast.
   Effort effort = Effort::kFast;
   Importance importance = {};  ///< DEFAULT: global error
@@ -109,7 +109,8 @@ struct Simplified {
 ///
 /// Effort: kNormal then removes each vertex whose place the vertices around it can take, all triangulations of the ring
 /// that it leaves considered, the one with the least squared error taken; those that cost least go first. What is left
-/// are samples with their own heights, and no vertex can go alone.
+/// are samples with their own heights, and no vertex can go alone. kHigh goes on with rings that the bound forbids: it
+/// flips edges and moves vertices around them to other samples, and takes all back where that does not mend it.
 ///
 /// Guarantees, for every input:
 /// (1) if max_error is given and no budget ended the run, every valid sample of the domain is covered and lies within

@@ -53,8 +53,11 @@ enum class Order {
 /// How much is done, once the bound is kept, for a smaller mesh that keeps it too.
 enum class Effort {
   kFast,    ///< nothing: what refinement inserted stays
-  kNormal,  ///< vertices are removed for as long as every sample keeps the bound: half the triangles, for a few times the
-            ///< time. For an error goal alone, on heights alone, in memory; see simplify().
+  kNormal,  ///< vertices are removed for as long as every sample keeps the bound: half the triangles, for a few times
+            ///< the time. For an error goal alone, on heights alone, in memory; see simplify().
+  kHigh,  ///< more are removed, and what that breaks is repaired by flipping edges and moving vertices to other
+          ///< samples: two fifths of the triangles, for some ten times the time of the greedy order. Where kNormal is
+          ///< possible.
 };
 
 /// Inserting many samples between two looks at the mesh ("parallel" insertion of the report; Scape's thresholds).

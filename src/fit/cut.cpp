@@ -43,9 +43,9 @@ struct PatchCutter::Parts {
   std::vector<Borders> borders;     // by patch
 };
 
-PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const PatchGrid& grid, bool sides_are_free,
-                         int threads)
-    : raster_(raster), tin_(tin), grid_(grid), sides_are_free_(sides_are_free), threads_(threads) {
+PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const VertexPlaces& places,
+                         const PatchGrid& grid, bool sides_are_free, int threads)
+    : raster_(raster), tin_(tin), places_(places), grid_(grid), sides_are_free_(sides_are_free), threads_(threads) {
   const auto squares = [&](std::int32_t samples) {
     return static_cast<std::size_t>((std::int64_t{samples} + grid.shift) / grid.side + 1);
   };
@@ -75,7 +75,8 @@ std::vector<std::uint32_t> PatchCutter::assign_squares(std::size_t outside) {
       return;
     }
     const auto [a, b, c] = tin_.corners(t);
-    const std::int64_t x = std::int64_t{a.x} + b.x + c.x + shift, y = std::int64_t{a.y} + b.y + c.y + shift;
+    const std::int64_t x = (std::int64_t{a.x} + b.x + c.x) / places_.steps + shift;
+    const std::int64_t y = (std::int64_t{a.y} + b.y + c.y) / places_.steps + shift;
     const auto square = static_cast<std::size_t>(y / side) * squares_per_row_ + static_cast<std::size_t>(x / side);
     const auto block =
         static_cast<std::size_t>(y % side * kBlocksPerSide / side * kBlocksPerSide + x % side * kBlocksPerSide / side);
@@ -115,6 +116,13 @@ Patch PatchCutter::cut(std::size_t i, Scratch& scratch, std::vector<Vertex>& ver
   return patch;
 }
 
+/// In steps of the lattice of fitting, from the raster's first sample.
+FitCorner PatchCutter::corner_of(Vertex v) const {
+  const Point p = tin_.point(v);
+  const std::int32_t scale = kLatticeSteps / places_.steps;
+  return {p.x * scale, p.y * scale, places_.heights.empty() ? raster_.at(p) : places_.heights[v]};
+}
+
 bool PatchCutter::add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::vector<Vertex>& vertices) const {
   vertices.clear();
   if (scratch.ids.size() < tin_.vertex_count()) scratch.ids.resize(tin_.vertex_count(), kNone);
@@ -125,7 +133,9 @@ bool PatchCutter::add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::
       if (scratch.ids[v] != kNone) continue;
       scratch.ids[v] = static_cast<std::uint32_t>(vertices.size());
       vertices.push_back(v);
-      box.add(tin_.point(v));
+      const FitCorner corner = corner_of(v);
+      box.add({corner.x / kLatticeSteps, corner.y / kLatticeSteps});
+      box.add({(corner.x + kLatticeSteps - 1) / kLatticeSteps, (corner.y + kLatticeSteps - 1) / kLatticeSteps});
     }
   }
   if (!vertices.empty()) patch.window_ = {box.low, box.high.x - box.low.x + 1, box.high.y - box.low.y + 1};
@@ -134,10 +144,9 @@ bool PatchCutter::add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::
   if (!box.fits()) return false;
   bool fits = true;
   for (std::size_t n = 0; n < vertices.size(); ++n) {
-    const Point p = tin_.point(vertices[n]);
-    const float z = raster_.at(p);
-    patch.nodes_[n].at = {(p.x - box.low.x) * kLatticeSteps, (p.y - box.low.y) * kLatticeSteps, z};
-    fits = fits && std::abs(z) <= kMaxScanHeight;
+    const FitCorner corner = corner_of(vertices[n]);
+    patch.nodes_[n].at = {corner.x - box.low.x * kLatticeSteps, corner.y - box.low.y * kLatticeSteps, corner.z};
+    fits = fits && std::abs(corner.z) <= kMaxScanHeight;
   }
   return fits;
 }
@@ -170,9 +179,10 @@ void PatchCutter::lock(Patch& patch) const {
       const bool is_fixed = Patch::is_border(link) && !(sides_are_free_ && Patch::is_side(link));
       for (const Patch::Id end : {face.corners[k], face.corners[k == 2 ? 0 : k + 1]}) {
         const FitCorner& at = patch.nodes_[end].at;
-        const std::int32_t x = at.x / kLatticeSteps + patch.window_.first.x,
-                           y = at.y / kLatticeSteps + patch.window_.first.y;
-        const bool is_corner = (x == 0 || x == raster_.cols - 1) && (y == 0 || y == raster_.rows - 1);
+        const std::int32_t x = at.x + patch.window_.first.x * kLatticeSteps,
+                           y = at.y + patch.window_.first.y * kLatticeSteps;
+        const bool is_corner =
+            (x == 0 || x == (raster_.cols - 1) * kLatticeSteps) && (y == 0 || y == (raster_.rows - 1) * kLatticeSteps);
         if (is_fixed || is_corner) patch.locked_[end] = 1;
       }
     }
@@ -180,9 +190,10 @@ void PatchCutter::lock(Patch& patch) const {
 }
 
 Triangulation PatchCutter::join(std::vector<Patch> patches, const std::vector<std::vector<Vertex>>& vertices,
-                                std::vector<Vertex>& numbers) const {
+                                std::vector<Vertex>& numbers, VertexPlaces& joined) const {
   Parts parts;
   number_vertices(patches, vertices, parts);
+  place_vertices(patches, vertices, parts, joined);
   parts.begins.assign(1, 0);
   for (const Patch& patch : patches) parts.begins.push_back(parts.begins.back() + patch.face_count());
   const std::size_t count = parts.begins.back() + (order_.size() - begins_.back());
@@ -230,10 +241,36 @@ void PatchCutter::number_vertices(const std::vector<Patch>& patches, const std::
       if (patches[i].is_removed(v)) parts.numbers[vertices[i][v]] = kNone;
     }
   }
+  Vertex count = 0;
+  for (Vertex v = 0; v < tin_.vertex_count(); ++v) {
+    if (parts.numbers[v] != kNone) parts.numbers[v] = count++;
+  }
+  parts.arrays.points.resize(count);
+}
+
+void PatchCutter::place_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
+                                 Parts& parts, VertexPlaces& joined) const {
+  const bool has_heights = joined.steps > 1;
+  joined.heights.assign(has_heights ? parts.arrays.points.size() : 0, 0);
+  const auto place = [&](Vertex number, Point p, float z) {
+    parts.arrays.points[number] = p;
+    if (has_heights) joined.heights[number] = z;
+  };
+  const std::int32_t scale = joined.steps / places_.steps;
   for (Vertex v = 0; v < tin_.vertex_count(); ++v) {
     if (parts.numbers[v] == kNone) continue;
-    parts.numbers[v] = static_cast<Vertex>(parts.arrays.points.size());
-    parts.arrays.points.push_back(tin_.point(v));
+    const Point p = tin_.point(v);
+    place(parts.numbers[v], {p.x * scale, p.y * scale}, has_heights ? corner_of(v).z : 0);
+  }
+  const std::int32_t shrink = kLatticeSteps / joined.steps;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const Point first = patches[i].window().first;
+    for (Patch::Id v = 0; v < patches[i].node_count(); ++v) {
+      if (patches[i].is_locked(v) || patches[i].is_removed(v)) continue;
+      const FitCorner& at = patches[i].at(v);
+      place(parts.numbers[vertices[i][v]],
+            {first.x * joined.steps + at.x / shrink, first.y * joined.steps + at.y / shrink}, at.z);
+    }
   }
 }
 

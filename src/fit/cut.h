@@ -18,11 +18,19 @@ struct PatchGrid {
   std::int32_t side = 0, shift = 0;
 };
 
+/// Where vertices are: on samples, or on the lattice of fitting with heights of their own.
+struct VertexPlaces {
+  std::int32_t steps = 1;      ///< of the triangulation's points between two samples: 1, or kLatticeSteps
+  std::vector<float> heights;  ///< by vertex; NaN at voids; empty where steps is 1: a vertex has its sample's
+};
+
 /// Which triangles go where.
 class PatchCutter {
  public:
-  /// `sides_are_free`: whether vertices on the sides of the rectangle may go. Raster and triangulation stay alive.
-  PatchCutter(const Raster& raster, const Triangulation& tin, const PatchGrid& grid, bool sides_are_free, int threads);
+  /// `sides_are_free`: whether vertices on the sides of the rectangle may go. Raster, triangulation and places stay
+  /// alive.
+  PatchCutter(const Raster& raster, const Triangulation& tin, const VertexPlaces& places, const PatchGrid& grid,
+              bool sides_are_free, int threads);
 
   std::size_t count() const { return begins_.size() - 1; }
 
@@ -35,10 +43,11 @@ class PatchCutter {
   Patch cut(std::size_t i, Scratch& scratch, std::vector<Vertex>& vertices) const;
 
   /// The triangulation with the patches in the place of their triangles, patch by patch, then those outside; vertices
-  /// that are removed in a patch are left out. `numbers`: by old vertex its new number, or kNone.
-  /// REQUIRES: patches are packed.
+  /// that are removed in a patch are left out, those that were moved are where they are now. `numbers`: by old vertex
+  /// its new number, or kNone. `joined`: of the new vertices, by the steps that it is given with. REQUIRES: patches are
+  /// packed; steps as in the cutter's places, or 1 there and kLatticeSteps in `joined`.
   Triangulation join(std::vector<Patch> patches, const std::vector<std::vector<Vertex>>& vertices,
-                     std::vector<Vertex>& numbers) const;
+                     std::vector<Vertex>& numbers, VertexPlaces& joined) const;
 
  private:
   struct Borders;
@@ -50,14 +59,18 @@ class PatchCutter {
   bool add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::vector<Vertex>& vertices) const;
   void add_faces(std::size_t i, const Scratch& scratch, Patch& patch) const;
   void lock(Patch& patch) const;
+  FitCorner corner_of(Vertex v) const;
   void number_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
                        Parts& parts) const;
+  void place_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices, Parts& parts,
+                      VertexPlaces& joined) const;
   void add_patch(const Patch& patch, const std::vector<Vertex>& names, std::size_t i, Parts& parts) const;
   void add_outside(Parts& parts) const;
   HalfEdge name_now(HalfEdge before, const Parts& parts) const;
 
   const Raster& raster_;
   const Triangulation& tin_;
+  const VertexPlaces& places_;
   PatchGrid grid_;
   bool sides_are_free_;
   int threads_;

@@ -49,8 +49,8 @@ void Patch::find_star(Id v, Star& star) const {
 }
 
 void Patch::attach(Id f, unsigned edge, Link beyond) {
-  faces_[f].links[edge] = beyond;
-  if (!is_border(beyond)) faces_[triangle_of(beyond)].links[edge_of(beyond)] = link_to(f, edge);
+  change(f).links[edge] = beyond;
+  if (!is_border(beyond)) change(triangle_of(beyond)).links[edge_of(beyond)] = link_to(f, edge);
 }
 
 void Patch::remove(Id v, const Star& star, std::span<const RingTriangle> triangles) {
@@ -59,11 +59,11 @@ void Patch::remove(Id v, const Star& star, std::span<const RingTriangle> triangl
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto& [first, middle, last, worst, energy] = triangles[i];
     const Id f = star.faces[i];
-    Face& face = faces_[f];
+    Face& face = change(f);
     face.corners = {star.ring[first], star.ring[middle], star.ring[last]};
     face.worst = worst;
     face.energy = energy;
-    for (const Id corner : face.corners) nodes_[corner].face = f;
+    for (const Id corner : face.corners) name_face(corner, f);
     Link back = closing;
     if (i > 0) {
       back = open_.back();
@@ -81,8 +81,54 @@ void Patch::remove(Id v, const Star& star, std::span<const RingTriangle> triangl
       open_.push_back(link_to(f, 0));
     }
   }
-  for (std::size_t i = triangles.size(); i < star.faces.size(); ++i) faces_[star.faces[i]].corners[0] = kNone;
-  nodes_[v].face = kNone;
+  for (std::size_t i = triangles.size(); i < star.faces.size(); ++i) change(star.faces[i]).corners[0] = kNone;
+  name_face(v, kNone);
+}
+
+Patch::Quad Patch::quad(Id f, unsigned edge) const {
+  const Face& face = faces_[f];
+  const Link link = face.links[edge];
+  const Id beyond = triangle_of(link);
+  return {f,
+          beyond,
+          face.corners[edge],
+          face.corners[next(edge)],
+          face.corners[previous(edge)],
+          faces_[beyond].corners[previous(edge_of(link))]};
+}
+
+void Patch::flip(const Quad& q) {
+  Face& near = change(q.face);
+  Face& far = change(q.beyond);
+  const auto edge_from = [](const Face& face, Id corner) {
+    return face.corners[0] == corner ? 0u : face.corners[1] == corner ? 1u : 2u;
+  };
+  const Link bc = near.links[edge_from(near, q.b)], ca = near.links[edge_from(near, q.c)];
+  const Link ad = far.links[edge_from(far, q.a)], db = far.links[edge_from(far, q.d)];
+  near.corners = {q.c, q.a, q.d};
+  far.corners = {q.d, q.b, q.c};
+  attach(q.face, 0, ca);
+  attach(q.face, 1, ad);
+  attach(q.face, 2, link_to(q.beyond, 2));
+  attach(q.beyond, 0, db);
+  attach(q.beyond, 1, bc);
+  for (const Id corner : near.corners) name_face(corner, q.face);
+  name_face(q.b, q.beyond);
+}
+
+void Patch::begin() {
+  face_journal_.begin(faces_.size());
+  node_journal_.begin(nodes_.size());
+}
+
+void Patch::commit() {
+  face_journal_.commit();
+  node_journal_.commit();
+}
+
+void Patch::roll_back() {
+  face_journal_.roll_back(faces_);
+  node_journal_.roll_back(nodes_);
 }
 
 void Patch::pack() {

@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "fit/journal.h"
 #include "fit/triangle_error.h"
 #include "tin/triangulation.h"
 
@@ -80,16 +81,42 @@ class Patch {
   const Window& window() const { return window_; }
 
   void set_measure(Id f, float worst, float energy) {
+    face_journal_.touch(faces_, f);
     faces_[f].worst = worst;
     faces_[f].energy = energy;
   }
 
-  /// REQUIRES: v is neither locked nor removed. Cost: O(its degree).
+  /// Of a locked vertex the part around one of its triangles, from border to border. REQUIRES: v is not removed.
+  /// Cost: O(its degree).
   void find_star(Id v, Star& star) const;
 
   /// Removes v, whose star is given, and puts the triangles in its place. REQUIRES: they triangulate the star's ring,
   /// all positive, in order.
   void remove(Id v, const Star& star, std::span<const RingTriangle> triangles);
+
+  /// The triangles (c, a, d) and (d, b, c) that would take the place of (a, b, c) and, beyond its edge a b, (b, a, d).
+  struct Quad {
+    Id face = kNone, beyond = kNone;
+    Id a = kNone, b = kNone, c = kNone, d = kNone;
+  };
+  /// REQUIRES: the edge is no border.
+  Quad quad(Id f, unsigned edge) const;
+
+  /// Changes the diagonal: (c, a, d) takes the place of q.face, (d, b, c) of q.beyond. REQUIRES: both are positive.
+  void flip(const Quad& q);
+
+  /// REQUIRES: the triangles around v stay positive, those of a side on their side.
+  void move(Id v, const FitCorner& to) {
+    node_journal_.touch(nodes_, v);
+    nodes_[v].at = to;
+  }
+
+  /// From here on changes can be taken back.
+  void begin();
+  void commit();
+  void roll_back();
+  /// What the triangles that were touched since begin() were before.
+  std::span<const Journal<Face>::Copy> touched() const { return face_journal_.copies(); }
 
   /// Numbers the faces anew, without gaps, and gives back the memory of those that are gone.
   void pack();
@@ -100,12 +127,22 @@ class Patch {
   /// The star from a triangle on, whose corner it belongs to; false where it ends at a border.
   bool walk(Id f, unsigned corner, Star& star) const;
   void attach(Id f, unsigned edge, Link beyond);
+  Face& change(Id f) {
+    face_journal_.touch(faces_, f);
+    return faces_[f];
+  }
+  void name_face(Id v, Id f) {
+    node_journal_.touch(nodes_, v);
+    nodes_[v].face = f;
+  }
 
   Window window_;
   std::vector<Face> faces_;
   std::vector<Node> nodes_;
   std::vector<std::uint8_t> locked_;
   std::vector<HalfEdge> fixed_;
+  Journal<Face> face_journal_;
+  Journal<Node> node_journal_;
   std::vector<Link> open_;  // edges whose triangles are still to come
 };
 

@@ -1,9 +1,8 @@
 #include "fit/removal.h"
 
-#include <algorithm>
 #include <limits>
-#include <utility>
 
+#include "fit/lazy_queue.h"
 #include "fit/ring_search.h"
 
 namespace scarp {
@@ -15,7 +14,12 @@ using Id = Patch::Id;
 class Removal {
  public:
   Removal(Patch& patch, const TriangleError& error, std::vector<std::uint8_t>& settled)
-      : patch_(patch), error_(error), settled_(settled), search_(error), notes_(patch.node_count()) {
+      : patch_(patch),
+        error_(error),
+        settled_(settled),
+        search_(error),
+        notes_(patch.node_count()),
+        queue_(patch.node_count()) {
     for (Id v = 0; v < patch.node_count(); ++v)
       notes_[v].witness = {patch.at(v).x / kLatticeSteps, patch.at(v).y / kLatticeSteps};
   }
@@ -26,41 +30,18 @@ class Removal {
     }
     while (!queue_.empty()) {
       while (!queue_.empty()) take();
-      ask_again();
+      queue_.each_waiting([this](Id v) {
+        if (!patch_.is_removed(v)) offer(v);
+      });
     }
     return counts_;
   }
 
  private:
-  struct Entry {
-    float price;
-    Id vertex;
-  };
   struct Note {
     std::uint64_t code = 0;  // the triangles that would take the vertex' place
     Point witness;           // against its removal
-    bool is_queued = false;  // or waits
-    bool is_stale = false;
   };
-
-  /// The later one, as heaps want it.
-  static bool is_later(const Entry& a, const Entry& b) {
-    return a.price != b.price ? a.price > b.price : a.vertex > b.vertex;
-  }
-
-  void push(Entry entry) {
-    notes_[entry.vertex].is_queued = true;
-    queue_.push_back(entry);
-    std::push_heap(queue_.begin(), queue_.end(), is_later);
-  }
-
-  Entry pop() {
-    std::pop_heap(queue_.begin(), queue_.end(), is_later);
-    const Entry entry = queue_.back();
-    queue_.pop_back();
-    notes_[entry.vertex].is_queued = false;
-    return entry;
-  }
 
   float energy_of(Id f) {
     const Patch::Face& face = patch_.face(f);
@@ -76,7 +57,7 @@ class Removal {
   bool look_at(Id v, float& price) {
     ++counts_.searches;
     Note& note = notes_[v];
-    note.is_stale = false;
+    queue_.refresh(v);
     patch_.find_star(v, star_);
     if (star_.ring.size() > RingSearch::kMostCorners) return false;
     ring_.clear();
@@ -92,21 +73,21 @@ class Removal {
   void offer(Id v) {
     float price = 0;
     settled_[v] = 1;
-    if (look_at(v, price)) push({price, v});
+    if (look_at(v, price)) queue_.push(v, price);
   }
 
   void take() {
-    const Id v = pop().vertex;
-    if (!notes_[v].is_stale) {
+    const Id v = queue_.pop();
+    if (!queue_.is_stale(v)) {
       patch_.find_star(v, star_);
       RingSearch::decode(notes_[v].code, star_.ring.size(), triangles_);
       remove(v);
       return;
     }
-    Entry entry{0, v};
-    if (!look_at(v, entry.price)) return;
-    if (!queue_.empty() && is_later(entry, queue_.front())) {
-      push(entry);
+    float price = 0;
+    if (!look_at(v, price)) return;
+    if (!queue_.is_first(v, price)) {
+      queue_.push(v, price);
       return;
     }
     search_.triangles(triangles_);
@@ -117,22 +98,8 @@ class Removal {
     patch_.remove(v, star_, triangles_);
     ++counts_.removed;
     for (const Id u : star_.ring) {
-      if (patch_.is_locked(u)) continue;
-      notes_[u].is_stale = true;
-      if (notes_[u].is_queued) continue;
-      notes_[u].is_queued = true;
-      waiting_.push_back(u);
+      if (!patch_.is_locked(u)) queue_.touch(u);
     }
-  }
-
-  /// The queue is empty: what could not go before the changes around it may go now.
-  void ask_again() {
-    std::swap(waiting_, asked_);
-    for (const Id v : asked_) {
-      notes_[v].is_queued = false;
-      if (!patch_.is_removed(v)) offer(v);
-    }
-    asked_.clear();
   }
 
   Patch& patch_;
@@ -140,8 +107,7 @@ class Removal {
   std::vector<std::uint8_t>& settled_;
   RingSearch search_;
   std::vector<Note> notes_;
-  std::vector<Entry> queue_;
-  std::vector<Id> waiting_, asked_;  // could not go, but have changed since
+  LazyQueue queue_;
   Patch::Star star_;
   std::vector<FitCorner> ring_;
   std::vector<Patch::RingTriangle> triangles_;

@@ -117,7 +117,7 @@ void RingSearch::keep_positive() {
 /// Forbids the triangles that hold the sample that is looked from and break the threshold there; whether there are any.
 /// Rounding may forbid one at the threshold itself, never allow one: what is allowed is scanned.
 bool RingSearch::cross_out() {
-  const double threshold = error_.threshold();
+  const double limit = error_.limit();
   bool any = false;
   for (std::size_t i = 0; i + 2 < size_; ++i) {
     for (std::size_t j = i + 2; j < size_; ++j) {
@@ -126,7 +126,7 @@ bool RingSearch::cross_out() {
       for (Set left = allowed_[i][j] & left_of_[i] & right_of_[j]; left != 0; left &= left - 1) {
         const std::size_t q = lowest(left);
         const double wj = cross_[i][q], wi = cross_[q][j];
-        if (!(std::abs(wi * z_[i] + wq * z_[q] + wj * z_[j]) > threshold * (wi + wq + wj))) continue;
+        if (!(std::abs(wi * z_[i] + wq * z_[q] + wj * z_[j]) > limit * (wi + wq + wj))) continue;
         allowed_[i][j] &= ~only(q);
         any = true;
       }

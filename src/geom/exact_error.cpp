@@ -55,7 +55,7 @@ bool sum_exceeds(const std::array<std::int64_t, N>& weights, const std::array<do
 bool exceeds_exactly(const std::array<Point, 3>& corners, const std::array<double, 3>& heights, Point p, double sample,
                      double threshold) {
   for (int k = 0; k < 3; ++k) {
-    if (corners[k] == p) return std::abs(heights[k] - sample) > threshold;
+    if (corners[k] == p) return heights[k] != sample && sum_exceeds<3>({1, -1, 1}, {heights[k], sample, threshold});
   }
   const std::int64_t area = orient(corners[0], corners[1], corners[2]);
   return sum_exceeds<5>({orient(corners[1], corners[2], p), orient(corners[2], corners[0], p),

@@ -10,65 +10,24 @@
 #include "fit/fit.h"
 #include "fit/ring_search.h"
 #include "geom/exact_error.h"
+#include "laws/fit_meshes.h"
 #include "laws/mesh_laws.h"
 #include "laws/tile_meshes.h"
-#include "refine/domain.h"
-#include "refine/height_judge.h"
-#include "refine/refinement.h"
 
 namespace scarp {
 namespace {
 
+using testing::any_field;
+using testing::any_threshold;
 using testing::Field;
+using testing::includes;
+using testing::is_on_side;
+using testing::is_same;
+using testing::outline_of;
+using testing::Points;
+using testing::refined;
 using testing::Relief;
-
-Field any_field() {
-  const auto largest = *rc::gen::element(3, 12, 40, 80);
-  const auto cols = *rc::gen::inRange(2, largest * 5 / 3), rows = *rc::gen::inRange(2, largest);
-  const auto seed = *rc::gen::arbitrary<std::uint32_t>();
-  const int relief = *rc::gen::inRange(0, 6);
-  return relief == 5 ? testing::sloping_field(seed, cols, rows)
-                     : testing::random_field(seed, cols, rows, testing::kReliefs[relief],
-                                             *rc::gen::element(0.0, 0.0, 0.02, 0.1, 0.4));
-}
-
-double any_threshold() { return *rc::gen::element(0.0, 1e-7, 0.5, 1.0, 2.0, 7.3, 30.0, 1e6); }
-
-/// The greedy mesh; nothing if the field has no surface.
-std::optional<Triangulation> refined(const Field& field, double threshold) {
-  auto domain = build_domain(field.raster(), 0, grid_frame(field.rows));
-  if (!domain) return std::nullopt;
-  const HeightJudge judge(field.raster(), threshold);
-  Refinement refinement(judge, domain->tin);
-  while (!refinement.done()) refinement.insert_worst();
-  return std::move(domain->tin);
-}
-
-using Points = std::set<std::pair<std::int32_t, std::int32_t>>;
-
-Points vertices_of(const Triangulation& tin) {
-  Points points;
-  for (Vertex v = 0; v < tin.vertex_count(); ++v) points.insert({tin.point(v).x, tin.point(v).y});
-  return points;
-}
-
-bool is_on_side(Point p, const Field& field) {
-  return p.x == 0 || p.y == 0 || p.x == field.cols - 1 || p.y == field.rows - 1;
-}
-
-/// Ends of constrained edges within the rectangle.
-Points outline_of(const Triangulation& tin, const Field& field) {
-  Points points;
-  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-    const Point p = tin.point(tin.origin(h));
-    if (tin.is_constrained(h) && !is_on_side(p, field)) points.insert({p.x, p.y});
-  }
-  return points;
-}
-
-bool includes(const Points& all, const Points& some) {
-  return std::includes(all.begin(), all.end(), some.begin(), some.end());
-}
+using testing::vertices_of;
 
 RC_GTEST_PROP(fit, keeps_the_bound_the_domain_and_the_outline, ()) {
   const Field field = any_field();
@@ -106,19 +65,6 @@ RC_GTEST_PROP(fit, leaves_the_sides_alone_where_they_are_not_free, ()) {
   const Points before_fit = on_sides(*tin);
   const auto fitted = *fit(field.raster(), std::move(*tin), {.threshold = threshold, .sides_are_free = false});
   RC_ASSERT(on_sides(fitted.tin) == before_fit);
-}
-
-bool is_same(const Triangulation& a, const Triangulation& b) {
-  if (a.vertex_count() != b.vertex_count() || a.triangle_count() != b.triangle_count()) return false;
-  for (Vertex v = 0; v < a.vertex_count(); ++v) {
-    if (!(a.point(v) == b.point(v))) return false;
-  }
-  for (HalfEdge h = 0; h < 3 * a.triangle_count(); ++h) {
-    if (a.origin(h) != b.origin(h) || a.twin(h) != b.twin(h) || a.is_constrained(h) != b.is_constrained(h) ||
-        a.is_outside(h / 3) != b.is_outside(h / 3))
-      return false;
-  }
-  return true;
 }
 
 RC_GTEST_PROP(fit, threads_change_nothing, ()) {
@@ -198,10 +144,11 @@ FitCorner any_corner(const Field& field) {
   return corner;
 }
 
-/// The verdict and the energy by looking at every sample of the raster.
+/// The verdict, the energies and the pull by looking at every sample of the raster.
 struct Oracle {
   bool keeps = true;
-  double energy = 0;
+  double energy = 0, eighth = 0, worst = 0;  // worst: in thresholds
+  double stiffness = 0, push = 0;
 
   Oracle(const Raster& raster, const std::array<FitCorner, 3>& corners, double threshold) {
     std::array<Point, 3> places;
@@ -215,16 +162,22 @@ struct Oracle {
       for (p.x = 0; p.x < raster.cols; ++p.x) {
         const Point at{p.x * kLatticeSteps, p.y * kLatticeSteps};
         double height = 0;
+        std::array<double, 3> weights;
         bool inside = raster.is_valid(p);
         for (std::size_t k = 0; k < 3; ++k) {
           const std::int64_t weight = orient(places[(k + 1) % 3], places[(k + 2) % 3], at);
           inside = inside && weight >= 0;
-          height += static_cast<double>(weight) * double{heights[k]} / area;
+          weights[k] = static_cast<double>(weight) / area;
+          height += weights[k] * double{heights[k]};
         }
         if (!inside) continue;
         keeps = keeps && !exceeds_exactly(places, heights, at, raster.at(p), threshold);
         const double error = (height - raster.at(p)) / threshold;
         energy += error * error;
+        eighth += std::pow(error, 8);
+        worst = std::max(worst, std::abs(error));
+        stiffness += std::pow(error, 6) * weights[0] * weights[0];
+        push += std::pow(error, 7) * weights[0];
       }
     }
   }
@@ -252,6 +205,42 @@ RC_GTEST_PROP(triangle_error, decides_as_exact_arithmetic_does_at_every_sample, 
     RC_ASSERT(exceeds_exactly(places, {corners[0].z, corners[1].z, corners[2].z}, at,
                               field.raster().at(verdict.witness), threshold));
   }
+}
+
+RC_GTEST_PROP(triangle_error, lets_through_what_the_slack_allows_and_tells_what_keeps_the_threshold, ()) {
+  const Field field = any_field();
+  const double threshold = *rc::gen::element(0.5, 1.0, 2.0, 7.3, 30.0, 1e6);
+  std::array<FitCorner, 3> corners{any_corner(field), any_corner(field), any_corner(field)};
+  RC_PRE(area_of(corners[0], corners[1], corners[2]) > 0);
+  const TriangleError error(field.raster(), {0, 0}, threshold);
+  constexpr double kSlack = 1.5;
+  const TriangleError loose = error.with({kSlack, ErrorRule::Power::kEight});
+  const auto verdict = loose.judge(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
+  const Oracle oracle(field.raster(), corners, threshold);
+  const bool passes = verdict.kind == TriangleError::Verdict::Kind::kKeeps;
+  if (std::abs(oracle.worst - kSlack) > 1e-3) RC_ASSERT(passes == (oracle.worst < kSlack));
+  if (!passes) return;
+  RC_ASSERT((verdict.worst <= threshold) == oracle.keeps);
+  RC_ASSERT(std::abs(verdict.worst / threshold - oracle.worst) <= 1e-3);
+  RC_ASSERT(std::abs(static_cast<double>(verdict.energy) - oracle.eighth) <= 1e-3 * (1 + oracle.eighth));
+}
+
+RC_GTEST_PROP(triangle_error, pulls_as_the_samples_do, ()) {
+  const Field field = any_field();
+  const double threshold = *rc::gen::element(2.0, 7.3, 30.0);
+  std::array<FitCorner, 3> corners{any_corner(field), any_corner(field), any_corner(field)};
+  RC_PRE(area_of(corners[0], corners[1], corners[2]) > 0);
+  const TriangleError error(field.raster(), {0, 0}, threshold);
+  const Oracle oracle(field.raster(), corners, threshold);
+  RC_PRE(oracle.worst < 10);
+  const auto pull = error.pull(corners[0], corners[1], corners[2]);
+  RC_ASSERT(std::abs(pull.stiffness - oracle.stiffness) <= 1e-2 * (1 + oracle.stiffness));
+  RC_ASSERT(std::abs(pull.push - oracle.push) <= 1e-2 * (1 + oracle.eighth));
+  TriangleError::Moments moments{};
+  error.add_moments(corners[0], corners[1], corners[2], moments);
+  RC_ASSERT(std::abs(moments[0] - oracle.eighth) <= 1e-2 * (1 + oracle.eighth));
+  RC_ASSERT(std::abs(moments[1] - oracle.push) <= 1e-2 * (1 + oracle.eighth));
+  RC_ASSERT(std::abs(moments[2] - oracle.stiffness) <= 1e-2 * (1 + oracle.stiffness));
 }
 
 RC_GTEST_PROP(triangle_error, gives_up_only_where_the_energy_reaches_the_limit, ()) {

@@ -10,6 +10,7 @@
 
 // After scarp/io.h: Decode::kNone would shadow kNone.
 #include "fit/fit.h"
+#include "laws/fit_meshes.h"
 #include "laws/mesh_laws.h"
 #include "laws/tile_meshes.h"
 #include "refine/height_judge.h"
@@ -81,6 +82,29 @@ TEST_P(RealRasters, KeepTheBoundInExactArithmeticWithFewerVertices) {
     EXPECT_EQ(fitted.tin.vertex_count() + fitted.counts.removed, vertices);
     EXPECT_LT(fitted.tin.vertex_count(), vertices);
   }
+}
+
+TEST_P(RealRasters, AreRepairedWithinTheBoundWhateverTheFreedom) {
+  const Raster raster = samples_->raster();
+  const double threshold = 0.02 * relief_;
+  const FitOptions on_samples{.threshold = threshold, .threads = 2, .repair_rounds = 2};
+  FitOptions free = on_samples;
+  free.vertices_are_free = true;
+  const auto refined = [&] {
+    auto domain = build_domain(raster, 0, field_.frame);
+    const HeightJudge judge(raster, threshold);
+    Refinement refinement(judge, domain->tin);
+    while (!refinement.done()) refinement.insert_worst();
+    return std::move(domain->tin);
+  };
+  const Fitted repaired = *fit(raster, refined(), on_samples), freed = *fit(raster, refined(), free);
+  EXPECT_EQ(testing::verify_triangulation(repaired.tin, raster.cols, raster.rows, testing::Edges::kAny), "");
+  EXPECT_EQ(testing::find_broken_bound(raster, repaired.tin, threshold), "");
+  EXPECT_EQ(testing::verify_triangulation(freed.tin, testing::in_steps(raster.cols), testing::in_steps(raster.rows),
+                                          testing::Edges::kAny),
+            "");
+  EXPECT_EQ(testing::find_broken_bound(raster, freed, threshold), "");
+  EXPECT_LT(freed.tin.vertex_count(), repaired.tin.vertex_count());
 }
 
 TEST_P(RealRasters, KeepThePromiseAtThePublicDoorWhateverTheThreads) {

@@ -1,0 +1,28 @@
+#include "fit/flips.h"
+
+namespace scarp {
+
+namespace {
+
+/// Of the energy before: what must be gained, so that roundings never flip an edge back and forth.
+constexpr float kGain = 1e-5f;
+
+}  // namespace
+
+bool Flips::improve(const TriangleError& error, Patch::Id face, unsigned edge) {
+  if (Patch::is_border(patch_.face(face).links[edge])) return false;
+  const Patch::Quad q = patch_.quad(face, edge);
+  const FitCorner &a = patch_.at(q.a), &b = patch_.at(q.b), &c = patch_.at(q.c), &d = patch_.at(q.d);
+  if (area2(c, a, d) <= 0 || area2(d, b, c) <= 0) return false;
+  const float limit = (patch_.face(q.face).energy + patch_.face(q.beyond).energy) * (1 - kGain);
+  const auto near = error.judge(c, a, d, limit);
+  if (near.kind != TriangleError::Verdict::Kind::kKeeps) return false;
+  const auto far = error.judge(d, b, c, limit - near.energy);
+  if (far.kind != TriangleError::Verdict::Kind::kKeeps) return false;
+  patch_.flip(q);
+  patch_.set_measure(q.face, near.worst, near.energy);
+  patch_.set_measure(q.beyond, far.worst, far.energy);
+  return true;
+}
+
+}  // namespace scarp

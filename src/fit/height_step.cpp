@@ -1,0 +1,47 @@
+#include "fit/height_step.h"
+
+#include <array>
+#include <cstddef>
+
+namespace scarp {
+
+namespace {
+
+constexpr std::array<double, 9> kBinomials{1, 8, 28, 56, 70, 56, 28, 8, 1};
+constexpr int kDoublings = 40, kHalvings = 26;
+
+double energy_at(const TriangleError::Moments& moments, double rise) {
+  double sum = 0;
+  for (std::size_t k = moments.size(); k-- > 0;) sum = sum * rise + kBinomials[k] * moments[k];
+  return sum;
+}
+
+double slope_at(const TriangleError::Moments& moments, double rise) {
+  double sum = 0;
+  for (std::size_t k = moments.size() - 1; k > 0; --k)
+    sum = sum * rise + static_cast<double>(k) * kBinomials[k] * moments[k];
+  return sum;
+}
+
+}  // namespace
+
+HeightStep best_height(const TriangleError::Moments& moments) {
+  const HeightStep level{0, moments[0]};
+  const double slope = slope_at(moments, 0);
+  if (slope == 0 || !(moments[8] > 0)) return level;
+  const double direction = slope > 0 ? -1 : 1;
+  const auto falls_at = [&](double distance) { return slope_at(moments, direction * distance) * direction < 0; };
+  double near = 0, far = 0.25;
+  for (int i = 0; i < kDoublings && falls_at(far); ++i) {
+    near = far;
+    far *= 2;
+  }
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = (near + far) / 2;
+    (falls_at(middle) ? near : far) = middle;
+  }
+  const HeightStep best{direction * (near + far) / 2, energy_at(moments, direction * (near + far) / 2)};
+  return best.energy < level.energy ? best : level;
+}
+
+}  // namespace scarp

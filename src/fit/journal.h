@@ -1,0 +1,50 @@
+// First-touch copies: what an array held before a transaction, for as long as the transaction may still be undone.
+//
+// Repair changes a few dozen triangles and often gives up, so a copy of the whole would cost more than the work. Each
+// element is copied once, when it is about to change for the first time; to undo is to put the copies back. Elements
+// are neither added nor deleted within a transaction: what is removed is marked, and its place is not used again before
+// the patch is packed. The price outside transactions is one comparison a change.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace scarp {
+
+template <class T>
+class Journal {
+ public:
+  struct Copy {
+    std::uint32_t index;
+    T before;
+  };
+
+  void begin(std::size_t count) {
+    stamps_.resize(count, 0);
+    copies_.clear();
+    is_open_ = true;
+    ++now_;
+  }
+  /// Before every change of items[index].
+  void touch(const std::vector<T>& items, std::uint32_t index) {
+    if (!is_open_ || stamps_[index] == now_) return;
+    stamps_[index] = now_;
+    copies_.push_back({index, items[index]});
+  }
+  /// In the order of the first touches, since begin().
+  std::span<const Copy> copies() const { return copies_; }
+  void commit() { is_open_ = false; }
+  void roll_back(std::vector<T>& items) {
+    for (const Copy& copy : copies_) items[copy.index] = copy.before;
+    is_open_ = false;
+  }
+
+ private:
+  std::vector<std::uint32_t> stamps_;  // by element, the transaction that has touched it last
+  std::vector<Copy> copies_;
+  std::uint32_t now_ = 0;
+  bool is_open_ = false;
+};
+
+}  // namespace scarp

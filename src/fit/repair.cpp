@@ -1,0 +1,100 @@
+#include "fit/repair.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace scarp {
+
+namespace {
+
+/// Triangles nearer to the bound than this, in thresholds, are worth a flip.
+constexpr double kWorthFlip = 0.9;
+/// A round must leave less than this share of the excess.
+constexpr double kProgress = 0.95;
+/// The largest excess that is left to hope after the second round, and after the fourth.
+constexpr double kSecondHope = 0.6, kFourthHope = 0.25;
+
+}  // namespace
+
+void measure(Patch& patch, const TriangleError& error, Patch::Id face) {
+  const auto& [a, b, c] = patch.face(face).corners;
+  const auto verdict = error.judge(patch.at(a), patch.at(b), patch.at(c), std::numeric_limits<float>::infinity());
+  patch.set_measure(face, verdict.worst, verdict.energy);
+}
+
+bool Repair::remove(Patch::Id v, const Patch::Star& star, std::span<const Patch::RingTriangle> triangles) {
+  ring_ = star.ring;
+  moved_.clear();
+  patch_.begin();
+  patch_.remove(v, star, triangles);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (patch_.face(star.faces[i]).energy < 0) measure(patch_, loose_, star.faces[i]);
+  }
+  if (!mend()) {
+    patch_.roll_back();
+    return false;
+  }
+  list_changed();
+  patch_.commit();
+  return true;
+}
+
+bool Repair::mend() {
+  Excess left = excess();
+  for (int round = 0; left.any; ++round) {
+    if (round == rounds_) return false;
+    const Excess before = left;
+    for (const Patch::Id v : ring_) {
+      if (step_.improve(loose_, v)) moved_.push_back(v);
+    }
+    for (const Patch::Id v : ring_) flip_around(v);
+    left = excess();
+    if (!left.any) return true;
+    if (round > 0 && left.sum > kProgress * before.sum) return false;
+    if ((round == 1 && left.worst > kSecondHope) || (round == 3 && left.worst > kFourthHope)) return false;
+  }
+  return true;
+}
+
+Repair::Excess Repair::excess() const {
+  Excess excess;
+  const double threshold = loose_.threshold();
+  for (const auto& copy : patch_.touched()) {
+    const Patch::Face& face = patch_.face(copy.index);
+    if (face.corners[0] == kNone || face.worst <= threshold) continue;
+    const double over = face.worst / threshold - 1;
+    excess.any = true;
+    excess.sum += over;
+    excess.worst = std::max(excess.worst, over);
+  }
+  return excess;
+}
+
+void Repair::flip_around(Patch::Id v) {
+  patch_.find_star(v, star_);
+  for (const Patch::Id f : star_.faces) {
+    for (unsigned edge = 0; edge < 3; ++edge) {
+      if (patch_.face(f).worst > kWorthFlip * loose_.threshold()) flips_.improve(loose_, f, edge);
+    }
+  }
+}
+
+/// Not where only a neighbour is another one.
+bool Repair::has_changed(const Journal<Patch::Face>::Copy& copy) const {
+  const auto& corners = patch_.face(copy.index).corners;
+  return corners != copy.before.corners || std::any_of(corners.begin(), corners.end(), [this](Patch::Id v) {
+           return std::find(moved_.begin(), moved_.end(), v) != moved_.end();
+         });
+}
+
+void Repair::list_changed() {
+  changed_.clear();
+  for (const auto& copy : patch_.touched()) {
+    const auto& corners = patch_.face(copy.index).corners;
+    if (corners[0] != kNone && has_changed(copy)) changed_.insert(changed_.end(), corners.begin(), corners.end());
+  }
+  std::sort(changed_.begin(), changed_.end());
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+}
+
+}  // namespace scarp

@@ -1,0 +1,147 @@
+// The rows of one triangle, eight samples at a time: what judging a triangle and asking its samples have in common.
+// For triangle_error.cpp and triangle_pull.cpp alone.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "fit/triangle_error.h"
+#include "geom/scan_kernels.h"
+
+namespace scarp {
+
+// Rows are looked at eight samples at a time, as two vectors of four: the width that every machine has. The order of
+// the sums is part of the result.
+using Floats = float __attribute__((vector_size(16)));
+using Masks = std::int32_t __attribute__((vector_size(16)));
+using Words = std::int64_t __attribute__((vector_size(16)));
+inline constexpr std::int32_t kLanes = 8;
+
+inline Floats load(const float* from) {
+  Floats four;
+  std::memcpy(&four, from, sizeof four);
+  return four;
+}
+inline Floats all(float value) { return Floats{value, value, value, value}; }
+inline bool any(Masks mask) {
+  const auto words = reinterpret_cast<Words>(mask);
+  return (words[0] | words[1]) != 0;
+}
+
+/// Four values; 0 where they are not meant.
+inline Floats kept(Floats values, Masks meant) {
+  return reinterpret_cast<Floats>(reinterpret_cast<Masks>(values) & meant);
+}
+/// Four errors' magnitudes; 0 where they are not meant, and where the sample is void: NaN is not equal to itself.
+inline Floats magnitudes(Floats errors, Masks meant) {
+  constexpr std::int32_t kAllButSign = 0x7fffffff;
+  return kept(errors, meant & (errors == errors) & Masks{kAllButSign, kAllButSign, kAllButSign, kAllButSign});
+}
+
+/// Eight samples of a row from `samples` on, of which the first `count` are meant.
+struct RowSamples {
+  std::array<float, kLanes> copy;
+  const float* from;
+  RowSamples(const float* samples, const float* end) : from(samples) {
+    if (end - samples >= kLanes) return;
+    copy.fill(0);
+    std::copy(samples, end, copy.begin());
+    from = copy.data();
+  }
+};
+
+/// The crossing of an edge with a row is off by less than 2⁻³², and, where it is no whole number, at least 2⁻²⁵ away
+/// from one: a multiple of 1/(8·rows) for less than kMaxFitSteps rows of the lattice.
+inline constexpr double kOnSample = 0x1p-28;
+
+/// A triangle ready to be scanned: corners from top to bottom in samples, its plane.
+struct TriangleTask {
+  struct Place {
+    double x, y;
+  };
+  std::array<FitCorner, 3> corners;
+  Place top, middle, bottom;
+  float base_x, base_y;
+  ScanPlane plane;
+  float doubt, certain;  // computed errors up to `doubt` keep the threshold, above `certain` break it
+  float cut;             // above it they break the limit
+
+  TriangleTask(const FitCorner& a, const FitCorner& b, const FitCorner& c, double threshold, double limit)
+      : corners{a, b, c} {
+    constexpr double kStep = 1.0 / kLatticeSteps;
+    const Place pa{a.x * kStep, a.y * kStep}, pb{b.x * kStep, b.y * kStep}, pc{c.x * kStep, c.y * kStep};
+    top = pa;
+    middle = pb;
+    bottom = pc;
+    if (middle.y < top.y) std::swap(top, middle);
+    if (bottom.y < top.y) std::swap(top, bottom);
+    if (bottom.y < middle.y) std::swap(middle, bottom);
+    base_x = static_cast<float>(pa.x);
+    base_y = static_cast<float>(pa.y);
+    plane = ScanPlane::spanned(
+        a.z, {pb.x - pa.x, pb.y - pa.y, pc.x - pa.x, pc.y - pa.y, double{b.z} - double{a.z}, double{c.z} - double{a.z}},
+        limit);
+    doubt = scan_floor(threshold, plane.guard);
+    certain = static_cast<float>(threshold + double{plane.guard});
+    cut = static_cast<float>(limit + double{plane.guard});
+  }
+
+  float row_height(std::int32_t y) const { return plane.slope_y * (static_cast<float>(y) - base_y); }
+  float error(std::int32_t x, float row, float sample) const {
+    return std::abs((plane.slope_x * (static_cast<float>(x) - base_x) + row) - (sample - plane.height));
+  }
+};
+
+/// Calls row(y, first, last) for each row with samples, top down, until it answers false; whether it never did.
+template <class Row>
+bool each_row(const TriangleTask& task, const Row& row) {
+  const TriangleTask::Place top = task.top, middle = task.middle, bottom = task.bottom;
+  const double along = (bottom.x - top.x) / (bottom.y - top.y);
+  const double upper = middle.y > top.y ? (middle.x - top.x) / (middle.y - top.y) : 0;
+  const double lower = bottom.y > middle.y ? (bottom.x - middle.x) / (bottom.y - middle.y) : 0;
+  for (double y = std::ceil(top.y); y <= bottom.y; ++y) {
+    const double from = top.x + (y - top.y) * along;
+    const double to = y < middle.y ? top.x + (y - top.y) * upper : middle.x + (y - middle.y) * lower;
+    const auto first = static_cast<std::int32_t>(std::min(from, to) + (1 - kOnSample));
+    const auto last = static_cast<std::int32_t>(std::max(from, to) + kOnSample);
+    if (first <= last && !row(static_cast<std::int32_t>(y), first, last)) return false;
+  }
+  return true;
+}
+
+inline constexpr int kRowsPerLook = 4;  ///< between looks at the energy
+
+/// A scan on its way through the rows of a triangle.
+struct TriangleScan {
+  const TriangleTask& task;
+  const float* end;  // of the samples
+  Floats slope, height;
+  int rows = 0;
+
+  TriangleScan(const TriangleTask& of, const float* samples_end)
+      : task(of), end(samples_end), slope(all(of.plane.slope_x)), height(all(of.plane.height)) {}
+
+  /// Calls visit(left, low, low_meant, high, high_meant) for each eight samples: the first four's offset from the base,
+  /// errors, and which are meant. `samples`: the row, from its first sample in the window.
+  template <class Visit>
+  void each_eight(const float* samples, std::int32_t y, std::int32_t first, std::int32_t last, const Visit& visit) {
+    const Floats row = all(task.row_height(y));
+    for (std::int32_t x = first; x <= last; x += kLanes) {
+      const RowSamples eight(samples + x, end);
+      const float offset = static_cast<float>(x) - task.base_x;
+      const Floats left = all(offset) + Floats{0, 1, 2, 3}, right = all(offset) + Floats{4, 5, 6, 7};
+      const std::int32_t count = last - x + 1;
+      const Masks counts{count, count, count, count};
+      const Floats low = (slope * left + row) - (load(eight.from) - height);
+      const Floats high = (slope * right + row) - (load(eight.from + 4) - height);
+      visit(left, low, Masks{0, 1, 2, 3} < counts, high, Masks{4, 5, 6, 7} < counts);
+    }
+    ++rows;
+  }
+  bool is_time_to_look() const { return rows % kRowsPerLook == 0; }
+};
+
+}  // namespace scarp

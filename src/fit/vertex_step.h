@@ -1,0 +1,61 @@
+// A step of one vertex to a better place, its neighbours held fast.
+//
+// Moving a vertex by (dz, dx, dy) changes the residual t (error / threshold) at a sample by λ·(dz − g·(dx, dy)): λ the
+// weight of the vertex at the sample, g the slope of the triangle. The energy Σ t⁸ is lowest where the Gauss–Newton
+// system
+//
+//   Σ_f A_f u_f u_fᵀ (dz, dx, dy) = −Σ_f B_f u_f,   u_f = (1, −g_f),  A_f = Σ t⁶ λ²,  B_f = Σ t⁷ λ over the samples of
+//   f
+//
+// says. Where vertices are samples the place decides the height: u_f = (0, s − g_f) with s the slope of the terrain.
+// The step is tried at three lengths, rounded to the lattice. At each place a free vertex gets its best height, which
+// is exact (height_step.h). The first place is taken at which the energy of the star falls; if there is none, a free
+// vertex may still rise or fall where it is. Vertices on a side of the rectangle slide along it; locked ones stay.
+//
+// This is what repair lives on: of greedy's triangles on Fuji at 1 % of the relief 0.344 are left, without steps in
+// repair 0.439, where vertices are free 0.276. Without steps repair takes half the time.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "fit/patch.h"
+#include "fit/triangle_error.h"
+
+namespace scarp {
+
+/// Where vertices may be.
+enum class Freedom : std::uint8_t {
+  kSamples,  ///< on valid samples, at their heights
+  kLattice,  ///< on the lattice of fitting, at any height
+};
+
+class VertexStep {
+ public:
+  /// The patch stays alive.
+  VertexStep(Patch& patch, Freedom freedom) : patch_(patch), freedom_(freedom) {}
+
+  /// Moves v if a step lowers the energy of its star, every triangle of which the rule of `error` lets through; whether
+  /// it did. REQUIRES: v is not removed, energies of its triangles are known. Cost: a scan of the star, and one for
+  /// each length that is tried, most of which end early; with free heights two.
+  bool improve(const TriangleError& error, Patch::Id v);
+
+ private:
+  struct Vector {
+    double x = 0, y = 0;
+  };
+  const FitCorner& ring(std::size_t i) const { return patch_.at(star_.ring[i % star_.ring.size()]); }
+  Vector terrain_slope(const TriangleError& error, const FitCorner& at) const;
+  Vector newton_step(const TriangleError& error, const FitCorner& at) const;
+  double mean_edge(const FitCorner& at) const;
+  bool fits(const FitCorner& place) const;
+  bool find_height(const TriangleError& error, const FitCorner& from, FitCorner& place, float limit) const;
+  bool try_place(const TriangleError& error, Patch::Id v, FitCorner place, float limit);
+
+  Patch& patch_;
+  Freedom freedom_;
+  Patch::Star star_;
+  std::vector<TriangleError::Verdict> verdicts_;
+};
+
+}  // namespace scarp

@@ -1,0 +1,107 @@
+// Meshes to be fitted, and what to ask of them before and after.
+#pragma once
+
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "fit/fit.h"
+#include "geom/exact_error.h"
+#include "laws/fields.h"
+#include "laws/tile_meshes.h"
+#include "refine/domain.h"
+#include "refine/height_judge.h"
+#include "refine/refinement.h"
+
+namespace scarp::testing {
+
+inline Field any_field() {
+  const auto largest = *rc::gen::element(3, 12, 40, 80);
+  const auto cols = *rc::gen::inRange(2, largest * 5 / 3), rows = *rc::gen::inRange(2, largest);
+  const auto seed = *rc::gen::arbitrary<std::uint32_t>();
+  const int relief = *rc::gen::inRange(0, 6);
+  return relief == 5 ? sloping_field(seed, cols, rows)
+                     : random_field(seed, cols, rows, kReliefs[relief], *rc::gen::element(0.0, 0.0, 0.02, 0.1, 0.4));
+}
+
+inline double any_threshold() { return *rc::gen::element(0.0, 1e-7, 0.5, 1.0, 2.0, 7.3, 30.0, 1e6); }
+
+/// The greedy mesh; nothing if the field has no surface.
+inline std::optional<Triangulation> refined(const Field& field, double threshold) {
+  auto domain = build_domain(field.raster(), 0, grid_frame(field.rows));
+  if (!domain) return std::nullopt;
+  const HeightJudge judge(field.raster(), threshold);
+  Refinement refinement(judge, domain->tin);
+  while (!refinement.done()) refinement.insert_worst();
+  return std::move(domain->tin);
+}
+
+using Points = std::set<std::pair<std::int32_t, std::int32_t>>;
+
+inline Points vertices_of(const Triangulation& tin) {
+  Points points;
+  for (Vertex v = 0; v < tin.vertex_count(); ++v) points.insert({tin.point(v).x, tin.point(v).y});
+  return points;
+}
+
+inline bool is_on_side(Point p, const Field& field) {
+  return p.x == 0 || p.y == 0 || p.x == field.cols - 1 || p.y == field.rows - 1;
+}
+
+/// Ends of constrained edges within the rectangle.
+inline Points outline_of(const Triangulation& tin, const Field& field) {
+  Points points;
+  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    const Point p = tin.point(tin.origin(h));
+    if (tin.is_constrained(h) && !is_on_side(p, field)) points.insert({p.x, p.y});
+  }
+  return points;
+}
+
+inline bool includes(const Points& all, const Points& some) {
+  return std::includes(all.begin(), all.end(), some.begin(), some.end());
+}
+
+inline bool is_same(const Triangulation& a, const Triangulation& b) {
+  if (a.vertex_count() != b.vertex_count() || a.triangle_count() != b.triangle_count()) return false;
+  for (Vertex v = 0; v < a.vertex_count(); ++v) {
+    if (!(a.point(v) == b.point(v))) return false;
+  }
+  for (HalfEdge h = 0; h < 3 * a.triangle_count(); ++h) {
+    if (a.origin(h) != b.origin(h) || a.twin(h) != b.twin(h) || a.is_constrained(h) != b.is_constrained(h) ||
+        a.is_outside(h / 3) != b.is_outside(h / 3))
+      return false;
+  }
+  return true;
+}
+
+/// The first sample that breaks the bound by exact arithmetic, whose triangles have corners on the lattice.
+inline std::string find_broken_bound(const Raster& raster, const Fitted& fitted, double threshold) {
+  for (Triangle t = 0; t < fitted.tin.triangle_count(); ++t) {
+    if (fitted.tin.is_outside(t)) continue;
+    const std::array<Point, 3> corners = fitted.tin.corners(t);
+    std::array<float, 3> heights;
+    for (unsigned k = 0; k < 3; ++k) heights[k] = fitted.places.heights[fitted.tin.origin(3 * t + k)];
+    const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
+    const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
+    for (Point s{left / kLatticeSteps, top / kLatticeSteps}; s.y * kLatticeSteps <= bottom; ++s.y) {
+      for (s.x = left / kLatticeSteps; s.x * kLatticeSteps <= right; ++s.x) {
+        const Point p{s.x * kLatticeSteps, s.y * kLatticeSteps};
+        bool inside = raster.is_valid(s);
+        for (unsigned k = 0; k < 3; ++k) inside = inside && orient(corners[k], corners[(k + 1) % 3], p) >= 0;
+        if (!inside || is_clearly_kept(corners, heights, p, raster.at(s), threshold)) continue;
+        if (exceeds_exactly(corners, heights, p, raster.at(s), threshold))
+          return fmt::format("sample ({}, {}) breaks the bound {}", s.x, s.y, threshold);
+      }
+    }
+  }
+  return "";
+}
+
+/// A side of the rectangle that vertices on the lattice of fitting live in.
+inline std::int32_t in_steps(std::int32_t side) { return (side - 1) * kLatticeSteps + 1; }
+
+}  // namespace scarp::testing

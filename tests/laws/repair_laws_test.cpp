@@ -1,0 +1,394 @@
+// Removal with repair, and what it is made of: moves, flips, and taking all of them back.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <bit>
+#include <limits>
+#include <utility>
+
+#include "fit/cut.h"
+#include "fit/fit.h"
+#include "fit/flips.h"
+#include "fit/height_step.h"
+#include "fit/repair.h"
+#include "fit/ring_search.h"
+#include "fit/vertex_step.h"
+#include "geom/exact_error.h"
+#include "laws/fit_meshes.h"
+#include "laws/mesh_laws.h"
+#include "laws/tile_meshes.h"
+
+namespace scarp {
+namespace {
+
+using testing::any_field;
+using testing::any_threshold;
+using testing::Field;
+using testing::is_on_side;
+using testing::is_same;
+using testing::Points;
+using testing::refined;
+using testing::Relief;
+
+/// Constrained edges within the rectangle, from the end that comes first.
+std::set<std::pair<std::pair<std::int32_t, std::int32_t>, std::pair<std::int32_t, std::int32_t>>> constraints_of(
+    const Triangulation& tin) {
+  std::set<std::pair<std::pair<std::int32_t, std::int32_t>, std::pair<std::int32_t, std::int32_t>>> edges;
+  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    if (!tin.is_constrained(h) || tin.twin(h) == kNone) continue;
+    const Point p = tin.point(tin.origin(h)), q = tin.point(tin.origin(Triangulation::next(h)));
+    edges.insert(std::minmax(std::pair{p.x, p.y}, std::pair{q.x, q.y}));
+  }
+  return edges;
+}
+
+Points side_vertices_of(const Triangulation& tin, const Field& field) {
+  Points points;
+  for (Vertex v = 0; v < tin.vertex_count(); ++v) {
+    if (is_on_side(tin.point(v), field)) points.insert({tin.point(v).x, tin.point(v).y});
+  }
+  return points;
+}
+
+RC_GTEST_PROP(repair, keeps_the_bound_the_domain_and_the_constraints, ()) {
+  const Field field = any_field();
+  const double threshold = any_threshold();
+  auto tin = refined(field, threshold);
+  RC_PRE(tin.has_value());
+  const auto constraints = constraints_of(*tin);
+  const std::size_t vertices = tin->vertex_count();
+  const std::int64_t outside = testing::outside_area2(*tin);
+  const auto fitted = *fit(field.raster(), std::move(*tin),
+                           {.threshold = threshold,
+                            .threads = 2,
+                            .repair_rounds = *rc::gen::inRange(1, 4),
+                            .repair_depth = *rc::gen::inRange(0, 7),
+                            .patch_side = *rc::gen::element(0, 1, 5, 16, 40)});
+  const std::string unsound = testing::verify_triangulation(fitted.tin, field.cols, field.rows, testing::Edges::kAny);
+  RC_ASSERT(unsound == "");
+  const std::string broken = testing::find_broken_bound(field.raster(), fitted.tin, threshold);
+  RC_ASSERT(broken == "");
+  RC_ASSERT(testing::outside_area2(fitted.tin) == outside);
+  RC_ASSERT(constraints_of(fitted.tin) == constraints);
+  RC_ASSERT(fitted.tin.vertex_count() + fitted.counts.removed == vertices);
+  RC_ASSERT(fitted.counts.repaired <= fitted.counts.tried);
+}
+
+RC_GTEST_PROP(repair, of_free_vertices_keeps_the_bound_the_domain_and_the_constraints, ()) {
+  const Field field = any_field();
+  const double threshold = *rc::gen::element(0.5, 1.0, 2.0, 7.3, 30.0, 1e6);
+  auto tin = refined(field, threshold);
+  RC_PRE(tin.has_value());
+  const std::size_t constraints = constraints_of(*tin).size(), vertices = tin->vertex_count();
+  const std::int64_t outside = testing::outside_area2(*tin);
+  const auto fitted = *fit(field.raster(), std::move(*tin),
+                           {.threshold = threshold,
+                            .threads = 2,
+                            .repair_rounds = *rc::gen::inRange(1, 4),
+                            .repair_depth = *rc::gen::inRange(0, 7),
+                            .vertices_are_free = true,
+                            .patch_side = *rc::gen::element(0, 1, 5, 16, 40)});
+  RC_ASSERT(fitted.places.steps == kLatticeSteps);
+  RC_ASSERT(fitted.places.heights.size() == fitted.tin.vertex_count());
+  const std::string unsound = testing::verify_triangulation(fitted.tin, testing::in_steps(field.cols),
+                                                            testing::in_steps(field.rows), testing::Edges::kAny);
+  RC_ASSERT(unsound == "");
+  const std::string broken = testing::find_broken_bound(field.raster(), fitted, threshold);
+  RC_ASSERT(broken == "");
+  RC_ASSERT(testing::outside_area2(fitted.tin) == outside * kLatticeSteps * kLatticeSteps);
+  const auto left = constraints_of(fitted.tin);
+  RC_ASSERT(left.size() == constraints);
+  for (const auto& [p, q] : left) {
+    RC_ASSERT(p.first % kLatticeSteps == 0 && p.second % kLatticeSteps == 0);
+    RC_ASSERT(q.first % kLatticeSteps == 0 && q.second % kLatticeSteps == 0);
+  }
+  RC_ASSERT(fitted.tin.vertex_count() + fitted.counts.removed == vertices);
+}
+
+RC_GTEST_PROP(repair, leaves_the_sides_alone_where_they_are_not_free, ()) {
+  const Field field = any_field();
+  const double threshold = any_threshold();
+  auto tin = refined(field, threshold);
+  RC_PRE(tin.has_value());
+  const Points sides = side_vertices_of(*tin, field);
+  const auto fitted =
+      *fit(field.raster(), std::move(*tin), {.threshold = threshold, .sides_are_free = false, .repair_rounds = 2});
+  RC_ASSERT(side_vertices_of(fitted.tin, field) == sides);
+}
+
+bool have_same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](float x, float y) {
+           return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y);
+         });
+}
+
+RC_GTEST_PROP(repair, threads_change_nothing, ()) {
+  const Field field = any_field();
+  const double threshold = any_threshold();
+  RC_PRE(refined(field, threshold).has_value());
+  FitOptions options{.threshold = threshold,
+                     .threads = 1,
+                     .repair_rounds = 2,
+                     .vertices_are_free = *rc::gen::arbitrary<bool>(),
+                     .patch_side = *rc::gen::element(3, 8, 16)};
+  const auto first = *fit(field.raster(), *refined(field, threshold), options);
+  for (const int threads : {2, 7}) {
+    options.threads = threads;
+    const auto again = *fit(field.raster(), *refined(field, threshold), options);
+    RC_ASSERT(is_same(again.tin, first.tin));
+    RC_ASSERT(have_same_bits(again.places.heights, first.places.heights));
+    RC_ASSERT(again.counts.tried == first.counts.tried);
+  }
+}
+
+TEST(repair, takes_a_quarter_of_what_removal_leaves) {
+  Field field{160, 120, {}};
+  for (int y = 0; y < field.rows; ++y) {
+    for (int x = 0; x < field.cols; ++x)
+      field.samples.push_back(static_cast<float>(std::sin(x * 0.11) * 40 + std::sin(y * 0.07 + x * 0.05) * 60));
+  }
+  const auto triangles = [&](int rounds, std::int32_t side, bool are_free = false) {
+    const FitOptions options{
+        .threshold = 3, .threads = 2, .repair_rounds = rounds, .vertices_are_free = are_free, .patch_side = side};
+    return static_cast<double>(fit(field.raster(), *refined(field, 3), options)->tin.triangle_count());
+  };
+  EXPECT_LT(triangles(2, 0), 0.75 * triangles(0, 0));
+  EXPECT_LT(triangles(2, 0, true), 0.9 * triangles(2, 0));
+  EXPECT_LT(triangles(2, 80), 1.1 * triangles(2, 0));
+}
+
+TEST(repair, heights_and_triangles_beyond_its_arithmetic_are_left_alone) {
+  Field field = testing::random_field(5, 20, 20, Relief::kFlat);
+  field.samples[210] = 0x1p100f;
+  const FitOptions options{.threshold = 1, .repair_rounds = 2};
+  const auto before_fit = refined(field, 1)->triangle_count();
+  EXPECT_EQ(fit(field.raster(), *refined(field, 1), options)->tin.triangle_count(), before_fit);
+
+  const std::int32_t cols = kMaxFitSteps / kLatticeSteps + 100;
+  const std::vector<float> samples(2 * static_cast<std::size_t>(cols), 7.0f);
+  Triangulation tin(cols, 2);
+  tin.insert({cols / 2, 0}, tin.locate({cols / 2, 0}, 0));
+  EXPECT_EQ(fit({samples.data(), cols, 2}, std::move(tin), options)->counts.removed, 0u);
+}
+
+/// A patch that holds the whole of a mesh.
+struct Bench {
+  Field field = any_field();
+  double threshold = *rc::gen::element(0.5, 1.0, 2.0, 7.3, 30.0);
+  std::optional<Triangulation> tin = refined(field, threshold);
+  VertexPlaces places;
+  Patch patch;
+  std::vector<Vertex> vertices;
+
+  bool cut() {
+    if (!tin) return false;
+    PatchCutter::Scratch scratch;
+    patch = PatchCutter(field.raster(), *tin, places, {std::max(field.cols, field.rows), 0}, true, 1)
+                .cut(0, scratch, vertices);
+    return patch.face_count() > 0;
+  }
+  TriangleError errors(const ErrorRule& rule) const {
+    return TriangleError(field.raster(), patch.window().first, threshold, rule);
+  }
+};
+
+bool is_alive(const Patch& patch, Patch::Id f) { return patch.face(f).corners[0] != kNone; }
+
+/// The first law of a patch that is broken: triangles are positive, links mutual and along the same edge.
+std::string verify(const Patch& patch) {
+  for (Patch::Id f = 0; f < patch.face_count(); ++f) {
+    if (!is_alive(patch, f)) continue;
+    const auto& [corners, links, worst, energy] = patch.face(f);
+    if (area2(patch.at(corners[0]), patch.at(corners[1]), patch.at(corners[2])) <= 0)
+      return fmt::format("face {} is not positive", f);
+    for (unsigned k = 0; k < 3; ++k) {
+      if (patch.is_removed(corners[k])) return fmt::format("a corner of {} is gone", f);
+      if (Patch::is_border(links[k])) continue;
+      const Patch::Face& other = patch.face(Patch::triangle_of(links[k]));
+      const unsigned e = Patch::edge_of(links[k]);
+      if (other.links[e] != (f << 2 | k)) return fmt::format("edge {} of {} is not linked back", k, f);
+      if (other.corners[e] != corners[(k + 1) % 3] || other.corners[(e + 1) % 3] != corners[k])
+        return fmt::format("edge {} of {} runs elsewhere beyond", k, f);
+    }
+  }
+  for (Patch::Id v = 0; v < patch.node_count(); ++v) {
+    if (patch.is_removed(v)) continue;
+    Patch::Star star;
+    patch.find_star(v, star);
+    for (const Patch::Id f : star.faces) {
+      const auto& corners = patch.face(f).corners;
+      if (corners[0] != v && corners[1] != v && corners[2] != v) return fmt::format("the star of {} is not its own", v);
+    }
+  }
+  return "";
+}
+
+/// Everything that can be seen of a patch.
+struct Picture {
+  std::vector<Patch::Face> faces;
+  std::vector<FitCorner> places;
+  std::vector<bool> removed;
+
+  explicit Picture(const Patch& patch) {
+    for (Patch::Id f = 0; f < patch.face_count(); ++f) faces.push_back(patch.face(f));
+    for (Patch::Id v = 0; v < patch.node_count(); ++v) {
+      places.push_back(patch.at(v));
+      removed.push_back(patch.is_removed(v));
+    }
+  }
+  bool operator==(const Picture& other) const {
+    const auto same_faces = [](const Patch::Face& a, const Patch::Face& b) {
+      return a.corners == b.corners && a.links == b.links && a.worst == b.worst && a.energy == b.energy;
+    };
+    const auto same_places = [](const FitCorner& a, const FitCorner& b) {
+      return a.x == b.x && a.y == b.y && a.z == b.z;
+    };
+    return removed == other.removed &&
+           std::equal(faces.begin(), faces.end(), other.faces.begin(), other.faces.end(), same_faces) &&
+           std::equal(places.begin(), places.end(), other.places.begin(), other.places.end(), same_places);
+  }
+};
+
+void flip_somewhere(Patch& patch, Patch::Id f, unsigned edge) {
+  if (!is_alive(patch, f) || Patch::is_border(patch.face(f).links[edge])) return;
+  const Patch::Quad q = patch.quad(f, edge);
+  if (area2(patch.at(q.c), patch.at(q.a), patch.at(q.d)) <= 0) return;
+  if (area2(patch.at(q.d), patch.at(q.b), patch.at(q.c)) <= 0) return;
+  patch.flip(q);
+  patch.set_measure(q.face, 1, 2);
+}
+
+void remove_somewhere(Patch& patch, RingSearch& search, Patch::Id v) {
+  if (patch.is_locked(v) || patch.is_removed(v)) return;
+  Patch::Star star;
+  patch.find_star(v, star);
+  if (star.ring.size() < 3 || star.ring.size() > RingSearch::kMostCorners) return;
+  std::vector<FitCorner> ring;
+  for (const Patch::Id u : star.ring) ring.push_back(patch.at(u));
+  Point witness{patch.at(v).x / kLatticeSteps, patch.at(v).y / kLatticeSteps};
+  if (!search.find(ring, patch.at(v), witness)) return;
+  std::vector<Patch::RingTriangle> triangles;
+  search.triangles(triangles);
+  patch.remove(v, star, triangles);
+}
+
+RC_GTEST_PROP(patch, changes_stay_sound_and_can_be_taken_back, ()) {
+  Bench bench;
+  RC_PRE(bench.cut());
+  Patch& patch = bench.patch;
+  const TriangleError anything(bench.field.raster(), patch.window().first, 1e9);
+  RingSearch search(anything);
+  for (int transaction = 0; transaction < 3; ++transaction) {
+    const Picture before(patch);
+    patch.begin();
+    const auto steps = *rc::gen::inRange(0, 30);
+    for (int i = 0; i < steps; ++i) {
+      const auto f = *rc::gen::inRange<Patch::Id>(0, static_cast<Patch::Id>(patch.face_count()));
+      if (*rc::gen::inRange(0, 3) > 0) {
+        flip_somewhere(patch, f, *rc::gen::inRange(0u, 3u));
+      } else if (is_alive(patch, f)) {
+        remove_somewhere(patch, search, patch.face(f).corners[0]);
+      }
+    }
+    RC_ASSERT(verify(patch) == "");
+    if (transaction == 1) {
+      patch.commit();
+    } else {
+      patch.roll_back();
+      RC_ASSERT(Picture(patch) == before);
+    }
+    RC_ASSERT(verify(patch) == "");
+  }
+}
+
+/// By how much the energy has risen; faces that are as they were count for exactly nothing.
+double rise_of_energy(const Patch& patch, const Picture& before) {
+  double sum = 0;
+  for (Patch::Id f = 0; f < patch.face_count(); ++f)
+    sum += double{patch.face(f).energy} - double{before.faces[f].energy};
+  return sum;
+}
+
+/// Every face is measured, within the bound, and its measure true.
+bool is_measured(const Patch& patch, const TriangleError& error) {
+  for (Patch::Id f = 0; f < patch.face_count(); ++f) {
+    const auto& [a, b, c] = patch.face(f).corners;
+    const auto verdict = error.judge(patch.at(a), patch.at(b), patch.at(c), std::numeric_limits<float>::infinity());
+    if (verdict.kind != TriangleError::Verdict::Kind::kKeeps) return false;
+    // The order of the corners decides about the last bits.
+    const float energy = patch.face(f).energy;
+    if (std::abs(verdict.energy - energy) > 1e-3f * (1 + energy)) return false;
+  }
+  return true;
+}
+
+RC_GTEST_PROP(flips, lower_the_energy_and_keep_the_bound, ()) {
+  Bench bench;
+  RC_PRE(bench.cut());
+  const TriangleError error = bench.errors({1, ErrorRule::Power::kEight});
+  for (Patch::Id f = 0; f < bench.patch.face_count(); ++f) measure(bench.patch, error, f);
+  Flips flips(bench.patch);
+  Picture before(bench.patch);
+  for (Patch::Id f = 0; f < bench.patch.face_count(); ++f) {
+    for (unsigned edge = 0; edge < 3; ++edge) {
+      if (!flips.improve(error, f, edge)) continue;
+      RC_ASSERT(rise_of_energy(bench.patch, before) < 0);
+      before = Picture(bench.patch);
+    }
+  }
+  RC_ASSERT(Picture(bench.patch) == before);
+  RC_ASSERT(verify(bench.patch) == "");
+  RC_ASSERT(is_measured(bench.patch, error));
+}
+
+RC_GTEST_PROP(vertex_step, lowers_the_energy_keeps_the_bound_and_ends_where_vertices_may_be, ()) {
+  Bench bench;
+  RC_PRE(bench.cut());
+  Patch& patch = bench.patch;
+  const TriangleError error = bench.errors({1, ErrorRule::Power::kEight});
+  for (Patch::Id f = 0; f < patch.face_count(); ++f) measure(patch, error, f);
+  const auto freedom = *rc::gen::element(Freedom::kSamples, Freedom::kLattice);
+  VertexStep step(patch, freedom);
+  Picture before(patch);
+  for (Patch::Id v = 0; v < patch.node_count(); ++v) {
+    const FitCorner from = patch.at(v);
+    const bool moved = step.improve(error, v);
+    if (moved) {
+      RC_ASSERT(rise_of_energy(patch, before) < 0);
+      before = Picture(patch);
+    }
+    const FitCorner& to = patch.at(v);
+    RC_ASSERT(!moved || !patch.is_locked(v));
+    RC_ASSERT(moved == (to.x != from.x || to.y != from.y || to.z != from.z));
+    if (freedom == Freedom::kLattice) continue;
+    RC_ASSERT(to.x % kLatticeSteps == 0 && to.y % kLatticeSteps == 0);
+    RC_ASSERT(to.z == error.height_at({to.x / kLatticeSteps, to.y / kLatticeSteps}));
+  }
+  RC_ASSERT(Picture(patch) == before);
+  RC_ASSERT(verify(patch) == "");
+  RC_ASSERT(is_measured(patch, error));
+}
+
+RC_GTEST_PROP(height_step, finds_the_lowest_energy, ()) {
+  std::vector<std::pair<double, double>> samples;
+  const auto count = *rc::gen::inRange(1, 20);
+  for (int i = 0; i < count; ++i)
+    samples.push_back({*rc::gen::inRange(-150, 150) / 100.0, *rc::gen::inRange(0, 100) / 100.0});
+  const auto energy_at = [&](double rise) {
+    double sum = 0;
+    for (const auto& [t, share] : samples) sum += std::pow(t + share * rise, 8);
+    return sum;
+  };
+  TriangleError::Moments moments{};
+  for (const auto& [t, share] : samples) {
+    for (std::size_t k = 0; k < moments.size(); ++k)
+      moments[k] += std::pow(t, 8 - static_cast<int>(k)) * std::pow(share, static_cast<int>(k));
+  }
+  const HeightStep best = best_height(moments);
+  RC_ASSERT(best.energy <= energy_at(0) * (1 + 1e-12));
+  RC_ASSERT(std::abs(best.energy - energy_at(best.rise)) <= 1e-6 * (1e-9 + energy_at(0)));
+  for (double rise = -4; rise <= 4; rise += 0.01) RC_ASSERT(best.energy <= energy_at(rise) + 1e-6 * energy_at(0));
+}
+
+}  // namespace
+}  // namespace scarp
