@@ -48,31 +48,31 @@ Result<void> check_options(const HeightField& field, const SimplifyOptions& opti
   return {};
 }
 
-/// What keeps a run from the dominant order; null if nothing does.
-const char* find_obstacle(const HeightField& field, const SimplifyOptions& options) {
+/// What asks for more than a max error on heights alone; null if nothing does.
+const char* find_beyond_heights(const HeightField& field, const SimplifyOptions& options) {
   if (!options.max_error) return "needs a max error";
   if (options.max_triangles || options.max_vertices) return "has no budgets";
   if (!options.mask.empty() || !options.tolerance.empty()) return "has no mask and no tolerances";
   if (!field.channels.empty() || field.height_scale != 1) return "has no channels";
   if (!options.script.empty()) return "has no script";
+  if (options.outline_tolerance > 0) return "keeps the exact outline";
+  return nullptr;
+}
+
+/// What keeps a run from the dominant order; null if nothing does.
+const char* find_obstacle(const HeightField& field, const SimplifyOptions& options) {
+  if (const char* obstacle = find_beyond_heights(field, options)) return obstacle;
+  if (options.edges.data_dependent) return "has Delaunay edges only";
   if (options.importance != Importance{}) return "ranks by the error alone";
   if (options.algorithm != Algorithm::kHeap || options.batch != Batch{}) return "has no other algorithm and no batches";
-  if (options.edges.data_dependent) return "has Delaunay edges only";
-  if (options.outline_tolerance > 0) return "keeps the exact outline";
   return nullptr;
 }
 
 /// What keeps a run from removing vertices; null if nothing does.
 const char* find_fit_obstacle(const HeightField& field, const SimplifyOptions& options) {
-  if (!options.max_error) return "needs a max error";
-  if (options.max_triangles || options.max_vertices) return "has no budgets";
-  if (!options.mask.empty() || !options.tolerance.empty()) return "has no mask and no tolerances";
-  if (!field.channels.empty() || field.height_scale != 1) return "has no channels";
-  if (!options.script.empty()) return "has no script";
+  if (const char* obstacle = find_beyond_heights(field, options)) return obstacle;
   if (options.edges.data_dependent) return "chooses edges itself";
-  if (options.outline_tolerance > 0) return "keeps the exact outline";
-  if (field.samples == nullptr) return "needs the raster in memory as a whole";
-  return nullptr;
+  return field.samples == nullptr ? "needs the raster in memory as a whole" : nullptr;
 }
 
 /// One run of the engine towards the goals.

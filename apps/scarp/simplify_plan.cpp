@@ -111,22 +111,28 @@ Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
   return {};
 }
 
+/// The option that asks for more than a max error on heights alone; null if there is none.
+const char* find_beyond_heights(const SimplifyArguments& given, const SimplifyPlan& plan) {
+  const std::pair<const char*, bool> options[] = {{"--max-triangles", given.max_triangles.has_value()},
+                                                  {"--max-points", given.max_points.has_value()},
+                                                  {"--mask", given.companions.mask.has_value()},
+                                                  {"--tolerance", given.companions.tolerance.has_value()},
+                                                  {"--script", given.companions.script.has_value()},
+                                                  {"--image", given.channels.image},
+                                                  {"--texture", !given.channels.textures.empty()},
+                                                  {"--outline-tolerance", plan.simplify.outline_tolerance > 0}};
+  for (const auto& [name, is_given] : options) {
+    if (is_given) return name;
+  }
+  return nullptr;
+}
+
 /// The dominant order is for an error goal alone, on heights alone. The library would refuse the rest too, but knows no
 /// options.
 Result<void> plan_order(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (plan.simplify.order != Order::kDominant) return {};
-  const std::pair<const char*, bool> greedy_only[] = {{"--max-triangles", given.max_triangles.has_value()},
-                                                      {"--max-points", given.max_points.has_value()},
-                                                      {"--mask", given.companions.mask.has_value()},
-                                                      {"--tolerance", given.companions.tolerance.has_value()},
-                                                      {"--script", given.companions.script.has_value()},
-                                                      {"--image", given.channels.image},
-                                                      {"--texture", !given.channels.textures.empty()},
-                                                      {"--outline-tolerance", plan.simplify.outline_tolerance > 0}};
-  const char* culprit = given.strategy.dominant_obstacle();
-  for (const auto& [name, is_given] : greedy_only) {
-    if (is_given) culprit = name;
-  }
+  const char* culprit = find_beyond_heights(given, plan);
+  if (culprit == nullptr) culprit = given.strategy.dominant_obstacle();
   if (culprit == nullptr) return {};
   return fail(ErrorKind::kUsage,
               fmt::format("--order dominant and {} contradict each other: that order is for a max error alone, on "
@@ -137,24 +143,12 @@ Result<void> plan_order(const SimplifyArguments& given, SimplifyPlan& plan) {
 /// Removal, too, looks at heights and one error alone.
 Result<void> plan_effort(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (plan.simplify.effort == Effort::kFast) return {};
-  const std::pair<const char*, bool> obstacles[] = {{"--max-triangles", given.max_triangles.has_value()},
-                                                    {"--max-points", given.max_points.has_value()},
-                                                    {"--mask", given.companions.mask.has_value()},
-                                                    {"--tolerance", given.companions.tolerance.has_value()},
-                                                    {"--script", given.companions.script.has_value()},
-                                                    {"--image", given.channels.image},
-                                                    {"--texture", !given.channels.textures.empty()},
-                                                    {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
-                                                    {"--edges data", plan.simplify.edges.data_dependent}};
-  for (const auto& [name, is_given] : obstacles) {
-    if (is_given)
-      return fail(
-          ErrorKind::kUsage,
-          fmt::format("--effort {} and {} contradict each other: vertices are removed towards a max error alone, "
-                      "on heights alone; leave one of them out",
-                      *given.strategy.effort, name));
-  }
-  return {};
+  const char* culprit = plan.simplify.edges.data_dependent ? "--edges data" : find_beyond_heights(given, plan);
+  if (culprit == nullptr) return {};
+  return fail(ErrorKind::kUsage,
+              fmt::format("--effort {} and {} contradict each other: vertices are removed towards a max error alone, "
+                          "on heights alone; leave one of them out",
+                          *given.strategy.effort, culprit));
 }
 
 /// What the format has no place for: refused where nothing would be left, else a warning.
