@@ -26,7 +26,9 @@ _scarp() {
       COMPREPLY=($(compgen -W 'global local local8 curvature global*local global*local8 global*curvature' -- "$current"))
       return
       ;;
-    --effort) COMPREPLY=($(compgen -W 'fast normal high' -- "$current")) && return ;;
+    --effort) COMPREPLY=($(compgen -W 'fast normal high max' -- "$current")) && return ;;
+    --vertices) COMPREPLY=($(compgen -W 'free samples' -- "$current")) && return ;;
+    --objective) COMPREPLY=($(compgen -W 'max rms' -- "$current")) && return ;;
     --order) COMPREPLY=($(compgen -W 'dominant greedy' -- "$current")) && return ;;
     --algorithm) COMPREPLY=($(compgen -W 'brute local heap' -- "$current")) && return ;;
     --batch) COMPREPLY=($(compgen -W 'const frac: independent' -- "$current")) && return ;;
@@ -54,7 +56,7 @@ _scarp() {
         options+=' --max-error --max-triangles --max-points --nodata-policy --fill-distance --background'
         options+=' --outline-tolerance --of --normals --base --preview --report --overwrite --num-threads --memory'
         options+=' --mask --tolerance --script --image --texture --texture-weight --norm --channel-weights'
-        options+=' --timing --effort --importance --one-pass --order --algorithm --batch --edges --edge-score --shape-threshold --supersample'
+        options+=' --timing --effort --vertices --min-shape --time-limit --objective --importance --one-pass --order --algorithm --batch --edges --edge-score --shape-threshold --supersample'
         options+=' --uvs --render --error-raster'
         options+=' --points --duplicates --layer --z-field'
         ;;
@@ -70,7 +72,7 @@ _scarp() {
   fi
   if [[ $verb == generate && $COMP_CWORD -eq 2 ]]; then
     COMPREPLY=($(compgen -W 'cliff step sharp-step diagonal-step sharp-diagonal-step parabola paraboloid
-      scaled-paraboloid pyramid diagonal-pyramid fractal' -- "$current"))
+      scaled-paraboloid pyramid diagonal-pyramid fractal smooth' -- "$current"))
     return
   fi
   COMPREPLY=($(compgen -f -- "$current"))

@@ -45,20 +45,25 @@ double tightened(double goal, double reserve) {
   return reserve > 0 ? std::max(0.0, std::nextafter(goal - reserve, 0.0)) : goal;
 }
 
-Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOptions& options, const Raster& raster) {
+Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOptions& options, const Raster& raster,
+                                  double aim) {
   Criterion criterion;
   criterion.field_ = &field;
   criterion.options_ = &options;
   criterion.raster_ = raster;
+  criterion.aim_ = aim;
   for (const auto check : {&Criterion::check_weights, &Criterion::check_strategy, &Criterion::check_channels}) {
     if (auto sound = (criterion.*check)(); !sound) return tl::unexpected(sound.error());
   }
   if (options.max_error) criterion.bound_ = tightened(*options.max_error, field.sample_rounding);
   if (auto set = criterion.set_bounds(); !set) return tl::unexpected(set.error());
   criterion.set_factors();
+  if (aim < 1) {
+    for (const float of : criterion.bounds_) criterion.aims_.push_back(std::isinf(of) ? of : round_down(aim * of));
+  }
   const Importance& importance = options.importance;
   criterion.importance_is_error_ = importance.global && importance.feature == Importance::Feature::kNoFeature;
-  const double bound = criterion.bound_.value_or(0);
+  const double bound = criterion.aim();
   const bool plain =
       field.channels.empty() && field.height_scale == 1 && criterion.bounds_.empty() && criterion.factors_.empty();
   if (plain) {
@@ -69,7 +74,7 @@ Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOption
     }
   } else {
     Judging judging{raster, criterion.judged_fields(), options.norm, bound};
-    if (!criterion.bounds_.empty()) judging.bounds = criterion.bounds_.data();
+    if (!criterion.bounds_.empty()) judging.bounds = criterion.aims().data();
     if (!criterion.factors_.empty()) judging.factors = criterion.factors_.data();
     judging.by_error = importance.global;
     if (criterion.importance_is_error_) judging.goal = options.tolerance.empty() ? bound : 1;

@@ -17,19 +17,24 @@ namespace scarp {
 /// goal − reserve, rounded down, at least 0.
 double tightened(double goal, double reserve);
 
-/// Owns the arrays that the engine's judge reads: at most 8 bytes a sample, none for plain heights.
+/// Owns the arrays that the engine's judge reads: at most 12 bytes a sample, none for plain heights.
 class Criterion {
  public:
   /// Checks mask, tolerance, channels and importance against the raster. Fails with kUsage, kInput (a channel without
   /// value at a sample, named) and kPromise (a tolerance below the rounding of the samples). `field`, `options` and the
-  /// raster's samples stay alive.
-  static Result<Criterion> make(const HeightField& field, const SimplifyOptions& options, const Raster& raster);
+  /// raster's samples stay alive. `aim`: the share of the bounds that the judge holds to where heights alone have some.
+  static Result<Criterion> make(const HeightField& field, const SimplifyOptions& options, const Raster& raster,
+                                double aim = 1);
 
   const Judge& judge() const { return *judge_; }
   /// Bound of the combined error where no sample has one of its own; nothing without a goal for errors.
   std::optional<double> bound() const { return bound_; }
+  /// What the judge holds to in place of bound().
+  double aim() const { return aim_ * bound_.value_or(0); }
   /// Bounds of the samples; empty where bound() holds for all.
   std::span<const float> bounds() const { return bounds_; }
+  /// Those that the judge holds to.
+  std::span<const float> aims() const { return aims_.empty() ? bounds_ : aims_; }
   /// The engine's importance is an error that grows and shrinks with what is promised.
   bool importance_is_error() const { return importance_is_error_; }
   /// Order of insertion for one pass, without the samples that have no bound; empty otherwise.
@@ -49,7 +54,8 @@ class Criterion {
   const SimplifyOptions* options_ = nullptr;
   Raster raster_;
   std::optional<double> bound_;
-  std::vector<float> bounds_, factors_;
+  double aim_ = 1;
+  std::vector<float> bounds_, aims_, factors_;
   std::uint64_t ignored_ = 0;
   bool importance_is_error_ = true;
   std::unique_ptr<Judge> judge_;

@@ -11,7 +11,7 @@ namespace scarp {
 
 MemoryBudget memory_budget(const SimplifyOptions& options) {
   constexpr std::uint64_t kMesh = 48, kProof = 145;
-  const std::uint64_t fit = options.effort == Effort::kFast ? 0 : kFitBytesPerVertex + kFitBytesPerVertexAndThread;
+  const std::uint64_t fit = options.effort <= Effort::kFast ? 0 : kFitBytesPerVertex + kFitBytesPerVertexAndThread;
   return {options.memory_limit, options.memory_taken, std::max({kProof, kMesh + options.memory_per_vertex, fit})};
 }
 

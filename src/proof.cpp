@@ -91,13 +91,32 @@ Result<void> measure_channels(const HeightField& field, const SimplifyOptions& o
   return {};
 }
 
+/// Samples are no farther from 0 than this and the bound.
+double largest_height(const Mesh& mesh) {
+  double largest = 0;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
+    largest = std::max(largest, std::abs(mesh.origin[2] + mesh.positions[3 * v + 2]));
+  return largest;
+}
+
+/// The judge's double arithmetic rounds by this share of the largest height and the bound.
+constexpr double kArithmetic = 1e-12;
+
+/// The same, with positions rounded to double far from 0, as a steep triangle sees them.
+double arithmetic_error(const HeightField& field, const Mesh& mesh) {
+  const auto& a = field.frame.affine;
+  const double cell = std::min(std::hypot(a[1], a[4]), std::hypot(a[2], a[5]));
+  return (kArithmetic + 0x1p-49 * (std::abs(a[0]) + std::abs(a[3])) / cell) * largest_height(mesh);
+}
+
 /// Sums up the tally: weighted errors, the largest norm, who breaks a bound. The rows' errors and each step of their
 /// norm are rounded to float32, so what lies that near a bound is doubtful: where mending is possible it is taken for
 /// broken, else for kept.
-void judge_samples(const SimplifyOptions& options, const Criterion& criterion, bool exact, const Tally& tally,
-                   Simplified& result, Proof& proof) {
+void judge_samples(const HeightField& field, const SimplifyOptions& options, const Criterion& criterion, bool exact,
+                   const Tally& tally, Simplified& result, Proof& proof) {
   const double rounding = 0x1p-24 * (4 + static_cast<double>(result.channel_measurements.size()));
   const bool has_weights = !options.mask.empty() || !options.tolerance.empty();
+  const double arithmetic = exact ? arithmetic_error(field, result.mesh) : 0;
   double squares = 0;
   std::uint64_t count = 0;
   result.combined_max_error = result.weighted_max_error = 0;
@@ -113,7 +132,7 @@ void judge_samples(const SimplifyOptions& options, const Criterion& criterion, b
     }
     if (result.stop != StopReason::kMaxError) continue;
     const double bound = criterion.bounds().empty() ? *criterion.bound() : double{criterion.bounds()[i]};
-    const double doubt = rounding * (exact ? error : -error);
+    const double doubt = rounding * (exact ? error : -error) + arithmetic;
     if (error <= bound + doubt) continue;
     proof.offenders.push_back(tally.offender(i));
     if (proof.broken.empty())
@@ -121,14 +140,6 @@ void judge_samples(const SimplifyOptions& options, const Criterion& criterion, b
                                  proof.offenders.back().col, proof.offenders.back().row, error);
   }
   result.weighted_rmse = count == 0 ? 0 : std::sqrt(squares / static_cast<double>(count));
-}
-
-/// Samples are no farther from 0 than this and the bound.
-double largest_height(const Mesh& mesh) {
-  double largest = 0;
-  for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
-    largest = std::max(largest, std::abs(mesh.origin[2] + mesh.positions[3 * v + 2]));
-  return largest;
 }
 
 /// Of the band that a thread judges.
@@ -174,11 +185,11 @@ Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, co
   proof.offenders = m.offenders;
   if (by_sample) {
     if (auto done = measure_channels(field, options, *tally, result); !done) return tl::unexpected(done.error());
-    judge_samples(options, criterion, exact, *tally, result, proof);
+    judge_samples(field, options, criterion, exact, *tally, result, proof);
     if (m.uncovered > 0 && result.stop == StopReason::kMaxError) proof.broken = describe_breach(m, options);
   } else if (result.stop == StopReason::kMaxError) {
     // The judge's own double arithmetic rounds: the exact proof is the engine's, this is the independent check of it.
-    const double rounding = 1e-12 * (*criterion.bound() + largest_height(result.mesh));
+    const double rounding = kArithmetic * (*criterion.bound() + largest_height(result.mesh));
     if (!(m.max_error <= *criterion.bound() + rounding) || m.uncovered > 0) proof.broken = describe_breach(m, options);
   }
   proof.kept = proof.broken.empty();

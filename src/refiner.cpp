@@ -52,6 +52,8 @@ bool Refiner::insert_worst() {
 double Refiner::max_error() const { return impl_->refinement.worst_error(); }
 std::uint64_t Refiner::vertex_count() const { return impl_->domain.tin.vertex_count() - impl_->domain.unused; }
 std::uint64_t Refiner::triangle_count() const { return impl_->refinement.triangle_count(); }
-Mesh Refiner::mesh() const { return freeze(SampleHeights(impl_->raster), impl_->domain.tin, impl_->field.frame, true); }
+Mesh Refiner::mesh() const {
+  return freeze(SampleHeights(impl_->raster), impl_->domain.tin, {}, impl_->field.frame, true);
+}
 
 }  // namespace scarp

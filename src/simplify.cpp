@@ -16,6 +16,8 @@
 
 #include "base/parallel.h"
 #include "criterion.h"
+#include "effort.h"
+#include "error_search.h"
 #include "fit/fit.h"
 #include "goals.h"
 #include "grid/raster.h"
@@ -48,32 +50,7 @@ Result<void> check_options(const HeightField& field, const SimplifyOptions& opti
   return {};
 }
 
-/// What asks for more than a max error on heights alone; null if nothing does.
-const char* find_beyond_heights(const HeightField& field, const SimplifyOptions& options) {
-  if (!options.max_error) return "needs a max error";
-  if (options.max_triangles || options.max_vertices) return "has no budgets";
-  if (!options.mask.empty() || !options.tolerance.empty()) return "has no mask and no tolerances";
-  if (!field.channels.empty() || field.height_scale != 1) return "has no channels";
-  if (!options.script.empty()) return "has no script";
-  if (options.outline_tolerance > 0) return "keeps the exact outline";
-  return nullptr;
-}
-
-/// What keeps a run from the dominant order; null if nothing does.
-const char* find_obstacle(const HeightField& field, const SimplifyOptions& options) {
-  if (const char* obstacle = find_beyond_heights(field, options)) return obstacle;
-  if (options.edges.data_dependent) return "has Delaunay edges only";
-  if (options.importance != Importance{}) return "ranks by the error alone";
-  if (options.algorithm != Algorithm::kHeap || options.batch != Batch{}) return "has no other algorithm and no batches";
-  return nullptr;
-}
-
-/// What keeps a run from removing vertices; null if nothing does.
-const char* find_fit_obstacle(const HeightField& field, const SimplifyOptions& options) {
-  if (const char* obstacle = find_beyond_heights(field, options)) return obstacle;
-  if (options.edges.data_dependent) return "chooses edges itself";
-  return field.samples == nullptr ? "needs the raster in memory as a whole" : nullptr;
-}
+Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options);
 
 /// One run of the engine towards the goals.
 class Run {
@@ -85,8 +62,7 @@ class Run {
         criterion_(criterion),
         budget_(options),
         memory_(memory_budget(options)),
-        exact_(field.frame.is_affine() &&
-               (!options.float32_positions || offsets_are_exact(field.frame, field.cols, field.rows))),
+        exact_(places_are_exact(field, options, 1)),
         reporter_(options.progress) {}
 
   /// In the dominant order where `tiled` is given, else greedily.
@@ -95,12 +71,13 @@ class Run {
     Simplified result;
     result.ignored = criterion_.ignored();
     result.order = tiled ? Order::kDominant : Order::kGreedy;
+    result.effort = options_.effort;
     auto refined = tiled ? free_seams(std::move(*tiled), result) : insert_greedily(result);
     if (!refined) return tl::unexpected(refined.error());
     if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
     // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
     // proof.
-    const bool is_final = result.stop != StopReason::kMaxError || exact_;
+    const bool is_final = result.stop != StopReason::kMaxError || exact_ || !places_.are_samples();
     if (is_final) refinement_.reset();
     freeze_into(result, is_final);
     order(result);
@@ -288,11 +265,10 @@ class Run {
     if (options_.effort == Effort::kFast) return {};
     const auto start = Clock::now();
     refinement_.reset();
-    FitOptions options;
-    options.threshold = *criterion_.bound();
+    FitOptions options = fit_options(field_, options_, criterion_.aim());
+    options.bounds = criterion_.aims();
     options.threads = fit_threads();
-    options.repair_rounds = options_.effort == Effort::kHigh ? 2 : 0;
-    options.sides_are_free = field_.frame.is_affine();
+    if (options.vertices_are_free) exact_ = places_are_exact(field_, options_, kLatticeSteps);
     Reporter reporter(options_.progress);
     if (options_.progress) {
       options.progress = [&](double share, std::uint64_t vertices) {
@@ -302,6 +278,9 @@ class Run {
     auto fitted = fit(raster_, std::move(domain_->tin), options);
     if (!fitted) return tl::unexpected(fitted.error());
     domain_->tin = std::move(fitted->tin);
+    places_ = std::move(fitted->places);
+    if (!places_.are_samples()) result.vertices = Vertices::kFree;
+    result.is_cut_short = fitted->is_cut_short;
     record(result, "fit", start);
     result.passes.back().removals = fitted->counts.removed;
     return {};
@@ -327,17 +306,17 @@ class Run {
     const auto start = Clock::now();
     const SampleHeights heights = field_.samples != nullptr ? SampleHeights(raster_) : SampleHeights(field_, heights_);
     const bool has_more = options_.normals || options_.uvs || !field_.channels.empty();
-    const std::vector<Point> samples = has_more ? frozen_samples(domain_->tin) : std::vector<Point>();
+    const LatticePoints at = has_more ? frozen_points(domain_->tin, places_) : LatticePoints{};
     if (is_last) {
-      result.mesh = melt_down(heights, std::move(domain_->tin), field_.frame, options_.float32_positions);
+      result.mesh = melt_down(heights, std::move(domain_->tin), places_, field_.frame, options_.float32_positions);
       domain_.reset();
     } else {
-      result.mesh = freeze(heights, domain_->tin, field_.frame, options_.float32_positions);
+      result.mesh = freeze(heights, domain_->tin, places_, field_.frame, options_.float32_positions);
     }
-    if (options_.normals) result.mesh.normals = sample_normals(heights, field_.frame, samples);
-    if (options_.uvs) result.mesh.uvs = sample_uvs(raster_.cols, raster_.rows, samples);
+    if (options_.normals) result.mesh.normals = sample_normals(heights, field_.frame, at);
+    if (options_.uvs) result.mesh.uvs = sample_uvs(raster_.cols, raster_.rows, at);
     result.mesh.channel_count = static_cast<int>(field_.channels.size());
-    for (Point p : samples) {
+    for (Point p : field_.channels.empty() ? std::vector<Point>() : at.points) {
       for (const Channel& channel : field_.channels)
         result.mesh.channels.push_back(
             channel.samples[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(raster_.cols) +
@@ -383,7 +362,7 @@ class Run {
                     "the mesh folds over itself: in this frame positions are rounded to float32, or edges are straight "
                     "where the grid's are curved; ask for a smaller error, or write in the local or grid frame");
       if (proof->kept) return {};
-      if (!domain_) return fail(ErrorKind::kInternal, proof->broken);
+      if (!domain_) return fail(exact_ ? ErrorKind::kInternal : ErrorKind::kPromise, proof->broken);
       if (!refinement_)
         refinement_.emplace(criterion_.judge(), domain_->tin, options_.algorithm, options_.edges,
                             Refinement::Start::kClean);
@@ -413,7 +392,8 @@ class Run {
   std::vector<float> heights_;    // of its vertices, where the field has a source
   std::size_t seeds_ = 0;
   std::optional<Refinement> refinement_;
-  bool exact_;  // every vertex can lie exactly on its sample
+  VertexPlaces places_;
+  bool exact_;  // every vertex can lie exactly on its sample, or on the lattice of fitting
   Reporter reporter_;
   std::optional<std::vector<Point>> ranking_;
   std::size_t ranked_ = 0;
@@ -423,7 +403,7 @@ class Run {
 Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const SimplifyOptions& options,
                                           const Criterion& criterion) {
   TiledOptions tiles;
-  tiles.threshold = *criterion.bound();
+  tiles.threshold = criterion.judge().goal();
   tiles.threads = options.threads;
   tiles.memory = memory_budget(options);
   tiles.may_decline = options.order == Order::kAuto && field.samples != nullptr;
@@ -447,7 +427,7 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
     if (!cleaned) return tl::unexpected(cleaned.error());
     raster = samples.emplace(std::move(*cleaned)).raster();
   }
-  const auto criterion = Criterion::make(field, options, raster);
+  const auto criterion = Criterion::make(field, options, raster, aim_of(field, options));
   if (!criterion) return tl::unexpected(criterion.error());
   const MemoryBudget memory = memory_budget(options);
   const std::uint64_t bytes = proof_bytes(field, options);
@@ -461,7 +441,7 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
                   "heights of such different magnitudes can only be refined in memory: read the raster as a whole");
     SimplifyOptions greedy = options;
     greedy.order = Order::kGreedy;
-    return simplify(field, greedy);
+    return simplify_once(field, greedy);
   }
   const Domain& domain = (*tiled)->domain;
   if (auto fits = memory.check_mesh(bytes, domain.tin.vertex_count() - domain.unused, 1); !fits)
@@ -475,9 +455,16 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
   return result;
 }
 
-}  // namespace
+Result<Simplified> simplify_greedily(const HeightField& field, const SimplifyOptions& options) {
+  auto samples = Samples::of(field);
+  if (!samples) return tl::unexpected(samples.error());
+  const auto criterion = Criterion::make(field, options, samples->raster(), aim_of(field, options));
+  if (!criterion) return tl::unexpected(criterion.error());
+  return Run(field, samples->raster(), options, *criterion).execute(std::nullopt);
+}
 
-Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& options) try {
+/// Without a search for the error of a budget.
+Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options) {
   if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
   const char* obstacle = options.order == Order::kGreedy ? "is not the greedy one" : find_obstacle(field, options);
@@ -488,16 +475,24 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& opt
   if (obstacle != nullptr && options.order == Order::kDominant)
     return fail(ErrorKind::kUsage,
                 fmt::format("the dominant order {}: leave that out, or take the greedy order", obstacle));
-  const char* fit_obstacle = options.effort == Effort::kFast ? nullptr : find_fit_obstacle(field, options);
-  if (fit_obstacle != nullptr)
-    return fail(ErrorKind::kUsage,
-                fmt::format("more than fast effort {}: leave that out, or take fast effort", fit_obstacle));
-  if (obstacle == nullptr) return simplify_tiles(field, options);
-  auto samples = Samples::of(field);
-  if (!samples) return tl::unexpected(samples.error());
-  const auto criterion = Criterion::make(field, options, samples->raster());
-  if (!criterion) return tl::unexpected(criterion.error());
-  return Run(field, samples->raster(), options, *criterion).execute(std::nullopt);
+  const auto run = obstacle == nullptr ? simplify_tiles : simplify_greedily;
+  auto result = run(field, options);
+  if (result || result.error().kind != ErrorKind::kPromise || options.vertices != Vertices::kAuto) return result;
+  if (!vertices_are_free(field, options)) return result;
+  SimplifyOptions on_samples = options;
+  on_samples.vertices = Vertices::kSamples;
+  return run(field, on_samples);
+}
+
+}  // namespace
+
+Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& asked) try {
+  SimplifyOptions options = asked;
+  options.effort = choose_effort(field, asked);
+  if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
+  if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
+  if (options.effort == Effort::kFast || !has_budget(options)) return simplify_once(field, options);
+  return search_error(options, [&](const SimplifyOptions& once) { return simplify_once(field, once); });
 } catch (const SourceFailure& failure) {
   return tl::unexpected(failure.error);
 } catch (const std::bad_alloc&) {

@@ -76,7 +76,7 @@ GenerateCommand::GenerateCommand(CLI::App& program)
   verb_->add_option("OUTPUT", output_, "Raster to write: .tif (GeoTIFF, float32) or .pgm (16-bit)")
       ->type_name("")
       ->required();
-  verb_->add_option("--seed", seed_, "fractal: which one of them (default 0)")->type_name("N")->group("Field");
+  verb_->add_option("--seed", seed_, "fractal, smooth: which one of them (default 0)")->type_name("N")->group("Field");
   verb_->add_option("--range", range_, "Stretch the heights to 0 ... R")->type_name("R")->group("Field");
   verb_->add_option("--size", size_, "Side of a cell: gives a GeoTIFF coordinates, the lower\nleft corner at 0, 0")
       ->type_name("S")
@@ -88,7 +88,7 @@ GenerateCommand::GenerateCommand(CLI::App& program)
   verb_->add_flag("-q,--quiet", quiet_, "No summary")->group("Run");
   verb_->footer(
       "Styles: cliff (h), step (x), sharp-step (X), diagonal-step (d), sharp-diagonal-step (D), parabola (q),\n"
-      "paraboloid (p), scaled-paraboloid (P), pyramid (o), diagonal-pyramid (r), fractal.\n"
+      "paraboloid (p), scaled-paraboloid (P), pyramid (o), diagonal-pyramid (r), fractal, smooth.\n"
       "Examples:\n"
       "  scarp generate cliff 256 256 cliff.tif\n"
       "  scarp generate fractal 1000 800 hills.tif --seed 7 --range 1200 --size 30\n"
@@ -108,8 +108,8 @@ Result<void> GenerateCommand::run() const {
   if (!rows) return tl::unexpected(rows.error());
   const Result<std::uint64_t> seed = parse_count("--seed", seed_.value_or("0"), 0);
   if (!seed) return tl::unexpected(seed.error());
-  if (seed_ && *style != FieldStyle::kFractal) {
-    return fail(ErrorKind::kUsage, fmt::format("--seed is for fractal only: {} is always the same", style_));
+  if (seed_ && *style != FieldStyle::kFractal && *style != FieldStyle::kSmooth) {
+    return fail(ErrorKind::kUsage, fmt::format("--seed is for fractal and smooth only: {} is always the same", style_));
   }
   const Result<double> range = parse_positive("--range", range_.value_or("1"));
   if (!range) return tl::unexpected(range.error());

@@ -111,14 +111,22 @@ Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
   return {};
 }
 
-/// The option that asks for more than a max error on heights alone; null if there is none.
+/// The budget that was given; null if there is none.
+const char* find_budget(const SimplifyArguments& given) {
+  if (given.max_triangles) return "--max-triangles";
+  return given.max_points ? "--max-points" : nullptr;
+}
+
+/// The option that gives samples bounds of their own; null if there is none.
+const char* find_bounds(const SimplifyArguments& given) {
+  if (given.companions.mask) return "--mask";
+  if (given.companions.tolerance) return "--tolerance";
+  return given.companions.script ? "--script" : nullptr;
+}
+
+/// The option that asks for more than heights; null if there is none.
 const char* find_beyond_heights(const SimplifyArguments& given, const SimplifyPlan& plan) {
-  const std::pair<const char*, bool> options[] = {{"--max-triangles", given.max_triangles.has_value()},
-                                                  {"--max-points", given.max_points.has_value()},
-                                                  {"--mask", given.companions.mask.has_value()},
-                                                  {"--tolerance", given.companions.tolerance.has_value()},
-                                                  {"--script", given.companions.script.has_value()},
-                                                  {"--image", given.channels.image},
+  const std::pair<const char*, bool> options[] = {{"--image", given.channels.image},
                                                   {"--texture", !given.channels.textures.empty()},
                                                   {"--outline-tolerance", plan.simplify.outline_tolerance > 0}};
   for (const auto& [name, is_given] : options) {
@@ -131,7 +139,9 @@ const char* find_beyond_heights(const SimplifyArguments& given, const SimplifyPl
 /// options.
 Result<void> plan_order(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (plan.simplify.order != Order::kDominant) return {};
-  const char* culprit = find_beyond_heights(given, plan);
+  const char* culprit = find_budget(given);
+  if (culprit == nullptr) culprit = find_bounds(given);
+  if (culprit == nullptr) culprit = find_beyond_heights(given, plan);
   if (culprit == nullptr) culprit = given.strategy.dominant_obstacle();
   if (culprit == nullptr) return {};
   return fail(ErrorKind::kUsage,
@@ -140,15 +150,42 @@ Result<void> plan_order(const SimplifyArguments& given, SimplifyPlan& plan) {
                           culprit));
 }
 
-/// Removal, too, looks at heights and one error alone.
+/// Removal looks at heights alone, and budgets are met by one error for all samples.
 Result<void> plan_effort(const SimplifyArguments& given, SimplifyPlan& plan) {
-  if (plan.simplify.effort == Effort::kFast) return {};
+  if (plan.simplify.effort == Effort::kFast) {
+    const char* needless = given.strategy.min_shape    ? "--min-shape"
+                           : given.strategy.time_limit ? "--time-limit"
+                                                       : nullptr;
+    if (needless == nullptr) return {};
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} needs --effort normal, high or max: fast effort is refinement alone", needless));
+  }
+  if (plan.simplify.effort == Effort::kAuto) return {};
+  const char* bounds = find_bounds(given);
+  if (const char* budget = find_budget(given); budget != nullptr && bounds != nullptr) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("--effort {}, {} and {} contradict each other: a budget is met by one error for all "
+                            "samples; leave one of them out",
+                            *given.strategy.effort, budget, bounds));
+  }
   const char* culprit = plan.simplify.edges.data_dependent ? "--edges data" : find_beyond_heights(given, plan);
   if (culprit == nullptr) return {};
   return fail(ErrorKind::kUsage,
-              fmt::format("--effort {} and {} contradict each other: vertices are removed towards a max error alone, "
-                          "on heights alone; leave one of them out",
+              fmt::format("--effort {} and {} contradict each other: vertices are removed on heights alone; leave one "
+                          "of them out",
                           *given.strategy.effort, culprit));
+}
+
+/// A max error decides the mesh, and so does fast effort.
+Result<void> plan_objective(const SimplifyArguments& given, SimplifyPlan& plan) {
+  if (plan.simplify.objective == Objective::kMax) return {};
+  if (find_budget(given) == nullptr)
+    return fail(ErrorKind::kUsage,
+                "--objective rms needs a budget, -t or -p: a max error alone decides the mesh, whatever its RMSE");
+  if (plan.simplify.effort == Effort::kFast)
+    return fail(ErrorKind::kUsage,
+                "--objective rms needs --effort normal or high: fast effort lowers the max error only");
+  return {};
 }
 
 /// What the format has no place for: refused where nothing would be left, else a warning.
@@ -241,12 +278,14 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
       {"--render", given.render.has_value()},
       {"--error-raster", given.error_raster.has_value()},
       {"--of dem", plan.format.kind == OutputKind::kDem},
+      {"--effort", plan.simplify.effort > Effort::kFast},
   };
   for (const auto& [name, is_given] : options) {
     if (is_given) return name;
   }
   // " --name value --name value": the first of these will do.
-  const std::string others = given.companions.canonical() + given.channels.canonical() + given.strategy.canonical();
+  const std::string others =
+      given.companions.canonical() + given.channels.canonical() + given.strategy.canonical_refinement();
   if (others.empty()) return std::nullopt;
   return others.substr(1, others.find(' ', 1) - 1);
 }
@@ -288,8 +327,7 @@ std::string canonical_command(const SimplifyArguments& given) {
     command += canonical_option(name, *value);
   }
   command += given.companions.canonical() + given.channels.canonical() + given.strategy.canonical();
-  // Budgets are greedy anyhow.
-  if (given.strategy.asks_for_greedy() && !given.max_triangles && !given.max_points) command += " --order greedy";
+  if (given.strategy.asks_for_greedy()) command += " --order greedy";
   return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "");
 }
 
@@ -312,8 +350,8 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   const Result<int> threads = parse_threads(given.threads);
   if (!threads) return tl::unexpected(threads.error());
   plan.simplify.threads = *threads;
-  for (const auto step :
-       {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_order, plan_effort, plan_outputs, plan_memory}) {
+  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_order, plan_effort,
+                          plan_objective, plan_outputs, plan_memory}) {
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());
   }

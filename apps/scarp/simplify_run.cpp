@@ -124,7 +124,9 @@ std::string describe_end(const SimplifyPlan& plan, const SimplifyRun& run, const
   const std::string missed = run.asked ? fmt::format(" (asked {}, not reached)", asked) : "";
   switch (run.simplified.stop) {
     case StopReason::kMaxError:
-      return fmt::format("Reached the error goal: {} (asked {})", error.text, asked);
+      return fmt::format("Reached the error goal{}: {} (asked {})",
+                         run.simplified.is_cut_short ? ", when the time limit ended the effort" : "", error.text,
+                         asked);
     case StopReason::kMaxTriangles:
       return fmt::format("Reached the triangle budget of {}: {}{}",
                          format_count(plan.simplify.max_triangles.value_or(0)), error.text, missed);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <string_view>
 
 #include "text.h"
@@ -14,7 +15,10 @@ namespace {
 constexpr Choice<Importance::Feature> kFeatures[] = {{"local", Importance::Feature::kLocal4},
                                                      {"local8", Importance::Feature::kLocal8},
                                                      {"curvature", Importance::Feature::kCurvature}};
-constexpr Choice<Effort> kEfforts[] = {{"fast", Effort::kFast}, {"normal", Effort::kNormal}, {"high", Effort::kHigh}};
+constexpr Choice<Effort> kEfforts[] = {
+    {"fast", Effort::kFast}, {"normal", Effort::kNormal}, {"high", Effort::kHigh}, {"max", Effort::kMax}};
+constexpr Choice<Vertices> kVertices[] = {{"samples", Vertices::kSamples}, {"free", Vertices::kFree}};
+constexpr Choice<Objective> kObjectives[] = {{"max", Objective::kMax}, {"rms", Objective::kRms}};
 constexpr Choice<Order> kOrders[] = {{"dominant", Order::kDominant}, {"greedy", Order::kGreedy}};
 constexpr Choice<Algorithm> kAlgorithms[] = {
     {"brute", Algorithm::kBruteForce}, {"local", Algorithm::kLocal}, {"heap", Algorithm::kHeap}};
@@ -135,10 +139,28 @@ std::string importance_name(const Importance& importance) {
 void StrategyArguments::add_to(CLI::App& verb) {
   verb.add_option(
           "--effort", effort,
-          "fast (default): the mesh as refined. normal: then\nremoves vertices for as long as every sample keeps "
-          "the\nbound: about half the triangles. high: and repairs what that\nbreaks: two fifths, for ten times the "
-          "time. For -e on\nheights alone")
+          "fast: the mesh as refined. normal (default where possible):\nthen removes vertices for as long as "
+          "every sample keeps the\nbound: about half the triangles. high: and repairs what that\nbreaks: three "
+          "tenths, for ten times the time. max: deeper, a hundred\ntimes. With -t or -p: a smaller error instead. "
+          "On heights\nalone")
       ->type_name("LEVEL");
+  verb.add_option("--vertices", vertices,
+                  "Where --effort high and max may put vertices: free (default;\nbetween samples too, with heights of "
+                  "their own) or samples (a\nfourth more triangles)")
+      ->type_name("WHERE");
+  verb.add_option(
+          "--min-shape", min_shape,
+          "No triangle is made thinner than this by an effort: height\nover longest edge, 0 to 0.5 (default: 0.1 "
+          "with free vertices,\nelse 0)")
+      ->type_name("Q");
+  verb.add_option("--time-limit", time_limit,
+                  "After so many seconds efforts end, with the mesh so far; until\nthen max goes on for as long as "
+                  "there is something to gain.\nThe mesh then depends on the time")
+      ->type_name("SECONDS");
+  verb.add_option("--objective", objective,
+                  "What -t and -p make as small as they can with --effort\nnormal or high: the max error (max, "
+                  "default) or the RMSE\n(rms)")
+      ->type_name("NAME");
   const char* group = "Strategy (which samples become vertices; the promise stays the same)";
   verb.add_option("--importance", importance,
                   "What is inserted next: the sample with the largest\nglobal (error of the mesh; default), local or "
@@ -195,6 +217,36 @@ Result<void> StrategyArguments::parse_into(SimplifyOptions& options) const {
     if (!parsed) return tl::unexpected(parsed.error());
     options.effort = *parsed;
   }
+  if (vertices) {
+    const Result<Vertices> parsed = choose("--vertices", *vertices, kVertices);
+    if (!parsed) return tl::unexpected(parsed.error());
+    if (*parsed == Vertices::kFree && options.effort < Effort::kHigh)
+      return fail(ErrorKind::kUsage,
+                  "--vertices free needs --effort high or max: below that no vertex is moved, and all are samples");
+    options.vertices = *parsed;
+  }
+  if (min_shape) {
+    const Result<double> parsed = parse_non_negative("--min-shape", *min_shape);
+    if (!parsed) return tl::unexpected(parsed.error());
+    if (*parsed > 0.5)
+      return fail(ErrorKind::kUsage,
+                  fmt::format("--min-shape {} is above 0.5, the shape of half a sample's square: choose "
+                              "one from 0 to 0.5",
+                              shell_word(*min_shape)));
+    options.min_shape = *parsed;
+  }
+  if (time_limit) {
+    const Result<double> parsed = parse_non_negative("--time-limit", *time_limit);
+    if (!parsed) return tl::unexpected(parsed.error());
+    const auto seconds = std::chrono::duration<double>(std::min(*parsed, 1e9));
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::nanoseconds>(seconds);
+    options.is_time_up = [end] { return std::chrono::steady_clock::now() >= end; };
+  }
+  if (objective) {
+    const Result<Objective> parsed = choose("--objective", *objective, kObjectives);
+    if (!parsed) return tl::unexpected(parsed.error());
+    options.objective = *parsed;
+  }
   if (importance) {
     const Result<Importance> parsed = parse_importance(*importance);
     if (!parsed) return tl::unexpected(parsed.error());
@@ -245,20 +297,30 @@ const char* StrategyArguments::dominant_obstacle() const {
 }
 
 std::string StrategyArguments::canonical() const {
-  return (effort && *effort != "fast" ? canonical_option("--effort", effort) : "") +
-         canonical_option("--importance", importance) + (one_pass ? " --one-pass" : "") +
+  return canonical_option("--effort", effort) + canonical_option("--vertices", vertices) +
+         canonical_option("--min-shape", min_shape) + canonical_option("--time-limit", time_limit) +
+         (objective && *objective != "max" ? canonical_option("--objective", objective) : "") + canonical_refinement();
+}
+
+std::string StrategyArguments::canonical_refinement() const {
+  return canonical_option("--importance", importance) + (one_pass ? " --one-pass" : "") +
          canonical_option("--batch", batch) + canonical_option("--edges", edges) +
          canonical_option("--edge-score", edge_score) + canonical_option("--shape-threshold", shape_threshold) +
          canonical_option("--supersample", supersample);
 }
 
-Json describe_strategy(const SimplifyOptions& options, Order taken) {
+Json describe_strategy(const SimplifyOptions& options, const Simplified& simplified) {
   Json strategy;
   strategy["importance"] = importance_name(options.importance);
   strategy["one_pass"] = options.importance.one_pass;
-  strategy["effort"] = name_of(options.effort, kEfforts);
-  strategy["order"] = name_of(taken, kOrders);
-  strategy["algorithm"] = taken == Order::kGreedy ? Json(name_of(options.algorithm, kAlgorithms)) : Json(nullptr);
+  strategy["effort"] = name_of(simplified.effort, kEfforts);
+  strategy["vertices"] = name_of(simplified.vertices, kVertices);
+  strategy["min_shape"] = options.min_shape.value_or(simplified.vertices == Vertices::kFree ? 0.1 : 0);
+  strategy["cut_short"] = simplified.is_cut_short;
+  strategy["objective"] = name_of(options.objective, kObjectives);
+  strategy["order"] = name_of(simplified.order, kOrders);
+  strategy["algorithm"] =
+      simplified.order == Order::kGreedy ? Json(name_of(options.algorithm, kAlgorithms)) : Json(nullptr);
   switch (options.batch.rule) {
     case Batch::Rule::kSequential:
       strategy["batch"] = nullptr;

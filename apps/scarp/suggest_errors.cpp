@@ -1,7 +1,8 @@
 // Greedy insertion visits meshes of every size on its way, so one run draws the curve of the smallest max error by the
-// number of triangles (max error is not monotone, and a run that is given that error stops at just that mesh). The
-// default order needs some per cent more triangles: how many is seen by running it, and the curve then tells the error
-// that suits so many triangles fewer. The ratio hardly changes from share to share, so most shares take one run.
+// number of triangles (max error is not monotone, and a run that is given that error stops at just that mesh). A
+// default run, with its own order and removal, needs about half of them: how many is seen by making it, and the curve
+// then tells the error that suits so many triangles. The ratio hardly changes from share to share, so most shares take
+// one run.
 //
 // A large raster is sampled by windows. They are refined together, always the one with the largest error, so that rough
 // windows get the vertices that flat ones do not need, as in the whole raster. Windows have more border for their area
@@ -24,7 +25,8 @@ constexpr std::uint64_t kWholeLimit = 2'000'000;
 constexpr int kWindowSide = 256;
 constexpr int kMaxWindows = 16;
 constexpr std::string_view kPass = "estimate";
-constexpr double kGreedyPart = 0.5;  // of the pass
+constexpr double kGreedyPart = 0.5;   // of the pass
+constexpr double kUsualRatio = 0.55;  // triangles of a default run per those of greedy insertion, more or less
 
 struct Window {
   std::vector<float> samples;  ///< empty for the whole field
@@ -138,7 +140,7 @@ class GreedyCurve {
   std::vector<GreedyMesh> meshes_;
 };
 
-/// Triangles of the windows' meshes in the default order; infinity where the error cannot be promised.
+/// Triangles of the windows' meshes in default runs; infinity where the error cannot be promised.
 Result<double> count_triangles(const std::vector<Window>& windows, double error, const ProgressCallback& progress) {
   SimplifyOptions options;
   options.max_error = error;
@@ -153,39 +155,49 @@ Result<double> count_triangles(const std::vector<Window>& windows, double error,
   return triangles;
 }
 
-/// Finds the errors, coarse ones first, with which the default order stays within given numbers of triangles.
+/// Finds the errors, coarse ones first, with which default runs stay within given numbers of triangles.
 class ErrorSearch {
  public:
   ErrorSearch(const std::vector<Window>& windows, const GreedyCurve& curve, double sample_rounding)
       : windows_(windows), curve_(curve), sample_rounding_(sample_rounding) {}
 
   Result<std::optional<double>> find(double target, const ProgressCallback& progress) {
-    double aim = target / excess_, tried = -1;
+    double aim = target / ratio_, tried = -1;
+    std::optional<double> found;
     for (double margin = kMargin;;) {
       const GreedyMesh* mesh = curve_.find_within(aim);
-      if (mesh == nullptr) return std::nullopt;
+      if (mesh == nullptr) return found;
       aim = static_cast<double>(mesh->triangles);
       const double error = round_up(mesh->smallest_error + sample_rounding_);
       if (error != tried) {
         tried = error;
         const Result<double> triangles = count_triangles(windows_, error, progress);
         if (!triangles) return tl::unexpected(triangles.error());
-        excess_ = std::isfinite(*triangles) ? std::max(1.0, *triangles / aim) : 1;
-        if (*triangles <= target) return error;
-        aim = std::min(aim, target / excess_) * (1 - margin);
+        ratio_ = std::isfinite(*triangles) ? *triangles / aim : 1;
+        const bool fits = *triangles <= target, had_one = found.has_value();
+        if (fits) found = error;
+        // A second look where the ratio of the share before left much unused.
+        if (had_one || (fits && *triangles >= kUse * target)) return found;
+        if (fits) {
+          aim = target / ratio_;
+          continue;
+        }
+        aim = std::min(aim, target / ratio_) * (1 - margin);
         margin = std::min(2 * margin, 0.5);
       }
+      if (found) return found;
       aim = std::min(aim, static_cast<double>(mesh->triangles - 1));
     }
   }
 
  private:
   static constexpr double kMargin = 0.002;  ///< towards fewer triangles where the ratio was not enough; then doubled
+  static constexpr double kUse = 0.9;
 
   const std::vector<Window>& windows_;
   const GreedyCurve& curve_;
   const double sample_rounding_;
-  double excess_ = 1;  ///< triangles of the default order per those of the greedy one, when last seen
+  double ratio_ = kUsualRatio;  ///< triangles of a default run per those of greedy insertion, when last seen
 };
 
 }  // namespace
@@ -216,7 +228,7 @@ Result<Suggestions> suggest_errors(const HeightField& field, std::span<const dou
   }
 
   GreedyCurve curve;
-  if (auto followed = curve.follow(joint, shares.back() * static_cast<double>(full), progress); !followed)
+  if (auto followed = curve.follow(joint, shares.back() / kUsualRatio * static_cast<double>(full), progress); !followed)
     return tl::unexpected(followed.error());
   joint = {};
   ErrorSearch search(valid, curve, field.sample_rounding);

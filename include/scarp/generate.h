@@ -12,7 +12,7 @@
 namespace scarp {
 
 /// The letter is genstm's, and so are the formulas: nx, ny are columns and rows, x, y the sample, divisions of whole
-/// numbers drop the fraction, heights are cut to whole numbers (but kFractal's).
+/// numbers drop the fraction, heights are cut to whole numbers (but kFractal's and kSmooth's).
 enum class FieldStyle {
   kCliff,              ///< h: a vertical cliff across x, 1000 where x > nx/2, else 0
   kStep,               ///< x: a soft step in x, 1000 (1 + tanh((x − nx/2) / (nx/8.0)))
@@ -25,6 +25,8 @@ enum class FieldStyle {
   kPyramid,            ///< o: a pyramid upside down with its edges along the axes, |x − nx/3| + |y − ny/4|
   kDiagonalPyramid,    ///< r: with its edges along the diagonals, 2 max(|x − nx/3|, |y − ny/4|)
   kFractal,            ///< noise of halving scale and height, by seed; 0 … 1000, not whole
+  kSmooth,  ///< 64 plane waves, each at least an eighth of the longer side long, directions, lengths and phases by
+            ///< seed: a band-limited, nearly Gaussian surface; 0 … 1000, not whole
 };
 
 /// "cliff", "sharp-step", …; also genstm's letter. Nothing if unknown.
@@ -33,8 +35,8 @@ std::optional<FieldStyle> find_field_style(const std::string& name);
 const std::vector<std::string>& field_style_names();
 
 /// cols · rows heights of at least 0, the same on every machine (no libm); in the grid frame. The seed matters to
-/// kFractal only. genstm's heights are 16-bit and wrap round beyond 65535 (paraboloids of 363 samples and more); these
-/// do not. kUsage if a side is not 2 … 65536 samples, or if they are more than 2³⁰ together.
+/// kFractal and kSmooth only. genstm's heights are 16-bit and wrap round beyond 65535 (paraboloids of 363 samples and
+/// more); these do not. kUsage if a side is not 2 … 65536 samples, or if they are more than 2³⁰ together.
 Result<OwnedHeightField> generate_field(FieldStyle style, int cols, int rows, std::uint64_t seed = 0);
 
 }  // namespace scarp

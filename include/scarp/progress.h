@@ -9,8 +9,8 @@ namespace scarp {
 
 /// A snapshot of a running pass.
 struct Progress {
-  std::string_view pass;       ///< "read", "refine", "measure" or "topology"; valid during the call only
-  double fraction = 0;         ///< 0..1 of this pass; an estimate that never decreases within a pass
+  std::string_view pass;  ///< "read", "refine", "fit", "search", "measure" or "topology"; valid during the call only
+  double fraction = 0;    ///< 0..1 of this pass; an estimate that never decreases within a pass
   std::uint64_t vertices = 0;  ///< vertices so far; 0 where the pass does not count them
   double max_error = 0;        ///< current max error in z units; 0 where the pass does not know it
 };

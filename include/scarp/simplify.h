@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -24,7 +25,8 @@ struct SimplifyOptions {
   /// every sample. DEFAULT: none.
   std::optional<double> max_error = std::nullopt;
   /// Upper bounds. If one of them ends the run, the result is the mesh with the smallest max error among those with at
-  /// least 95 % of the budget (max error is not monotone in the number of points). DEFAULT: none.
+  /// least 95 % of the budget (max error is not monotone in the number of points); with more than fast effort what the
+  /// search for an error has found (see "Budgets"). DEFAULT: none.
   std::optional<std::uint64_t> max_triangles = std::nullopt;
   std::optional<std::uint64_t> max_vertices = std::nullopt;
   /// How far, in samples, the outline of the valid data may be simplified, at least 0. It only moves outwards, over
@@ -45,9 +47,22 @@ struct SimplifyOptions {
   /// kDominant fails with kUsage together with a budget, a mask, tolerances, a script, channels, an importance, an
   /// algorithm, batches, data-dependent edges or an outline tolerance; kAuto then is kGreedy. DEFAULT: kAuto.
   Order order = Order::kAuto;
-  /// kNormal and kHigh fail with kUsage together with a budget, a mask, tolerances, a script, channels, data-dependent edges, an
-  /// outline tolerance, or without the samples in memory. DEFAULT: kFast.
-  Effort effort = Effort::kFast;
+  /// All but kFast fail with kUsage together with a script that inserts, channels, data-dependent edges, an outline
+  /// tolerance, without the samples in memory, or with a budget beside a mask, tolerances or a script. DEFAULT: kAuto.
+  Effort effort = Effort::kAuto;
+  /// kFree fails with kUsage below kHigh and in frames that are not affine. DEFAULT: kAuto.
+  Vertices vertices = Vertices::kAuto;
+  /// Floor of the shapes of triangles, height over longest edge, 0 … 0.5, 0 for none: no vertex is removed or moved, no
+  /// edge flipped if that leaves a triangle below it, unless it takes away one that is as bad. Triangles of refinement,
+  /// and those that the outline of voids forces, may lie below. Fails with kUsage with fast effort.
+  /// DEFAULT: 0.1 where vertices are free, else 0.
+  std::optional<double> min_shape = std::nullopt;
+  /// Asked often, on any thread, by all efforts but kFast; once true, true for good. Then vertices are no longer
+  /// removed, and the mesh so far, which keeps the promise, is the result: it depends on the time. Fails with kUsage
+  /// together with a budget or fast effort. DEFAULT: never.
+  std::function<bool()> is_time_up = {};
+  /// kRms fails with kUsage without a budget or with fast effort. DEFAULT: kMax.
+  Objective objective = Objective::kMax;
   Importance importance = {};  ///< DEFAULT: global error
   Algorithm algorithm = Algorithm::kHeap;
   Batch batch = {};        ///< DEFAULT: one at a time
@@ -74,7 +89,7 @@ struct SimplifyOptions {
 
 /// A pass of simplify() and what it cost.
 struct Pass {
-  std::string_view name;  ///< "tiles", "seams"; "domain", "refine"; "fit"; "freeze", "order", "prove"
+  std::string_view name;  ///< "search"; "tiles", "seams"; "domain", "refine"; "fit"; "freeze", "order", "prove"
   double seconds = 0;     ///< wall clock
   std::uint64_t samples_scanned = 0, triangles_scanned = 0, insertions = 0, removals = 0;
 };
@@ -95,6 +110,9 @@ struct Simplified {
   double combined_max_error = 0;                  ///< with channels: the largest norm
   Work work;                                      ///< what the engine did
   Order order = Order::kGreedy;                   ///< the order that was taken, never kAuto
+  Effort effort = Effort::kFast;                  ///< the effort that was made, never kAuto
+  Vertices vertices = Vertices::kSamples;         ///< where they are, never kAuto
+  bool is_cut_short = false;                      ///< by SimplifyOptions::is_time_up
   std::vector<Pass> passes;                       ///< in the order in which they ended
   double seconds_refine = 0;                      ///< outline, refinement and freezing
   double seconds_measure = 0;                     ///< the proof
@@ -110,24 +128,33 @@ struct Simplified {
 /// Effort: kNormal then removes each vertex whose place the vertices around it can take, all triangulations of the ring
 /// that it leaves considered, the one with the least squared error taken; those that cost least go first. What is left
 /// are samples with their own heights, and no vertex can go alone. kHigh goes on with rings that the bound forbids: it
-/// flips edges and moves vertices around them to other samples, and takes all back where that does not mend it.
+/// flips edges and moves vertices around them, and takes all back where that does not mend it. Vertices that are free
+/// keep max_error on the lattice they move on; where float32 positions cannot hold that lattice exactly they aim 0.2 %
+/// below it, and should rounding break it yet, the run is made again with vertices on samples, unless kFree was asked.
 ///
 /// Guarantees, for every input:
 /// (1) if max_error is given and no budget ended the run, every valid sample of the domain is covered and lies within
 ///     max_error − field.sample_rounding of `mesh`, positions as they are in it. Where offsets_are_exact() this holds
 ///     in exact arithmetic; else as far as measure()'s double arithmetic sees (10⁻¹² of the largest height);
 /// (2) the domain is the union of grid cells whose corners are all valid, and of half cells where three are;
-/// (3) vertices are samples; triangles are counter-clockwise from above and share whole edges;
+/// (3) vertices are samples, but where Simplified::vertices is kFree; triangles are counter-clockwise from above and
+///     share whole edges;
 /// (4) the result depends on the field and the options only, not on threads or machine.
 ///
 /// With channels, max_error bounds the norm of HeightField::channels instead (so the heights too where height_scale is
 /// at least 1); with a mask it bounds the weighted error; every tolerance is kept. In frames that are not exact these
 /// are proven to a float32's rounding (2⁻²², and 2⁻²⁴ more a channel). Samples that are `ignored` have no bound.
 ///
-/// Budgets are upper bounds. Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex and some
+/// Budgets are upper bounds. With more than fast effort they are met by a search for the max error whose mesh takes 99
+/// % of them, 97 % where that takes long, mostly in two or three runs of that effort after a greedy one; less where
+/// triangles jump because many samples share an error. What the objective names is never larger than in the greedy mesh
+/// for the same budgets. A max_error that fits is a goal of its own, and so is 0 where all samples fit (kExact).
+///
+/// Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex and some
 /// 20 MB. In the dominant order it is 4.6 bytes a sample plus 72 a vertex until the mesh is frozen, and a tile's
-/// samples, 1 to 17 MB, for each thread; ordering and the proof take the 120. With a mask, tolerances, a feature or a
-/// script that ignores, up to 12 more a sample; with channels 8 more a sample, and 4 a vertex and channel; with one
+/// samples, 1 to 17 MB, for each thread; ordering and the proof take the 120. More than fast effort takes 200, and 6 a
+/// thread, for each vertex of the refined mesh, of which about half or two thirds then go. With a mask, tolerances, a feature or a
+/// script that ignores, up to 16 more a sample; with channels 8 more a sample, and 4 a vertex and channel; with one
 /// pass 16 more a sample; with data-dependent edges about 300 more a vertex. Up to 32 MiB of work buffers stay in the
 /// process for later calls, on any thread: a second call on a small raster asks the system for next to nothing.
 ///

@@ -50,14 +50,33 @@ enum class Order {
               ///< many vertices. For an error goal alone, on heights alone, with Delaunay edges; see simplify().
 };
 
-/// How much is done, once the bound is kept, for a smaller mesh that keeps it too.
+/// How much is done, once the bound is kept, for a smaller mesh that keeps it too; with a budget, for a better mesh of
+/// that size.
 enum class Effort {
+  kAuto,    ///< kNormal where that is possible, the order is not asked to be greedy, memory has no limit and samples no
+            ///< bounds of their own; else kFast
   kFast,    ///< nothing: what refinement inserted stays
   kNormal,  ///< vertices are removed for as long as every sample keeps the bound: half the triangles, for a few times
             ///< the time. For an error goal alone, on heights alone, in memory; see simplify().
-  kHigh,  ///< more are removed, and what that breaks is repaired by flipping edges and moving vertices to other
-          ///< samples: two fifths of the triangles, for some ten times the time of the greedy order. Where kNormal is
+  kHigh,  ///< more are removed, and what that breaks is repaired by flipping edges and moving vertices (see Vertices):
+          ///< a third of the triangles, for some ten times the time of the greedy order. Where kNormal is
           ///< possible.
+  kMax,   ///< the same, deeper, for some hundred times the time; goes on for as long as SimplifyOptions::is_time_up
+          ///< lets it and there is something to gain. Where kNormal is possible.
+};
+
+/// What a budget makes as small as it can.
+enum class Objective {
+  kMax,  ///< the max error
+  kRms,  ///< the root of the mean square error. With a budget and more than fast effort only; see simplify().
+};
+
+/// Where vertices may be.
+enum class Vertices {
+  kAuto,     ///< kFree where kHigh and kMax can move them: in affine frames; else kSamples
+  kSamples,  ///< on samples, with their heights
+  kFree,     ///< between samples too, in steps of an eighth, with heights of their own that are float32. For kHigh and
+             ///< kMax, in affine frames; vertices of the outline of voids, and corners, stay on samples
 };
 
 /// Inserting many samples between two looks at the mesh ("parallel" insertion of the report; Scape's thresholds).

@@ -9,6 +9,7 @@
 
 #include "fit/patch.h"
 #include "grid/raster.h"
+#include "grid/vertex_places.h"
 #include "tin/triangulation.h"
 
 namespace scarp {
@@ -16,12 +17,6 @@ namespace scarp {
 /// Squares of `side` samples, the first of which begins `shift` samples before the raster in both directions.
 struct PatchGrid {
   std::int32_t side = 0, shift = 0;
-};
-
-/// Where vertices are: on samples, or on the lattice of fitting with heights of their own.
-struct VertexPlaces {
-  std::int32_t steps = 1;      ///< of the triangulation's points between two samples: 1, or kLatticeSteps
-  std::vector<float> heights;  ///< by vertex; NaN at voids; empty where steps is 1: a vertex has its sample's
 };
 
 /// Which triangles go where.

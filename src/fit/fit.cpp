@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,10 @@ namespace scarp {
 
 namespace {
 
+/// Rounds beyond those that were asked for end with two in a row that take away less than this share of the vertices.
+constexpr double kWorthARound = 1e-3;
+constexpr int kPoorRounds = 2;
+
 /// Side of squares of some kPatchTriangles; of one that holds all where they are not many more.
 std::int32_t patch_side(const Raster& raster, const Triangulation& tin) {
   const auto triangles = static_cast<double>(tin.triangle_count());
@@ -25,17 +30,46 @@ std::int32_t patch_side(const Raster& raster, const Triangulation& tin) {
   return std::clamp(static_cast<std::int32_t>(side), 2, longest);
 }
 
+/// Whether errors have energies somewhere.
+bool has_energies(const FitOptions& options) {
+  const auto has = [](double bound) { return bound > 0x1p-60 && bound < 0x1p60; };
+  return options.bounds.empty() ? has(options.threshold)
+                                : std::any_of(options.bounds.begin(), options.bounds.end(), has);
+}
+
+Freedom freedom_of(const Raster& raster, const FitOptions& options) {
+  const bool has_room = std::max(raster.cols, raster.rows) <= kMaxCoordinate / kLatticeSteps;
+  return options.vertices_are_free && has_room ? Freedom::kLattice : Freedom::kSamples;
+}
+
+/// Lets vertices be as low and as high as samples are.
+void set_range(const Raster& raster, MoveRules& rules) {
+  rules.lowest = std::numeric_limits<float>::max();
+  rules.highest = std::numeric_limits<float>::lowest();
+  for (std::int32_t y = 0; y < raster.rows; ++y) {
+    const float* const row = raster.row(y);
+    for (std::int32_t x = 0; x < raster.cols; ++x) {
+      // False where the sample is void.
+      if (row[x] < rules.lowest) rules.lowest = row[x];
+      if (row[x] > rules.highest) rules.highest = row[x];
+    }
+  }
+}
+
 /// One round after the other, on squares that are shifted against each other.
 class Rounds {
  public:
   Rounds(const Raster& raster, Triangulation tin, const FitOptions& options)
       : raster_(raster),
         options_(options),
+        rules_{freedom_of(raster, options), {options.min_shape, options.aspect}},
         fitted_{std::move(tin), {}, {}},
         vertices_(fitted_.tin.vertex_count()),
         settled_(fitted_.tin.vertex_count(), 0),
         scratch_(static_cast<std::size_t>(thread_count(options.threads))),
-        windows_(scratch_.size()) {}
+        windows_(scratch_.size()) {
+    if (rules_.freedom == Freedom::kLattice) set_range(raster, rules_);
+  }
 
   /// Of removal. `end`: the share of the whole that is then done. False if it was told to stop, as those below.
   bool run(const PatchGrid& grid, double end) {
@@ -45,16 +79,28 @@ class Rounds {
   }
 
   /// Of removal with repair.
-  bool repair(const PatchGrid& grid, double end, Freedom freedom) {
-    const std::int32_t steps = freedom == Freedom::kLattice ? kLatticeSteps : 1;
-    return work_on(grid, end, steps,
-                   [this, freedom](Patch& patch, const std::vector<Vertex>&, const TriangleError& error) {
-                     const RepairCounts counts = repair_vertices(patch, error, {options_.repair_depth, freedom});
-                     return FitCounts{counts.removed, 0, counts.removed, counts.tried};
-                   });
+  bool repair(const PatchGrid& grid, double end, const RepairOptions& options) {
+    const std::int32_t steps = rules_.freedom == Freedom::kLattice ? kLatticeSteps : 1;
+    return work_on(grid, end, steps, [&](Patch& patch, const std::vector<Vertex>&, const TriangleError& error) {
+      // One bound alone, and that beyond energies.
+      if (!error.has_energy()) return FitCounts{};
+      const RepairCounts counts = repair_vertices(patch, error, options);
+      return FitCounts{counts.removed, 0, counts.removed, counts.tried};
+    });
   }
 
-  Fitted finish() { return std::move(fitted_); }
+  /// What a round of repair is to do; `shake` as there.
+  RepairOptions repair_options(int polishes, std::uint32_t shake) const {
+    return {options_.depth.repair, rules_, shake, polishes, options_.is_time_up};
+  }
+
+  bool is_time_up() const { return options_.is_time_up && options_.is_time_up(); }
+  std::uint64_t vertices() const { return vertices_ - fitted_.counts.removed; }
+
+  Fitted finish() {
+    fitted_.is_cut_short = is_time_up();
+    return std::move(fitted_);
+  }
 
  private:
   /// Cuts, lets job(patch, vertices, error) count what it does to each patch, and joins, to places of so many steps.
@@ -66,8 +112,10 @@ class Rounds {
     counts_.assign(cutter.count(), {});
     const auto one = [&](std::size_t i, std::size_t worker) {
       patches[i] = cutter.cut(i, scratch_[worker], vertices[i]);
-      const TriangleError error = windows_[worker].errors(raster_, patches[i], options_.threshold);
-      counts_[i] = job(patches[i], vertices[i], error);
+      if (!is_time_up()) {
+        const TriangleError error = windows_[worker].errors(raster_, options_.bounds, patches[i], options_.threshold);
+        counts_[i] = job(patches[i], vertices[i], error);
+      }
       patches[i].pack();
     };
     bool goes_on = true;
@@ -94,16 +142,14 @@ class Rounds {
     fitted_.counts.repaired += counts.repaired;
     fitted_.counts.tried += counts.tried;
   }
-  bool tell(double share) const {
-    return !options_.progress || options_.progress(share, vertices_ - fitted_.counts.removed);
-  }
+  bool tell(double share) const { return !options_.progress || options_.progress(share, vertices()); }
 
   /// A vertex that is free in one patch is in no other, so patches write to places of their own.
   FitCounts remove(Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
     std::vector<std::uint8_t> settled;
     settled.reserve(vertices.size());
     for (const Vertex v : vertices) settled.push_back(settled_[v]);
-    const RemovalCounts counts = remove_vertices(patch, error, settled);
+    const RemovalCounts counts = remove_vertices(patch, error, rules_.shape, options_.is_time_up, settled);
     for (Patch::Id v = 0; v < vertices.size(); ++v) {
       if (!patch.is_locked(v)) settled_[vertices[v]] = settled[v];
     }
@@ -120,6 +166,7 @@ class Rounds {
 
   const Raster& raster_;
   const FitOptions& options_;
+  MoveRules rules_;
   Fitted fitted_;
   std::uint64_t vertices_;                     // of the mesh that was given
   double done_ = 0;                            // share of the whole
@@ -135,18 +182,25 @@ Result<Fitted> fit(const Raster& raster, Triangulation tin, const FitOptions& op
   const std::int32_t side = options.patch_side > 0 ? options.patch_side : patch_side(raster, tin);
   Rounds rounds(raster, std::move(tin), options);
   const bool is_cut = side < std::max(raster.cols, raster.rows);
-  const bool has_energies = options.threshold > 0x1p-60 && options.threshold < 0x1p60;
-  const bool has_room = std::max(raster.cols, raster.rows) <= kMaxCoordinate / kLatticeSteps;
-  const Freedom freedom = options.vertices_are_free && has_room ? Freedom::kLattice : Freedom::kSamples;
-  const int repairs = has_energies ? options.repair_rounds : 0;
+  const int repairs = has_energies(options) ? options.depth.rounds : 0;
   // A round of repair takes some five times as long as removal, whose second round looks at little more than what the
   // borders of the first held back.
   const double removal = 1.0 / (1 + 5 * repairs);
-  bool goes_on = rounds.run({side, 0}, is_cut ? 0.8 * removal : removal);
-  if (goes_on && is_cut) goes_on = rounds.run({side, side / 2}, removal);
+  const auto grid = [&](int round) { return PatchGrid{side, is_cut && round % 2 == 1 ? side / 2 : 0}; };
+  bool goes_on = rounds.run(grid(0), is_cut ? 0.8 * removal : removal);
+  if (goes_on && is_cut) goes_on = rounds.run(grid(1), removal);
   for (int round = 0; goes_on && round < repairs; ++round) {
     const double end = removal + (1 - removal) * (round + 1) / repairs;
-    goes_on = rounds.repair({side, is_cut && round % 2 == 1 ? side / 2 : 0}, end, freedom);
+    const int polishes = round + 1 == repairs ? options.depth.polishes : 0;
+    goes_on = rounds.repair(grid(round), end, rounds.repair_options(polishes, 0));
+  }
+  int poor = repairs > 0 && options.goes_on ? 0 : kPoorRounds;
+  for (int round = repairs; goes_on && poor < kPoorRounds && !rounds.is_time_up(); ++round) {
+    const std::uint64_t before = rounds.vertices();
+    goes_on =
+        rounds.repair(grid(round), 1, rounds.repair_options(options.depth.polishes, static_cast<std::uint32_t>(round)));
+    const std::uint64_t gain = before - rounds.vertices();
+    poor = static_cast<double>(gain) < kWorthARound * static_cast<double>(before) ? poor + 1 : 0;
   }
   if (!goes_on) return fail(ErrorKind::kCancelled, "cancelled while removing vertices");
   return rounds.finish();

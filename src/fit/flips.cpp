@@ -1,5 +1,7 @@
 #include "fit/flips.h"
 
+#include <algorithm>
+
 namespace scarp {
 
 namespace {
@@ -9,11 +11,18 @@ constexpr float kGain = 1e-5f;
 
 }  // namespace
 
+bool Flips::has_shape(const Patch::Quad& q) const {
+  if (!shape_.is_on()) return true;
+  const FitCorner &a = patch_.at(q.a), &b = patch_.at(q.b), &c = patch_.at(q.c), &d = patch_.at(q.d);
+  const double worst = std::min(shape_.shape(c, a, d), shape_.shape(d, b, c));
+  return worst >= shape_.lowered(shape_.lowered(shape_.floor, a, b, c), b, a, d);
+}
+
 bool Flips::improve(const TriangleError& error, Patch::Id face, unsigned edge) {
   if (Patch::is_border(patch_.face(face).links[edge])) return false;
   const Patch::Quad q = patch_.quad(face, edge);
   const FitCorner &a = patch_.at(q.a), &b = patch_.at(q.b), &c = patch_.at(q.c), &d = patch_.at(q.d);
-  if (area2(c, a, d) <= 0 || area2(d, b, c) <= 0) return false;
+  if (area2(c, a, d) <= 0 || area2(d, b, c) <= 0 || !has_shape(q)) return false;
   const float limit = (patch_.face(q.face).energy + patch_.face(q.beyond).energy) * (1 - kGain);
   const auto near = error.judge(c, a, d, limit);
   if (near.kind != TriangleError::Verdict::Kind::kKeeps) return false;

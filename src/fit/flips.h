@@ -7,6 +7,7 @@
 #pragma once
 
 #include "fit/patch.h"
+#include "fit/rules.h"
 #include "fit/triangle_error.h"
 
 namespace scarp {
@@ -14,14 +15,18 @@ namespace scarp {
 class Flips {
  public:
   /// The patch stays alive.
-  explicit Flips(Patch& patch) : patch_(patch) {}
+  Flips(Patch& patch, const ShapeRule& shape) : patch_(patch), shape_(shape) {}
 
-  /// Flips the edge if it is no border, both new triangles are positive and let through by the rule of `error`, and the
-  /// sum of the energies falls. REQUIRES: energies of both triangles are known. Cost: at most two scans.
+  /// Flips the edge if it is no border, both new triangles are positive, of a shape that may be, and let through by the
+  /// rule of `error`, and the sum of the energies falls. REQUIRES: energies of both triangles are known. Cost: at most
+  /// two scans.
   bool improve(const TriangleError& error, Patch::Id face, unsigned edge);
 
  private:
+  bool has_shape(const Patch::Quad& q) const;
+
   Patch& patch_;
+  ShapeRule shape_;
 };
 
 }  // namespace scarp

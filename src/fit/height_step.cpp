@@ -1,6 +1,8 @@
 #include "fit/height_step.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace scarp {
@@ -8,7 +10,7 @@ namespace scarp {
 namespace {
 
 constexpr std::array<double, 9> kBinomials{1, 8, 28, 56, 70, 56, 28, 8, 1};
-constexpr int kDoublings = 40, kHalvings = 26;
+constexpr int kDoublings = 40, kHalvings = 14;
 
 double energy_at(const TriangleError::Moments& moments, double rise) {
   double sum = 0;
@@ -25,13 +27,13 @@ double slope_at(const TriangleError::Moments& moments, double rise) {
 
 }  // namespace
 
-HeightStep best_height(const TriangleError::Moments& moments) {
+HeightStep best_height(const TriangleError::Moments& moments, double lowest, double highest, double scale) {
   const HeightStep level{0, moments[0]};
   const double slope = slope_at(moments, 0);
   if (slope == 0 || !(moments[8] > 0)) return level;
   const double direction = slope > 0 ? -1 : 1;
   const auto falls_at = [&](double distance) { return slope_at(moments, direction * distance) * direction < 0; };
-  double near = 0, far = 0.25;
+  double near = 0, far = 0.25 * scale;
   for (int i = 0; i < kDoublings && falls_at(far); ++i) {
     near = far;
     far *= 2;
@@ -40,8 +42,14 @@ HeightStep best_height(const TriangleError::Moments& moments) {
     const double middle = (near + far) / 2;
     (falls_at(middle) ? near : far) = middle;
   }
-  const HeightStep best{direction * (near + far) / 2, energy_at(moments, direction * (near + far) / 2)};
+  const double rise = std::clamp(direction * (near + far) / 2, lowest, highest);
+  const HeightStep best{rise, energy_at(moments, rise)};
   return best.energy < level.energy ? best : level;
+}
+
+double scale_of_rises(const TriangleError::Moments& moments) {
+  const double scale = std::sqrt(std::sqrt(std::sqrt(moments[0] / moments[8])));
+  return scale > 0 && std::isfinite(scale) ? scale : 1;
 }
 
 }  // namespace scarp

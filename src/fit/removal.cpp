@@ -13,11 +13,13 @@ using Id = Patch::Id;
 
 class Removal {
  public:
-  Removal(Patch& patch, const TriangleError& error, std::vector<std::uint8_t>& settled)
+  Removal(Patch& patch, const TriangleError& error, const ShapeRule& shape, const std::function<bool()>& is_time_up,
+          std::vector<std::uint8_t>& settled)
       : patch_(patch),
         error_(error),
+        is_time_up_(is_time_up),
         settled_(settled),
-        search_(error),
+        search_(error, shape),
         notes_(patch.node_count()),
         queue_(patch.node_count()) {
     for (Id v = 0; v < patch.node_count(); ++v)
@@ -29,7 +31,9 @@ class Removal {
       if (!patch_.is_locked(v) && settled_[v] == 0) offer(v);
     }
     while (!queue_.empty()) {
-      while (!queue_.empty()) take();
+      for (; !queue_.empty(); take()) {
+        if (is_time_up_ && is_time_up_()) return counts_;
+      }
       queue_.each_waiting([this](Id v) {
         if (!patch_.is_removed(v)) offer(v);
       });
@@ -104,6 +108,7 @@ class Removal {
 
   Patch& patch_;
   const TriangleError& error_;
+  const std::function<bool()>& is_time_up_;
   std::vector<std::uint8_t>& settled_;
   RingSearch search_;
   std::vector<Note> notes_;
@@ -116,8 +121,9 @@ class Removal {
 
 }  // namespace
 
-RemovalCounts remove_vertices(Patch& patch, const TriangleError& error, std::vector<std::uint8_t>& settled) {
-  return Removal(patch, error, settled).run();
+RemovalCounts remove_vertices(Patch& patch, const TriangleError& error, const ShapeRule& shape,
+                              const std::function<bool()>& is_time_up, std::vector<std::uint8_t>& settled) {
+  return Removal(patch, error, shape, is_time_up, settled).run();
 }
 
 }  // namespace scarp

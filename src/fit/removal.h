@@ -16,9 +16,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "fit/patch.h"
+#include "fit/rules.h"
 #include "fit/triangle_error.h"
 
 namespace scarp {
@@ -28,8 +30,10 @@ struct RemovalCounts {
   std::uint64_t searches = 0;  ///< rings that were looked at
 };
 
-/// Removes vertices until none can go. `settled`: by node, 1 where it is known that it cannot; brought up to date.
+/// Removes vertices until none can go. `settled`: by node, 1 where it is known that it cannot; brought up to date,
+/// unless the time was up before the end: it is asked before each vertex, if there is someone to ask.
 /// REQUIRES: every triangle of the patch keeps the threshold; settled.size() == patch.node_count().
-RemovalCounts remove_vertices(Patch& patch, const TriangleError& error, std::vector<std::uint8_t>& settled);
+RemovalCounts remove_vertices(Patch& patch, const TriangleError& error, const ShapeRule& shape,
+                              const std::function<bool()>& is_time_up, std::vector<std::uint8_t>& settled);
 
 }  // namespace scarp

@@ -1,14 +1,15 @@
 #include "fit/repair.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace scarp {
 
 namespace {
 
-/// Triangles nearer to the bound than this, in thresholds, are worth a flip.
-constexpr double kWorthFlip = 0.9;
+/// Triangles nearer to the bound than this, in thresholds, are worth a flip, and steps of their corners.
+constexpr double kWorthChange = 0.9;
 /// A round must leave less than this share of the excess.
 constexpr double kProgress = 0.95;
 /// The largest excess that is left to hope after the second round, and after the fourth.
@@ -42,18 +43,33 @@ bool Repair::remove(Patch::Id v, const Patch::Star& star, std::span<const Patch:
 bool Repair::mend() {
   Excess left = excess();
   for (int round = 0; left.any; ++round) {
-    if (round == rounds_) return false;
+    if (round == depth_.rounds) return false;
     const Excess before = left;
     for (const Patch::Id v : ring_) {
-      if (step_.improve(loose_, v)) moved_.push_back(v);
+      if (is_strained(v, kWorthChange) && step_.improve(loose_, v)) moved_.push_back(v);
     }
     for (const Patch::Id v : ring_) flip_around(v);
+    if (depth_.probes && round % 2 == 1) look_around(round);
     left = excess();
     if (!left.any) return true;
     if (round > 0 && left.sum > kProgress * before.sum) return false;
     if ((round == 1 && left.worst > kSecondHope) || (round == 3 && left.worst > kFourthHope)) return false;
   }
   return true;
+}
+
+/// Whether a triangle around v has more than this share of the threshold.
+bool Repair::is_strained(Patch::Id v, double share) {
+  patch_.find_star(v, star_);
+  return std::any_of(star_.faces.begin(), star_.faces.end(),
+                     [&](Patch::Id f) { return patch_.face(f).worst > share * loose_.threshold(); });
+}
+
+void Repair::look_around(int round) {
+  constexpr std::array<double, 3> kReaches{0.15, 0.07, 0.25};
+  for (const Patch::Id v : ring_) {
+    if (is_strained(v, 1) && step_.probe(loose_, v, kReaches[static_cast<std::size_t>(round) % 3])) moved_.push_back(v);
+  }
 }
 
 Repair::Excess Repair::excess() const {
@@ -74,7 +90,7 @@ void Repair::flip_around(Patch::Id v) {
   patch_.find_star(v, star_);
   for (const Patch::Id f : star_.faces) {
     for (unsigned edge = 0; edge < 3; ++edge) {
-      if (patch_.face(f).worst > kWorthFlip * loose_.threshold()) flips_.improve(loose_, f, edge);
+      if (patch_.face(f).worst > kWorthChange * loose_.threshold()) flips_.improve(loose_, f, edge);
     }
   }
 }

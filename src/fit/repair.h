@@ -1,19 +1,23 @@
 // Removal with repair: a vertex goes although its ring cannot hold the bound, and the neighbours make up for it.
 //
-// The ring is triangulated with up to kRepairSlack of the threshold. Then, a few times over, each vertex of the ring
-// takes a step (vertex_step.h) and edges around the ring are flipped (flips.h), both led by the energy Σ t⁸ alone,
-// until every triangle that was touched keeps the bound again, in exact arithmetic: flips may push a bad triangle out
-// of the stars of the ring, so all of them are asked. What does not come right is rolled back: 16 to 46 % of the
-// removals that are begun succeed on samples, 53 to 87 % with free vertices. Hopeless cases are left early: where the
-// excess Σ (worst / threshold − 1) falls by less than 5 % in a round, or is far too large after the second round, or
-// the fourth.
+// The ring is triangulated with up to a slack times the threshold. Then, a few times over, each vertex of the ring
+// takes a step (vertex_step.h) and edges around the ring are flipped (flips.h), where triangles are near the bound,
+// both led by the energy Σ t⁸ alone, until every triangle that was touched keeps the bound again, in exact arithmetic:
+// flips may push a bad triangle out of the stars of the ring, so all of them are asked. What does not come right is
+// rolled back: 16 to 46 % of the removals that are begun succeed on samples, 53 to 87 % with free vertices. Hopeless
+// cases are left early: where the excess Σ (worst / threshold − 1) falls by less than 5 % in a round, or is far too
+// large after the second round, or the fourth.
 //
 // Triangles against greedy, geometric means of 19 cases in which greedy takes less than a quarter of the full grid:
 // removal 0.544, with repair on samples 0.381, with free vertices 0.291; of 6 cases beyond 0.641, 0.606, 0.443. The
-// price is 2 to 40 times the time of greedy insertion, the more the fewer triangles there are. Choices made here, by
-// triangles on Fuji at 1 %, vertices on samples: powers 4, 6, 8, 12, 16 of the energy leave 0.358, 0.344, 0.344, 0.340,
-// 0.340; a slack of 1.3, 1.5, 2 0.359, 0.344, 0.335, for some 0.6, 1 and 1.5 times the time; 2, 4, 8 rounds 0.349,
-// 0.344, 0.343 (bench/quality/fit.cpp).
+// price is 2 to 40 times the time of greedy insertion, the more the fewer triangles there are. Going deeper, with
+// vertices free at 1 % on Fuji and Crater Lake: a third round over all vertices leaves 0.271 and 0.310 instead of 0.276
+// and 0.317; besides a slack of 2.5 and 6 rounds of repair 0.249 and 0.277, for four times the time; besides the probes
+// of every second round 0.249 and 0.271, for one and a half times that. Steps of all vertices of a ring, instead of
+// those at triangles above 0.9 of the bound, save at most 0.5 % of the triangles, for a tenth of the time. Choices made
+// here, by triangles on Fuji at 1 %, vertices on samples: powers 4, 6, 8, 12, 16 of the energy leave 0.358, 0.344,
+// 0.344, 0.340, 0.340; a slack of 1.3, 1.5, 2 0.359, 0.344, 0.335, for some 0.6, 1 and 1.5 times the time; 2, 4, 8
+// rounds 0.349, 0.344, 0.343 (bench/quality/fit.cpp).
 #pragma once
 
 #include <cstdint>
@@ -27,14 +31,18 @@
 
 namespace scarp {
 
-/// Triangles of a ring may begin with so many thresholds.
-inline constexpr double kRepairSlack = 1.5;
+/// How far repair goes for one vertex.
+struct RepairDepth {
+  int rounds = 4;       ///< of steps and flips
+  double slack = 1.5;   ///< thresholds that triangles of a ring may begin with, 1 … 4
+  bool probes = false;  ///< every second round, vertices of the ring look around themselves too (VertexStep::probe)
+};
 
 class Repair {
  public:
-  /// `loose`: with the slack that repair begins with; `rounds`: of steps and flips. Patch and errors stay alive.
-  Repair(Patch& patch, const TriangleError& loose, int rounds, Freedom freedom)
-      : patch_(patch), loose_(loose), rounds_(rounds), flips_(patch), step_(patch, freedom) {}
+  /// `loose`: with the slack of the depth. Patch and errors stay alive.
+  Repair(Patch& patch, const TriangleError& loose, const RepairDepth& depth, const MoveRules& rules)
+      : patch_(patch), loose_(loose), depth_(depth), flips_(patch, rules.shape), step_(patch, rules) {}
 
   /// Removes v, whose star is given, for these triangles of its ring; false, and nothing has changed, where the bound
   /// cannot be repaired. REQUIRES: every triangle of the patch keeps the bound, energies are known.
@@ -49,6 +57,8 @@ class Repair {
     bool any = false;
   };
   bool mend();
+  bool is_strained(Patch::Id v, double share);
+  void look_around(int round);
   Excess excess() const;
   void flip_around(Patch::Id v);
   bool has_changed(const Journal<Patch::Face>::Copy& copy) const;
@@ -56,7 +66,7 @@ class Repair {
 
   Patch& patch_;
   const TriangleError& loose_;
-  int rounds_;
+  RepairDepth depth_;
   Flips flips_;
   VertexStep step_;
   std::vector<Patch::Id> ring_, moved_, changed_;

@@ -39,6 +39,7 @@ bool RingSearch::find(std::span<const FitCorner> ring, const FitCorner& hub, Poi
   const Point centre{(hub.x + kLatticeSteps / 2) / kLatticeSteps, (hub.y + kLatticeSteps / 2) / kLatticeSteps};
   look_from(centre);
   keep_positive();
+  if (shape_.is_on()) keep_shapely(hub);
   cross_out();
   if (!connect()) return false;
   if (witness != centre) {
@@ -84,6 +85,7 @@ bool RingSearch::improve(std::size_t first, std::size_t last, Point& witness) {
 /// Moves the corners so that the sample is the origin, and multiplies them pairwise.
 void RingSearch::look_from(Point sample) {
   const double height = error_.height_at(sample);
+  limit_ = error_.limit_at(sample);
   for (std::size_t i = 0; i < size_; ++i) {
     x_[i] = ring_[i].x - sample.x * kLatticeSteps;
     y_[i] = ring_[i].y - sample.y * kLatticeSteps;
@@ -114,10 +116,30 @@ void RingSearch::keep_positive() {
   }
 }
 
+/// A hub on a side is in line with the first and the last of its ring.
+void RingSearch::keep_shapely(const FitCorner& hub) {
+  double floor = shape_.floor;
+  for (std::size_t i = 0; i < size_; ++i) {
+    const FitCorner &a = ring_[i], &b = ring_[i + 1 == size_ ? 0 : i + 1];
+    if (area2(hub, a, b) > 0) floor = shape_.lowered(floor, hub, a, b);
+  }
+  for (std::size_t i = 0; i < size_; ++i) {
+    for (std::size_t j = i + 1; j < size_; ++j) square_[i][j] = shape_.square(ring_[i], ring_[j]);
+  }
+  for (std::size_t i = 0; i + 2 < size_; ++i) {
+    for (std::size_t j = i + 2; j < size_; ++j) {
+      for (Set left = allowed_[i][j]; left != 0; left &= left - 1) {
+        const std::size_t q = lowest(left);
+        const double area = cross_[i][q] + cross_[q][j] - cross_[i][j];
+        if (shape_.of(area, square_[i][q], square_[q][j], square_[i][j]) < floor) allowed_[i][j] &= ~only(q);
+      }
+    }
+  }
+}
+
 /// Forbids the triangles that hold the sample that is looked from and break the threshold there; whether there are any.
 /// Rounding may forbid one at the threshold itself, never allow one: what is allowed is scanned.
 bool RingSearch::cross_out() {
-  const double limit = error_.limit();
   bool any = false;
   for (std::size_t i = 0; i + 2 < size_; ++i) {
     for (std::size_t j = i + 2; j < size_; ++j) {
@@ -126,7 +148,7 @@ bool RingSearch::cross_out() {
       for (Set left = allowed_[i][j] & left_of_[i] & right_of_[j]; left != 0; left &= left - 1) {
         const std::size_t q = lowest(left);
         const double wj = cross_[i][q], wi = cross_[q][j];
-        if (!(std::abs(wi * z_[i] + wq * z_[q] + wj * z_[j]) > limit * (wi + wq + wj))) continue;
+        if (!(std::abs(wi * z_[i] + wq * z_[q] + wj * z_[j]) > limit_ * (wi + wq + wj))) continue;
         allowed_[i][j] &= ~only(q);
         any = true;
       }

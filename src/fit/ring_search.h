@@ -5,7 +5,7 @@
 //
 //   1. Pairwise cross products around a sample give, for all triangles at once, their orientation, whether they hold
 //      the sample, and their height there. The first such sample is the vertex itself: it is there because the surface
-//      needs it. Triangles that are not positive, or that break the bound at the sample, are crossed out.
+//      needs it. Triangles that are not positive, too thin, or that break the bound at the sample, are crossed out.
 //   2. Bit sets tell which intervals (i, j) can still be triangulated, and which of those are part of a whole. If the
 //      ring is none of them, the vertex stays, and not one row was scanned.
 //   3. The triangles that are left are scanned, short intervals first, each only until its energy exceeds the best.
@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "fit/patch.h"
+#include "fit/rules.h"
 #include "fit/triangle_error.h"
 
 namespace scarp {
@@ -30,11 +31,12 @@ class RingSearch {
   static constexpr std::size_t kMostCorners = 16;
 
   /// The errors stay alive.
-  explicit RingSearch(const TriangleError& error) : error_(error) {}
+  explicit RingSearch(const TriangleError& error, const ShapeRule& shape = {}) : error_(error), shape_(shape) {}
 
-  /// Whether the ring has a triangulation whose triangles are positive and keep the threshold; then the one with the
-  /// least energy. `hub` is where the vertex is; `witness` a sample that has spoken against the ring last time, and
-  /// afterwards, if the answer is no, the one that did now. REQUIRES: 3 <= ring.size() <= kMostCorners.
+  /// Whether the ring has a triangulation whose triangles are positive, keep the limit of `error` and have a shape that
+  /// may be, those around the hub taken away; then the one with the least energy. `hub` is where the vertex is;
+  /// `witness` a sample that has spoken against the ring last time, and afterwards, if the answer is no, the one that
+  /// did now. REQUIRES: 3 <= ring.size() <= kMostCorners.
   bool find(std::span<const FitCorner> ring, const FitCorner& hub, Point& witness);
 
   /// Of the triangulation that was found. Ties go to the first triangle in the order of the search.
@@ -56,6 +58,7 @@ class RingSearch {
 
   void look_from(Point sample);
   void keep_positive();
+  void keep_shapely(const FitCorner& hub);
   bool cross_out();
   bool connect();
   bool is_needed(std::size_t first, std::size_t last) const {
@@ -64,10 +67,13 @@ class RingSearch {
   bool improve(std::size_t first, std::size_t last, Point& witness);
 
   const TriangleError& error_;
+  ShapeRule shape_;
   std::size_t size_ = 0;
   std::span<const FitCorner> ring_;
   std::array<double, kMostCorners> x_, y_, z_;        // corners as seen from a sample
+  double limit_ = 0;                                  // of that sample
   Table<double> cross_;                               // products of them
+  Table<double> square_;                              // of edges and diagonals, where there is a floor of shapes
   std::array<Set, kMostCorners> left_of_, right_of_;  // last by first, first by last: where they are not negative
   Table<Set> allowed_;                                // middles of triangles that are not crossed out
   Table<Set> choices_;                                // those that leave intervals with triangulations on both sides

@@ -17,10 +17,10 @@ class Schedule {
   Schedule(Patch& patch, const TriangleError& error, const RepairOptions& options)
       : patch_(patch),
         strict_(error.with({1, ErrorRule::Power::kEight})),
-        loose_(error.with({kRepairSlack, ErrorRule::Power::kEight})),
-        search_(loose_),
-        freedom_(options.freedom),
-        repair_(patch, loose_, options.depth, options.freedom),
+        loose_(error.with({options.depth.slack, ErrorRule::Power::kEight})),
+        search_(loose_, options.rules.shape),
+        options_(options),
+        repair_(patch, loose_, options.depth, options.rules),
         notes_(patch.node_count()),
         queue_(patch.node_count()) {}
 
@@ -29,21 +29,31 @@ class Schedule {
     for (Id f = 0; f < patch_.face_count(); ++f) {
       if (patch_.face(f).corners[0] != kNone) measure(patch_, strict_, f);
     }
+    if (options_.shake != 0) shake();
     sweep();
+    remove_all();
+    for (int i = 0; i < options_.polishes; ++i) polish();
+    return counts_;
+  }
+
+ private:
+  void remove_all() {
     for (Id v = 0; v < patch_.node_count(); ++v) notes_[v].witness = sample_of(v);
     for (Id v = 0; v < patch_.node_count(); ++v) {
       if (!patch_.is_locked(v) && !patch_.is_removed(v)) offer(v);
     }
     while (!queue_.empty()) {
-      while (!queue_.empty()) take();
+      for (; !queue_.empty(); take()) {
+        if (is_time_up()) return;
+      }
       queue_.each_waiting([this](Id v) {
         if (!patch_.is_removed(v)) offer(v);
       });
     }
-    return counts_;
   }
 
- private:
+  bool is_time_up() const { return options_.is_time_up && options_.is_time_up(); }
+
   struct Note {
     std::uint64_t code = 0;  // the triangles that would take the vertex' place
     Point witness;           // against its removal
@@ -60,14 +70,31 @@ class Schedule {
   Point sample_of(Id v) const { return {patch_.at(v).x / kLatticeSteps, patch_.at(v).y / kLatticeSteps}; }
 
   void sweep() {
-    Flips flips(patch_);
-    VertexStep step(patch_, freedom_);
+    Flips flips(patch_, options_.rules.shape);
+    VertexStep step(patch_, options_.rules);
     for (Id f = 0; f < patch_.face_count(); ++f) {
       if (patch_.face(f).corners[0] == kNone) continue;
       for (unsigned edge = 0; edge < 3; ++edge) flips.improve(strict_, f, edge);
     }
     for (Id v = 0; v < patch_.node_count(); ++v) {
       if (!patch_.is_removed(v)) step.improve(strict_, v);
+    }
+  }
+
+  void shake() {
+    VertexStep step(patch_, options_.rules);
+    std::uint32_t dice = options_.shake;
+    for (Id v = 0; v < patch_.node_count(); ++v) {
+      // Numerical Recipes' congruential generator, its bits mixed.
+      dice = dice * 1664525u + 1013904223u;
+      if (!patch_.is_removed(v)) step.shake(strict_, v, (dice ^ dice >> 15) * 0x2c1b3c6du);
+    }
+  }
+
+  void polish() {
+    VertexStep step(patch_, options_.rules);
+    for (Id v = 0; v < patch_.node_count(); ++v) {
+      if (!patch_.is_removed(v)) step.level(strict_, v);
     }
   }
 
@@ -121,7 +148,7 @@ class Schedule {
   Patch& patch_;
   TriangleError strict_, loose_;
   RingSearch search_;
-  Freedom freedom_;
+  const RepairOptions& options_;
   Repair repair_;
   std::vector<Note> notes_;
   LazyQueue queue_;

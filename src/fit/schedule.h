@@ -10,15 +10,22 @@
 // after one round than after two; a third takes 1 to 2 % more away.
 #pragma once
 
+#include <cstdint>
+#include <functional>
+
 #include "fit/patch.h"
+#include "fit/repair.h"
+#include "fit/rules.h"
 #include "fit/triangle_error.h"
-#include "fit/vertex_step.h"
 
 namespace scarp {
 
 struct RepairOptions {
-  int depth = 4;  ///< rounds of repair for one vertex
-  Freedom freedom = Freedom::kSamples;
+  RepairDepth depth = {};
+  MoveRules rules = {};
+  std::uint32_t shake = 0;                ///< other than 0: vertices are shaken first, by dice that this is the seed of
+  int polishes = 0;                       ///< sweeps that level the heights of free vertices at the end
+  std::function<bool()> is_time_up = {};  ///< asked before each vertex; true ends the rest but for polishing
 };
 
 struct RepairCounts {

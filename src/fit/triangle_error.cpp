@@ -22,10 +22,7 @@ float sum_of(Floats low, Floats high) {
 struct Largest {
   Floats worst{};
 
-  void add(Floats low, Floats high) {
-    const Floats larger = low > high ? low : high;
-    worst = larger > worst ? larger : worst;
-  }
+  void add(Floats low, Floats high) { worst = larger_of(larger_of(low, high), worst); }
   bool exceeds(float cut) const { return any(worst > all(cut)); }
   float largest() const { return std::max(std::max(worst[0], worst[2]), std::max(worst[1], worst[3])); }
 };
@@ -63,10 +60,94 @@ TriangleError::TriangleError(const Raster& raster, Point first, double threshold
       first_(first),
       threshold_(threshold),
       limit_(rule.slack * threshold),
+      unit_(threshold),
       power_(rule.power),
       per_threshold_(threshold > 0x1p-60 && threshold < 0x1p60 ? static_cast<float>(1 / threshold) : 0),
       per_square_(per_threshold_ > 0 ? static_cast<float>(1 / (threshold * threshold)) : 0),
       end_(raster.row(raster.rows)) {}
+
+TriangleError::TriangleError(const Raster& raster, Point first, const SampleBounds& bounds, const ErrorRule& rule)
+    : TriangleError(raster, first, 1, rule) {
+  bounds_ = {bounds.bounds, raster.cols, raster.rows};
+  unit_ = bounds.unit;
+}
+
+TriangleError TriangleError::with(const ErrorRule& rule) const {
+  if (has_bounds()) return {raster_, first_, SampleBounds{bounds_.samples, unit_}, rule};
+  return {raster_, first_, threshold_, rule};
+}
+
+/// The samples of a triangle against one threshold.
+template <class Sums>
+struct TriangleError::ByThreshold {
+  const TriangleError& of;
+  TriangleTask task;
+  Sums sums;
+
+  ByThreshold(const TriangleError& error, const FitCorner& a, const FitCorner& b, const FitCorner& c)
+      : of(error), task(a, b, c, error.threshold_, error.limit_) {}
+
+  void add_row(TriangleScan& scan, std::int32_t y, std::int32_t first, std::int32_t last) {
+    scan.each_eight(of.raster_.row(of.first_.y + y) + of.first_.x, y, first, last,
+                    [&](std::int32_t, Floats, Floats low, Masks low_meant, Floats high, Masks high_meant) {
+                      sums.add(magnitudes(low, low_meant), magnitudes(high, high_meant), of.per_square_);
+                    });
+  }
+  float energy() const { return sums.energy(of.per_square_); }
+  bool breaks_limit() const { return sums.exceeds(task.cut); }
+  bool breaks(float worst) const { return worst > task.certain; }
+  bool is_in_doubt(float worst) const { return worst > task.doubt || double{task.plane.guard} > of.threshold_; }
+  bool is_in_doubt(float error, Point) const { return error > task.doubt || double{task.plane.guard} > of.threshold_; }
+  float excess(float error, Point) const { return error; }
+};
+
+/// The same against bounds of their own. Of the roundings that a guard holds (scan_plane.h) 2u·error, and those of the
+/// bound, grow with a bound; u = 2⁻²⁴. So the guard of a threshold of 0 will do if bounds are widened or narrowed by
+/// 16u.
+template <class Sums>
+struct TriangleError::ByBounds {
+  static constexpr float kWider = 1 + 0x1p-20f, kNarrower = 1 - 0x1p-20f;
+
+  const TriangleError& of;
+  TriangleTask task;
+  Sums sums;  // of errors in bounds
+  float limit;
+  const float* end;
+  // By how much errors exceed bounds, lane by lane; beyond the guard, either way, there is no doubt.
+  Floats over_limit, over, nearly_over;
+
+  ByBounds(const TriangleError& error, const FitCorner& a, const FitCorner& b, const FitCorner& c)
+      : of(error),
+        task(a, b, c, 0, 0),
+        limit(static_cast<float>(error.limit_) * kWider),
+        end(error.bounds_.row(error.bounds_.rows)) {
+    over_limit = over = nearly_over = all(std::numeric_limits<float>::lowest());
+  }
+
+  void add_row(TriangleScan& scan, std::int32_t y, std::int32_t first, std::int32_t last) {
+    const float* const bounds = of.bounds_.row(of.first_.y + y) + of.first_.x;
+    const Floats least = all(least_bound(task));
+    scan.each_eight(of.raster_.row(of.first_.y + y) + of.first_.x, y, first, last,
+                    [&](std::int32_t x, Floats, Floats low, Masks low_meant, Floats high, Masks high_meant) {
+                      const EightBounds by(bounds + x, end, low_meant & (low == low), high_meant & (high == high));
+                      const Floats low_error = magnitudes(low, low_meant), high_error = magnitudes(high, high_meant);
+                      compare(low_error, by.low);
+                      compare(high_error, by.high);
+                      sums.add(per_bound(low_error, by.low, least), per_bound(high_error, by.high, least), 1);
+                    });
+  }
+  void compare(Floats error, Floats bound) {
+    over_limit = larger_of(error - bound * all(limit), over_limit);
+    over = larger_of(error - bound * all(kWider), over);
+    nearly_over = larger_of(error - bound * all(kNarrower), nearly_over);
+  }
+  float energy() const { return sums.energy(1); }
+  bool breaks_limit() const { return any(over_limit > all(task.plane.guard)); }
+  bool breaks(float) const { return any(over > all(task.plane.guard)); }
+  bool is_in_doubt(float) const { return any(nearly_over > all(-task.plane.guard)); }
+  bool is_in_doubt(float error, Point at) const { return error - of.bound_at(at) * kNarrower > -task.plane.guard; }
+  float excess(float error, Point at) const { return error - of.bound_at(at) * limit; }
+};
 
 namespace {
 
@@ -94,48 +175,48 @@ bool holds_corners_only(const FitCorner& a, const FitCorner& b, const FitCorner&
 TriangleError::Verdict TriangleError::judge(const FitCorner& a, const FitCorner& b, const FitCorner& c,
                                             float energy_limit) const {
   if (holds_corners_only(a, b, c)) return judge_corners({a, b, c}, energy_limit);
-  return power_ == ErrorRule::Power::kTwo ? judge_by<Squares>(a, b, c, energy_limit)
-                                          : judge_by<EighthPowers>(a, b, c, energy_limit);
+  if (has_bounds()) {
+    return power_ == ErrorRule::Power::kTwo ? judge_by<ByBounds<Squares>>(a, b, c, energy_limit)
+                                            : judge_by<ByBounds<EighthPowers>>(a, b, c, energy_limit);
+  }
+  return power_ == ErrorRule::Power::kTwo ? judge_by<ByThreshold<Squares>>(a, b, c, energy_limit)
+                                          : judge_by<ByThreshold<EighthPowers>>(a, b, c, energy_limit);
 }
 
-template <class Sums>
+template <class Tally>
 TriangleError::Verdict TriangleError::judge_by(const FitCorner& a, const FitCorner& b, const FitCorner& c,
                                                float energy_limit) const {
-  const TriangleTask task(a, b, c, threshold_, limit_);
-  TriangleScan scan(task, end_);
-  Sums sums;
+  Tally tally(*this, a, b, c);
+  TriangleScan scan(tally.task, end_);
   Verdict verdict;
-  const auto add = [&](Floats, Floats low, Masks low_meant, Floats high, Masks high_meant) {
-    sums.add(magnitudes(low, low_meant), magnitudes(high, high_meant), per_square_);
-  };
-  const bool is_whole = each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
-    scan.each_eight(raster_.row(first_.y + y) + first_.x, y, first, last, add);
-    if (sums.exceeds(task.cut)) {
+  const bool is_whole = each_row(tally.task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    tally.add_row(scan, y, first, last);
+    if (tally.breaks_limit()) {
       verdict.kind = Verdict::Kind::kBreaks;
-      verdict.witness = find_worst(task, y, first, last);
+      verdict.witness = find_worst(tally, y, first, last);
       return false;
     }
-    if (scan.is_time_to_look() && sums.energy(per_square_) >= energy_limit) {
+    if (scan.is_time_to_look() && tally.energy() >= energy_limit) {
       verdict.kind = Verdict::Kind::kCostly;
       return false;
     }
     return true;
   });
   if (!is_whole) return verdict;
-  verdict.worst = sums.largest();
-  verdict.energy = sums.energy(per_square_);
+  verdict.worst = tally.sums.largest();
+  verdict.energy = tally.energy();
   if (verdict.energy >= energy_limit) {
     verdict.kind = Verdict::Kind::kCostly;
-  } else if (!decide(task, verdict) && limit_ == threshold_) {
+  } else if (!decide(tally, verdict) && limit_ == threshold_) {
     verdict.kind = Verdict::Kind::kBreaks;
   }
   return verdict;
 }
 
 /// Whether the triangle keeps the threshold; `worst` is brought into line.
-bool TriangleError::decide(const TriangleTask& task, Verdict& verdict) const {
-  const bool in_doubt = verdict.worst > task.doubt || double{task.plane.guard} > threshold_;
-  const bool keeps = !(verdict.worst > task.certain) && (!in_doubt || settle(task, verdict));
+template <class Tally>
+bool TriangleError::decide(const Tally& tally, Verdict& verdict) const {
+  const bool keeps = !tally.breaks(verdict.worst) && (!tally.is_in_doubt(verdict.worst) || settle(tally, verdict));
   take_side(keeps, verdict);
   return keeps;
 }
@@ -152,6 +233,13 @@ void TriangleError::take_side(bool keeps, Verdict& verdict) const {
   }
 }
 
+/// With bounds the error in them, else itself.
+float TriangleError::in_thresholds(float error, Point sample) const {
+  if (!has_bounds()) return error;
+  const float bound = bound_at(sample);
+  return bound > kLeastBound ? error / bound : 0;
+}
+
 float TriangleError::energy_of(float error) const {
   const float square = error * error * per_square_;
   return power_ == ErrorRule::Power::kTwo ? square : square * square * (square * square);
@@ -166,16 +254,19 @@ TriangleError::Verdict TriangleError::judge_corners(const std::array<FitCorner, 
     const Point at{corner.x / kLatticeSteps, corner.y / kLatticeSteps};
     const float sample = height_at(at), error = std::abs(corner.z - sample);
     if (corner.z == sample || std::isnan(error)) continue;
-    if (exceeds_exactly(outline.corners, outline.heights, {corner.x, corner.y}, sample, threshold_)) {
+    const double threshold = threshold_at(at);
+    if (!std::isinf(threshold) &&
+        exceeds_exactly(outline.corners, outline.heights, {corner.x, corner.y}, sample, threshold)) {
       keeps = false;
-      if (limit_ == threshold_ || double{error} > limit_) {
+      if (limit_ == threshold_ || double{error} > limit_at(at)) {
         verdict.kind = Verdict::Kind::kBreaks;
         verdict.witness = at;
         return verdict;
       }
     }
-    verdict.worst = std::max(verdict.worst, error);
-    verdict.energy += energy_of(error);
+    const float share = in_thresholds(error, at);
+    verdict.worst = std::max(verdict.worst, share);
+    verdict.energy += energy_of(share);
   }
   take_side(keeps, verdict);
   if (verdict.energy >= energy_limit) verdict.kind = Verdict::Kind::kCostly;
@@ -183,29 +274,33 @@ TriangleError::Verdict TriangleError::judge_corners(const std::array<FitCorner, 
 }
 
 /// Decides in exact arithmetic about the samples that rounding leaves in doubt; false where one breaks the threshold.
-bool TriangleError::settle(const TriangleTask& task, Verdict& verdict) const {
+template <class Tally>
+bool TriangleError::settle(const Tally& tally, Verdict& verdict) const {
+  const TriangleTask& task = tally.task;
   const Outline outline(task.corners);
-  const bool all_in_doubt = double{task.plane.guard} > threshold_;
   return each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     const float row = task.row_height(y);
     for (std::int32_t x = first; x <= last; ++x) {
       const float sample = height_at({x, y});
-      if (std::isnan(sample) || (!all_in_doubt && !(task.error(x, row, sample) > task.doubt))) continue;
+      if (std::isnan(sample) || !tally.is_in_doubt(task.error(x, row, sample), {x, y})) continue;
       verdict.witness = {x, y};
-      if (exceeds_exactly(outline.corners, outline.heights, {x * kLatticeSteps, y * kLatticeSteps}, sample, threshold_))
+      if (exceeds_exactly(outline.corners, outline.heights, {x * kLatticeSteps, y * kLatticeSteps}, sample,
+                          threshold_at({x, y})))
         return false;
     }
     return true;
   });
 }
 
-/// The sample of a row with the largest error.
-Point TriangleError::find_worst(const TriangleTask& task, std::int32_t y, std::int32_t first, std::int32_t last) const {
-  const float row = task.row_height(y);
+/// The sample of a row with the largest error, or excess over its bound.
+template <class Tally>
+Point TriangleError::find_worst(const Tally& tally, std::int32_t y, std::int32_t first, std::int32_t last) const {
+  const float row = tally.task.row_height(y);
   float worst = -1;
   Point at{first, y};
   for (std::int32_t x = first; x <= last; ++x) {
-    if (const float error = task.error(x, row, height_at({x, y})); error > worst) {
+    const float error = tally.excess(tally.task.error(x, row, height_at({x, y})), {x, y});
+    if (error > worst) {
       worst = error;
       at.x = x;
     }

@@ -4,6 +4,10 @@
 // the sample is likely to break other triangles over the same place. Arithmetic is that of the scan kernels
 // (geom/scan_kernels.h) on a lattice of eighths of a sample, summed in eight lanes whatever the machine has; what lies
 // within the guard of the threshold is decided exactly.
+//
+// Samples may have bounds of their own instead of the threshold: then errors count in bounds, the threshold is 1, and a
+// vertex' pull at a sample is the stronger the smaller its bound. A bound that lies within rounding (0, first of all)
+// binds, but has no energy: what is computed there would be noise.
 #pragma once
 
 #include <array>
@@ -13,11 +17,9 @@
 #include "geom/predicates.h"
 #include "geom/scan_plane.h"
 #include "grid/raster.h"
+#include "grid/vertex_places.h"
 
 namespace scarp {
-
-/// Steps of the lattice of fitting between two samples.
-inline constexpr std::int32_t kLatticeSteps = 8;
 
 /// A corner of a trial triangle.
 struct FitCorner {
@@ -36,19 +38,27 @@ inline constexpr std::int32_t kMaxFitSteps = 1 << 22;
 
 /// What may be, and what it costs.
 struct ErrorRule {
-  double slack = 1;  ///< triangles are let through up to slack × threshold; 1 … 2
+  double slack = 1;  ///< triangles are let through up to slack × threshold; 1 … 4
   enum class Power { kTwo, kEight };
   Power power = Power::kTwo;  ///< p of the energy Σ (error / threshold)^p
 };
 
 struct TriangleTask;
 
+/// Bounds of samples, row-major like them: at least 0, +infinity for none, no NaN.
+struct SampleBounds {
+  const float* bounds = nullptr;
+  double unit = 1;  ///< above 0: bounds are some 2⁻¹⁵ … 2¹⁵ of it, or vertices will not rise as they should
+};
+
 class TriangleError {
  public:
   /// Errors of the raster's samples around `first`, from where corners are counted. REQUIRES: threshold >= 0, finite.
   TriangleError(const Raster& raster, Point first, double threshold, const ErrorRule& rule = {});
+  /// The same by bounds; errors are counted in them, so that the threshold is 1. They stay alive.
+  TriangleError(const Raster& raster, Point first, const SampleBounds& bounds, const ErrorRule& rule = {});
   /// The same samples by another rule.
-  TriangleError with(const ErrorRule& rule) const { return {raster_, first_, threshold_, rule}; }
+  TriangleError with(const ErrorRule& rule) const;
 
   struct Verdict {
     enum class Kind : std::uint8_t {
@@ -60,48 +70,70 @@ class TriangleError {
     float worst = 0;   ///< kKeeps: the largest error as computed, but at most the threshold exactly where every sample
                        ///< keeps the threshold in exact arithmetic
     float energy = 0;  ///< kKeeps: Σ (error / threshold)^p over the samples of the closed triangle; 0 where the
-                       ///< threshold is not within 2⁻⁶⁰ … 2⁶⁰
-    Point witness;     ///< kBreaks: a sample, counted from the first of the window
+                       ///< threshold is not within 2⁻⁶⁰ … 2⁶⁰. With bounds: Σ (error / bound)^p over the samples whose
+                       ///< bound is larger than that, and than the rounding of errors in the triangle
+    Point witness;  ///< kBreaks: a sample, counted from the first of the window
   };
   /// REQUIRES: (a, b, c) positive. Cost: O(rows) + samples / 8, less where it breaks; void samples count for nothing.
   Verdict judge(const FitCorner& a, const FitCorner& b, const FitCorner& c, float energy_limit) const;
 
-  /// The pull of the samples on the height of corner a, and on its place.
+  /// The pull of the samples on the height of corner a, and on its place. With bounds t = error / bound, and λ is the
+  /// weight times unit() / bound: what t changes by where the corner rises by a unit.
   struct Pull {
     double stiffness = 0;  ///< Σ t⁶ λ², t = error / threshold, λ = weight of a in the triangle at the sample
     double push = 0;       ///< Σ t⁷ λ, positive where the plane is too high
-    double slope_x = 0, slope_y = 0;  ///< of the plane, in thresholds a sample
+    double slope_x = 0, slope_y = 0;  ///< of the plane, in units() a sample
   };
   /// REQUIRES: (a, b, c) positive, has_energy(). Cost: as judge().
   Pull pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const;
 
-  /// What the energy Σ t⁸ becomes when corner a rises by d thresholds: Σ over k of C(8, k)·moments[k]·dᵏ,
+  /// The same with every t alike: stiffness Σ λ², push Σ t λ.
+  Pull even_pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const;
+
+  /// What the energy Σ t⁸ becomes when corner a rises by d units: Σ over k of C(8, k)·moments[k]·dᵏ,
   /// moments[k] = Σ t⁸⁻ᵏ λᵏ.
   using Moments = std::array<double, 9>;
   /// Adds a triangle's. REQUIRES, cost: as pull().
   void add_moments(const FitCorner& a, const FitCorner& b, const FitCorner& c, Moments& moments) const;
 
-  double threshold() const { return threshold_; }
-  double limit() const { return limit_; }  ///< slack × threshold
+  double threshold() const { return threshold_; }  ///< of Verdict::worst; 1 with bounds
+  double unit() const { return unit_; }            ///< of rises: the threshold, or that of the bounds
+  bool has_bounds() const { return bounds_.samples != nullptr; }
   bool has_energy() const { return per_threshold_ > 0; }
+  /// slack × threshold, or the bound, of a sample counted from the first of the window.
+  double limit_at(Point sample) const { return has_bounds() ? limit_ * double{bound_at(sample)} : limit_; }
   /// Of a sample counted from the first of the window.
   float height_at(Point sample) const { return raster_.at({first_.x + sample.x, first_.y + sample.y}); }
 
  private:
+  template <class Sums>
+  struct ByThreshold;
+  template <class Sums>
+  struct ByBounds;
+  template <bool kBounded, class Add>
+  void each_residual_by(const TriangleTask& task, const std::array<FitCorner, 3>& corners, const Add& add) const;
   template <class Add>
   void each_residual(const TriangleTask& task, const std::array<FitCorner, 3>& corners, const Add& add) const;
-  template <class Sums>
+  TriangleTask task_of(const FitCorner& a, const FitCorner& b, const FitCorner& c) const;
+  template <class Tally>
   Verdict judge_by(const FitCorner& a, const FitCorner& b, const FitCorner& c, float energy_limit) const;
   Verdict judge_corners(const std::array<FitCorner, 3>& corners, float energy_limit) const;
   float energy_of(float error) const;
-  bool decide(const TriangleTask& task, Verdict& verdict) const;
+  template <class Tally>
+  bool decide(const Tally& tally, Verdict& verdict) const;
   void take_side(bool keeps, Verdict& verdict) const;
-  bool settle(const TriangleTask& task, Verdict& verdict) const;
-  Point find_worst(const TriangleTask& task, std::int32_t y, std::int32_t first, std::int32_t last) const;
+  template <class Tally>
+  bool settle(const Tally& tally, Verdict& verdict) const;
+  template <class Tally>
+  Point find_worst(const Tally& tally, std::int32_t y, std::int32_t first, std::int32_t last) const;
+  float bound_at(Point sample) const { return bounds_.at({first_.x + sample.x, first_.y + sample.y}); }
+  double threshold_at(Point sample) const { return has_bounds() ? double{bound_at(sample)} : threshold_; }
+  float in_thresholds(float error, Point sample) const;
 
   Raster raster_;
+  Raster bounds_;  // beside the samples
   Point first_;
-  double threshold_, limit_;
+  double threshold_, limit_, unit_;
   ErrorRule::Power power_;
   float per_threshold_, per_square_;  // 0 where squares of float32 come to an end
   const float* end_;                  // of the samples

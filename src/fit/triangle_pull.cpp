@@ -9,46 +9,84 @@ double exact_sum_of(Floats s) { return (double{s[0]} + s[2]) + (double{s[1]} + s
 
 }  // namespace
 
-/// Calls add(t, λ) for each four samples: errors in thresholds, and weights of the first corner; both 0
-/// where none is meant.
-template <class Add>
-void TriangleError::each_residual(const TriangleTask& task, const std::array<FitCorner, 3>& corners,
-                                  const Add& add) const {
+TriangleTask TriangleError::task_of(const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
+  return {a, b, c, has_bounds() ? 0 : threshold_, has_bounds() ? 0 : limit_};
+}
+
+template <bool kBounded, class Add>
+void TriangleError::each_residual_by(const TriangleTask& task, const std::array<FitCorner, 3>& corners,
+                                     const Add& add) const {
   const auto& [a, b, c] = corners;
   constexpr double kStep = 1.0 / kLatticeSteps;
   const ScanPlane weight = ScanPlane::spanned(
       1, {(b.x - a.x) * kStep, (b.y - a.y) * kStep, (c.x - a.x) * kStep, (c.y - a.y) * kStep, -1, -1}, 0);
   TriangleScan scan(task, end_);
+  [[maybe_unused]] const Floats least = all(least_bound(task)), unit = all(static_cast<float>(unit_));
   each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     const Floats row = all(1 + weight.slope_y * (static_cast<float>(y) - task.base_y));
-    const auto give = [&](Floats offset, Floats error, Masks meant) {
+    const auto give = [&](Floats offset, Floats error, Masks counts, [[maybe_unused]] Floats bounds) {
       const Floats share = row + all(weight.slope_x) * offset;
-      const Masks counts = meant & (error == error);
-      add(kept(error, counts) * all(per_threshold_), kept(share, counts));
+      if constexpr (kBounded) {
+        add(per_bound(kept(error, counts), bounds, least), per_bound(kept(share, counts) * unit, bounds, least));
+      } else {
+        add(kept(error, counts) * all(per_threshold_), kept(share, counts));
+      }
     };
     scan.each_eight(raster_.row(first_.y + y) + first_.x, y, first, last,
-                    [&](Floats left, Floats low, Masks low_meant, Floats high, Masks high_meant) {
-                      give(left, low, low_meant);
-                      give(left + all(4), high, high_meant);
+                    [&](std::int32_t x, Floats left, Floats low, Masks low_meant, Floats high, Masks high_meant) {
+                      low_meant &= low == low;
+                      high_meant &= high == high;
+                      if constexpr (kBounded) {
+                        const EightBounds by(bounds_.row(first_.y + y) + first_.x + x, bounds_.row(bounds_.rows),
+                                             low_meant, high_meant);
+                        give(left, low, low_meant, by.low);
+                        give(left + all(4), high, high_meant, by.high);
+                      } else {
+                        give(left, low, low_meant, Floats{});
+                        give(left + all(4), high, high_meant, Floats{});
+                      }
                     });
     return true;
   });
 }
 
+/// Calls add(t, λ) for each four samples: errors in thresholds or bounds, and what a unit's rise of the first corner
+/// adds to them; both 0 where none is meant.
+template <class Add>
+void TriangleError::each_residual(const TriangleTask& task, const std::array<FitCorner, 3>& corners,
+                                  const Add& add) const {
+  if (has_bounds()) {
+    each_residual_by<true>(task, corners, add);
+  } else {
+    each_residual_by<false>(task, corners, add);
+  }
+}
+
 TriangleError::Pull TriangleError::pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
-  const TriangleTask task(a, b, c, threshold_, limit_);
+  const TriangleTask task = task_of(a, b, c);
   Floats stiffness{}, push{};
   each_residual(task, {a, b, c}, [&](Floats t, Floats share) {
     const Floats t2 = t * t, t6_share = t2 * t2 * t2 * share;
     stiffness += t6_share * share;
     push += t6_share * t;
   });
-  return {exact_sum_of(stiffness), exact_sum_of(push), double{task.plane.slope_x} / threshold_,
-          double{task.plane.slope_y} / threshold_};
+  return {exact_sum_of(stiffness), exact_sum_of(push), double{task.plane.slope_x} / unit_,
+          double{task.plane.slope_y} / unit_};
+}
+
+TriangleError::Pull TriangleError::even_pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
+  const TriangleTask task = task_of(a, b, c);
+  Floats stiffness{}, push{};
+  each_residual(task, {a, b, c}, [&](Floats t, Floats share) {
+    stiffness += share * share;
+    push += share * t;
+  });
+  return {exact_sum_of(stiffness), exact_sum_of(push), double{task.plane.slope_x} / unit_,
+          double{task.plane.slope_y} / unit_};
 }
 
 void TriangleError::add_moments(const FitCorner& a, const FitCorner& b, const FitCorner& c, Moments& moments) const {
-  const TriangleTask task(a, b, c, threshold_, limit_);
+  const TriangleTask task = task_of(a, b, c);
   std::array<Floats, 9> sums{};
   each_residual(task, {a, b, c}, [&](Floats t, Floats share) {
     const Floats t2 = t * t, t4 = t2 * t2, share2 = share * share, share4 = share2 * share2, both = t * share;

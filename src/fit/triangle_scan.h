@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "fit/triangle_error.h"
@@ -26,6 +27,7 @@ inline Floats load(const float* from) {
   return four;
 }
 inline Floats all(float value) { return Floats{value, value, value, value}; }
+inline Floats larger_of(Floats a, Floats b) { return a > b ? a : b; }
 inline bool any(Masks mask) {
   const auto words = reinterpret_cast<Words>(mask);
   return (words[0] | words[1]) != 0;
@@ -41,7 +43,7 @@ inline Floats magnitudes(Floats errors, Masks meant) {
   return kept(errors, meant & (errors == errors) & Masks{kAllButSign, kAllButSign, kAllButSign, kAllButSign});
 }
 
-/// Eight samples of a row from `samples` on, of which the first `count` are meant.
+/// Eight samples of a row from `samples` on, or their bounds.
 struct RowSamples {
   std::array<float, kLanes> copy;
   const float* from;
@@ -124,8 +126,8 @@ struct TriangleScan {
   TriangleScan(const TriangleTask& of, const float* samples_end)
       : task(of), end(samples_end), slope(all(of.plane.slope_x)), height(all(of.plane.height)) {}
 
-  /// Calls visit(left, low, low_meant, high, high_meant) for each eight samples: the first four's offset from the base,
-  /// errors, and which are meant. `samples`: the row, from its first sample in the window.
+  /// Calls visit(x, left, low, low_meant, high, high_meant) for each eight samples: the first's place, the first four's
+  /// offset from the base, errors, and which are meant. `samples`: the row, from its first sample in the window.
   template <class Visit>
   void each_eight(const float* samples, std::int32_t y, std::int32_t first, std::int32_t last, const Visit& visit) {
     const Floats row = all(task.row_height(y));
@@ -137,11 +139,30 @@ struct TriangleScan {
       const Masks counts{count, count, count, count};
       const Floats low = (slope * left + row) - (load(eight.from) - height);
       const Floats high = (slope * right + row) - (load(eight.from + 4) - height);
-      visit(left, low, Masks{0, 1, 2, 3} < counts, high, Masks{4, 5, 6, 7} < counts);
+      visit(x, left, low, Masks{0, 1, 2, 3} < counts, high, Masks{4, 5, 6, 7} < counts);
     }
     ++rows;
   }
   bool is_time_to_look() const { return rows % kRowsPerLook == 0; }
 };
+
+/// Eight samples' bounds; infinite where none is meant.
+struct EightBounds {
+  Floats low, high;
+
+  EightBounds(const float* bounds, const float* end, Masks low_meant, Masks high_meant) {
+    const RowSamples eight(bounds, end);
+    const Floats none = all(std::numeric_limits<float>::infinity());
+    low = low_meant ? load(eight.from) : none;
+    high = high_meant ? load(eight.from + 4) : none;
+  }
+};
+
+/// Bounds up to this have no energy, whatever the triangle; and in this one.
+inline constexpr float kLeastBound = 0x1p-60f;
+inline float least_bound(const TriangleTask& task) { return std::max(kLeastBound, task.plane.guard); }
+
+/// What is counted in bounds; 0 where they are too small for that.
+inline Floats per_bound(Floats values, Floats bounds, Floats least) { return kept(values / bounds, bounds > least); }
 
 }  // namespace scarp

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fit/height_step.h"
+#include "fit/normal_equations.h"
 
 namespace scarp {
 
@@ -14,6 +16,14 @@ constexpr float kGain = 2e-3f;
 /// Lengths of a step: times Newton's, but at most this share of the mean edge.
 constexpr std::array<double, 3> kLengths{1.5, 0.45, 0.12};
 constexpr std::array<double, 3> kReaches{0.4, 0.12, 0.032};
+
+constexpr std::array<Point, 8> kWays{Point{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
+
+/// What a shake may cost, times the energy before, and how far it goes at most, times the mean edge.
+constexpr float kShakeCost = 3;
+constexpr double kShakeReach = 0.05;
+
+constexpr int kLevelTries = 4;
 
 Point sample_at(const FitCorner& corner) { return {corner.x / kLatticeSteps, corner.y / kLatticeSteps}; }
 
@@ -28,54 +38,6 @@ float terrain_height(const TriangleError& error, const Patch::Window& window, co
   return above * (1 - y) + below * y;
 }
 
-/// Σ A u uᵀ d = −Σ B u for d = (z, x, y).
-class NormalEquations {
- public:
-  using Row = std::array<double, 3>;
-
-  void add(const TriangleError::Pull& pull, const Row& u) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      right_[i] -= pull.push * u[i];
-      for (std::size_t j = 0; j < 3; ++j) left_[i][j] += pull.stiffness * u[i] * u[j];
-    }
-  }
-  /// Keeps it solvable where the samples say nothing about a direction.
-  void damp() {
-    constexpr double kPlaces = 1e-3, kHeights = 1e-4;
-    const double damping = kPlaces * (left_[1][1] + left_[2][2]);
-    left_[0][0] *= 1 + kHeights;
-    left_[1][1] += damping;
-    left_[2][2] += damping;
-  }
-  void fix(std::size_t k) {
-    for (std::size_t i = 0; i < 3; ++i) left_[k][i] = left_[i][k] = 0;
-    left_[k][k] = 1;
-    right_[k] = 0;
-  }
-  /// By Cramer's rule; zeros where there is no solution.
-  Row solve() const {
-    const double det = determinant(left_);
-    if (!(std::abs(det) > 0)) return {};
-    Row solution;
-    for (std::size_t k = 0; k < 3; ++k) {
-      auto replaced = left_;
-      for (std::size_t i = 0; i < 3; ++i) replaced[i][k] = right_[i];
-      solution[k] = determinant(replaced) / det;
-    }
-    return solution;
-  }
-
- private:
-  using Matrix = std::array<Row, 3>;
-  static double determinant(const Matrix& m) {
-    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-  }
-
-  Matrix left_{};
-  Row right_{};
-};
-
 /// The nearest place in the direction of a step that is too short for one.
 Point unit_step(double x, double y) {
   const std::int32_t right = x > 0 ? 1 : -1, down = y > 0 ? 1 : -1;
@@ -86,7 +48,7 @@ Point unit_step(double x, double y) {
 
 }  // namespace
 
-/// Central differences, in thresholds a sample; 0 where samples are void or beyond the window.
+/// Central differences, in units of the errors a sample; 0 where samples are void or beyond the window.
 VertexStep::Vector VertexStep::terrain_slope(const TriangleError& error, const FitCorner& at) const {
   const auto& window = patch_.window();
   const Point p = sample_at(at);
@@ -95,22 +57,21 @@ VertexStep::Vector VertexStep::terrain_slope(const TriangleError& error, const F
     after = {std::min(after.x, window.cols - 1), std::min(after.y, window.rows - 1)};
     const double rise = double{error.height_at(after)} - double{error.height_at(before)};
     const std::int32_t run = (after.x - before.x) + (after.y - before.y);
-    return run == 0 || std::isnan(rise) ? 0.0 : rise / run / error.threshold();
+    return run == 0 || std::isnan(rise) ? 0.0 : rise / run / error.unit();
   };
   return {slope({p.x - 1, p.y}, {p.x + 1, p.y}), slope({p.x, p.y - 1}, {p.x, p.y + 1})};
 }
 
 /// In samples; along the side for a vertex on one.
 VertexStep::Vector VertexStep::newton_step(const TriangleError& error, const FitCorner& at) const {
-  const bool is_free = freedom_ == Freedom::kLattice;
-  const Vector terrain = is_free ? Vector{} : terrain_slope(error, at);
+  const Vector terrain = is_free() ? Vector{} : terrain_slope(error, at);
   NormalEquations system;
   for (std::size_t i = 0; i < star_.faces.size(); ++i) {
     const auto pull = error.pull(at, ring(i), ring(i + 1));
-    system.add(pull, {is_free ? 1.0 : 0.0, terrain.x - pull.slope_x, terrain.y - pull.slope_y});
+    system.add(pull, {is_free() ? 1.0 : 0.0, terrain.x - pull.slope_x, terrain.y - pull.slope_y});
   }
   system.damp();
-  if (!is_free) system.fix(0);
+  if (!is_free()) system.fix(0);
   if (!star_.closed) system.fix(ring(0).y == at.y ? 2 : 1);
   const auto [z, x, y] = system.solve();
   return {x, y};
@@ -125,55 +86,137 @@ double VertexStep::mean_edge(const FitCorner& at) const {
   return sum / static_cast<double>(star_.ring.size());
 }
 
-bool VertexStep::improve(const TriangleError& error, Patch::Id v) {
+/// Finds the star of a vertex that may move.
+bool VertexStep::take_up(Patch::Id v) {
   if (patch_.is_locked(v)) return false;
   patch_.find_star(v, star_);
-  if (!star_.closed && star_.side != Patch::kSide) return false;
-  float limit = 0;
-  for (const Patch::Id f : star_.faces) limit += patch_.face(f).energy;
-  limit *= 1 - kGain;
+  return star_.closed || star_.side == Patch::kSide;
+}
+
+float VertexStep::energy() const {
+  float sum = 0;
+  for (const Patch::Id f : star_.faces) sum += patch_.face(f).energy;
+  return sum;
+}
+
+bool VertexStep::improve(const TriangleError& error, Patch::Id v) {
+  if (!take_up(v)) return false;
+  const float limit = energy() * (1 - kGain);
   const FitCorner from = patch_.at(v);
   const Vector step = newton_step(error, from);
   const double length = std::sqrt(step.x * step.x + step.y * step.y) * kLatticeSteps;
-  const std::int32_t unit = freedom_ == Freedom::kLattice ? 1 : kLatticeSteps;
-  const double edge = mean_edge(from);
+  const double edge = mean_edge(from), floor = shape_floor(from);
   Point last{0, 0};
   for (std::size_t i = 0; length > 0 && length < 1e9 && i < kLengths.size(); ++i) {
-    const double scale = std::min(kLengths[i], kReaches[i] * edge / length) * kLatticeSteps / unit;
+    const double scale = std::min(kLengths[i], kReaches[i] * edge / length) * kLatticeSteps / unit();
     Point by{static_cast<std::int32_t>(std::lround(step.x * scale)),
              static_cast<std::int32_t>(std::lround(step.y * scale))};
     if (by == Point{0, 0}) by = unit_step(step.x, step.y);
     if (by == last) continue;
     last = by;
-    FitCorner place{from.x + by.x * unit, from.y + by.y * unit, 0};
-    if (fits(place) && find_height(error, from, place, limit) && try_place(error, v, place, limit)) return true;
+    FitCorner place = beside(from, by);
+    if (fits(place, floor) && energy_at(error, from, place) < limit && try_place(error, v, place, limit)) return true;
   }
-  if (freedom_ == Freedom::kSamples) return false;
+  if (!is_free()) return false;
   FitCorner place = from;
-  return find_height(error, from, place, limit) && place.z != from.z && try_place(error, v, place, limit);
+  return energy_at(error, from, place) < limit && place.z != from.z && try_place(error, v, place, limit);
 }
 
-/// Whether the star's triangles stay positive.
-bool VertexStep::fits(const FitCorner& place) const {
+bool VertexStep::probe(const TriangleError& error, Patch::Id v, double reach) {
+  if (!take_up(v)) return false;
+  const float limit = energy() * (1 - kGain);
+  const FitCorner from = patch_.at(v);
+  const double floor = shape_floor(from);
+  const auto steps = static_cast<std::int32_t>(std::max(1L, std::lround(reach * mean_edge(from) / unit())));
+  FitCorner best = from;
+  float least = limit;
+  for (const Point& way : kWays) {
+    if (!star_.closed && (ring(0).y == from.y ? way.y : way.x) != 0) continue;
+    FitCorner place = beside(from, {way.x * steps, way.y * steps});
+    if (!fits(place, floor)) continue;
+    if (!is_free() && energy_at(error, from, place) < limit && try_place(error, v, place, limit)) return true;
+    if (!is_free()) continue;
+    if (const float there = energy_at(error, from, place); there < least) {
+      least = there;
+      best = place;
+    }
+  }
+  return least < limit && try_place(error, v, best, limit);
+}
+
+bool VertexStep::shake(const TriangleError& error, Patch::Id v, std::uint32_t dice) {
+  if (!take_up(v)) return false;
+  const FitCorner from = patch_.at(v);
+  const float limit = energy() * kShakeCost;
+  const double reach = kShakeReach * mean_edge(from) / unit() / 0x8000;
+  const auto part = [&](std::uint32_t bits) {
+    return static_cast<std::int32_t>(std::lround(reach * (static_cast<double>(bits & 0xffff) - 0x8000)));
+  };
+  Point by{part(dice), part(dice >> 16)};
+  if (!star_.closed) (ring(0).y == from.y ? by.y : by.x) = 0;
+  FitCorner place = beside(from, by);
+  if (by == Point{0, 0} || !fits(place, shape_floor(from))) return false;
+  return energy_at(error, from, place) < limit && try_place(error, v, place, limit);
+}
+
+bool VertexStep::level(const TriangleError& error, Patch::Id v) {
+  if (!is_free() || !take_up(v)) return false;
+  const FitCorner from = patch_.at(v);
+  double stiffness = 0, push = 0;
+  for (std::size_t i = 0; i < star_.faces.size(); ++i) {
+    const auto pull = error.even_pull(from, ring(i), ring(i + 1));
+    stiffness += pull.stiffness;
+    push += pull.push;
+  }
+  if (!(stiffness > 0)) return false;
+  double rise = -push / stiffness * error.unit();
+  for (int i = 0; i < kLevelTries; ++i, rise /= 2) {
+    FitCorner place = from;
+    place.z = std::clamp(static_cast<float>(double{from.z} + rise), rules_.lowest, rules_.highest);
+    if (place.z == from.z || !(std::abs(place.z) <= kMaxScanHeight)) return false;
+    if (try_place(error, v, place, std::numeric_limits<float>::infinity())) return true;
+  }
+  return false;
+}
+
+FitCorner VertexStep::beside(const FitCorner& from, Point by) const {
+  return {from.x + by.x * unit(), from.y + by.y * unit(), 0};
+}
+
+/// For a step of the vertex.
+double VertexStep::shape_floor(const FitCorner& from) const {
+  double floor = rules_.shape.floor;
+  if (!rules_.shape.is_on()) return floor;
+  for (std::size_t i = 0; i < star_.faces.size(); ++i) floor = rules_.shape.lowered(floor, from, ring(i), ring(i + 1));
+  return floor;
+}
+
+/// Whether the star's triangles stay positive, and above the floor.
+bool VertexStep::fits(const FitCorner& place, double floor) const {
   for (std::size_t i = 0; i < star_.faces.size(); ++i) {
     if (area2(place, ring(i), ring(i + 1)) <= 0) return false;
+    if (rules_.shape.is_on() && rules_.shape.shape(place, ring(i), ring(i + 1)) < floor) return false;
   }
   return true;
 }
 
-/// Gives the place its height; false where that cannot bring the energy below the limit.
-bool VertexStep::find_height(const TriangleError& error, const FitCorner& from, FitCorner& place, float limit) const {
-  if (freedom_ == Freedom::kSamples) {
+/// Gives the place its height; the energy of the star there, as far as rounding knows, infinite where no vertex may be.
+float VertexStep::energy_at(const TriangleError& error, const FitCorner& from, FitCorner& place) const {
+  constexpr float kNever = std::numeric_limits<float>::infinity();
+  if (!is_free()) {
     place.z = error.height_at(sample_at(place));
-    return std::abs(place.z) <= kMaxScanHeight;
+    return std::abs(place.z) <= kMaxScanHeight ? 0 : kNever;
   }
   const float rise = terrain_height(error, patch_.window(), place) - terrain_height(error, patch_.window(), from);
   place.z = std::isnan(rise) ? from.z : from.z + rise;
   TriangleError::Moments moments{};
   for (std::size_t i = 0; i < star_.faces.size(); ++i) error.add_moments(place, ring(i), ring(i + 1), moments);
-  const HeightStep best = best_height(moments);
-  place.z = static_cast<float>(double{place.z} + best.rise * error.threshold());
-  return best.energy < double{limit} && std::abs(place.z) <= kMaxScanHeight;
+  const auto rise_to = [&](float height) { return (double{height} - double{place.z}) / error.unit(); };
+  const double scale = error.has_bounds() ? scale_of_rises(moments) : 1;
+  const HeightStep best = best_height(moments, rise_to(rules_.lowest), rise_to(rules_.highest), scale);
+  const auto height = static_cast<float>(double{place.z} + best.rise * error.unit());
+  place.z = std::clamp(height, rules_.lowest, rules_.highest);
+  return std::abs(place.z) <= kMaxScanHeight ? static_cast<float>(best.energy) : kNever;
 }
 
 bool VertexStep::try_place(const TriangleError& error, Patch::Id v, FitCorner place, float limit) {

@@ -12,6 +12,9 @@
 // is exact (height_step.h). The first place is taken at which the energy of the star falls; if there is none, a free
 // vertex may still rise or fall where it is. Vertices on a side of the rectangle slide along it; locked ones stay.
 //
+// Polishing levels heights instead, by Σ t² within the bound: three sweeps after the last round lower the RMSE by 2.6 %
+// on Fuji, 4.3 % on Crater Lake, for less than a tenth of the time.
+//
 // This is what repair lives on: of greedy's triangles on Fuji at 1 % of the relief 0.344 are left, without steps in
 // repair 0.439, where vertices are free 0.276. Without steps repair takes half the time.
 #pragma once
@@ -20,25 +23,31 @@
 #include <vector>
 
 #include "fit/patch.h"
+#include "fit/rules.h"
 #include "fit/triangle_error.h"
 
 namespace scarp {
 
-/// Where vertices may be.
-enum class Freedom : std::uint8_t {
-  kSamples,  ///< on valid samples, at their heights
-  kLattice,  ///< on the lattice of fitting, at any height
-};
-
 class VertexStep {
  public:
   /// The patch stays alive.
-  VertexStep(Patch& patch, Freedom freedom) : patch_(patch), freedom_(freedom) {}
+  VertexStep(Patch& patch, const MoveRules& rules) : patch_(patch), rules_(rules) {}
 
-  /// Moves v if a step lowers the energy of its star, every triangle of which the rule of `error` lets through; whether
-  /// it did. REQUIRES: v is not removed, energies of its triangles are known. Cost: a scan of the star, and one for
-  /// each length that is tried, most of which end early; with free heights two.
+  /// Moves v if a step lowers the energy of its star, every triangle of which the rule of `error` lets through and has
+  /// a shape that may be; whether it did. REQUIRES: v is not removed, energies of its triangles are known. Cost: a scan
+  /// of the star, and one for each length that is tried, most of which end early; with free heights two.
   bool improve(const TriangleError& error, Patch::Id v);
+
+  /// The same for the best of eight places around v, `reach` times the mean length of its edges away. Where vertices
+  /// are samples, the first that is better. Cost: up to eight scans of the star, and one.
+  bool probe(const TriangleError& error, Patch::Id v, double reach);
+
+  /// Moves v somewhere near, by dice, where the energy of its star stays below three times what it was.
+  bool shake(const TriangleError& error, Patch::Id v, std::uint32_t dice);
+
+  /// Moves a free vertex up or down towards the least Σ t² of its star, as far as the rule of `error` lets it, whatever
+  /// Σ t⁸ becomes. Cost: two scans of the star, at most five.
+  bool level(const TriangleError& error, Patch::Id v);
 
  private:
   struct Vector {
@@ -48,12 +57,18 @@ class VertexStep {
   Vector terrain_slope(const TriangleError& error, const FitCorner& at) const;
   Vector newton_step(const TriangleError& error, const FitCorner& at) const;
   double mean_edge(const FitCorner& at) const;
-  bool fits(const FitCorner& place) const;
-  bool find_height(const TriangleError& error, const FitCorner& from, FitCorner& place, float limit) const;
+  bool take_up(Patch::Id v);
+  float energy() const;
+  FitCorner beside(const FitCorner& from, Point by) const;
+  std::int32_t unit() const { return is_free() ? 1 : kLatticeSteps; }
+  bool is_free() const { return rules_.freedom == Freedom::kLattice; }
+  double shape_floor(const FitCorner& from) const;
+  bool fits(const FitCorner& place, double floor) const;
+  float energy_at(const TriangleError& error, const FitCorner& from, FitCorner& place) const;
   bool try_place(const TriangleError& error, Patch::Id v, FitCorner place, float limit);
 
   Patch& patch_;
-  Freedom freedom_;
+  MoveRules rules_;
   Patch::Star star_;
   std::vector<TriangleError::Verdict> verdicts_;
 };

@@ -14,9 +14,7 @@ namespace scarp {
 /// column | row << 16, relative to the tile's first sample.
 using Place = std::uint32_t;
 
-constexpr Place place(std::int32_t x, std::int32_t y) {
-  return static_cast<Place>(x) | static_cast<Place>(y) << 16;
-}
+constexpr Place place(std::int32_t x, std::int32_t y) { return static_cast<Place>(x) | static_cast<Place>(y) << 16; }
 constexpr std::int32_t place_x(Place p) { return static_cast<std::int32_t>(p & 0xffff); }
 constexpr std::int32_t place_y(Place p) { return static_cast<std::int32_t>(p >> 16); }
 constexpr Point point_of(Place p) { return {place_x(p), place_y(p)}; }

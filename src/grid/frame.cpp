@@ -54,15 +54,17 @@ std::array<double, 2> frame_origin(const Frame& frame, int cols, int rows) {
   return {x, y};
 }
 
-bool offsets_are_exact(const Frame& frame, int cols, int rows) {
+bool offsets_are_exact(const Frame& frame, int cols, int rows, int steps) {
   if (!frame.is_affine()) return false;
-  const auto& a = frame.affine;
-  const int reach_col = centre_reach(cols), reach_row = centre_reach(rows);
+  std::array<double, 6> a = frame.affine;
+  for (double& term : a) term /= steps;
+  const int reach_col = steps * centre_reach(cols), reach_row = steps * centre_reach(rows);
   // An offset is affine[1]·(col − cols/2) + affine[2]·(row − rows/2): the constant terms play no part in it.
-  if (!multiples_are_float32(a[1], -(cols / 2), cols - 1 - cols / 2)) return false;
-  if (!multiples_are_float32(a[4], -(cols / 2), cols - 1 - cols / 2)) return false;
-  if (!multiples_are_float32(a[2], -(rows / 2), rows - 1 - rows / 2)) return false;
-  if (!multiples_are_float32(a[5], -(rows / 2), rows - 1 - rows / 2)) return false;
+  const auto all_along = [steps](double term, int size) {
+    return multiples_are_float32(term, -steps * (size / 2), steps * (size - 1 - size / 2));
+  };
+  if (!all_along(a[1], cols) || !all_along(a[4], cols)) return false;
+  if (!all_along(a[2], rows) || !all_along(a[5], rows)) return false;
   const bool sums_x = a[1] == 0 || a[2] == 0 || sums_are_float32(a[1], a[2], reach_col, reach_row);
   const bool sums_y = a[4] == 0 || a[5] == 0 || sums_are_float32(a[4], a[5], reach_col, reach_row);
   return sums_x && sums_y;

@@ -1,5 +1,6 @@
 // Synthetic fields. The formulas, their integer divisions, float32 arguments and truncated heights are those of genstm,
-// so that its figures can be repeated; only the hyperbolic tangent is our own, since libm differs between machines.
+// so that its figures can be repeated; only the hyperbolic tangent is our own, since libm differs between machines,
+// and so is the cosine.
 #include "scarp/generate.h"
 
 #include <fmt/format.h>
@@ -16,7 +17,7 @@ namespace {
 constexpr int kMaxSide = 65536;
 constexpr std::uint64_t kMaxSamples = std::uint64_t{1} << 30;
 
-constexpr std::array kLetters{'h', 'x', 'X', 'd', 'D', 'q', 'p', 'P', 'o', 'r', '\0'};
+constexpr std::array kLetters{'h', 'x', 'X', 'd', 'D', 'q', 'p', 'P', 'o', 'r', '\0', '\0'};
 
 /// e⁻ʸ for y >= 0, from +, −, ·, / alone: Taylor's series about the nearest multiple of ln 2. Good to about 10⁻¹⁶.
 double exp_minus(double y) {
@@ -67,6 +68,15 @@ double noise_between(std::uint64_t seed, int octave, int cell, int col, int row)
   return top + v * (bottom - top);
 }
 
+/// cos(2π turns), from +, −, ·, / alone: Taylor's series within half a turn. Good to about 10⁻¹³.
+double cosine_of(double turns) {
+  constexpr double kTwoPi = 6.283185307179586;
+  const double angle = kTwoPi * (turns - std::floor(turns + 0.5)), square = angle * angle;
+  double sum = 1;
+  for (int k = 26; k >= 2; k -= 2) sum = 1 - sum * square / (k * (k - 1));
+  return sum;
+}
+
 /// Each octave has half the scale and 0.55 of the height of the one before.
 double fractal_height(std::uint64_t seed, int first_cell, int col, int row) {
   double sum = 0, amplitude = 1;
@@ -76,6 +86,13 @@ double fractal_height(std::uint64_t seed, int first_cell, int col, int row) {
   return sum;
 }
 
+/// To 0 … 1000. REQUIRES: two heights differ.
+void stretch(OwnedHeightField& field) {
+  const auto [low, high] = std::minmax_element(field.samples.begin(), field.samples.end());
+  const double least = static_cast<double>(*low), relief = static_cast<double>(*high) - least;
+  for (float& z : field.samples) z = static_cast<float>(1000 * ((static_cast<double>(z) - least) / relief));
+}
+
 void fill_fractal(OwnedHeightField& field, std::uint64_t seed) {
   int cell = 1;
   while (2 * cell < std::max(field.cols, field.rows)) cell *= 2;
@@ -83,9 +100,51 @@ void fill_fractal(OwnedHeightField& field, std::uint64_t seed) {
   for (int y = 0; y < field.rows; ++y) {
     for (int x = 0; x < field.cols; ++x) field.samples[at++] = static_cast<float>(fractal_height(seed, cell, x, y));
   }
-  const auto [low, high] = std::minmax_element(field.samples.begin(), field.samples.end());
-  const double least = static_cast<double>(*low), relief = static_cast<double>(*high) - least;
-  for (float& z : field.samples) z = static_cast<float>(1000 * ((static_cast<double>(z) - least) / relief));
+  stretch(field);
+}
+
+/// A plane wave as products: cos(a + b) = cos a cos b − sin a sin b, of each column and each row {cosine, sine}.
+struct PlaneWave {
+  std::vector<std::array<double, 2>> cols, rows;
+};
+
+/// cos(2π (step · k + phase)) and the sine for k = 0 … count − 1.
+std::vector<std::array<double, 2>> sample_wave(double step, double phase, int count) {
+  std::vector<std::array<double, 2>> wave;
+  for (int k = 0; k < count; ++k) {
+    const double turns = step * k + phase;
+    wave.push_back({cosine_of(turns), cosine_of(turns - 0.25)});
+  }
+  return wave;
+}
+
+/// Wave vectors are even in the disc of kMostPeriods over the longer side.
+std::vector<PlaneWave> draw_waves(std::uint64_t seed, int cols, int rows) {
+  constexpr int kWaves = 64;
+  constexpr double kMostPeriods = 8;
+  const double most = kMostPeriods / std::max(cols, rows);
+  std::vector<PlaneWave> waves;
+  for (std::uint64_t drawn = 0; waves.size() < kWaves; ++drawn) {
+    const double u = noise_at(seed, 0, drawn, 0), v = noise_at(seed, 0, drawn, 1);
+    if (u * u + v * v > 1) continue;
+    waves.push_back({sample_wave(most * u, 0, cols), sample_wave(most * v, noise_at(seed, 0, drawn, 2), rows)});
+  }
+  return waves;
+}
+
+void fill_smooth(OwnedHeightField& field, std::uint64_t seed) {
+  const std::vector<PlaneWave> waves = draw_waves(seed, field.cols, field.rows);
+  std::vector<double> heights(static_cast<std::size_t>(field.cols));
+  auto out = field.samples.begin();
+  for (std::size_t y = 0; y < static_cast<std::size_t>(field.rows); ++y) {
+    std::fill(heights.begin(), heights.end(), 0.0);
+    for (const PlaneWave& wave : waves) {
+      const auto [cosine, sine] = wave.rows[y];
+      for (std::size_t x = 0; x < heights.size(); ++x) heights[x] += wave.cols[x][0] * cosine - wave.cols[x][1] * sine;
+    }
+    out = std::transform(heights.begin(), heights.end(), out, [](double z) { return static_cast<float>(z); });
+  }
+  stretch(field);
 }
 
 /// Calls height(x, y) for every sample.
@@ -146,6 +205,8 @@ void fill_style(OwnedHeightField& field, FieldStyle style, std::uint64_t seed) {
       });
     case FieldStyle::kFractal:
       return fill_fractal(field, seed);
+    case FieldStyle::kSmooth:
+      return fill_smooth(field, seed);
   }
 }
 
@@ -155,7 +216,7 @@ const std::vector<std::string>& field_style_names() {
   static const std::vector<std::string> names{
       "cliff",    "step",       "sharp-step",        "diagonal-step", "sharp-diagonal-step",
       "parabola", "paraboloid", "scaled-paraboloid", "pyramid",       "diagonal-pyramid",
-      "fractal"};
+      "fractal",  "smooth"};
   return names;
 }
 

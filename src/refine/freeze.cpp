@@ -41,8 +41,8 @@ class VertexNumbers {
 /// whole mesh would be the peak of memory.
 class OffsetMap {
  public:
-  OffsetMap(std::int32_t cols, std::int32_t rows, const Frame& frame)
-      : frame_(frame), col0_(cols / 2), row0_(rows / 2), origin_(frame_origin(frame, cols, rows)) {}
+  OffsetMap(std::int32_t cols, std::int32_t rows, const Frame& frame, std::int32_t steps)
+      : frame_(frame), steps_(steps), col0_(cols / 2), row0_(rows / 2), origin_(frame_origin(frame, cols, rows)) {}
 
   std::array<double, 2> origin() const { return origin_; }
 
@@ -54,9 +54,9 @@ class OffsetMap {
       // In affine frames from differences of indices, so that offsets that are float32 by construction come out
       // exactly.
       const auto& a = frame_.affine;
-      const double i = p.x - col0_, j = p.y - row0_;
+      const double col = p.x / steps_, row = p.y / steps_, i = col - col0_, j = row - row0_;
       const std::array<double, 2> at =
-          frame_.is_affine() ? std::array{a[1] * i + a[2] * j, a[4] * i + a[5] * j} : frame_.apply_affine(p.x, p.y);
+          frame_.is_affine() ? std::array{a[1] * i + a[2] * j, a[4] * i + a[5] * j} : frame_.apply_affine(col, row);
       x.push_back(at[0]);
       y.push_back(at[1]);
     }
@@ -70,6 +70,7 @@ class OffsetMap {
 
  private:
   const Frame& frame_;
+  double steps_;
   std::int32_t col0_, row0_;
   std::array<double, 2> origin_;
 };
@@ -98,9 +99,9 @@ void add_triangles(const Triangulation& tin, const VertexNumbers& numbers, Mesh&
 }
 
 void add_positions(const SampleHeights& heights, const Triangulation& tin, const VertexNumbers& numbers,
-                   const Frame& frame, bool round_to_float32, Mesh& mesh) {
+                   const VertexPlaces& places, const Frame& frame, bool round_to_float32, Mesh& mesh) {
   mesh.positions.reserve(3 * std::size_t{numbers.count()});
-  const OffsetMap offsets(heights.cols(), heights.rows(), frame);
+  const OffsetMap offsets(heights.cols(), heights.rows(), frame, places.steps);
   std::vector<Vertex> vertices;
   std::vector<Point> chunk;
   std::vector<double> x, y;
@@ -114,7 +115,8 @@ void add_positions(const SampleHeights& heights, const Triangulation& tin, const
     for (std::size_t k = 0; k < chunk.size(); ++k) {
       for (double offset : {x[k], y[k]})
         mesh.positions.push_back(round_to_float32 ? static_cast<float>(offset) : offset);
-      mesh.positions.push_back(heights.at_vertex(vertices[k], chunk[k]));
+      mesh.positions.push_back(places.are_samples() ? heights.at_vertex(vertices[k], chunk[k])
+                                                    : places.heights[vertices[k]]);
     }
     vertices.clear();
     chunk.clear();
@@ -129,59 +131,13 @@ void face_up(const Frame& frame, Mesh& mesh) {
     std::swap(mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]);
 }
 
-}  // namespace
-
-float SampleHeights::at(Point p) const {
-  if (source_ == nullptr) return raster_.at(p);
-  float height = 0;
-  if (auto read = source_->read(p.x, p.y, 1, 1, &height, 1); !read) throw SourceFailure{read.error()};
-  return height;
+bool is_usable(const SampleHeights& heights, Point p) {
+  return p.x >= 0 && p.y >= 0 && p.x < heights.cols() && p.y < heights.rows() && !std::isnan(heights.at(p));
 }
 
-std::vector<Point> frozen_samples(const Triangulation& tin) {
-  const VertexNumbers numbers(tin);
-  std::vector<Point> points;
-  for (Vertex v = 0; v < tin.vertex_count(); ++v) {
-    if (numbers.of(v) != kNone) points.push_back(tin.point(v));
-  }
-  return points;
-}
-
-std::vector<float> sample_uvs(std::int32_t cols, std::int32_t rows, const std::vector<Point>& samples) {
-  std::vector<float> uvs;
-  uvs.reserve(2 * samples.size());
-  for (Point p : samples) {
-    uvs.push_back(static_cast<float>((p.x + 0.5) / cols));
-    uvs.push_back(static_cast<float>((p.y + 0.5) / rows));
-  }
-  return uvs;
-}
-
-Mesh freeze(const SampleHeights& heights, const Triangulation& tin, const Frame& frame, bool round_to_float32) {
-  Mesh mesh;
-  const VertexNumbers numbers(tin);
-  add_triangles(tin, numbers, mesh);
-  add_positions(heights, tin, numbers, frame, round_to_float32, mesh);
-  face_up(frame, mesh);
-  return mesh;
-}
-
-Mesh melt_down(const SampleHeights& heights, Triangulation tin, const Frame& frame, bool round_to_float32) {
-  Mesh mesh;
-  tin.drop_links();
-  const VertexNumbers numbers(tin);
-  add_triangles(tin, numbers, mesh);
-  tin.drop_triangles();
-  add_positions(heights, tin, numbers, frame, round_to_float32, mesh);
-  face_up(frame, mesh);
-  return mesh;
-}
-
-std::vector<float> sample_normals(const SampleHeights& heights, const Frame& frame, const std::vector<Point>& samples) {
-  const OffsetMap offsets(heights.cols(), heights.rows(), frame);
-  const auto usable = [&](Point p) {
-    return p.x >= 0 && p.y >= 0 && p.x < heights.cols() && p.y < heights.rows() && !std::isnan(heights.at(p));
-  };
+/// At samples.
+std::vector<float> normals_of(const SampleHeights& heights, const Frame& frame, const std::vector<Point>& samples) {
+  const OffsetMap offsets(heights.cols(), heights.rows(), frame, 1);
   std::vector<float> normals;
   normals.reserve(3 * samples.size());
   std::vector<Point> neighbours;  // west, east, north, south of each vertex; a missing one is the vertex itself
@@ -190,7 +146,7 @@ std::vector<float> sample_normals(const SampleHeights& heights, const Frame& fra
     neighbours.clear();
     for (Point p : std::span(samples).subspan(begin, std::min(kChunk, samples.size() - begin))) {
       for (Point q : {Point{p.x - 1, p.y}, Point{p.x + 1, p.y}, Point{p.x, p.y - 1}, Point{p.x, p.y + 1}})
-        neighbours.push_back(usable(q) ? q : p);
+        neighbours.push_back(is_usable(heights, q) ? q : p);
     }
     offsets.map(neighbours, x, y);
     for (std::size_t k = 0; k < neighbours.size(); k += 4) {
@@ -205,6 +161,103 @@ std::vector<float> sample_normals(const SampleHeights& heights, const Frame& fra
       const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
       const double scale = (normal[2] < 0 ? -1 : 1) / length;
       for (double component : normal) normals.push_back(static_cast<float>(component * scale));
+    }
+  }
+  return normals;
+}
+
+/// The valid ones of the up to four samples around a point, with their bilinear weights.
+void add_corners(const SampleHeights& heights, std::int32_t steps, Point p, std::vector<Point>& corners,
+                 std::vector<double>& weights) {
+  const Point first{p.x / steps, p.y / steps};
+  const double u = static_cast<double>(p.x % steps) / steps, v = static_cast<double>(p.y % steps) / steps;
+  for (const std::int32_t dy : {0, 1}) {
+    for (const std::int32_t dx : {0, 1}) {
+      const double weight = (dx == 0 ? 1 - u : u) * (dy == 0 ? 1 - v : v);
+      const Point corner{first.x + dx, first.y + dy};
+      if (weight == 0 || !is_usable(heights, corner)) continue;
+      corners.push_back(corner);
+      weights.push_back(weight);
+    }
+  }
+}
+
+}  // namespace
+
+float SampleHeights::at(Point p) const {
+  if (source_ == nullptr) return raster_.at(p);
+  float height = 0;
+  if (auto read = source_->read(p.x, p.y, 1, 1, &height, 1); !read) throw SourceFailure{read.error()};
+  return height;
+}
+
+LatticePoints frozen_points(const Triangulation& tin, const VertexPlaces& places) {
+  const VertexNumbers numbers(tin);
+  LatticePoints at{places.steps, {}};
+  for (Vertex v = 0; v < tin.vertex_count(); ++v) {
+    if (numbers.of(v) != kNone) at.points.push_back(tin.point(v));
+  }
+  return at;
+}
+
+std::vector<float> sample_uvs(std::int32_t cols, std::int32_t rows, const LatticePoints& at) {
+  std::vector<float> uvs;
+  uvs.reserve(2 * at.points.size());
+  const double steps = at.steps;
+  for (Point p : at.points) {
+    uvs.push_back(static_cast<float>((p.x / steps + 0.5) / cols));
+    uvs.push_back(static_cast<float>((p.y / steps + 0.5) / rows));
+  }
+  return uvs;
+}
+
+Mesh freeze(const SampleHeights& heights, const Triangulation& tin, const VertexPlaces& places, const Frame& frame,
+            bool round_to_float32) {
+  Mesh mesh;
+  const VertexNumbers numbers(tin);
+  add_triangles(tin, numbers, mesh);
+  add_positions(heights, tin, numbers, places, frame, round_to_float32, mesh);
+  face_up(frame, mesh);
+  return mesh;
+}
+
+Mesh melt_down(const SampleHeights& heights, Triangulation tin, const VertexPlaces& places, const Frame& frame,
+               bool round_to_float32) {
+  Mesh mesh;
+  tin.drop_links();
+  const VertexNumbers numbers(tin);
+  add_triangles(tin, numbers, mesh);
+  tin.drop_triangles();
+  add_positions(heights, tin, numbers, places, frame, round_to_float32, mesh);
+  face_up(frame, mesh);
+  return mesh;
+}
+
+std::vector<float> sample_normals(const SampleHeights& heights, const Frame& frame, const LatticePoints& at) {
+  if (at.steps == 1) return normals_of(heights, frame, at.points);
+  std::vector<float> normals;
+  normals.reserve(3 * at.points.size());
+  std::vector<Point> corners;  // the valid samples around each point
+  std::vector<double> weights;
+  std::vector<std::size_t> ends;
+  for (std::size_t begin = 0; begin < at.points.size(); begin += kChunk) {
+    corners.clear();
+    weights.clear();
+    ends.clear();
+    for (Point p : std::span(at.points).subspan(begin, std::min(kChunk, at.points.size() - begin))) {
+      add_corners(heights, at.steps, p, corners, weights);
+      ends.push_back(corners.size());
+    }
+    const std::vector<float> around = normals_of(heights, frame, corners);
+    std::size_t corner = 0;
+    for (const std::size_t end : ends) {
+      std::array<double, 3> sum{0, 0, 0};
+      for (; corner < end; ++corner) {
+        for (std::size_t k = 0; k < 3; ++k) sum[k] += weights[corner] * double{around[3 * corner + k]};
+      }
+      if (sum[2] == 0) sum = {0, 0, 1};
+      const double length = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+      for (const double component : sum) normals.push_back(static_cast<float>(component / length));
     }
   }
   return normals;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "grid/raster.h"
+#include "grid/vertex_places.h"
 #include "scarp/frame.h"
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
@@ -34,21 +35,30 @@ class SampleHeights {
 
 /// The triangles that are not outside, with the vertices they use, in the frame: offsets from frame_origin(), rounded
 /// to float32 if asked, heights as they are. Counter-clockwise from above whatever way the frame turns. Ids follow the
-/// order of insertion.
-Mesh freeze(const SampleHeights& heights, const Triangulation& tin, const Frame& frame, bool round_to_float32);
+/// order of insertion. `places`: of the vertices; their heights come before those of samples.
+Mesh freeze(const SampleHeights& heights, const Triangulation& tin, const VertexPlaces& places, const Frame& frame,
+            bool round_to_float32);
 
 /// The same, and gives the triangulation's memory back on the way: at most 72 bytes a vertex are in use at a time.
-Mesh melt_down(const SampleHeights& heights, Triangulation tin, const Frame& frame, bool round_to_float32);
+Mesh melt_down(const SampleHeights& heights, Triangulation tin, const VertexPlaces& places, const Frame& frame,
+               bool round_to_float32);
 
-/// Unit normals of the full-resolution surface at lattice points, in the frame: central differences, one-sided beside
-/// voids and borders; 3 values a point, z > 0.
-std::vector<float> sample_normals(const SampleHeights& heights, const Frame& frame, const std::vector<Point>& samples);
+/// Lattice points, so many steps from one sample to the next.
+struct LatticePoints {
+  std::int32_t steps = 1;
+  std::vector<Point> points;
+};
+
+/// Those of freeze()'s vertices, in its order.
+LatticePoints frozen_points(const Triangulation& tin, const VertexPlaces& places);
+
+/// Unit normals of the full-resolution surface, in the frame: at samples central differences, one-sided beside voids
+/// and borders; between samples the bilinear mean of the valid ones around; 3 values a point, z > 0. Vertical where no
+/// sample around is valid.
+std::vector<float> sample_normals(const SampleHeights& heights, const Frame& frame, const LatticePoints& at);
 
 /// Places in the raster's image: pixel centres, (0, 0) the image's top left corner and (1, 1) its bottom right; 2
 /// values a point.
-std::vector<float> sample_uvs(std::int32_t cols, std::int32_t rows, const std::vector<Point>& samples);
-
-/// The lattice points of freeze()'s vertices, in its order.
-std::vector<Point> frozen_samples(const Triangulation& tin);
+std::vector<float> sample_uvs(std::int32_t cols, std::int32_t rows, const LatticePoints& at);
 
 }  // namespace scarp

@@ -4,7 +4,7 @@ source "$(dirname "$0")/lib.sh"
 need python3 gdalinfo
 
 for style in cliff step sharp-step diagonal-step sharp-diagonal-step parabola paraboloid scaled-paraboloid pyramid \
-  diagonal-pyramid fractal; do
+  diagonal-pyramid fractal smooth; do
   succeeds "$scarp" generate $style 60 40 $style.tif
   succeeds "$scarp" generate $style 60 40 again.tif --overwrite
   cmp $style.tif again.tif || fail "$style is not the same twice"
@@ -24,6 +24,8 @@ succeeds "$scarp" measure letter.tif pgm.ply --crs grid --fail-above 0
 # Seed, range, size.
 succeeds "$scarp" generate fractal 60 40 other.tif --seed 1 --range 250 --size 30
 if cmp -s other.tif fractal.tif; then fail "the seed changes nothing"; fi
+succeeds "$scarp" generate smooth 60 40 waves.tif --seed 1
+if cmp -s waves.tif smooth.tif; then fail "the seed does not change the smooth field"; fi
 succeeds "$scarp" info other.tif --json
 cp "$logs/out" info.json
 [ "$(json info.json input max)" = 250.0 ] && [ "$(json info.json input min)" = 0.0 ] || fail "--range 250 is not kept"
@@ -39,7 +41,7 @@ refuses 1 'COLS 1 is not' "$scarp" generate cliff 1 8 x.tif
 refuses 1 'ROWS many is not' "$scarp" generate cliff 8 many x.tif
 refuses 1 '70000 x 8 samples' "$scarp" generate cliff 70000 8 x.tif
 refuses 1 'at most 1073741824 samples' "$scarp" generate cliff 60000 60000 x.tif
-refuses 1 '--seed is for fractal only' "$scarp" generate cliff 8 8 x.tif --seed 2
+refuses 1 '--seed is for fractal and smooth only' "$scarp" generate cliff 8 8 x.tif --seed 2
 refuses 1 '--range 0 must be above 0' "$scarp" generate cliff 8 8 x.tif --range 0
 refuses 1 '--size needs a GeoTIFF' "$scarp" generate cliff 8 8 x.pgm --size 2
 refuses 1 'tells no format' "$scarp" generate cliff 8 8 x.stm

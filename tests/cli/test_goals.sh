@@ -9,7 +9,7 @@ run() {
   last=$(tail -n 1 "$logs/out")
 }
 
-run -e 20 --order greedy  # as budgets have it
+run -e 20
 by_error=$(json r.json triangles)
 [ "$(json r.json stopped_by)" = '"max_error"' ] || fail "-e 20 is stopped by $(json r.json stopped_by)"
 

@@ -30,7 +30,7 @@ for line in lines:
         assert line["seconds"] >= last["seconds"]
     last = line
 assert last["fraction"] == 1, last
-assert passes[-3:] == ["refine", "measure", "write"], passes
+assert passes[-4:] == ["refine", "fit", "measure", "write"], passes
 assert any(line["vertices"] > 0 for line in lines), "no vertices"
 running = [line for line in lines if line["fraction"] < 1]
 assert len(running) <= 5 * lines[-1]["seconds"] + 1, "more than five a second"

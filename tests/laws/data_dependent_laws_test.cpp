@@ -147,7 +147,7 @@ RC_GTEST_PROP(data_dependent, settling_lowers_the_squares_and_raises_no_largest_
 TEST(data_dependent, follows_a_diagonal_step_far_better_than_delaunay) {
   const auto field = generate_field(FieldStyle::kDiagonalStep, 256, 256);
   ASSERT_TRUE(field);
-  SimplifyOptions options{.max_vertices = 200};
+  SimplifyOptions options{.max_vertices = 200, .effort = Effort::kFast};
   const double delaunay = simplify(*field, options)->measurement.max_error;
   for (const EdgeScore score : {EdgeScore::kSum, EdgeScore::kTight}) {
     options.edges = {true, score};

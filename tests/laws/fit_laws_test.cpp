@@ -50,6 +50,24 @@ RC_GTEST_PROP(fit, keeps_the_bound_the_domain_and_the_outline, ()) {
   RC_ASSERT(outline_of(fitted.tin, field) == outline);
 }
 
+RC_GTEST_PROP(fit, keeps_the_worst_shape_above_the_floor_or_no_worse_than_it_was, ()) {
+  const Field field = any_field();
+  const double threshold = any_threshold();
+  auto tin = refined(field, threshold);
+  RC_PRE(tin.has_value());
+  const double floor = *rc::gen::element(0.03125, 0.125, 0.25, 0.5), aspect = *rc::gen::element(1.0, 0.5, 2.0);
+  const auto worst = testing::worst_shape(*tin, aspect, testing::ShapeOracle(floor));
+  const auto fitted = *fit(field.raster(), std::move(*tin),
+                           {.threshold = threshold,
+                            .threads = 2,
+                            .depth = testing::any_depth(0),
+                            .min_shape = floor,
+                            .aspect = aspect,
+                            .vertices_are_free = *rc::gen::arbitrary<bool>(),
+                            .patch_side = *rc::gen::element(0, 5, 16)});
+  RC_ASSERT(!(testing::worst_shape(fitted.tin, aspect, testing::ShapeOracle(floor)) < worst));
+}
+
 RC_GTEST_PROP(fit, leaves_the_sides_alone_where_they_are_not_free, ()) {
   const Field field = any_field();
   const double threshold = any_threshold();
@@ -213,12 +231,12 @@ RC_GTEST_PROP(triangle_error, lets_through_what_the_slack_allows_and_tells_what_
   std::array<FitCorner, 3> corners{any_corner(field), any_corner(field), any_corner(field)};
   RC_PRE(area_of(corners[0], corners[1], corners[2]) > 0);
   const TriangleError error(field.raster(), {0, 0}, threshold);
-  constexpr double kSlack = 1.5;
-  const TriangleError loose = error.with({kSlack, ErrorRule::Power::kEight});
+  const double slack = *rc::gen::element(1.5, 2.5, 4.0);
+  const TriangleError loose = error.with({slack, ErrorRule::Power::kEight});
   const auto verdict = loose.judge(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
   const Oracle oracle(field.raster(), corners, threshold);
   const bool passes = verdict.kind == TriangleError::Verdict::Kind::kKeeps;
-  if (std::abs(oracle.worst - kSlack) > 1e-3) RC_ASSERT(passes == (oracle.worst < kSlack));
+  if (std::abs(oracle.worst - slack) > 1e-3) RC_ASSERT(passes == (oracle.worst < slack));
   if (!passes) return;
   RC_ASSERT((verdict.worst <= threshold) == oracle.keeps);
   RC_ASSERT(std::abs(verdict.worst / threshold - oracle.worst) <= 1e-3);
@@ -256,17 +274,23 @@ RC_GTEST_PROP(triangle_error, gives_up_only_where_the_energy_reaches_the_limit, 
   RC_ASSERT((limited.kind == TriangleError::Verdict::Kind::kKeeps) == (whole.energy < limit));
 }
 
-/// The least energy over all triangulations of the corners first … last of a ring, by trying each; infinite if none.
-double least_energy(const TriangleError& error, const std::vector<FitCorner>& ring, std::size_t first,
-                    std::size_t last) {
+testing::ShapeOracle shape_of(const FitCorner& a, const FitCorner& b, const FitCorner& c) {
+  return {{Point{a.x, a.y}, {b.x, b.y}, {c.x, c.y}}, 1};
+}
+
+/// The least energy over all triangulations of the corners first … last of a ring, by trying each, whose shapes are
+/// not below the floor; infinite if none.
+double least_energy(const TriangleError& error, const std::vector<FitCorner>& ring, std::size_t first, std::size_t last,
+                    const testing::ShapeOracle& floor) {
   if (last == first + 1) return 0;
   double best = std::numeric_limits<double>::infinity();
   for (std::size_t q = first + 1; q < last; ++q) {
     if (area_of(ring[first], ring[q], ring[last]) <= 0) continue;
+    if (shape_of(ring[first], ring[q], ring[last]) < floor) continue;
     const auto verdict = error.judge(ring[first], ring[q], ring[last], std::numeric_limits<float>::infinity());
     if (verdict.kind != TriangleError::Verdict::Kind::kKeeps) continue;
-    best = std::min(best,
-                    double{verdict.energy} + least_energy(error, ring, first, q) + least_energy(error, ring, q, last));
+    best = std::min(best, double{verdict.energy} + least_energy(error, ring, first, q, floor) +
+                              least_energy(error, ring, q, last, floor));
   }
   return best;
 }
@@ -295,8 +319,12 @@ RC_GTEST_PROP(ring_search, finds_the_least_energy_of_all_triangulations, ()) {
   for (std::size_t i = 0; i < ring.size(); ++i) RC_PRE(area_of(hub, ring[i], ring[(i + 1) % ring.size()]) > 0);
   const double threshold = *rc::gen::element(0.5, 1.0, 2.0, 3.0, 15.0, 40.0);
   const TriangleError error(field.raster(), {0, 0}, threshold);
-  const double best = least_energy(error, ring, 0, ring.size() - 1);
-  RingSearch search(error);
+  const double least_shape = *rc::gen::element(0.0, 0.0, 0.125, 0.25, 0.5);
+  testing::ShapeOracle floor(least_shape);
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    floor = std::min(floor, shape_of(hub, ring[i], ring[(i + 1) % ring.size()]));
+  const double best = least_energy(error, ring, 0, ring.size() - 1, floor);
+  RingSearch search(error, {least_shape});
   Point witness{12, 12};
   const bool found = search.find(ring, hub, witness);
   RC_ASSERT(found == std::isfinite(best));

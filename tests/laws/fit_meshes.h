@@ -4,6 +4,7 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <set>
 #include <utility>
@@ -37,6 +38,12 @@ inline std::optional<Triangulation> refined(const Field& field, double threshold
   Refinement refinement(judge, domain->tin);
   while (!refinement.done()) refinement.insert_worst();
   return std::move(domain->tin);
+}
+
+inline FitDepth any_depth(int least_rounds) {
+  return {*rc::gen::inRange(least_rounds, 4),
+          {*rc::gen::inRange(0, 7), *rc::gen::element(1.0, 1.5, 2.5, 4.0), *rc::gen::arbitrary<bool>()},
+          *rc::gen::inRange(0, 3)};
 }
 
 using Points = std::set<std::pair<std::int32_t, std::int32_t>>;
@@ -99,6 +106,53 @@ inline std::string find_broken_bound(const Raster& raster, const Fitted& fitted,
     }
   }
   return "";
+}
+
+/// Of the errors at samples, those on edges once for each triangle.
+inline double sum_of_squares(const Raster& raster, const Fitted& fitted) {
+  double sum = 0;
+  for (Triangle t = 0; t < fitted.tin.triangle_count(); ++t) {
+    if (fitted.tin.is_outside(t)) continue;
+    const std::array<Point, 3> corners = fitted.tin.corners(t);
+    const auto area = static_cast<double>(orient(corners[0], corners[1], corners[2]));
+    for (Point s{0, 0}; s.y < raster.rows; ++s.y) {
+      for (s.x = 0; s.x < raster.cols; ++s.x) {
+        double height = 0;
+        bool inside = raster.is_valid(s);
+        for (unsigned k = 0; k < 3; ++k) {
+          const std::int64_t weight =
+              orient(corners[(k + 1) % 3], corners[(k + 2) % 3], {s.x * kLatticeSteps, s.y * kLatticeSteps});
+          inside = inside && weight >= 0;
+          height += static_cast<double>(weight) / area * double{fitted.places.heights[fitted.tin.origin(3 * t + k)]};
+        }
+        if (inside) sum += (height - raster.at(s)) * (height - raster.at(s));
+      }
+    }
+  }
+  return sum;
+}
+
+/// Height over longest edge as a fraction; exact as long as products of two are whole numbers below 2⁵³.
+struct ShapeOracle {
+  double area = 1, longest = 1;
+
+  ShapeOracle(const std::array<Point, 3>& corners, double aspect)
+      : area(aspect * static_cast<double>(orient(corners[0], corners[1], corners[2]))), longest(0) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = corners[k].x - corners[(k + 1) % 3].x, y = aspect * (corners[k].y - corners[(k + 1) % 3].y);
+      longest = std::max(longest, x * x + y * y);
+    }
+  }
+  explicit ShapeOracle(double quotient) : area(quotient) {}
+  bool operator<(const ShapeOracle& other) const { return area * other.longest < other.area * longest; }
+};
+
+/// Of the triangles of the domain; at most `most`.
+inline ShapeOracle worst_shape(const Triangulation& tin, double aspect, ShapeOracle most) {
+  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+    if (!tin.is_outside(t)) most = std::min(most, ShapeOracle(tin.corners(t), aspect));
+  }
+  return most;
 }
 
 /// A side of the rectangle that vertices on the lattice of fitting live in.

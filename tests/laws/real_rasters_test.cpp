@@ -87,7 +87,7 @@ TEST_P(RealRasters, KeepTheBoundInExactArithmeticWithFewerVertices) {
 TEST_P(RealRasters, AreRepairedWithinTheBoundWhateverTheFreedom) {
   const Raster raster = samples_->raster();
   const double threshold = 0.02 * relief_;
-  const FitOptions on_samples{.threshold = threshold, .threads = 2, .repair_rounds = 2};
+  const FitOptions on_samples{.threshold = threshold, .threads = 2, .depth = {.rounds = 2}};
   FitOptions free = on_samples;
   free.vertices_are_free = true;
   const auto refined = [&] {

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <atomic>
 #include <bit>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "fit/cut.h"
@@ -21,6 +24,7 @@
 namespace scarp {
 namespace {
 
+using testing::any_depth;
 using testing::any_field;
 using testing::any_threshold;
 using testing::Field;
@@ -58,12 +62,9 @@ RC_GTEST_PROP(repair, keeps_the_bound_the_domain_and_the_constraints, ()) {
   const auto constraints = constraints_of(*tin);
   const std::size_t vertices = tin->vertex_count();
   const std::int64_t outside = testing::outside_area2(*tin);
-  const auto fitted = *fit(field.raster(), std::move(*tin),
-                           {.threshold = threshold,
-                            .threads = 2,
-                            .repair_rounds = *rc::gen::inRange(1, 4),
-                            .repair_depth = *rc::gen::inRange(0, 7),
-                            .patch_side = *rc::gen::element(0, 1, 5, 16, 40)});
+  const auto fitted = *fit(
+      field.raster(), std::move(*tin),
+      {.threshold = threshold, .threads = 2, .depth = any_depth(1), .patch_side = *rc::gen::element(0, 1, 5, 16, 40)});
   const std::string unsound = testing::verify_triangulation(fitted.tin, field.cols, field.rows, testing::Edges::kAny);
   RC_ASSERT(unsound == "");
   const std::string broken = testing::find_broken_bound(field.raster(), fitted.tin, threshold);
@@ -74,7 +75,16 @@ RC_GTEST_PROP(repair, keeps_the_bound_the_domain_and_the_constraints, ()) {
   RC_ASSERT(fitted.counts.repaired <= fitted.counts.tried);
 }
 
-RC_GTEST_PROP(repair, of_free_vertices_keeps_the_bound_the_domain_and_the_constraints, ()) {
+/// Of the valid samples.
+std::pair<float, float> range_of(const Field& field) {
+  std::pair<float, float> range{std::numeric_limits<float>::max(), std::numeric_limits<float>::lowest()};
+  for (const float sample : field.samples) {
+    if (!std::isnan(sample)) range = {std::min(range.first, sample), std::max(range.second, sample)};
+  }
+  return range;
+}
+
+RC_GTEST_PROP(repair, of_free_vertices_keeps_the_bound_the_domain_the_constraints_and_the_range, ()) {
   const Field field = any_field();
   const double threshold = *rc::gen::element(0.5, 1.0, 2.0, 7.3, 30.0, 1e6);
   auto tin = refined(field, threshold);
@@ -84,8 +94,8 @@ RC_GTEST_PROP(repair, of_free_vertices_keeps_the_bound_the_domain_and_the_constr
   const auto fitted = *fit(field.raster(), std::move(*tin),
                            {.threshold = threshold,
                             .threads = 2,
-                            .repair_rounds = *rc::gen::inRange(1, 4),
-                            .repair_depth = *rc::gen::inRange(0, 7),
+                            .depth = any_depth(1),
+                            .min_shape = *rc::gen::element(0.0, 0.1),
                             .vertices_are_free = true,
                             .patch_side = *rc::gen::element(0, 1, 5, 16, 40)});
   RC_ASSERT(fitted.places.steps == kLatticeSteps);
@@ -103,6 +113,9 @@ RC_GTEST_PROP(repair, of_free_vertices_keeps_the_bound_the_domain_and_the_constr
     RC_ASSERT(q.first % kLatticeSteps == 0 && q.second % kLatticeSteps == 0);
   }
   RC_ASSERT(fitted.tin.vertex_count() + fitted.counts.removed == vertices);
+  const auto [lowest, highest] = range_of(field);
+  for (const float height : fitted.places.heights)
+    RC_ASSERT(std::isnan(height) || (lowest <= height && height <= highest));
 }
 
 RC_GTEST_PROP(repair, leaves_the_sides_alone_where_they_are_not_free, ()) {
@@ -112,7 +125,7 @@ RC_GTEST_PROP(repair, leaves_the_sides_alone_where_they_are_not_free, ()) {
   RC_PRE(tin.has_value());
   const Points sides = side_vertices_of(*tin, field);
   const auto fitted =
-      *fit(field.raster(), std::move(*tin), {.threshold = threshold, .sides_are_free = false, .repair_rounds = 2});
+      *fit(field.raster(), std::move(*tin), {.threshold = threshold, .sides_are_free = false, .depth = {.rounds = 2}});
   RC_ASSERT(side_vertices_of(fitted.tin, field) == sides);
 }
 
@@ -128,7 +141,8 @@ RC_GTEST_PROP(repair, threads_change_nothing, ()) {
   RC_PRE(refined(field, threshold).has_value());
   FitOptions options{.threshold = threshold,
                      .threads = 1,
-                     .repair_rounds = 2,
+                     .depth = any_depth(1),
+                     .min_shape = *rc::gen::element(0.0, 0.1),
                      .vertices_are_free = *rc::gen::arbitrary<bool>(),
                      .patch_side = *rc::gen::element(3, 8, 16)};
   const auto first = *fit(field.raster(), *refined(field, threshold), options);
@@ -141,6 +155,68 @@ RC_GTEST_PROP(repair, threads_change_nothing, ()) {
   }
 }
 
+/// True from its nth question on, whoever asks.
+std::function<bool()> up_after(int questions) {
+  auto left = std::make_shared<std::atomic<int>>(questions);
+  return [left] { return left->fetch_sub(1) <= 0; };
+}
+
+RC_GTEST_PROP(repair, leaves_a_sound_mesh_within_the_bound_whenever_the_time_is_up, ()) {
+  const Field field = any_field();
+  const double threshold = *rc::gen::element(0.5, 1.0, 2.0, 7.3, 30.0, 1e6);
+  auto tin = refined(field, threshold);
+  RC_PRE(tin.has_value());
+  const std::size_t constraints = constraints_of(*tin).size(), vertices = tin->vertex_count();
+  const bool are_free = *rc::gen::arbitrary<bool>();
+  const auto fitted = *fit(field.raster(), std::move(*tin),
+                           {.threshold = threshold,
+                            .threads = 2,
+                            .depth = any_depth(1),
+                            .min_shape = *rc::gen::element(0.0, 0.1),
+                            .vertices_are_free = are_free,
+                            .patch_side = *rc::gen::element(0, 5, 16, 40),
+                            .is_time_up = up_after(*rc::gen::element(0, 1, 10, 100, 1000, 1'000'000)),
+                            .goes_on = true});
+  const std::int32_t steps = fitted.places.steps;
+  const std::string unsound = testing::verify_triangulation(fitted.tin, (field.cols - 1) * steps + 1,
+                                                            (field.rows - 1) * steps + 1, testing::Edges::kAny);
+  RC_ASSERT(unsound == "");
+  const std::string broken = steps == 1 ? testing::find_broken_bound(field.raster(), fitted.tin, threshold)
+                                        : testing::find_broken_bound(field.raster(), fitted, threshold);
+  RC_ASSERT(broken == "");
+  RC_ASSERT(constraints_of(fitted.tin).size() == constraints);
+  RC_ASSERT(fitted.tin.vertex_count() + fitted.counts.removed == vertices);
+}
+
+TEST(repair, goes_on_beyond_its_rounds_while_there_is_time_and_gain) {
+  const Field field = testing::random_field(7, 60, 50, Relief::kRidges);
+  FitOptions options{.threshold = 4, .threads = 2, .depth = {.rounds = 1}, .vertices_are_free = true};
+  const auto once = *fit(field.raster(), *refined(field, 4), options);
+  EXPECT_FALSE(once.is_cut_short);
+  options.is_time_up = [] { return false; };
+  options.goes_on = true;
+  const auto longer = *fit(field.raster(), *refined(field, 4), options),
+             again = *fit(field.raster(), *refined(field, 4), options);
+  EXPECT_FALSE(longer.is_cut_short);
+  EXPECT_LT(longer.tin.vertex_count(), once.tin.vertex_count());
+  EXPECT_TRUE(is_same(longer.tin, again.tin));
+  options.is_time_up = [] { return true; };
+  const auto never = *fit(field.raster(), *refined(field, 4), options);
+  EXPECT_TRUE(never.is_cut_short);
+  EXPECT_EQ(never.counts.removed, 0u);
+}
+
+RC_GTEST_PROP(repair, polishing_lowers_the_mean_error_and_leaves_the_triangles, ()) {
+  const auto seed = *rc::gen::arbitrary<std::uint32_t>();
+  const Field field = testing::random_field(seed, 30, 25, Relief::kRidges);
+  FitOptions options{.threshold = 4, .threads = 1, .depth = {.rounds = 1}, .vertices_are_free = true};
+  const auto rough = *fit(field.raster(), *refined(field, 4), options);
+  options.depth.polishes = 3;
+  const auto polished = *fit(field.raster(), *refined(field, 4), options);
+  RC_ASSERT(is_same(rough.tin, polished.tin));
+  RC_ASSERT(testing::sum_of_squares(field.raster(), polished) < testing::sum_of_squares(field.raster(), rough));
+}
+
 TEST(repair, takes_a_quarter_of_what_removal_leaves) {
   Field field{160, 120, {}};
   for (int y = 0; y < field.rows; ++y) {
@@ -149,7 +225,7 @@ TEST(repair, takes_a_quarter_of_what_removal_leaves) {
   }
   const auto triangles = [&](int rounds, std::int32_t side, bool are_free = false) {
     const FitOptions options{
-        .threshold = 3, .threads = 2, .repair_rounds = rounds, .vertices_are_free = are_free, .patch_side = side};
+        .threshold = 3, .threads = 2, .depth = {.rounds = rounds}, .vertices_are_free = are_free, .patch_side = side};
     return static_cast<double>(fit(field.raster(), *refined(field, 3), options)->tin.triangle_count());
   };
   EXPECT_LT(triangles(2, 0), 0.75 * triangles(0, 0));
@@ -160,7 +236,7 @@ TEST(repair, takes_a_quarter_of_what_removal_leaves) {
 TEST(repair, heights_and_triangles_beyond_its_arithmetic_are_left_alone) {
   Field field = testing::random_field(5, 20, 20, Relief::kFlat);
   field.samples[210] = 0x1p100f;
-  const FitOptions options{.threshold = 1, .repair_rounds = 2};
+  const FitOptions options{.threshold = 1, .depth = {.rounds = 2}};
   const auto before_fit = refined(field, 1)->triangle_count();
   EXPECT_EQ(fit(field.raster(), *refined(field, 1), options)->tin.triangle_count(), before_fit);
 
@@ -309,6 +385,28 @@ double rise_of_energy(const Patch& patch, const Picture& before) {
   return sum;
 }
 
+/// Of the faces that have changed none is below the floor and worse than all that they were before.
+bool keeps_shape(const Patch& patch, const Picture& before, const ShapeRule& rule) {
+  testing::ShapeOracle floor(rule.floor), worst(1.0);
+  for (Patch::Id f = 0; f < patch.face_count(); ++f) {
+    const auto& corners = patch.face(f).corners;
+    const bool is_where_it_was = std::all_of(corners.begin(), corners.end(), [&](Patch::Id v) {
+      return patch.at(v).x == before.places[v].x && patch.at(v).y == before.places[v].y;
+    });
+    if (corners == before.faces[f].corners && is_where_it_was) continue;
+    const auto shape_of = [&](const Patch::Face& face, const auto& place) {
+      std::array<Point, 3> points;
+      for (std::size_t k = 0; k < 3; ++k) points[k] = {place(face.corners[k]).x, place(face.corners[k]).y};
+      return testing::ShapeOracle(points, rule.aspect);
+    };
+    const auto was = shape_of(before.faces[f], [&](Patch::Id v) { return before.places[v]; });
+    const auto is = shape_of(patch.face(f), [&](Patch::Id v) { return patch.at(v); });
+    floor = std::min(floor, was);
+    worst = std::min(worst, is);
+  }
+  return !(worst < floor);
+}
+
 /// Every face is measured, within the bound, and its measure true.
 bool is_measured(const Patch& patch, const TriangleError& error) {
   for (Patch::Id f = 0; f < patch.face_count(); ++f) {
@@ -327,12 +425,14 @@ RC_GTEST_PROP(flips, lower_the_energy_and_keep_the_bound, ()) {
   RC_PRE(bench.cut());
   const TriangleError error = bench.errors({1, ErrorRule::Power::kEight});
   for (Patch::Id f = 0; f < bench.patch.face_count(); ++f) measure(bench.patch, error, f);
-  Flips flips(bench.patch);
+  const ShapeRule shape{*rc::gen::element(0.0, 0.125, 0.5), *rc::gen::element(1.0, 2.0)};
+  Flips flips(bench.patch, shape);
   Picture before(bench.patch);
   for (Patch::Id f = 0; f < bench.patch.face_count(); ++f) {
     for (unsigned edge = 0; edge < 3; ++edge) {
       if (!flips.improve(error, f, edge)) continue;
       RC_ASSERT(rise_of_energy(bench.patch, before) < 0);
+      RC_ASSERT(keeps_shape(bench.patch, before, shape));
       before = Picture(bench.patch);
     }
   }
@@ -348,13 +448,20 @@ RC_GTEST_PROP(vertex_step, lowers_the_energy_keeps_the_bound_and_ends_where_vert
   const TriangleError error = bench.errors({1, ErrorRule::Power::kEight});
   for (Patch::Id f = 0; f < patch.face_count(); ++f) measure(patch, error, f);
   const auto freedom = *rc::gen::element(Freedom::kSamples, Freedom::kLattice);
-  VertexStep step(patch, freedom);
+  const auto [lowest, highest] = range_of(bench.field);
+  const ShapeRule shape{*rc::gen::element(0.0, 0.125), *rc::gen::element(1.0, 2.0)};
+  VertexStep step(patch, {freedom, shape, lowest, highest});
+  const auto improve = [&](Patch::Id v) {
+    const double reach = *rc::gen::element(0.0, 0.07, 0.15, 0.5);
+    return reach > 0 ? step.probe(error, v, reach) : step.improve(error, v);
+  };
   Picture before(patch);
   for (Patch::Id v = 0; v < patch.node_count(); ++v) {
     const FitCorner from = patch.at(v);
-    const bool moved = step.improve(error, v);
+    const bool moved = improve(v);
     if (moved) {
       RC_ASSERT(rise_of_energy(patch, before) < 0);
+      RC_ASSERT(keeps_shape(patch, before, shape));
       before = Picture(patch);
     }
     const FitCorner& to = patch.at(v);
@@ -365,6 +472,28 @@ RC_GTEST_PROP(vertex_step, lowers_the_energy_keeps_the_bound_and_ends_where_vert
     RC_ASSERT(to.z == error.height_at({to.x / kLatticeSteps, to.y / kLatticeSteps}));
   }
   RC_ASSERT(Picture(patch) == before);
+  RC_ASSERT(verify(patch) == "");
+  RC_ASSERT(is_measured(patch, error));
+}
+
+RC_GTEST_PROP(vertex_step, shakes_and_levels_within_the_bound_and_the_range, ()) {
+  Bench bench;
+  RC_PRE(bench.cut());
+  Patch& patch = bench.patch;
+  const TriangleError error = bench.errors({1, ErrorRule::Power::kEight});
+  for (Patch::Id f = 0; f < patch.face_count(); ++f) measure(patch, error, f);
+  const auto [lowest, highest] = range_of(bench.field);
+  VertexStep step(patch, {Freedom::kLattice, {0.125, 1}, lowest, highest});
+  for (Patch::Id v = 0; v < patch.node_count(); ++v) {
+    const Picture before(patch);
+    const bool moved = step.shake(error, v, *rc::gen::arbitrary<std::uint32_t>());
+    RC_ASSERT(moved || Picture(patch) == before);
+    RC_ASSERT(keeps_shape(patch, before, {0.125, 1}));
+    step.level(error, v);
+    const bool is_right =
+        patch.is_locked(v) ? Picture(patch) == before : lowest <= patch.at(v).z && patch.at(v).z <= highest;
+    RC_ASSERT(is_right);
+  }
   RC_ASSERT(verify(patch) == "");
   RC_ASSERT(is_measured(patch, error));
 }
@@ -384,10 +513,16 @@ RC_GTEST_PROP(height_step, finds_the_lowest_energy, ()) {
     for (std::size_t k = 0; k < moments.size(); ++k)
       moments[k] += std::pow(t, 8 - static_cast<int>(k)) * std::pow(share, static_cast<int>(k));
   }
-  const HeightStep best = best_height(moments);
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  const HeightStep best = best_height(moments, -kAny, kAny);
   RC_ASSERT(best.energy <= energy_at(0) * (1 + 1e-12));
   RC_ASSERT(std::abs(best.energy - energy_at(best.rise)) <= 1e-6 * (1e-9 + energy_at(0)));
   for (double rise = -4; rise <= 4; rise += 0.01) RC_ASSERT(best.energy <= energy_at(rise) + 1e-6 * energy_at(0));
+  const double lowest = -*rc::gen::inRange(0, 100) / 100.0, highest = *rc::gen::inRange(0, 100) / 100.0;
+  const HeightStep bounded = best_height(moments, lowest, highest);
+  RC_ASSERT(lowest <= bounded.rise && bounded.rise <= highest);
+  for (double rise = lowest; rise <= highest; rise += 0.01)
+    RC_ASSERT(bounded.energy <= energy_at(rise) + 1e-6 * energy_at(0));
 }
 
 }  // namespace

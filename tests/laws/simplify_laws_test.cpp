@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "laws/any_field.h"
 #include "laws/fields.h"
 #include "scarp/io.h"
 #include "scarp/simplify.h"
@@ -11,16 +12,9 @@
 namespace scarp {
 namespace {
 
+using testing::any_field;
 using testing::Field;
 using testing::Relief;
-
-Field any_field(std::int32_t largest) {
-  const auto cols = *rc::gen::inRange(2, largest), rows = *rc::gen::inRange(2, largest);
-  const auto relief =
-      *rc::gen::elementOf(std::vector<Relief>(std::begin(testing::kReliefs), std::end(testing::kReliefs)));
-  return testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), cols, rows, relief,
-                               *rc::gen::element(0.0, 0.0, 0.1, 0.5));
-}
 
 Measurement judge(const HeightField& field, const Mesh& mesh) { return *measure(field, mesh); }
 
@@ -58,7 +52,7 @@ RC_GTEST_PROP(simplify, budgets_are_upper_bounds, ()) {
 TEST(simplify, a_budget_takes_the_best_of_the_last_stretch_not_a_spike) {
   const Field field = testing::random_field(11, 120, 90, Relief::kRidges);
   for (const std::uint64_t budget : {200u, 333u, 500u, 777u}) {
-    const auto result = simplify(field.view(), {.max_vertices = budget});
+    const auto result = simplify(field.view(), {.max_vertices = budget, .effort = Effort::kFast});
     ASSERT_TRUE(result);
     Refiner refiner = *Refiner::create(field.view());
     double best = std::numeric_limits<double>::infinity();
@@ -185,9 +179,13 @@ RC_GTEST_PROP(simplify, both_orders_keep_the_promise_and_threads_change_neither,
 
 TEST(simplify, takes_the_dominant_order_towards_an_error_and_the_greedy_one_within_a_budget) {
   const Field field = testing::random_field(9, 40, 30, Relief::kRidges);
-  EXPECT_EQ(simplify(field.view(), {.max_error = 2.0})->order, Order::kDominant);
-  EXPECT_EQ(simplify(field.view(), {.max_vertices = 50})->order, Order::kGreedy);
-  EXPECT_EQ(simplify(field.view(), {.max_error = 2.0, .max_vertices = 50})->order, Order::kGreedy);
+  const auto order = [&](SimplifyOptions options) {
+    options.effort = Effort::kFast;
+    return simplify(field.view(), options)->order;
+  };
+  EXPECT_EQ(order({.max_error = 2.0}), Order::kDominant);
+  EXPECT_EQ(order({.max_vertices = 50}), Order::kGreedy);
+  EXPECT_EQ(order({.max_error = 2.0, .max_vertices = 50}), Order::kGreedy);
 }
 
 TEST(simplify, is_cancelled_by_its_callback) {
@@ -340,7 +338,7 @@ TEST(simplify, the_best_prefix_may_be_the_outline_alone) {
     const std::uint64_t seeds = refiner.vertex_count();
     const double outline_error = refiner.max_error();
     if (!refiner.insert_worst()) continue;
-    const auto result = simplify(field.view(), {.max_vertices = seeds + 1});
+    const auto result = simplify(field.view(), {.max_vertices = seeds + 1, .effort = Effort::kFast});
     ASSERT_TRUE(result);
     EXPECT_NEAR(result->measurement.max_error, std::min(outline_error, refiner.max_error()), 1e-9) << seed;
   }

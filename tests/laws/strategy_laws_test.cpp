@@ -322,7 +322,7 @@ TEST(order, what_the_dominant_one_cannot_do_is_refused_by_name_or_done_greedily)
   const Field field = testing::random_field(1, 20, 17, Relief::kReal);
   const std::vector<float> ones(field.samples.size(), 1.0f);
   const auto check = [&](const char* words, auto change) {
-    SimplifyOptions options{.max_error = 5.0};
+    SimplifyOptions options{.max_error = 5.0, .effort = Effort::kFast};
     HeightField view = field.view();
     change(options, view);
     options.order = Order::kDominant;

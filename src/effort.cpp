@@ -1,0 +1,132 @@
+#include "effort.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scarp {
+
+namespace {
+
+/// Whether samples have bounds of their own.
+bool has_bounds(const SimplifyOptions& options) {
+  return !options.mask.empty() || !options.tolerance.empty() || !options.script.empty();
+}
+
+bool inserts(const ScriptStep& step) { return step.action == ScriptStep::Action::kInsert; }
+
+/// What asks for more than heights; null if nothing does.
+const char* find_beyond_heights(const HeightField& field, const SimplifyOptions& options) {
+  if (!field.channels.empty() || field.height_scale != 1) return "has no channels";
+  return options.outline_tolerance > 0 ? "keeps the exact outline" : nullptr;
+}
+
+/// What asks for more than heights and one error; null if nothing does.
+const char* find_beyond_one_error(const HeightField& field, const SimplifyOptions& options) {
+  if (!options.mask.empty() || !options.tolerance.empty()) return "has no mask and no tolerances";
+  if (!options.script.empty()) return "has no script";
+  return find_beyond_heights(field, options);
+}
+
+/// What changes how insertion goes about it; null if nothing does.
+const char* find_strategy(const SimplifyOptions& options) {
+  if (options.edges.data_dependent) return "has Delaunay edges only";
+  if (options.importance != Importance{}) return "ranks by the error alone";
+  if (options.algorithm != Algorithm::kHeap || options.batch != Batch{}) return "has no other algorithm and no batches";
+  return nullptr;
+}
+
+/// What keeps a run from removing vertices; null if nothing does.
+const char* find_fit_obstacle(const HeightField& field, const SimplifyOptions& options) {
+  if (const char* obstacle = find_beyond_heights(field, options)) return obstacle;
+  if (std::any_of(options.script.begin(), options.script.end(), inserts))
+    return "takes vertices away, also those that a script inserts";
+  if (has_bounds(options) && has_budget(options)) return "has no budget where samples have bounds of their own";
+  if (!options.max_error && options.tolerance.empty() && !has_budget(options)) return "needs a max error or a budget";
+  if (options.edges.data_dependent) return "chooses edges itself";
+  return field.samples == nullptr ? "needs the raster in memory as a whole" : nullptr;
+}
+
+bool moves_vertices(Effort effort) { return effort == Effort::kHigh || effort == Effort::kMax; }
+
+/// What contradicts fast effort; null if nothing does.
+const char* find_need_of_effort(const SimplifyOptions& options) {
+  if (options.objective == Objective::kRms) return "the rms objective";
+  if (options.min_shape) return "a floor of shapes";
+  return options.is_time_up ? "a time limit" : nullptr;
+}
+
+}  // namespace
+
+bool has_budget(const SimplifyOptions& options) { return options.max_triangles || options.max_vertices; }
+
+const char* find_obstacle(const HeightField& field, const SimplifyOptions& options) {
+  if (!options.max_error) return "needs a max error";
+  if (has_budget(options)) return "has no budgets";
+  if (const char* obstacle = find_beyond_one_error(field, options)) return obstacle;
+  return find_strategy(options);
+}
+
+Effort choose_effort(const HeightField& field, const SimplifyOptions& options) {
+  if (options.effort != Effort::kAuto) return options.effort;
+  // Strategies are asked for to see what they do, so removal stays away from them, and from bounds of samples, which
+  // insertion spends where they are small.
+  const bool is_default = options.order != Order::kGreedy && options.memory_limit == 0 && options.best_of_budget &&
+                          !has_bounds(options) && find_strategy(options) == nullptr &&
+                          find_fit_obstacle(field, options) == nullptr;
+  return is_default ? Effort::kNormal : Effort::kFast;
+}
+
+Result<void> check_effort(const HeightField& field, const SimplifyOptions& options) {
+  const auto usage = [](std::string message) { return fail(ErrorKind::kUsage, std::move(message)); };
+  if (options.min_shape && !(*options.min_shape >= 0 && *options.min_shape <= 0.5))
+    return usage(fmt::format("the floor of shapes must lie in 0 … 0.5, not {}", *options.min_shape));
+  if (options.objective == Objective::kRms && !has_budget(options))
+    return usage("the rms objective needs a budget of triangles or vertices: a max error alone decides the mesh");
+  if (options.is_time_up && has_budget(options))
+    return usage("a time limit and a budget contradict each other: whether a mesh fits is known when it is finished");
+  if (options.effort == Effort::kFast) {
+    if (const char* need = find_need_of_effort(options))
+      return usage(fmt::format("{} needs normal effort or more: fast effort is refinement alone", need));
+  } else if (const char* obstacle = find_fit_obstacle(field, options)) {
+    return usage(fmt::format("more than fast effort {}: leave that out, or take fast effort", obstacle));
+  }
+  if (options.vertices != Vertices::kFree || vertices_are_free(field, options)) return {};
+  return usage(fmt::format("free vertices need {}: leave them on samples", moves_vertices(options.effort)
+                                                                               ? "a frame in which the grid is regular"
+                                                                               : "high effort or more"));
+}
+
+bool vertices_are_free(const HeightField& field, const SimplifyOptions& options) {
+  return moves_vertices(options.effort) && options.vertices != Vertices::kSamples && field.frame.is_affine();
+}
+
+bool places_are_exact(const HeightField& field, const SimplifyOptions& options, std::int32_t steps) {
+  return field.frame.is_affine() &&
+         (!options.float32_positions || offsets_are_exact(field.frame, field.cols, field.rows, steps));
+}
+
+double aim_of(const HeightField& field, const SimplifyOptions& options) {
+  constexpr double kRoundingShare = 0x1p-9;
+  return vertices_are_free(field, options) && !places_are_exact(field, options, kLatticeSteps) ? 1 - kRoundingShare : 1;
+}
+
+FitOptions fit_options(const HeightField& field, const SimplifyOptions& options, double threshold) {
+  // On samples a floor would cost up to a tenth more, and could leave more triangles than normal effort does.
+  constexpr double kUsualShape = 0.1;
+  const auto& a = field.frame.affine;
+  FitOptions fit;
+  fit.threshold = threshold;
+  fit.sides_are_free = field.frame.is_affine();
+  fit.vertices_are_free = vertices_are_free(field, options);
+  if (options.effort == Effort::kHigh) fit.depth = kHighDepth;
+  if (options.effort == Effort::kMax) fit.depth = kMaxDepth;
+  fit.min_shape = options.min_shape.value_or(fit.vertices_are_free ? kUsualShape : 0);
+  fit.aspect = std::hypot(a[2], a[5]) / std::hypot(a[1], a[4]);
+  fit.is_time_up = options.is_time_up;
+  fit.goes_on = options.effort == Effort::kMax && options.is_time_up;
+  return fit;
+}
+
+}  // namespace scarp

@@ -1,0 +1,37 @@
+// What an effort is possible for, and what it asks of fitting.
+#pragma once
+
+#include <cstdint>
+
+#include "fit/fit.h"
+#include "scarp/result.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+
+bool has_budget(const SimplifyOptions& options);
+
+/// What keeps a run from the dominant order; null if nothing does.
+const char* find_obstacle(const HeightField& field, const SimplifyOptions& options);
+
+/// The effort that is made: that which was asked for, or what Effort::kAuto stands for.
+Effort choose_effort(const HeightField& field, const SimplifyOptions& options);
+
+/// Fails with kUsage where effort, objective, vertices or shape contradict each other or the rest. REQUIRES:
+/// options.effort is chosen.
+Result<void> check_effort(const HeightField& field, const SimplifyOptions& options);
+
+/// Whether vertices will be let free.
+bool vertices_are_free(const HeightField& field, const SimplifyOptions& options);
+
+/// Whether places so many steps from sample to sample are held exactly by the mesh.
+bool places_are_exact(const HeightField& field, const SimplifyOptions& options, std::int32_t steps);
+
+/// The share of every bound that is asked of the engine. Free vertices leave a little to the rounding of positions: no
+/// sample can be inserted among them to mend what that breaks.
+double aim_of(const HeightField& field, const SimplifyOptions& options);
+
+/// But for bounds of samples, threads and progress. `threshold`: what the mesh that is fitted keeps.
+FitOptions fit_options(const HeightField& field, const SimplifyOptions& options, double threshold);
+
+}  // namespace scarp

@@ -1,0 +1,20 @@
+// Where the vertices of a triangulation are on the raster.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace scarp {
+
+/// Steps of the lattice of fitting between two samples.
+inline constexpr std::int32_t kLatticeSteps = 8;
+
+/// On samples, or on a finer lattice with heights of their own.
+struct VertexPlaces {
+  std::int32_t steps = 1;      ///< of the triangulation's points between two samples
+  std::vector<float> heights;  ///< by vertex; NaN at voids; empty where steps is 1: a vertex has its sample's
+
+  bool are_samples() const { return steps == 1; }
+};
+
+}  // namespace scarp

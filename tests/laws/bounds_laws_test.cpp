@@ -1,0 +1,314 @@
+// Efforts with bounds of samples: every sample keeps its own, be it 0, none, or a thousand times its neighbour's.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <random>
+#include <utility>
+
+#include "fit/fit.h"
+#include "geom/exact_error.h"
+#include "laws/fit_meshes.h"
+#include "laws/mesh_laws.h"
+#include "laws/tile_meshes.h"
+#include "refine/sample_judge.h"
+#include "scarp/measure.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+namespace {
+
+using testing::any_depth;
+using testing::any_field;
+using testing::Field;
+using testing::is_same;
+using testing::Relief;
+
+constexpr float kNoBound = std::numeric_limits<float>::infinity();
+
+/// Blocks of one bound each, and samples strewn among them.
+std::vector<float> any_bounds(const Field& field) {
+  std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
+  const int side = *rc::gen::element(1, 4, 9, 100);
+  const auto base = *rc::gen::element(0.02f, 0.5f, 2.0f, 7.3f);
+  const float levels[] = {base, base, 1000 * base, base / 1000, 30 * base, kNoBound, 0};
+  std::vector<float> blocks(10000), bounds;
+  for (float& bound : blocks) bound = levels[random() % 7];
+  for (int y = 0; y < field.rows; ++y) {
+    for (int x = 0; x < field.cols; ++x) {
+      const auto block = static_cast<std::size_t>(y / side * 83 + x / side) % blocks.size();
+      bounds.push_back(random() % 16 == 0 ? levels[random() % 7] : blocks[block]);
+    }
+  }
+  return bounds;
+}
+
+/// The greedy mesh; nothing if the field has no surface.
+std::optional<Triangulation> refined(const Field& field, const std::vector<float>& bounds) {
+  auto domain = build_domain(field.raster(), 0, grid_frame(field.rows));
+  if (!domain) return std::nullopt;
+  Judging judging{field.raster(), {{field.samples.data(), 1}}};
+  judging.bounds = bounds.data();
+  const SampleJudge judge(judging);
+  Refinement refinement(judge, domain->tin);
+  while (!refinement.done()) refinement.insert_worst();
+  return std::move(domain->tin);
+}
+
+float bound_at(const Field& field, const std::vector<float>& bounds, Point p) {
+  return bounds[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(field.cols) + static_cast<std::size_t>(p.x)];
+}
+
+/// A triangle on the lattice, by exact arithmetic and by doubles, at every sample of the field that lies in it.
+struct Oracle {
+  bool keeps = true;
+  double energy = 0, stiffness = 0, push = 0, worst = 0;  // of those whose bound is no less than `least`
+
+  Oracle(const Field& field, const std::vector<float>& bounds, const std::array<Point, 3>& places,
+         const std::array<float, 3>& heights, double least = 1e-2) {
+    const auto area = static_cast<double>(orient(places[0], places[1], places[2]));
+    const auto [left, right] = std::minmax({places[0].x, places[1].x, places[2].x});
+    const auto [top, bottom] = std::minmax({places[0].y, places[1].y, places[2].y});
+    for (Point p{0, top / kLatticeSteps}; p.y * kLatticeSteps <= bottom; ++p.y) {
+      for (p.x = left / kLatticeSteps; p.x * kLatticeSteps <= right; ++p.x) {
+        const double bound = bound_at(field, bounds, p);
+        bool inside = field.raster().is_valid(p) && !std::isinf(bound);
+        const Point at{p.x * kLatticeSteps, p.y * kLatticeSteps};
+        double height = 0, share = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::int64_t weight = orient(places[(k + 1) % 3], places[(k + 2) % 3], at);
+          inside = inside && weight >= 0;
+          height += static_cast<double>(weight) / area * double{heights[k]};
+          if (k == 0) share = static_cast<double>(weight) / area / bound;
+        }
+        if (!inside) continue;
+        keeps = keeps && !exceeds_exactly(places, heights, at, field.raster().at(p), bound);
+        if (bound < least) continue;
+        const double error = (height - double{field.raster().at(p)}) / bound;
+        energy += std::pow(error, 8);
+        stiffness += std::pow(error, 6) * share * share;
+        push += std::pow(error, 7) * share;
+        worst = std::max(worst, std::abs(error));
+      }
+    }
+  }
+};
+
+bool keeps_bounds(const Field& field, const std::vector<float>& bounds, const Fitted& fitted) {
+  const std::int32_t scale = kLatticeSteps / fitted.places.steps;
+  for (Triangle t = 0; t < fitted.tin.triangle_count(); ++t) {
+    if (fitted.tin.is_outside(t)) continue;
+    std::array<Point, 3> places = fitted.tin.corners(t);
+    std::array<float, 3> heights;
+    for (unsigned k = 0; k < 3; ++k) {
+      heights[k] = fitted.places.are_samples() ? field.raster().at(places[k])
+                                               : fitted.places.heights[fitted.tin.origin(3 * t + k)];
+      places[k] = {places[k].x * scale, places[k].y * scale};
+    }
+    if (!Oracle(field, bounds, places, heights).keeps) return false;
+  }
+  return true;
+}
+
+FitCorner any_corner(const Field& field) {
+  const int whole = *rc::gen::element(1, kLatticeSteps);
+  FitCorner corner;
+  corner.x = *rc::gen::inRange(0, (field.cols - 1) * kLatticeSteps / whole + 1) * whole;
+  corner.y = *rc::gen::inRange(0, (field.rows - 1) * kLatticeSteps / whole + 1) * whole;
+  const float near = field.raster().at({corner.x / kLatticeSteps, corner.y / kLatticeSteps});
+  corner.z = std::isnan(near) ? 1.0f : near;
+  return corner;
+}
+
+RC_GTEST_PROP(bounds, of_a_triangle_are_decided_as_exact_arithmetic_does, ()) {
+  const Field field = any_field();
+  const std::vector<float> bounds = any_bounds(field);
+  const std::array<FitCorner, 3> corners{any_corner(field), any_corner(field), any_corner(field)};
+  RC_PRE(area2(corners[0], corners[1], corners[2]) > 0);
+  std::array<Point, 3> places;
+  std::array<float, 3> heights;
+  for (std::size_t k = 0; k < 3; ++k) {
+    places[k] = {corners[k].x, corners[k].y};
+    heights[k] = corners[k].z;
+  }
+  const Oracle oracle(field, bounds, places, heights);
+  const TriangleError error(field.raster(), {0, 0}, SampleBounds{bounds.data(), 0.25},
+                            {1, *rc::gen::element(ErrorRule::Power::kTwo, ErrorRule::Power::kEight)});
+  const auto verdict = error.judge(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
+  RC_ASSERT((verdict.kind == TriangleError::Verdict::Kind::kKeeps) == oracle.keeps);
+  if (oracle.keeps) {
+    RC_ASSERT(verdict.worst <= 1);
+  } else {
+    RC_ASSERT(exceeds_exactly(places, heights, {verdict.witness.x * kLatticeSteps, verdict.witness.y * kLatticeSteps},
+                              field.raster().at(verdict.witness), double{bound_at(field, bounds, verdict.witness)}));
+  }
+  const double slack = 2.5;
+  const TriangleError loose = error.with({slack, ErrorRule::Power::kEight});
+  const auto passed = loose.judge(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
+  if (passed.kind == TriangleError::Verdict::Kind::kKeeps) {
+    RC_ASSERT((passed.worst <= 1) == oracle.keeps);
+  } else {
+    RC_ASSERT(!oracle.keeps);
+  }
+}
+
+RC_GTEST_PROP(bounds, pull_as_the_samples_do, ()) {
+  const Field field = any_field();
+  std::vector<float> bounds = any_bounds(field);
+  for (float& bound : bounds) bound = std::max(bound, 0.5f);
+  const std::array<FitCorner, 3> corners{any_corner(field), any_corner(field), any_corner(field)};
+  RC_PRE(area2(corners[0], corners[1], corners[2]) > 0);
+  const Oracle oracle(field, bounds,
+                      {Point{corners[0].x, corners[0].y}, {corners[1].x, corners[1].y}, {corners[2].x, corners[2].y}},
+                      {corners[0].z, corners[1].z, corners[2].z});
+  RC_PRE(oracle.worst < 10);
+  const double unit = 4;
+  const TriangleError error(field.raster(), {0, 0}, SampleBounds{bounds.data(), unit});
+  const auto pull = error.pull(corners[0], corners[1], corners[2]);
+  const double stiffness = oracle.stiffness * unit * unit, push = oracle.push * unit;
+  RC_ASSERT(std::abs(pull.stiffness - stiffness) <= 1e-2 * (1 + stiffness));
+  RC_ASSERT(std::abs(pull.push - push) <= 1e-2 * (1 + unit * 2 * oracle.energy));
+  TriangleError::Moments moments{};
+  error.add_moments(corners[0], corners[1], corners[2], moments);
+  RC_ASSERT(std::abs(moments[0] - oracle.energy) <= 1e-2 * (1 + oracle.energy));
+  RC_ASSERT(std::abs(moments[2] - stiffness) <= 1e-2 * (1 + stiffness));
+}
+
+RC_GTEST_PROP(bounds, are_kept_by_every_effort_on_any_number_of_threads, ()) {
+  const Field field = any_field();
+  const std::vector<float> bounds = any_bounds(field);
+  RC_PRE(refined(field, bounds).has_value());
+  FitOptions options{.bounds = bounds,
+                     .threads = 1,
+                     .depth = any_depth(0),
+                     .min_shape = *rc::gen::element(0.0, 0.1),
+                     .vertices_are_free = *rc::gen::arbitrary<bool>(),
+                     .patch_side = *rc::gen::element(0, 5, 16, 40)};
+  const auto first = *fit(field.raster(), *refined(field, bounds), options);
+  RC_ASSERT(keeps_bounds(field, bounds, first));
+  const std::int32_t steps = first.places.steps;
+  const std::string unsound = testing::verify_triangulation(first.tin, (field.cols - 1) * steps + 1,
+                                                            (field.rows - 1) * steps + 1, testing::Edges::kAny);
+  RC_ASSERT(unsound == "");
+  options.threads = 3;
+  const auto again = *fit(field.raster(), *refined(field, bounds), options);
+  RC_ASSERT(is_same(again.tin, first.tin));
+}
+
+RC_GTEST_PROP(bounds, that_are_all_the_same_are_a_threshold, ()) {
+  const Field field = any_field();
+  const double threshold = testing::any_threshold();
+  RC_PRE(testing::refined(field, threshold).has_value());
+  FitOptions options{.threshold = double{static_cast<float>(threshold)},
+                     .depth = any_depth(0),
+                     .vertices_are_free = *rc::gen::arbitrary<bool>(),
+                     .patch_side = *rc::gen::element(0, 16)};
+  auto tin = testing::refined(field, options.threshold);
+  const auto plain = *fit(field.raster(), std::move(*tin), options);
+  const std::vector<float> bounds(field.samples.size(), static_cast<float>(threshold));
+  options.bounds = bounds;
+  const auto bounded = *fit(field.raster(), *testing::refined(field, options.threshold), options);
+  RC_ASSERT(is_same(bounded.tin, plain.tin));
+}
+
+TEST(bounds, that_are_all_but_one_the_same_take_as_many_triangles_as_a_threshold) {
+  const Field field = testing::random_field(7, 200, 150, Relief::kRidges);
+  std::vector<float> bounds(field.samples.size(), 4.0f);
+  bounds[0] = 8;  // a corner, which is a vertex anyway
+  for (const bool free : {false, true}) {
+    for (const FitDepth& depth : {FitDepth{}, kHighDepth}) {
+      FitOptions options{.threshold = 4, .depth = depth, .vertices_are_free = free};
+      const auto plain = *fit(field.raster(), *testing::refined(field, 4), options);
+      options.bounds = bounds;
+      const auto bounded = *fit(field.raster(), *testing::refined(field, 4), options);
+      const auto count = static_cast<double>(plain.tin.triangle_count());
+      EXPECT_NEAR(static_cast<double>(bounded.tin.triangle_count()), count, 0.01 * count);
+    }
+  }
+}
+
+TEST(bounds, that_fall_across_a_field_take_fewer_triangles_with_each_effort) {
+  const Field field = testing::random_field(7, 200, 150, Relief::kRidges);
+  std::vector<float> bounds;
+  for (int i = 0; i < 200 * 150; ++i) bounds.push_back(2 * std::ldexp(1.0f, i % 200 / 20));
+  std::size_t before = SIZE_MAX;
+  for (const auto& [effort, vertices] : {std::pair{Effort::kFast, Vertices::kSamples},
+                                         {Effort::kNormal, Vertices::kSamples},
+                                         {Effort::kHigh, Vertices::kSamples},
+                                         {Effort::kHigh, Vertices::kFree}}) {
+    SimplifyOptions options;
+    options.tolerance = bounds;
+    options.effort = effort;
+    options.vertices = vertices;
+    if (effort != Effort::kFast) options.min_shape = 0;
+    const auto result = simplify(field.view(), options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_LT(static_cast<double>(result->mesh.triangle_count()), 0.9 * static_cast<double>(before));
+    before = result->mesh.triangle_count();
+  }
+}
+
+RC_GTEST_PROP(bounds, are_kept_in_the_eyes_of_the_judge, ()) {
+  const Field field = any_field();
+  std::vector<float> bounds = any_bounds(field), mask;
+  SimplifyOptions options;
+  options.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
+  options.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
+  options.float32_positions = *rc::gen::arbitrary<bool>();
+  const int kind = *rc::gen::inRange(0, 3);
+  if (kind == 0) options.tolerance = bounds;
+  if (kind == 1) {
+    options.max_error = 2;
+    for (float& bound : bounds) {
+      mask.push_back(std::isinf(bound) || bound == 0 ? 0 : 1 / bound);
+      bound = mask.back() > 0 ? 2 / mask.back() : kNoBound;
+    }
+    options.mask = mask;
+  }
+  if (kind == 2) {
+    options.max_error = 0.5;
+    bounds.assign(bounds.size(), 0.5f);
+    bounds[bounds.size() / 2] = kNoBound;
+    const auto at = static_cast<std::int32_t>(bounds.size() / 2);
+    options.script = {{ScriptStep::Action::kIgnore, at % field.cols, at / field.cols}};
+  }
+  HeightField view = field.view();
+  if (*rc::gen::arbitrary<bool>()) {
+    view.frame.kind = Frame::Kind::kSource;
+    view.frame.affine = {4321987.123, 6.7218131, 0, 5123456.789, 0, -6.7218131};
+  }
+  const auto result = simplify(view, options);
+  if (!result) {
+    RC_ASSERT(result.error().kind == ErrorKind::kInput || result.error().kind == ErrorKind::kPromise);
+    RC_ASSERT(result.error().kind == ErrorKind::kInput || options.float32_positions);
+    return;
+  }
+  for (float& bound : bounds) bound = bound * 1.000001f + 1e-6f;
+  MeasureOptions judge;
+  judge.tolerance = bounds;
+  const Measurement m = *measure(view, result->mesh, judge);
+  RC_ASSERT(m.over_tolerance == 0u);
+  RC_ASSERT(m.uncovered == 0u);
+  RC_ASSERT(m.is_sound());
+}
+
+TEST(bounds, budgets_and_inserted_vertices_are_refused_with_more_than_fast_effort) {
+  const Field field = testing::random_field(25, 20, 20, Relief::kRidges);
+  const std::vector<float> bounds(400, 3.0f);
+  SimplifyOptions inserting, budget;
+  inserting.effort = budget.effort = Effort::kNormal;
+  inserting.max_error = 3;
+  inserting.script = {{ScriptStep::Action::kInsert, 5, 5}};
+  budget.tolerance = bounds;
+  budget.max_triangles = 100;
+  for (const SimplifyOptions& options : {inserting, budget}) {
+    const auto result = simplify(field.view(), options);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
+  }
+}
+
+}  // namespace
+}  // namespace scarp

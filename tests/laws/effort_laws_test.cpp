@@ -1,0 +1,202 @@
+// Laws of efforts at the public door: whatever is removed, moved or lifted, the promise is that of refinement.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "laws/any_field.h"
+#include "laws/fields.h"
+#include "scarp/io.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+namespace {
+
+using testing::any_field;
+using testing::Field;
+using testing::Relief;
+
+SimplifyOptions with_effort(double max_error, Effort effort, Vertices vertices = Vertices::kAuto) {
+  SimplifyOptions options;
+  options.max_error = max_error;
+  options.effort = effort;
+  options.vertices = vertices;
+  return options;
+}
+
+/// A frame with cells that no float32 offset fits.
+HeightField odd_cells(const Field& field) {
+  HeightField view = field.view();
+  view.frame.kind = Frame::Kind::kSource;
+  view.frame.affine = {4321987.123, 6.7218131, 0, 5123456.789, 0, -6.7218131};
+  return view;
+}
+
+RC_GTEST_PROP(effort, keeps_the_promise_in_the_eyes_of_the_judge, ()) {
+  const Field field = any_field(40);
+  const HeightField view = *rc::gen::arbitrary<bool>() ? field.view() : odd_cells(field);
+  const double goal = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
+  auto options = with_effort(goal, *rc::gen::element(Effort::kNormal, Effort::kHigh, Effort::kMax),
+                             *rc::gen::element(Vertices::kAuto, Vertices::kSamples));
+  options.order = *rc::gen::element(Order::kAuto, Order::kGreedy);
+  options.float32_positions = *rc::gen::arbitrary<bool>();
+  const auto result = simplify(view, options);
+  if (!result) {
+    RC_ASSERT(result.error().kind == ErrorKind::kInput || result.error().kind == ErrorKind::kPromise);
+    RC_ASSERT(result.error().kind == ErrorKind::kInput || (goal == 0 && options.float32_positions));
+    return;
+  }
+  const Measurement m = *measure(view, result->mesh);
+  RC_ASSERT(m.max_error <= goal + 1e-9);
+  RC_ASSERT(m.uncovered == 0u);
+  RC_ASSERT(m.void_cells_covered == 0u);
+  RC_ASSERT(m.is_sound());
+  RC_ASSERT(m.max_error == result->measurement.max_error);
+}
+
+RC_GTEST_PROP(effort, free_vertices_are_on_the_lattice_with_float32_heights, ()) {
+  const Field field = any_field(40);
+  const auto result = simplify(field.view(), with_effort(3, Effort::kHigh));
+  RC_PRE(result.has_value());
+  RC_ASSERT(result->vertices == Vertices::kFree);
+  const Mesh& mesh = result->mesh;
+  for (const double p : mesh.positions) RC_ASSERT(static_cast<double>(static_cast<float>(p)) == p);
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const double x = 8 * mesh.vertex(v)[0], y = 8 * mesh.vertex(v)[1];
+    RC_ASSERT(x == std::round(x) && y == std::round(y));
+  }
+}
+
+RC_GTEST_PROP(effort, vertices_on_samples_have_the_heights_of_samples, ()) {
+  const Field field = any_field(40);
+  const auto effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
+  const auto result = simplify(field.view(), with_effort(2, effort, Vertices::kSamples));
+  RC_PRE(result.has_value());
+  RC_ASSERT(result->vertices == Vertices::kSamples);
+  for (std::size_t v = 0; v < result->mesh.vertex_count(); ++v) {
+    const auto [x, y, z] = result->mesh.vertex(v);
+    const auto col = static_cast<std::size_t>(x), row = static_cast<std::size_t>(field.rows - 1 - y);
+    RC_ASSERT(double{field.samples[row * static_cast<std::size_t>(field.cols) + col]} == z);
+  }
+}
+
+TEST(effort, each_level_takes_fewer_triangles) {
+  const Field field = testing::random_field(21, 300, 200, Relief::kRidges, 0.02);
+  std::size_t before = SIZE_MAX;
+  for (const auto& [effort, vertices] : {std::pair{Effort::kFast, Vertices::kSamples},
+                                         {Effort::kNormal, Vertices::kSamples},
+                                         {Effort::kHigh, Vertices::kSamples},
+                                         {Effort::kHigh, Vertices::kFree},
+                                         {Effort::kMax, Vertices::kFree}}) {
+    auto options = with_effort(4, effort, vertices);
+    if (effort != Effort::kFast) options.min_shape = 0;  // as normal effort has it
+    const auto result = simplify(field.view(), options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_LT(result->mesh.triangle_count(), before);
+    before = result->mesh.triangle_count();
+  }
+}
+
+TEST(effort, rounded_positions_of_free_vertices_keep_the_promise_or_stay_on_samples) {
+  const Field field = testing::random_field(22, 300, 200, Relief::kRidges, 0.02);
+  const HeightField view = odd_cells(field);
+  for (const double goal : {1e-3, 0.05, 1.0, 10.0}) {
+    const auto result = simplify(view, with_effort(goal, Effort::kHigh));
+    ASSERT_TRUE(result) << result.error().message;
+    const Measurement m = *measure(view, result->mesh);
+    EXPECT_LE(m.max_error, goal);
+    EXPECT_EQ(m.uncovered, 0u);
+    EXPECT_TRUE(m.is_sound());
+    if (goal >= 1) {
+      EXPECT_EQ(result->vertices, Vertices::kFree);
+    }
+  }
+}
+
+TEST(effort, normals_and_uvs_of_free_vertices_are_those_of_their_places) {
+  Field field{60, 50, std::vector<float>(3000)};
+  for (std::size_t y = 0; y < 50; ++y)
+    for (std::size_t x = 0; x < 60; ++x)
+      field.samples[60 * y + x] = static_cast<float>(0.75 * static_cast<double>(x)) + (x * y % 7 == 0 ? 0.01f : 0.0f);
+  auto options = with_effort(0.02, Effort::kHigh, Vertices::kFree);
+  options.normals = options.uvs = true;
+  const auto result = simplify(field.view(), options);
+  ASSERT_TRUE(result) << result.error().message;
+  const Mesh& mesh = result->mesh;
+  ASSERT_EQ(mesh.normals.size(), 3 * mesh.vertex_count());
+  ASSERT_EQ(mesh.uvs.size(), 2 * mesh.vertex_count());
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    EXPECT_NEAR(mesh.normals[3 * v], -0.6, 0.02);
+    EXPECT_NEAR(mesh.normals[3 * v + 2], 0.8, 0.02);
+    EXPECT_NEAR(mesh.uvs[2 * v], (mesh.vertex(v)[0] + 0.5) / 60, 1e-6);
+    EXPECT_NEAR(mesh.uvs[2 * v + 1], (49 - mesh.vertex(v)[1] + 0.5) / 50, 1e-6);
+  }
+}
+
+TEST(effort, free_vertices_survive_every_format) {
+  const Field field = testing::random_field(23, 120, 90, Relief::kRidges, 0.02);
+  for (const MeshFormat format : {MeshFormat::kGlb, MeshFormat::kStl, MeshFormat::kObj, MeshFormat::kPly}) {
+    const auto result = simplify(field.view(), with_effort(4, Effort::kHigh, Vertices::kFree));
+    ASSERT_TRUE(result) << result.error().message;
+    const auto read = decode_mesh(*encode_mesh(result->mesh, format), "mesh");
+    ASSERT_TRUE(read) << read.error().message;
+    const Measurement m = *measure(field.view(), *read);
+    EXPECT_LE(m.max_error, 4 + 1e-9);
+    EXPECT_EQ(m.uncovered, 0u);
+  }
+}
+
+TEST(effort, threads_change_nothing) {
+  const Field field = testing::random_field(24, 400, 300, Relief::kRidges, 0.02);
+  std::optional<Mesh> first;
+  for (const int threads : {1, 2, 5}) {
+    auto options = with_effort(1, Effort::kHigh);
+    options.threads = threads;
+    const auto result = simplify(field.view(), options);
+    ASSERT_TRUE(result);
+    if (!first) first = result->mesh;
+    EXPECT_EQ(first->positions, result->mesh.positions);
+    EXPECT_EQ(first->triangles, result->mesh.triangles);
+  }
+}
+
+TEST(effort, a_run_whose_time_is_up_keeps_the_promise) {
+  const Field field = testing::random_field(26, 200, 150, Relief::kRidges, 0.02);
+  for (const int questions : {0, 1, 40, 1000}) {
+    std::atomic<int> asked = 0;
+    auto options = with_effort(2, Effort::kMax);
+    options.is_time_up = [&] { return asked++ >= questions; };
+    const auto result = simplify(field.view(), options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_TRUE(result->is_cut_short || questions == 1000);
+    const Measurement m = *measure(field.view(), result->mesh);
+    EXPECT_LE(m.max_error, 2 + 1e-9);
+    EXPECT_EQ(m.uncovered, 0u);
+    EXPECT_TRUE(m.is_sound());
+  }
+}
+
+TEST(effort, what_needs_more_than_fast_effort_is_refused_with_it) {
+  const Field field = testing::random_field(25, 20, 20, Relief::kRidges);
+  auto shaped = with_effort(4, Effort::kFast), timed = shaped, thin = with_effort(4, Effort::kHigh);
+  shaped.min_shape = 0.1;
+  timed.is_time_up = [] { return false; };
+  thin.min_shape = 0.6;
+  for (const SimplifyOptions& options : {shaped, timed, thin}) {
+    const auto result = simplify(field.view(), options);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
+  }
+}
+
+TEST(effort, free_vertices_that_cannot_be_are_refused) {
+  const Field field = testing::random_field(25, 20, 20, Relief::kRidges);
+  const auto result = simplify(field.view(), with_effort(4, Effort::kNormal, Vertices::kFree));
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
+}
+
+}  // namespace
+}  // namespace scarp

@@ -1,0 +1,224 @@
+// Budgets with effort: the search for the error, on real meshes and on counts that are made up.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "error_search.h"
+#include "laws/any_field.h"
+#include "laws/fields.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+namespace {
+
+using testing::any_field;
+using testing::Field;
+using testing::Relief;
+
+/// Smooth, so that triangles grow as a power of the bound: nothing jumps.
+Field hills() {
+  Field field{200, 150, {}};
+  for (int y = 0; y < field.rows; ++y) {
+    for (int x = 0; x < field.cols; ++x) {
+      const double large = 40 * std::sin(0.05 * x) * std::cos(0.07 * y), small = 10 * std::sin(0.2 * x + 0.13 * y);
+      field.samples.push_back(static_cast<float>(large + small + 3 * std::sin(0.9 * x) * std::cos(0.8 * y)));
+    }
+  }
+  return field;
+}
+
+SimplifyOptions any_budget() {
+  SimplifyOptions options;
+  const auto budget = *rc::gen::inRange<std::uint64_t>(2, 400);
+  if (*rc::gen::arbitrary<bool>()) options.max_vertices = budget;
+  if (!options.max_vertices || *rc::gen::arbitrary<bool>()) options.max_triangles = 2 * budget;
+  if (*rc::gen::element(false, false, true)) options.max_error = *rc::gen::element(0.0, 0.7, 5.0);
+  return options;
+}
+
+bool is_within(const Simplified& made, const SimplifyOptions& options) {
+  return made.mesh.vertex_count() <= options.max_vertices.value_or(made.mesh.vertex_count()) &&
+         made.mesh.triangle_count() <= options.max_triangles.value_or(made.mesh.triangle_count());
+}
+
+RC_GTEST_PROP(error_search, budgets_are_kept_and_greedy_insertion_is_never_better, ()) {
+  const Field field = any_field(40);
+  SimplifyOptions options = any_budget();
+  options.effort = Effort::kFast;
+  const auto greedy = simplify(field.view(), options);
+  options.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
+  options.objective = *rc::gen::element(Objective::kMax, Objective::kRms);
+  const auto made = simplify(field.view(), options);
+  RC_ASSERT(made.has_value() == greedy.has_value());
+  if (!made) {
+    RC_ASSERT(made.error().kind == greedy.error().kind);
+    RC_ASSERT(made.error().message == greedy.error().message);
+    return;
+  }
+  RC_ASSERT(is_within(*made, options));
+  const Measurement seen = *measure(field.view(), made->mesh);
+  RC_ASSERT(seen.is_sound());
+  RC_ASSERT(seen.uncovered == 0u);
+  RC_ASSERT(seen.max_error == made->measurement.max_error);
+  if (made->stop == StopReason::kMaxError) RC_ASSERT(seen.max_error <= *options.max_error + 1e-9);
+  if (made->stop == StopReason::kExact) RC_ASSERT(seen.max_error <= 1e-9);
+  if (greedy->stop == StopReason::kMaxError || greedy->stop == StopReason::kExact) {
+    RC_ASSERT(made->stop == greedy->stop);
+    RC_ASSERT(made->mesh.triangle_count() <= greedy->mesh.triangle_count());
+  } else if (made->stop != StopReason::kMaxError && options.objective == Objective::kMax) {
+    RC_ASSERT(seen.max_error <= greedy->measurement.max_error);
+  } else if (made->stop != StopReason::kMaxError) {
+    RC_ASSERT(seen.rmse <= greedy->measurement.rmse);
+  }
+}
+
+RC_GTEST_PROP(error_search, threads_change_nothing, ()) {
+  const Field field = any_field(40);
+  SimplifyOptions options = any_budget();
+  options.effort = Effort::kHigh;
+  options.threads = 1;
+  const auto first = simplify(field.view(), options);
+  RC_PRE(first.has_value());
+  for (const int threads : {2, 5}) {
+    options.threads = threads;
+    const auto again = simplify(field.view(), options);
+    RC_ASSERT(again.has_value());
+    RC_ASSERT(again->mesh.positions == first->mesh.positions);
+    RC_ASSERT(again->mesh.triangles == first->mesh.triangles);
+    RC_ASSERT(again->stop == first->stop);
+  }
+}
+
+TEST(error_search, uses_the_budget_and_lowers_the_error_of_greedy_insertion) {
+  const Field field = hills();
+  for (const std::uint64_t budget : {300u, 1000u, 3000u}) {
+    const auto greedy = *simplify(field.view(), {.max_triangles = budget, .effort = Effort::kFast});
+    const auto normal = *simplify(field.view(), {.max_triangles = budget, .effort = Effort::kNormal});
+    const auto high = *simplify(field.view(), {.max_triangles = budget, .effort = Effort::kHigh});
+    EXPECT_LT(normal.measurement.max_error, 0.85 * greedy.measurement.max_error) << budget;
+    EXPECT_LT(high.measurement.max_error, 0.95 * normal.measurement.max_error) << budget;
+    for (const Simplified* made : {&normal, &high}) {
+      EXPECT_GE(made->mesh.triangle_count(), 97 * budget / 100);
+      EXPECT_EQ(made->stop, StopReason::kMaxTriangles);
+      EXPECT_EQ(made->passes.front().name, "search");
+    }
+  }
+}
+
+TEST(error_search, a_much_larger_budget_never_has_a_larger_error) {
+  for (const Relief relief : testing::kReliefs) {
+    const Field field = testing::random_field(3, 50, 40, relief);
+    double last = std::numeric_limits<double>::infinity();
+    for (std::uint64_t budget = 20; budget < 10000; budget *= 4) {
+      const auto made = simplify(field.view(), {.max_vertices = budget, .effort = Effort::kHigh});
+      ASSERT_TRUE(made) << made.error().message;
+      EXPECT_LE(made->measurement.max_error, last) << budget;
+      last = made->measurement.max_error;
+    }
+  }
+}
+
+TEST(error_search, a_bound_that_fits_is_the_goal) {
+  const Field field = testing::random_field(3, 60, 60, Relief::kRidges);
+  const auto bounded = *simplify(field.view(), {.max_error = 30.0, .effort = Effort::kHigh});
+  // Less than greedy insertion needs for it, so that the search has to find out.
+  const std::uint64_t budget = bounded.mesh.triangle_count() * 11 / 10;
+  ASSERT_LT(budget, simplify(field.view(), {.max_error = 30.0})->mesh.triangle_count());
+  const auto made = *simplify(field.view(), {.max_error = 30.0, .max_triangles = budget, .effort = Effort::kHigh});
+  EXPECT_EQ(made.stop, StopReason::kMaxError);
+  EXPECT_EQ(made.mesh.positions, bounded.mesh.positions);
+}
+
+TEST(error_search, refuses_what_no_search_can_serve) {
+  const Field field = testing::random_field(3, 30, 30, Relief::kReal);
+  const auto kind = [&](const SimplifyOptions& options) { return simplify(field.view(), options).error().kind; };
+  EXPECT_EQ(kind({.max_triangles = 1, .effort = Effort::kHigh}), ErrorKind::kUsage);
+  EXPECT_EQ(kind({.max_error = 1, .effort = Effort::kHigh, .objective = Objective::kRms}), ErrorKind::kUsage);
+  EXPECT_EQ(kind({.max_triangles = 99, .objective = Objective::kRms}), ErrorKind::kUsage);
+  SimplifyOptions tight{.max_triangles = 99, .effort = Effort::kNormal};
+  tight.edges.data_dependent = true;
+  EXPECT_EQ(kind(tight), ErrorKind::kUsage);
+}
+
+TEST(error_search, is_told_as_one_pass_and_can_be_cancelled) {
+  const Field field = hills();
+  SimplifyOptions options{.max_triangles = 1000, .effort = Effort::kHigh};
+  double last = 0;
+  int calls = 0;
+  options.progress = [&](const Progress& progress) {
+    EXPECT_EQ(progress.pass, "search");
+    EXPECT_GE(progress.fraction, last);
+    last = progress.fraction;
+    return ++calls < 1000;
+  };
+  ASSERT_TRUE(simplify(field.view(), options));
+  EXPECT_GT(calls, 3);
+  for (const int allowed : {0, 1, 2, 3}) {
+    calls = 0;
+    options.progress = [&](const Progress&) { return calls++ < allowed; };
+    const auto cancelled = simplify(field.view(), options);
+    ASSERT_FALSE(cancelled);
+    EXPECT_EQ(cancelled.error().kind, ErrorKind::kCancelled);
+  }
+}
+
+/// Runs that are made up: a bound takes so many triangles, `share` of them with effort; budgets take all.
+struct MadeUp {
+  std::function<double(double error)> triangles;
+  double share = 0.42;
+  double least = 0;  // bounds below it cannot be kept
+  int runs = 0;      // with effort
+
+  Result<Simplified> operator()(const SimplifyOptions& options) {
+    const bool has_effort = options.effort != Effort::kFast;
+    runs += has_effort ? 1 : 0;
+    double error = options.max_error.value_or(0);
+    Simplified made;
+    if (options.max_triangles) {
+      error = 1e6;
+      while (triangles(0.999 * error) <= static_cast<double>(*options.max_triangles)) error *= 0.999;
+      made.stop = StopReason::kMaxTriangles;
+    }
+    if (error < least) return fail(ErrorKind::kPromise, "too small");
+    made.mesh.triangles.resize(3 * static_cast<std::size_t>((has_effort ? share : 1) * triangles(error)));
+    made.measurement.samples = 1000000;
+    made.measurement.max_error = made.measurement.rmse = error;
+    return made;
+  }
+};
+
+TEST(error_search, takes_few_runs_where_triangles_follow_a_power) {
+  for (const double power : {0.8, 1.0, 1.3, 2.0}) {
+    for (const double share : {0.25, 0.42, 0.7}) {
+      MadeUp made_up{[&](double error) { return 1e6 * std::pow(error, -power); }, share};
+      const SimplifyOptions options{.max_triangles = 50000, .effort = Effort::kHigh};
+      const auto found = *search_error(options, std::ref(made_up));
+      EXPECT_GE(found.mesh.triangle_count(), 49500u) << power << " " << share;
+      EXPECT_LE(found.mesh.triangle_count(), 50000u) << power << " " << share;
+      EXPECT_LE(made_up.runs, 4) << power << " " << share;
+    }
+  }
+}
+
+TEST(error_search, stops_where_triangles_jump_over_the_budget) {
+  // 10,000 triangles from an error of 1 on, far too many below it.
+  MadeUp made_up{[](double error) { return error >= 1 ? 20000 + 30000 / error : 1e6; }};
+  const SimplifyOptions options{.max_triangles = 50000, .effort = Effort::kHigh};
+  const auto found = *search_error(options, std::ref(made_up));
+  EXPECT_LE(found.measurement.max_error, 1.05);
+  EXPECT_LE(made_up.runs, kMostRuns);
+}
+
+TEST(error_search, goes_around_bounds_that_cannot_be_kept) {
+  MadeUp made_up{[](double error) { return 1e5 / error; }, 0.42, 0.9};
+  const SimplifyOptions options{.max_triangles = 100000, .effort = Effort::kHigh};
+  const auto found = *search_error(options, std::ref(made_up));
+  EXPECT_LE(found.measurement.max_error, 0.95);
+  EXPECT_GE(found.measurement.max_error, 0.9);
+  EXPECT_LE(made_up.runs, kMostRuns);
+}
+
+}  // namespace
+}  // namespace scarp
