@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,12 @@ inline std::vector<std::string> read_names(const std::filesystem::path& list) {
   return names;
 }
 
+/// Says why; the program's exit code where something is not there.
+inline int fail_with(const std::string& sentence) {
+  std::fprintf(stderr, "%s\n", sentence.c_str());
+  return 2;
+}
+
 /// Writes the table; the program's exit code.
 inline int write_table(const char* path, const std::string& table) {
   std::ofstream file(path, std::ios::binary);
@@ -40,6 +47,22 @@ inline int write_table(const char* path, const std::string& table) {
   if (file) return 0;
   std::fprintf(stderr, "cannot write %s\n", path);
   return 4;
+}
+
+/// The rows of the table at `path` with those of the raster `name` replaced by the ones of `fresh`, which begins with
+/// the header; in the order of `names`, rows of others are dropped. A table with another header counts as empty.
+inline std::string replace_rows(const char* path, const std::string& fresh, const std::string& name,
+                                const std::vector<std::string>& names) {
+  std::ifstream file(path);
+  std::string header, line;
+  std::getline(file, header);
+  const std::string fresh_header = fresh.substr(0, fresh.find('\n'));
+  std::map<std::string, std::string> rows;
+  while (header == fresh_header && std::getline(file, line)) rows[line.substr(0, line.find(','))] += line + "\n";
+  rows[name] = fresh.substr(fresh_header.size() + 1);
+  std::string table = fresh_header + "\n";
+  for (const std::string& each : names) table += rows[each];
+  return table;
 }
 
 }  // namespace bench

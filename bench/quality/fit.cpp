@@ -2,6 +2,9 @@
 // greedy mesh at the same max error, and to the time that it takes.
 //
 //   scarp_fit PROJECT SIDE [RASTER]...     patches of SIDE samples; 0: as the library chooses
+//
+// +fit: removal; +repair: two rounds besides, on samples; +free: with free vertices; high: the preset with a floor of
+// shapes of a tenth; max: the preset without.
 
 #include <fmt/format.h>
 
@@ -85,18 +88,26 @@ void measure(const std::string& name, const scarp::OwnedHeightField& field, std:
     Stage tiled = refine_in_tiles(field, raster, error);
     const scarp::FitOptions removal{.threshold = error, .threads = 1, .patch_side = side};
     scarp::FitOptions repair = removal;
-    repair.repair_rounds = 2;
+    repair.depth.rounds = 2;
     scarp::FitOptions free = repair;
     free.vertices_are_free = true;
     const Stage after_greedy = fit(raster, std::move(greedy), removal),
                 after_tiled = fit(raster, std::move(tiled), removal);
     const Stage freed = fit(raster, refine_greedily(raster, field.frame, error), free);
+    scarp::FitOptions high = free;
+    high.depth = scarp::kHighDepth;
+    high.min_shape = 0.1;
+    scarp::FitOptions deepest = free;
+    deepest.depth = scarp::kMaxDepth;
+    const Stage shapely = fit(raster, refine_greedily(raster, field.frame, error), high);
+    const Stage deep = fit(raster, refine_greedily(raster, field.frame, error), deepest);
     const Stage repaired = fit(raster, refine_greedily(raster, field.frame, error), repair);
     const auto triangles = static_cast<double>(greedy.triangles);
     const auto ratio = [&](const Stage& stage) { return static_cast<double>(stage.triangles) / triangles; };
-    fmt::print("{:20} {:4.1f} %{:9}{:9.3f}{:8.2f}{:9.3f}{:8.2f}{:9.3f}{:8.2f}   ", name, 100 * share, greedy.triangles,
-               ratio(after_greedy), after_greedy.seconds / greedy.seconds, ratio(repaired),
-               repaired.seconds / greedy.seconds, ratio(freed), freed.seconds / greedy.seconds);
+    fmt::print("{:20} {:4.1f} %{:9}{:9.3f}{:8.2f}{:9.3f}{:8.2f}{:9.3f}{:8.2f}{:9.3f}{:8.2f}{:9.3f}{:8.2f}   ", name,
+               100 * share, greedy.triangles, ratio(after_greedy), after_greedy.seconds / greedy.seconds,
+               ratio(repaired), repaired.seconds / greedy.seconds, ratio(freed), freed.seconds / greedy.seconds,
+               ratio(shapely), shapely.seconds / greedy.seconds, ratio(deep), deep.seconds / greedy.seconds);
     if (after_tiled.tin) {
       fmt::print("{:8.3f}{:8.3f}{:8.2f}{:8.2f}", ratio(tiled), ratio(after_tiled), tiled.seconds / greedy.seconds,
                  (tiled.seconds + after_tiled.seconds) / greedy.seconds);
@@ -115,8 +126,9 @@ int main(int argc, char** argv) {
   }
   std::vector<std::string> names(argv + 3, argv + argc);
   if (names.empty()) names.assign(std::begin(kRasters), std::end(kRasters));
-  fmt::print("{:27}{:>9}{:>9}{:>8}{:>9}{:>8}{:>9}{:>8}   {:>8}{:>8}{:>8}{:>8}\n", "raster, error of relief", "greedy",
-             "+fit", "time", "+repair", "time", "+free", "time", "tiles", "+fit", "time", "in all");
+  fmt::print("{:27}{:>9}{:>9}{:>8}{:>9}{:>8}{:>9}{:>8}{:>9}{:>8}{:>9}{:>8}   {:>8}{:>8}{:>8}{:>8}\n",
+             "raster, error of relief", "greedy", "+fit", "time", "+repair", "time", "+free", "time", "high", "time",
+             "max", "time", "tiles", "+fit", "time", "in all");
   for (const std::string& name : names) {
     const auto path = bench::find_raster(argv[1], name);
     if (!path) {

@@ -22,6 +22,7 @@ std::optional<scarp::Simplified> refine(const scarp::OwnedHeightField& field, do
   scarp::SimplifyOptions options;
   options.max_error = error;
   options.order = order;
+  options.effort = scarp::Effort::kFast;
   auto result = scarp::simplify(field, options);
   if (!result) {
     fmt::print(stderr, "{}: {}\n", field.info.path, result.error().message);

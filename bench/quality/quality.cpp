@@ -29,6 +29,7 @@ constexpr const char* kHeader =
 std::string run(const std::string& name, const scarp::OwnedHeightField& field, const Goal& goal) {
   const double relief = field.info.max - field.info.min;
   scarp::SimplifyOptions options;
+  options.effort = scarp::Effort::kFast;
   double asked = 0;
   if (goal.error_of_relief > 0) {
     asked = goal.error_of_relief * relief;

@@ -53,11 +53,6 @@ struct Run {
   }
 };
 
-int fail_with(const std::string& sentence) {
-  fmt::print(stderr, "{}\n", sentence);
-  return 2;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -73,14 +68,14 @@ int main(int argc, char** argv) {
       field_name = row.field;
       const std::string file = fmt::format("scape_{}.stm", row.field);
       const auto path = bench::find_raster(argv[1], file);
-      if (!path) return fail_with(fmt::format("{} is not there: {} is left as it was", file, argv[2]));
+      if (!path) return bench::fail_with(fmt::format("{} is not there: {} is left as it was", file, argv[2]));
       auto field = scarp::read_height_field(*path);
-      if (!field) return fail_with(field.error().message);
+      if (!field) return bench::fail_with(field.error().message);
       run.field = std::move(*field);
-      if (auto started = run.start(); !started) return fail_with(started.error().message);
+      if (auto started = run.start(); !started) return bench::fail_with(started.error().message);
     }
     const auto judged = run.refine_to(row.vertices);
-    if (!judged) return fail_with(judged.error().message);
+    if (!judged) return bench::fail_with(judged.error().message);
     const double rmse = percent(judged->rmse, row.rmse);
     const double triangles = percent(static_cast<double>(judged->triangles), static_cast<double>(row.triangles));
     worst_rmse = std::max(worst_rmse, std::abs(rmse));

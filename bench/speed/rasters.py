@@ -71,7 +71,11 @@ def make_raw(name, folder, binaries):
     if source is None:
         print(f"{name}: skipped, {file} is not there", file=sys.stderr)
         return None
-    raw = Path(folder) / f"{name}.f32"
+    return to_raw(source, window, Path(folder) / f"{name}.f32")
+
+
+def to_raw(source, window, raw):
+    """(raw, cols, rows): the raster, or its window (first column, first row, cols, rows), as the raw file `raw`."""
     command = ["gdal_translate", "-q", "-of", "ENVI", "-ot", "Float32"]
     if window:
         command += ["-srcwin", *map(str, window)]

@@ -6,26 +6,20 @@
 """
 
 import argparse
-import csv
 import json
-import re
 import statistics
 import sys
 
 from rasters import HERE, PROJECT
+
+sys.path.insert(0, str(HERE.parent))
+from tables import fill, markdown, read_table  # noqa: E402
 
 MACHINE = HERE / "machine.json"
 RESULTS = HERE / "results.md"
 DOCUMENT = PROJECT / "docs" / "performance.md"
 ORDERS = PROJECT / "bench" / "quality" / "orders.csv"
 MILLION = 1_000_000
-
-
-def read_table(path):
-    if not path.exists():
-        return []
-    with open(path, newline="") as stream:
-        return list(csv.DictReader(stream))
 
 
 def read_machine():
@@ -42,11 +36,6 @@ def by_case(rows, column):
     for row in rows:
         cases.setdefault((row["raster"], row["error"]), {})[row[column]] = row
     return cases
-
-
-def markdown(header, rows):
-    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
-    return lines + ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
 
 
 def ratio(row, base, column):
@@ -278,14 +267,7 @@ def results_text(found):
 
 
 def document_text(found):
-    """The document with every `<!-- table: NAME -->` … `<!-- end -->` filled again."""
-    def fill(match):
-        name = match.group(1)
-        if name not in found:
-            return match.group(0)
-        return f"<!-- table: {name} -->\n" + "\n".join(found[name]) + "\n<!-- end -->"
-
-    return re.sub(r"<!-- table: (\w+) -->\n.*?<!-- end -->", fill, DOCUMENT.read_text(), flags=re.DOTALL)
+    return fill(DOCUMENT.read_text(), found)
 
 
 def write():

@@ -1,0 +1,124 @@
+// CGAL's edge collapse (Surface_mesh_simplification) on the full grid of a raw raster.
+//
+//   peer_cgal RASTER COLS ROWS Z_SCALE POLICY PREFIX EDGES...
+//
+// For each of the numbers EDGES, descending, the mesh at the moment at which at most that many edges are left: what a
+// run that stops there gives, for the order of the collapses does not depend on where it ends. Surfaces are written to
+// PREFIX.EDGES; each line tells the time until then, without that of the copies. Z_SCALE: as peer_meshopt's. POLICY: lt
+// (Lindstrom and Turk's cost and placement, CGAL's default) or gh (Garland and Heckbert's quadrics of planes), both
+// with CGAL's filter against normals that turn over.
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+#include <CGAL/version.h>
+
+#include <functional>
+#include <string_view>
+
+#include "surface.h"
+
+namespace {
+
+namespace collapse = CGAL::Surface_mesh_simplification;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Point = Kernel::Point_3;
+using Mesh = CGAL::Surface_mesh<Point>;
+using Id = Mesh::Vertex_index;
+
+Mesh mesh_of(const bench::Surface& surface, double z_scale) {
+  Mesh mesh;
+  for (std::size_t v = 0; v < surface.points.size(); v += 3)
+    mesh.add_vertex(Point(surface.points[v], surface.points[v + 1], z_scale * surface.points[v + 2]));
+  for (std::size_t t = 0; t < surface.triangles.size(); t += 3)
+    mesh.add_face(Id(surface.triangles[t]), Id(surface.triangles[t + 1]), Id(surface.triangles[t + 2]));
+  return mesh;
+}
+
+/// What is left of a mesh whose removed parts have not been collected.
+bench::Surface surface_of(const Mesh& mesh, double z_scale) {
+  bench::Surface surface;
+  std::vector<std::uint32_t> names(mesh.number_of_vertices() + mesh.number_of_removed_vertices());
+  for (const Id v : mesh.vertices()) {
+    names[v] = static_cast<std::uint32_t>(surface.points.size() / 3);
+    const Point& p = mesh.point(v);
+    surface.points.insert(surface.points.end(), {p.x(), p.y(), p.z() / z_scale});
+  }
+  for (const auto face : mesh.faces()) {
+    for (const Id v : mesh.vertices_around_face(mesh.halfedge(face))) surface.triangles.push_back(names[v]);
+  }
+  return surface;
+}
+
+/// Asked before each collapse; stops at the last of the numbers.
+class Checkpoints {
+ public:
+  using Visit = std::function<void(const Mesh& mesh, std::size_t edges, double cpu_seconds)>;
+  Checkpoints(std::vector<std::size_t> edges, Visit visit) : edges_(std::move(edges)), visit_(std::move(visit)) {}
+
+  bool stop_at(const Mesh& mesh, std::size_t edges_left) {
+    while (next_ < edges_.size() && edges_left <= edges_[next_]) {
+      const double now = watch_.cpu();
+      visit_(mesh, edges_[next_++], now - spent_on_visits_);
+      spent_on_visits_ += watch_.cpu() - now;
+    }
+    return next_ == edges_.size();
+  }
+
+ private:
+  std::vector<std::size_t> edges_;
+  Visit visit_;
+  std::size_t next_ = 0;
+  bench::Stopwatch watch_;
+  double spent_on_visits_ = 0;
+};
+
+/// What CGAL copies of it.
+struct Stop {
+  Checkpoints* checkpoints;
+
+  template <class Cost, class Profile>
+  bool operator()(const Cost& /*cost*/, const Profile& profile, std::size_t /*edges*/, std::size_t edges_left) const {
+    return checkpoints->stop_at(profile.surface_mesh(), edges_left);
+  }
+};
+
+template <class CostOf, class Placement>
+void collapse_edges(Mesh& mesh, Checkpoints& checkpoints, const CostOf& cost, const Placement& placement) {
+  collapse::edge_collapse(
+      mesh, Stop{&checkpoints},
+      CGAL::parameters::get_cost(cost).get_placement(placement).filter(collapse::Bounded_normal_change_filter<>()));
+}
+
+void simplify(Mesh& mesh, Checkpoints& checkpoints, std::string_view policy) {
+  if (policy == "gh") {
+    const collapse::GarlandHeckbert_plane_policies<Mesh, Kernel> quadrics(mesh);
+    collapse_edges(mesh, checkpoints, quadrics.get_cost(), quadrics.get_placement());
+  } else {
+    collapse_edges(mesh, checkpoints, collapse::LindstromTurk_cost<Mesh>(), collapse::LindstromTurk_placement<Mesh>());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 8) bench::die("usage: peer_cgal RASTER COLS ROWS Z_SCALE POLICY PREFIX EDGES...");
+  const bench::RawRaster raster = bench::read_raw(argv[1], argv[2], argv[3]);
+  const double z_scale = std::atof(argv[4]);
+  const std::string prefix = argv[6];
+  std::vector<std::size_t> edges;
+  for (int k = 7; k < argc; ++k) edges.push_back(static_cast<std::size_t>(std::atoll(argv[k])));
+  Mesh mesh = mesh_of(bench::full_grid(raster), z_scale);
+  Checkpoints checkpoints(edges, [&](const Mesh& left, std::size_t wanted, double cpu_seconds) {
+    const bench::Surface surface = surface_of(left, z_scale);
+    bench::write_surface((prefix + "." + std::to_string(wanted)).c_str(), surface);
+    std::printf("{\"version\": \"%s\", \"edges\": %zu, \"cpu_seconds\": %.6f, \"triangles\": %zu}\n", CGAL_VERSION_STR,
+                wanted, cpu_seconds, surface.triangles.size() / 3);
+    std::fflush(stdout);
+  });
+  simplify(mesh, checkpoints, argv[5]);
+}

@@ -1,0 +1,48 @@
+// What the tables of effort compare: greedy insertion, and the ways in which simplify() makes less of it.
+#pragma once
+
+#include <limits>
+#include <string_view>
+
+#include "scarp/simplify.h"
+
+namespace bench {
+
+struct Variant {
+  std::string_view name;  ///< of the row; no two the same
+  scarp::Order order;
+  scarp::Effort effort;
+  std::string_view vertices;  ///< where they lie: "samples" or anywhere, "free"
+  double most_greedy_triangles = std::numeric_limits<double>::infinity();  ///< not run where greedy needs more
+};
+
+/// The first is what the others are compared with.
+inline constexpr Variant kVariants[] = {
+    {"greedy", scarp::Order::kGreedy, scarp::Effort::kFast, "samples"},
+    {"fast", scarp::Order::kAuto, scarp::Effort::kFast, "samples"},
+    {"normal", scarp::Order::kAuto, scarp::Effort::kNormal, "samples"},
+    {"high on samples", scarp::Order::kAuto, scarp::Effort::kHigh, "samples"},
+    {"high", scarp::Order::kAuto, scarp::Effort::kHigh, "free"},
+    {"max", scarp::Order::kAuto, scarp::Effort::kMax, "free", 100'000},
+};
+
+/// Nothing if there is none of that name.
+inline const Variant* find_variant(std::string_view name) {
+  for (const Variant& variant : kVariants) {
+    if (variant.name == name) return &variant;
+  }
+  return nullptr;
+}
+
+/// One thread, so that CPU times compare.
+inline scarp::SimplifyOptions options_of(const Variant& variant, double max_error) {
+  scarp::SimplifyOptions options;
+  options.max_error = max_error;
+  options.order = variant.order;
+  options.effort = variant.effort;
+  options.vertices = variant.vertices == "free" ? scarp::Vertices::kFree : scarp::Vertices::kSamples;
+  options.threads = 1;
+  return options;
+}
+
+}  // namespace bench
