@@ -102,21 +102,14 @@ double largest_height(const Mesh& mesh) {
 /// The judge's double arithmetic rounds by this share of the largest height and the bound.
 constexpr double kArithmetic = 1e-12;
 
-/// The same, with positions rounded to double far from 0, as a steep triangle sees them.
-double arithmetic_error(const HeightField& field, const Mesh& mesh) {
-  const auto& a = field.frame.affine;
-  const double cell = std::min(std::hypot(a[1], a[4]), std::hypot(a[2], a[5]));
-  return (kArithmetic + 0x1p-49 * (std::abs(a[0]) + std::abs(a[3])) / cell) * largest_height(mesh);
-}
-
 /// Sums up the tally: weighted errors, the largest norm, who breaks a bound. The rows' errors and each step of their
 /// norm are rounded to float32, so what lies that near a bound is doubtful: where mending is possible it is taken for
 /// broken, else for kept.
-void judge_samples(const HeightField& field, const SimplifyOptions& options, const Criterion& criterion, bool exact,
-                   const Tally& tally, Simplified& result, Proof& proof) {
+void judge_samples(const SimplifyOptions& options, const Criterion& criterion, bool exact, const Tally& tally,
+                   Simplified& result, Proof& proof) {
   const double rounding = 0x1p-24 * (4 + static_cast<double>(result.channel_measurements.size()));
   const bool has_weights = !options.mask.empty() || !options.tolerance.empty();
-  const double arithmetic = exact ? arithmetic_error(field, result.mesh) : 0;
+  const double arithmetic = exact ? kArithmetic * largest_height(result.mesh) : 0;
   double squares = 0;
   std::uint64_t count = 0;
   result.combined_max_error = result.weighted_max_error = 0;
@@ -185,7 +178,7 @@ Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, co
   proof.offenders = m.offenders;
   if (by_sample) {
     if (auto done = measure_channels(field, options, *tally, result); !done) return tl::unexpected(done.error());
-    judge_samples(field, options, criterion, exact, *tally, result, proof);
+    judge_samples(options, criterion, exact, *tally, result, proof);
     if (m.uncovered > 0 && result.stop == StopReason::kMaxError) proof.broken = describe_breach(m, options);
   } else if (result.stop == StopReason::kMaxError) {
     // The judge's own double arithmetic rounds: the exact proof is the engine's, this is the independent check of it.

@@ -10,8 +10,8 @@
 namespace scarp::judge {
 
 /// The inverse of an affine frame, in plain double arithmetic: the same on all machines. What comes as near to a whole
-/// number as rounding may have moved it is put onto it: four units in the last place of the coordinates that the vertex
-/// was made from (the frame's, the origin, its own), in samples, and what the inverse itself loses.
+/// number, or to a 256th, as rounding may have moved it is put onto it: four units in the last place of the coordinates
+/// that the vertex was made from (the frame's, the origin, its own), in samples, and what the inverse itself loses.
 class GridMap {
  public:
   GridMap(const HeightField& field, const std::array<double, 3>& origin) : a_(field.frame.affine), origin_(origin) {
@@ -47,8 +47,11 @@ class GridMap {
     const double value = (p * dx + q * dy) / det_;
     const double near = (std::abs(p) * noise_x + std::abs(q) * noise_y) / std::abs(det_) +
                         4 * kUlp * (std::abs(p * dx) + std::abs(q * dy)) / std::abs(det_);
-    const double whole = std::round(value);
-    return std::abs(value - whole) <= std::min(near, kMostNear) ? whole : value;
+    for (const double steps : {1.0, 256.0}) {
+      const double place = std::round(value * steps) / steps;
+      if (std::abs(value - place) <= std::min(near, kMostNear / steps)) return place;
+    }
+    return value;
   }
   static constexpr double kMostNear = 1.0 / 256;
 

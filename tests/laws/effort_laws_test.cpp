@@ -56,6 +56,19 @@ RC_GTEST_PROP(effort, keeps_the_promise_in_the_eyes_of_the_judge, ()) {
   RC_ASSERT(m.max_error == result->measurement.max_error);
 }
 
+TEST(effort, errors_that_equal_the_bound_are_kept_by_free_vertices_far_from_the_origin) {
+  for (std::uint32_t seed = 0; seed < 40; ++seed) {
+    const Field field = testing::random_field(seed, 30, 25, Relief::kTies);
+    const HeightField view = odd_cells(field);
+    auto options = with_effort(1, seed % 2 == 0 ? Effort::kHigh : Effort::kMax);
+    options.float32_positions = false;
+    const auto result = simplify(view, options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_EQ(result->vertices, Vertices::kFree);
+    EXPECT_LE(measure(view, result->mesh)->max_error, 1 + 1e-11);
+  }
+}
+
 RC_GTEST_PROP(effort, free_vertices_are_on_the_lattice_with_float32_heights, ()) {
   const Field field = any_field(40);
   const auto result = simplify(field.view(), with_effort(3, Effort::kHigh));
