@@ -109,7 +109,7 @@ bool places_are_exact(const HeightField& field, const SimplifyOptions& options, 
 
 double aim_of(const HeightField& field, const SimplifyOptions& options) {
   constexpr double kRoundingShare = 0x1p-9;
-  return vertices_are_free(field, options) && !places_are_exact(field, options, kLatticeSteps) ? 1 - kRoundingShare : 1;
+  return vertices_are_free(field, options) && !places_are_exact(field, options, kLatticeSteps / kFreeStep) ? 1 - kRoundingShare : 1;
 }
 
 FitOptions fit_options(const HeightField& field, const SimplifyOptions& options, double threshold) {

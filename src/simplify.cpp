@@ -268,7 +268,7 @@ class Run {
     FitOptions options = fit_options(field_, options_, criterion_.aim());
     options.bounds = criterion_.aims();
     options.threads = fit_threads();
-    if (options.vertices_are_free) exact_ = places_are_exact(field_, options_, kLatticeSteps);
+    if (options.vertices_are_free) exact_ = places_are_exact(field_, options_, kLatticeSteps / kFreeStep);
     Reporter reporter(options_.progress);
     if (options_.progress) {
       options.progress = [&](double share, std::uint64_t vertices) {

@@ -116,11 +116,8 @@ Patch PatchCutter::cut(std::size_t i, Scratch& scratch, std::vector<Vertex>& ver
   return patch;
 }
 
-/// In steps of the lattice of fitting, from the raster's first sample.
-FitCorner PatchCutter::corner_of(Vertex v) const {
-  const Point p = tin_.point(v);
-  const std::int32_t scale = kLatticeSteps / places_.steps;
-  return {p.x * scale, p.y * scale, places_.heights.empty() ? raster_.at(p) : places_.heights[v]};
+float PatchCutter::height_of(Vertex v) const {
+  return places_.heights.empty() ? raster_.at(tin_.point(v)) : places_.heights[v];
 }
 
 bool PatchCutter::add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::vector<Vertex>& vertices) const {
@@ -133,20 +130,23 @@ bool PatchCutter::add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::
       if (scratch.ids[v] != kNone) continue;
       scratch.ids[v] = static_cast<std::uint32_t>(vertices.size());
       vertices.push_back(v);
-      const FitCorner corner = corner_of(v);
-      box.add({corner.x / kLatticeSteps, corner.y / kLatticeSteps});
-      box.add({(corner.x + kLatticeSteps - 1) / kLatticeSteps, (corner.y + kLatticeSteps - 1) / kLatticeSteps});
+      const Point p = tin_.point(v);
+      const std::int32_t round_up = places_.steps - 1;
+      box.add({p.x / places_.steps, p.y / places_.steps});
+      box.add({(p.x + round_up) / places_.steps, (p.y + round_up) / places_.steps});
     }
   }
   if (!vertices.empty()) patch.window_ = {box.low, box.high.x - box.low.x + 1, box.high.y - box.low.y + 1};
   patch.nodes_.resize(vertices.size());
   patch.locked_.assign(vertices.size(), 0);
   if (!box.fits()) return false;
+  const std::int32_t scale = kLatticeSteps / places_.steps;
   bool fits = true;
   for (std::size_t n = 0; n < vertices.size(); ++n) {
-    const FitCorner corner = corner_of(vertices[n]);
-    patch.nodes_[n].at = {corner.x - box.low.x * kLatticeSteps, corner.y - box.low.y * kLatticeSteps, corner.z};
-    fits = fits && std::abs(corner.z) <= kMaxScanHeight;
+    const Point p = tin_.point(vertices[n]);
+    const float z = height_of(vertices[n]);
+    patch.nodes_[n].at = {(p.x - box.low.x * places_.steps) * scale, (p.y - box.low.y * places_.steps) * scale, z};
+    fits = fits && std::abs(z) <= kMaxScanHeight;
   }
   return fits;
 }
@@ -179,10 +179,12 @@ void PatchCutter::lock(Patch& patch) const {
       const bool is_fixed = Patch::is_border(link) && !(sides_are_free_ && Patch::is_side(link));
       for (const Patch::Id end : {face.corners[k], face.corners[k == 2 ? 0 : k + 1]}) {
         const FitCorner& at = patch.nodes_[end].at;
-        const std::int32_t x = at.x + patch.window_.first.x * kLatticeSteps,
-                           y = at.y + patch.window_.first.y * kLatticeSteps;
+        const auto is_end = [](std::int32_t step, std::int32_t first, std::int32_t samples) {
+          const std::int64_t along = step + std::int64_t{first} * kLatticeSteps;
+          return along == 0 || along == (std::int64_t{samples} - 1) * kLatticeSteps;
+        };
         const bool is_corner =
-            (x == 0 || x == (raster_.cols - 1) * kLatticeSteps) && (y == 0 || y == (raster_.rows - 1) * kLatticeSteps);
+            is_end(at.x, patch.window_.first.x, raster_.cols) && is_end(at.y, patch.window_.first.y, raster_.rows);
         if (is_fixed || is_corner) patch.locked_[end] = 1;
       }
     }
@@ -260,7 +262,7 @@ void PatchCutter::place_vertices(const std::vector<Patch>& patches, const std::v
   for (Vertex v = 0; v < tin_.vertex_count(); ++v) {
     if (parts.numbers[v] == kNone) continue;
     const Point p = tin_.point(v);
-    place(parts.numbers[v], {p.x * scale, p.y * scale}, has_heights ? corner_of(v).z : 0);
+    place(parts.numbers[v], {p.x * scale, p.y * scale}, has_heights ? height_of(v) : 0);
   }
   const std::int32_t shrink = kLatticeSteps / joined.steps;
   for (std::size_t i = 0; i < patches.size(); ++i) {

@@ -54,7 +54,7 @@ class PatchCutter {
   bool add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::vector<Vertex>& vertices) const;
   void add_faces(std::size_t i, const Scratch& scratch, Patch& patch) const;
   void lock(Patch& patch) const;
-  FitCorner corner_of(Vertex v) const;
+  float height_of(Vertex v) const;
   void number_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
                        Parts& parts) const;
   void place_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices, Parts& parts,

@@ -2,7 +2,7 @@
 //
 // Most trial triangles break the bound, so the scan ends at the first row in which a sample does, and tells which one:
 // the sample is likely to break other triangles over the same place. Arithmetic is that of the scan kernels
-// (geom/scan_kernels.h) on a lattice of eighths of a sample, summed in eight lanes whatever the machine has; what lies
+// (geom/scan_kernels.h) on a lattice of 256ths of a sample, summed in eight lanes whatever the machine has; what lies
 // within the guard of the threshold is decided exactly.
 //
 // Samples may have bounds of their own instead of the threshold: then errors count in bounds, the threshold is 1, and a
@@ -34,7 +34,7 @@ inline std::int64_t area2(const FitCorner& a, const FitCorner& b, const FitCorne
 
 /// Longest side of a window: crossings of edges with rows are then rational numbers farther apart than the roundings
 /// of double (triangle_error.cpp).
-inline constexpr std::int32_t kMaxFitSteps = 1 << 22;
+inline constexpr std::int32_t kMaxFitSteps = 1 << 24;
 
 /// What may be, and what it costs.
 struct ErrorRule {

@@ -55,9 +55,9 @@ struct RowSamples {
   }
 };
 
-/// The crossing of an edge with a row is off by less than 2⁻³², and, where it is no whole number, at least 2⁻²⁵ away
-/// from one: a multiple of 1/(8·rows) for less than kMaxFitSteps rows of the lattice.
-inline constexpr double kOnSample = 0x1p-28;
+/// The crossing of an edge with a row is off by less than 2⁻³⁵, and, where it is no whole number, at least 2⁻³² away
+/// from one: a multiple of 1/(256·rows) for less than kMaxFitSteps rows of the lattice.
+inline constexpr double kOnSample = 0x1p-34;
 
 /// A triangle ready to be scanned: corners from top to bottom in samples, its plane.
 struct TriangleTask {

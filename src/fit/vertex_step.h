@@ -60,7 +60,7 @@ class VertexStep {
   bool take_up(Patch::Id v);
   float energy() const;
   FitCorner beside(const FitCorner& from, Point by) const;
-  std::int32_t unit() const { return is_free() ? 1 : kLatticeSteps; }
+  std::int32_t unit() const { return is_free() ? kFreeStep : kLatticeSteps; }
   bool is_free() const { return rules_.freedom == Freedom::kLattice; }
   double shape_floor(const FitCorner& from) const;
   bool fits(const FitCorner& place, double floor) const;

@@ -6,8 +6,10 @@
 
 namespace scarp {
 
-/// Steps of the lattice of fitting between two samples.
-inline constexpr std::int32_t kLatticeSteps = 8;
+/// Steps of the lattice of places between two samples.
+inline constexpr std::int32_t kLatticeSteps = 256;
+/// Vertices that fitting sets free stand on eighths of a sample: finer places are worth nothing, and have more digits.
+inline constexpr std::int32_t kFreeStep = kLatticeSteps / 8;
 
 /// On samples, or on a finer lattice with heights of their own.
 struct VertexPlaces {
