@@ -143,6 +143,7 @@ bool PatchCutter::add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::
   const std::int32_t scale = kLatticeSteps / places_.steps;
   bool fits = true;
   for (std::size_t n = 0; n < vertices.size(); ++n) {
+    if (!places_.fixed.empty()) patch.locked_[n] = places_.fixed[vertices[n]];
     const Point p = tin_.point(vertices[n]);
     const float z = height_of(vertices[n]);
     patch.nodes_[n].at = {(p.x - box.low.x * places_.steps) * scale, (p.y - box.low.y * places_.steps) * scale, z};
@@ -254,6 +255,7 @@ void PatchCutter::place_vertices(const std::vector<Patch>& patches, const std::v
                                  Parts& parts, VertexPlaces& joined) const {
   const bool has_heights = joined.steps > 1;
   joined.heights.assign(has_heights ? parts.arrays.points.size() : 0, 0);
+  joined.fixed.assign(places_.fixed.empty() ? 0 : parts.arrays.points.size(), 0);
   const auto place = [&](Vertex number, Point p, float z) {
     parts.arrays.points[number] = p;
     if (has_heights) joined.heights[number] = z;
@@ -263,6 +265,7 @@ void PatchCutter::place_vertices(const std::vector<Patch>& patches, const std::v
     if (parts.numbers[v] == kNone) continue;
     const Point p = tin_.point(v);
     place(parts.numbers[v], {p.x * scale, p.y * scale}, has_heights ? height_of(v) : 0);
+    if (!places_.fixed.empty()) joined.fixed[parts.numbers[v]] = places_.fixed[v];
   }
   const std::int32_t shrink = kLatticeSteps / joined.steps;
   for (std::size_t i = 0; i < patches.size(); ++i) {

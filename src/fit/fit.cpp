@@ -59,11 +59,11 @@ void set_range(const Raster& raster, MoveRules& rules) {
 /// One round after the other, on squares that are shifted against each other.
 class Rounds {
  public:
-  Rounds(const Raster& raster, Triangulation tin, const FitOptions& options)
+  Rounds(const Raster& raster, Triangulation tin, VertexPlaces places, const FitOptions& options)
       : raster_(raster),
         options_(options),
         rules_{freedom_of(raster, options), {options.min_shape, options.aspect}},
-        fitted_{std::move(tin), {}, {}},
+        fitted_{std::move(tin), {}, std::move(places)},
         vertices_(fitted_.tin.vertex_count()),
         settled_(fitted_.tin.vertex_count(), 0),
         scratch_(static_cast<std::size_t>(thread_count(options.threads))),
@@ -73,14 +73,15 @@ class Rounds {
 
   /// Of removal. `end`: the share of the whole that is then done. False if it was told to stop, as those below.
   bool run(const PatchGrid& grid, double end) {
-    return work_on(grid, end, 1, [this](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
-      return remove(patch, vertices, error);
-    });
+    return work_on(grid, end, fitted_.places.steps,
+                   [this](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
+                     return remove(patch, vertices, error);
+                   });
   }
 
   /// Of removal with repair.
   bool repair(const PatchGrid& grid, double end, const RepairOptions& options) {
-    const std::int32_t steps = rules_.freedom == Freedom::kLattice ? kLatticeSteps : 1;
+    const std::int32_t steps = rules_.freedom == Freedom::kLattice ? kLatticeSteps : fitted_.places.steps;
     return work_on(grid, end, steps, [&](Patch& patch, const std::vector<Vertex>&, const TriangleError& error) {
       // One bound alone, and that beyond energies.
       if (!error.has_energy()) return FitCounts{};
@@ -128,7 +129,7 @@ class Rounds {
     if (!goes_on) return false;
     done_ = end;
     std::vector<Vertex> numbers;
-    VertexPlaces places{steps, {}};
+    VertexPlaces places{steps, {}, {}};
     Triangulation joined = cutter.join(std::move(patches), vertices, numbers, places);
     renumber(numbers, joined.vertex_count());
     fitted_.tin = std::move(joined);
@@ -178,9 +179,9 @@ class Rounds {
 
 }  // namespace
 
-Result<Fitted> fit(const Raster& raster, Triangulation tin, const FitOptions& options) {
+Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexPlaces places, const FitOptions& options) {
   const std::int32_t side = options.patch_side > 0 ? options.patch_side : patch_side(raster, tin);
-  Rounds rounds(raster, std::move(tin), options);
+  Rounds rounds(raster, std::move(tin), std::move(places), options);
   const bool is_cut = side < std::max(raster.cols, raster.rows);
   const int repairs = has_energies(options) ? options.depth.rounds : 0;
   // A round of repair takes some five times as long as removal, whose second round looks at little more than what the

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <utility>
 
 #include "fit/repair.h"
 #include "grid/raster.h"
@@ -89,12 +90,18 @@ struct Fitted {
   bool is_cut_short = false;  ///< by the time
 };
 
+/// `places`: of the vertices of `tin`.
+///
 /// A triangulation of some of the vertices with the same domain and constraints, whose triangles keep the threshold at
 /// every sample of the domain, or its bound, in exact arithmetic. Vertices of the outline stay, but for those on the
 /// sides of the rectangle; repair lets the others move, on a side along it. Where heights or extents are beyond
 /// kMaxScanHeight, kMaxFitSteps, triangles stay as they are. Thresholds beyond 2⁻⁶⁰ … 2⁶⁰ are not repaired, sides
 /// beyond kMaxCoordinate / kLatticeSteps samples on samples only. Fails with kCancelled only. REQUIRES: the triangles
-/// inside keep the threshold and hold valid corners; threshold >= 0 and finite.
-Result<Fitted> fit(const Raster& raster, Triangulation tin, const FitOptions& options);
+/// inside keep the threshold and hold valid corners; threshold >= 0 and finite; a vertex that is not fixed, and no end
+/// of a constrained edge within the rectangle, is a sample, or vertices are free.
+Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexPlaces places, const FitOptions& options);
+inline Result<Fitted> fit(const Raster& raster, Triangulation tin, const FitOptions& options) {
+  return fit(raster, std::move(tin), {}, options);
+}
 
 }  // namespace scarp

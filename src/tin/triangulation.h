@@ -94,6 +94,12 @@ class Triangulation {
   /// wants no more or has flipped `most`. Empties the list.
   void improve(std::vector<HalfEdge>& edges, FlipRule& rule, std::size_t most);
 
+  /// Multiplies all coordinates, so that points find room between those there are. REQUIRES: none comes to lie beyond
+  /// kMaxCoordinate. Edges between cocircular points stay.
+  void scale(std::int32_t factor) {
+    for (Point& p : points_) p = {p.x * factor, p.y * factor};
+  }
+
   /// Triangles with v as a corner, in cyclic order (from border to border where v lies on the rectangle's border).
   void star(Vertex v, std::vector<Triangle>& triangles) const;
 

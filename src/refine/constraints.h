@@ -1,0 +1,44 @@
+// Lines that a mesh must hold: laid into the triangulation after refinement, which then goes on around them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "grid/raster.h"
+#include "grid/vertex_places.h"
+#include "refine/lattice_judge.h"
+#include "scarp/result.h"
+#include "tin/triangulation.h"
+
+namespace scarp {
+
+/// Vertices, and edges between them that have nothing but ends in common and hold no vertex in their interior.
+struct ConstraintGraph {
+  std::vector<Point> points;                        ///< in kLatticeSteps, in the raster, each once
+  std::vector<float> heights;                       ///< of the points; what a sample has counts before it
+  std::vector<std::array<std::uint32_t, 2>> edges;  ///< indices of points
+};
+
+/// The workbench with lines in it.
+class ConstrainedMesh {
+ public:
+  /// Turns the points of `tin` from samples into kLatticeSteps, and makes the graph's edges chains of its edges,
+  /// constrained. Points outside the domain are left out with their edges. `tin` and the raster stay alive; nobody else
+  /// changes them. Fails with kInternal where an edge crosses one that is constrained. REQUIRES: sides of at most
+  /// kMaxCoordinate / kLatticeSteps samples; edges cross no constrained edge of `tin` but in points of the graph.
+  static Result<ConstrainedMesh> lay(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph);
+
+  const PlaceHeights& heights() const { return heights_; }
+  /// Of all vertices that `tin` has by now: heights, and which of them belong to the graph.
+  VertexPlaces places() const;
+
+ private:
+  ConstrainedMesh(const Raster& raster, const Triangulation& tin) : tin_(&tin), heights_(raster) {}
+
+  const Triangulation* tin_;
+  PlaceHeights heights_;
+  std::vector<Vertex> fixed_;
+};
+
+}  // namespace scarp

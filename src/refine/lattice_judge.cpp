@@ -1,0 +1,90 @@
+#include "refine/lattice_judge.h"
+
+#include <cmath>
+#include <limits>
+
+#include "geom/exact_error.h"
+#include "geom/sample_scan.h"
+#include "refine/between.h"
+
+namespace scarp {
+
+namespace {
+
+Point place_of(std::int32_t x, std::int32_t y) { return {x * kLatticeSteps, y * kLatticeSteps}; }
+
+}  // namespace
+
+std::array<float, 3> LatticeJudge::heights_at(const std::array<Point, 3>& corners) const {
+  return {heights_.at(corners[0]), heights_.at(corners[1]), heights_.at(corners[2])};
+}
+
+double LatticeJudge::bound_at(std::int32_t x, std::int32_t y) const {
+  return bounds_.empty() ? threshold_
+                         : double{bounds_[static_cast<std::size_t>(y) * static_cast<std::size_t>(raster_.cols) +
+                                          static_cast<std::size_t>(x)]};
+}
+
+double LatticeJudge::importance(double error, double bound) const {
+  if (bounds_.empty()) return error;
+  return error == 0 ? 0 : error / bound;
+}
+
+Fit LatticeJudge::fit(const std::array<Point, 3>& corners, const FitQuestion&) const {
+  const Plane plane = plane_of(corners);
+  Fit fit;
+  fit.guard = plane.guard;
+  scan_samples(corners, kLatticeSteps, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    fit.scanned += static_cast<std::uint64_t>(last - first + 1);
+    const float* const samples = raster_.row(y);
+    const double row_height = plane.row_height(y * kLatticeSteps);
+    for (std::int32_t x = first; x <= last; ++x) {
+      const double offset = static_cast<double>(x * kLatticeSteps - plane.base.x);
+      const double error = std::abs(row_height + plane.slope_x * offset - double{samples[x]});
+      const double bound = bound_at(x, y);
+      if (!(error >= bound - plane.guard)) continue;  // void, or within its bound for certain
+      fit.max_error = std::max(fit.max_error, error);
+      fit.unsettled = true;
+      const double share = importance(error, bound);
+      if (share > fit.worst.error) fit.worst = {share, place_of(x, y)};
+    }
+  });
+  return fit;
+}
+
+std::optional<Candidate> LatticeJudge::find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const {
+  if (!fit.unsettled) return std::nullopt;
+  if (bounds_.empty() && fit.worst.error > threshold_ + fit.guard) return fit.worst;
+  const Plane plane = plane_of(corners);
+  const auto heights = heights_at(corners);
+  std::optional<Candidate> worst;
+  scan_samples(corners, kLatticeSteps, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    for (std::int32_t x = first; x <= last; ++x) {
+      const float sample = raster_.at({x, y});
+      const Point place = place_of(x, y);
+      const double error = std::abs(plane.height_at(place) - double{sample}), bound = bound_at(x, y);
+      if (!(error >= bound - plane.guard) || std::isinf(bound)) continue;
+      const double share = importance(error, bound);
+      if (worst && share <= worst->error) continue;
+      if (exceeds_exactly(corners, heights, place, sample, bound)) worst = Candidate{share, place};
+    }
+  });
+  return worst;
+}
+
+double LatticeJudge::squares_between(Point a, Point b) const {
+  double squares = 0;
+  const double from = heights_.at(a), rise = double{heights_.at(b)} - from;
+  visit_between(a, b, [&](Point p, double share) {
+    if (!PlaceHeights::is_sample(p)) return;
+    const double error = from + share * rise - double{heights_.at(p)};
+    if (!std::isnan(error)) squares += error * error;
+  });
+  return squares;
+}
+
+double LatticeJudge::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {
+  return bend_of(plane_of(a), plane_of(b));
+}
+
+}  // namespace scarp

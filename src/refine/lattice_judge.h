@@ -1,0 +1,63 @@
+// The judge of triangles whose corners lie between samples, at heights of their own.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+
+#include "geom/plane.h"
+#include "grid/raster.h"
+#include "grid/vertex_places.h"
+#include "refine/judge.h"
+
+namespace scarp {
+
+/// Heights at places of the lattice: those that were given, else the sample's.
+class PlaceHeights {
+ public:
+  explicit PlaceHeights(const Raster& raster) : raster_(raster) {}
+  /// For a place that is no sample's.
+  void set(Point place, float height) { heights_[key(place)] = height; }
+  static bool is_sample(Point place) { return place.x % kLatticeSteps == 0 && place.y % kLatticeSteps == 0; }
+  /// REQUIRES: it was given, or is a sample's.
+  float at(Point place) const {
+    return is_sample(place) ? raster_.at({place.x / kLatticeSteps, place.y / kLatticeSteps})
+                            : heights_.find(key(place))->second;
+  }
+
+ private:
+  static std::uint64_t key(Point place) {
+    return std::uint64_t{static_cast<std::uint32_t>(place.y)} << 32 | static_cast<std::uint32_t>(place.x);
+  }
+
+  Raster raster_;
+  std::unordered_map<std::uint64_t, float> heights_;
+};
+
+/// Corners and candidates are in kLatticeSteps. Where samples have bounds of their own (row-major, +infinity for none),
+/// importance is the error over the bound, else the error. Bounds are decided exactly.
+class LatticeJudge final : public Judge {
+ public:
+  /// `heights` and the bounds stay alive.
+  LatticeJudge(const Raster& raster, const PlaceHeights& heights, double threshold, std::span<const float> bounds)
+      : raster_(raster), heights_(heights), threshold_(threshold), bounds_(bounds) {}
+
+  Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const override;
+  std::optional<Candidate> find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const override;
+  double goal() const override { return bounds_.empty() ? threshold_ : 1; }
+  double squares_between(Point a, Point b) const override;
+  double bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const override;
+
+ private:
+  std::array<float, 3> heights_at(const std::array<Point, 3>& corners) const;
+  Plane plane_of(const std::array<Point, 3>& corners) const { return Plane::through(corners, heights_at(corners)); }
+  double bound_at(std::int32_t x, std::int32_t y) const;
+  double importance(double error, double bound) const;
+
+  Raster raster_;
+  const PlaceHeights& heights_;
+  double threshold_;
+  std::span<const float> bounds_;
+};
+
+}  // namespace scarp
