@@ -25,7 +25,7 @@ ROOMS = {
     "mesh": (1, ["base"], ["mesh", "result"], "the Mesh value: order, solid base, half-edges"),
     "tin": (2, ["base", "geom"], ["result"], "the triangulation: ids and predicates, no heights"),
     "io": (2, ["base", "grid", "mesh"],
-           ["frame", "height_field", "io", "mesh", "points", "progress", "result", "strategy", "version"],
+           ["frame", "height_field", "io", "lines", "mesh", "points", "progress", "result", "strategy", "version"],
            "bytes to values and back"),
     "refine": (3, ["base", "grid", "geom", "mesh", "tin"],
                ["frame", "height_field", "mesh", "points", "progress", "result", "strategy"],
