@@ -3,6 +3,7 @@
 
 #include "io/point_source.h"
 #include "io/raster_source.h"
+#include "scarp/lines.h"
 
 namespace scarp {
 namespace {
@@ -30,6 +31,10 @@ bool is_same_crs(const std::string& a, const std::string& b) { return a == b; }
 Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptions&) {
   return fail(ErrorKind::kInput,
               path + ": not text of columns, and this build of Scarp reads no other points: it was built without GDAL");
+}
+
+Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions&) {
+  return fail(ErrorKind::kInput, path + ": this build of Scarp reads no vector data: it was built without GDAL");
 }
 
 bool opens_as_raster(const std::string&) { return false; }

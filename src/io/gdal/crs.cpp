@@ -121,6 +121,13 @@ std::string crs_name(const Crs& crs) {
   return name;
 }
 
+std::string short_name(const Crs& crs) {
+  const std::string name = crs_name(crs);
+  if (name.size() < 40) return name;
+  const char* title = OSRGetName(crs.get());
+  return title != nullptr ? title : "unnamed CRS";
+}
+
 bool same_crs(const Crs& a, const Crs& b) {
   const char* options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", nullptr};
   return a && b && OSRIsSameEx(a.get(), b.get(), options) != 0;

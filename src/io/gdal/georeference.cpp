@@ -48,14 +48,6 @@ MetresPerRadian metres_per_unit(const Georeference& geo) {
   return {per_radian.east * geo.unit_in_metres, per_radian.north * geo.unit_in_metres};
 }
 
-/// "EPSG:32611", or the name in the WKT: short enough for a sentence.
-std::string short_name(const Crs& crs) {
-  const std::string name = crs_name(crs);
-  if (name.size() < 40) return name;
-  const char* title = OSRGetName(crs.get());
-  return title != nullptr ? title : "unnamed CRS";
-}
-
 Frame source_frame(const Georeference& geo) {
   Frame frame;
   frame.kind = Frame::Kind::kSource;

@@ -1,7 +1,5 @@
 // Points of a vector layer.
-#include <cpl_vsi.h>
 #include <fmt/format.h>
-#include <ogr_api.h>
 
 #include <algorithm>
 #include <array>
@@ -10,33 +8,11 @@
 
 #include "grid/local_frame.h"
 #include "io/gdal/crs.h"
-#include "io/gdal/open.h"
+#include "io/gdal/vector.h"
 #include "io/point_source.h"
 
 namespace scarp::gdal {
 namespace {
-
-struct DestroyFeature {
-  void operator()(OGRFeatureH feature) const { OGR_F_Destroy(feature); }
-};
-using Feature = std::unique_ptr<std::remove_pointer_t<OGRFeatureH>, DestroyFeature>;
-
-Result<Dataset> open_vector(Session& session, const std::string& path) {
-  const std::string vsi = vsi_path(path);
-  session.clear();
-  Dataset dataset(
-      GDALOpenEx(vsi.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr, nullptr));
-  if (dataset) return dataset;
-  if (path.empty()) return fail(ErrorKind::kInput, "the name of the points is empty");
-  if (is_remote(path)) return fail(ErrorKind::kInput, fmt::format("{}: cannot be read: {}", path, session.reason()));
-  VSIStatBufL status{};
-  if (VSIStatL(vsi.c_str(), &status) != 0) return fail(ErrorKind::kInput, path + ": no such file");
-  if (status.st_size == 0 && VSI_ISREG(status.st_mode)) return fail(ErrorKind::kInput, path + ": the file is empty");
-  if (GDALDriverH driver = GDALIdentifyDriverEx(vsi.c_str(), GDAL_OF_VECTOR, nullptr, nullptr); driver)
-    return fail(ErrorKind::kInput, fmt::format("{}: a damaged or truncated {} file: {}", path,
-                                               GDALGetDriverShortName(driver), session.reason()));
-  return fail(ErrorKind::kInput, path + ": neither text of columns nor vector data that GDAL can read");
-}
 
 bool may_hold_points(OGRLayerH layer) {
   const OGRwkbGeometryType type = wkbFlatten(OGR_L_GetGeomType(layer));
@@ -57,15 +33,10 @@ Result<OGRLayerH> find_layer(GDALDatasetH dataset, const std::string& path, cons
 
 /// Where heights come from: an attribute, or the third coordinate.
 Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string& path, const std::string& wanted) {
-  OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer);
   if (!wanted.empty()) {
-    const int index = OGR_FD_GetFieldIndex(definition, wanted.c_str());
-    if (index >= 0) return index;
-    std::string names;
-    for (int i = 0; i < OGR_FD_GetFieldCount(definition); ++i)
-      names += (i == 0 ? "" : ", ") + std::string(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i)));
-    return fail(ErrorKind::kInput, fmt::format("{}: the layer {} has no attribute '{}'{}", path, OGR_L_GetName(layer),
-                                               wanted, names.empty() ? "" : ", only " + names));
+    const auto index = find_field(layer, path, wanted);
+    if (!index) return tl::unexpected(index.error());
+    return *index;
   }
   // The type of a layer may be silent on the third coordinate; the first point is not.
   OGR_L_ResetReading(layer);
@@ -75,6 +46,7 @@ Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string&
     if (OGR_G_Is3D(geometry) != 0) return std::nullopt;
     break;
   }
+  OGRFeatureDefnH definition = OGR_L_GetLayerDefn(layer);
   for (const char* name : {"z", "height", "elevation", "elev", "h"}) {
     const int index = OGR_FD_GetFieldIndex(definition, name);
     if (index >= 0) return index;
@@ -150,13 +122,6 @@ class Collector {
   GIntBig id_ = 0;
   std::uint64_t without_geometry_ = 0;
 };
-
-std::string short_name(const Crs& crs) {
-  const std::string name = crs_name(crs);
-  if (name.size() < 40) return name;
-  const char* title = OSRGetName(crs.get());
-  return title != nullptr ? title : "unnamed CRS";
-}
 
 double centre_of(const std::vector<double>& values) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
@@ -239,7 +204,8 @@ Result<void> place(const Crs& crs, const std::string& wanted, PointSet& points) 
 
 Result<PointSet> read(const std::string& path, const ReadPointsOptions& options) {
   Session session(is_remote(path));
-  const auto dataset = open_vector(session, path);
+  const auto dataset =
+      open_vector(session, path, "points", "neither text of columns nor vector data that GDAL can read");
   if (!dataset) return tl::unexpected(dataset.error());
   const auto layer = find_layer(dataset->get(), path, options.layer);
   if (!layer) return tl::unexpected(layer.error());

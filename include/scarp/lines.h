@@ -1,0 +1,68 @@
+// Lines and polygons of vector files: breaklines, cutlines, the shores of lakes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scarp/progress.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+enum class LineRole {
+  kLine,   ///< of a line, closed or not
+  kOuter,  ///< the outer ring of a polygon
+  kHole,   ///< a ring that cuts a hole into it
+};
+
+inline constexpr std::uint32_t kNoPolygon = 0xffffffff;
+
+struct Line {
+  /// x, y, z; at least two, and no two successive ones are equal. x and y are finite. z is NaN where the height is not
+  /// known (a soft line), else finite (a hard one). A ring ends with its first point and has at least four.
+  std::vector<std::array<double, 3>> points;
+  LineRole role = LineRole::kLine;
+  std::uint32_t polygon = kNoPolygon;  ///< the rings of one polygon share it; counts from 0 in a LineSet
+  std::string name;                    ///< for messages: "shores.gpkg:lakes feature 12"
+
+  bool is_ring() const { return role != LineRole::kLine; }
+};
+
+/// What a vector layer holds.
+struct LineSet {
+  std::vector<Line> lines;  ///< as the layer has them; a polygon's outer ring comes before its holes
+  std::string path, layer;  ///< where they come from, for messages
+  std::string format;       ///< "GPKG", "GeoJSON", …
+  std::string crs;          ///< of the layer: "EPSG:32611", WKT, or empty
+  std::uint32_t polygons = 0;
+  std::vector<std::string> warnings;  ///< sentences for the user: points that were left out, a CRS that is not known
+};
+
+struct ReadLinesOptions {
+  /// Where x and y are wanted, as RasterInfo::crs. DEFAULT: as they are in the layer.
+  std::string crs = {};
+  /// The attribute that holds the height of a whole feature, such as a contour's; features without a value are soft.
+  /// DEFAULT: the third coordinate, soft where there is none.
+  std::string z_field = {};
+  bool ignore_z = false;  ///< all lines are soft. DEFAULT: false.
+  ProgressCallback progress = {};
+};
+
+/// Reads the lines and polygons of one layer, by GDAL: GeoPackage, GeoJSON, Shapefile, FlatGeobuf, DXF, CSV with WKT, …
+/// `path` is a file, a URL or a /vsi… name; behind a colon it may name the layer: "dem.gpkg:ridges". Without, the file
+/// must have one layer that can hold lines or polygons.
+///
+/// Multilines, multipolygons and collections become their parts; arcs become chords of 4 degrees at most. x and y are
+/// transformed vertex by vertex from the layer's CRS: what runs between two vertices is straight in the wanted one.
+/// Heights stay as they are. A layer without CRS is taken to be in the wanted one, which a warning says. Points,
+/// features without geometry, and lines and rings of no extent are left out and counted in a warning.
+///
+/// Fails in one sentence that names file, layer and feature: kInput for a missing file or layer, none or several layers
+/// to choose from (they are named), no lines in the layer, a coordinate that is not finite (a z that is NaN is soft), a
+/// vertex that has no place in the wanted CRS, a missing attribute, or one that is no finite number; kUsage for a
+/// wanted CRS that GDAL does not know; kCancelled. Cost: about a second for a million vertices of a GeoPackage.
+Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions& options = {});
+
+}  // namespace scarp

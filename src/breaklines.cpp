@@ -1,0 +1,318 @@
+#include "breaklines.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/caught.h"
+
+namespace scarp {
+namespace {
+
+/// A vertex of a line in samples, not rounded.
+struct Vertex {
+  double col = 0, row = 0, z = 0;
+  bool is_finite() const { return std::isfinite(col) && std::isfinite(row); }
+};
+
+Vertex between(const Vertex& a, const Vertex& b, double at) {
+  return {a.col + at * (b.col - a.col), a.row + at * (b.row - a.row), a.z + at * (b.z - a.z)};
+}
+
+class ToSamples {
+ public:
+  explicit ToSamples(const std::array<double, 6>& a) : affine_(a), determinant_(a[1] * a[5] - a[2] * a[4]) {}
+  Vertex operator()(const std::array<double, 3>& point) const {
+    const double x = point[0] - affine_[0], y = point[1] - affine_[3];
+    return {(affine_[5] * x - affine_[2] * y) / determinant_, (affine_[1] * y - affine_[4] * x) / determinant_,
+            point[2]};
+  }
+
+ private:
+  std::array<double, 6> affine_;
+  double determinant_;
+};
+
+/// Narrows [begin, end] to where from + t · span lies in [least, most]. False if that is nowhere.
+bool narrow(double from, double span, double least, double most, double& begin, double& end) {
+  if (span == 0) return from >= least && from <= most;
+  const double a = (least - from) / span, b = (most - from) / span;
+  begin = std::max(begin, std::min(a, b));
+  end = std::min(end, std::max(a, b));
+  return begin <= end;
+}
+
+/// Lines in steps, cut roughly a sample outside of the raster so that every coordinate fits; arrange() cuts the rest.
+class LatticeLines {
+ public:
+  LatticeLines(std::int32_t cols, std::int32_t rows) : most_col_(cols), most_row_(rows) {}
+
+  void add(std::uint32_t line, std::span<const Vertex> vertices) {
+    line_ = line;
+    for (std::size_t k = 0; k + 1 < vertices.size(); ++k) {
+      const Vertex &from = vertices[k], &to = vertices[k + 1];
+      double begin = 0, end = 1;
+      if (!narrow(from.col, to.col - from.col, -1, most_col_, begin, end) ||
+          !narrow(from.row, to.row - from.row, -1, most_row_, begin, end)) {
+        close();
+        continue;
+      }
+      if (begin > 0) close();
+      if (part_.empty()) push(begin > 0 ? between(from, to, begin) : from);
+      climbs_.back() = climb(from, to);
+      push(end < 1 ? between(from, to, end) : to);
+      if (end < 1) close();
+    }
+    close();
+  }
+
+  const Polylines& parts() const { return parts_; }
+  std::uint32_t line_of(std::uint32_t part) const { return lines_[part]; }
+
+  /// The height of the line at a stop; NaN where it is soft.
+  double height_at(std::uint32_t part, const Arrangement::Stop& stop) const {
+    const double* z = &heights_[parts_.begins[part] + stop.segment];
+    if (stop.fraction == 0) return z[0];
+    if (stop.fraction == 1) return z[1];
+    return z[0] + stop.fraction * (z[1] - z[0]);
+  }
+  /// Calls visit(part, point, height, climb) for each point of the parts that has a height. climb: the larger one of
+  /// the segments beside it, in a step.
+  template <class Visit>
+  void visit_points(Visit&& visit) const {
+    for (std::uint32_t part = 0; part < parts_.size(); ++part) {
+      const std::uint32_t first = parts_.begins[part], end = parts_.begins[part + 1];
+      for (std::uint32_t k = first; k < end; ++k) {
+        const double behind = k + 1 < end ? climbs_[k] : 0, before = k > first ? climbs_[k - 1] : 0;
+        if (!std::isnan(heights_[k])) visit(part, parts_.points[k], heights_[k], std::max(behind, before));
+      }
+    }
+  }
+  /// What the line climbs in a step at a stop; 0 where it is soft.
+  double climb_at(std::uint32_t part, const Arrangement::Stop& stop) const {
+    return climbs_[parts_.begins[part] + stop.segment];
+  }
+
+ private:
+  static std::int32_t in_steps(double samples) {
+    return static_cast<std::int32_t>(std::floor(samples * kLineSteps + 0.5));
+  }
+  void push(const Vertex& v) {
+    part_.push_back({in_steps(v.col), in_steps(v.row)});
+    heights_.push_back(v.z);
+    climbs_.push_back(0);
+  }
+  /// A cliff between two vertices in one place is no climb: it is a conflict.
+  static double climb(const Vertex& a, const Vertex& b) {
+    const double length = std::max(std::abs(b.col - a.col), std::abs(b.row - a.row)) * kLineSteps;
+    const double climb = std::abs(b.z - a.z) / length;
+    return std::isfinite(climb) ? climb : 0;
+  }
+  void close() {
+    if (part_.empty()) return;
+    parts_.add(part_);
+    lines_.push_back(line_);
+    part_.clear();
+  }
+
+  double most_col_, most_row_;
+  Polylines parts_;
+  std::vector<double> heights_;       ///< of the parts' points
+  std::vector<double> climbs_;        ///< in a step, from each of them to the next
+  std::vector<std::uint32_t> lines_;  ///< of the parts
+  std::uint32_t line_ = 0;
+  std::vector<Point> part_;  ///< at work
+};
+
+std::vector<Segment> rigid_segments(const Outline& outline, std::int32_t width, std::int32_t height) {
+  std::vector<Segment> rigid{
+      {{0, 0}, {width, 0}}, {{width, 0}, {width, height}}, {{width, height}, {0, height}}, {{0, height}, {0, 0}}};
+  const auto in_steps = [](Point p) { return Point{p.x * kLineSteps, p.y * kLineSteps}; };
+  for (const auto& polygon : outline) {
+    for (std::size_t k = 0; k < polygon.size(); ++k)
+      rigid.push_back({in_steps(polygon[k]), in_steps(polygon[(k + 1) % polygon.size()])});
+  }
+  return rigid;
+}
+
+/// What hard lines say of the height of one point.
+struct Claim {
+  std::uint32_t point, line;
+  double height, tolerance;
+};
+
+/// What the raster climbs in a step, in the cell of a point.
+double climb_of(const Raster& raster, Point place) {
+  const std::int32_t col = std::min(place.x / kLineSteps, raster.cols - 2),
+                     row = std::min(place.y / kLineSteps, raster.rows - 2);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Point p : {Point{col, row}, {col + 1, row}, {col, row + 1}, {col + 1, row + 1}}) {
+    if (!raster.is_valid(p)) continue;
+    low = std::min(low, double{raster.at(p)});
+    high = std::max(high, double{raster.at(p)});
+  }
+  return low <= high ? (high - low) / kLineSteps : 0;
+}
+
+/// All claims, those of a point one after the other in the order of lines, each once.
+std::vector<Claim> collect_claims(const Arrangement& arranged, const LatticeLines& lattice, const Raster& raster) {
+  const auto& points = arranged.vertices;
+  std::vector<Claim> claims;
+  const auto claim = [&](std::uint32_t point, std::uint32_t part, double height, double climb) {
+    const double most = std::max(climb, climb_of(raster, points[point]));
+    claims.push_back({point, lattice.line_of(part), height, 2 * most + std::abs(height) * 0x1p-23});
+  };
+  for (const auto& chain : arranged.chains) {
+    for (const auto& stop : arranged.stops_of(chain)) {
+      const double height = lattice.height_at(chain.line, stop);
+      if (!std::isnan(height)) claim(stop.vertex, chain.line, height, lattice.climb_at(chain.line, stop));
+    }
+  }
+  // A chain stops once where two vertices of a line share a place.
+  lattice.visit_points([&](std::uint32_t part, Point p, double height, double climb) {
+    const auto found = std::lower_bound(points.begin(), points.end(), p, before);
+    if (found == points.end() || *found != p) return;
+    claim(static_cast<std::uint32_t>(found - points.begin()), part, height, climb);
+  });
+  std::stable_sort(claims.begin(), claims.end(), [](const Claim& a, const Claim& b) {
+    return a.point != b.point ? a.point < b.point : a.line < b.line;
+  });
+  claims.erase(std::unique(claims.begin(), claims.end(),
+                           [](const Claim& a, const Claim& b) {
+                             return a.point == b.point && a.line == b.line && a.height == b.height;
+                           }),
+               claims.end());
+  return claims;
+}
+
+/// The height of a point by its claims; nothing if they disagree and nobody shall have his way.
+struct Verdict {
+  double height = 0;
+  const Claim* opponent = nullptr;  ///< of the first claim, if they disagree
+};
+Verdict judge(std::span<const Claim> claims, LineConflict conflict) {
+  const Claim& first = claims.front();
+  double sum = 0, highest = first.height;
+  const Claim* opponent = nullptr;
+  for (const Claim& claim : claims) {
+    sum += claim.height;
+    highest = std::max(highest, claim.height);
+    if (opponent == nullptr && std::abs(claim.height - first.height) > claim.tolerance + first.tolerance)
+      opponent = &claim;
+  }
+  if (conflict == LineConflict::kError) return {first.height, opponent};
+  if (conflict == LineConflict::kMean) return {sum / static_cast<double>(claims.size()), nullptr};
+  return {conflict == LineConflict::kHighest ? highest : first.height, nullptr};
+}
+
+Result<void> set_heights(std::span<const Claim> claims, std::span<const Line> lines,
+                         const std::array<double, 6>& affine, LineConflict conflict, Breaklines& placed) {
+  for (std::size_t begin = 0, end = 0; begin < claims.size(); begin = end) {
+    const std::uint32_t point = claims[begin].point;
+    while (end < claims.size() && claims[end].point == point) ++end;
+    const Verdict verdict = judge(claims.subspan(begin, end - begin), conflict);
+    placed.heights[point] = static_cast<float>(verdict.height);
+    placed.is_hard[point] = true;
+    if (verdict.opponent == nullptr) continue;
+    const Claim &one = claims[begin], &other = *verdict.opponent;
+    const double col = placed.points[point].x / double{kLineSteps}, row = placed.points[point].y / double{kLineSteps};
+    return fail(
+        ErrorKind::kInput,
+        fmt::format("{} has the height {:.9g} and {} has {:.9g} where they meet at {:.9g}, {:.9g}: mend one of "
+                    "them, or say which height counts",
+                    lines[one.line].name, one.height,
+                    one.line == other.line ? "elsewhere along it" : lines[other.line].name, other.height,
+                    affine[0] + affine[1] * col + affine[2] * row, affine[3] + affine[4] * col + affine[5] * row));
+  }
+  return {};
+}
+
+Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<double, 6>& affine,
+                                const Raster& raster) {
+  const ToSamples to_samples(affine);
+  LatticeLines lattice(raster.cols, raster.rows);
+  std::vector<Vertex> vertices;
+  for (std::uint32_t k = 0; k < lines.size(); ++k) {
+    vertices.clear();
+    for (const auto& point : lines[k].points) {
+      vertices.push_back(to_samples(point));
+      if (!vertices.back().is_finite())
+        return fail(ErrorKind::kInput, fmt::format("{} has a vertex at {:.9g}, {:.9g}, too far away to be placed",
+                                                   lines[k].name, point[0], point[1]));
+    }
+    lattice.add(k, vertices);
+  }
+  return lattice;
+}
+
+void take_chains(const Arrangement& arranged, const LatticeLines& lattice, std::size_t lines, Breaklines& placed) {
+  std::vector<bool> is_there(lines, false);
+  for (const auto& chain : arranged.chains) {
+    const std::uint32_t line = lattice.line_of(chain.line);
+    is_there[line] = true;
+    placed.chains.push_back({line, chain.begin, chain.end});
+  }
+  for (const auto& stop : arranged.stops) placed.passed.push_back(stop.vertex);
+  placed.outside = static_cast<std::uint64_t>(std::count(is_there.begin(), is_there.end(), false));
+}
+
+}  // namespace
+
+std::array<double, 6> map_affine(const RasterInfo& info, int rows) {
+  if (!info.has_georeference) return grid_frame(rows).affine;
+  const auto& g = info.geotransform;  // of pixel corners
+  return {g[0] + g[1] / 2 + g[2] / 2, g[1], g[2], g[3] + g[4] / 2 + g[5] / 2, g[4], g[5]};
+}
+
+double height_between_samples(const Raster& raster, Point place) {
+  if (place.x % kLineSteps == 0 && place.y % kLineSteps == 0)
+    return raster.at({place.x / kLineSteps, place.y / kLineSteps});
+  const std::int32_t col = std::min(place.x / kLineSteps, raster.cols - 2),
+                     row = std::min(place.y / kLineSteps, raster.rows - 2);
+  const double right = place.x / double{kLineSteps} - col, down = place.y / double{kLineSteps} - row;
+  // Around the cell, so that k and k + 2 are opposite.
+  const std::array<double, 4> weights{(1 - right) * (1 - down), right * (1 - down), right * down, (1 - right) * down};
+  std::array<double, 4> heights{raster.at({col, row}), raster.at({col + 1, row}), raster.at({col + 1, row + 1}),
+                                raster.at({col, row + 1})};
+  const auto voids = std::count_if(heights.begin(), heights.end(), [](double z) { return std::isnan(z); });
+  if (voids == 1) {
+    const auto k = static_cast<std::size_t>(
+        std::find_if(heights.begin(), heights.end(), [](double z) { return std::isnan(z); }) - heights.begin());
+    heights[k] = heights[(k + 1) % 4] + heights[(k + 3) % 4] - heights[(k + 2) % 4];
+  }
+  double sum = 0, weight = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (weights[k] == 0 || std::isnan(heights[k])) continue;
+    sum += weights[k] * heights[k];
+    weight += weights[k];
+  }
+  return weight == 0 ? std::numeric_limits<double>::quiet_NaN() : weight == 1 ? sum : sum / weight;
+}
+
+Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
+                                    const Raster& raster, const Outline& outline, LineConflict conflict) try {
+  if (std::max(raster.cols, raster.rows) > kMaxCoordinate / kLineSteps)
+    return fail(ErrorKind::kUsage, fmt::format("a raster of {} x {} samples is too large for lines: at most {} a side",
+                                               raster.cols, raster.rows, kMaxCoordinate / kLineSteps));
+  const auto lattice = to_lattice(lines, affine, raster);
+  if (!lattice) return tl::unexpected(lattice.error());
+  const std::int32_t width = (raster.cols - 1) * kLineSteps, height = (raster.rows - 1) * kLineSteps;
+  Arrangement arranged = arrange(lattice->parts(), rigid_segments(outline, width, height), width, height);
+
+  const std::vector<Claim> claims = collect_claims(arranged, *lattice, raster);
+  Breaklines placed;
+  placed.points = std::move(arranged.vertices);
+  placed.edges = std::move(arranged.edges);
+  for (const Point p : placed.points) placed.heights.push_back(static_cast<float>(height_between_samples(raster, p)));
+  placed.is_hard.assign(placed.points.size(), false);
+  take_chains(arranged, *lattice, lines.size(), placed);
+  if (auto set = set_heights(claims, lines, affine, conflict, placed); !set) return tl::unexpected(set.error());
+  return placed;
+} catch (...) {
+  return caught(ErrorKind::kInput, "place the lines on the raster");
+}
+
+}  // namespace scarp

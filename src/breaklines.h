@@ -1,0 +1,79 @@
+// Lines of a map on the lattice of a raster: arranged with the outline of its surface, with heights.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geom/arrangement.h"
+#include "grid/outline.h"
+#include "grid/raster.h"
+#include "scarp/height_field.h"
+#include "scarp/lines.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+/// Steps of the lattice of lines between two samples. A vertex of a line moves by half a step, 1/512 sample, at most;
+/// what runs between its vertices by one and a half.
+inline constexpr std::int32_t kLineSteps = 256;
+
+/// What becomes of a vertex where hard lines of different heights meet.
+enum class LineConflict {
+  kError,    ///< the call fails and names the lines
+  kFirst,    ///< the height of the line that was given first
+  kMean,     ///< of all lines that pass
+  kHighest,  ///< of all lines that pass
+};
+
+struct Breaklines {
+  /// Vertices, in raster order, in kLineSteps of a sample: those of lines within the raster's rectangle and of its
+  /// outline.
+  std::vector<Point> points;
+  /// Of each point: that of the hard lines that pass, else the raster's. The raster is bilinear in a cell of four
+  /// heights, the plane of three in one of three, and else the mean of the corners that are heights, weighted as in the
+  /// bilinear; NaN where none with a weight is. On a sample it is the sample.
+  std::vector<float> heights;
+  std::vector<bool> is_hard;  ///< of each point: its height is that of lines
+  std::vector<Arrangement::Edge> edges;
+
+  /// A line, or a part of it within the rectangle: points[passed[begin]], …, points[passed[end − 1]].
+  struct Chain {
+    std::uint32_t line;  ///< of the lines given
+    std::uint32_t begin, end;
+  };
+  std::vector<Chain> chains;  ///< in the order of the lines and along each
+  std::vector<std::uint32_t> passed;
+  std::uint64_t outside = 0;  ///< lines that no chain was left of
+
+  std::span<const std::uint32_t> points_of(const Chain& chain) const {
+    return std::span(passed).subspan(chain.begin, chain.end - chain.begin);
+  }
+};
+
+/// Places lines on the lattice of a raster. `affine` takes samples to the coordinates of the lines, as
+/// Frame::affine does; `outline` is trace_outline()'s, not simplified. Outline and rectangle are the rigid edges.
+///
+/// Along a hard line heights run from vertex to vertex; between a vertex with a height and one without the line is
+/// soft. Two hard lines meet in peace if their heights differ by no more than what they, or the raster in that cell,
+/// climb within two steps each, and the rounding of float32: so far the lattice moves them. Then the line given first
+/// has its way, as it does in kFirst.
+///
+/// Fails with kInput where hard lines disagree (kError: names both and the place in map coordinates) and for
+/// coordinates that are too large for the raster to mean anything; with kUsage for a raster of more than 2^30 /
+/// kLineSteps samples a side. REQUIRES: lines as read_lines() gives them; the affine map can be inverted. Cost: as
+/// arrange().
+Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
+                                    const Raster& raster, const Outline& outline,
+                                    LineConflict conflict = LineConflict::kError);
+
+/// From samples to the map coordinates in which lines are drawn: those of the file, or x = col, y = rows − 1 − row
+/// where it has none.
+std::array<double, 6> map_affine(const RasterInfo& info, int rows);
+
+/// The surface of `heights` above, at a point in kLineSteps of a sample within the raster.
+double height_between_samples(const Raster& raster, Point place);
+
+}  // namespace scarp

@@ -1,0 +1,65 @@
+// Which of many boxes meet something: a packed tree over boxes in the order of a space-filling curve (Kamel and
+// Faloutsos 1993, with Morton's curve instead of Hilbert's). Clusters, long and short boxes cost it nothing extra.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace scarp {
+
+/// Lattice points from (x0, y0) to (x1, y1), both included.
+struct Box {
+  std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+inline bool overlaps(const Box& a, const Box& b) {
+  return a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1;
+}
+
+class BoxTree {
+ public:
+  /// REQUIRES: coordinates in [0, kMaxCoordinate]. Cost: O(n log n).
+  explicit BoxTree(std::span<const Box> boxes);
+
+  /// The boxes in the tree's order: neighbours in it are near each other. order()[k] is an index into the boxes given.
+  std::span<const std::uint32_t> order() const { return order_; }
+  const Box& box_at(std::size_t place) const { return levels_[0][place]; }
+
+  /// Calls visit(index) for each box that `meets` says true of, among those from `first` on in the tree's order.
+  /// REQUIRES: meets(a box) where it holds of a box within it.
+  template <class Meets, class Visit>
+  void visit(Meets&& meets, Visit&& visit, std::size_t first = 0) const {
+    struct Node {
+      std::size_t level, place;
+    };
+    std::array<Node, kMostPending> pending;
+    std::size_t count = 0;
+    if (!order_.empty()) pending[count++] = {levels_.size() - 1, 0};
+    while (count > 0) {
+      const Node node = pending[--count];
+      const std::size_t level = node.level - 1;
+      const std::vector<Box>& boxes = levels_[level];
+      const std::size_t end = node.place * kFan + kFan < boxes.size() ? node.place * kFan + kFan : boxes.size();
+      for (std::size_t k = node.place * kFan; k < end; ++k) {
+        if (((k + 1) << (kFanBits * level)) <= first || !meets(boxes[k])) continue;
+        if (level == 0) {
+          visit(order_[k]);
+        } else {
+          pending[count++] = {level, k};
+        }
+      }
+    }
+  }
+
+ private:
+  static constexpr std::size_t kFanBits = 3, kFan = std::size_t{1} << kFanBits;
+  static constexpr std::size_t kMostPending = kFan * (64 / kFanBits);
+
+  std::vector<std::uint32_t> order_;
+  std::vector<std::vector<Box>> levels_;  ///< 0: the boxes; above: the hull of each kFan; the last is one box
+};
+
+}  // namespace scarp

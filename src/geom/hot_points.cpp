@@ -1,0 +1,125 @@
+#include "geom/hot_points.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <tuple>
+
+namespace scarp {
+namespace {
+
+std::vector<Box> boxes_of(std::span<const Point> points) {
+  std::vector<Box> boxes;
+  boxes.reserve(points.size());
+  for (const Point p : points) boxes.push_back({p.x, p.y, p.x, p.y});
+  return boxes;
+}
+
+std::int64_t cross(std::int64_t ax, std::int64_t ay, std::int64_t bx, std::int64_t by) { return ax * by - ay * bx; }
+
+/// A segment as seen by boxes: whether the square of any lattice point in one may be met.
+class Reach {
+ public:
+  explicit Reach(const Segment& s)
+      : from_(s.from),
+        dx_(s.to.x - s.from.x),
+        dy_(s.to.y - s.from.y),
+        box_{std::min(s.from.x, s.to.x), std::min(s.from.y, s.to.y), std::max(s.from.x, s.to.x),
+             std::max(s.from.y, s.to.y)} {}
+
+  bool operator()(const Box& box) const {
+    if (!overlaps(box, box_)) return false;
+    const std::int64_t twice_x = std::int64_t{box.x0} + box.x1 - 2 * std::int64_t{from_.x},
+                       twice_y = std::int64_t{box.y0} + box.y1 - 2 * std::int64_t{from_.y};
+    return std::abs(cross(dx_, dy_, twice_x, twice_y)) <=
+           std::abs(dx_) * (box.y1 - box.y0 + 1) + std::abs(dy_) * (box.x1 - box.x0 + 1);
+  }
+
+ private:
+  Point from_;
+  std::int64_t dx_, dy_;
+  Box box_;
+};
+
+bool lies_on(Point a, Point b, Point p) {
+  return orient(a, b, p) == 0 && std::min(a.x, b.x) <= p.x && p.x <= std::max(a.x, b.x) && std::min(a.y, b.y) <= p.y &&
+         p.y <= std::max(a.y, b.y);
+}
+
+}  // namespace
+
+HotPoints::HotPoints(std::vector<Point> points, std::span<const Segment> rigid, bool is_exact)
+    : points_(std::move(points)), is_exact_(is_exact), tree_(boxes_of(points_)) {
+  for (const Segment& s : rigid) {
+    if (is_antidiagonal(s))
+      falling_.push_back({s.from.x + s.from.y, std::min(s.from.x, s.to.x), std::max(s.from.x, s.to.x)});
+  }
+  std::sort(falling_.begin(), falling_.end(), [](const Falling& a, const Falling& b) {
+    return std::tie(a.sum, a.first, a.last) < std::tie(b.sum, b.first, b.last);
+  });
+  std::size_t kept = 0;
+  for (const Falling& next : falling_) {
+    if (kept > 0 && falling_[kept - 1].sum == next.sum && next.first <= falling_[kept - 1].last) {
+      falling_[kept - 1].last = std::max(falling_[kept - 1].last, next.last);
+    } else {
+      falling_[kept++] = next;
+    }
+  }
+  falling_.resize(kept);
+}
+
+bool HotPoints::lies_on_falling_rigid(Point p) const {
+  const auto behind = std::upper_bound(falling_.begin(), falling_.end(), p, [](Point q, const Falling& s) {
+    return q.x + q.y != s.sum ? q.x + q.y < s.sum : q.x < s.first;
+  });
+  return behind != falling_.begin() && std::prev(behind)->sum == p.x + p.y && p.x <= std::prev(behind)->last;
+}
+
+/// Doubled, a square reaches from −1 to 1 around its point, and the segment's line passes that point at a distance
+/// of 2·|cross| / |d|, while the square's reach across the line is (|dx| + |dy|) / |d|. Coordinates of ends are even
+/// and those of borders odd, so a segment that meets a square without meeting its inside touches a corner. That the
+/// segment does not end before the square is seen by Reach: the point lies in its box.
+HotPoints::Meets HotPoints::meets(const Segment& segment, std::uint32_t point) const {
+  const Point p = points_[point];
+  const std::int64_t dx = segment.to.x - segment.from.x, dy = segment.to.y - segment.from.y;
+  const std::int64_t off = 2 * cross(dx, dy, p.x - segment.from.x, p.y - segment.from.y),
+                     reach = std::abs(dx) + std::abs(dy);
+  if (std::abs(off) > reach) return Meets::kNo;
+  if (std::abs(off) < reach) return Meets::kSquare;
+  bool is_its_own = false;
+  if (off - dx + dy == 0)  // lower left
+    is_its_own = !(lies_on_falling_rigid({p.x - 1, p.y}) && lies_on_falling_rigid({p.x, p.y - 1}));
+  else if (off - dx - dy == 0)  // lower right
+    is_its_own = lies_on_falling_rigid(p) && lies_on_falling_rigid({p.x + 1, p.y - 1});
+  return is_its_own ? Meets::kSquare : Meets::kCorner;
+}
+
+void HotPoints::walk(const Segment& segment, bool is_rigid, std::vector<Pass>& passes) {
+  const Point from = segment.from, to = segment.to;
+  const std::int64_t dx = to.x - from.x, dy = to.y - from.y;
+  const bool only_on = is_rigid || is_exact_;
+  candidates_.clear();
+  tree_.visit(Reach(segment), [&](std::uint32_t k) {
+    const Meets how = meets(segment, k);
+    const bool is_passed = only_on ? orient(from, to, points_[k]) == 0 : how == Meets::kSquare;
+    if (is_passed || (!only_on && how == Meets::kCorner))
+      candidates_.push_back({dx * (points_[k].x - from.x) + dy * (points_[k].y - from.y), k, is_passed});
+  });
+  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+    return std::tie(a.along, b.is_passed, a.point) < std::tie(b.along, a.is_passed, b.point);
+  });
+
+  passes.clear();
+  const double whole = static_cast<double>(dx * dx + dy * dy);
+  const auto pass = [&](const Candidate& c) { passes.push_back({c.point, static_cast<double>(c.along) / whole}); };
+  for (std::size_t k = 0, last = 0; k < candidates_.size(); ++k) {
+    if (!candidates_[k].is_passed) continue;
+    for (std::size_t corner = last + 1; corner < k; ++corner) {
+      if (lies_on(points_[candidates_[last].point], points_[candidates_[k].point], points_[candidates_[corner].point]))
+        pass(candidates_[corner]);
+    }
+    pass(candidates_[k]);
+    last = k;
+  }
+}
+
+}  // namespace scarp

@@ -1,0 +1,41 @@
+// Segments between lattice points: cut to a rectangle, and where they cross.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/point.h"
+
+namespace scarp {
+
+struct Segment {
+  Point from, to;
+};
+
+/// The part of a segment in a rectangle.
+struct ClippedSegment {
+  Segment segment;
+  double begin = 0, end = 1;  ///< where it begins and ends, as fractions of the whole
+};
+
+/// Cuts a segment to [0, width] × [0, height]; its coordinates may be any. Where it crosses the border the end becomes
+/// the lattice point of the border nearest to the crossing, whichever way the segment runs. False if no more than a
+/// point is left.
+bool clip_segment(const Segment& segment, std::int32_t width, std::int32_t height, ClippedSegment& clipped);
+
+/// True if the segment runs so that x + y stays the same.
+inline bool is_antidiagonal(const Segment& s) { return s.to.x - s.from.x == s.from.y - s.to.y; }
+
+struct Crossings {
+  std::vector<Point> points;  ///< in raster order, each once
+  bool are_exact = true;      ///< all of them are lattice points: none was rounded
+};
+
+/// Where two segments cross in a point that is an end of neither, rounded to the nearest lattice point, halves up. A
+/// crossing with a rigid segment is rounded to a point on it. REQUIRES: no segment is a point; coordinates in [0,
+/// kMaxCoordinate]; `rigid` run along the axes or diagonals between points of even coordinates.
+/// Cost: O((n + k) log n) for k pairs of segments whose surroundings of the mean length of all meet.
+Crossings find_crossings(std::span<const Segment> lines, std::span<const Segment> rigid);
+
+}  // namespace scarp

@@ -1,0 +1,296 @@
+// Lines and polygons of a vector layer.
+#include <cpl_conv.h>
+#include <cpl_vsi.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+
+#include "base/caught.h"
+#include "io/gdal/crs.h"
+#include "io/gdal/vector.h"
+#include "scarp/lines.h"
+
+namespace scarp::gdal {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+struct DestroyGeometry {
+  void operator()(OGRGeometryH geometry) const { OGR_G_DestroyGeometry(geometry); }
+};
+using Geometry = std::unique_ptr<std::remove_pointer_t<OGRGeometryH>, DestroyGeometry>;
+
+/// An open file and the layer that was asked for.
+struct Opened {
+  Dataset dataset;
+  std::string path, layer;  ///< layer: empty if none was named
+};
+
+bool exists(const std::string& path) {
+  VSIStatBufL status{};
+  return VSIStatL(vsi_path(path).c_str(), &status) == 0;
+}
+
+/// "file:layer" is told from a name with a colon in it ("C:\lines.shp", "PG:dbname=…", a URL) by what can be opened.
+Result<Opened> open(Session& session, const std::string& path) {
+  constexpr const char* kWhat = "lines";
+  constexpr const char* kExpected = "no vector data that GDAL can read";
+  const std::size_t colon = path.rfind(':');
+  const bool may_name_layer = colon != std::string::npos && colon > 0 && colon + 1 < path.size();
+  const std::string file = may_name_layer ? path.substr(0, colon) : std::string();
+  if (may_name_layer && !exists(path) && exists(file)) {
+    auto dataset = open_vector(session, file, kWhat, kExpected);
+    if (!dataset) return tl::unexpected(dataset.error());
+    return Opened{std::move(*dataset), file, path.substr(colon + 1)};
+  }
+  auto dataset = open_vector(session, path, kWhat, kExpected);
+  if (!dataset) return tl::unexpected(dataset.error());
+  return Opened{std::move(*dataset), path, {}};
+}
+
+bool may_hold_lines(OGRLayerH layer) {
+  const OGRwkbGeometryType type = wkbFlatten(OGR_L_GetGeomType(layer));
+  return type != wkbNone && type != wkbPoint && type != wkbMultiPoint;
+}
+
+Result<OGRLayerH> find_layer(const Opened& opened) {
+  const int count = GDALDatasetGetLayerCount(opened.dataset.get());
+  std::string names;
+  std::vector<OGRLayerH> fitting;
+  for (int i = 0; i < count; ++i) {
+    OGRLayerH layer = GDALDatasetGetLayer(opened.dataset.get(), i);
+    if (opened.layer.empty() ? may_hold_lines(layer) : opened.layer == OGR_L_GetName(layer)) fitting.push_back(layer);
+    names += (names.empty() ? "" : ", ") + std::string(OGR_L_GetName(layer));
+  }
+  if (!fitting.empty() && (fitting.size() == 1 || !opened.layer.empty())) return fitting.front();
+  if (!fitting.empty())
+    return fail(ErrorKind::kInput, fmt::format("{}: holds several layers; name one, as in {}:{}: {}", opened.path,
+                                               opened.path, OGR_L_GetName(fitting.front()), names));
+  const std::string found = names.empty() ? "no layers" : "only " + names;
+  if (opened.layer.empty())
+    return fail(ErrorKind::kInput, fmt::format("{}: holds no layer of lines or polygons, {}", opened.path, found));
+  return fail(ErrorKind::kInput, fmt::format("{}: holds no layer '{}', {}", opened.path, opened.layer, found));
+}
+
+/// Collects the lines and rings of features.
+class Collector {
+ public:
+  Collector(std::optional<int> height_field, bool ignore_z, LineSet& set)
+      : height_field_(height_field), ignore_z_(ignore_z), set_(set) {
+    const bool says_all = std::filesystem::path(set.path).stem().string() == set.layer;
+    prefix_ = set.path + (says_all ? "" : ":" + set.layer) + " feature ";
+  }
+
+  Result<void> add(OGRFeatureH feature) {
+    name_ = prefix_ + std::to_string(OGR_F_GetFID(feature));
+    OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
+    if (geometry == nullptr || OGR_G_IsEmpty(geometry) != 0) {
+      ++without_geometry_;
+      return {};
+    }
+    height_.reset();
+    if (height_field_) {
+      if (auto read = read_height(feature); !read) return read;
+    }
+    if (OGR_GT_IsNonLinear(OGR_G_GetGeometryType(geometry)) == 0 && OGR_G_HasCurveGeometry(geometry, 0) == 0)
+      return add_geometry(geometry);
+    const Geometry linear(OGR_G_GetLinearGeometry(geometry, 0, nullptr));
+    if (!linear) return fail(ErrorKind::kInput, name_ + " has curves that GDAL cannot make lines of");
+    return add_geometry(linear.get());
+  }
+
+  void warn() const {
+    const auto tell = [&](std::uint64_t count, const char* one, const char* many) {
+      if (count == 0) return;
+      const std::string what = count == 1 ? one : many;
+      set_.warnings.push_back(fmt::format("{} {} of {} left out", count, what, set_.path + ":" + set_.layer));
+    };
+    tell(points_, "point", "points");
+    tell(without_geometry_, "feature without geometry", "features without geometry");
+    tell(without_extent_, "line or ring of no extent", "lines or rings of no extent");
+  }
+
+ private:
+  Result<void> read_height(OGRFeatureH feature) {
+    height_ = kUnknown;
+    if (OGR_F_IsFieldSetAndNotNull(feature, *height_field_) == 0) return {};
+    const char* text = OGR_F_GetFieldAsString(feature, *height_field_);
+    char* end = nullptr;
+    height_ = CPLStrtod(text, &end);
+    if (end != text && *end == '\0' && std::isfinite(*height_)) {
+      height_ = OGR_F_GetFieldAsDouble(feature, *height_field_);
+      return {};
+    }
+    return fail(ErrorKind::kInput,
+                fmt::format("{} has no number as its height: its attribute {} is '{}'", name_,
+                            OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, *height_field_)), text));
+  }
+
+  Result<void> add_geometry(OGRGeometryH geometry) {
+    const OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(geometry));
+    if (type == wkbPoint) {
+      points_ += OGR_G_IsEmpty(geometry) == 0 ? 1 : 0;
+      return {};
+    }
+    if (type == wkbLineString || type == wkbLinearRing) return add_line(geometry, LineRole::kLine);
+    const bool is_polygon = type == wkbPolygon || type == wkbTriangle;
+    if (is_polygon) OGR_G_CloseRings(geometry);
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); ++i) {
+      OGRGeometryH part = OGR_G_GetGeometryRef(geometry, i);
+      const LineRole role = i == 0 ? LineRole::kOuter : LineRole::kHole;
+      auto added = is_polygon ? add_line(part, role) : add_geometry(part);
+      if (!added) return added;
+      // Where the outer ring has no extent its holes have none either.
+      if (is_polygon && (set_.lines.empty() || set_.lines.back().polygon != set_.polygons)) return {};
+    }
+    if (is_polygon && OGR_G_GetGeometryCount(geometry) > 0) ++set_.polygons;
+    return {};
+  }
+
+  Result<void> add_line(OGRGeometryH geometry, LineRole role) {
+    const int count = OGR_G_GetPointCount(geometry);
+    if (count == 0) return {};
+    Line line;
+    line.role = role;
+    line.points.resize(static_cast<std::size_t>(count));
+    constexpr int kStride = sizeof(line.points[0]);
+    double* first = line.points[0].data();
+    OGR_G_GetPoints(geometry, first, kStride, first + 1, kStride, first + 2, kStride);
+    const bool has_z = OGR_G_Is3D(geometry) != 0;
+    std::size_t kept = 0;
+    for (const auto& [x, y, given_z] : line.points) {
+      const double z = ignore_z_ ? kUnknown : height_ ? *height_ : has_z ? given_z : kUnknown;
+      if (!std::isfinite(x) || !std::isfinite(y) || std::isinf(z))
+        return fail(ErrorKind::kInput, fmt::format("{} has a vertex with x {}, y {}, z {}, which are not all finite: "
+                                                   "remove that vertex",
+                                                   name_, x, y, given_z));
+      const std::array<double, 3> point{x, y, z};
+      if (kept == 0 || !is_same(line.points[kept - 1], point)) line.points[kept++] = point;
+    }
+    if (kept < (line.is_ring() ? 4 : 2)) {
+      ++without_extent_;
+      return {};
+    }
+    line.points.resize(kept);
+    line.polygon = line.is_ring() ? set_.polygons : kNoPolygon;
+    line.name = name_;
+    set_.lines.push_back(std::move(line));
+    return {};
+  }
+
+  static bool is_same(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    return a[0] == b[0] && a[1] == b[1] && (a[2] == b[2] || (std::isnan(a[2]) && std::isnan(b[2])));
+  }
+
+  std::optional<int> height_field_;
+  bool ignore_z_;
+  LineSet& set_;
+  std::string prefix_, name_;
+  std::optional<double> height_;  ///< of the feature at work, if an attribute holds it
+  std::uint64_t points_ = 0, without_geometry_ = 0, without_extent_ = 0;
+};
+
+Result<void> transform(const Crs& from, const Crs& to, LineSet& set) {
+  const auto way = build_transform(from, to);
+  const auto refuse = [&](const std::string& culprit) {
+    return fail(ErrorKind::kInput, fmt::format("{} in {} (from {}): cut the lines to where the raster lies", culprit,
+                                               short_name(to), short_name(from)));
+  };
+  if (!way) return refuse(set.path + ": nothing has a place");
+  constexpr std::size_t kBatch = 1 << 16;  // vertices; lines are not broken
+  std::vector<double> x, y;
+  for (std::size_t first = 0, last = 0; first < set.lines.size(); first = last) {
+    x.clear();
+    y.clear();
+    for (; last < set.lines.size() && x.size() < kBatch; ++last) {
+      for (const auto& point : set.lines[last].points) {
+        x.push_back(point[0]);
+        y.push_back(point[1]);
+      }
+    }
+    way->apply(x, y);
+    std::size_t at = 0;
+    for (std::size_t k = first; k < last; ++k) {
+      for (auto& point : set.lines[k].points) {
+        if (!std::isfinite(x[at]) || !std::isfinite(y[at]))
+          return refuse(
+              fmt::format("{}: its vertex at {:.9g}, {:.9g} has no place", set.lines[k].name, point[0], point[1]));
+        point[0] = x[at];
+        point[1] = y[at++];
+      }
+    }
+  }
+  return {};
+}
+
+Result<void> place(const Crs& crs, const std::string& wanted, LineSet& set) {
+  if (wanted.empty()) return {};
+  const Crs to = find_crs(wanted);
+  if (!to) return fail(ErrorKind::kUsage, fmt::format("'{}' is no CRS that GDAL knows", wanted));
+  if (!crs) {
+    set.warnings.push_back(
+        fmt::format("{} has no CRS; its coordinates are taken to be in {}", set.path, short_name(to)));
+    return {};
+  }
+  if (same_crs(crs, to)) return {};
+  return transform(crs, to, set);
+}
+
+Result<LineSet> read(const std::string& path, const ReadLinesOptions& options) {
+  Session session(is_remote(path));
+  const auto opened = open(session, path);
+  if (!opened) return tl::unexpected(opened.error());
+  const auto layer = find_layer(*opened);
+  if (!layer) return tl::unexpected(layer.error());
+  std::optional<int> height_field;
+  if (!options.z_field.empty()) {
+    const auto field = find_field(*layer, opened->path, options.z_field);
+    if (!field) return tl::unexpected(field.error());
+    height_field = *field;
+  }
+
+  LineSet set;
+  set.path = opened->path;
+  set.layer = OGR_L_GetName(*layer);
+  set.format = GDALGetDriverShortName(GDALGetDatasetDriver(opened->dataset.get()));
+  Collector collector(height_field, options.ignore_z, set);
+  const auto count = static_cast<double>(std::max<GIntBig>(1, OGR_L_GetFeatureCount(*layer, 0)));
+  std::uint64_t features = 0;
+  OGR_L_ResetReading(*layer);
+  session.clear();
+  while (const Feature feature{OGR_L_GetNextFeature(*layer)}) {
+    const auto added = collector.add(feature.get());
+    if (!added) return tl::unexpected(added.error());
+    if (++features % 65536 != 0 || !options.progress) continue;
+    if (!options.progress({"read", std::min(1.0, static_cast<double>(features) / count), 0, 0}))
+      return fail(ErrorKind::kCancelled, "cancelled while reading lines");
+  }
+  if (session.failed())
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: the layer {} cannot be read to its end: {}", set.path, set.layer, session.reason()));
+  if (set.lines.empty())
+    return fail(ErrorKind::kInput, fmt::format("{}: the layer {} holds no lines or polygons", set.path, set.layer));
+  collector.warn();
+  const Crs crs = copy_crs(OGR_L_GetSpatialRef(*layer));
+  set.crs = crs_name(crs);
+  if (auto placed = place(crs, options.crs, set); !placed) return tl::unexpected(placed.error());
+  for (const std::string& warning : session.warnings()) set.warnings.push_back("GDAL: " + warning);
+  return set;
+}
+
+}  // namespace
+}  // namespace scarp::gdal
+
+namespace scarp {
+
+Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions& options) try {
+  return gdal::read(path, options);
+} catch (...) {
+  return caught(ErrorKind::kInput, "read " + path);
+}
+
+}  // namespace scarp
