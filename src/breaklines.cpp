@@ -98,7 +98,7 @@ class LatticeLines {
 
  private:
   static std::int32_t in_steps(double samples) {
-    return static_cast<std::int32_t>(std::floor(samples * kLineSteps + 0.5));
+    return static_cast<std::int32_t>(std::floor(samples * kLatticeSteps + 0.5));
   }
   void push(const Vertex& v) {
     part_.push_back({in_steps(v.col), in_steps(v.row)});
@@ -107,7 +107,7 @@ class LatticeLines {
   }
   /// A cliff between two vertices in one place is no climb: it is a conflict.
   static double climb(const Vertex& a, const Vertex& b) {
-    const double length = std::max(std::abs(b.col - a.col), std::abs(b.row - a.row)) * kLineSteps;
+    const double length = std::max(std::abs(b.col - a.col), std::abs(b.row - a.row)) * kLatticeSteps;
     const double climb = std::abs(b.z - a.z) / length;
     return std::isfinite(climb) ? climb : 0;
   }
@@ -130,7 +130,7 @@ class LatticeLines {
 std::vector<Segment> rigid_segments(const Outline& outline, std::int32_t width, std::int32_t height) {
   std::vector<Segment> rigid{
       {{0, 0}, {width, 0}}, {{width, 0}, {width, height}}, {{width, height}, {0, height}}, {{0, height}, {0, 0}}};
-  const auto in_steps = [](Point p) { return Point{p.x * kLineSteps, p.y * kLineSteps}; };
+  const auto in_steps = [](Point p) { return Point{p.x * kLatticeSteps, p.y * kLatticeSteps}; };
   for (const auto& polygon : outline) {
     for (std::size_t k = 0; k < polygon.size(); ++k)
       rigid.push_back({in_steps(polygon[k]), in_steps(polygon[(k + 1) % polygon.size()])});
@@ -146,15 +146,15 @@ struct Claim {
 
 /// What the raster climbs in a step, in the cell of a point.
 double climb_of(const Raster& raster, Point place) {
-  const std::int32_t col = std::min(place.x / kLineSteps, raster.cols - 2),
-                     row = std::min(place.y / kLineSteps, raster.rows - 2);
+  const std::int32_t col = std::min(place.x / kLatticeSteps, raster.cols - 2),
+                     row = std::min(place.y / kLatticeSteps, raster.rows - 2);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Point p : {Point{col, row}, {col + 1, row}, {col, row + 1}, {col + 1, row + 1}}) {
     if (!raster.is_valid(p)) continue;
     low = std::min(low, double{raster.at(p)});
     high = std::max(high, double{raster.at(p)});
   }
-  return low <= high ? (high - low) / kLineSteps : 0;
+  return low <= high ? (high - low) / kLatticeSteps : 0;
 }
 
 /// All claims, those of a point one after the other in the order of lines, each once.
@@ -218,7 +218,8 @@ Result<void> set_heights(std::span<const Claim> claims, std::span<const Line> li
     placed.is_hard[point] = true;
     if (verdict.opponent == nullptr) continue;
     const Claim &one = claims[begin], &other = *verdict.opponent;
-    const double col = placed.points[point].x / double{kLineSteps}, row = placed.points[point].y / double{kLineSteps};
+    const double col = placed.points[point].x / double{kLatticeSteps},
+                 row = placed.points[point].y / double{kLatticeSteps};
     return fail(
         ErrorKind::kInput,
         fmt::format("{} has the height {:.9g} and {} has {:.9g} where they meet at {:.9g}, {:.9g}: mend one of "
@@ -268,11 +269,11 @@ std::array<double, 6> map_affine(const RasterInfo& info, int rows) {
 }
 
 double height_between_samples(const Raster& raster, Point place) {
-  if (place.x % kLineSteps == 0 && place.y % kLineSteps == 0)
-    return raster.at({place.x / kLineSteps, place.y / kLineSteps});
-  const std::int32_t col = std::min(place.x / kLineSteps, raster.cols - 2),
-                     row = std::min(place.y / kLineSteps, raster.rows - 2);
-  const double right = place.x / double{kLineSteps} - col, down = place.y / double{kLineSteps} - row;
+  if (place.x % kLatticeSteps == 0 && place.y % kLatticeSteps == 0)
+    return raster.at({place.x / kLatticeSteps, place.y / kLatticeSteps});
+  const std::int32_t col = std::min(place.x / kLatticeSteps, raster.cols - 2),
+                     row = std::min(place.y / kLatticeSteps, raster.rows - 2);
+  const double right = place.x / double{kLatticeSteps} - col, down = place.y / double{kLatticeSteps} - row;
   // Around the cell, so that k and k + 2 are opposite.
   const std::array<double, 4> weights{(1 - right) * (1 - down), right * (1 - down), right * down, (1 - right) * down};
   std::array<double, 4> heights{raster.at({col, row}), raster.at({col + 1, row}), raster.at({col + 1, row + 1}),
@@ -294,12 +295,12 @@ double height_between_samples(const Raster& raster, Point place) {
 
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
                                     const Raster& raster, const Outline& outline, LineConflict conflict) try {
-  if (std::max(raster.cols, raster.rows) > kMaxCoordinate / kLineSteps)
+  if (std::max(raster.cols, raster.rows) > kMaxCoordinate / kLatticeSteps)
     return fail(ErrorKind::kUsage, fmt::format("a raster of {} x {} samples is too large for lines: at most {} a side",
-                                               raster.cols, raster.rows, kMaxCoordinate / kLineSteps));
+                                               raster.cols, raster.rows, kMaxCoordinate / kLatticeSteps));
   const auto lattice = to_lattice(lines, affine, raster);
   if (!lattice) return tl::unexpected(lattice.error());
-  const std::int32_t width = (raster.cols - 1) * kLineSteps, height = (raster.rows - 1) * kLineSteps;
+  const std::int32_t width = (raster.cols - 1) * kLatticeSteps, height = (raster.rows - 1) * kLatticeSteps;
   Arrangement arranged = arrange(lattice->parts(), rigid_segments(outline, width, height), width, height);
 
   const std::vector<Claim> claims = collect_claims(arranged, *lattice, raster);

@@ -10,26 +10,15 @@
 #include "geom/arrangement.h"
 #include "grid/outline.h"
 #include "grid/raster.h"
+#include "grid/vertex_places.h"
 #include "scarp/height_field.h"
 #include "scarp/lines.h"
 #include "scarp/result.h"
 
 namespace scarp {
 
-/// Steps of the lattice of lines between two samples. A vertex of a line moves by half a step, 1/512 sample, at most;
-/// what runs between its vertices by one and a half.
-inline constexpr std::int32_t kLineSteps = 256;
-
-/// What becomes of a vertex where hard lines of different heights meet.
-enum class LineConflict {
-  kError,    ///< the call fails and names the lines
-  kFirst,    ///< the height of the line that was given first
-  kMean,     ///< of all lines that pass
-  kHighest,  ///< of all lines that pass
-};
-
 struct Breaklines {
-  /// Vertices, in raster order, in kLineSteps of a sample: those of lines within the raster's rectangle and of its
+  /// Vertices, in raster order, in kLatticeSteps of a sample: those of lines within the raster's rectangle and of its
   /// outline.
   std::vector<Point> points;
   /// Of each point: that of the hard lines that pass, else the raster's. The raster is bilinear in a cell of four
@@ -53,7 +42,8 @@ struct Breaklines {
   }
 };
 
-/// Places lines on the lattice of a raster. `affine` takes samples to the coordinates of the lines, as
+/// Places lines on the lattice of a raster: a vertex of a line moves by half a step, 1/512 sample, at most, what runs
+/// between its vertices by one and a half. `affine` takes samples to the coordinates of the lines, as
 /// Frame::affine does; `outline` is trace_outline()'s, not simplified. Outline and rectangle are the rigid edges.
 ///
 /// Along a hard line heights run from vertex to vertex; between a vertex with a height and one without the line is
@@ -63,17 +53,13 @@ struct Breaklines {
 ///
 /// Fails with kInput where hard lines disagree (kError: names both and the place in map coordinates) and for
 /// coordinates that are too large for the raster to mean anything; with kUsage for a raster of more than 2^30 /
-/// kLineSteps samples a side. REQUIRES: lines as read_lines() gives them; the affine map can be inverted. Cost: as
+/// kLatticeSteps samples a side. REQUIRES: lines as read_lines() gives them; the affine map can be inverted. Cost: as
 /// arrange().
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
                                     const Raster& raster, const Outline& outline,
                                     LineConflict conflict = LineConflict::kError);
 
-/// From samples to the map coordinates in which lines are drawn: those of the file, or x = col, y = rows − 1 − row
-/// where it has none.
-std::array<double, 6> map_affine(const RasterInfo& info, int rows);
-
-/// The surface of `heights` above, at a point in kLineSteps of a sample within the raster.
+/// The surface of `heights` above, at a point in kLatticeSteps of a sample within the raster.
 double height_between_samples(const Raster& raster, Point place);
 
 }  // namespace scarp

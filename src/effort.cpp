@@ -57,7 +57,22 @@ const char* find_need_of_effort(const SimplifyOptions& options) {
   return options.is_time_up ? "a time limit" : nullptr;
 }
 
+/// Whether lines can be laid.
+Result<void> check_breaklines(const HeightField& field, const SimplifyOptions& options) {
+  if (!has_breaklines(options)) return {};
+  const char* obstacle = find_beyond_heights(field, options);
+  if (obstacle == nullptr && field.samples == nullptr) obstacle = "needs the raster in memory as a whole";
+  if (obstacle == nullptr && !field.frame.is_affine()) obstacle = "needs a frame in which the grid is regular";
+  if (obstacle == nullptr && options.effort == Effort::kFast && (has_budget(options) || !options.max_error))
+    obstacle = "needs a max error, or more than fast effort for a budget";
+  if (obstacle == nullptr && find_strategy(options) != nullptr) obstacle = "has no strategies of insertion";
+  if (obstacle == nullptr) return {};
+  return fail(ErrorKind::kUsage, fmt::format("a mesh with breaklines {}: leave out one or the other", obstacle));
+}
+
 }  // namespace
+
+bool has_breaklines(const SimplifyOptions& options) { return !options.breaklines.lines.empty(); }
 
 bool has_budget(const SimplifyOptions& options) { return options.max_triangles || options.max_vertices; }
 
@@ -92,6 +107,7 @@ Result<void> check_effort(const HeightField& field, const SimplifyOptions& optio
   } else if (const char* obstacle = find_fit_obstacle(field, options)) {
     return usage(fmt::format("more than fast effort {}: leave that out, or take fast effort", obstacle));
   }
+  if (auto sound = check_breaklines(field, options); !sound) return sound;
   if (options.vertices != Vertices::kFree || vertices_are_free(field, options)) return {};
   return usage(fmt::format("free vertices need {}: leave them on samples", moves_vertices(options.effort)
                                                                                ? "a frame in which the grid is regular"
@@ -107,9 +123,15 @@ bool places_are_exact(const HeightField& field, const SimplifyOptions& options, 
          (!options.float32_positions || offsets_are_exact(field.frame, field.cols, field.rows, steps));
 }
 
+std::int32_t place_steps(const HeightField& field, const SimplifyOptions& options) {
+  if (has_breaklines(options)) return kLatticeSteps;
+  return vertices_are_free(field, options) ? kLatticeSteps / kFreeStep : 1;
+}
+
 double aim_of(const HeightField& field, const SimplifyOptions& options) {
   constexpr double kRoundingShare = 0x1p-9;
-  return vertices_are_free(field, options) && !places_are_exact(field, options, kLatticeSteps / kFreeStep) ? 1 - kRoundingShare : 1;
+  const std::int32_t steps = place_steps(field, options);
+  return steps > 1 && !places_are_exact(field, options, steps) ? 1 - kRoundingShare : 1;
 }
 
 FitOptions fit_options(const HeightField& field, const SimplifyOptions& options, double threshold) {

@@ -10,6 +10,7 @@
 namespace scarp {
 
 bool has_budget(const SimplifyOptions& options);
+bool has_breaklines(const SimplifyOptions& options);
 
 /// What keeps a run from the dominant order; null if nothing does.
 const char* find_obstacle(const HeightField& field, const SimplifyOptions& options);
@@ -27,7 +28,10 @@ bool vertices_are_free(const HeightField& field, const SimplifyOptions& options)
 /// Whether places so many steps from sample to sample are held exactly by the mesh.
 bool places_are_exact(const HeightField& field, const SimplifyOptions& options, std::int32_t steps);
 
-/// The share of every bound that is asked of the engine. Free vertices leave a little to the rounding of positions: no
+/// How many places vertices may take between two samples, and one of these.
+std::int32_t place_steps(const HeightField& field, const SimplifyOptions& options);
+
+/// The share of every bound that is asked of the engine. Vertices between samples leave a little to the rounding of positions: no
 /// sample can be inserted among them to mend what that breaks.
 double aim_of(const HeightField& field, const SimplifyOptions& options);
 

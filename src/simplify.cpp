@@ -18,12 +18,15 @@
 #include "criterion.h"
 #include "effort.h"
 #include "error_search.h"
+#include "field_lines.h"
 #include "fit/fit.h"
 #include "goals.h"
 #include "grid/raster.h"
 #include "proof.h"
+#include "refine/constraints.h"
 #include "refine/domain.h"
 #include "refine/freeze.h"
+#include "refine/lattice_judge.h"
 #include "refine/refinement.h"
 #include "refine/release.h"
 #include "refine/samples.h"
@@ -50,19 +53,23 @@ Result<void> check_options(const HeightField& field, const SimplifyOptions& opti
   return {};
 }
 
-Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options);
+/// Without a search for the error of a budget. `lines`: to be laid; null: none.
+Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options,
+                                 const ConstraintGraph* lines);
 
 /// One run of the engine towards the goals.
 class Run {
  public:
-  Run(const HeightField& field, const Raster& raster, const SimplifyOptions& options, const Criterion& criterion)
+  Run(const HeightField& field, const Raster& raster, const SimplifyOptions& options, const Criterion& criterion,
+      const ConstraintGraph* lines)
       : field_(field),
         raster_(raster),
         options_(options),
         criterion_(criterion),
+        lines_(lines),
         budget_(options),
         memory_(memory_budget(options)),
-        exact_(places_are_exact(field, options, 1)),
+        exact_(places_are_exact(field, options, lines == nullptr ? 1 : kLatticeSteps)),
         reporter_(options.progress) {}
 
   /// In the dominant order where `tiled` is given, else greedily.
@@ -74,6 +81,7 @@ class Run {
     result.effort = options_.effort;
     auto refined = tiled ? free_seams(std::move(*tiled), result) : insert_greedily(result);
     if (!refined) return tl::unexpected(refined.error());
+    if (auto laid = lay_lines(result); !laid) return tl::unexpected(laid.error());
     if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
     // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
     // proof.
@@ -87,6 +95,9 @@ class Run {
   }
 
  private:
+  static constexpr const char* kTooManyTriangles =
+      "the mesh would have more than 1,431 million triangles: allow a larger error";
+
   /// Adds a pass that began at `start`.
   static void record(Simplified& result, std::string_view name, Clock::time_point start, const Work& work = {}) {
     result.passes.push_back({name, seconds_since(start), work.samples_scanned, work.triangles_scanned, work.passes});
@@ -168,8 +179,7 @@ class Run {
         stop = *reason;
         return {};
       }
-      if (refinement_->is_full())
-        return fail(ErrorKind::kInput, "the mesh would have more than 1,431 million triangles: allow a larger error");
+      if (refinement_->is_full()) return fail(ErrorKind::kInput, kTooManyTriangles);
       if ((step < 1024 || step % 256 == 0 || options_.batch.rule != Batch::Rule::kSequential) && reporter_.due() &&
           !reporter_.report("refine", fraction(first_error), vertices(), refinement_->worst_error()))
         return fail(ErrorKind::kCancelled, "cancelled while refining");
@@ -260,6 +270,29 @@ class Run {
     result.work.triangles_scanned += settling.triangles_scanned;
   }
 
+  /// Lines become chains of edges; what they break is refined around them.
+  Result<void> lay_lines(Simplified& result) {
+    if (lines_ == nullptr) return {};
+    const auto start = Clock::now();
+    refinement_.reset();
+    auto laid = ConstrainedMesh::lay(raster_, domain_->tin, *lines_);
+    if (!laid) return tl::unexpected(laid.error());
+    const LatticeJudge judge(raster_, laid->heights(), criterion_.aim(), criterion_.aims());
+    Refinement refinement(judge, domain_->tin);
+    const double first_error = refinement.worst_error();
+    for (std::uint64_t step = 0; !refinement.done(); ++step) {
+      if (refinement.is_full()) return fail(ErrorKind::kInput, kTooManyTriangles);
+      if (reporter_.due() &&
+          !reporter_.report("lines", error_progress(first_error, refinement.worst_error(), judge.goal()), vertices(),
+                            refinement.worst_error()))
+        return fail(ErrorKind::kCancelled, "cancelled while laying lines");
+      refinement.insert_worst();
+    }
+    places_ = laid->places();
+    record(result, "lines", start, refinement.work());
+    return {};
+  }
+
   /// Vertices that the bound can do without go.
   Result<void> remove_vertices(Simplified& result) {
     if (options_.effort == Effort::kFast) return {};
@@ -268,18 +301,18 @@ class Run {
     FitOptions options = fit_options(field_, options_, criterion_.aim());
     options.bounds = criterion_.aims();
     options.threads = fit_threads();
-    if (options.vertices_are_free) exact_ = places_are_exact(field_, options_, kLatticeSteps / kFreeStep);
+    exact_ = places_are_exact(field_, options_, place_steps(field_, options_));
     Reporter reporter(options_.progress);
     if (options_.progress) {
       options.progress = [&](double share, std::uint64_t vertices) {
         return !reporter.due() || reporter.report("fit", share, vertices, 0);
       };
     }
-    auto fitted = fit(raster_, std::move(domain_->tin), options);
+    auto fitted = fit(raster_, std::move(domain_->tin), std::move(places_), options);
     if (!fitted) return tl::unexpected(fitted.error());
     domain_->tin = std::move(fitted->tin);
     places_ = std::move(fitted->places);
-    if (!places_.are_samples()) result.vertices = Vertices::kFree;
+    if (options.vertices_are_free && !places_.are_samples()) result.vertices = Vertices::kFree;
     result.is_cut_short = fitted->is_cut_short;
     record(result, "fit", start);
     result.passes.back().removals = fitted->counts.removed;
@@ -386,6 +419,7 @@ class Run {
   const Raster& raster_;
   const SimplifyOptions& options_;
   const Criterion& criterion_;
+  const ConstraintGraph* lines_;
   Budget budget_;
   MemoryBudget memory_;
   std::optional<Domain> domain_;  // the workbench: given back as soon as nothing can need it any more
@@ -418,11 +452,13 @@ Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const Simpli
 }
 
 /// The dominant order; greedily where that is of no use.
-Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOptions& options) {
+Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOptions& options,
+                                  const ConstraintGraph* lines) {
   // The engine reads voids as such; what else looks at samples beyond the mesh's own needs them cleaned.
   Raster raster{field.samples, field.cols, field.rows};
   std::optional<Samples> samples;
-  if (field.samples != nullptr && (options.normals || !field.frame.is_affine() || options.effort != Effort::kFast)) {
+  const bool looks_beyond = options.normals || !field.frame.is_affine() || options.effort != Effort::kFast;
+  if (field.samples != nullptr && (looks_beyond || lines != nullptr)) {
     auto cleaned = Samples::of(field);
     if (!cleaned) return tl::unexpected(cleaned.error());
     raster = samples.emplace(std::move(*cleaned)).raster();
@@ -441,30 +477,31 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
                   "heights of such different magnitudes can only be refined in memory: read the raster as a whole");
     SimplifyOptions greedy = options;
     greedy.order = Order::kGreedy;
-    return simplify_once(field, greedy);
+    return simplify_once(field, greedy, lines);
   }
   const Domain& domain = (*tiled)->domain;
   if (auto fits = memory.check_mesh(bytes, domain.tin.vertex_count() - domain.unused, 1); !fits)
     return tl::unexpected(fits.error());
   const Work& work = (*tiled)->work;
   const Pass pass{"tiles", seconds_since(start), work.samples_scanned, work.triangles_scanned, work.passes};
-  auto result = Run(field, raster, options, *criterion).execute(std::move(*tiled));
+  auto result = Run(field, raster, options, *criterion, lines).execute(std::move(*tiled));
   if (!result) return result;
   result->passes.insert(result->passes.begin(), pass);
   result->seconds_refine += pass.seconds;
   return result;
 }
 
-Result<Simplified> simplify_greedily(const HeightField& field, const SimplifyOptions& options) {
+Result<Simplified> simplify_greedily(const HeightField& field, const SimplifyOptions& options,
+                                     const ConstraintGraph* lines) {
   auto samples = Samples::of(field);
   if (!samples) return tl::unexpected(samples.error());
   const auto criterion = Criterion::make(field, options, samples->raster(), aim_of(field, options));
   if (!criterion) return tl::unexpected(criterion.error());
-  return Run(field, samples->raster(), options, *criterion).execute(std::nullopt);
+  return Run(field, samples->raster(), options, *criterion, lines).execute(std::nullopt);
 }
 
-/// Without a search for the error of a budget.
-Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options) {
+Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options,
+                                 const ConstraintGraph* lines) {
   if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
   const char* obstacle = options.order == Order::kGreedy ? "is not the greedy one" : find_obstacle(field, options);
@@ -476,12 +513,37 @@ Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions
     return fail(ErrorKind::kUsage,
                 fmt::format("the dominant order {}: leave that out, or take the greedy order", obstacle));
   const auto run = obstacle == nullptr ? simplify_tiles : simplify_greedily;
-  auto result = run(field, options);
+  auto result = run(field, options, lines);
   if (result || result.error().kind != ErrorKind::kPromise || options.vertices != Vertices::kAuto) return result;
   if (!vertices_are_free(field, options)) return result;
   SimplifyOptions on_samples = options;
   on_samples.vertices = Vertices::kSamples;
-  return run(field, on_samples);
+  return run(field, on_samples, lines);
+}
+
+/// With a search where there is a budget.
+Result<Simplified> simplify_field(const HeightField& field, const SimplifyOptions& options,
+                                  const ConstraintGraph* lines) {
+  if (options.effort == Effort::kFast || !has_budget(options)) return simplify_once(field, options, lines);
+  return search_error(options, [&](const SimplifyOptions& once) { return simplify_once(field, once, lines); });
+}
+
+/// Breaklines follow the raster to within this share of the max error, where there is one.
+constexpr double kLineShare = 0.5;
+
+Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyOptions& options) {
+  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
+  const auto start = Clock::now();
+  const double tolerance = kLineShare * options.max_error.value_or(0);
+  auto lines = prepare_lines(field, options.breaklines, tolerance);
+  if (!lines) return tl::unexpected(lines.error());
+  const double seconds = seconds_since(start);
+  auto result = simplify_field(lines->apply(field), options, &lines->graph);
+  if (!result) return result;
+  result->passes.insert(result->passes.begin(), Pass{"arrange", seconds});
+  result->edits = std::move(lines->edits);
+  result->lines_laid = lines->laid;
+  return result;
 }
 
 }  // namespace
@@ -491,8 +553,7 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& ask
   options.effort = choose_effort(field, asked);
   if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
   if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
-  if (options.effort == Effort::kFast || !has_budget(options)) return simplify_once(field, options);
-  return search_error(options, [&](const SimplifyOptions& once) { return simplify_once(field, once); });
+  return has_breaklines(options) ? simplify_with_lines(field, options) : simplify_field(field, options, nullptr);
 } catch (const SourceFailure& failure) {
   return tl::unexpected(failure.error);
 } catch (const std::bad_alloc&) {

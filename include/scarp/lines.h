@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scarp/height_field.h"
 #include "scarp/progress.h"
 #include "scarp/result.h"
 
@@ -39,6 +40,26 @@ struct LineSet {
   std::uint32_t polygons = 0;
   std::vector<std::string> warnings;  ///< sentences for the user: points that were left out, a CRS that is not known
 };
+
+/// What becomes of a vertex where hard lines of different heights meet.
+enum class LineConflict {
+  kError,    ///< the call fails and names the lines
+  kFirst,    ///< the height of the line that was given first
+  kMean,     ///< of all lines that pass
+  kHighest,  ///< of all lines that pass
+};
+
+/// Breaklines: lines that become chains of edges of the mesh.
+struct LineConstraints {
+  std::vector<Line> lines;  ///< as read_lines() gives them; polygons count by their rings. EMPTY: no constraints
+  /// From samples to the coordinates of the lines, as Frame::affine; map_affine() tells it. DEFAULT: columns and rows.
+  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
+  LineConflict conflict = LineConflict::kError;
+};
+
+/// From samples to the map coordinates in which lines are drawn: those of the raster's file, or x = col, y = rows − 1 −
+/// row where it has none.
+std::array<double, 6> map_affine(const RasterInfo& info, int rows);
 
 struct ReadLinesOptions {
   /// Where x and y are wanted, as RasterInfo::crs. DEFAULT: as they are in the layer.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scarp/height_field.h"
+#include "scarp/lines.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
 #include "scarp/progress.h"
@@ -43,6 +44,12 @@ struct SimplifyOptions {
   /// max_error if that is given; |error| / tolerance is ranked. A goal of its own. Not together with a mask. Borrowed.
   /// DEFAULT: empty.
   std::span<const float> tolerance = {};
+  /// Breaklines. A hard line keeps its heights, a soft one follows the raster. Where a hard line passes through a
+  /// sample that has another height, the sample is given the line's, and what is promised holds for the samples as they
+  /// are then (Simplified::edits). Fails with kUsage without a max error (a budget needs more than fast effort),
+  /// together with channels or an outline tolerance, without the samples in memory and in frames that are not affine;
+  /// with kInput as place_breaklines() says: lines whose heights contradict each other, named. DEFAULT: none.
+  LineConstraints breaklines = {};
   std::vector<ScriptStep> script = {};  ///< carried out in order before the first scan. DEFAULT: nothing.
   /// kDominant fails with kUsage together with a budget, a mask, tolerances, a script, channels, an importance, an
   /// algorithm, batches, data-dependent edges or an outline tolerance; kAuto then is kGreedy. DEFAULT: kAuto.
@@ -89,9 +96,16 @@ struct SimplifyOptions {
 
 /// A pass of simplify() and what it cost.
 struct Pass {
-  std::string_view name;  ///< "search"; "tiles", "seams"; "domain", "refine"; "fit"; "freeze", "order", "prove"
-  double seconds = 0;     ///< wall clock
+  std::string_view
+      name;  ///< "search"; "arrange"; "tiles", "seams"; "domain", "refine"; "lines"; "fit"; "freeze", "order", "prove"
+  double seconds = 0;  ///< wall clock
   std::uint64_t samples_scanned = 0, triangles_scanned = 0, insertions = 0, removals = 0;
+};
+
+/// A sample that a breakline changed.
+struct SampleEdit {
+  std::int32_t col = 0, row = 0;
+  float before = 0, after = 0;
 };
 
 /// Which goal ended the run.
@@ -113,6 +127,8 @@ struct Simplified {
   Effort effort = Effort::kFast;                  ///< the effort that was made, never kAuto
   Vertices vertices = Vertices::kSamples;         ///< where they are, never kAuto
   bool is_cut_short = false;                      ///< by SimplifyOptions::is_time_up
+  std::vector<SampleEdit> edits;                  ///< by breaklines, in raster order
+  std::uint64_t lines_laid = 0;                   ///< breaklines of which some part lies in the raster
   std::vector<Pass> passes;                       ///< in the order in which they ended
   double seconds_refine = 0;                      ///< outline, refinement and freezing
   double seconds_measure = 0;                     ///< the proof
@@ -153,10 +169,10 @@ struct Simplified {
 /// Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex and some
 /// 20 MB. In the dominant order it is 4.6 bytes a sample plus 72 a vertex until the mesh is frozen, and a tile's
 /// samples, 1 to 17 MB, for each thread; ordering and the proof take the 120. More than fast effort takes 200, and 6 a
-/// thread, for each vertex of the refined mesh, of which about half or two thirds then go. With a mask, tolerances, a feature or a
-/// script that ignores, up to 16 more a sample; with channels 8 more a sample, and 4 a vertex and channel; with one
-/// pass 16 more a sample; with data-dependent edges about 300 more a vertex. Up to 32 MiB of work buffers stay in the
-/// process for later calls, on any thread: a second call on a small raster asks the system for next to nothing.
+/// thread, for each vertex of the refined mesh, of which about half or two thirds then go. With a mask, tolerances, a
+/// feature or a script that ignores, up to 16 more a sample; with channels 8 more a sample, and 4 a vertex and channel;
+/// with one pass 16 more a sample; with data-dependent edges about 300 more a vertex. Up to 32 MiB of work buffers stay
+/// in the process for later calls, on any thread: a second call on a small raster asks the system for next to nothing.
 ///
 /// Strategies (strategy.h) change which samples become vertices, never what is promised.
 ///

@@ -77,7 +77,9 @@ class Stage {
   std::mt19937 random_;
 };
 
-double plane_at(const Scene& scene, Point p) { return scene.plane(p.x / double{kLineSteps}, p.y / double{kLineSteps}); }
+double plane_at(const Scene& scene, Point p) {
+  return scene.plane(p.x / double{kLatticeSteps}, p.y / double{kLatticeSteps});
+}
 
 RC_GTEST_PROP(breaklines, hard_lines_of_a_plane_meet_in_peace_and_stay_on_it, ()) {
   Stage stage(*rc::gen::arbitrary<std::uint32_t>());
@@ -85,7 +87,7 @@ RC_GTEST_PROP(breaklines, hard_lines_of_a_plane_meet_in_peace_and_stay_on_it, ()
   stage.add_lines(scene, true, 100);
   const auto placed = scene.place();
   RC_ASSERT(placed.has_value());
-  const double climb = (std::abs(scene.east) + std::abs(scene.south)) / kLineSteps;
+  const double climb = (std::abs(scene.east) + std::abs(scene.south)) / kLatticeSteps;
   for (std::size_t k = 0; k < placed->points.size(); ++k) {
     const double lift = placed->is_hard[k] ? 100 : 0;
     RC_ASSERT(std::abs(placed->heights[k] - lift - plane_at(scene, placed->points[k])) <= 3 * climb + 1e-3);
@@ -116,8 +118,9 @@ RC_GTEST_PROP(breaklines, every_vertex_in_the_raster_is_a_point_within_half_a_st
   RC_ASSERT(placed.has_value());
   for (const Line& line : scene.lines) {
     for (const auto& [x, y, z] : line.points) {
-      const double col = x * kLineSteps, row = y * kLineSteps;
-      if (col < 1 || row < 1 || col > (scene.cols - 1) * kLineSteps - 1 || row > (scene.rows - 1) * kLineSteps - 1)
+      const double col = x * kLatticeSteps, row = y * kLatticeSteps;
+      if (col < 1 || row < 1 || col > (scene.cols - 1) * kLatticeSteps - 1 ||
+          row > (scene.rows - 1) * kLatticeSteps - 1)
         continue;
       RC_ASSERT(std::any_of(placed->points.begin(), placed->points.end(), [col = col, row = row](Point p) {
         return std::abs(p.x - col) <= 0.5 && std::abs(p.y - row) <= 0.5;
@@ -137,8 +140,8 @@ RC_GTEST_PROP(breaklines, no_void_leaks_into_the_surface, ()) {
   const Raster raster = scene.raster();
   for (std::size_t k = 0; k < placed->points.size(); ++k) {
     const Point p = placed->points[k];
-    const Point cell{std::min(p.x / kLineSteps, scene.cols - 2), std::min(p.y / kLineSteps, scene.rows - 2)};
-    const bool on_sample = p.x % kLineSteps == 0 && p.y % kLineSteps == 0;
+    const Point cell{std::min(p.x / kLatticeSteps, scene.cols - 2), std::min(p.y / kLatticeSteps, scene.rows - 2)};
+    const bool on_sample = p.x % kLatticeSteps == 0 && p.y % kLatticeSteps == 0;
     if (std::popcount(valid_corners(raster, cell.x, cell.y)) < 3 || on_sample) continue;
     RC_ASSERT(std::abs(placed->heights[k] - plane_at(scene, p)) <= 1e-3);
   }
@@ -156,7 +159,7 @@ Scene flat(int size, std::vector<std::vector<std::array<double, 3>>> lines) {
 
 /// The height at a place; fails the test if there is no vertex.
 float height_at(const Breaklines& placed, double col, double row) {
-  const Point p{static_cast<std::int32_t>(col * kLineSteps), static_cast<std::int32_t>(row * kLineSteps)};
+  const Point p{static_cast<std::int32_t>(col * kLatticeSteps), static_cast<std::int32_t>(row * kLatticeSteps)};
   const auto found = std::find(placed.points.begin(), placed.points.end(), p);
   if (found == placed.points.end()) {
     ADD_FAILURE() << "no vertex at " << col << ", " << row;

@@ -1,0 +1,187 @@
+#include "field_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "breaklines.h"
+#include "refine/samples.h"
+
+namespace scarp {
+
+namespace {
+
+/// Gives a soft line the vertices that it needs to follow the raster.
+class SoftLine {
+ public:
+  SoftLine(const Raster& raster, const std::array<double, 6>& affine, double tolerance)
+      : raster_(raster),
+        affine_(affine),
+        determinant_(affine[1] * affine[5] - affine[2] * affine[4]),
+        tolerance_(tolerance) {}
+
+  Line follow(const Line& line) const {
+    Line result = line;
+    result.points.clear();
+    for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
+      result.points.push_back(line.points[k]);
+      if (std::isnan(line.points[k][2]) || std::isnan(line.points[k + 1][2]))
+        add_between(line.points[k], line.points[k + 1], result.points);
+    }
+    result.points.push_back(line.points.back());
+    return result;
+  }
+
+ private:
+  using Place = std::array<double, 3>;
+
+  static Place between(const Place& a, const Place& b, double share) {
+    return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), std::numeric_limits<double>::quiet_NaN()};
+  }
+  /// The raster's surface there; NaN beyond it.
+  double height_at(const Place& place) const {
+    const double x = place[0] - affine_[0], y = place[1] - affine_[3];
+    const double col = (affine_[5] * x - affine_[2] * y) / determinant_,
+                 row = (affine_[1] * y - affine_[4] * x) / determinant_;
+    if (!(col >= 0 && row >= 0 && col <= raster_.cols - 1 && row <= raster_.rows - 1)) return NAN;
+    return height_between_samples(raster_, {static_cast<std::int32_t>(std::lround(col * kLatticeSteps)),
+                                            static_cast<std::int32_t>(std::lround(row * kLatticeSteps))});
+  }
+
+  /// Where the surface is farthest from the chord; where there is none, because an end lies beyond the surface, where
+  /// that begins. 0: the chord will do.
+  std::size_t find_split(const std::vector<double>& heights, std::size_t first, std::size_t last) const {
+    const bool begins_beyond = std::isnan(heights[first]), ends_beyond = std::isnan(heights[last]);
+    const double rise = (heights[last] - heights[first]) / static_cast<double>(last - first);
+    double worst = tolerance_;
+    std::size_t at = 0;
+    for (std::size_t i = first + 1; i < last; ++i) {
+      if (std::isnan(heights[i])) continue;
+      if (begins_beyond) return i;
+      const double error = std::abs(heights[first] + rise * static_cast<double>(i - first) - heights[i]);
+      if (!ends_beyond && !(error > worst)) continue;
+      worst = error;
+      at = i;
+    }
+    return at;
+  }
+
+  /// Splits where the surface is farthest from the chord, until it is nowhere farther than the tolerance: Douglas and
+  /// Peucker's rule along the line. Two looks a sample.
+  void add_between(const Place& from, const Place& to, std::vector<Place>& points) const {
+    const double length = std::hypot((affine_[5] * (to[0] - from[0]) - affine_[2] * (to[1] - from[1])) / determinant_,
+                                     (affine_[1] * (to[1] - from[1]) - affine_[4] * (to[0] - from[0])) / determinant_);
+    constexpr double kMostLooks = 1 << 20;
+    const auto looks = static_cast<std::size_t>(std::min(std::ceil(2 * length), kMostLooks));
+    if (looks < 2) return;
+    std::vector<double> heights;
+    for (std::size_t i = 0; i <= looks; ++i)
+      heights.push_back(height_at(between(from, to, static_cast<double>(i) / static_cast<double>(looks))));
+    std::vector<std::size_t> kept;
+    std::vector<std::pair<std::size_t, std::size_t>> open{{0, looks}};
+    while (!open.empty()) {
+      const auto [first, last] = open.back();
+      open.pop_back();
+      const std::size_t at = find_split(heights, first, last);
+      if (at == 0) continue;
+      kept.push_back(at);
+      open.emplace_back(first, at);
+      open.emplace_back(at, last);
+    }
+    std::sort(kept.begin(), kept.end());
+    for (const std::size_t i : kept)
+      points.push_back(between(from, to, static_cast<double>(i) / static_cast<double>(looks)));
+  }
+
+  const Raster& raster_;
+  std::array<double, 6> affine_;
+  double determinant_, tolerance_;
+};
+
+/// The edges of lines, and the points that they need.
+ConstraintGraph graph_of(const Breaklines& placed) {
+  ConstraintGraph graph;
+  std::vector<std::uint32_t> numbers(placed.points.size(), kNone);
+  const auto number_of = [&](std::uint32_t point) {
+    if (numbers[point] == kNone) {
+      numbers[point] = static_cast<std::uint32_t>(graph.points.size());
+      graph.points.push_back(placed.points[point]);
+      graph.heights.push_back(placed.heights[point]);
+    }
+    return numbers[point];
+  };
+  for (const Arrangement::Edge& edge : placed.edges) {
+    if (!edge.is_line) continue;
+    const std::uint32_t a = number_of(edge.a), b = number_of(edge.b);
+    graph.edges.push_back({a, b});
+  }
+  return graph;
+}
+
+/// Calls visit(sample, share) for the samples on a closed edge, share from a to b.
+template <class Visit>
+void visit_samples(Point a, Point b, const Visit& visit) {
+  const std::int32_t dx = b.x - a.x, dy = b.y - a.y, steps = std::gcd(std::abs(dx), std::abs(dy));
+  for (std::int32_t i = 0; i <= steps; ++i) {
+    const Point p{a.x + dx / steps * i, a.y + dy / steps * i};
+    if (PlaceHeights::is_sample(p))
+      visit(Point{p.x / kLatticeSteps, p.y / kLatticeSteps}, static_cast<double>(i) / steps);
+  }
+}
+
+/// Gives the samples on hard lines the heights of the lines.
+void edit_samples(const Breaklines& placed, std::int32_t cols, FieldLines& lines) {
+  const auto edit = [&](Point p, double height) {
+    float& sample =
+        lines.samples[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(p.x)];
+    const auto after = static_cast<float>(height);
+    if (std::isnan(sample) || sample == after) return;
+    lines.edits.push_back({p.x, p.y, sample, after});
+    sample = after;
+  };
+  for (const Arrangement::Edge& edge : placed.edges) {
+    if (!edge.is_line || !placed.is_hard[edge.a] || !placed.is_hard[edge.b]) continue;
+    const double from{placed.heights[edge.a]}, to{placed.heights[edge.b]};
+    visit_samples(placed.points[edge.a], placed.points[edge.b],
+                  [&](Point p, double share) { edit(p, from + share * (to - from)); });
+  }
+  for (std::size_t i = 0; i < placed.points.size(); ++i) {
+    const Point p = placed.points[i];
+    if (placed.is_hard[i] && PlaceHeights::is_sample(p))
+      edit({p.x / kLatticeSteps, p.y / kLatticeSteps}, placed.heights[i]);
+  }
+  std::sort(lines.edits.begin(), lines.edits.end(), [](const SampleEdit& a, const SampleEdit& b) {
+    return before({a.col, a.row}, {b.col, b.row});
+  });
+}
+
+}  // namespace
+
+HeightField FieldLines::apply(const HeightField& field) const {
+  HeightField edited = field;
+  edited.samples = samples.data();
+  edited.nodata = std::nullopt;
+  return edited;
+}
+
+Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, double tolerance) {
+  const auto cleaned = Samples::of(field);
+  if (!cleaned) return tl::unexpected(cleaned.error());
+  const Raster raster = cleaned->raster();
+  const SoftLine soft(raster, lines.affine, tolerance);
+  std::vector<Line> followed;
+  followed.reserve(lines.lines.size());
+  for (const Line& line : lines.lines) followed.push_back(soft.follow(line));
+  const auto placed = place_breaklines(followed, lines.affine, raster, trace_outline(raster), lines.conflict);
+  if (!placed) return tl::unexpected(placed.error());
+  FieldLines result;
+  result.graph = graph_of(*placed);
+  result.samples.assign(raster.samples, raster.row(raster.rows));
+  edit_samples(*placed, raster.cols, result);
+  result.laid = lines.lines.size() - placed->outside;
+  return result;
+}
+
+}  // namespace scarp
