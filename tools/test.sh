@@ -2,15 +2,16 @@
 # Everything that `make test` runs, in four stages; a stage that fails does not hide the next.
 #
 #   1. Release: all tests through ctest (unit tests, laws, scripts that drive the program).
-#   2. AddressSanitizer and UndefinedBehaviorSanitizer: unit tests and laws again, asserts on; a quarter of the random
-#      cases of each law (tests/laws/fixed_seed.cpp). One process runs many tests, since each start costs.
+#   2. AddressSanitizer and UndefinedBehaviorSanitizer: unit tests and laws again, asserts on; with a quarter of the
+#      random cases, and of the samples of real rasters a share (tests/laws/sanitized.h). One process runs many tests,
+#      since each start costs.
 #   3. ThreadSanitizer: the tests that use threads.
 #   4. Fuzzers, SCARP_FUZZ_SECONDS (20) each; needs clang.
 #
 # Chance begins at the same seed in every run: tests/laws/fixed_seed.cpp, SCARP_FUZZ_SEED; tools/soak.sh takes fresh ones.
 #
-# A fresh build folder compiles sources in batches (CMAKE_UNITY_BUILD), which halves the time without a compiler cache;
-# not the library of stage 1, which is what users run. The program is compiled file by file by cli.test_install_shared.
+# A fresh build folder compiles sources in batches (CMAKE_UNITY_BUILD), which parses headers once a batch; not the
+# library of stage 1, which is what users run. The program is compiled file by file by cli.test_install_shared.
 #
 # Environment: BUILD (build), JOBS (cores). The last line counts the tests of all stages; exit 1 if one failed.
 set -uo pipefail
