@@ -9,7 +9,7 @@ CMAKE_FLAGS ?=
 DATA ?= $(or $(SCARP_SHARED),../shared)/data
 export BUILD JOBS
 
-.PHONY: build demo test bench paper install clean format tidy help
+.PHONY: build demo test soak bench paper install clean format tidy help
 
 build:
 	@tools/install_packages.sh build
@@ -24,6 +24,10 @@ demo:
 test:
 	@tools/install_packages.sh build run test
 	@tools/test.sh
+
+soak:
+	@tools/install_packages.sh build test
+	@tools/soak.sh
 
 bench:
 	@tools/install_packages.sh build bench
@@ -55,6 +59,7 @@ help:
 	@echo 'make          build $(BUILD)/bin/scarp (Release), installing missing packages'
 	@echo 'make demo     build, simplify a bundled DEM into demo/, check the result'
 	@echo 'make test     everything: tests, sanitizers, a short run of the fuzzers'
+	@echo 'make soak     laws and fuzzers from fresh random seeds, for SOAK_MINUTES (10)'
 	@echo 'make bench    the benchmarks; their tables are under version control'
 	@echo 'make paper    the report'\''s experiments on the fields in DATA, written to docs/paper.md'
 	@echo 'make install  program, library, headers, man page into PREFIX (now $(PREFIX)); DESTDIR is honoured'

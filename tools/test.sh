@@ -2,9 +2,16 @@
 # Everything that `make test` runs, in four stages; a stage that fails does not hide the next.
 #
 #   1. Release: all tests through ctest (unit tests, laws, scripts that drive the program).
-#   2. AddressSanitizer and UndefinedBehaviorSanitizer: unit tests and laws again, asserts on.
+#   2. AddressSanitizer and UndefinedBehaviorSanitizer: unit tests and laws again, asserts on; with a quarter of the
+#      random cases, and of the samples of real rasters a share (tests/laws/sanitized.h). One process runs many tests,
+#      since each start costs.
 #   3. ThreadSanitizer: the tests that use threads.
 #   4. Fuzzers, SCARP_FUZZ_SECONDS (20) each; needs clang.
+#
+# Chance begins at the same seed in every run: tests/laws/fixed_seed.cpp, SCARP_FUZZ_SEED; tools/soak.sh takes fresh ones.
+#
+# A fresh build folder compiles sources in batches (CMAKE_UNITY_BUILD), which parses headers once a batch; not the
+# library of stage 1, which is what users run. The program is compiled file by file by cli.test_install_shared.
 #
 # Environment: BUILD (build), JOBS (cores). The last line counts the tests of all stages; exit 1 if one failed.
 set -uo pipefail
@@ -26,12 +33,19 @@ add() {
   total_skipped=$((total_skipped + $3))
 }
 
-# build_stage FOLDER PRESET TARGET...: configures and builds; a failure counts as one failed test.
+# build_stage FOLDER PRESET TARGET...: configures and builds; a failure counts as one failed test. Where batches fail,
+# as they do once two sources of one have a private name in common, each source is compiled alone.
 build_stage() {
-  local folder=$1 preset=$2
+  local folder=$1 preset=$2 options=()
   shift 2
-  if tools/configure.sh "$folder" --preset "$preset" && cmake --build "$folder" -j "$jobs" --target "$@"; then
-    return 0
+  [ -f "$folder/CMakeCache.txt" ] || options=(-DCMAKE_UNITY_BUILD=ON)
+  if tools/configure.sh "$folder" --preset "$preset" ${options[@]+"${options[@]}"}; then
+    cmake --build "$folder" -j "$jobs" --target "$@" && return 0
+    if grep -q '^CMAKE_UNITY_BUILD:[A-Z]*=ON' "$folder/CMakeCache.txt"; then
+      echo "the $preset build failed in batches: once more, each source alone"
+      tools/configure.sh "$folder" --preset "$preset" -DCMAKE_UNITY_BUILD=OFF &&
+        cmake --build "$folder" -j "$jobs" --target "$@" && return 0
+    fi
   fi
   echo "FAILED: the $preset build"
   add 0 1 0
@@ -58,19 +72,32 @@ run_ctest() {
   add $((tests - failed - skipped)) "$failed" "$skipped"
 }
 
-# run_gtest PROGRAM: one process for all its tests.
+# run_gtest PROGRAM [PARTS]: its tests in PARTS (1) processes, as many at once as there are jobs. Tests that an abort
+# kept from running count as failed.
 run_gtest() {
-  local log=$1.log status=0
-  "$1" --gtest_brief=1 >"$log" 2>&1 || status=$?
-  count() { sed -n "s/^\[  $1 *\] \([0-9]*\) tests\?[.,].*/\1/p" "$log" | head -n 1; }
-  local passed failed skipped
-  passed=$(count PASSED) failed=$(count FAILED) skipped=$(count SKIPPED)
-  if [ "$status" -ne 0 ]; then
-    cat "$log"
-    [ "${failed:-0}" -gt 0 ] || failed=1
-  fi
-  echo "$(basename "$1"): ${passed:-0} passed, ${failed:-0} failed, ${skipped:-0} skipped"
-  add "${passed:-0}" "${failed:-0}" "${skipped:-0}"
+  local program=$1 parts=${2:-1} passed=0 failed=0 skipped=0 part
+  run_part() {
+    local log=$1.$3.log status=0
+    GTEST_TOTAL_SHARDS=$2 GTEST_SHARD_INDEX=$3 timeout 1800 "$1" --gtest_color=no >"$log" 2>&1 || status=$?
+    echo "exit status $status" >>"$log"
+  }
+  export -f run_part
+  seq 0 $((parts - 1)) | xargs -P "$jobs" -I{} bash -c 'run_part "$@"' run_part "$program" "$parts" {}
+  for ((part = 0; part < parts; ++part)); do
+    local log=$program.$part.log tests fine left bad
+    tests=$(sed -n 's/^\[==========\] Running \([0-9]*\) tests\? .*/\1/p' "$log")
+    fine=$(grep -c '^\[       OK \] ' "$log")
+    left=$(grep -c '^\[  SKIPPED \] .* ms)$' "$log")
+    bad=$((${tests:-0} - fine - left))
+    if ! tail -n 1 "$log" | grep -qx 'exit status 0'; then
+      [ "$bad" -gt 0 ] || bad=1
+      grep -v -e '^\[       OK \]' -e '^\[-*\]' "$log" | awk '/^\[ RUN / { run = $0; next } run != "" { print run; run = "" } { print }'
+    fi
+    passed=$((passed + fine)) failed=$((failed + bad)) skipped=$((skipped + left))
+  done
+  echo "$(basename "$program"): $passed passed, $failed failed, $skipped skipped"
+  [ $((passed + failed + skipped)) -gt 0 ] || failed=1
+  add "$passed" "$failed" "$skipped"
 }
 
 install_validator() {
@@ -86,7 +113,7 @@ install_validator
 if build_stage "$build" release all; then run_ctest "$build"; fi
 
 announce "2/4 address and undefined behaviour sanitizers: unit tests and laws"
-if build_stage "$build-asan" asan scarp_tests; then run_ctest "$build-asan" -E '^cli\.'; fi
+if build_stage "$build-asan" asan scarp_tests; then run_gtest "$build-asan/bin/scarp_tests" 40; fi
 
 announce "3/4 thread sanitizer: tests that use threads"
 if build_stage "$build-tsan" tsan scarp_thread_tests; then

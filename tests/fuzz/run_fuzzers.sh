@@ -2,7 +2,7 @@
 # Fuzzes for a while and keeps what was learnt: BUILD/fuzz/NAME holds the corpus, a finding lies there as crash-*.
 #
 # usage: tests/fuzz/run_fuzzers.sh BUILD [NAME...]      all fuzzers of BUILD/bin where no name is given
-# SCARP_FUZZ_SECONDS: seconds for each (default 20).
+# SCARP_FUZZ_SECONDS: seconds for each (default 20). SCARP_FUZZ_SEED: where chance begins (default 1; 0: anywhere).
 #
 # Starts from tests/fuzz/corpus/NAME and tests/fuzz/NAME.dict where they exist; findings that were mended are kept in
 # that corpus, so they are tried again in every run.
@@ -24,7 +24,8 @@ failed=0
 for name in "$@"; do
   corpus=$build/fuzz/$name
   mkdir -p "$corpus"
-  arguments=(-max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="$corpus/")
+  arguments=(-seed="${SCARP_FUZZ_SEED:-1}" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -print_final_stats=1
+    -artifact_prefix="$corpus/")
   [ -f "$here/$name.dict" ] && arguments+=(-dict="$here/$name.dict")
   seeds=()
   [ -d "$here/corpus/$name" ] && seeds=("$here/corpus/$name")

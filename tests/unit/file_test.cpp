@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::to_bytes;
 
-class FileTest : public testing::Test {
+class FileTest : public ::testing::Test {
  protected:
   void SetUp() override {
     std::string pattern = (fs::temp_directory_path() / "scarp_file_test_XXXXXX").string();

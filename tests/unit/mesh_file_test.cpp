@@ -34,7 +34,7 @@ void expect_sound(const Result<Mesh>& mesh, const char* name, std::size_t place)
   ASSERT_EQ(mesh->channels.size(), static_cast<std::size_t>(mesh->channel_count) * count);
 }
 
-class MeshFile : public testing::TestWithParam<int> {
+class MeshFile : public ::testing::TestWithParam<int> {
  protected:
   const char* name() const { return kNames[GetParam()]; }
   std::vector<std::uint8_t> good(bool normals) const {
@@ -122,7 +122,7 @@ TEST_P(MeshFile, BrokenMeshesAreRefused) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, MeshFile, testing::Range(0, 5),
+INSTANTIATE_TEST_SUITE_P(All, MeshFile, ::testing::Range(0, 5),
                          [](const auto& format) { return std::string(kNames[format.param] + 2); });
 
 TEST(MeshFormats, AreFoundByNameAndExtension) {

@@ -1,0 +1,57 @@
+#!/bin/bash
+# Looks for rare faults for a while, from fresh random seeds: the laws with ten times their cases, round after round,
+# and then the fuzzers (where clang is). What fails is printed with the command that repeats it.
+#
+# Environment: SOAK_MINUTES (10), half for the laws (a round that has begun is finished), half for the fuzzers;
+# BUILD (build), JOBS (cores), SCARP_FUZZ_SEED (fresh). Exit 1 if something failed.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+build=${BUILD:-build}
+jobs=${JOBS:-$(nproc 2>/dev/null || echo 2)}
+seconds=$((${SOAK_MINUTES:-10} * 60))
+exec </dev/null
+
+fresh_seed() { od -An -N4 -tu4 /dev/urandom | tr -d ' '; }
+
+# What RC_GTEST_PROP(SUITE, NAME, ...) declares, as SUITE.NAME, in a random order.
+laws() {
+  cat tests/laws/*.cpp tests/unit/*.cpp | tr '\n' ' ' |
+    grep -o 'RC_GTEST_PROP( *[A-Za-z_0-9]*, *[A-Za-z_0-9]*' | sed 's/.*( *//; s/, */./' | shuf
+}
+
+tools/configure.sh "$build" --preset release && cmake --build "$build" -j "$jobs" --target scarp_tests || exit 1
+fuzz=no
+if command -v clang++ >/dev/null; then
+  tools/configure.sh "$build-fuzz" --preset fuzz && cmake --build "$build-fuzz" -j "$jobs" || exit 1
+  fuzz=yes
+else
+  echo "clang++ is missing: the fuzzers are skipped, the laws get all the time"
+fi
+[ $fuzz = no ] || seconds=$((seconds / 2))
+
+# try_law PROGRAM LAW SEED: says what failed and how to repeat it.
+try_law() {
+  local log
+  log=$(RC_PARAMS="seed=$3 max_success=1000" "$1" --gtest_brief=1 --gtest_filter="$2" 2>&1) && return 0
+  printf '%s\n' "$log"
+  printf 'FAILED: RC_PARAMS="seed=%s max_success=1000" %s --gtest_filter=%s\n' "$3" "$1" "$2"
+  return 1
+}
+export -f try_law
+
+failed=0 rounds=0 end=$((SECONDS + seconds))
+while [ $SECONDS -lt $end ]; do
+  seed=$(fresh_seed)
+  laws | xargs -P "$jobs" -I{} bash -c 'try_law "$@"' try_law "$build/bin/scarp_tests" {} "$seed" || failed=1
+  rounds=$((rounds + 1))
+  echo "round $rounds of $(laws | wc -l) laws, seed $seed"
+done
+
+if [ $fuzz = yes ]; then
+  fuzzers=$(ls tests/fuzz/fuzz_*.cpp | xargs -n 1 basename -s .cpp)
+  export SCARP_FUZZ_SEED=${SCARP_FUZZ_SEED:-$(fresh_seed)}
+  export SCARP_FUZZ_SECONDS=$((seconds * jobs / $(echo "$fuzzers" | wc -l) + 1))
+  echo "fuzzers, $SCARP_FUZZ_SECONDS s each, seed $SCARP_FUZZ_SEED; findings: $build-fuzz/fuzz/NAME/crash-*"
+  echo "$fuzzers" | xargs -P "$jobs" -n 1 tests/fuzz/run_fuzzers.sh "$build-fuzz" || failed=1
+fi
+[ $failed = 0 ] && echo "nothing was found" || { echo "faults were found"; exit 1; }
