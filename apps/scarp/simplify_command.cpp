@@ -57,6 +57,10 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
       read_companions(plan.companions, outcome.as_read, outcome.field.cols, outcome.field.rows, progress);
   if (!companions) return tl::unexpected(std::move(companions.error()));
   outcome.companions = std::move(*companions);
+  Result<LineConstraints> lines =
+      plan.lines.read(outcome.as_read, outcome.field.rows, progress, outcome.companions.warnings);
+  if (!lines) return tl::unexpected(std::move(lines.error()));
+  outcome.lines = std::move(*lines);
   outcome.heights = height_range(outcome.field);
   outcome.seconds_read = seconds_since(start);
   return {};
@@ -182,6 +186,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   options.mask = outcome.companions.mask;
   options.tolerance = outcome.companions.tolerance;
   options.script = outcome.companions.script;
+  options.breaklines = outcome.lines;
   options.progress = display.callback();
   if (plan->memory) options.memory_taken = bytes_taken(outcome.field, *plan->memory);
   Result<Simplified> simplified = simplify(outcome.view(), options);
@@ -195,6 +200,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
     return tl::unexpected(std::move(error));
   }
   outcome.simplified = std::move(*simplified);
+  apply_edits(outcome.simplified.edits, outcome.field);
   if (outcome.field.source) outcome.heights = outcome.simplified.measurement.heights;
   complete_info(outcome.heights, outcome.as_read);
   const OwnedHeightField& field = outcome.field;

@@ -111,6 +111,26 @@ Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
   return {};
 }
 
+/// The option beside which the mesh cannot hold lines; null if there is none.
+const char* find_line_obstacle(const SimplifyArguments& given, const SimplifyPlan& plan) {
+  if (plan.channels.image) return "--image";
+  if (!given.channels.textures.empty()) return "--texture";
+  if (plan.simplify.outline_tolerance > 0) return "--outline-tolerance";
+  if (plan.simplify.effort == Effort::kFast && (given.max_triangles || given.max_points))
+    return "--effort fast with a budget";
+  return given.strategy.dominant_obstacle();
+}
+
+Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
+  plan.lines = given.lines;
+  if (auto checked = given.lines.check(); !checked) return checked;
+  if (given.lines.breaklines.empty()) return {};
+  const char* obstacle = find_line_obstacle(given, plan);
+  if (obstacle == nullptr) return {};
+  return fail(ErrorKind::kUsage,
+              fmt::format("--breaklines and {} contradict each other: leave one of them out", obstacle));
+}
+
 /// The budget that was given; null if there is none.
 const char* find_budget(const SimplifyArguments& given) {
   if (given.max_triangles) return "--max-triangles";
@@ -271,6 +291,7 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
   const std::pair<const char*, bool> options[] = {
       {"--max-triangles", given.max_triangles.has_value()},
       {"--max-points", given.max_points.has_value()},
+      {"--breaklines", !given.lines.breaklines.empty()},
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
       {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
       {"--normals", plan.simplify.normals},
@@ -326,7 +347,8 @@ std::string canonical_command(const SimplifyArguments& given) {
   for (const auto& [name, value] : options) {
     command += canonical_option(name, *value);
   }
-  command += given.companions.canonical() + given.channels.canonical() + given.strategy.canonical();
+  command +=
+      given.companions.canonical() + given.lines.canonical() + given.channels.canonical() + given.strategy.canonical();
   if (given.strategy.asks_for_greedy()) command += " --order greedy";
   return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "");
 }
@@ -350,7 +372,7 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   const Result<int> threads = parse_threads(given.threads);
   if (!threads) return tl::unexpected(threads.error());
   plan.simplify.threads = *threads;
-  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_order, plan_effort,
+  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_lines, plan_order, plan_effort,
                           plan_objective, plan_outputs, plan_memory}) {
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());

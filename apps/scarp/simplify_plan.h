@@ -8,6 +8,7 @@
 
 #include "channels.h"
 #include "companions.h"
+#include "line_options.h"
 #include "memory.h"
 #include "options.h"
 #include "output_kind.h"
@@ -28,6 +29,7 @@ struct SimplifyArguments {
   StrategyArguments strategy;
   CompanionArguments companions;
   ChannelArguments channels;
+  LineArguments lines;
   MemoryArguments memory;
   bool normals = false, uvs = false, overwrite = false, quiet = false, timing = false, json_progress = false;
 
@@ -41,6 +43,7 @@ struct SimplifyPlan {
   std::optional<ErrorGoal> error_goal;
   SimplifyOptions simplify;  ///< without max_error, which may depend on the relief, and what CompanionArguments name
   CompanionArguments companions;
+  LineArguments lines;
   ChannelPlan channels;
   NodataPolicy policy = NodataPolicy::kHole;
   double fill_distance = 100;

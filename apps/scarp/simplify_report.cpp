@@ -133,6 +133,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
                                   {"script", &plan.companions.script}}) {
     report["strategy"][key] = or_null(*file);
   }
+  report["breaklines"] = describe_lines(plan.lines, outcome.lines.lines.size(), outcome.simplified);
   report["stopped_by"] = stop_name(outcome.simplified.stop);
   report["vertices"] = outcome.vertices;
   report["triangles"] = outcome.triangles;
@@ -172,6 +173,7 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
       "triangles",
       fmt::format("{}, {} of the full grid's {}", format_count(outcome.triangles),
                   format_share(static_cast<double>(outcome.triangles), static_cast<double>(full)), format_count(full)));
+  text += lines_line(outcome.lines.lines.size(), outcome.simplified);
   text += solid_line(plan, outcome);
   text += describe_errors(plan, outcome);
   if (outcome.psnr) text += summary_line("PSNR", fmt::format("{:.2f} dB", *outcome.psnr));

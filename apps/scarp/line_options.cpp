@@ -1,0 +1,118 @@
+#include "line_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "simplify_run.h"
+#include "text.h"
+
+namespace scarp::cli {
+namespace {
+
+constexpr Choice<LineConflict> kConflicts[] = {{"error", LineConflict::kError},
+                                               {"first", LineConflict::kFirst},
+                                               {"mean", LineConflict::kMean},
+                                               {"highest", LineConflict::kHighest}};
+
+double largest_edit(const std::vector<SampleEdit>& edits) {
+  double largest = 0;
+  for (const SampleEdit& edit : edits) largest = std::max(largest, std::abs(double{edit.after} - double{edit.before}));
+  return largest;
+}
+
+}  // namespace
+
+void LineArguments::add_to(CLI::App& verb) {
+  const char* group = "Breaklines";
+  verb.add_option("--breaklines", breaklines,
+                  "Lines, and rings of polygons, that become edges of\nthe mesh, from any vector file that GDAL opens. "
+                  "With\nheights of their own they keep them, without they\nfollow the raster. May be given again")
+      ->type_name("FILE[:LAYER]")
+      ->group(group);
+  verb.add_option("--breakline-z", z_field, "Attribute that holds the height of a line, such as a\ncontour's")
+      ->type_name("FIELD")
+      ->group(group);
+  verb.add_flag("--soft-breaklines", are_soft, "Lines follow the raster, whatever heights they have")->group(group);
+  verb.add_option("--line-conflict", conflict,
+                  "Where lines of different heights meet: error\n(default), first, mean or highest")
+      ->type_name("RULE")
+      ->group(group);
+}
+
+Result<void> LineArguments::check() const {
+  const char* needing = z_field    ? "--breakline-z"
+                        : are_soft ? "--soft-breaklines"
+                        : conflict ? "--line-conflict"
+                                   : nullptr;
+  if (needing != nullptr && breaklines.empty())
+    return fail(ErrorKind::kUsage, fmt::format("{} needs --breaklines: there are no lines without", needing));
+  if (are_soft && z_field)
+    return fail(ErrorKind::kUsage, "--soft-breaklines and --breakline-z contradict each other: leave one of them out");
+  if (!conflict) return {};
+  const Result<LineConflict> rule = choose("--line-conflict", *conflict, kConflicts);
+  return rule ? Result<void>() : tl::unexpected(rule.error());
+}
+
+std::string LineArguments::canonical() const {
+  std::string text;
+  for (const std::string& file : breaklines) text += " --breaklines " + shell_word(base_name(file));
+  return text + canonical_option("--breakline-z", z_field) + (are_soft ? " --soft-breaklines" : "") +
+         canonical_option("--line-conflict", conflict);
+}
+
+Result<LineConstraints> LineArguments::read(const RasterInfo& raster, int rows, const ProgressCallback& progress,
+                                            std::vector<std::string>& warnings) const {
+  LineConstraints constraints;
+  constraints.affine = map_affine(raster, rows);
+  if (conflict) constraints.conflict = *choose("--line-conflict", *conflict, kConflicts);
+  ReadLinesOptions options;
+  options.crs = raster.crs;
+  options.z_field = z_field.value_or("");
+  options.ignore_z = are_soft;
+  options.progress = progress;
+  std::uint32_t polygons = 0;
+  for (const std::string& file : breaklines) {
+    auto set = read_lines(file, options);
+    if (!set) return tl::unexpected(std::move(set.error()));
+    for (Line& line : set->lines) {
+      if (line.polygon != kNoPolygon) line.polygon += polygons;
+      constraints.lines.push_back(std::move(line));
+    }
+    polygons += set->polygons;
+    warnings.insert(warnings.end(), set->warnings.begin(), set->warnings.end());
+  }
+  return constraints;
+}
+
+void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field) {
+  for (const SampleEdit& edit : edits)
+    field.samples[static_cast<std::size_t>(edit.row) * static_cast<std::size_t>(field.cols) +
+                  static_cast<std::size_t>(edit.col)] = edit.after;
+}
+
+Json describe_lines(const LineArguments& given, std::uint64_t lines, const Simplified& simplified) {
+  if (given.breaklines.empty()) return nullptr;
+  return Json{{"files", given.breaklines},
+              {"lines", lines},
+              {"laid", simplified.lines_laid},
+              {"edited_samples", simplified.edits.size()},
+              {"largest_edit", largest_edit(simplified.edits)}};
+}
+
+std::string lines_line(std::uint64_t lines, const Simplified& simplified) {
+  if (lines == 0) return "";
+  std::string text = simplified.lines_laid == lines
+                         ? format_plural(lines, "line")
+                         : fmt::format("{} of {}, the others lie beside the raster",
+                                       format_count(simplified.lines_laid), format_plural(lines, "line"));
+  if (!simplified.edits.empty())
+    text +=
+        fmt::format("; {} given their heights, changed by up to {}: the errors are those against the changed raster",
+                    format_plural(simplified.edits.size(), "sample"), format_number(largest_edit(simplified.edits)));
+  return summary_line("breaklines", text);
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,39 @@
+// Vector files whose lines the mesh must hold.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "options.h"
+#include "report.h"
+#include "scarp/lines.h"
+#include "scarp/simplify.h"
+
+namespace scarp::cli {
+
+struct LineArguments {
+  std::vector<std::string> breaklines;  ///< FILE or FILE:LAYER
+  Given z_field, conflict;
+  bool are_soft = false;
+
+  void add_to(CLI::App& verb);
+  /// Refuses options that need --breaklines, and words that are unknown.
+  Result<void> check() const;
+  /// The options as they can change the mesh, for the canonical command.
+  std::string canonical() const;
+  /// The lines of all files, in the CRS of the raster; sentences for the user in `warnings`.
+  Result<LineConstraints> read(const RasterInfo& raster, int rows, const ProgressCallback& progress,
+                               std::vector<std::string>& warnings) const;
+};
+
+/// Puts the samples on hard lines at the heights that simplify() gave them.
+void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field);
+
+/// The "breaklines" object of a report; null without lines.
+Json describe_lines(const LineArguments& given, std::uint64_t lines, const Simplified& simplified);
+/// Of the summary; empty without lines.
+std::string lines_line(std::uint64_t lines, const Simplified& simplified);
+
+}  // namespace scarp::cli
