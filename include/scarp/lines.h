@@ -83,7 +83,8 @@ struct ReadLinesOptions {
 /// Fails in one sentence that names file, layer and feature: kInput for a missing file or layer, none or several layers
 /// to choose from (they are named), no lines in the layer, a coordinate that is not finite (a z that is NaN is soft), a
 /// vertex that has no place in the wanted CRS, a missing attribute, or one that is no finite number; kUsage for a
-/// wanted CRS that GDAL does not know; kCancelled. Cost: about a second for a million vertices of a GeoPackage.
+/// wanted CRS that GDAL does not know; kCancelled. Cost: a few tenths of a second for a million vertices of a
+/// GeoPackage, a second with a transformation (bench/speed/speed_lines.cpp).
 Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions& options = {});
 
 }  // namespace scarp

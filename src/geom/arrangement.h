@@ -79,7 +79,8 @@ struct Arrangement {
 /// Chains of one vertex are left out: lines of no extent, or touched by the rectangle alone.
 /// REQUIRES: 0 < width, height <= kMaxCoordinate; rigid segments lie in the rectangle, run along axes or diagonals
 /// between points of even coordinates, and are no points. Lines may be anything.
-/// Cost: O((n + k) log n) for n segments and k crossings; about a second for 400,000 segments that cross little.
+/// Cost: O((n + k) log n) for n segments and k crossings that are not crowded; two to three seconds for a million
+/// segments (bench/speed/speed_lines.cpp). Chains hold every vertex they pass, which n overlapping segments make n²/2.
 Arrangement arrange(const Polylines& lines, std::span<const Segment> rigid, std::int32_t width, std::int32_t height);
 
 }  // namespace scarp

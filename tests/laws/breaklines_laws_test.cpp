@@ -39,7 +39,9 @@ class Stage {
   explicit Stage(std::uint32_t seed) : random_(seed) {}
 
   int below(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
-  double between(double low, double high) { return low + (high - low) * (random_() / 4294967296.0); }
+  double between(double low, double high) {
+    return low + (high - low) * (static_cast<double>(random_()) / 4294967296.0);
+  }
 
   Scene plane() {
     Scene scene;

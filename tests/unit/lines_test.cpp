@@ -16,12 +16,14 @@ using testing::contains;
 /// GeoJSON of one feature for each geometry; FIDs count from 0.
 std::string geojson(const std::vector<std::string>& geometries, const std::string& crs = "EPSG::32611",
                     const std::string& properties = "{}") {
-  std::string text = R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:)" +
-                     crs + R"("}},"features":[)";
-  for (std::size_t k = 0; k < geometries.size(); ++k)
-    text += (k == 0 ? "" : ",") + (R"({"type":"Feature","properties":)" + properties) + R"(,"geometry":)" +
-            geometries[k] + "}";
-  return text + "]}";
+  std::string text = R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:)";
+  text.append(crs).append(R"("}},"features":[)");
+  for (const std::string& geometry : geometries) {
+    if (&geometry != &geometries.front()) text.append(",");
+    text.append(R"({"type":"Feature","properties":)").append(properties);
+    text.append(R"(,"geometry":)").append(geometry).append("}");
+  }
+  return text.append("]}");
 }
 
 class LineFiles : public ::testing::Test {
