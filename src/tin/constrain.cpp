@@ -70,8 +70,9 @@ bool Triangulation::constrain(Vertex a, Vertex b) {
     // Flips of an earlier piece cannot make a later piece cross a constraint, but they can change what it crosses.
     const Passage p = passage(v, w);
     if (!p.crossed.empty()) force_edge(v, w, p.crossed);
-    const HalfEdge h = find_edge(v, w);
-    set_constrained(h != kNone ? h : find_edge(w, v));
+    const HalfEdge h = find_edge(v, w), edge = h != kNone ? h : find_edge(w, v);
+    set_constrained(edge);
+    last_ = edge / 3;
   }
   return true;
 }
