@@ -2,8 +2,12 @@
 //
 // The mesh is cut into patches (cut.h), each is worked on alone (removal.h), then squares shifted by half take what the
 // borders of the first held back. Rounds of removal with repair (schedule.h) follow where they are wanted, on squares
-// shifted in turn; the last of them polishes heights. Patches depend on the mesh only, so the result is the same on any
-// number of threads.
+// that grow as triangles become fewer, shifted in turn; a last one takes up what lies near the borders of the others,
+// and polishes heights. Patches depend on the mesh only, so the result is the same on any number of threads.
+//
+// Against one patch for all, over 32 cases of eight rasters from 2 to 0.2 % of the relief, kHighDepth in patches leaves
+// 98.9 to 100.6 % of the triangles. With squares that stay, and without the last round, it was 101.1 to 101.3 % on one
+// of 1197 x 643 samples; that round takes some 3 % of the time (bench/quality/fit.cpp).
 //
 // Where there is a time to use up, rounds go on: repair alone soon finds nothing more, but once all vertices have been
 // moved a little, wherever the bound lets them, it does. Max at 1 % of the relief leaves 0.249 of greedy's triangles on
@@ -64,8 +68,7 @@ struct FitOptions {
   bool goes_on = false;
 };
 
-/// A patch of so many triangles and what belongs to it fits the caches of one core; its borders cost less than one
-/// vertex in a thousand.
+/// A patch of so many triangles and what belongs to it fits the caches of one core.
 inline constexpr std::int64_t kPatchTriangles = 8192;
 
 /// What a run takes at most for a vertex of the mesh that it is given, that mesh included: with one thread these two,
