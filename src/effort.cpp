@@ -118,7 +118,7 @@ FitOptions fit_options(const HeightField& field, const SimplifyOptions& options,
   const auto& a = field.frame.affine;
   FitOptions fit;
   fit.threshold = threshold;
-  fit.sides_are_free = field.frame.is_affine();
+  if (!field.frame.is_affine()) fit.free_sides = {false, false, false, false};
   fit.vertices_are_free = vertices_are_free(field, options);
   if (options.effort == Effort::kHigh) fit.depth = kHighDepth;
   if (options.effort == Effort::kMax) fit.depth = kMaxDepth;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "fit/cut.h"
 #include "fit/removal.h"
 #include "fit/sample_window.h"
 #include "fit/schedule.h"
@@ -26,10 +25,11 @@ constexpr int kBorderWidth = 2;
 /// Whether the mesh is one patch.
 bool is_small(const Triangulation& tin) { return tin.triangle_count() <= 2 * kPatchTriangles; }
 
-/// Side of squares of some kPatchTriangles.
+/// Side of squares of some kPatchTriangles, or of shorter pieces of a narrow raster.
 std::int32_t patch_side(const Raster& raster, const Triangulation& tin) {
-  const double samples = static_cast<double>(raster.cols) * raster.rows;
-  const double side = std::sqrt(samples * kPatchTriangles / static_cast<double>(tin.triangle_count()));
+  const double cols = raster.cols, rows = raster.rows;
+  const double area = cols * rows * kPatchTriangles / static_cast<double>(tin.triangle_count());
+  const double side = std::max(std::sqrt(area), area / std::min(cols, rows));
   return std::clamp(static_cast<std::int32_t>(side), 2, std::max(raster.cols, raster.rows));
 }
 
@@ -128,7 +128,7 @@ class Rounds {
   /// Cuts, lets job(patch, vertices, error) count what it does to each patch, and joins, to places of so many steps.
   template <class Job>
   bool work_on(const PatchGrid& grid, double end, std::int32_t steps, const Job& job) {
-    const PatchCutter cutter(raster_, fitted_.tin, fitted_.places, grid, options_.sides_are_free, options_.threads);
+    const PatchCutter cutter(raster_, fitted_.tin, fitted_.places, grid, options_.free_sides, options_.threads);
     std::vector<Patch> patches(cutter.count());
     std::vector<std::vector<Vertex>> vertices(cutter.count());
     counts_.assign(cutter.count(), {});

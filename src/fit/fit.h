@@ -19,6 +19,7 @@
 #include <functional>
 #include <span>
 
+#include "fit/cut.h"
 #include "fit/repair.h"
 #include "grid/raster.h"
 #include "grid/vertex_places.h"
@@ -47,9 +48,8 @@ struct FitOptions {
   /// in for the threshold; energies count errors in them. EMPTY: the threshold holds for all.
   std::span<const float> bounds = {};
   int threads = 0;
-  /// Whether vertices on the sides of the rectangle may go. They must stay where those sides are no straight lines in
-  /// the mesh's frame.
-  bool sides_are_free = true;
+  /// Vertices must stay on sides that are no straight lines in the mesh's frame, or that somebody else shares.
+  FreeSides free_sides = {};
   /// Where it has rounds, vertices are other samples afterwards than before.
   FitDepth depth = {};
   /// Floor of the shapes of triangles, 2·area over the longest edge squared (rules.h); 0: none. A tenth costs 2 to 6 %
