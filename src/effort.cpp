@@ -45,7 +45,8 @@ const char* find_fit_obstacle(const HeightField& field, const SimplifyOptions& o
   if (has_bounds(options) && has_budget(options)) return "has no budget where samples have bounds of their own";
   if (!options.max_error && options.tolerance.empty() && !has_budget(options)) return "needs a max error or a budget";
   if (options.edges.data_dependent) return "chooses edges itself";
-  return field.samples == nullptr ? "needs the raster in memory as a whole" : nullptr;
+  if (field.samples == nullptr && has_budget(options)) return "needs the raster in memory as a whole for a budget";
+  return nullptr;
 }
 
 bool moves_vertices(Effort effort) { return effort == Effort::kHigh || effort == Effort::kMax; }
@@ -140,7 +141,7 @@ FitOptions fit_options(const HeightField& field, const SimplifyOptions& options,
   const auto& a = field.frame.affine;
   FitOptions fit;
   fit.threshold = threshold;
-  fit.sides_are_free = field.frame.is_affine();
+  if (!field.frame.is_affine()) fit.free_sides = {false, false, false, false};
   fit.vertices_are_free = vertices_are_free(field, options);
   if (options.effort == Effort::kHigh) fit.depth = kHighDepth;
   if (options.effort == Effort::kMax) fit.depth = kMaxDepth;

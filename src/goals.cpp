@@ -9,9 +9,10 @@
 
 namespace scarp {
 
-MemoryBudget memory_budget(const SimplifyOptions& options) {
+MemoryBudget memory_budget(const HeightField& field, const SimplifyOptions& options) {
   constexpr std::uint64_t kMesh = 48, kProof = 145;
-  const std::uint64_t fit = options.effort <= Effort::kFast ? 0 : kFitBytesPerVertex + kFitBytesPerVertexAndThread;
+  const bool is_fitted_whole = options.effort > Effort::kFast && field.samples != nullptr;
+  const std::uint64_t fit = is_fitted_whole ? kFitBytesPerVertex + kFitBytesPerVertexAndThread : 0;
   return {options.memory_limit, options.memory_taken, std::max({kProof, kMesh + options.memory_per_vertex, fit})};
 }
 

@@ -23,8 +23,8 @@ inline double seconds_since(Clock::time_point start) {
 /// Fails unless there is a goal (tolerances count where they are allowed) and max_error is a number of at least 0.
 Result<void> check_goals(const SimplifyOptions& options, bool may_have_tolerance);
 
-/// Bytes a vertex: what a run takes most of, in the proof or while the mesh is written.
-MemoryBudget memory_budget(const SimplifyOptions& options);
+/// Bytes a vertex: what a run takes most of, in the proof, while the mesh is written, or where it is fitted as a whole.
+MemoryBudget memory_budget(const HeightField& field, const SimplifyOptions& options);
 
 struct MeshSize {
   std::uint64_t vertices = 0, triangles = 0;

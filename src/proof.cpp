@@ -144,7 +144,7 @@ std::uint64_t band_bytes(const HeightField& field) {
 
 /// As many as the memory holds bands at work.
 int threads_within(const HeightField& field, const SimplifyOptions& options) {
-  return memory_budget(options).threads_within(band_bytes(field), thread_count(options.threads));
+  return memory_budget(field, options).threads_within(band_bytes(field), thread_count(options.threads));
 }
 
 std::string describe_breach(const Measurement& m, const SimplifyOptions& options) {

@@ -33,6 +33,7 @@
 #include "refine/settle_edges.h"
 #include "refine/source_judge.h"
 #include "refine/tiled.h"
+#include "row_fit.h"
 
 namespace scarp {
 
@@ -68,7 +69,7 @@ class Run {
         criterion_(criterion),
         lines_(lines),
         budget_(options),
-        memory_(memory_budget(options)),
+        memory_(memory_budget(field, options)),
         exact_(places_are_exact(field, options, lines == nullptr ? 1 : kLatticeSteps)),
         reporter_(options.progress) {}
 
@@ -129,7 +130,9 @@ class Run {
     domain_ = std::move(tiled.domain);
     heights_ = std::move(tiled.heights);
     result.work = tiled.work;
-    if (field_.samples != nullptr || field_.source->is_in_memory()) {
+    if (fits_rows(field_, options_)) {
+      set_places({tiled.steps, tiled.steps > 1 ? std::move(heights_) : std::vector<float>(), {}}, result);
+    } else if (field_.samples != nullptr || field_.source->is_in_memory()) {
       const Work work = release_seams(domain_->tin, criterion_.judge(), std::move(tiled.seams), options_.threads);
       result.work.samples_scanned += work.samples_scanned;
       result.work.triangles_scanned += work.triangles_scanned;
@@ -295,13 +298,12 @@ class Run {
 
   /// Vertices that the bound can do without go.
   Result<void> remove_vertices(Simplified& result) {
-    if (options_.effort == Effort::kFast) return {};
+    if (options_.effort == Effort::kFast || fits_rows(field_, options_)) return {};
     const auto start = Clock::now();
     refinement_.reset();
     FitOptions options = fit_options(field_, options_, criterion_.aim());
     options.bounds = criterion_.aims();
     options.threads = fit_threads();
-    exact_ = places_are_exact(field_, options_, place_steps(field_, options_));
     Reporter reporter(options_.progress);
     if (options_.progress) {
       options.progress = [&](double share, std::uint64_t vertices) {
@@ -311,12 +313,18 @@ class Run {
     auto fitted = fit(raster_, std::move(domain_->tin), std::move(places_), options);
     if (!fitted) return tl::unexpected(fitted.error());
     domain_->tin = std::move(fitted->tin);
-    places_ = std::move(fitted->places);
-    if (options.vertices_are_free && !places_.are_samples()) result.vertices = Vertices::kFree;
+    set_places(std::move(fitted->places), result);
     result.is_cut_short = fitted->is_cut_short;
     record(result, "fit", start);
     result.passes.back().removals = fitted->counts.removed;
     return {};
+  }
+
+  /// Of the vertices, after fitting.
+  void set_places(VertexPlaces places, Simplified& result) {
+    places_ = std::move(places);
+    exact_ = places_are_exact(field_, options_, place_steps(field_, options_));
+    if (vertices_are_free(field_, options_) && !places_.are_samples()) result.vertices = Vertices::kFree;
   }
 
   /// As many as the memory leaves room for.
@@ -435,11 +443,11 @@ class Run {
 };
 
 Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const SimplifyOptions& options,
-                                          const Criterion& criterion) {
+                                          const Criterion& criterion, RowFits& fits) {
   TiledOptions tiles;
   tiles.threshold = criterion.judge().goal();
   tiles.threads = options.threads;
-  tiles.memory = memory_budget(options);
+  tiles.memory = memory_budget(field, options);
   tiles.may_decline = options.order == Order::kAuto && field.samples != nullptr;
   Reporter reporter(options.progress);
   if (options.progress) {
@@ -448,6 +456,7 @@ Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const Simpli
       return !reporter.due() || reporter.report("refine", share, vertices, 0);
     };
   }
+  if (fits_rows(field, options)) fit_rows(field, options, criterion.aim(), fits, tiles);
   return refine_tiled(field, tiles);
 }
 
@@ -465,11 +474,12 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
   }
   const auto criterion = Criterion::make(field, options, raster, aim_of(field, options));
   if (!criterion) return tl::unexpected(criterion.error());
-  const MemoryBudget memory = memory_budget(options);
+  const MemoryBudget memory = memory_budget(field, options);
   const std::uint64_t bytes = proof_bytes(field, options);
   if (auto fits = memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
   const auto start = Clock::now();
-  auto tiled = refine_tiles(field, options, *criterion);
+  RowFits fits;
+  auto tiled = refine_tiles(field, options, *criterion, fits);
   if (!tiled) return tl::unexpected(tiled.error());
   if (!*tiled) {
     if (field.samples == nullptr)
@@ -483,11 +493,15 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
   if (auto fits = memory.check_mesh(bytes, domain.tin.vertex_count() - domain.unused, 1); !fits)
     return tl::unexpected(fits.error());
   const Work& work = (*tiled)->work;
-  const Pass pass{"tiles", seconds_since(start), work.samples_scanned, work.triangles_scanned, work.passes};
+  const double seconds = seconds_since(start);
+  std::vector<Pass> passes{
+      {"tiles", seconds - fits.seconds, work.samples_scanned, work.triangles_scanned, work.passes}};
+  if (fits_rows(field, options)) passes.push_back({"fit", fits.seconds, 0, 0, 0, fits.removed});
   auto result = Run(field, raster, options, *criterion, lines).execute(std::move(*tiled));
   if (!result) return result;
-  result->passes.insert(result->passes.begin(), pass);
-  result->seconds_refine += pass.seconds;
+  result->passes.insert(result->passes.begin(), passes.begin(), passes.end());
+  result->seconds_refine += seconds;
+  result->is_cut_short = result->is_cut_short || fits.is_cut_short;
   return result;
 }
 

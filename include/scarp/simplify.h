@@ -55,7 +55,7 @@ struct SimplifyOptions {
   /// algorithm, batches, data-dependent edges or an outline tolerance; kAuto then is kGreedy. DEFAULT: kAuto.
   Order order = Order::kAuto;
   /// All but kFast fail with kUsage together with a script that inserts, channels, data-dependent edges, an outline
-  /// tolerance, without the samples in memory, or with a budget beside a mask, tolerances or a script. DEFAULT: kAuto.
+  /// tolerance, or with a budget without samples in memory or beside a mask, tolerances or a script. DEFAULT: kAuto.
   Effort effort = Effort::kAuto;
   /// kFree fails with kUsage below kHigh and in frames that are not affine. DEFAULT: kAuto.
   Vertices vertices = Vertices::kAuto;

@@ -57,7 +57,7 @@ enum class Effort {
             ///< bounds of their own; else kFast
   kFast,    ///< nothing: what refinement inserted stays
   kNormal,  ///< vertices are removed for as long as every sample keeps the bound: half the triangles, for a few times
-            ///< the time. For an error goal alone, on heights alone, in memory; see simplify().
+            ///< the time. On heights alone, row of tiles by row of tiles if not in memory; see simplify().
   kHigh,  ///< more are removed, and what that breaks is repaired by flipping edges and moving vertices (see Vertices):
           ///< a third of the triangles, for some ten times the time of the greedy order. Where kNormal is
           ///< possible.

@@ -1,6 +1,7 @@
 #include "fit/cut.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -44,8 +45,8 @@ struct PatchCutter::Parts {
 };
 
 PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const VertexPlaces& places,
-                         const PatchGrid& grid, bool sides_are_free, int threads)
-    : raster_(raster), tin_(tin), places_(places), grid_(grid), sides_are_free_(sides_are_free), threads_(threads) {
+                         const PatchGrid& grid, const FreeSides& free_sides, int threads)
+    : raster_(raster), tin_(tin), places_(places), grid_(grid), free_sides_(free_sides), threads_(threads) {
   const auto squares = [&](std::int32_t samples) {
     return static_cast<std::size_t>((std::int64_t{samples} + grid.shift) / grid.side + 1);
   };
@@ -174,22 +175,31 @@ void PatchCutter::add_faces(std::size_t i, const Scratch& scratch, Patch& patch)
 }
 
 void PatchCutter::lock(Patch& patch) const {
+  constexpr std::int64_t kSteps = kLatticeSteps;
+  const std::int64_t right = (std::int64_t{raster_.cols} - 1) * kSteps,
+                     bottom = (std::int64_t{raster_.rows} - 1) * kSteps;
+  const auto place_of = [&](Patch::Id v) {
+    const FitCorner& at = patch.nodes_[v].at;
+    return Place{at.x + patch.window_.first.x * kSteps, at.y + patch.window_.first.y * kSteps};
+  };
   for (const Patch::Face& face : patch.faces_) {
     for (unsigned k = 0; k < 3; ++k) {
+      const std::array<Patch::Id, 2> ends{face.corners[k], face.corners[k == 2 ? 0 : k + 1]};
+      const std::array<Place, 2> at{place_of(ends[0]), place_of(ends[1])};
       const Patch::Link link = face.links[k];
-      const bool is_fixed = Patch::is_border(link) && !(sides_are_free_ && Patch::is_side(link));
-      for (const Patch::Id end : {face.corners[k], face.corners[k == 2 ? 0 : k + 1]}) {
-        const FitCorner& at = patch.nodes_[end].at;
-        const auto is_end = [](std::int32_t step, std::int32_t first, std::int32_t samples) {
-          const std::int64_t along = step + std::int64_t{first} * kLatticeSteps;
-          return along == 0 || along == (std::int64_t{samples} - 1) * kLatticeSteps;
-        };
-        const bool is_corner =
-            is_end(at.x, patch.window_.first.x, raster_.cols) && is_end(at.y, patch.window_.first.y, raster_.rows);
-        if (is_fixed || is_corner) patch.locked_[end] = 1;
+      const bool is_fixed = Patch::is_border(link) && !(Patch::is_side(link) && is_on_free_side(at[0], at[1]));
+      for (std::size_t i = 0; i < 2; ++i) {
+        const bool is_corner = (at[i].x == 0 || at[i].x == right) && (at[i].y == 0 || at[i].y == bottom);
+        if (is_fixed || is_corner) patch.locked_[ends[i]] = 1;
       }
     }
   }
+}
+
+/// Of an edge on one of the sides.
+bool PatchCutter::is_on_free_side(const Place& p, const Place& q) const {
+  if (p.x == q.x) return p.x == 0 ? free_sides_.left : free_sides_.right;
+  return p.y == 0 ? free_sides_.top : free_sides_.bottom;
 }
 
 Triangulation PatchCutter::join(std::vector<Patch> patches, const std::vector<std::vector<Vertex>>& vertices,

@@ -19,13 +19,17 @@ struct PatchGrid {
   std::int32_t side = 0, shift = 0;
 };
 
+/// Sides of the rectangle on which vertices may go.
+struct FreeSides {
+  bool left = true, top = true, right = true, bottom = true;
+};
+
 /// Which triangles go where.
 class PatchCutter {
  public:
-  /// `sides_are_free`: whether vertices on the sides of the rectangle may go. Raster, triangulation and places stay
-  /// alive.
+  /// Raster, triangulation and places stay alive.
   PatchCutter(const Raster& raster, const Triangulation& tin, const VertexPlaces& places, const PatchGrid& grid,
-              bool sides_are_free, int threads);
+              const FreeSides& free_sides, int threads);
 
   std::size_t count() const { return begins_.size() - 1; }
 
@@ -45,6 +49,9 @@ class PatchCutter {
                      std::vector<Vertex>& numbers, VertexPlaces& joined) const;
 
  private:
+  struct Place {
+    std::int64_t x, y;  ///< in kLatticeSteps from the raster's first sample
+  };
   struct Borders;
   struct Parts;
 
@@ -54,6 +61,7 @@ class PatchCutter {
   bool add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::vector<Vertex>& vertices) const;
   void add_faces(std::size_t i, const Scratch& scratch, Patch& patch) const;
   void lock(Patch& patch) const;
+  bool is_on_free_side(const Place& p, const Place& q) const;
   float height_of(Vertex v) const;
   void number_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
                        Parts& parts) const;
@@ -67,7 +75,7 @@ class PatchCutter {
   const Triangulation& tin_;
   const VertexPlaces& places_;
   PatchGrid grid_;
-  bool sides_are_free_;
+  FreeSides free_sides_;
   int threads_;
   std::size_t squares_per_row_;
   std::vector<std::size_t> begins_;  // by patch, where its triangles begin in order_; the last patch: outside

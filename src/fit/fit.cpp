@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "fit/cut.h"
 #include "fit/removal.h"
 #include "fit/sample_window.h"
 #include "fit/schedule.h"
@@ -20,14 +19,27 @@ namespace {
 constexpr double kWorthARound = 1e-3;
 constexpr int kPoorRounds = 2;
 
-/// Side of squares of some kPatchTriangles; of one that holds all where they are not many more.
+/// How far from the borders of patches the last round of repair begins, in edges.
+constexpr int kBorderWidth = 2;
+
+/// Whether the mesh is one patch.
+bool is_small(const Triangulation& tin) { return tin.triangle_count() <= 2 * kPatchTriangles; }
+
+/// Side of squares of some kPatchTriangles, or of shorter pieces of a narrow raster.
 std::int32_t patch_side(const Raster& raster, const Triangulation& tin) {
-  const auto triangles = static_cast<double>(tin.triangle_count());
-  const std::int32_t longest = std::max(raster.cols, raster.rows);
-  if (triangles <= 2.0 * kPatchTriangles) return longest;
-  const double samples = static_cast<double>(raster.cols) * raster.rows;
-  const double side = std::sqrt(samples * kPatchTriangles / triangles);
-  return std::clamp(static_cast<std::int32_t>(side), 2, longest);
+  const double cols = raster.cols, rows = raster.rows;
+  const double area = cols * rows * kPatchTriangles / static_cast<double>(tin.triangle_count());
+  const double side = std::max(std::sqrt(area), area / std::min(cols, rows));
+  return std::clamp(static_cast<std::int32_t>(side), 2, std::max(raster.cols, raster.rows));
+}
+
+/// Marks the neighbours of marked nodes too.
+void spread(const Patch& patch, std::vector<std::uint8_t>& marks) {
+  const std::vector<std::uint8_t> before = marks;
+  for (Patch::Id f = 0; f < patch.face_count(); ++f) {
+    const auto& [a, b, c] = patch.face(f).corners;
+    if ((before[a] | before[b] | before[c]) != 0) marks[a] = marks[b] = marks[c] = 1;
+  }
 }
 
 /// Whether errors have energies somewhere.
@@ -66,6 +78,7 @@ class Rounds {
         fitted_{std::move(tin), {}, std::move(places)},
         vertices_(fitted_.tin.vertex_count()),
         settled_(fitted_.tin.vertex_count(), 0),
+        held_(fitted_.tin.vertex_count(), 0),
         scratch_(static_cast<std::size_t>(thread_count(options.threads))),
         windows_(scratch_.size()) {
     if (rules_.freedom == Freedom::kLattice) set_range(raster, rules_);
@@ -79,21 +92,30 @@ class Rounds {
                    });
   }
 
-  /// Of removal with repair.
-  bool repair(const PatchGrid& grid, double end, const RepairOptions& options) {
+  /// Of removal with repair; `only_held`: it begins with the vertices that repair has had on borders so far.
+  bool repair(const PatchGrid& grid, double end, const RepairOptions& options, bool only_held = false) {
     const std::int32_t steps = rules_.freedom == Freedom::kLattice ? kLatticeSteps : fitted_.places.steps;
-    return work_on(grid, end, steps, [&](Patch& patch, const std::vector<Vertex>&, const TriangleError& error) {
-      // One bound alone, and that beyond energies.
-      if (!error.has_energy()) return FitCounts{};
-      const RepairCounts counts = repair_vertices(patch, error, options);
-      return FitCounts{counts.removed, 0, counts.removed, counts.tried};
-    });
+    return work_on(
+        grid, end, steps, [&](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
+          // One bound alone, and that beyond energies.
+          if (!error.has_energy()) return FitCounts{};
+          const std::vector<std::uint8_t> wanted = only_held ? near_held(patch, vertices) : std::vector<std::uint8_t>();
+          RepairOptions here = options;
+          here.wanted = wanted;
+          const RepairCounts counts = repair_vertices(patch, error, here);
+          return FitCounts{counts.removed, 0, counts.removed, counts.tried};
+        });
   }
 
   /// What a round of repair is to do; `shake` as there.
   RepairOptions repair_options(int polishes, std::uint32_t shake) const {
-    return {options_.depth.repair, rules_, shake, polishes, options_.is_time_up};
+    return {options_.depth.repair, rules_, shake, polishes, {}, options_.is_time_up};
   }
+
+  /// What removal has had on borders it takes up itself.
+  void forget_held() { held_.assign(held_.size(), 0); }
+
+  const Triangulation& tin() const { return fitted_.tin; }
 
   bool is_time_up() const { return options_.is_time_up && options_.is_time_up(); }
   std::uint64_t vertices() const { return vertices_ - fitted_.counts.removed; }
@@ -107,7 +129,7 @@ class Rounds {
   /// Cuts, lets job(patch, vertices, error) count what it does to each patch, and joins, to places of so many steps.
   template <class Job>
   bool work_on(const PatchGrid& grid, double end, std::int32_t steps, const Job& job) {
-    const PatchCutter cutter(raster_, fitted_.tin, fitted_.places, grid, options_.sides_are_free, options_.threads);
+    const PatchCutter cutter(raster_, fitted_.tin, fitted_.places, grid, options_.free_sides, options_.threads);
     std::vector<Patch> patches(cutter.count());
     std::vector<std::vector<Vertex>> vertices(cutter.count());
     counts_.assign(cutter.count(), {});
@@ -128,6 +150,7 @@ class Rounds {
     });
     if (!goes_on) return false;
     done_ = end;
+    hold_borders(vertices);
     std::vector<Vertex> numbers;
     VertexPlaces places{steps, {}, {}};
     Triangulation joined = cutter.join(std::move(patches), vertices, numbers, places);
@@ -157,12 +180,33 @@ class Rounds {
     return {counts.removed, counts.searches, 0, 0};
   }
 
-  void renumber(const std::vector<Vertex>& numbers, std::size_t count) {
-    std::vector<std::uint8_t> settled(count);
-    for (Vertex v = 0; v < numbers.size(); ++v) {
-      if (numbers[v] != kNone) settled[numbers[v]] = settled_[v];
+  /// Vertices of more than one patch were on a border.
+  void hold_borders(const std::vector<std::vector<Vertex>>& vertices) {
+    std::vector<bool> is_seen(held_.size(), false);
+    for (const std::vector<Vertex>& of_patch : vertices) {
+      for (const Vertex v : of_patch) {
+        if (is_seen[v]) held_[v] = 1;
+        is_seen[v] = true;
+      }
     }
-    settled_ = std::move(settled);
+  }
+
+  std::vector<std::uint8_t> near_held(const Patch& patch, const std::vector<Vertex>& vertices) const {
+    std::vector<std::uint8_t> marks;
+    marks.reserve(vertices.size());
+    for (const Vertex v : vertices) marks.push_back(held_[v]);
+    for (int i = 0; i < kBorderWidth; ++i) spread(patch, marks);
+    return marks;
+  }
+
+  void renumber(const std::vector<Vertex>& numbers, std::size_t count) {
+    for (std::vector<std::uint8_t>* of_vertices : {&settled_, &held_}) {
+      std::vector<std::uint8_t> now(count);
+      for (Vertex v = 0; v < numbers.size(); ++v) {
+        if (numbers[v] != kNone) now[numbers[v]] = (*of_vertices)[v];
+      }
+      *of_vertices = std::move(now);
+    }
   }
 
   const Raster& raster_;
@@ -172,6 +216,7 @@ class Rounds {
   std::uint64_t vertices_;                     // of the mesh that was given
   double done_ = 0;                            // share of the whole
   std::vector<std::uint8_t> settled_;          // by vertex
+  std::vector<std::uint8_t> held_;             // by vertex: it has been on a border between patches
   std::vector<PatchCutter::Scratch> scratch_;  // by thread
   std::vector<SampleWindow> windows_;
   std::vector<FitCounts> counts_;
@@ -180,20 +225,36 @@ class Rounds {
 }  // namespace
 
 Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexPlaces places, const FitOptions& options) {
-  const std::int32_t side = options.patch_side > 0 ? options.patch_side : patch_side(raster, tin);
+  const std::int32_t longest = std::max(raster.cols, raster.rows);
+  const bool is_cut = options.patch_side > 0 ? options.patch_side < longest : !is_small(tin);
   Rounds rounds(raster, std::move(tin), std::move(places), options);
-  const bool is_cut = side < std::max(raster.cols, raster.rows);
+  const auto side = [&] {
+    if (!is_cut) return longest;
+    return options.patch_side > 0 ? options.patch_side : patch_side(raster, rounds.tin());
+  };
   const int repairs = has_energies(options) ? options.depth.rounds : 0;
   // A round of repair takes some five times as long as removal, whose second round looks at little more than what the
-  // borders of the first held back.
+  // borders of the first held back; so does the last one of repair.
   const double removal = 1.0 / (1 + 5 * repairs);
-  const auto grid = [&](int round) { return PatchGrid{side, is_cut && round % 2 == 1 ? side / 2 : 0}; };
-  bool goes_on = rounds.run(grid(0), is_cut ? 0.8 * removal : removal);
-  if (goes_on && is_cut) goes_on = rounds.run(grid(1), removal);
+  const std::int32_t first_side = side();
+  bool goes_on = rounds.run({first_side, 0}, is_cut ? 0.8 * removal : removal);
+  if (goes_on && is_cut) goes_on = rounds.run({first_side, first_side / 2}, removal);
+  rounds.forget_held();
+  // As triangles become fewer, squares become larger.
+  const auto grid = [&](int round) {
+    const std::int32_t now = side();
+    return PatchGrid{now, is_cut && round % 2 == 1 ? now / 2 : 0};
+  };
+  const bool has_last = is_cut && repairs > 0;
+  const double whole = repairs + (has_last ? 0.2 : 0.0);
   for (int round = 0; goes_on && round < repairs; ++round) {
-    const double end = removal + (1 - removal) * (round + 1) / repairs;
-    const int polishes = round + 1 == repairs ? options.depth.polishes : 0;
+    const double end = removal + (1 - removal) * (round + 1) / whole;
+    const int polishes = !has_last && round + 1 == repairs ? options.depth.polishes : 0;
     goes_on = rounds.repair(grid(round), end, rounds.repair_options(polishes, 0));
+  }
+  if (goes_on && has_last) {
+    const std::int32_t now = side();
+    goes_on = rounds.repair({now, now / 4}, 1, rounds.repair_options(options.depth.polishes, 0), true);
   }
   int poor = repairs > 0 && options.goes_on ? 0 : kPoorRounds;
   for (int round = repairs; goes_on && poor < kPoorRounds && !rounds.is_time_up(); ++round) {

@@ -40,7 +40,7 @@ class Schedule {
   void remove_all() {
     for (Id v = 0; v < patch_.node_count(); ++v) notes_[v].witness = sample_of(v);
     for (Id v = 0; v < patch_.node_count(); ++v) {
-      if (!patch_.is_locked(v) && !patch_.is_removed(v)) offer(v);
+      if (is_wanted(v) && !patch_.is_locked(v) && !patch_.is_removed(v)) offer(v);
     }
     while (!queue_.empty()) {
       for (; !queue_.empty(); take()) {
@@ -52,6 +52,7 @@ class Schedule {
     }
   }
 
+  bool is_wanted(Id v) const { return options_.wanted.empty() || options_.wanted[v] != 0; }
   bool is_time_up() const { return options_.is_time_up && options_.is_time_up(); }
 
   struct Note {
@@ -73,11 +74,12 @@ class Schedule {
     Flips flips(patch_, options_.rules.shape);
     VertexStep step(patch_, options_.rules);
     for (Id f = 0; f < patch_.face_count(); ++f) {
-      if (patch_.face(f).corners[0] == kNone) continue;
+      const auto& [a, b, c] = patch_.face(f).corners;
+      if (a == kNone || !(is_wanted(a) || is_wanted(b) || is_wanted(c))) continue;
       for (unsigned edge = 0; edge < 3; ++edge) flips.improve(strict_, f, edge);
     }
     for (Id v = 0; v < patch_.node_count(); ++v) {
-      if (!patch_.is_removed(v)) step.improve(strict_, v);
+      if (is_wanted(v) && !patch_.is_removed(v)) step.improve(strict_, v);
     }
   }
 

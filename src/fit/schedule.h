@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 
 #include "fit/patch.h"
 #include "fit/repair.h"
@@ -23,9 +24,10 @@ namespace scarp {
 struct RepairOptions {
   RepairDepth depth = {};
   MoveRules rules = {};
-  std::uint32_t shake = 0;                ///< other than 0: vertices are shaken first, by dice that this is the seed of
-  int polishes = 0;                       ///< sweeps that level the heights of free vertices at the end
-  std::function<bool()> is_time_up = {};  ///< asked before each vertex; true ends the rest but for polishing
+  std::uint32_t shake = 0;  ///< other than 0: vertices are shaken first, by dice that this is the seed of
+  int polishes = 0;         ///< sweeps that level the heights of free vertices at the end
+  std::span<const std::uint8_t> wanted = {};  ///< by node, 1 for those to look at first; EMPTY: all
+  std::function<bool()> is_time_up = {};      ///< asked before each vertex; true ends the rest but for polishing
 };
 
 struct RepairCounts {

@@ -9,7 +9,9 @@ double exact_sum_of(Floats s) { return (double{s[0]} + s[2]) + (double{s[1]} + s
 
 }  // namespace
 
-TriangleTask TriangleError::task_of(const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
+/// Out of line it costs 1.7 % of the instructions of repair.
+[[gnu::always_inline]] inline TriangleTask TriangleError::task_of(const FitCorner& a, const FitCorner& b,
+                                                                  const FitCorner& c) const {
   return {a, b, c, has_bounds() ? 0 : threshold_, has_bounds() ? 0 : limit_};
 }
 

@@ -1,6 +1,7 @@
 #include "refine/tiled.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "base/parallel.h"
@@ -87,6 +88,10 @@ class RowBand final : public SampleSource {
     return {};
   }
   bool is_in_memory() const override { return true; }
+  /// Rows that are loaded.
+  Raster raster(std::int32_t row, std::int32_t rows) const {
+    return {samples_.data() + static_cast<std::ptrdiff_t>(row - first_) * field_.cols, field_.cols, rows};
+  }
   HeightField view() const {
     HeightField field = field_;
     field.source = this;
@@ -99,9 +104,13 @@ class RowBand final : public SampleSource {
   std::vector<float> samples_;
 };
 
-/// Of the samples of the highest row of tiles, where they come from a file.
+/// Rows of tiles are read, and done with, one after the other.
+bool goes_by_rows(const HeightField& field, const TiledOptions& options) {
+  return is_in_file(field) || options.finish_row != nullptr;
+}
+
+/// Of the samples of the highest row of tiles, where they are read by rows.
 std::uint64_t row_bytes(const HeightField& field, const TilePlan& plan) {
-  if (!is_in_file(field)) return 0;
   std::int32_t rows = 0;
   for (std::size_t i = 0; i < plan.count(); i += plan.per_row()) rows = std::max(rows, plan.window(i).rows);
   return sizeof(float) * static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(rows + 2);
@@ -118,17 +127,19 @@ class TiledRun {
  public:
   TiledRun(const HeightField& field, const TiledOptions& options, const TilePlan& plan, double density)
       : options_(options),
-        base_bytes_(row_bytes(field, plan)),
         plan_(plan),
         density_(density),
-        is_streamed_(is_in_file(field)),
+        is_streamed_(goes_by_rows(field, options)),
         band_(field),
         field_(is_streamed_ ? band_.view() : field),
         step_(is_streamed_ ? plan.per_row() : plan.count()),
         threads_(options.memory.threads_within(worker_bytes(plan), thread_count(options.threads))),
         workers_(static_cast<std::size_t>(threads_)),
         outcomes_(plan.count()),
-        assembly_(plan.per_row()) {
+        assembly_(options.finish_row ? 1 : plan.per_row()),
+        row_(plan.per_row()) {
+    // Who finishes a row may copy its samples.
+    if (is_streamed_) base_bytes_ += (options.finish_row ? 2 : 1) * row_bytes(field, plan);
     base_bytes_ += std::min<std::uint64_t>(workers_.size(), step_) * worker_bytes(plan);
   }
 
@@ -137,6 +148,7 @@ class TiledRun {
     for (std::size_t first = 0; first < plan_.count() && status_ && !is_unsuited_; first += step_) {
       if (is_streamed_) status_ = load_rows(first);
       if (status_) refine(first, step_);
+      if (status_ && !is_unsuited_ && options_.finish_row) status_ = finish_row(plan_.window(first));
     }
     if (!status_) return tl::unexpected(status_.error());
     if (is_unsuited_) return std::optional<Tiled>();
@@ -148,7 +160,7 @@ class TiledRun {
       return fail(
           ErrorKind::kInput,
           "the raster has no grid cell with three valid corners, so there is no surface to simplify; check nodata");
-    return std::optional<Tiled>(Tiled{std::move(domain), std::move(seams), std::move(heights_), work_});
+    return std::optional<Tiled>(Tiled{std::move(domain), std::move(seams), std::move(heights_), steps_, work_});
   }
 
  private:
@@ -171,22 +183,52 @@ class TiledRun {
   }
 
   bool commit(std::size_t tile) {
-    const TileOutcome outcome = *std::exchange(outcomes_[tile], std::nullopt);
+    TileOutcome outcome = *std::exchange(outcomes_[tile], std::nullopt);
     status_ = outcome.status;
     is_unsuited_ = outcome.is_unsuited;
     if (!status_ || is_unsuited_) return false;
-    if (assembly_.triangle_count() + outcome.piece.outside.size() > kNone / 3 - 2) {
+    if (assembly_.triangle_count() + row_.triangle_count() + outcome.piece.outside.size() > kNone / 3 - 2) {
       status_ = fail(ErrorKind::kInput, "the mesh would have more than 1,431 million triangles: allow a larger error");
       return false;
     }
-    assembly_.append(outcome.piece);
     add(work_, outcome.work);
-    keep_heights(outcome.heights);
+    if (options_.finish_row) {
+      outcome.piece.first.y = 0;
+      row_.append(outcome.piece);
+    } else {
+      assembly_.append(outcome.piece);
+      keep_heights(outcome.heights);
+    }
     const double share = static_cast<double>(tile + 1) / static_cast<double>(plan_.count());
-    if (status_ = options_.memory.check_mesh(base_bytes_, assembly_.vertex_count(), share); !status_) return false;
-    if (options_.progress && !options_.progress(share, assembly_.vertex_count()))
+    const std::uint64_t vertices = assembly_.vertex_count() + row_.vertex_count();
+    if (status_ = options_.memory.check_mesh(base_bytes_ + finish_bytes(), vertices, share); !status_) return false;
+    if (options_.progress && !options_.progress(share, vertices))
       status_ = fail(ErrorKind::kCancelled, "cancelled while refining");
     return status_.has_value();
+  }
+
+  /// Beyond those of the row's vertices as such.
+  std::uint64_t finish_bytes() const {
+    const std::uint64_t whole = options_.finish_bytes_per_vertex, mesh = options_.memory.per_vertex;
+    return (std::max(whole, mesh) - mesh) * row_.vertex_count();
+  }
+
+  Result<void> finish_row(const TileWindow& window) {
+    const Raster samples = band_.raster(window.row, window.rows);
+    std::vector<HalfEdge> seams;
+    TileRow row{samples, row_.finish(seams), window.row > 0, window.row + window.rows < field_.rows};
+    row_ = Assembly(plan_.per_row());
+    const auto finished = options_.finish_row(std::move(row));
+    if (!finished) return tl::unexpected(finished.error());
+    const Triangulation& tin = finished->tin;
+    assert(window.row == 0 || finished->places.steps == steps_);
+    steps_ = finished->places.steps;
+    assembly_.append(tin, {0, window.row * steps_}, (samples.cols - 1) * steps_ + 1, (samples.rows - 1) * steps_ + 1);
+    std::vector<float> heights = finished->places.heights;
+    for (Vertex v = 0; finished->places.are_samples() && v < tin.vertex_count(); ++v)
+      heights.push_back(samples.at(tin.point(v)));
+    keep_heights(heights);
+    return {};
   }
 
   void keep_heights(const std::vector<float>& heights) {
@@ -196,7 +238,7 @@ class TiledRun {
   }
 
   const TiledOptions& options_;
-  std::uint64_t base_bytes_;  // bytes taken whatever the mesh
+  std::uint64_t base_bytes_ = 0;  // bytes taken whatever the mesh
   TilePlan plan_;
   double density_;
   bool is_streamed_;
@@ -206,16 +248,20 @@ class TiledRun {
   int threads_;
   std::vector<TileWorker> workers_;
   std::vector<std::optional<TileOutcome>> outcomes_;
-  Assembly assembly_;
+  Assembly assembly_;  // of tiles, or of finished rows
+  Assembly row_;       // of tiles whose row is not finished
   std::vector<float> heights_;
+  std::int32_t steps_ = 1;
   Work work_;
   Result<void> status_;
   bool is_unsuited_ = false;
 };
 
-/// Where the samples come from a file: tiles whose rows fit a quarter of the memory.
-std::int32_t streamed_side(const HeightField& field, const MemoryBudget& memory) {
-  std::int32_t side = 512;
+/// Where tiles go by rows: tiles whose rows fit a quarter of the memory. What finishes them pays for each line between
+/// two rows.
+std::int32_t streamed_side(const HeightField& field, const TiledOptions& options) {
+  const MemoryBudget& memory = options.memory;
+  std::int32_t side = options.finish_row ? 1024 : 512;
   const auto bytes = [&] { return 4ull * static_cast<std::uint64_t>(field.cols) * static_cast<unsigned>(side); };
   while (memory.is_limited() && side > 64 && bytes() > memory.rest() / 4) side /= 2;
   return side;
@@ -224,7 +270,7 @@ std::int32_t streamed_side(const HeightField& field, const MemoryBudget& memory)
 }  // namespace
 
 Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options) {
-  const bool is_streamed = is_in_file(field);
+  const bool is_streamed = goes_by_rows(field, options);
   double density = 0;
   if (!is_streamed) {
     const auto estimate = estimate_density(field, options.threshold, options.threads);
@@ -233,7 +279,7 @@ Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledO
   }
   std::int32_t side = options.tile_side;
   if (options.may_decline && !is_streamed && density < kLeastDensity) return std::optional<Tiled>();
-  if (side == 0) side = is_streamed ? streamed_side(field, options.memory) : side_for(density);
+  if (side == 0) side = is_streamed ? streamed_side(field, options) : side_for(density);
   return TiledRun(field, options, TilePlan(field.cols, field.rows, side), density).execute();
 }
 

@@ -11,6 +11,9 @@
 //     │ tile  │ tile  │
 //     ├───────┼───────┼──      Measured, fixed borders cost -3 to +1.5 %: docs/performance.md.
 //     │ tile  │ tile  │
+//
+// Somebody else may finish rows of tiles: the mesh between two of the long borders is handed over with its samples,
+// before they make room for the next row's. What is handed back must leave those two borders as they are.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +21,8 @@
 #include <optional>
 #include <vector>
 
+#include "grid/raster.h"
+#include "grid/vertex_places.h"
 #include "refine/domain.h"
 #include "refine/memory_budget.h"
 #include "scarp/height_field.h"
@@ -25,6 +30,18 @@
 #include "scarp/strategy.h"
 
 namespace scarp {
+
+/// The mesh of a row of tiles, and its samples.
+struct TileRow {
+  Raster samples;
+  Triangulation tin;
+  bool has_above = false, has_below = false;  ///< neighbours, which have the vertices on their shared border too
+};
+
+struct FinishedRow {
+  Triangulation tin;    ///< of the same rectangle and domain, its points in places.steps
+  VertexPlaces places;  ///< of all rows in the same steps
+};
 
 struct TiledOptions {
   double threshold = 0;
@@ -34,6 +51,10 @@ struct TiledOptions {
   bool may_decline = false;
   /// Fewer threads, smaller tiles where the samples come from a file, and at last a refusal keep a run within it.
   MemoryBudget memory = {};
+  /// Called on the calling thread for one row after the other; what it says is final: release_seams() has no place
+  /// behind it. EMPTY: rows stay as they are.
+  std::function<Result<FinishedRow>(TileRow row)> finish_row = {};
+  std::uint64_t finish_bytes_per_vertex = 0;  ///< that it takes, of the row's, the row's mesh included
   /// Told the share of tiles that are done and the vertices so far, on the calling thread; false stops with kCancelled.
   std::function<bool(double share, std::uint64_t vertices)> progress = {};
 };
@@ -41,15 +62,17 @@ struct TiledOptions {
 struct Tiled {
   Domain domain;
   std::vector<HalfEdge> seams;  ///< edges between tiles, for release_seams()
-  std::vector<float> heights;   ///< of the vertices, where the field has a source instead of samples
+  std::vector<float> heights;   ///< of the vertices, where rows were finished, or the field has a source for samples
+  std::int32_t steps = 1;       ///< of the domain's points between two samples
   Work work;
 };
 
-/// Where the field's source is not in memory, one row of tiles after the other is read and refined.
+/// Where the field's source is not in memory, or rows are finished, one row of tiles after the other is read and
+/// refined.
 ///
-/// Every sample of the surface lies within `threshold` of the triangulation. Nothing where heights span magnitudes
-/// beyond exact arithmetic, and where it may decline. Fails as the field's source does; with kInput if no cell is
-/// surface or the triangles are too many; with kUsage if the memory is too little; kCancelled.
+/// Every sample of the surface lies within `threshold` of the triangulation, if finish_row() keeps it. Nothing where
+/// heights span magnitudes beyond exact arithmetic, and where it may decline. Fails as the field's source does; with
+/// kInput if no cell is surface or the triangles are too many; with kUsage if the memory is too little; kCancelled.
 Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options);
 
 }  // namespace scarp

@@ -6,6 +6,42 @@
 
 namespace scarp {
 
+namespace {
+
+/// What is appended: points and half-edges, counted from 0.
+struct PieceView {
+  const TilePiece& piece;
+  Point first;
+  std::int32_t cols, rows;
+
+  std::size_t point_count() const { return piece.points.size(); }
+  Point point(std::uint32_t i) const { return point_of(piece.points[i]); }
+  std::size_t triangle_count() const { return piece.outside.size(); }
+  std::uint32_t corner(HalfEdge h) const { return piece.corners[h]; }
+  HalfEdge twin(HalfEdge h) const {
+    const TileMesh::Link link = piece.links[h];
+    return link == TileMesh::kBorder ? kNone : 3 * TileMesh::triangle_of(link) + TileMesh::edge_of(link);
+  }
+  bool is_constrained(HalfEdge h) const { return TileMesh::is_constrained(piece.links[h]); }
+  bool is_outside(Triangle t) const { return piece.outside[t] != 0; }
+};
+
+struct TinView {
+  const Triangulation& tin;
+  Point first;
+  std::int32_t cols, rows;
+
+  std::size_t point_count() const { return tin.vertex_count(); }
+  Point point(Vertex v) const { return tin.point(v); }
+  std::size_t triangle_count() const { return tin.triangle_count(); }
+  Vertex corner(HalfEdge h) const { return tin.origin(h); }
+  HalfEdge twin(HalfEdge h) const { return tin.twin(h); }
+  bool is_constrained(HalfEdge h) const { return tin.is_constrained(h); }
+  bool is_outside(Triangle t) const { return tin.is_outside(t); }
+};
+
+}  // namespace
+
 /// At least half of the slots stay free.
 void PieceMaker::clear(std::size_t vertices) {
   unsigned bits = 4;
@@ -58,51 +94,48 @@ void Assembly::Border::sort() {
   std::sort(edges.begin(), edges.end(), [](const BorderEdge& a, const BorderEdge& b) { return a.at < b.at; });
 }
 
-void Assembly::add_vertices(const TilePiece& piece) {
+template <class Part>
+void Assembly::add_vertices(const Part& part) {
   const bool has_left = column_ > 0, has_top = !is_first_row_;
   ids_.clear();
-  for (const Place p : piece.points) {
-    const std::int32_t x = place_x(p), y = place_y(p);
+  for (std::uint32_t i = 0; i < part.point_count(); ++i) {
+    const auto [x, y] = part.point(i);
     Vertex v = kNone;
     if (x == 0 && has_left) v = beside_.find(y);
     if (y == 0 && has_top) v = below_[column_].find(x);
     if (v == kNone) {
       v = static_cast<Vertex>(tin_.points_.size());
-      tin_.points_.push_back({piece.first.x + x, piece.first.y + y});
+      tin_.points_.push_back({part.first.x + x, part.first.y + y});
     }
     ids_.push_back(v);
-    if (x == piece.cols - 1) right_.vertices.push_back({y, v});
-    if (y == piece.rows - 1) bottom_.vertices.push_back({x, v});
+    if (x == part.cols - 1) right_.vertices.push_back({y, v});
+    if (y == part.rows - 1) bottom_.vertices.push_back({x, v});
   }
 }
 
-void Assembly::add_triangles(const TilePiece& piece) {
+template <class Part>
+void Assembly::add_triangles(const Part& part) {
   const auto base = static_cast<HalfEdge>(tin_.corners_.size());
-  const std::size_t count = piece.corners.size();
+  const auto count = static_cast<HalfEdge>(3 * part.triangle_count());
   tin_.corners_.resize(base + count);
   tin_.twins_.resize(base + count);
-  for (std::size_t h = 0; h < count; ++h) {
-    tin_.corners_[base + h] = ids_[piece.corners[h]];
-    const TileMesh::Link link = piece.links[h];
-    const auto here = base + static_cast<HalfEdge>(h);
-    if (link != TileMesh::kBorder) {
-      tin_.twins_[here] = base + 3 * TileMesh::triangle_of(link) + TileMesh::edge_of(link);
-      continue;
-    }
-    tin_.twins_[here] = kNone;
-    const Place from = piece.points[piece.corners[h]];
-    const Place to = piece.points[piece.corners[h % 3 == 2 ? h - 2 : h + 1]];
-    const std::int32_t x = place_x(from), y = place_y(from), x2 = place_x(to), y2 = place_y(to);
+  for (HalfEdge h = 0; h < count; ++h) {
+    const HalfEdge here = base + h, twin = part.twin(h);
+    tin_.corners_[here] = ids_[part.corner(h)];
+    tin_.twins_[here] = twin == kNone ? kNone : base + twin;
+    if (twin != kNone) continue;
+    const auto [x, y] = part.point(part.corner(h));
+    const auto [x2, y2] = part.point(part.corner(Triangulation::next(h)));
     if (x == 0 && x2 == 0) left_.edges.push_back({std::min(y, y2), here});
-    if (x == piece.cols - 1 && x2 == x) right_.edges.push_back({std::min(y, y2), here});
+    if (x == part.cols - 1 && x2 == x) right_.edges.push_back({std::min(y, y2), here});
     if (y == 0 && y2 == 0) top_.edges.push_back({std::min(x, x2), here});
-    if (y == piece.rows - 1 && y2 == y) bottom_.edges.push_back({std::min(x, x2), here});
+    if (y == part.rows - 1 && y2 == y) bottom_.edges.push_back({std::min(x, x2), here});
   }
-  for (std::size_t t = 0; t < piece.outside.size(); ++t) {
-    std::uint8_t flags = piece.outside[t] != 0 ? Triangulation::kOutside : 0;
+  for (Triangle t = 0; t < part.triangle_count(); ++t) {
+    std::uint8_t flags = part.is_outside(t) ? Triangulation::kOutside : 0;
     is_whole_ = is_whole_ && flags == 0;
     for (unsigned k = 0; k < 3; ++k) {
-      if (TileMesh::is_constrained(piece.links[3 * t + k])) flags |= static_cast<std::uint8_t>(1u << k);
+      if (part.is_constrained(3 * t + k)) flags |= static_cast<std::uint8_t>(1u << k);
     }
     tin_.flags_.push_back(flags);
   }
@@ -121,10 +154,11 @@ void Assembly::sew(const Border& theirs, Border& ours) {
   }
 }
 
-void Assembly::append(const TilePiece& piece) {
+template <class Part>
+void Assembly::append_part(const Part& part) {
   for (Border* border : {&left_, &top_, &right_, &bottom_}) *border = {};
-  add_vertices(piece);
-  add_triangles(piece);
+  add_vertices(part);
+  add_triangles(part);
   if (column_ > 0) sew(beside_, left_);
   if (!is_first_row_) sew(below_[column_], top_);
   right_.sort();
@@ -135,6 +169,12 @@ void Assembly::append(const TilePiece& piece) {
     column_ = 0;
     is_first_row_ = false;
   }
+}
+
+void Assembly::append(const TilePiece& piece) { append_part(PieceView{piece, piece.first, piece.cols, piece.rows}); }
+
+void Assembly::append(const Triangulation& tin, Point first, std::int32_t cols, std::int32_t rows) {
+  append_part(TinView{tin, first, cols, rows});
 }
 
 Triangulation Assembly::finish(std::vector<HalfEdge>& seams) {

@@ -44,8 +44,10 @@ class Assembly {
 
   /// REQUIRES: neighbours have the same vertices on their shared border.
   void append(const TilePiece& piece);
+  /// The same of a triangulation of the rectangle of cols × rows points from `first` on; its own count from there.
+  void append(const Triangulation& tin, Point first, std::int32_t cols, std::int32_t rows);
 
-  /// The vertices of the points of the piece that was appended last.
+  /// The vertices of the points of the piece, or the triangulation, that was appended last.
   const std::vector<Vertex>& last_vertices() const { return ids_; }
 
   std::uint64_t vertex_count() const { return tin_.vertex_count(); }
@@ -70,8 +72,12 @@ class Assembly {
     Vertex find(std::int32_t at) const;
     void sort();
   };
-  void add_vertices(const TilePiece& piece);
-  void add_triangles(const TilePiece& piece);
+  template <class Part>
+  void append_part(const Part& part);
+  template <class Part>
+  void add_vertices(const Part& part);
+  template <class Part>
+  void add_triangles(const Part& part);
   void sew(const Border& theirs, Border& ours);
 
   Triangulation tin_;

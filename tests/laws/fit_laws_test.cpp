@@ -81,7 +81,8 @@ RC_GTEST_PROP(fit, leaves_the_sides_alone_where_they_are_not_free, ()) {
     return points;
   };
   const Points before_fit = on_sides(*tin);
-  const auto fitted = *fit(field.raster(), std::move(*tin), {.threshold = threshold, .sides_are_free = false});
+  const auto fitted =
+      *fit(field.raster(), std::move(*tin), {.threshold = threshold, .free_sides = {false, false, false, false}});
   RC_ASSERT(on_sides(fitted.tin) == before_fit);
 }
 

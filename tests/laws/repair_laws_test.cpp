@@ -125,7 +125,8 @@ RC_GTEST_PROP(repair, leaves_the_sides_alone_where_they_are_not_free, ()) {
   RC_PRE(tin.has_value());
   const Points sides = side_vertices_of(*tin, field);
   const auto fitted =
-      *fit(field.raster(), std::move(*tin), {.threshold = threshold, .sides_are_free = false, .depth = {.rounds = 2}});
+      *fit(field.raster(), std::move(*tin),
+           {.threshold = threshold, .free_sides = {false, false, false, false}, .depth = {.rounds = 2}});
   RC_ASSERT(side_vertices_of(fitted.tin, field) == sides);
 }
 
@@ -259,7 +260,7 @@ struct Bench {
   bool cut() {
     if (!tin) return false;
     PatchCutter::Scratch scratch;
-    patch = PatchCutter(field.raster(), *tin, places, {std::max(field.cols, field.rows), 0}, true, 1)
+    patch = PatchCutter(field.raster(), *tin, places, {std::max(field.cols, field.rows), 0}, {}, 1)
                 .cut(0, scratch, vertices);
     return patch.face_count() > 0;
   }

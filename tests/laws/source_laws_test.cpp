@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "grid/window.h"
+#include "laws/array_source.h"
 #include "laws/fields.h"
 #include "scarp/measure.h"
 #include "scarp/picture.h"
@@ -14,30 +14,10 @@
 namespace scarp {
 namespace {
 
+using testing::ArraySource;
 using testing::Field;
 using testing::Relief;
-
-/// Windows of an array; reads at or below `broken_row` fail.
-class ArraySource : public SampleSource {
- public:
-  explicit ArraySource(const HeightField& field, int broken_row = 1 << 30) : field_(field), broken_row_(broken_row) {}
-  Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
-    if (row + rows > broken_row_) return fail(ErrorKind::kInput, "row " + std::to_string(broken_row_) + " is broken");
-    return read_window(field_, col, row, cols, rows, out, stride);
-  }
-  bool is_in_memory() const override { return false; }
-
- private:
-  HeightField field_;
-  int broken_row_;
-};
-
-HeightField with_source(HeightField field, const SampleSource& source) {
-  field.samples = nullptr;
-  field.nodata.reset();
-  field.source = &source;
-  return field;
-}
+using testing::with_source;
 
 Field any_field(int least, int largest) {
   const auto relief =

@@ -1,0 +1,33 @@
+// Effort where the samples are not in memory as a whole: each row of tiles is fitted while its samples are there.
+//
+//     row above, done ──────────────    its lower border is the next row's upper one: the vertices on it stay, and
+//     row at hand     │     │     │     everything between, across the tiles' own borders too, is fitted as one mesh
+//     ─────────────────────────────
+//     rows below, not read yet
+#pragma once
+
+#include <cstdint>
+
+#include "refine/tiled.h"
+#include "scarp/height_field.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+
+/// What fitting row by row has done so far.
+struct RowFits {
+  double seconds = 0;
+  std::uint64_t removed = 0;  ///< vertices
+  bool is_cut_short = false;  ///< by the time: rows that come later stay as they are
+};
+
+/// Whether rows are fitted, instead of the finished mesh.
+bool fits_rows(const HeightField& field, const SimplifyOptions& options);
+
+/// Lets refine_tiled() fit each row with the effort of `options` to the threshold, and adds to `fits`. Vertices are
+/// free as in fit(); effort kMax does not go on until a time is up, as the first row would use it all. Progress is told
+/// through `tiles.progress`, as it is now. All stay alive.
+void fit_rows(const HeightField& field, const SimplifyOptions& options, double threshold, RowFits& fits,
+              TiledOptions& tiles);
+
+}  // namespace scarp

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# --effort with --memory: rows of tiles are fitted while their samples are there; the same promise, the same bytes on any
+# number of threads, fewer triangles.
+source "$(dirname "$0")/lib.sh"
+need python3
+small=80M # less than the samples need: they stay in their file, and rows of tiles are low
+
+succeeds "$scarp" generate smooth 1500 1400 smooth.tif -q
+for raster in smooth.tif "$dem"; do
+  limit=$small
+  [ "$raster" = smooth.tif ] || limit=72.8M
+  for effort in fast normal high; do
+    for threads in 1 3; do
+      succeeds "$scarp" simplify "$raster" "$effort$threads.glb" -e 2% --effort "$effort" --memory "$limit" -j "$threads" \
+        --report "$effort.json" --overwrite
+    done
+    cmp "${effort}1.glb" "${effort}3.glb" || fail "-j 3 makes another mesh of $raster with $effort effort"
+    succeeds "$scarp" measure "$raster" "${effort}1.glb" --fail-above "$(json "$effort.json" goal max_error)"
+    [ "$(json "$effort.json" strategy effort)" = "\"$effort\"" ] || fail "the report does not tell the effort"
+  done
+  [ "$(json normal.json strategy vertices) $(json high.json strategy vertices)" = '"samples" "free"' ] ||
+    fail "the report does not tell where vertices are"
+  holds "$(json normal.json triangles) < 0.75 * $(json fast.json triangles)"
+  holds "$(json high.json triangles) < 0.85 * $(json normal.json triangles)"
+done
+python3 - normal.json <<'PYTHON'
+import json, sys
+passes = {p["name"]: p for p in json.load(open(sys.argv[1]))["passes"]}
+assert passes["fit"]["removals"] > 1000 and passes["tiles"]["removals"] == 0, passes
+PYTHON
+
+# On samples, with a floor of shapes, a time that is over at once, in a frame whose grid is not regular.
+for more in "--vertices samples" "--min-shape 0.2" "--time-limit 0" "--crs EPSG:32616"; do
+  # shellcheck disable=SC2086
+  succeeds "$scarp" simplify "$dem" more.ply -e 10 --effort high --memory 72.8M $more --overwrite
+  case $more in --crs*) frame="$more" ;; *) frame= ;; esac
+  # shellcheck disable=SC2086
+  succeeds "$scarp" measure "$dem" more.ply --fail-above 10 $frame
+done
+
+# Without an effort it is fast; budgets need all samples.
+succeeds "$scarp" simplify "$dem" auto.glb -e 2% --memory 72.8M --report auto.json
+[ "$(json auto.json strategy effort)" = '"fast"' ] || fail "the default is not fast"
+refuses 1 'needs all samples in memory at once' "$scarp" simplify "$dem" never.glb -t 1000 --effort normal --memory 72M
