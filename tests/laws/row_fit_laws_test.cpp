@@ -50,7 +50,7 @@ Result<std::optional<Tiled>> refine_and_fit(const HeightField& field, const Simp
 }
 
 VertexPlaces places_of(const Tiled& tiled) {
-  return {tiled.steps, tiled.steps > 1 ? tiled.heights : std::vector<float>()};
+  return {tiled.steps, tiled.steps > 1 ? tiled.heights : std::vector<float>(), {}};
 }
 
 RC_GTEST_PROP(rows, that_are_fitted_keep_the_bound_and_the_domain, ()) {
