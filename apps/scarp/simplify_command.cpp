@@ -177,6 +177,8 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
 
   const Result<void> has_place = check_place_of_channels(*plan, outcome.channels);
   if (!has_place) return has_place;
+  const Frame& frame = outcome.field.frame;
+  if (auto checked = check_crs_of(plan->format, frame.crs, outcome.as_read.unit); !checked) return checked;
   SimplifyOptions options = plan->simplify;
   options.max_error = outcome.asked;
   options.mask = outcome.companions.mask;

@@ -11,8 +11,8 @@ void SimplifyArguments::add_to(CLI::App& verb) {
       ->type_name("")
       ->required();
   verb.add_option("OUTPUT", output,
-                  "Mesh to write: .glb, .obj, .ply, .stl or .tin; its edges\nas .svg or .eps; or the approximation as "
-                  ".tif or .pgm")
+                  "Mesh to write: .glb, .obj, .ply, .stl, .tin,\n.2dm; its edges as "
+                  ".svg\nor .eps; or the approximation as .tif or .pgm")
       ->type_name("")
       ->required();
 
@@ -27,8 +27,8 @@ void SimplifyArguments::add_to(CLI::App& verb) {
 
   raster.add_to(verb,
                 "Coordinates of the mesh: source (the raster's own),\nlocal (metres around its centre), grid "
-                "(columns and\nrows) or a CRS such as EPSG:32611. Default: local for\ndegrees, else source, else "
-                "grid");
+                "(columns and\nrows) or a CRS such as EPSG:32611. Default: local for\ndegrees (source for .2dm), else "
+                "source,\nelse grid");
 
   verb.add_option("--nodata-policy", nodata_policy,
                   "Missing samples become: hole (default; the mesh\nhas none there), fill (interpolated) or background")
@@ -53,8 +53,8 @@ void SimplifyArguments::add_to(CLI::App& verb) {
   strategy.add_to(verb);
 
   verb.add_option("--of", format,
-                  "Format: glb, obj, ply, stl, tin (triangles as text),\nsvg or eps (edges), dem (the approximation as "
-                  "a\nraster). Default: by OUTPUT's extension")
+                  "Format: glb, obj, ply, stl, tin (triangles as text),\n2dm, svg or eps "
+                  "(edges),\ndem (the approximation as a raster). Default: by\nOUTPUT's extension")
       ->type_name("FORMAT")
       ->group("Output");
   verb.add_flag("--normals", normals, "Vertex normals from the full-resolution raster")->group("Output");
