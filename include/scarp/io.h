@@ -98,8 +98,9 @@ Result<std::vector<std::uint8_t>> encode_raster(const RasterImage& raster, Raste
 /// Largest number of samples that fit `memory_limit` bytes at 5 bytes a sample; 0 = the machine's memory.
 std::uint64_t max_samples(std::uint64_t memory_limit);
 
-/// kTin is Scape's and Terra's: one line a triangle, "t" and nine numbers, no shared vertices. k2dm: SMS.
-enum class MeshFormat { kGlb, kObj, kPly, kStl, kTin, k2dm };
+/// kTin is Scape's and Terra's: one line a triangle, "t" and nine numbers, no shared vertices. k2dm: SMS. kVtu, kVtp:
+/// VTK's XML, an unstructured grid or polydata.
+enum class MeshFormat { kGlb, kObj, kPly, kStl, kTin, k2dm, kVtu, kVtp };
 
 /// From a name ("glb", "OBJ", …) or from a path's extension; nothing if unknown.
 std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
@@ -107,11 +108,12 @@ std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
 /// The file's bytes. GLB: y up (x, z, −y), float32, origin as node translation, metadata in asset.extras. OBJ: text,
 /// absolute coordinates that read back to the same doubles, metadata as comments. PLY: binary little-endian, double,
 /// absolute. STL: binary, float32 offsets from the origin, z up. TIN: text, absolute coordinates that read back to the
-/// same doubles. 2DM: text, absolute coordinates that read back to the same doubles. Colours, uvs and channels where
-/// the format has a place: GLB (COLOR_0 as linear float, TEXCOORD_0, _CHANNEL_n where colours do not say it all), PLY
-/// (red green blue uchar, s t float, channel_n float), OBJ (vt, colours behind the coordinates); they read back the
-/// same, but for PLY's t = 1 − v, rounded to float32. Deterministic. Fails with kOutput where the format cannot hold
-/// the mesh: more vertices or triangles than signed 32-bit numbers count in 2DM.
+/// same doubles. 2DM: text, absolute coordinates that read back to the same doubles. VTU, VTP: double, absolute, raw
+/// little-endian arrays behind the XML. Colours, uvs and channels where the format has a place: GLB (COLOR_0 as linear
+/// float, TEXCOORD_0, _CHANNEL_n where colours do not say it all), PLY (red green blue uchar, s t float, channel_n
+/// float), OBJ (vt, colours behind the coordinates), VTU and VTP (Colors, TCoords, channel_n); they read back the same,
+/// but for PLY's t = 1 − v, rounded to float32. Deterministic. Fails with kOutput where the format cannot hold the
+/// mesh: more vertices or triangles than signed 32-bit numbers count in 2DM.
 Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format);
 /// Reads any of these formats; recognises the format by content. Fails with kInput. Never trusts a
 /// length or an index in the file.

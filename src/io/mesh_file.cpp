@@ -8,6 +8,7 @@
 
 #include "base/caught.h"
 #include "io/mesh_file_text.h"
+#include "io/xml_reader.h"
 #include "scarp/height_field.h"
 #include "scarp/io.h"
 
@@ -80,7 +81,8 @@ struct FormatRow {
 constexpr FormatRow kFormats[] = {
     {MeshFormat::kGlb, "glb", encode_glb, decode_glb, true},  {MeshFormat::kObj, "obj", encode_obj, decode_obj, false},
     {MeshFormat::kPly, "ply", encode_ply, decode_ply, false}, {MeshFormat::kStl, "stl", encode_stl, decode_stl, true},
-    {MeshFormat::kTin, "tin", encode_tin, decode_tin, false}, {MeshFormat::k2dm, "2dm", encode_2dm, decode_2dm, false}};
+    {MeshFormat::kTin, "tin", encode_tin, decode_tin, false}, {MeshFormat::k2dm, "2dm", encode_2dm, decode_2dm, false},
+    {MeshFormat::kVtu, "vtu", encode_vtu, decode_vtk, false}, {MeshFormat::kVtp, "vtp", encode_vtp, decode_vtk, false}};
 
 const FormatRow* find_row(MeshFormat format) {
   for (const FormatRow& row : kFormats) {
@@ -89,10 +91,25 @@ const FormatRow* find_row(MeshFormat format) {
   return nullptr;
 }
 
+/// By the root element; nothing if the bytes are no XML, or another's.
+std::optional<MeshFormat> recognise_xml(std::span<const std::uint8_t> bytes) {
+  const bool may_be = starts_with(bytes, "<") || starts_with(bytes, "\xEF\xBB\xBF<");
+  if (!may_be) return {};
+  XmlReader xml(bytes);
+  for (;;) {
+    const XmlReader::Event event = xml.next();
+    if (event == XmlReader::Event::kComment) continue;
+    if (event != XmlReader::Event::kStart) return {};
+    if (xml.name() == "VTKFile") return MeshFormat::kVtu;
+    return {};
+  }
+}
+
 /// By content; the name decides only where bytes alone do not, as in an STL file that was cut off.
 std::optional<MeshFormat> recognise(std::span<const std::uint8_t> bytes, const std::string& name) {
   if (starts_with(bytes, "glTF")) return MeshFormat::kGlb;
   if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return MeshFormat::kPly;
+  if (const auto xml = recognise_xml(bytes)) return xml;
   if (is_binary_stl(bytes)) return MeshFormat::kStl;
   if (!looks_like_text(bytes)) {
     const auto named = find_mesh_format(name);
@@ -260,7 +277,7 @@ Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string&
   if (bytes.empty()) return unusable("the file is empty");
   const auto format = recognise(bytes, name_for_errors);
   if (!format) {
-    return unusable("it is neither GLB nor OBJ, PLY, STL, TIN or 2DM");
+    return unusable("it is neither GLB nor OBJ, PLY, STL, TIN, 2DM, VTU or VTP");
   }
   const auto decode = find_row(*format)->decode;
   try {
@@ -278,7 +295,7 @@ Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional
   if (!format) format = find_mesh_format(path);
   if (!format) {
     return fail(ErrorKind::kOutput, fmt::format("the name {} does not tell a mesh format: end it in .glb, .obj, .ply, "
-                                                ".stl, .tin or .2dm, or name the format",
+                                                ".stl, .tin, .2dm, .vtu or .vtp, or name the format",
                                                 path));
   }
   auto bytes = encode_mesh(mesh, *format);
