@@ -12,7 +12,7 @@
 namespace scarp::cli {
 namespace {
 
-constexpr const char* kNames = "glb, obj, ply, stl, tin, 2dm, vtu, vtp, svg, eps or dem";
+constexpr const char* kNames = "glb, obj, ply, stl, tin, 2dm, vtu, vtp, landxml, svg, eps or dem";
 
 /// What the verbs must know of a mesh format before they write it.
 struct MeshRow {
@@ -22,11 +22,15 @@ struct MeshRow {
   std::uint64_t bytes_per_vertex;
   bool holds_attributes, is_on_maps;
 };
-constexpr MeshRow kMeshRows[] = {
-    {MeshFormat::kGlb, "glb", "GLB", 80, true, false},   {MeshFormat::kObj, "obj", "OBJ", 190, true, false},
-    {MeshFormat::kPly, "ply", "PLY", 100, true, false},  {MeshFormat::kStl, "stl", "STL", 220, false, false},
-    {MeshFormat::kTin, "tin", "TIN", 400, false, false}, {MeshFormat::k2dm, "2dm", "2DM", 260, false, true},
-    {MeshFormat::kVtu, "vtu", "VTU", 120, true, false},  {MeshFormat::kVtp, "vtp", "VTP", 120, true, false}};
+constexpr MeshRow kMeshRows[] = {{MeshFormat::kGlb, "glb", "GLB", 80, true, false},
+                                 {MeshFormat::kObj, "obj", "OBJ", 190, true, false},
+                                 {MeshFormat::kPly, "ply", "PLY", 100, true, false},
+                                 {MeshFormat::kStl, "stl", "STL", 220, false, false},
+                                 {MeshFormat::kTin, "tin", "TIN", 400, false, false},
+                                 {MeshFormat::k2dm, "2dm", "2DM", 260, false, true},
+                                 {MeshFormat::kVtu, "vtu", "VTU", 120, true, false},
+                                 {MeshFormat::kVtp, "vtp", "VTP", 120, true, false},
+                                 {MeshFormat::kLandXml, "landxml", "LandXML", 260, false, false}};
 
 const MeshRow& row_of(MeshFormat format) {
   for (const MeshRow& row : kMeshRows) {
@@ -60,6 +64,7 @@ std::optional<OutputFormat> find_format(const std::string& word) {
 /// What an extension stands for: the formats' names, and those of rasters.
 std::optional<OutputFormat> find_format_of_extension(const std::string& extension) {
   if (extension.size() < 2 || extension == ".dem") return std::nullopt;
+  if (extension == ".xml") return find_format("landxml");
   if (extension == ".tif" || extension == ".tiff") return find_format("dem");
   if (extension == ".pgm") return OutputFormat{OutputKind::kDem, MeshFormat::kGlb, RasterFormat::kPgm};
   return find_format(extension.substr(1));
@@ -112,7 +117,7 @@ Result<OutputFormat> choose_output_format(const Given& of, const std::string& ou
   }
   if (const std::optional<OutputFormat> named = find_format_of_extension(extension)) return *named;
   return fail(ErrorKind::kUsage, fmt::format("{} does not tell a format: end it in .glb, .obj, .ply, .stl, .tin, .2dm, "
-                                             ".vtu, .vtp, .svg, .eps, .tif or .pgm, or choose one with --of",
+                                             ".vtu, .vtp, .xml, .svg, .eps, .tif or .pgm, or choose one with --of",
                                              shell_word(output)));
 }
 

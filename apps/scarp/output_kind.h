@@ -27,6 +27,7 @@ struct OutputFormat {
   bool is_mesh() const { return kind == OutputKind::kMesh; }
   /// Positions are rounded to float32.
   bool is_float32() const { return is_mesh() && (mesh == MeshFormat::kGlb || mesh == MeshFormat::kStl); }
+  bool is_landxml() const { return is_mesh() && mesh == MeshFormat::kLandXml; }
   /// Has a place for normals, uvs and colours.
   bool holds_attributes() const;
   /// Is laid on maps: x and y are the raster's own, degrees too, unless a CRS was asked for.

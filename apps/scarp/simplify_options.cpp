@@ -11,7 +11,7 @@ void SimplifyArguments::add_to(CLI::App& verb) {
       ->type_name("")
       ->required();
   verb.add_option("OUTPUT", output,
-                  "Mesh to write: .glb, .obj, .ply, .stl, .tin,\n.2dm, .vtu or .vtp; its edges as "
+                  "Mesh to write: .glb, .obj, .ply, .stl, .tin,\n.2dm, .vtu, .vtp or .xml (LandXML); its edges as "
                   ".svg\nor .eps; or the approximation as .tif or .pgm")
       ->type_name("")
       ->required();
@@ -53,7 +53,7 @@ void SimplifyArguments::add_to(CLI::App& verb) {
   strategy.add_to(verb);
 
   verb.add_option("--of", format,
-                  "Format: glb, obj, ply, stl, tin (triangles as text),\n2dm, vtu, vtp, svg or eps "
+                  "Format: glb, obj, ply, stl, tin (triangles as text),\n2dm, vtu, vtp, landxml, svg or eps "
                   "(edges),\ndem (the approximation as a raster). Default: by\nOUTPUT's extension")
       ->type_name("FORMAT")
       ->group("Output");

@@ -78,11 +78,15 @@ struct FormatRow {
   Result<Mesh> (*decode)(std::span<const std::uint8_t>);
   bool as_float;  ///< positions are rounded to float32
 };
-constexpr FormatRow kFormats[] = {
-    {MeshFormat::kGlb, "glb", encode_glb, decode_glb, true},  {MeshFormat::kObj, "obj", encode_obj, decode_obj, false},
-    {MeshFormat::kPly, "ply", encode_ply, decode_ply, false}, {MeshFormat::kStl, "stl", encode_stl, decode_stl, true},
-    {MeshFormat::kTin, "tin", encode_tin, decode_tin, false}, {MeshFormat::k2dm, "2dm", encode_2dm, decode_2dm, false},
-    {MeshFormat::kVtu, "vtu", encode_vtu, decode_vtk, false}, {MeshFormat::kVtp, "vtp", encode_vtp, decode_vtk, false}};
+constexpr FormatRow kFormats[] = {{MeshFormat::kGlb, "glb", encode_glb, decode_glb, true},
+                                  {MeshFormat::kObj, "obj", encode_obj, decode_obj, false},
+                                  {MeshFormat::kPly, "ply", encode_ply, decode_ply, false},
+                                  {MeshFormat::kStl, "stl", encode_stl, decode_stl, true},
+                                  {MeshFormat::kTin, "tin", encode_tin, decode_tin, false},
+                                  {MeshFormat::k2dm, "2dm", encode_2dm, decode_2dm, false},
+                                  {MeshFormat::kVtu, "vtu", encode_vtu, decode_vtk, false},
+                                  {MeshFormat::kVtp, "vtp", encode_vtp, decode_vtk, false},
+                                  {MeshFormat::kLandXml, "landxml", encode_landxml, decode_landxml, false}};
 
 const FormatRow* find_row(MeshFormat format) {
   for (const FormatRow& row : kFormats) {
@@ -101,7 +105,7 @@ std::optional<MeshFormat> recognise_xml(std::span<const std::uint8_t> bytes) {
     if (event == XmlReader::Event::kComment) continue;
     if (event != XmlReader::Event::kStart) return {};
     if (xml.name() == "VTKFile") return MeshFormat::kVtu;
-    return {};
+    return xml.name() == "LandXML" ? std::optional(MeshFormat::kLandXml) : std::nullopt;
   }
 }
 
@@ -254,6 +258,7 @@ std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path) {
   for (const FormatRow& row : kFormats) {
     if (extension == row.extension) return row.format;
   }
+  if (extension == "xml") return MeshFormat::kLandXml;
   return {};
 }
 
@@ -277,7 +282,7 @@ Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string&
   if (bytes.empty()) return unusable("the file is empty");
   const auto format = recognise(bytes, name_for_errors);
   if (!format) {
-    return unusable("it is neither GLB nor OBJ, PLY, STL, TIN, 2DM, VTU or VTP");
+    return unusable("it is neither GLB nor OBJ, PLY, STL, TIN, 2DM, VTU, VTP or LandXML");
   }
   const auto decode = find_row(*format)->decode;
   try {
@@ -295,7 +300,7 @@ Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional
   if (!format) format = find_mesh_format(path);
   if (!format) {
     return fail(ErrorKind::kOutput, fmt::format("the name {} does not tell a mesh format: end it in .glb, .obj, .ply, "
-                                                ".stl, .tin, .2dm, .vtu or .vtp, or name the format",
+                                                ".stl, .tin, .2dm, .vtu, .vtp or .xml, or name the format",
                                                 path));
   }
   auto bytes = encode_mesh(mesh, *format);

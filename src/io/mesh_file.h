@@ -70,9 +70,11 @@ Result<Mesh> decode_tin(std::span<const std::uint8_t> bytes);
 Result<std::vector<std::uint8_t>> encode_2dm(const Mesh& mesh);
 Result<std::vector<std::uint8_t>> encode_vtu(const Mesh& mesh);
 Result<std::vector<std::uint8_t>> encode_vtp(const Mesh& mesh);
+Result<std::vector<std::uint8_t>> encode_landxml(const Mesh& mesh);
 Result<Mesh> decode_2dm(std::span<const std::uint8_t> bytes);
 /// .vtu and .vtp: the file says which it is.
 Result<Mesh> decode_vtk(std::span<const std::uint8_t> bytes);
+Result<Mesh> decode_landxml(std::span<const std::uint8_t> bytes);
 
 /// Bytes of a GLB file but its JSON text: whether it stays below 4 GiB is known before it is made. `floats`: numbers
 /// per vertex, 3 of them its position.

@@ -13,9 +13,10 @@
 namespace scarp {
 namespace {
 
-constexpr MeshFormat kFormats[] = {MeshFormat::kGlb, MeshFormat::kObj, MeshFormat::kPly, MeshFormat::kStl,
-                                   MeshFormat::kTin, MeshFormat::k2dm, MeshFormat::kVtu, MeshFormat::kVtp};
-constexpr const char* kNames[] = {"x.glb", "x.obj", "x.ply", "x.stl", "x.tin", "x.2dm", "x.vtu", "x.vtp"};
+constexpr MeshFormat kFormats[] = {MeshFormat::kGlb, MeshFormat::kObj, MeshFormat::kPly,
+                                   MeshFormat::kStl, MeshFormat::kTin, MeshFormat::k2dm,
+                                   MeshFormat::kVtu, MeshFormat::kVtp, MeshFormat::kLandXml};
+constexpr const char* kNames[] = {"x.glb", "x.obj", "x.ply", "x.stl", "x.tin", "x.2dm", "x.vtu", "x.vtp", "x.landxml"};
 
 /// An error with a sentence, or a mesh whose parts agree.
 void expect_sound(const Result<Mesh>& mesh, const char* name, std::size_t place) {
@@ -122,7 +123,7 @@ TEST_P(MeshFile, BrokenMeshesAreRefused) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, MeshFile, ::testing::Range(0, 8),
+INSTANTIATE_TEST_SUITE_P(All, MeshFile, ::testing::Range(0, 9),
                          [](const auto& format) { return std::string(kNames[format.param] + 2); });
 
 TEST(MeshFormats, AreFoundByNameAndExtension) {
@@ -134,6 +135,8 @@ TEST(MeshFormats, AreFoundByNameAndExtension) {
   EXPECT_EQ(find_mesh_format("river.2dm"), MeshFormat::k2dm);
   EXPECT_EQ(find_mesh_format("river.vtu"), MeshFormat::kVtu);
   EXPECT_EQ(find_mesh_format("river.VTP"), MeshFormat::kVtp);
+  EXPECT_EQ(find_mesh_format("site.xml"), MeshFormat::kLandXml);
+  EXPECT_EQ(find_mesh_format("site.landxml"), MeshFormat::kLandXml);
   EXPECT_FALSE(find_mesh_format("hills"));
   EXPECT_FALSE(find_mesh_format("/x.glb/hills"));
   EXPECT_FALSE(find_mesh_format("/folder/glb"));
@@ -141,7 +144,7 @@ TEST(MeshFormats, AreFoundByNameAndExtension) {
 }
 
 TEST(MeshFormats, OtherFilesAreRefused) {
-  for (const char* text : {"", "\x89PNG\r\n", "hello\n", "II*", "<svg/>"}) {
+  for (const char* text : {"", "\x89PNG\r\n", "hello\n", "II*", "<svg/>", "<LandXML"}) {
     const auto mesh = decode_mesh(test::to_bytes(text), "x.tif");
     ASSERT_FALSE(mesh);
     EXPECT_EQ(mesh.error().kind, ErrorKind::kInput);
