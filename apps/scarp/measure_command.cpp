@@ -23,7 +23,7 @@ MeasureCommand::MeasureCommand(CLI::App& program)
       ->required();
   verb_
       ->add_option("MESH", mesh_,
-                   "Mesh to judge: GLB, OBJ, PLY, STL, TIN, 2DM, VTU, VTP or LandXML, recognised by content")
+                   "Mesh to judge: GLB, OBJ, PLY, STL, TIN, 2DM, VTU, VTP,\nLandXML or DXF, recognised by content")
       ->type_name("")
       ->required();
   raster_.add_to(

@@ -10,9 +10,10 @@ void SimplifyArguments::add_to(CLI::App& verb) {
           "Raster of heights: a file or URL that GDAL opens, PGM\nor STM; with --image any image; or scattered points")
       ->type_name("")
       ->required();
-  verb.add_option("OUTPUT", output,
-                  "Mesh to write: .glb, .obj, .ply, .stl, .tin,\n.2dm, .vtu, .vtp or .xml (LandXML); its edges as "
-                  ".svg\nor .eps; or the approximation as .tif or .pgm")
+  verb.add_option(
+          "OUTPUT", output,
+          "Mesh to write: .glb, .obj, .ply, .stl, .tin,\n.2dm, .vtu, .vtp, .xml (LandXML) or .dxf; its edges as "
+          ".svg\nor .eps; or the approximation as .tif or .pgm")
       ->type_name("")
       ->required();
 
@@ -27,8 +28,8 @@ void SimplifyArguments::add_to(CLI::App& verb) {
 
   raster.add_to(verb,
                 "Coordinates of the mesh: source (the raster's own),\nlocal (metres around its centre), grid "
-                "(columns and\nrows) or a CRS such as EPSG:32611. Default: local for\ndegrees (source for .2dm), else "
-                "source,\nelse grid");
+                "(columns and\nrows) or a CRS such as EPSG:32611. Default: local for\ndegrees (source for .2dm and "
+                ".dxf), else source,\nelse grid");
 
   verb.add_option("--nodata-policy", nodata_policy,
                   "Missing samples become: hole (default; the mesh\nhas none there), fill (interpolated) or background")
@@ -53,7 +54,7 @@ void SimplifyArguments::add_to(CLI::App& verb) {
   strategy.add_to(verb);
 
   verb.add_option("--of", format,
-                  "Format: glb, obj, ply, stl, tin (triangles as text),\n2dm, vtu, vtp, landxml, svg or eps "
+                  "Format: glb, obj, ply, stl, tin (triangles as text),\n2dm, vtu, vtp, landxml, dxf, svg or eps "
                   "(edges),\ndem (the approximation as a raster). Default: by\nOUTPUT's extension")
       ->type_name("FORMAT")
       ->group("Output");

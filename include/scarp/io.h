@@ -99,8 +99,8 @@ Result<std::vector<std::uint8_t>> encode_raster(const RasterImage& raster, Raste
 std::uint64_t max_samples(std::uint64_t memory_limit);
 
 /// kTin is Scape's and Terra's: one line a triangle, "t" and nine numbers, no shared vertices. k2dm: SMS. kVtu, kVtp:
-/// VTK's XML, an unstructured grid or polydata. kLandXml: LandXML 1.2, a TIN surface.
-enum class MeshFormat { kGlb, kObj, kPly, kStl, kTin, k2dm, kVtu, kVtp, kLandXml };
+/// VTK's XML, an unstructured grid or polydata. kLandXml: LandXML 1.2, a TIN surface. kDxf: 3DFACEs of release 12.
+enum class MeshFormat { kGlb, kObj, kPly, kStl, kTin, k2dm, kVtu, kVtp, kLandXml, kDxf };
 
 /// From a name ("glb", "OBJ", "landxml", …) or from a path's extension (".xml" is LandXML); nothing if unknown.
 std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
@@ -108,7 +108,7 @@ std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
 /// The file's bytes. GLB: y up (x, z, −y), float32, origin as node translation, metadata in asset.extras. OBJ: text,
 /// absolute coordinates that read back to the same doubles, metadata as comments. PLY: binary little-endian, double,
 /// absolute. STL: binary, float32 offsets from the origin, z up. TIN: text, absolute coordinates that read back to the
-/// same doubles. 2DM, LandXML: text, absolute coordinates that read back to the same doubles. VTU, VTP: double,
+/// same doubles. 2DM, LandXML, DXF: text, absolute coordinates that read back to the same doubles. VTU, VTP: double,
 /// absolute, raw little-endian arrays behind the XML. Colours, uvs and channels where the format has a place: GLB
 /// (COLOR_0 as linear float, TEXCOORD_0, _CHANNEL_n where colours do not say it all), PLY (red green blue uchar, s t
 /// float, channel_n float), OBJ (vt, colours behind the coordinates), VTU and VTP (Colors, TCoords, channel_n); they

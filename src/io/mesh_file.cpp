@@ -86,7 +86,8 @@ constexpr FormatRow kFormats[] = {{MeshFormat::kGlb, "glb", encode_glb, decode_g
                                   {MeshFormat::k2dm, "2dm", encode_2dm, decode_2dm, false},
                                   {MeshFormat::kVtu, "vtu", encode_vtu, decode_vtk, false},
                                   {MeshFormat::kVtp, "vtp", encode_vtp, decode_vtk, false},
-                                  {MeshFormat::kLandXml, "landxml", encode_landxml, decode_landxml, false}};
+                                  {MeshFormat::kLandXml, "landxml", encode_landxml, decode_landxml, false},
+                                  {MeshFormat::kDxf, "dxf", encode_dxf, decode_dxf, false}};
 
 const FormatRow* find_row(MeshFormat format) {
   for (const FormatRow& row : kFormats) {
@@ -121,6 +122,7 @@ std::optional<MeshFormat> recognise(std::span<const std::uint8_t> bytes, const s
   }
   if (starts_with(bytes, "solid")) return MeshFormat::kStl;
   if (starts_with(bytes, "MESH2D")) return MeshFormat::k2dm;
+  if (is_dxf(bytes)) return MeshFormat::kDxf;
   TextCursor cursor(bytes);
   for (int line = 0; line < 10000 && !cursor.at_end(); ++line) {
     const std::string_view word = cursor.word();
@@ -282,7 +284,7 @@ Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string&
   if (bytes.empty()) return unusable("the file is empty");
   const auto format = recognise(bytes, name_for_errors);
   if (!format) {
-    return unusable("it is neither GLB nor OBJ, PLY, STL, TIN, 2DM, VTU, VTP or LandXML");
+    return unusable("it is neither GLB nor OBJ, PLY, STL, TIN, 2DM, VTU, VTP, LandXML or DXF");
   }
   const auto decode = find_row(*format)->decode;
   try {
@@ -300,7 +302,7 @@ Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional
   if (!format) format = find_mesh_format(path);
   if (!format) {
     return fail(ErrorKind::kOutput, fmt::format("the name {} does not tell a mesh format: end it in .glb, .obj, .ply, "
-                                                ".stl, .tin, .2dm, .vtu, .vtp or .xml, or name the format",
+                                                ".stl, .tin, .2dm, .vtu, .vtp, .xml or .dxf, or name the format",
                                                 path));
   }
   auto bytes = encode_mesh(mesh, *format);

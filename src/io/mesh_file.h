@@ -71,15 +71,19 @@ Result<std::vector<std::uint8_t>> encode_2dm(const Mesh& mesh);
 Result<std::vector<std::uint8_t>> encode_vtu(const Mesh& mesh);
 Result<std::vector<std::uint8_t>> encode_vtp(const Mesh& mesh);
 Result<std::vector<std::uint8_t>> encode_landxml(const Mesh& mesh);
+Result<std::vector<std::uint8_t>> encode_dxf(const Mesh& mesh);
 Result<Mesh> decode_2dm(std::span<const std::uint8_t> bytes);
 /// .vtu and .vtp: the file says which it is.
 Result<Mesh> decode_vtk(std::span<const std::uint8_t> bytes);
 Result<Mesh> decode_landxml(std::span<const std::uint8_t> bytes);
+Result<Mesh> decode_dxf(std::span<const std::uint8_t> bytes);
 
 /// Bytes of a GLB file but its JSON text: whether it stays below 4 GiB is known before it is made. `floats`: numbers
 /// per vertex, 3 of them its position.
 std::uint64_t glb_binary_size(std::uint64_t vertices, std::uint64_t triangles, std::uint64_t floats);
 /// Whether the bytes have the length that a binary STL file's own count asks for.
 bool is_binary_stl(std::span<const std::uint8_t> bytes);
+/// Whether the text begins as a DXF file does: with a comment or a section.
+bool is_dxf(std::span<const std::uint8_t> bytes);
 
 }  // namespace scarp

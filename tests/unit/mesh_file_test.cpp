@@ -13,10 +13,11 @@
 namespace scarp {
 namespace {
 
-constexpr MeshFormat kFormats[] = {MeshFormat::kGlb, MeshFormat::kObj, MeshFormat::kPly,
-                                   MeshFormat::kStl, MeshFormat::kTin, MeshFormat::k2dm,
-                                   MeshFormat::kVtu, MeshFormat::kVtp, MeshFormat::kLandXml};
-constexpr const char* kNames[] = {"x.glb", "x.obj", "x.ply", "x.stl", "x.tin", "x.2dm", "x.vtu", "x.vtp", "x.landxml"};
+constexpr MeshFormat kFormats[] = {MeshFormat::kGlb,     MeshFormat::kObj, MeshFormat::kPly, MeshFormat::kStl,
+                                   MeshFormat::kTin,     MeshFormat::k2dm, MeshFormat::kVtu, MeshFormat::kVtp,
+                                   MeshFormat::kLandXml, MeshFormat::kDxf};
+constexpr const char* kNames[] = {"x.glb", "x.obj", "x.ply", "x.stl",     "x.tin",
+                                  "x.2dm", "x.vtu", "x.vtp", "x.landxml", "x.dxf"};
 
 /// An error with a sentence, or a mesh whose parts agree.
 void expect_sound(const Result<Mesh>& mesh, const char* name, std::size_t place) {
@@ -123,7 +124,7 @@ TEST_P(MeshFile, BrokenMeshesAreRefused) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, MeshFile, ::testing::Range(0, 9),
+INSTANTIATE_TEST_SUITE_P(All, MeshFile, ::testing::Range(0, 10),
                          [](const auto& format) { return std::string(kNames[format.param] + 2); });
 
 TEST(MeshFormats, AreFoundByNameAndExtension) {
@@ -137,6 +138,7 @@ TEST(MeshFormats, AreFoundByNameAndExtension) {
   EXPECT_EQ(find_mesh_format("river.VTP"), MeshFormat::kVtp);
   EXPECT_EQ(find_mesh_format("site.xml"), MeshFormat::kLandXml);
   EXPECT_EQ(find_mesh_format("site.landxml"), MeshFormat::kLandXml);
+  EXPECT_EQ(find_mesh_format("site.dxf"), MeshFormat::kDxf);
   EXPECT_FALSE(find_mesh_format("hills"));
   EXPECT_FALSE(find_mesh_format("/x.glb/hills"));
   EXPECT_FALSE(find_mesh_format("/folder/glb"));
