@@ -12,7 +12,7 @@
 namespace scarp::cli {
 namespace {
 
-constexpr const char* kNames = "glb, obj, ply, stl, tin, 2dm, vtu, vtp, landxml, dxf, svg, eps or dem";
+constexpr const char* kNames = "glb, obj, ply, stl, tin, 2dm, vtu, vtp, landxml, dxf, gpkg, svg, eps or dem";
 
 /// What the verbs must know of a mesh format before they write it.
 struct MeshRow {
@@ -31,7 +31,8 @@ constexpr MeshRow kMeshRows[] = {{MeshFormat::kGlb, "glb", "GLB", 80, true, fals
                                  {MeshFormat::kVtu, "vtu", "VTU", 120, true, false},
                                  {MeshFormat::kVtp, "vtp", "VTP", 120, true, false},
                                  {MeshFormat::kLandXml, "landxml", "LandXML", 260, false, false},
-                                 {MeshFormat::kDxf, "dxf", "DXF", 900, false, true}};
+                                 {MeshFormat::kDxf, "dxf", "DXF", 900, false, true},
+                                 {MeshFormat::kGpkg, "gpkg", "GeoPackage", 1200, false, true}};
 
 const MeshRow& row_of(MeshFormat format) {
   for (const MeshRow& row : kMeshRows) {
@@ -119,7 +120,7 @@ Result<OutputFormat> choose_output_format(const Given& of, const std::string& ou
   if (const std::optional<OutputFormat> named = find_format_of_extension(extension)) return *named;
   return fail(ErrorKind::kUsage,
               fmt::format("{} does not tell a format: end it in .glb, .obj, .ply, .stl, .tin, .2dm, .vtu, .vtp, .xml, "
-                          ".dxf, .svg, .eps, .tif or .pgm, or choose one with --of",
+                          ".dxf, .gpkg, .svg, .eps, .tif or .pgm, or choose one with --of",
                           shell_word(output)));
 }
 

@@ -75,8 +75,8 @@ struct FormatRow {
   MeshFormat format;
   std::string_view extension;
   Result<std::vector<std::uint8_t>> (*encode)(const Mesh&);
-  Result<Mesh> (*decode)(std::span<const std::uint8_t>);
-  bool as_float;  ///< positions are rounded to float32
+  Result<Mesh> (*decode)(std::span<const std::uint8_t>);  ///< null where files are written only
+  bool as_float;                                          ///< positions are rounded to float32
 };
 constexpr FormatRow kFormats[] = {{MeshFormat::kGlb, "glb", encode_glb, decode_glb, true},
                                   {MeshFormat::kObj, "obj", encode_obj, decode_obj, false},
@@ -87,7 +87,8 @@ constexpr FormatRow kFormats[] = {{MeshFormat::kGlb, "glb", encode_glb, decode_g
                                   {MeshFormat::kVtu, "vtu", encode_vtu, decode_vtk, false},
                                   {MeshFormat::kVtp, "vtp", encode_vtp, decode_vtk, false},
                                   {MeshFormat::kLandXml, "landxml", encode_landxml, decode_landxml, false},
-                                  {MeshFormat::kDxf, "dxf", encode_dxf, decode_dxf, false}};
+                                  {MeshFormat::kDxf, "dxf", encode_dxf, decode_dxf, false},
+                                  {MeshFormat::kGpkg, "gpkg", encode_gpkg, nullptr, false}};
 
 const FormatRow* find_row(MeshFormat format) {
   for (const FormatRow& row : kFormats) {
@@ -114,6 +115,7 @@ std::optional<MeshFormat> recognise_xml(std::span<const std::uint8_t> bytes) {
 std::optional<MeshFormat> recognise(std::span<const std::uint8_t> bytes, const std::string& name) {
   if (starts_with(bytes, "glTF")) return MeshFormat::kGlb;
   if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return MeshFormat::kPly;
+  if (starts_with(bytes, "SQLite format 3")) return MeshFormat::kGpkg;
   if (const auto xml = recognise_xml(bytes)) return xml;
   if (is_binary_stl(bytes)) return MeshFormat::kStl;
   if (!looks_like_text(bytes)) {
@@ -287,6 +289,7 @@ Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string&
     return unusable("it is neither GLB nor OBJ, PLY, STL, TIN, 2DM, VTU, VTP, LandXML or DXF");
   }
   const auto decode = find_row(*format)->decode;
+  if (decode == nullptr) return unusable("it is a GeoPackage, which Scarp writes and does not read");
   try {
     Result<Mesh> mesh = decode(bytes);
     if (!mesh) return unusable(mesh.error().message);
@@ -302,7 +305,7 @@ Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional
   if (!format) format = find_mesh_format(path);
   if (!format) {
     return fail(ErrorKind::kOutput, fmt::format("the name {} does not tell a mesh format: end it in .glb, .obj, .ply, "
-                                                ".stl, .tin, .2dm, .vtu, .vtp, .xml or .dxf, or name the format",
+                                                ".stl, .tin, .2dm, .vtu, .vtp, .xml, .dxf or .gpkg, or name the format",
                                                 path));
   }
   auto bytes = encode_mesh(mesh, *format);

@@ -72,6 +72,8 @@ Result<std::vector<std::uint8_t>> encode_vtu(const Mesh& mesh);
 Result<std::vector<std::uint8_t>> encode_vtp(const Mesh& mesh);
 Result<std::vector<std::uint8_t>> encode_landxml(const Mesh& mesh);
 Result<std::vector<std::uint8_t>> encode_dxf(const Mesh& mesh);
+/// In a build without GDAL it fails with kOutput.
+Result<std::vector<std::uint8_t>> encode_gpkg(const Mesh& mesh);
 Result<Mesh> decode_2dm(std::span<const std::uint8_t> bytes);
 /// .vtu and .vtp: the file says which it is.
 Result<Mesh> decode_vtk(std::span<const std::uint8_t> bytes);

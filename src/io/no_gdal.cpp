@@ -2,6 +2,7 @@
 #ifndef SCARP_WITH_GDAL
 
 #include "io/crs_description.h"
+#include "io/mesh_file.h"
 #include "io/point_source.h"
 #include "io/raster_source.h"
 #include "scarp/lines.h"
@@ -28,6 +29,10 @@ Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage&) {
 }
 
 std::optional<CrsDescription> describe_crs(const std::string&) { return {}; }
+
+Result<std::vector<std::uint8_t>> encode_gpkg(const Mesh&) {
+  return fail(ErrorKind::kOutput, "GeoPackage cannot be written: this build of Scarp has no GDAL, which encodes it");
+}
 
 bool is_same_crs(const std::string& a, const std::string& b) { return a == b; }
 

@@ -139,6 +139,7 @@ TEST(MeshFormats, AreFoundByNameAndExtension) {
   EXPECT_EQ(find_mesh_format("site.xml"), MeshFormat::kLandXml);
   EXPECT_EQ(find_mesh_format("site.landxml"), MeshFormat::kLandXml);
   EXPECT_EQ(find_mesh_format("site.dxf"), MeshFormat::kDxf);
+  EXPECT_EQ(find_mesh_format("site.gpkg"), MeshFormat::kGpkg);
   EXPECT_FALSE(find_mesh_format("hills"));
   EXPECT_FALSE(find_mesh_format("/x.glb/hills"));
   EXPECT_FALSE(find_mesh_format("/folder/glb"));
@@ -146,7 +147,7 @@ TEST(MeshFormats, AreFoundByNameAndExtension) {
 }
 
 TEST(MeshFormats, OtherFilesAreRefused) {
-  for (const char* text : {"", "\x89PNG\r\n", "hello\n", "II*", "<svg/>", "<LandXML"}) {
+  for (const char* text : {"", "\x89PNG\r\n", "hello\n", "II*", "<svg/>", "<LandXML", "SQLite format 3"}) {
     const auto mesh = decode_mesh(test::to_bytes(text), "x.tif");
     ASSERT_FALSE(mesh);
     EXPECT_EQ(mesh.error().kind, ErrorKind::kInput);
