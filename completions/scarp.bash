@@ -14,7 +14,7 @@ _scarp() {
 
   case $previous in
     --of)
-      local formats='glb obj ply stl tin svg eps dem'
+      local formats='glb obj ply stl tin 2dm vtu vtp landxml dxf gpkg svg eps dem'
       [[ $verb == generate ]] && formats='tif pgm'
       COMPREPLY=($(compgen -W "$formats" -- "$current")) && return
       ;;

@@ -42,7 +42,7 @@ complete -c scarp -n '__fish_seen_subcommand_from simplify' -l nodata-policy -x 
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l fill-distance -x -d 'Farthest valid sample to interpolate from'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l background -x -d 'Height of missing samples'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l outline-tolerance -x -d 'How far the outline may move outwards'
-complete -c scarp -n '__fish_seen_subcommand_from simplify' -l of -x -a 'glb obj ply stl tin svg eps dem' -d 'Format of the output'
+complete -c scarp -n '__fish_seen_subcommand_from simplify' -l of -x -a 'glb obj ply stl tin 2dm vtu vtp landxml dxf gpkg svg eps dem' -d 'Format of the output'
 complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l script -r -d 'Samples to insert or to ignore'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l importance -x -a 'global local local8 curvature global*local global*local8 global*curvature' -d 'What is inserted next'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l timing -d 'What each pass took and did'

@@ -21,7 +21,9 @@ MeasureCommand::MeasureCommand(CLI::App& program)
           "Raster of heights: a file or URL that GDAL opens, PGM\nor STM; with --image any image; or scattered points")
       ->type_name("")
       ->required();
-  verb_->add_option("MESH", mesh_, "Mesh to judge: GLB, OBJ, PLY, STL or TIN, recognised by\ncontent")
+  verb_
+      ->add_option("MESH", mesh_,
+                   "Mesh to judge: GLB, OBJ, PLY, STL, TIN, 2DM, VTU, VTP,\nLandXML or DXF, recognised by content")
       ->type_name("")
       ->required();
   raster_.add_to(

@@ -12,13 +12,34 @@
 namespace scarp::cli {
 namespace {
 
-constexpr const char* kNames = "glb, obj, ply, stl, tin, svg, eps or dem";
+constexpr const char* kNames = "glb, obj, ply, stl, tin, 2dm, vtu, vtp, landxml, dxf, gpkg, svg, eps or dem";
 
-constexpr Choice<MeshFormat> kMeshFormats[] = {{"glb", MeshFormat::kGlb},
-                                               {"obj", MeshFormat::kObj},
-                                               {"ply", MeshFormat::kPly},
-                                               {"stl", MeshFormat::kStl},
-                                               {"tin", MeshFormat::kTin}};
+/// What the verbs must know of a mesh format before they write it.
+struct MeshRow {
+  MeshFormat format;
+  const char* name;
+  const char* title;
+  std::uint64_t bytes_per_vertex;
+  bool holds_attributes, is_on_maps;
+};
+constexpr MeshRow kMeshRows[] = {{MeshFormat::kGlb, "glb", "GLB", 80, true, false},
+                                 {MeshFormat::kObj, "obj", "OBJ", 190, true, false},
+                                 {MeshFormat::kPly, "ply", "PLY", 100, true, false},
+                                 {MeshFormat::kStl, "stl", "STL", 220, false, false},
+                                 {MeshFormat::kTin, "tin", "TIN", 400, false, false},
+                                 {MeshFormat::k2dm, "2dm", "2DM", 260, false, true},
+                                 {MeshFormat::kVtu, "vtu", "VTU", 120, true, false},
+                                 {MeshFormat::kVtp, "vtp", "VTP", 120, true, false},
+                                 {MeshFormat::kLandXml, "landxml", "LandXML", 260, false, false},
+                                 {MeshFormat::kDxf, "dxf", "DXF", 900, false, true},
+                                 {MeshFormat::kGpkg, "gpkg", "GeoPackage", 1200, false, true}};
+
+const MeshRow& row_of(MeshFormat format) {
+  for (const MeshRow& row : kMeshRows) {
+    if (row.format == format) return row;
+  }
+  return kMeshRows[0];
+}
 
 std::string lower(std::string word) {
   for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -26,8 +47,8 @@ std::string lower(std::string word) {
 }
 
 std::optional<OutputFormat> find_format(const std::string& word) {
-  for (const Choice<MeshFormat>& choice : kMeshFormats) {
-    if (word == choice.name) return OutputFormat{OutputKind::kMesh, choice.value, RasterFormat::kGeoTiff};
+  for (const MeshRow& row : kMeshRows) {
+    if (word == row.name) return OutputFormat{OutputKind::kMesh, row.format, RasterFormat::kGeoTiff};
   }
   OutputFormat format;
   if (word == "svg") {
@@ -45,6 +66,7 @@ std::optional<OutputFormat> find_format(const std::string& word) {
 /// What an extension stands for: the formats' names, and those of rasters.
 std::optional<OutputFormat> find_format_of_extension(const std::string& extension) {
   if (extension.size() < 2 || extension == ".dem") return std::nullopt;
+  if (extension == ".xml") return find_format("landxml");
   if (extension == ".tif" || extension == ".tiff") return find_format("dem");
   if (extension == ".pgm") return OutputFormat{OutputKind::kDem, MeshFormat::kGlb, RasterFormat::kPgm};
   return find_format(extension.substr(1));
@@ -63,31 +85,23 @@ const char* OutputFormat::name() const {
     case OutputKind::kMesh:
       break;
   }
-  return name_of(mesh, kMeshFormats);
+  return row_of(mesh).name;
 }
 
 std::string OutputFormat::title() const {
+  if (kind == OutputKind::kMesh) return row_of(mesh).title;
   std::string text = name();
   for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   return kind == OutputKind::kDem ? "a raster" : text;
 }
 
 std::uint64_t OutputFormat::bytes_per_vertex() const {
-  if (kind != OutputKind::kMesh) return 300;
-  switch (mesh) {
-    case MeshFormat::kGlb:
-      return 80;
-    case MeshFormat::kObj:
-      return 190;
-    case MeshFormat::kPly:
-      return 100;
-    case MeshFormat::kStl:
-      return 220;
-    case MeshFormat::kTin:
-      return 400;
-  }
-  return 0;
+  return kind == OutputKind::kMesh ? row_of(mesh).bytes_per_vertex : 300;
 }
+
+bool OutputFormat::holds_attributes() const { return is_mesh() && row_of(mesh).holds_attributes; }
+
+bool OutputFormat::is_on_maps() const { return is_mesh() && row_of(mesh).is_on_maps; }
 
 Result<OutputFormat> choose_output_format(const Given& of, const std::string& output) {
   if (output.empty()) return fail(ErrorKind::kUsage, "the name of OUTPUT is empty");
@@ -105,9 +119,21 @@ Result<OutputFormat> choose_output_format(const Given& of, const std::string& ou
   }
   if (const std::optional<OutputFormat> named = find_format_of_extension(extension)) return *named;
   return fail(ErrorKind::kUsage,
-              fmt::format("{} does not tell a format: end it in .glb, .obj, .ply, .stl, .tin, .svg, .eps, .tif or "
-                          ".pgm, or choose one with --of",
+              fmt::format("{} does not tell a format: end it in .glb, .obj, .ply, .stl, .tin, .2dm, .vtu, .vtp, .xml, "
+                          ".dxf, .gpkg, .svg, .eps, .tif or .pgm, or choose one with --of",
                           shell_word(output)));
+}
+
+Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, const std::string& unit) {
+  if (!format.is_mesh()) return {};
+  Mesh sample;
+  sample.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  sample.triangles = {0, 1, 2};
+  if (!crs.empty()) sample.metadata["crs"] = crs;
+  if (!unit.empty()) sample.metadata["unit"] = unit;
+  auto bytes = encode_mesh(sample, format.mesh);
+  if (!bytes) return fail(ErrorKind::kUsage, std::move(bytes.error().message));
+  return {};
 }
 
 Result<void> close_with_base(Mesh& mesh, double base) {

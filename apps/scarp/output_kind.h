@@ -27,12 +27,19 @@ struct OutputFormat {
   bool is_mesh() const { return kind == OutputKind::kMesh; }
   /// Positions are rounded to float32.
   bool is_float32() const { return is_mesh() && (mesh == MeshFormat::kGlb || mesh == MeshFormat::kStl); }
+  bool is_landxml() const { return is_mesh() && mesh == MeshFormat::kLandXml; }
   /// Has a place for normals, uvs and colours.
-  bool holds_attributes() const { return is_mesh() && mesh != MeshFormat::kStl && mesh != MeshFormat::kTin; }
+  bool holds_attributes() const;
+  /// Is laid on maps: x and y are the raster's own, degrees too, unless a CRS was asked for.
+  bool is_on_maps() const;
 };
 
 /// By --of if it was given, else by the output's extension.
 Result<OutputFormat> choose_output_format(const Given& of, const std::string& output);
+
+/// kUsage if the format cannot hold a mesh in the CRS, with heights in `unit` (both may be empty): what writing would
+/// find out, before the work is done.
+Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, const std::string& unit);
 
 /// Makes a solid of the mesh; kUsage if --base is not below its lowest vertex.
 Result<void> close_with_base(Mesh& mesh, double base);

@@ -46,6 +46,11 @@ Result<PointSet> read(const std::string& path, const PointsArguments& arguments,
                             .progress = progress});
 }
 
+/// As --crs: points, unlike rasters, always have coordinates of their own.
+std::string crs_option(const SimplifyPlan& plan) {
+  return plan.read.crs.empty() && plan.read.keep_degrees ? "source" : plan.read.crs;
+}
+
 std::string canonical_command(const SimplifyPlan& plan, const PointsArguments& arguments) {
   return plan.canonical_command + (arguments.points ? " --points" : "") +
          canonical_option("--duplicates", arguments.duplicates) + canonical_option("--layer", arguments.layer) +
@@ -54,7 +59,8 @@ std::string canonical_command(const SimplifyPlan& plan, const PointsArguments& a
 
 void add_metadata(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
   Mesh& mesh = outcome.simplified.mesh;
-  add_origin(plan, canonical_command(plan, arguments), outcome.points.description, outcome.points.crs, mesh);
+  add_origin(canonical_command(plan, arguments), outcome.points.description, outcome.points.crs, crs_option(plan),
+             mesh);
   mesh.metadata["duplicates"] = policy_name(outcome.policy);
   const Measurement& measured = outcome.simplified.measurement;
   const Json error{{"asked", or_null(outcome.asked)},
@@ -106,8 +112,8 @@ Result<void> run_simplify_points(const CLI::App& verb, const SimplifyArguments& 
   if (!plan) return tl::unexpected(std::move(plan.error()));
   if (plan->format.kind == OutputKind::kDem)
     return fail(ErrorKind::kUsage,
-                fmt::format("{} is a raster, and {} holds points, which lie on no grid: choose .glb, .obj, .ply, .stl "
-                            "or .tin",
+                fmt::format("{} is a raster, and {} holds points, which lie on no grid: choose a mesh format, "
+                            "such as .glb or .ply",
                             given.output, shell_word(base_name(given.raster.path))));
   const auto policy = parse_policy(arguments.duplicates);
   if (!policy) return tl::unexpected(policy.error());
@@ -115,9 +121,11 @@ Result<void> run_simplify_points(const CLI::App& verb, const SimplifyArguments& 
   PointsOutcome outcome;
   outcome.policy = *policy;
   ProgressDisplay display(ProgressDisplay::choose(given.json_progress, given.quiet));
-  Result<PointSet> points = read(given.raster.path, arguments, given.raster.crs, display.callback());
+  const std::string crs = crs_option(*plan);
+  Result<PointSet> points = read(given.raster.path, arguments, crs.empty() ? Given() : Given(crs), display.callback());
   if (!points) return tl::unexpected(std::move(points.error()));
   outcome.points = std::move(*points);
+  if (auto checked = check_crs_of(plan->format, outcome.points.crs, ""); !checked) return checked;
   outcome.warnings = plan->warnings;
   outcome.warnings.insert(outcome.warnings.end(), outcome.points.warnings.begin(), outcome.points.warnings.end());
   const HeightRange heights = height_range(outcome.points);

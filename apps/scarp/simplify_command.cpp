@@ -181,6 +181,13 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
 
   const Result<void> has_place = check_place_of_channels(*plan, outcome.channels);
   if (!has_place) return has_place;
+  const Frame& frame = outcome.field.frame;
+  if (auto checked = check_crs_of(plan->format, frame.crs, outcome.as_read.unit); !checked) return checked;
+  if (plan->format.is_landxml() && frame.kind == Frame::Kind::kLocal && plan->read.crs.empty()) {
+    plan->warnings.push_back(
+        "LandXML has no degrees: the surface is in metres around the raster's centre; a projected CRS (--crs) puts it "
+        "in its place");
+  }
   SimplifyOptions options = plan->simplify;
   options.max_error = outcome.asked;
   options.mask = outcome.companions.mask;

@@ -12,7 +12,9 @@ namespace {
 void add_metadata(const SimplifyPlan& plan, Outcome& outcome) {
   const Measurement& measured = outcome.simplified.measurement;
   const Frame& frame = outcome.field.frame;
-  add_origin(plan, plan.canonical_command, frame.description, frame.crs, outcome.simplified.mesh);
+  const bool keeps_degrees = plan.read.keep_degrees && plan.read.crs.empty() && frame.kind == Frame::Kind::kSource;
+  add_origin(plan.canonical_command, frame.description, frame.crs, keeps_degrees ? "source" : plan.read.crs,
+             outcome.simplified.mesh);
   std::map<std::string, std::string>& metadata = outcome.simplified.mesh.metadata;
   if (!outcome.as_read.unit.empty()) metadata["unit"] = outcome.as_read.unit;
   Json error;

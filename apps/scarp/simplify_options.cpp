@@ -10,9 +10,10 @@ void SimplifyArguments::add_to(CLI::App& verb) {
           "Raster of heights: a file or URL that GDAL opens, PGM\nor STM; with --image any image; or scattered points")
       ->type_name("")
       ->required();
-  verb.add_option("OUTPUT", output,
-                  "Mesh to write: .glb, .obj, .ply, .stl or .tin; its edges\nas .svg or .eps; or the approximation as "
-                  ".tif or .pgm")
+  verb.add_option(
+          "OUTPUT", output,
+          "Mesh to write: .glb, .obj, .ply, .stl, .tin, .2dm, .vtu,\n.vtp, .xml (LandXML), .dxf or .gpkg; its edges as "
+          ".svg\nor .eps; or the approximation as .tif or .pgm")
       ->type_name("")
       ->required();
 
@@ -25,10 +26,11 @@ void SimplifyArguments::add_to(CLI::App& verb) {
   verb.add_option("-t,--max-triangles", max_triangles, "At most this many triangles")->type_name("N")->group(goals);
   verb.add_option("-p,--max-points", max_points, "At most this many vertices")->type_name("N")->group(goals);
 
-  raster.add_to(verb,
-                "Coordinates of the mesh: source (the raster's own),\nlocal (metres around its centre), grid "
-                "(columns and\nrows) or a CRS such as EPSG:32611. Default: local for\ndegrees, else source, else "
-                "grid");
+  raster.add_to(
+      verb,
+      "Coordinates of the mesh: source (the raster's own),\nlocal (metres around its centre), grid "
+      "(columns and\nrows) or a CRS such as EPSG:32611. Default: local for\ndegrees (source for .2dm, .dxf and "
+      ".gpkg), else source,\nelse grid");
 
   verb.add_option("--nodata-policy", nodata_policy,
                   "Missing samples become: hole (default; the mesh\nhas none there), fill (interpolated) or background")
@@ -54,8 +56,8 @@ void SimplifyArguments::add_to(CLI::App& verb) {
   strategy.add_to(verb);
 
   verb.add_option("--of", format,
-                  "Format: glb, obj, ply, stl, tin (triangles as text),\nsvg or eps (edges), dem (the approximation as "
-                  "a\nraster). Default: by OUTPUT's extension")
+                  "Format: glb, obj, ply, stl, tin (triangles as text),\n2dm, vtu, vtp, landxml, dxf, gpkg, svg or eps "
+                  "(edges),\ndem (the approximation as a raster). Default: by\nOUTPUT's extension")
       ->type_name("FORMAT")
       ->group("Output");
   verb.add_flag("--normals", normals, "Vertex normals from the full-resolution raster")->group("Output");

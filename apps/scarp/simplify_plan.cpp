@@ -252,6 +252,7 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
   const Result<OutputFormat> format = choose_output_format(given.format, given.output);
   if (!format) return tl::unexpected(format.error());
   plan.format = *format;
+  plan.read.keep_degrees = format->is_on_maps();
   if (given.base) {
     const Result<double> base = parse_number("--base", *given.base);
     if (!base) return tl::unexpected(base.error());

@@ -29,13 +29,13 @@ Result<void> finish_mesh(const SimplifyPlan& plan, SimplifyRun& run) {
   return {};
 }
 
-void add_origin(const SimplifyPlan& plan, const std::string& command, const std::string& frame, const std::string& crs,
-                Mesh& mesh) {
+void add_origin(const std::string& command, const std::string& frame, const std::string& crs,
+                const std::string& crs_option, Mesh& mesh) {
   mesh.metadata["generator"] = fmt::format("Scarp {}", version());
   mesh.metadata["command"] = command;
   mesh.metadata["frame"] = frame;
   if (!crs.empty()) mesh.metadata["crs"] = crs;
-  if (!plan.read.crs.empty()) mesh.metadata["crs_option"] = plan.read.crs;
+  if (!crs_option.empty()) mesh.metadata["crs_option"] = crs_option;
 }
 
 Json describe_goal(const SimplifyPlan& plan, const SimplifyRun& run) {

@@ -30,9 +30,9 @@ struct SimplifyRun {
 
 /// Counts the terrain's vertices and triangles, then closes it into a solid where that was asked for.
 Result<void> finish_mesh(const SimplifyPlan& plan, SimplifyRun& run);
-/// Writes into the mesh who made it, how, and in which frame.
-void add_origin(const SimplifyPlan& plan, const std::string& command, const std::string& frame, const std::string& crs,
-                Mesh& mesh);
+/// Writes into the mesh who made it, how, and in which frame; `crs_option` is what measure() needs as --crs, or empty.
+void add_origin(const std::string& command, const std::string& frame, const std::string& crs,
+                const std::string& crs_option, Mesh& mesh);
 
 /// The "goal", "passes", "seconds" and "outputs" of the report; "solid", where there is one.
 Json describe_goal(const SimplifyPlan& plan, const SimplifyRun& run);

@@ -26,6 +26,9 @@ struct ReadOptions {
   /// projected ones, the grid frame without georeference. "source": the raster's own coordinates. "local": the local
   /// metric frame. "grid": columns and rows. Anything else is a CRS for GDAL ("EPSG:32611", WKT, PROJ string).
   std::string crs = {};
+  /// An empty `crs` leaves geographic rasters in their own coordinates, degrees, for files that are laid on maps.
+  /// DEFAULT: false.
+  bool keep_degrees = false;
   /// In bytes; 0 = the machine's memory. DEFAULT: 0. read_height_field() refuses to read a raster that needs more;
   /// open_height_field() keeps as much of it in memory.
   std::uint64_t memory_limit = 0;
@@ -95,21 +98,29 @@ Result<std::vector<std::uint8_t>> encode_raster(const RasterImage& raster, Raste
 /// Largest number of samples that fit `memory_limit` bytes at 5 bytes a sample; 0 = the machine's memory.
 std::uint64_t max_samples(std::uint64_t memory_limit);
 
-/// kTin is Scape's and Terra's: one line a triangle, "t" and nine numbers, no shared vertices.
-enum class MeshFormat { kGlb, kObj, kPly, kStl, kTin };
+/// kTin is Scape's and Terra's: one line a triangle, "t" and nine numbers, no shared vertices. k2dm: SMS. kVtu, kVtp:
+/// VTK's XML, an unstructured grid or polydata. kLandXml: LandXML 1.2, a TIN surface. kDxf: 3DFACEs of release 12.
+/// kGpkg: GeoPackage, a layer of triangles as polygons.
+enum class MeshFormat { kGlb, kObj, kPly, kStl, kTin, k2dm, kVtu, kVtp, kLandXml, kDxf, kGpkg };
 
-/// From a name ("glb", "OBJ", …) or from a path's extension; nothing if unknown.
+/// From a name ("glb", "OBJ", "landxml", …) or from a path's extension (".xml" is LandXML); nothing if unknown.
 std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
 
 /// The file's bytes. GLB: y up (x, z, −y), float32, origin as node translation, metadata in asset.extras. OBJ: text,
 /// absolute coordinates that read back to the same doubles, metadata as comments. PLY: binary little-endian, double,
 /// absolute. STL: binary, float32 offsets from the origin, z up. TIN: text, absolute coordinates that read back to the
-/// same doubles. Colours, uvs and channels where the format has a place: GLB (COLOR_0 as linear float, TEXCOORD_0,
+/// same doubles. 2DM, LandXML, DXF: text, absolute coordinates that read back to the same doubles. VTU, VTP: double,
+/// absolute, raw little-endian arrays behind the XML. GeoPackage: double, absolute, in the CRS that metadata["crs"]
+/// names. Colours, uvs and channels where the format has a place: GLB (COLOR_0 as linear float, TEXCOORD_0,
 /// _CHANNEL_n where colours do not say it all), PLY (red green blue uchar, s t float, channel_n float), OBJ (vt,
-/// colours behind the coordinates); they read back the same, but for PLY's t = 1 − v, rounded to float32.
-/// Deterministic. Fails with kOutput where the format cannot hold the mesh.
+/// colours behind the coordinates), VTU and VTP (Colors, TCoords, channel_n); they read back the same, but for PLY's
+/// t = 1 − v, rounded to float32. Deterministic; a GeoPackage's bytes also depend on the versions of GDAL and SQLite.
+/// Fails with kOutput where the format cannot hold the mesh: more vertices or triangles than signed 32-bit numbers
+/// count in 2DM and LandXML; degrees, a unit that LandXML does not know, or heights in another unit than x and y in
+/// LandXML.
 Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format);
-/// Reads any of the five formats; recognises the format by content. Never trusts a length or an index in the file.
+/// Reads any of these formats but GeoPackage; recognises the format by content. Fails with kInput. Never trusts a
+/// length or an index in the file.
 Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
 
 /// encode_mesh() to a temporary name beside `path`, then renamed; nothing is left behind on failure.

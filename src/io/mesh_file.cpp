@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/caught.h"
 #include "io/mesh_file_text.h"
+#include "io/xml_reader.h"
 #include "scarp/height_field.h"
 #include "scarp/io.h"
 
@@ -15,11 +17,11 @@ namespace {
 
 constexpr char kHexDigits[] = "0123456789ABCDEF";
 
-std::string escape(const std::string& text, bool key) {
+std::string escape(const std::string& text, bool key, bool ascii) {
   std::string line;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    if (byte < 32 || c == '%' || c == '\\' || (key && c == ':')) {
+    if (byte < 32 || c == '%' || c == '\\' || (key && c == ':') || (ascii && byte > 126)) {
       line += {'%', kHexDigits[byte >> 4], kHexDigits[byte & 15]};
     } else {
       line += c;
@@ -68,16 +70,61 @@ std::string lower_extension(const std::string& name_or_path) {
   return name_or_path[start] == '.' ? lowered(name_or_path.substr(start + 1)) : "";
 }
 
+/// What is known of a format. Readers that serve two formats stand in both rows.
+struct FormatRow {
+  MeshFormat format;
+  std::string_view extension;
+  Result<std::vector<std::uint8_t>> (*encode)(const Mesh&);
+  Result<Mesh> (*decode)(std::span<const std::uint8_t>);  ///< null where files are written only
+  bool as_float;                                          ///< positions are rounded to float32
+};
+constexpr FormatRow kFormats[] = {{MeshFormat::kGlb, "glb", encode_glb, decode_glb, true},
+                                  {MeshFormat::kObj, "obj", encode_obj, decode_obj, false},
+                                  {MeshFormat::kPly, "ply", encode_ply, decode_ply, false},
+                                  {MeshFormat::kStl, "stl", encode_stl, decode_stl, true},
+                                  {MeshFormat::kTin, "tin", encode_tin, decode_tin, false},
+                                  {MeshFormat::k2dm, "2dm", encode_2dm, decode_2dm, false},
+                                  {MeshFormat::kVtu, "vtu", encode_vtu, decode_vtk, false},
+                                  {MeshFormat::kVtp, "vtp", encode_vtp, decode_vtk, false},
+                                  {MeshFormat::kLandXml, "landxml", encode_landxml, decode_landxml, false},
+                                  {MeshFormat::kDxf, "dxf", encode_dxf, decode_dxf, false},
+                                  {MeshFormat::kGpkg, "gpkg", encode_gpkg, nullptr, false}};
+
+const FormatRow* find_row(MeshFormat format) {
+  for (const FormatRow& row : kFormats) {
+    if (row.format == format) return &row;
+  }
+  return nullptr;
+}
+
+/// By the root element; nothing if the bytes are no XML, or another's.
+std::optional<MeshFormat> recognise_xml(std::span<const std::uint8_t> bytes) {
+  const bool may_be = starts_with(bytes, "<") || starts_with(bytes, "\xEF\xBB\xBF<");
+  if (!may_be) return {};
+  XmlReader xml(bytes);
+  for (;;) {
+    const XmlReader::Event event = xml.next();
+    if (event == XmlReader::Event::kComment) continue;
+    if (event != XmlReader::Event::kStart) return {};
+    if (xml.name() == "VTKFile") return MeshFormat::kVtu;
+    return xml.name() == "LandXML" ? std::optional(MeshFormat::kLandXml) : std::nullopt;
+  }
+}
+
 /// By content; the name decides only where bytes alone do not, as in an STL file that was cut off.
 std::optional<MeshFormat> recognise(std::span<const std::uint8_t> bytes, const std::string& name) {
   if (starts_with(bytes, "glTF")) return MeshFormat::kGlb;
   if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return MeshFormat::kPly;
+  if (starts_with(bytes, "SQLite format 3")) return MeshFormat::kGpkg;
+  if (const auto xml = recognise_xml(bytes)) return xml;
   if (is_binary_stl(bytes)) return MeshFormat::kStl;
   if (!looks_like_text(bytes)) {
     const auto named = find_mesh_format(name);
     return named == MeshFormat::kStl ? named : std::nullopt;
   }
   if (starts_with(bytes, "solid")) return MeshFormat::kStl;
+  if (starts_with(bytes, "MESH2D")) return MeshFormat::k2dm;
+  if (is_dxf(bytes)) return MeshFormat::kDxf;
   TextCursor cursor(bytes);
   for (int line = 0; line < 10000 && !cursor.at_end(); ++line) {
     const std::string_view word = cursor.word();
@@ -156,9 +203,24 @@ std::string find_unreadable(const Mesh& mesh) {
   return {};
 }
 
-std::string metadata_line(const std::string& key, const std::string& value) {
-  return escape(key, true) + ": " + escape(value, false);
+std::string find_beyond_int32(const Mesh& mesh, const char* what) {
+  constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
+  const std::size_t count = std::max(mesh.vertex_count(), mesh.triangle_count());
+  if (count <= kMost) return {};
+  return fmt::format("{} numbers at most {} vertices and triangles, and these are {}; write PLY", what, kMost, count);
 }
+
+std::string metadata_line(const std::string& key, const std::string& value) {
+  return escape(key, true, false) + ": " + escape(value, false, false);
+}
+
+std::string ascii_metadata_line(const std::string& key, const std::string& value) {
+  return escape(key, true, true) + ": " + escape(value, false, true);
+}
+
+std::string ascii_text(const std::string& text) { return escape(text, false, true); }
+
+std::string undo_ascii_text(std::string_view text) { return unescape(text); }
 
 bool parse_metadata_line(std::string_view line, std::map<std::string, std::string>& metadata) {
   const std::size_t separator = line.find(": ");
@@ -197,34 +259,24 @@ void append_fan(std::span<const std::uint32_t> corners, std::vector<std::uint32_
 
 std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path) {
   const std::string extension = lower_extension(name_or_path);
-  if (extension == "glb") return MeshFormat::kGlb;
-  if (extension == "obj") return MeshFormat::kObj;
-  if (extension == "ply") return MeshFormat::kPly;
-  if (extension == "stl") return MeshFormat::kStl;
-  if (extension == "tin") return MeshFormat::kTin;
+  for (const FormatRow& row : kFormats) {
+    if (extension == row.extension) return row.format;
+  }
+  if (extension == "xml") return MeshFormat::kLandXml;
   return {};
 }
 
 Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format) {
-  const bool as_float = format == MeshFormat::kGlb || format == MeshFormat::kStl;
-  if (std::string why = find_unwritable(mesh, as_float); !why.empty()) return fail(ErrorKind::kOutput, std::move(why));
+  const FormatRow* row = find_row(format);
+  if (row == nullptr) return fail(ErrorKind::kInternal, "encode_mesh() was given no format");
+  if (std::string why = find_unwritable(mesh, row->as_float); !why.empty()) {
+    return fail(ErrorKind::kOutput, std::move(why));
+  }
   try {
-    switch (format) {
-      case MeshFormat::kGlb:
-        return encode_glb(mesh);
-      case MeshFormat::kObj:
-        return encode_obj(mesh);
-      case MeshFormat::kPly:
-        return encode_ply(mesh);
-      case MeshFormat::kStl:
-        return encode_stl(mesh);
-      case MeshFormat::kTin:
-        return encode_tin(mesh);
-    }
+    return row->encode(mesh);
   } catch (...) {
     return caught(ErrorKind::kOutput, "encode the mesh");
   }
-  return fail(ErrorKind::kInternal, "encode_mesh() was given no format");
 }
 
 Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors) {
@@ -233,13 +285,13 @@ Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string&
   };
   if (bytes.empty()) return unusable("the file is empty");
   const auto format = recognise(bytes, name_for_errors);
-  if (!format) return unusable("it is neither GLB nor OBJ, PLY, STL or TIN");
+  if (!format) {
+    return unusable("it is neither GLB nor OBJ, PLY, STL, TIN, 2DM, VTU, VTP, LandXML or DXF");
+  }
+  const auto decode = find_row(*format)->decode;
+  if (decode == nullptr) return unusable("it is a GeoPackage, which Scarp writes and does not read");
   try {
-    Result<Mesh> mesh = *format == MeshFormat::kGlb   ? decode_glb(bytes)
-                        : *format == MeshFormat::kObj ? decode_obj(bytes)
-                        : *format == MeshFormat::kPly ? decode_ply(bytes)
-                        : *format == MeshFormat::kStl ? decode_stl(bytes)
-                                                      : decode_tin(bytes);
+    Result<Mesh> mesh = decode(bytes);
     if (!mesh) return unusable(mesh.error().message);
     drop_partial_attributes(*mesh);
     if (const std::string why = find_unreadable(*mesh); !why.empty()) return unusable(why);
@@ -253,7 +305,7 @@ Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional
   if (!format) format = find_mesh_format(path);
   if (!format) {
     return fail(ErrorKind::kOutput, fmt::format("the name {} does not tell a mesh format: end it in .glb, .obj, .ply, "
-                                                ".stl or .tin, or name the format",
+                                                ".stl, .tin, .2dm, .vtu, .vtp, .xml, .dxf or .gpkg, or name the format",
                                                 path));
   }
   auto bytes = encode_mesh(mesh, *format);

@@ -18,11 +18,21 @@ namespace scarp {
 /// range, a position that is not finite (or, with `as_float`, beyond float32). Empty if all is well.
 std::string find_unwritable(const Mesh& mesh, bool as_float);
 
+/// The sentence that refuses a mesh whose vertices or triangles are more than signed 32-bit numbers count, which is
+/// what programs give them that read `what` ("a 2DM file"). Empty if all is well.
+std::string find_beyond_int32(const Mesh& mesh, const char* what);
+
 /// Metadata as one line of text: "KEY: VALUE". Bytes below 32, '%', '\' and, in keys, ':' become %XX, so that no reader
 /// takes them for line ends, continuations or separators.
 std::string metadata_line(const std::string& key, const std::string& value);
 /// The reverse of metadata_line(). Returns false if there is no separator.
 bool parse_metadata_line(std::string_view line, std::map<std::string, std::string>& metadata);
+
+/// The same in printable ASCII, for formats that declare an encoding, whatever bytes the name of a file has.
+std::string ascii_metadata_line(const std::string& key, const std::string& value);
+/// Key or value alone: all bytes but printable ASCII, '%' and '\\' become %XX; and the reverse.
+std::string ascii_text(const std::string& text);
+std::string undo_ascii_text(std::string_view text);
 
 /// "x y z", each the shortest text that reads back to the same double.
 std::string origin_text(const std::array<double, 3>& origin);
@@ -57,10 +67,25 @@ Result<Mesh> decode_ply(std::span<const std::uint8_t> bytes);
 Result<Mesh> decode_stl(std::span<const std::uint8_t> bytes);
 Result<Mesh> decode_tin(std::span<const std::uint8_t> bytes);
 
+Result<std::vector<std::uint8_t>> encode_2dm(const Mesh& mesh);
+Result<std::vector<std::uint8_t>> encode_vtu(const Mesh& mesh);
+Result<std::vector<std::uint8_t>> encode_vtp(const Mesh& mesh);
+Result<std::vector<std::uint8_t>> encode_landxml(const Mesh& mesh);
+Result<std::vector<std::uint8_t>> encode_dxf(const Mesh& mesh);
+/// In a build without GDAL it fails with kOutput.
+Result<std::vector<std::uint8_t>> encode_gpkg(const Mesh& mesh);
+Result<Mesh> decode_2dm(std::span<const std::uint8_t> bytes);
+/// .vtu and .vtp: the file says which it is.
+Result<Mesh> decode_vtk(std::span<const std::uint8_t> bytes);
+Result<Mesh> decode_landxml(std::span<const std::uint8_t> bytes);
+Result<Mesh> decode_dxf(std::span<const std::uint8_t> bytes);
+
 /// Bytes of a GLB file but its JSON text: whether it stays below 4 GiB is known before it is made. `floats`: numbers
 /// per vertex, 3 of them its position.
 std::uint64_t glb_binary_size(std::uint64_t vertices, std::uint64_t triangles, std::uint64_t floats);
 /// Whether the bytes have the length that a binary STL file's own count asks for.
 bool is_binary_stl(std::span<const std::uint8_t> bytes);
+/// Whether the text begins as a DXF file does: with a comment or a section.
+bool is_dxf(std::span<const std::uint8_t> bytes);
 
 }  // namespace scarp

@@ -1,6 +1,8 @@
 // The doors that GDAL stands behind, in a build without it.
 #ifndef SCARP_WITH_GDAL
 
+#include "io/crs_description.h"
+#include "io/mesh_file.h"
 #include "io/point_source.h"
 #include "io/raster_source.h"
 #include "scarp/lines.h"
@@ -24,6 +26,12 @@ Result<OwnedChannels> read_gdal_channels(const std::string& path, const ReadOpti
 Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage&) {
   return fail(ErrorKind::kOutput,
               "GeoTIFF cannot be written: this build of Scarp has no GDAL, which encodes it; write PGM");
+}
+
+std::optional<CrsDescription> describe_crs(const std::string&) { return {}; }
+
+Result<std::vector<std::uint8_t>> encode_gpkg(const Mesh&) {
+  return fail(ErrorKind::kOutput, "GeoPackage cannot be written: this build of Scarp has no GDAL, which encodes it");
 }
 
 bool is_same_crs(const std::string& a, const std::string& b) { return a == b; }

@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
   scarp::Mesh bare = colored;  // channels alone, one value missing
   bare.colors.clear();
   bare.channels[7] = std::numeric_limits<float>::quiet_NaN();
-  for (const char* extension : {"glb", "obj", "ply", "stl", "tin"}) {
+  for (const char* extension : {"glb", "obj", "ply", "stl", "tin", "vtu", "vtp"}) {
     for (const auto& [mesh, name] : {std::pair{&colored, "colored"}, {&photo, "photo"}, {&bare, "bare"}}) {
       const auto written = scarp::write_mesh(*mesh, std::string(argv[1]) + "/" + name + "." + extension);
       if (written) continue;

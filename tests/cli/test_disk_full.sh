@@ -4,7 +4,7 @@ source "$(dirname "$0")/lib.sh"
 
 # 8 blocks of 1024 bytes: less than these files need. The logs of the test stay below it.
 limited() { bash -c 'ulimit -f 8; exec "$@"' - "$@"; }
-for format in glb obj ply stl; do
+for format in glb obj ply stl 2dm vtu xml dxf gpkg; do
   refuses 4 "out.$format" limited "$scarp" simplify "$dem" "out.$format" -e 20
 done
 echo mine > old.glb
@@ -22,7 +22,7 @@ succeeds "$scarp" measure "$dem" tiny.ply
 mkdir disk
 if mount -t tmpfs -o size=64k none disk 2> /dev/null; then
   trap 'cd /; umount "$root/run/disk"; rm -rf "$root"' EXIT
-  for format in glb obj ply stl; do
+  for format in glb obj ply stl 2dm vtu xml dxf gpkg; do
     refuses 4 "full" "$scarp" simplify "$dem" "disk/out.$format" -e 10
   done
   [ -z "$(ls -A disk)" ] || fail "something is left on the full disk"

@@ -24,20 +24,23 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (mesh->channel_count < 0 || mesh->channels.size() != count * static_cast<std::size_t>(mesh->channel_count)) {
     std::abort();
   }
-  // What was read can be written; what PLY keeps, which is everything, reads back the same.
+  // What was read can be written; what PLY and VTU keep, which is everything, reads back the same.
   for (const auto format :
-       {scarp::MeshFormat::kGlb, scarp::MeshFormat::kObj, scarp::MeshFormat::kStl, scarp::MeshFormat::kTin}) {
+       {scarp::MeshFormat::kGlb, scarp::MeshFormat::kObj, scarp::MeshFormat::kStl, scarp::MeshFormat::kTin,
+        scarp::MeshFormat::k2dm, scarp::MeshFormat::kVtp, scarp::MeshFormat::kLandXml, scarp::MeshFormat::kDxf}) {
     const auto bytes = scarp::encode_mesh(*mesh, format);
     if (!bytes && bytes.error().kind != scarp::ErrorKind::kOutput) std::abort();
     if (bytes && !scarp::decode_mesh(*bytes, "fuzz")) std::abort();
   }
-  const auto bytes = scarp::encode_mesh(*mesh, scarp::MeshFormat::kPly);
-  if (!bytes) return 0;
-  const auto back = scarp::decode_mesh(*bytes, "fuzz");
-  if (!back || back->triangles != mesh->triangles || back->vertex_count() != mesh->vertex_count()) std::abort();
-  if (back->colors != mesh->colors || back->channels.size() != mesh->channels.size()) std::abort();
-  for (std::size_t v = 0; v < mesh->vertex_count(); ++v) {
-    if (back->vertex(v) != mesh->vertex(v)) std::abort();
+  for (const auto format : {scarp::MeshFormat::kPly, scarp::MeshFormat::kVtu}) {
+    const auto bytes = scarp::encode_mesh(*mesh, format);
+    if (!bytes) continue;
+    const auto back = scarp::decode_mesh(*bytes, "fuzz");
+    if (!back || back->triangles != mesh->triangles || back->vertex_count() != mesh->vertex_count()) std::abort();
+    if (back->colors != mesh->colors || back->channels.size() != mesh->channels.size()) std::abort();
+    for (std::size_t v = 0; v < mesh->vertex_count(); ++v) {
+      if (back->vertex(v) != mesh->vertex(v)) std::abort();
+    }
   }
   return 0;
 }

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <vector>
 
+#include "io/crs_description.h"
 #include "io/gdal/session.h"
 #include "io/raster_source.h"
 
@@ -142,6 +143,26 @@ std::shared_ptr<const PointTransform> build_transform(const Crs& from, const Crs
 }  // namespace scarp::gdal
 
 namespace scarp {
+
+std::optional<CrsDescription> describe_crs(const std::string& crs) {
+  gdal::Session quiet;
+  const gdal::Crs known = gdal::find_crs(crs);
+  if (!known) return {};
+  CrsDescription description;
+  const char* name = OSRGetName(known.get());
+  description.name = name != nullptr ? name : "";
+  constexpr std::string_view kEpsg = "EPSG:";
+  if (const std::string code = gdal::crs_name(known); code.starts_with(kEpsg)) {
+    description.epsg = code.substr(kEpsg.size());
+  }
+  const char* options[] = {"FORMAT=WKT1_GDAL", nullptr};
+  char* wkt = nullptr;
+  if (OSRExportToWktEx(known.get(), &wkt, options) == OGRERR_NONE && wkt != nullptr) description.wkt = wkt;
+  CPLFree(wkt);
+  description.is_geographic = OSRIsGeographic(known.get()) != 0;
+  if (!description.is_geographic) description.unit_in_metres = OSRGetLinearUnits(known.get(), nullptr);
+  return description;
+}
 
 bool is_same_crs(const std::string& a, const std::string& b) {
   if (a == b) return true;

@@ -60,8 +60,8 @@ Frame source_frame(const Georeference& geo) {
 
 void warn_of_degrees(RasterInfo& info) {
   info.warnings.push_back(
-      "x and y are degrees while z is a length: the mesh is no shape in space; leave the CRS out for a "
-      "local frame in metres");
+      "x and y are degrees while z is a length: the mesh is no shape in space; the frame 'local' is in "
+      "metres");
 }
 
 /// East–west lengths in the local frame are true on the centre's parallel only.

@@ -1,14 +1,13 @@
 // GeoTIFF, by GDAL, in memory.
 #include <cpl_conv.h>
 #include <cpl_string.h>
-#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gdal.h>
 
-#include <atomic>
 #include <limits>
 
 #include "io/gdal/crs.h"
+#include "io/gdal/memory_file.h"
 #include "io/gdal/open.h"
 #include "io/gdal/session.h"
 #include "io/raster_source.h"
@@ -19,27 +18,6 @@ namespace {
 tl::unexpected<Error> refuse(const std::string& why) {
   return fail(ErrorKind::kOutput, "the raster cannot be encoded as GeoTIFF: " + why);
 }
-
-/// A file in memory, gone with it.
-class MemoryFile {
- public:
-  MemoryFile() {
-    static std::atomic<unsigned> serial{0};
-    name_ = fmt::format("/vsimem/scarp-raster-{}.tif", serial++);
-  }
-  ~MemoryFile() { VSIUnlink(name_.c_str()); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  const char* name() const { return name_.c_str(); }
-  std::vector<std::uint8_t> bytes() const {
-    vsi_l_offset size = 0;
-    const GByte* data = VSIGetMemFileBuffer(name_.c_str(), &size, FALSE);
-    return data != nullptr ? std::vector<std::uint8_t>(data, data + size) : std::vector<std::uint8_t>();
-  }
-
- private:
-  std::string name_;
-};
 
 }  // namespace
 
@@ -53,7 +31,7 @@ Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage& raster) {
     crs = gdal::find_crs(raster.like->crs);
     if (!crs) return refuse(fmt::format("'{}' is no CRS that GDAL knows", raster.like->crs));
   }
-  const MemoryFile file;
+  const gdal::MemoryFile file("tif");
   const char* options[] = {"COMPRESS=DEFLATE", "PREDICTOR=3",      "TILED=YES",
                            "NUM_THREADS=1",    "BIGTIFF=IF_SAFER", nullptr};
   gdal::Dataset dataset(GDALCreate(driver, file.name(), raster.cols, raster.rows, 1, GDT_Float32, options));

@@ -191,8 +191,7 @@ Result<void> place(const Crs& crs, const std::string& wanted, PointSet& points) 
   if (wanted == "source") {
     if (is_geographic)
       points.warnings.push_back(
-          "x and y are degrees while z is a length: the mesh is no shape in space; leave the CRS out for a local frame "
-          "in metres");
+          "x and y are degrees while z is a length: the mesh is no shape in space; the frame 'local' is in metres");
     return {};
   }
   if (!crs)

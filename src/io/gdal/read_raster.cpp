@@ -94,7 +94,8 @@ Result<Opened> open(Session& session, const std::string& path, const ReadOptions
   const Georeference& geo = plan->georeference;
   const auto cols = static_cast<std::uint64_t>(geo.cols), rows = static_cast<std::uint64_t>(geo.rows);
   if (auto fits = check_raster_sides(path, cols, rows); !fits) return tl::unexpected(fits.error());
-  auto frame = choose_frame(geo, options.crs, plan->info);
+  const bool keep_degrees = options.keep_degrees && options.crs.empty() && geo.located;
+  auto frame = choose_frame(geo, keep_degrees ? "source" : options.crs, plan->info);
   if (!frame) return tl::unexpected(frame.error());
   warn_of_units(*frame, geo, plan->info);
   Opened opened;

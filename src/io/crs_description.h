@@ -1,0 +1,20 @@
+// What a file says of its coordinate reference system, without GDAL's headers.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace scarp {
+
+struct CrsDescription {
+  std::string name;            ///< "WGS 84 / UTM zone 11N"
+  std::string epsg;            ///< "32611"; empty if EPSG has no number for it
+  std::string wkt;             ///< OGC's WKT 1, one line
+  bool is_geographic = false;  ///< degrees
+  double unit_in_metres = 1;   ///< of x and y, unless it is geographic
+};
+
+/// Of a name as in RasterInfo::crs; nothing if it is unknown, and in a build without GDAL.
+std::optional<CrsDescription> describe_crs(const std::string& crs);
+
+}  // namespace scarp

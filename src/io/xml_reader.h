@@ -1,0 +1,64 @@
+// XML, event by event, in bytes that may be anything.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace scarp {
+
+/// Walks over XML in UTF-8 or ASCII and insists that what is opened is closed, in order, down to the root. Document
+/// types are refused, and with them all entities but XML's own five and numbers. Names are given without their prefix.
+class XmlReader {
+ public:
+  enum class Event {
+    kStart,    ///< of an element: name(), attribute()
+    kEnd,      ///< of an element: name(); also of <one/>
+    kText,     ///< text(), its entities as they are
+    kComment,  ///< text()
+    kDone,     ///< the root has ended
+    kBroken,   ///< complaint()
+  };
+
+  explicit XmlReader(std::span<const std::uint8_t> bytes)
+      : text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()) {}
+
+  Event next();
+  std::string_view name() const { return name_; }
+  /// The attribute's value, entities undone; empty if there is none.
+  std::string attribute(std::string_view name) const;
+  std::string_view text() const { return content_; }
+  const std::string& complaint() const { return complaint_; }
+
+  /// Where the next event begins, in bytes from the start, for content that is no XML; jump() steps over it.
+  std::size_t position() const { return at_; }
+  void jump(std::size_t position) { at_ = position; }
+  /// The 1-based line of position(). Cost: O(position()).
+  std::size_t line() const;
+
+ private:
+  Event broken(std::string why);
+  Event read_tag();
+  bool read_attributes();
+  void skip_blanks();
+  std::string_view read_name();
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  std::vector<std::string_view> open_;  // full names, outermost first
+  std::vector<std::pair<std::string_view, std::string_view>> attributes_;
+  std::string_view name_, content_;
+  std::string complaint_;
+  bool ends_at_once_ = false, has_root_ = false;
+};
+
+/// Text with "&lt;", "&#10;" … undone; what is no entity stays as it is.
+std::string undo_entities(std::string_view text);
+/// Text fit for an attribute in double quotes or for an element.
+std::string with_entities(std::string_view text);
+
+}  // namespace scarp
