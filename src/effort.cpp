@@ -64,8 +64,7 @@ Result<void> check_breaklines(const HeightField& field, const SimplifyOptions& o
   const char* obstacle = find_beyond_heights(field, options);
   if (obstacle == nullptr && field.samples == nullptr) obstacle = "needs the raster in memory as a whole";
   if (obstacle == nullptr && !field.frame.is_affine()) obstacle = "needs a frame in which the grid is regular";
-  if (obstacle == nullptr && options.effort == Effort::kFast && (has_budget(options) || !options.max_error))
-    obstacle = "needs a max error, or more than fast effort for a budget";
+  if (obstacle == nullptr && (has_budget(options) || !options.max_error)) obstacle = "needs a max error and no budget";
   if (obstacle == nullptr && find_strategy(options) != nullptr) obstacle = "has no strategies of insertion";
   if (obstacle == nullptr) return {};
   return fail(ErrorKind::kUsage, fmt::format("a mesh with breaklines {}: leave out one or the other", obstacle));

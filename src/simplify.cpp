@@ -490,8 +490,8 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
     return simplify_once(field, greedy, lines);
   }
   const Domain& domain = (*tiled)->domain;
-  if (auto fits = memory.check_mesh(bytes, domain.tin.vertex_count() - domain.unused, 1); !fits)
-    return tl::unexpected(fits.error());
+  if (auto has_room = memory.check_mesh(bytes, domain.tin.vertex_count() - domain.unused, 1); !has_room)
+    return tl::unexpected(has_room.error());
   const Work& work = (*tiled)->work;
   const double seconds = seconds_since(start);
   std::vector<Pass> passes{
@@ -535,24 +535,17 @@ Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions
   return run(field, on_samples, lines);
 }
 
-/// With a search where there is a budget.
-Result<Simplified> simplify_field(const HeightField& field, const SimplifyOptions& options,
-                                  const ConstraintGraph* lines) {
-  if (options.effort == Effort::kFast || !has_budget(options)) return simplify_once(field, options, lines);
-  return search_error(options, [&](const SimplifyOptions& once) { return simplify_once(field, once, lines); });
-}
-
-/// Breaklines follow the raster to within this share of the max error, where there is one.
+/// Soft lines follow the raster to within this share of the max error.
 constexpr double kLineShare = 0.5;
 
 Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyOptions& options) {
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
   const auto start = Clock::now();
-  const double tolerance = kLineShare * options.max_error.value_or(0);
+  const double tolerance = kLineShare * *options.max_error;
   auto lines = prepare_lines(field, options.breaklines, tolerance);
   if (!lines) return tl::unexpected(lines.error());
   const double seconds = seconds_since(start);
-  auto result = simplify_field(lines->apply(field), options, &lines->graph);
+  auto result = simplify_once(lines->apply(field), options, &lines->graph);
   if (!result) return result;
   result->passes.insert(result->passes.begin(), Pass{"arrange", seconds});
   result->edits = std::move(lines->edits);
@@ -567,7 +560,9 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& ask
   options.effort = choose_effort(field, asked);
   if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
   if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
-  return has_breaklines(options) ? simplify_with_lines(field, options) : simplify_field(field, options, nullptr);
+  if (has_breaklines(options)) return simplify_with_lines(field, options);
+  if (options.effort == Effort::kFast || !has_budget(options)) return simplify_once(field, options, nullptr);
+  return search_error(options, [&](const SimplifyOptions& once) { return simplify_once(field, once, nullptr); });
 } catch (const SourceFailure& failure) {
   return tl::unexpected(failure.error);
 } catch (const std::bad_alloc&) {

@@ -116,8 +116,8 @@ const char* find_line_obstacle(const SimplifyArguments& given, const SimplifyPla
   if (plan.channels.image) return "--image";
   if (!given.channels.textures.empty()) return "--texture";
   if (plan.simplify.outline_tolerance > 0) return "--outline-tolerance";
-  if (plan.simplify.effort == Effort::kFast && (given.max_triangles || given.max_points))
-    return "--effort fast with a budget";
+  if (given.max_triangles) return "--max-triangles";
+  if (given.max_points) return "--max-points";
   return given.strategy.dominant_obstacle();
 }
 

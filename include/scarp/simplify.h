@@ -46,9 +46,9 @@ struct SimplifyOptions {
   std::span<const float> tolerance = {};
   /// Breaklines. A hard line keeps its heights, a soft one follows the raster. Where a hard line passes through a
   /// sample that has another height, the sample is given the line's, and what is promised holds for the samples as they
-  /// are then (Simplified::edits). Fails with kUsage without a max error (a budget needs more than fast effort),
-  /// together with channels or an outline tolerance, without the samples in memory and in frames that are not affine;
-  /// with kInput as place_breaklines() says: lines whose heights contradict each other, named. DEFAULT: none.
+  /// are then (Simplified::edits). Fails with kUsage without a max error, together with a
+  /// budget, channels, an outline tolerance or strategies, without the samples in memory and in frames that are not
+  /// affine; with kInput for lines whose heights contradict each other, named. DEFAULT: none.
   LineConstraints breaklines = {};
   std::vector<ScriptStep> script = {};  ///< carried out in order before the first scan. DEFAULT: nothing.
   /// kDominant fails with kUsage together with a budget, a mask, tolerances, a script, channels, an importance, an

@@ -1,0 +1,99 @@
+#!/usr/bin/env bash
+# --breaklines: every line is a chain of edges of the mesh, hard ones at their own heights, and the bound holds against the
+# raster as the lines left it.
+source "$(dirname "$0")/lib.sh"
+need python3
+
+succeeds "$scarp" generate smooth 160 120 hills.tif --seed 3 -q
+python3 - <<'PYTHON'
+import json, math
+def collection(name, features):
+    json.dump({"type": "FeatureCollection", "features": [
+        {"type": "Feature", "properties": {"level": level}, "geometry": {"type": kind, "coordinates": points}}
+        for kind, points, level in features]}, open(name, "w"))
+soft = [("LineString", [[5.3, 7.1], [120.7, 33.2], [150.2, 110.9]], 1), ("LineString", [[20, 110], [140.5, 3.25]], 2),
+        ("LineString", [[-50, 60], [300, 61]], 3)]
+collection("soft.geojson", soft)
+spiral = [[80 + 0.5 * t * math.cos(t / 3), 60 + 0.4 * t * math.sin(t / 3), 2000 + t] for t in range(80)]
+collection("hard.geojson", [("LineString", spiral, 0)])
+collection("ring.geojson", [("Polygon", [[[30.2, 20, 7], [70, 25, 7], [60, 70.5, 7], [30.2, 20, 7]]], 0)])
+collection("cross.geojson", [("LineString", [[10, 10, 100], [50, 50, 100]], 0), ("LineString", [[10, 50, 300], [50, 10, 300]], 0)])
+collection("ugly.geojson", [("LineString", [[10, 10], [50, 50], [10, 50], [50, 10], [10, 10], [50, 50]], 0),
+                            ("LineString", [[30, 10], [30, 10], [30, 90], [30, 20]], 0),
+                            ("Polygon", [[[5, 5], [60, 60], [60, 5], [5, 60], [5, 5]]], 0),
+                            ("LineString", [[-900, -800], [-700, -900]], 0)])
+open("walk.py", "w").write('''
+import json, sys
+vertices, edges = [], set()
+for line in open(sys.argv[1]):
+    word, *rest = line.split()[:4] or [""]
+    if word == "v":
+        vertices.append(tuple(map(float, rest)))
+    elif word == "f":
+        t = [int(v.split("/")[0]) - 1 for v in rest]
+        edges |= {frozenset((t[k], t[(k + 1) % 3])) for k in range(3)}
+walked = 0
+for feature in json.load(open(sys.argv[2]))["features"]:
+    geometry = feature["geometry"]
+    lines = geometry["coordinates"] if geometry["type"] == "Polygon" else [geometry["coordinates"]]
+    for points in lines:
+        for p, q in zip(points, points[1:]):
+            x, y = q[0] - p[0], q[1] - p[1]
+            length = (x * x + y * y) ** 0.5
+            if length == 0:
+                continue
+            on = []
+            for v, (vx, vy, vz) in enumerate(vertices):
+                along = ((vx - p[0]) * x + (vy - p[1]) * y) / length
+                beside = abs((vx - p[0]) * y - (vy - p[1]) * x) / length
+                # Beside a hard line a sample may lie nearer than the lattice tells apart, with another height.
+                hard = len(p) == 3 and abs(vz - p[2] - along / length * (q[2] - p[2])) > 0.02
+                if beside < 0.006 and -0.006 <= along <= length + 0.006 and not hard:
+                    on.append((along, v))
+            on.sort()
+            if not on:
+                assert max(p[0], q[0]) < 0, (p, q)
+                continue
+            inside = lambda c: 0 <= c[0] <= 159 and 0 <= c[1] <= 119
+            assert not inside(p) or on[0][0] < 0.006, ("no vertex at", p)
+            assert not inside(q) or on[-1][0] > length - 0.006, ("no vertex at", q)
+            for (_, a), (_, b) in zip(on, on[1:]):
+                assert frozenset((a, b)) in edges, ("no edge", vertices[a], vertices[b])
+                walked += 1
+assert walked > 0
+''')
+PYTHON
+
+for lines in soft hard ring ugly; do
+  for effort in fast normal high; do
+    for threads in 1 2; do
+      succeeds "$scarp" simplify hills.tif "$lines$threads.obj" -e 12 --effort "$effort" --breaklines "$lines.geojson" \
+        -j "$threads" --report r.json --overwrite
+    done
+    cmp "${lines}1.obj" "${lines}2.obj" || fail "-j 2 makes another mesh with $lines lines and $effort effort"
+    python3 walk.py "${lines}1.obj" "$lines.geojson" || fail "$lines lines are not in the mesh of $effort effort"
+    holds "$(json r.json max_error) <= 12"
+    [ "$(json r.json topology sound)" = true ] || fail "$lines lines and $effort effort make an unsound mesh"
+    # A soft line leaves the raster as it is.
+    if [ "$lines" = soft ]; then
+      [ "$(json r.json breaklines edited_samples)" = 0 ] || fail "soft lines change samples"
+      succeeds "$scarp" measure hills.tif soft1.obj --fail-above 12
+    fi
+  done
+done
+succeeds "$scarp" simplify hills.tif ring.glb -e 12 --breaklines ring.geojson --soft-breaklines
+succeeds "$scarp" measure hills.tif ring.glb --fail-above 12
+succeeds "$scarp" simplify hills.tif level.obj -e 12 --breaklines soft.geojson --breakline-z level --line-conflict mean
+succeeds "$scarp" simplify hills.tif both.glb -e 12 --breaklines soft.geojson --breaklines ring.geojson --report r.json --overwrite
+[ "$(json r.json breaklines laid)" = 4 ] || fail "not all lines of two files are laid"
+
+# What cannot be is refused, by name.
+refuses 2 "cross.geojson" "$scarp" simplify hills.tif x.glb -e 12 --breaklines cross.geojson
+for rule in first mean highest; do
+  succeeds "$scarp" simplify hills.tif "$rule.obj" -e 12 --breaklines cross.geojson --line-conflict "$rule"
+done
+refuses 1 "--line-conflict" "$scarp" simplify hills.tif x.glb -e 12 --breaklines cross.geojson --line-conflict odd
+refuses 1 "--breaklines" "$scarp" simplify hills.tif x.glb -e 12 --line-conflict mean
+refuses 1 "--max-triangles" "$scarp" simplify hills.tif x.glb -t 100 --breaklines soft.geojson
+refuses 1 "--breaklines" "$scarp" simplify hills.tif x.glb -e 12 --importance local --breaklines soft.geojson
+refuses 2 "missing.gpkg" "$scarp" simplify hills.tif x.glb -e 12 --breaklines missing.gpkg
