@@ -47,6 +47,8 @@ complete -c scarp -n '__fish_seen_subcommand_from simplify' -l soft-breaklines -
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l line-conflict -x -a 'error first mean highest' -d 'Where lines of different heights meet'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l outline-tolerance -x -d 'How far the outline may move outwards'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l of -x -a 'glb obj ply stl tin 2dm vtu vtp landxml dxf gpkg svg eps dem' -d 'Format of the output'
+complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l roi -r -d 'Region of interest and its bound, FILE=M'
+complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l falloff -x -d 'Over this distance the bound of regions grows'
 complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l script -r -d 'Samples to insert or to ignore'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l importance -x -a 'global local local8 curvature global*local global*local8 global*curvature' -d 'What is inserted next'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l timing -d 'What each pass took and did'

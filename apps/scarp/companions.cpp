@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "scarp/regions.h"
 #include "text.h"
 
 namespace scarp::cli {
@@ -81,6 +82,58 @@ std::string suggest_command(const RasterInfo& raster, int cols, int rows, const 
                      g[0] + g[1] * cols, g[3], cols, rows, file);
 }
 
+struct RegionFile {
+  std::string path;  ///< with the layer
+  double tolerance;
+};
+
+Result<RegionFile> parse_region(const std::string& text) {
+  const std::size_t at = text.rfind('=');
+  if (at == std::string::npos || at == 0)
+    return fail(ErrorKind::kUsage,
+                fmt::format("--roi {}: behind the file an error is missing, such as {}=0.2", shell_word(text), text));
+  const Result<double> tolerance = parse_non_negative("--roi FILE=", text.substr(at + 1));
+  if (!tolerance) return tl::unexpected(tolerance.error());
+  return RegionFile{text.substr(0, at), *tolerance};
+}
+
+/// Lowers the tolerances in and around the regions.
+Result<void> read_regions(const CompanionArguments& given, const RasterInfo& raster, int cols, int rows,
+                          std::optional<double> bound, const ProgressCallback& progress, Companions& companions) {
+  ReadLinesOptions options;
+  options.crs = raster.crs;
+  options.ignore_z = true;
+  options.progress = progress;
+  std::vector<Region> regions;
+  for (const std::string& text : given.roi) {
+    const Result<RegionFile> file = parse_region(text);
+    if (!file) return tl::unexpected(file.error());
+    auto set = read_lines(file->path, options);
+    if (!set) return tl::unexpected(std::move(set.error()));
+    companions.warnings.insert(companions.warnings.end(), set->warnings.begin(), set->warnings.end());
+    regions.push_back({std::move(set->lines), file->tolerance});
+  }
+  RegionGrid grid{cols, rows, map_affine(raster, rows)};
+  const bool has_metres = raster.cell_x_m > 0 && raster.cell_y_m > 0;
+  grid.cell_x = has_metres ? raster.cell_x_m : raster.cell_x;
+  grid.cell_y = has_metres ? raster.cell_y_m : raster.cell_y;
+  grid.beyond = bound;
+  if (given.falloff) grid.falloff = *parse_non_negative("--falloff", *given.falloff);
+  std::vector<bool> found;
+  const std::vector<float> bounds = region_tolerances(regions, grid, &found);
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    if (!found[k])
+      companions.warnings.push_back(fmt::format("--roi {} lies beside the raster: it changes nothing", given.roi[k]));
+  }
+  if (companions.tolerance.empty()) {
+    companions.tolerance = bounds;
+  } else {
+    std::transform(bounds.begin(), bounds.end(), companions.tolerance.begin(), companions.tolerance.begin(),
+                   [](float a, float b) { return std::min(a, b); });
+  }
+  return {};
+}
+
 }  // namespace
 
 void CompanionArguments::add_to(CLI::App& verb, const char* script_help) {
@@ -95,10 +148,40 @@ void CompanionArguments::add_to(CLI::App& verb, const char* script_help) {
                   "own")
       ->type_name("FILE")
       ->group(group);
+  verb.add_option(
+          "--roi", roi,
+          "Region of interest: in the polygons, and on the lines,\nof a vector file errors are at most M. May be "
+          "given\nagain; the smallest bound counts")
+      ->type_name("FILE[:LAYER]=M")
+      ->group(group);
+  verb.add_option("--falloff", falloff,
+                  "Around regions the bound grows to that of all samples\nover this distance, in metres where they are "
+                  "known,\nelse units of the CRS (default 0: at once)")
+      ->type_name("D")
+      ->group(group);
   verb.add_option("--script", script, script_help)->type_name("FILE")->group(group);
 }
 
-Result<void> CompanionArguments::check() const {
+const char* CompanionArguments::find_tolerance() const {
+  if (tolerance) return "--tolerance";
+  return roi.empty() ? nullptr : "--roi";
+}
+
+Result<void> CompanionArguments::check(const char* bound_option, bool has_bound) const {
+  for (const std::string& text : roi) {
+    if (const auto region = parse_region(text); !region) return tl::unexpected(region.error());
+  }
+  if (mask && !roi.empty())
+    return fail(ErrorKind::kUsage, "--mask and --roi contradict each other: regions have errors, not weights");
+  if (falloff) {
+    if (const auto distance = parse_non_negative("--falloff", *falloff); !distance)
+      return tl::unexpected(distance.error());
+    if (roi.empty())
+      return fail(ErrorKind::kUsage, "--falloff needs --roi: there is no region that it could be around");
+    if (!has_bound)
+      return fail(ErrorKind::kUsage,
+                  fmt::format("--falloff needs {}: the bound of a region grows to that", bound_option));
+  }
   if (mask && tolerance) {
     return fail(ErrorKind::kUsage,
                 "--mask and --tolerance contradict each other: divide the bound by the weights into one tolerance");
@@ -111,6 +194,9 @@ std::vector<std::string> CompanionArguments::files() const {
   for (const Given* file : {&mask, &tolerance, &script}) {
     if (*file) files.push_back(**file);
   }
+  for (const std::string& text : roi) {
+    if (const auto region = parse_region(text)) files.push_back(region->path);
+  }
   return files;
 }
 
@@ -121,7 +207,8 @@ std::string CompanionArguments::canonical() const {
   for (const auto& [name, file] : options) {
     if (*file) command += canonical_option(name, base_name(**file));
   }
-  return command;
+  for (const std::string& text : roi) command += " --roi " + shell_word(base_name(text));
+  return command + canonical_option("--falloff", falloff);
 }
 
 bool Companions::ignores_samples() const {
@@ -159,7 +246,7 @@ Exceptions find_exceptions(const HeightField& heights, const Companions& compani
 }
 
 Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster, int cols, int rows,
-                                   const ProgressCallback& progress) {
+                                   std::optional<double> bound, const ProgressCallback& progress) {
   Companions companions;
   if (given.mask) {
     Result<OwnedHeightField> values = read_values("--mask", *given.mask, raster, cols, rows, progress);
@@ -174,6 +261,10 @@ Result<Companions> read_companions(const CompanionArguments& given, const Raster
     if (!values) return tl::unexpected(std::move(values.error()));
     companions.warnings.insert(companions.warnings.end(), values->info.warnings.begin(), values->info.warnings.end());
     companions.tolerance = make_tolerance(std::move(*values));
+  }
+  if (!given.roi.empty()) {
+    const Result<void> read = read_regions(given, raster, cols, rows, bound, progress, companions);
+    if (!read) return tl::unexpected(read.error());
   }
   if (given.script) {
     Result<std::vector<ScriptStep>> script = read_script(*given.script, cols, rows);

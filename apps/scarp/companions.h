@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,16 @@
 namespace scarp::cli {
 
 struct CompanionArguments {
-  Given mask, tolerance, script;
+  Given mask, tolerance, script, falloff;
+  std::vector<std::string> roi;  ///< FILE[:LAYER]=M
 
   /// `script_help` is the verb's own sentence on --script.
   void add_to(CLI::App& verb, const char* script_help);
-  /// Refuses --mask with --tolerance.
-  Result<void> check() const;
+  /// Refuses what contradicts each other. `bound_option`: the verb's own for a bound of all samples; `has_bound`:
+  /// whether it was given.
+  Result<void> check(const char* bound_option, bool has_bound) const;
+  /// The option that gives samples bounds of their own, other than weights; null if there is none.
+  const char* find_tolerance() const;
   /// The files that were named.
   std::vector<std::string> files() const;
   std::string canonical() const;
@@ -40,9 +45,10 @@ struct Companions {
 
 /// Reads and checks the files, which must lie on the grid of `raster`.
 /// Mask: values below 0 are refused; if the largest is above 1, all are divided by it; no value means weight 0.
-/// Tolerance: values below 0 are refused; no value means no bound.
+/// Tolerance: values below 0 are refused; no value means no bound. Regions of interest: the smaller one of their
+/// tolerance and the raster's counts; `bound` is what holds beyond them.
 Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster, int cols, int rows,
-                                   const ProgressCallback& progress);
+                                   std::optional<double> bound, const ProgressCallback& progress);
 
 /// The valid samples without a bound: by the script, by weight 0, by an infinite tolerance.
 struct Exceptions {

@@ -141,8 +141,8 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
     const Result<void> restored = restore_channels(judged.mesh, judged.channels, mesh_);
     if (!restored) return restored;
   }
-  Result<Companions> companions =
-      read_companions(companions_, judged.field.info, judged.field.cols, judged.field.rows, progress);
+  Result<Companions> companions = read_companions(companions_, judged.field.info, judged.field.cols, judged.field.rows,
+                                                  judged.fail_above, progress);
   if (!companions) return tl::unexpected(std::move(companions.error()));
   judged.companions = std::move(*companions);
   judged.warnings = judged.field.info.warnings;
@@ -196,7 +196,7 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
   Result<ChannelPlan> plan = channels_.parse(raster_);
   if (!plan) return tl::unexpected(std::move(plan.error()));
   judged.plan = std::move(*plan);
-  const Result<void> companions_agree = companions_.check();
+  const Result<void> companions_agree = companions_.check("--fail-above", fail_above_.has_value());
   if (!companions_agree) return companions_agree;
   const Result<std::optional<std::uint64_t>> limit = memory_.parse();
   if (!limit) return tl::unexpected(limit.error());

@@ -53,8 +53,8 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
   const Result<void> read =
       plan.channels.image ? read_colors(plan, options, one_band, outcome) : read_heights(plan, options, outcome);
   if (!read) return read;
-  Result<Companions> companions =
-      read_companions(plan.companions, outcome.as_read, outcome.field.cols, outcome.field.rows, progress);
+  Result<Companions> companions = read_companions(plan.companions, outcome.as_read, outcome.field.cols,
+                                                  outcome.field.rows, outcome.asked, progress);
   if (!companions) return tl::unexpected(std::move(companions.error()));
   outcome.companions = std::move(*companions);
   Result<LineConstraints> lines =

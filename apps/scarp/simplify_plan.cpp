@@ -12,7 +12,7 @@ namespace scarp::cli {
 namespace {
 
 Result<void> plan_goals(const SimplifyArguments& given, SimplifyPlan& plan) {
-  if (!given.max_error && !given.max_triangles && !given.max_points && !given.companions.tolerance) {
+  if (!given.max_error && !given.max_triangles && !given.max_points && given.companions.find_tolerance() == nullptr) {
     return fail(ErrorKind::kUsage,
                 fmt::format("no goal is given: say how good the mesh must be, such as -e 1 for heights within 1 unit, "
                             "or how small with -t or -p; 'scarp info {}' suggests errors",
@@ -92,8 +92,9 @@ Result<void> plan_channels(const SimplifyArguments& given, SimplifyPlan& plan) {
                   "--max-error bounds heights, and --texture-weight 1 does not look at them: ask for "
                   "a size with -t or -p, or choose a smaller weight");
     }
-    if (given.companions.tolerance) {
-      return fail(ErrorKind::kUsage, "--tolerance bounds heights, and --texture-weight 1 does not look at them");
+    if (const char* tolerance = given.companions.find_tolerance()) {
+      return fail(ErrorKind::kUsage,
+                  fmt::format("{} bounds heights, and --texture-weight 1 does not look at them", tolerance));
     }
   }
   return {};
@@ -101,7 +102,7 @@ Result<void> plan_channels(const SimplifyArguments& given, SimplifyPlan& plan) {
 
 Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.companions = given.companions;
-  const Result<void> checked = given.companions.check();
+  const Result<void> checked = given.companions.check("--max-error", given.max_error.has_value());
   if (!checked) return checked;
   const Result<void> parsed = given.strategy.parse_into(plan.simplify);
   if (!parsed) return parsed;
@@ -140,7 +141,7 @@ const char* find_budget(const SimplifyArguments& given) {
 /// The option that gives samples bounds of their own; null if there is none.
 const char* find_bounds(const SimplifyArguments& given) {
   if (given.companions.mask) return "--mask";
-  if (given.companions.tolerance) return "--tolerance";
+  if (const char* tolerance = given.companions.find_tolerance()) return tolerance;
   return given.companions.script ? "--script" : nullptr;
 }
 

@@ -133,6 +133,8 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
                                   {"script", &plan.companions.script}}) {
     report["strategy"][key] = or_null(*file);
   }
+  report["strategy"]["roi"] = plan.companions.roi.empty() ? Json(nullptr) : Json(plan.companions.roi);
+  report["strategy"]["falloff"] = or_null(plan.companions.falloff);
   report["breaklines"] = describe_lines(plan.lines, outcome.lines.lines.size(), outcome.simplified);
   report["stopped_by"] = stop_name(outcome.simplified.stop);
   report["vertices"] = outcome.vertices;

@@ -11,6 +11,7 @@
 #include "scarp/picture.h"
 #include "scarp/points.h"
 #include "scarp/progress.h"
+#include "scarp/regions.h"
 #include "scarp/result.h"
 #include "scarp/simplify.h"
 #include "scarp/strategy.h"

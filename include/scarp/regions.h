@@ -1,0 +1,39 @@
+// Regions of interest: a tolerance for each sample, small where it matters, that grows with the distance.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scarp/lines.h"
+
+namespace scarp {
+
+struct Region {
+  /// As read_lines() gives them. A polygon holds what is in its outer ring and in no hole of it (even-odd, so bow-ties
+  /// and rings that overlap are decided too), and its rings; a line is its own course.
+  std::vector<Line> lines;
+  double tolerance = 0;  ///< in it, in z units, at least 0
+};
+
+/// Where samples lie, and what holds beyond the regions.
+struct RegionGrid {
+  int cols = 0, rows = 0;
+  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of the lines: map_affine()
+  double cell_x = 1, cell_y = 1;                   ///< distances between samples, in the unit of `falloff`
+  double falloff = 0;                              ///< how far from a region its tolerance reaches `beyond`; 0: at once
+  std::optional<double> beyond = {};               ///< nothing: no bound there. REQUIRED where falloff > 0.
+};
+
+/// A bound for each sample, row-major, as SimplifyOptions::tolerance: t in a region of tolerance t, t + (beyond − t) ·
+/// min(1, d / falloff) at a distance d from it; of several regions the smallest; +infinity where there is none. The
+/// samples nearest to rings and lines belong to their region, so that one smaller than a cell has some; distances are
+/// those between samples (exact, Euclidean). Bounds are rounded to float32 downwards. `found`: by region, whether any
+/// part of it lies in the raster; may be null.
+/// REQUIRES: cols, rows, cell_x, cell_y > 0; falloff >= 0; the affine map can be inverted.
+/// Cost: O(samples + segments · rows that they cross) a region.
+std::vector<float> region_tolerances(std::span<const Region> regions, const RegionGrid& grid,
+                                     std::vector<bool>* found = nullptr);
+
+}  // namespace scarp
