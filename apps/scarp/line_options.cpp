@@ -23,6 +23,24 @@ double largest_edit(const std::vector<SampleEdit>& edits) {
   return largest;
 }
 
+/// Of all files, in the CRS of the raster.
+Result<std::vector<Line>> read_files(const std::vector<std::string>& files, const ReadLinesOptions& options,
+                                     std::vector<std::string>& warnings) {
+  std::vector<Line> lines;
+  std::uint32_t polygons = 0;
+  for (const std::string& file : files) {
+    auto set = read_lines(file, options);
+    if (!set) return tl::unexpected(std::move(set.error()));
+    for (Line& line : set->lines) {
+      if (line.polygon != kNoPolygon) line.polygon += polygons;
+      lines.push_back(std::move(line));
+    }
+    polygons += set->polygons;
+    warnings.insert(warnings.end(), set->warnings.begin(), set->warnings.end());
+  }
+  return lines;
+}
+
 }  // namespace
 
 void LineArguments::add_to(CLI::App& verb) {
@@ -40,6 +58,20 @@ void LineArguments::add_to(CLI::App& verb) {
                   "Where lines of different heights meet: error\n(default), first, mean or highest")
       ->type_name("RULE")
       ->group(group);
+  verb.add_option(
+          "--water", water,
+          "Lakes: each polygon of a vector file becomes flat, at\na low height of its shore, and the shore edges "
+          "of\nthe mesh. May be given again")
+      ->type_name("FILE[:LAYER]")
+      ->group("Water");
+  verb.add_option("--water-percentile", percentile, "Share of the shore that lies below the lake's level\n(default 5)")
+      ->type_name("P")
+      ->group("Water");
+}
+
+const char* LineArguments::find_lines() const {
+  if (!breaklines.empty()) return "--breaklines";
+  return water.empty() ? nullptr : "--water";
 }
 
 Result<void> LineArguments::check() const {
@@ -51,6 +83,13 @@ Result<void> LineArguments::check() const {
     return fail(ErrorKind::kUsage, fmt::format("{} needs --breaklines: there are no lines without", needing));
   if (are_soft && z_field)
     return fail(ErrorKind::kUsage, "--soft-breaklines and --breakline-z contradict each other: leave one of them out");
+  if (percentile) {
+    if (water.empty()) return fail(ErrorKind::kUsage, "--water-percentile needs --water: there is no lake without");
+    const Result<double> share = parse_non_negative("--water-percentile", *percentile);
+    if (!share) return tl::unexpected(share.error());
+    if (*share > 100)
+      return fail(ErrorKind::kUsage, fmt::format("--water-percentile {} is above 100", shell_word(*percentile)));
+  }
   if (!conflict) return {};
   const Result<LineConflict> rule = choose("--line-conflict", *conflict, kConflicts);
   return rule ? Result<void>() : tl::unexpected(rule.error());
@@ -59,8 +98,10 @@ Result<void> LineArguments::check() const {
 std::string LineArguments::canonical() const {
   std::string text;
   for (const std::string& file : breaklines) text += " --breaklines " + shell_word(base_name(file));
-  return text + canonical_option("--breakline-z", z_field) + (are_soft ? " --soft-breaklines" : "") +
-         canonical_option("--line-conflict", conflict);
+  text += canonical_option("--breakline-z", z_field) + (are_soft ? " --soft-breaklines" : "") +
+          canonical_option("--line-conflict", conflict);
+  for (const std::string& file : water) text += " --water " + shell_word(base_name(file));
+  return text + canonical_option("--water-percentile", percentile);
 }
 
 Result<LineConstraints> LineArguments::read(const RasterInfo& raster, int rows, const ProgressCallback& progress,
@@ -73,18 +114,30 @@ Result<LineConstraints> LineArguments::read(const RasterInfo& raster, int rows, 
   options.z_field = z_field.value_or("");
   options.ignore_z = are_soft;
   options.progress = progress;
-  std::uint32_t polygons = 0;
-  for (const std::string& file : breaklines) {
-    auto set = read_lines(file, options);
-    if (!set) return tl::unexpected(std::move(set.error()));
-    for (Line& line : set->lines) {
-      if (line.polygon != kNoPolygon) line.polygon += polygons;
-      constraints.lines.push_back(std::move(line));
-    }
-    polygons += set->polygons;
-    warnings.insert(warnings.end(), set->warnings.begin(), set->warnings.end());
-  }
+  auto lines = read_files(breaklines, options, warnings);
+  if (!lines) return tl::unexpected(std::move(lines.error()));
+  constraints.lines = std::move(*lines);
   return constraints;
+}
+
+Result<std::vector<Lake>> flatten_water(const LineArguments& given, const ProgressCallback& progress,
+                                        OwnedHeightField& field, LineConstraints& lines,
+                                        std::vector<std::string>& warnings) {
+  if (given.water.empty()) return std::vector<Lake>();
+  ReadLinesOptions reading;
+  reading.crs = field.info.crs;
+  reading.ignore_z = true;
+  reading.progress = progress;
+  const auto polygons = read_files(given.water, reading, warnings);
+  if (!polygons) return tl::unexpected(polygons.error());
+  WaterOptions options;
+  options.affine = lines.affine;
+  if (given.percentile) options.percentile = *parse_non_negative("--water-percentile", *given.percentile);
+  auto lakes = flatten_lakes(field, *polygons, options);
+  if (!lakes) return lakes;
+  if (lakes->empty()) warnings.push_back("--water names no lake in the raster: it changes nothing");
+  for (const Lake& lake : *lakes) lines.lines.insert(lines.lines.end(), lake.shore.begin(), lake.shore.end());
+  return lakes;
 }
 
 void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field) {
@@ -113,6 +166,31 @@ std::string lines_line(std::uint64_t lines, const Simplified& simplified) {
         fmt::format("; {} given their heights, changed by up to {}: the errors are those against the changed raster",
                     format_plural(simplified.edits.size(), "sample"), format_number(largest_edit(simplified.edits)));
   return summary_line("breaklines", text);
+}
+
+Json describe_water(const std::vector<Lake>& lakes) {
+  Json list = Json::array();
+  for (const Lake& lake : lakes)
+    list.push_back(Json{{"name", lake.name},
+                        {"level", lake.level},
+                        {"edited_samples", lake.samples},
+                        {"raised_around", lake.raised},
+                        {"largest_edit", lake.largest_change}});
+  return list;
+}
+
+std::string water_line(const std::vector<Lake>& lakes) {
+  if (lakes.empty()) return "";
+  std::uint64_t samples = 0;
+  double largest = 0;
+  for (const Lake& lake : lakes) {
+    samples += lake.samples + lake.raised;
+    largest = std::max(largest, lake.largest_change);
+  }
+  return summary_line(
+      "water",
+      fmt::format("{}; {} changed by up to {}: the errors are those against the changed raster",
+                  format_plural(lakes.size(), "lake"), format_plural(samples, "sample"), format_number(largest)));
 }
 
 }  // namespace scarp::cli

@@ -20,7 +20,8 @@ struct Outcome : SimplifyRun {
   HeightRange heights;  ///< of the samples that were judged
   Channels channels;
   Companions companions;
-  LineConstraints lines;
+  LineConstraints lines;  ///< with the shores of lakes
+  std::vector<Lake> lakes;
   std::uint64_t filled = 0;
   std::optional<LargestError> bounded;  ///< where samples are ignored: of the others; images: norms
   std::optional<double> bounded_goal;   ///< where a script ignores them: of what the goal bounds

@@ -125,11 +125,15 @@ const char* find_line_obstacle(const SimplifyArguments& given, const SimplifyPla
 Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.lines = given.lines;
   if (auto checked = given.lines.check(); !checked) return checked;
-  if (given.lines.breaklines.empty()) return {};
+  const char* lines = given.lines.find_lines();
+  if (lines == nullptr) return {};
   const char* obstacle = find_line_obstacle(given, plan);
+  // Water is level where all corners of its triangles are: at samples and on its shore.
+  if (!given.lines.water.empty() && plan.simplify.vertices == Vertices::kFree) obstacle = "--vertices free";
+  if (!given.lines.water.empty()) plan.simplify.vertices = Vertices::kSamples;
   if (obstacle == nullptr) return {};
   return fail(ErrorKind::kUsage,
-              fmt::format("--breaklines and {} contradict each other: leave one of them out", obstacle));
+              fmt::format("{} and {} contradict each other: leave one of them out", lines, obstacle));
 }
 
 /// The budget that was given; null if there is none.
@@ -294,6 +298,7 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
       {"--max-triangles", given.max_triangles.has_value()},
       {"--max-points", given.max_points.has_value()},
       {"--breaklines", !given.lines.breaklines.empty()},
+      {"--water", !given.lines.water.empty()},
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
       {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
       {"--normals", plan.simplify.normals},

@@ -16,3 +16,4 @@
 #include "scarp/simplify.h"
 #include "scarp/strategy.h"
 #include "scarp/version.h"
+#include "scarp/water.h"

@@ -1,5 +1,6 @@
 #include "io/xml_reader.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "mesh_samples.h"
@@ -17,16 +18,16 @@ std::string walk(const std::string& text) {
   for (;;) {
     switch (xml.next()) {
       case Event::kStart:
-        events += "<" + std::string(xml.name()) + (xml.attribute("b").empty() ? "" : " b=" + xml.attribute("b")) + ">";
+        events += fmt::format("<{}{}>", xml.name(), xml.attribute("b").empty() ? "" : " b=" + xml.attribute("b"));
         break;
       case Event::kEnd:
-        events += "</" + std::string(xml.name()) + ">";
+        events += fmt::format("</{}>", xml.name());
         break;
       case Event::kText:
         events += xml.text();
         break;
       case Event::kComment:
-        events += "#" + std::string(xml.text());
+        events += fmt::format("#{}", xml.text());
         break;
       case Event::kDone:
         return events + ".";

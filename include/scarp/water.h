@@ -1,0 +1,47 @@
+// Standing water: lakes that are flat.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scarp/height_field.h"
+#include "scarp/lines.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+struct Lake {
+  std::string name;
+  double level = 0;           ///< the elevation of all of it
+  std::uint64_t samples = 0;  ///< that were put onto the level
+  std::uint64_t raised = 0;   ///< around it that were put above the level
+  double largest_change = 0;  ///< of a sample
+  std::vector<Line> shore;    ///< its rings, at the level: breaklines for SimplifyOptions::breaklines
+};
+
+/// How lakes are made flat.
+struct WaterOptions {
+  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of the lines: map_affine()
+  /// The level is the height of the shore below which this share of it lies, in percent, 0 … 100: most of a shore is
+  /// too high, for a cell of it holds more land than water.
+  double percentile = 5;
+  /// Samples around a lake that lie lower than this above its level are put there, in z units, above 0.
+  double freeboard = 0.01;
+};
+
+/// Makes each polygon of `lines` flat: all valid samples in it, even-odd by its rings, take the level that the
+/// percentile of its shore says. The shore is the raster's surface along all its rings, looked at twice a sample. Then
+/// those of the eight neighbours of its samples that belong to no lake and are lower than level + freeboard are put
+/// there, so that water has a rim. Lakes are taken in the order of `lines`; what two of them hold belongs to the later
+/// one. Polygons without a valid sample on their shore are left out, as lines are.
+///
+/// A mesh with the shores as breaklines and vertices on samples is level within each lake: all corners of its triangles
+/// are. REQUIRES: the field has its samples in memory; the affine map can be inverted. Fails with kUsage for options
+/// out of range. Cost: O(samples) a lake.
+Result<std::vector<Lake>> flatten_lakes(OwnedHeightField& field, std::span<const Line> lines,
+                                        const WaterOptions& options);
+
+}  // namespace scarp

@@ -1,0 +1,87 @@
+#include "line_marks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace scarp {
+
+LineMarks::LineMarks(const std::array<double, 6>& affine, int cols, int rows)
+    : affine_(affine),
+      cols_(cols),
+      rows_(rows),
+      determinant_(affine[1] * affine[5] - affine[2] * affine[4]),
+      marks_(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows), 0) {}
+
+bool LineMarks::any() const { return std::find(marks_.begin(), marks_.end(), 1) != marks_.end(); }
+
+LineMarks::Place LineMarks::place_of(const std::array<double, 3>& point) const {
+  const double x = point[0] - affine_[0], y = point[1] - affine_[3];
+  return {(affine_[5] * x - affine_[2] * y) / determinant_, (affine_[1] * y - affine_[4] * x) / determinant_};
+}
+
+void LineMarks::mark(int col, int row) {
+  marks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(col)] = 1;
+}
+
+/// Narrows [begin, end] to where from + t · span lies in [−1/2, size − 1/2]. False if that is nowhere.
+bool LineMarks::narrow(double from, double span, int size, double& begin, double& end) {
+  const double least = -0.5, most = size - 0.5;
+  if (span == 0) return from >= least && from <= most;
+  const double a = (least - from) / span, b = (most - from) / span;
+  begin = std::max(begin, std::min(a, b));
+  end = std::min(end, std::max(a, b));
+  return begin <= end;
+}
+
+void LineMarks::add_course(const Line& line, double reach) {
+  for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
+    const Place p = place_of(line.points[k]), q = place_of(line.points[k + 1]);
+    double begin = 0, end = 1;
+    if (!narrow(p.col, q.col - p.col, cols_, begin, end) || !narrow(p.row, q.row - p.row, rows_, begin, end)) continue;
+    const double length = std::max(std::abs(q.col - p.col), std::abs(q.row - p.row)) * (end - begin);
+    const auto steps = static_cast<std::int64_t>(std::ceil(4 * length)) + 1;
+    for (std::int64_t i = 0; i <= steps; ++i) {
+      const double at = begin + (end - begin) * static_cast<double>(i) / static_cast<double>(steps);
+      const auto near = [](double place, int size) { return std::clamp(std::floor(place + 0.5), 0.0, size - 1.0); };
+      const double col = near(p.col + at * (q.col - p.col), cols_), row = near(p.row + at * (q.row - p.row), rows_);
+      const double beside = (col - p.col) * (q.row - p.row) - (row - p.row) * (q.col - p.col);
+      if (std::abs(beside) <= reach * std::hypot(q.col - p.col, q.row - p.row))
+        mark(static_cast<int>(col), static_cast<int>(row));
+    }
+  }
+}
+
+void LineMarks::add_polygons(std::span<const Line> lines) {
+  std::map<std::uint32_t, std::vector<const Line*>> polygons;
+  for (const Line& line : lines) {
+    if (line.is_ring()) polygons[line.polygon].push_back(&line);
+  }
+  for (const auto& [polygon, rings] : polygons) fill(rings);
+}
+
+/// Row by row, between every two crossings with the rings.
+void LineMarks::fill(const std::vector<const Line*>& rings) {
+  std::vector<std::vector<double>> crossings(static_cast<std::size_t>(rows_));
+  for (const Line* ring : rings) {
+    for (std::size_t k = 0; k + 1 < ring->points.size(); ++k) {
+      Place p = place_of(ring->points[k]), q = place_of(ring->points[k + 1]);
+      if (p.row > q.row) std::swap(p, q);
+      // Half open, so that a vertex on a row counts once.
+      const double first = std::max(std::ceil(p.row), 0.0), last = std::min(std::ceil(q.row), double{1} * rows_);
+      for (double row = first; row < last; ++row)
+        crossings[static_cast<std::size_t>(row)].push_back(p.col + (row - p.row) / (q.row - p.row) * (q.col - p.col));
+    }
+  }
+  for (int row = 0; row < rows_; ++row) {
+    std::vector<double>& at = crossings[static_cast<std::size_t>(row)];
+    std::sort(at.begin(), at.end());
+    for (std::size_t i = 0; i + 1 < at.size(); i += 2) {
+      const double first = std::max(std::ceil(at[i]), 0.0), last = std::min(at[i + 1], cols_ - 1.0);
+      for (double col = first; col <= last; ++col) mark(static_cast<int>(col), row);
+    }
+  }
+}
+
+}  // namespace scarp

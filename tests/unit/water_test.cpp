@@ -1,0 +1,150 @@
+// Lakes that are made flat, and the meshes that hold them.
+#include "scarp/water.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scarp/simplify.h"
+
+namespace scarp {
+namespace {
+
+/// A valley along x = 20 with rough ground, highest in the north.
+OwnedHeightField valley() {
+  OwnedHeightField field;
+  field.cols = 40;
+  field.rows = 50;
+  field.frame = grid_frame(field.rows);
+  for (int row = 0; row < field.rows; ++row) {
+    for (int col = 0; col < field.cols; ++col)
+      field.samples.push_back(static_cast<float>(std::abs(col - 20) * 1.5 - 0.1 * row + (col * 7 + row * 13) % 5));
+  }
+  return field;
+}
+
+Line ring(std::vector<std::array<double, 3>> points, LineRole role) {
+  Line line;
+  line.points = std::move(points);
+  line.points.push_back(line.points.front());
+  line.role = role;
+  line.polygon = 0;
+  line.name = "lakes feature 1";
+  return line;
+}
+
+/// In x, y of the grid frame, rows going up; with an island.
+std::vector<Line> lake_with_island() {
+  return {ring({{10.3, 10.2, NAN}, {30.7, 12.4, NAN}, {28.1, 35.9, NAN}, {12.2, 33.3, NAN}}, LineRole::kOuter),
+          ring({{18.2, 20.1, NAN}, {22.9, 20.3, NAN}, {20.5, 25.7, NAN}}, LineRole::kHole)};
+}
+
+TEST(water, is_level_in_the_raster_and_has_a_rim) {
+  OwnedHeightField field = valley();
+  const OwnedHeightField before = field;
+  WaterOptions options;
+  options.affine = field.frame.affine;
+  const auto lakes = flatten_lakes(field, lake_with_island(), options);
+  ASSERT_TRUE(lakes);
+  ASSERT_EQ(lakes->size(), 1u);
+  const Lake& lake = lakes->front();
+  EXPECT_EQ(lake.name, "lakes feature 1");
+  const auto at = [&](const OwnedHeightField& of, int x, int y) {
+    return of.samples[static_cast<std::size_t>((of.rows - 1 - y) * of.cols + x)];
+  };
+  EXPECT_EQ(double{at(field, 15, 20)}, lake.level);
+  EXPECT_EQ(double{at(field, 26, 30)}, lake.level);
+  EXPECT_NE(double{at(field, 20, 22)}, lake.level) << "the island";
+  EXPECT_EQ(at(field, 2, 2), at(before, 2, 2));
+  std::uint64_t changed = 0;
+  double largest = 0;
+  for (std::size_t i = 0; i < field.samples.size(); ++i) {
+    changed += field.samples[i] != before.samples[i];
+    largest = std::max(largest, std::abs(double{field.samples[i]} - double{before.samples[i]}));
+  }
+  EXPECT_EQ(lake.samples + lake.raised, changed);
+  EXPECT_EQ(lake.largest_change, largest);
+  for (int y = 1; y + 1 < field.rows; ++y) {
+    for (int x = 1; x + 1 < field.cols; ++x) {
+      if (double{at(field, x, y)} == lake.level) continue;
+      for (int v = y - 1; v <= y + 1; ++v) {
+        for (int u = x - 1; u <= x + 1; ++u) {
+          if (double{at(field, u, v)} == lake.level) {
+            EXPECT_GT(double{at(field, x, y)}, lake.level);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(water, is_level_in_the_mesh) {
+  for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
+    OwnedHeightField field = valley();
+    WaterOptions water;
+    water.affine = field.frame.affine;
+    const auto lakes = flatten_lakes(field, lake_with_island(), water);
+    ASSERT_TRUE(lakes);
+    SimplifyOptions options;
+    options.max_error = 3;
+    options.effort = effort;
+    options.vertices = Vertices::kSamples;
+    options.float32_positions = false;
+    options.breaklines.affine = field.frame.affine;
+    options.breaklines.lines = lakes->front().shore;
+    const auto result = simplify(field, options);
+    ASSERT_TRUE(result) << result.error().message;
+    const auto inside = [](double x, double y) {  // of the shore and not of the island, a sample away from both
+      return x > 14 && x < 27 && y > 14 && y < 32 && !(x > 17 && x < 24 && y > 19 && y < 27);
+    };
+    std::size_t level = 0;
+    for (std::size_t t = 0; t < result->mesh.triangles.size(); t += 3) {
+      double x = 0, y = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto v = result->mesh.vertex(result->mesh.triangles[t + k]);
+        x += v[0] / 3;
+        y += v[1] / 3;
+      }
+      if (!inside(x, y)) continue;
+      ++level;
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(result->mesh.vertex(result->mesh.triangles[t + k])[2], lakes->front().level) << x << ", " << y;
+    }
+    EXPECT_GT(level, 0u);
+  }
+}
+
+TEST(water, of_the_percentile_and_nothing_else) {
+  double before = -1e9;
+  for (const double percentile : {0.0, 5.0, 50.0, 100.0}) {
+    OwnedHeightField field = valley();
+    WaterOptions options;
+    options.affine = field.frame.affine;
+    options.percentile = percentile;
+    const auto lakes = flatten_lakes(field, lake_with_island(), options);
+    ASSERT_TRUE(lakes);
+    EXPECT_GT(lakes->front().level, before);
+    before = lakes->front().level;
+  }
+  OwnedHeightField field = valley();
+  WaterOptions options;
+  options.percentile = 101;
+  EXPECT_EQ(flatten_lakes(field, {}, options).error().kind, ErrorKind::kUsage);
+  options.percentile = 5;
+  options.freeboard = 0;
+  EXPECT_EQ(flatten_lakes(field, {}, options).error().kind, ErrorKind::kUsage);
+}
+
+TEST(water, beside_the_raster_is_left_out) {
+  OwnedHeightField field = valley();
+  const auto before = field.samples;
+  const std::vector<Line> lines{ring({{-30, 0, NAN}, {-20, 0, NAN}, {-20, 9, NAN}}, LineRole::kOuter)};
+  WaterOptions options;
+  options.affine = field.frame.affine;
+  EXPECT_TRUE(flatten_lakes(field, lines, options)->empty());
+  EXPECT_EQ(field.samples, before);
+}
+
+}  // namespace
+}  // namespace scarp
