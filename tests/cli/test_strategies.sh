@@ -61,7 +61,8 @@ import json, sys
 assert json.load(open(sys.argv[1]))["strategy"] == {
     "importance": "global", "one_pass": False, "effort": "fast", "vertices": "samples", "min_shape": 0.0,
     "cut_short": False, "objective": "max", "order": "greedy", "algorithm": "heap", "batch": None, "edges": "data", "edge_score": "sum",
-    "shape_threshold": 0.5, "supersample": 0.0, "mask": None, "tolerance": None, "script": None}
+    "shape_threshold": 0.5, "supersample": 0.0, "mask": None, "tolerance": None, "script": None,
+    "roi": None, "falloff": None}
 PYTHON
 
 # The order: dominant where it may be, and the same if asked for; the report tells which was taken.
