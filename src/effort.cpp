@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace scarp {
 
@@ -56,6 +57,13 @@ const char* find_need_of_effort(const SimplifyOptions& options) {
   if (options.objective == Objective::kRms) return "the rms objective";
   if (options.min_shape) return "a floor of shapes";
   return options.is_time_up ? "a time limit" : nullptr;
+}
+
+using Question = std::function<bool()>;
+
+Question either(const Question& first, const Question& second) {
+  if (!first || !second) return first ? first : second;
+  return [first, second] { return first() || second(); };
 }
 
 /// Whether lines can be laid.
@@ -146,7 +154,7 @@ FitOptions fit_options(const HeightField& field, const SimplifyOptions& options,
   if (options.effort == Effort::kMax) fit.depth = kMaxDepth;
   fit.min_shape = options.min_shape.value_or(fit.vertices_are_free ? kUsualShape : 0);
   fit.aspect = std::hypot(a[2], a[5]) / std::hypot(a[1], a[4]);
-  fit.is_time_up = options.is_time_up;
+  if (!has_budget(options)) fit.is_time_up = either(options.is_time_up, options.is_enough);
   fit.goes_on = options.effort == Effort::kMax && options.is_time_up;
   return fit;
 }

@@ -156,6 +156,12 @@ Result<void> judge_topology(const ProgressCallback& progress, int threads, Outco
   return {};
 }
 
+/// Efforts that take long hold a mesh that keeps the bound all the while.
+bool keeps_mesh_on_interrupt(const SimplifyOptions& options) {
+  const bool is_long = options.effort == Effort::kHigh || options.effort == Effort::kMax;
+  return is_long && !options.max_triangles && !options.max_vertices && options.memory_limit == 0;
+}
+
 Result<void> write_report(const SimplifyPlan& plan, const Json& report) {
   const std::string text = to_text(report);
   const std::vector<std::uint8_t> bytes(text.begin(), text.end());
@@ -199,6 +205,10 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   options.script = outcome.companions.script;
   options.breaklines = outcome.lines;
   options.progress = display.callback();
+  if (keeps_mesh_on_interrupt(options)) {
+    options.is_enough = content_with_interrupt;
+    display.let_interrupt_finish("fit");
+  }
   if (plan->memory) options.memory_taken = bytes_taken(outcome.field, *plan->memory);
   Result<Simplified> simplified = simplify(outcome.view(), options);
   if (!simplified) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scarp/version.h"
+#include "signals.h"
 #include "text.h"
 
 namespace scarp::cli {
@@ -15,6 +16,8 @@ std::vector<Pass> list_passes(const SimplifyRun& run) {
   passes.push_back({"write", run.seconds_write});
   return passes;
 }
+
+const char* end_of_effort() { return content_with_interrupt() ? "the interrupt" : "the time limit"; }
 
 }  // namespace
 
@@ -125,8 +128,8 @@ std::string describe_end(const SimplifyPlan& plan, const SimplifyRun& run, const
   switch (run.simplified.stop) {
     case StopReason::kMaxError:
       return fmt::format("Reached the error goal{}: {} (asked {})",
-                         run.simplified.is_cut_short ? ", when the time limit ended the effort" : "", error.text,
-                         asked);
+                         run.simplified.is_cut_short ? fmt::format(", when {} ended the effort", end_of_effort()) : "",
+                         error.text, asked);
     case StopReason::kMaxTriangles:
       return fmt::format("Reached the triangle budget of {}: {}{}",
                          format_count(plan.simplify.max_triangles.value_or(0)), error.text, missed);

@@ -68,6 +68,9 @@ struct SimplifyOptions {
   /// removed, and the mesh so far, which keeps the promise, is the result: it depends on the time. Fails with kUsage
   /// together with a budget or fast effort. DEFAULT: never.
   std::function<bool()> is_time_up = {};
+  /// Asked and obeyed in the same way, for somebody who stops waiting: it is no time to use up, so kMax does not go on
+  /// until then. Not asked by fast effort and with a budget. DEFAULT: never.
+  std::function<bool()> is_enough = {};
   /// kRms fails with kUsage without a budget or with fast effort. DEFAULT: kMax.
   Objective objective = Objective::kMax;
   Importance importance = {};  ///< DEFAULT: global error
@@ -126,7 +129,7 @@ struct Simplified {
   Order order = Order::kGreedy;                   ///< the order that was taken, never kAuto
   Effort effort = Effort::kFast;                  ///< the effort that was made, never kAuto
   Vertices vertices = Vertices::kSamples;         ///< where they are, never kAuto
-  bool is_cut_short = false;                      ///< by SimplifyOptions::is_time_up
+  bool is_cut_short = false;                      ///< by SimplifyOptions::is_time_up or is_enough
   std::vector<SampleEdit> edits;                  ///< by breaklines, in raster order
   std::uint64_t lines_laid = 0;                   ///< breaklines of which some part lies in the raster
   std::vector<Pass> passes;                       ///< in the order in which they ended
