@@ -47,6 +47,8 @@ complete -c scarp -n '__fish_seen_subcommand_from simplify' -l soft-breaklines -
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l line-conflict -x -a 'error first mean highest' -d 'Where lines of different heights meet'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l water -r -d 'Lakes that become flat'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l water-percentile -x -d 'Share of the shore below the level'
+complete -c scarp -n '__fish_seen_subcommand_from simplify' -l detect-flats -x -d 'Keep flat areas flat'
+complete -c scarp -n '__fish_seen_subcommand_from simplify' -l rivers -r -d 'Lines that never rise downstream'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l outline-tolerance -x -d 'How far the outline may move outwards'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l of -x -a 'glb obj ply stl tin 2dm vtu vtp landxml dxf gpkg svg eps dem' -d 'Format of the output'
 complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l roi -r -d 'Region of interest and its bound, FILE=M'

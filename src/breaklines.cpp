@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -208,16 +209,27 @@ Verdict judge(std::span<const Claim> claims, LineConflict conflict) {
   return {conflict == LineConflict::kHighest ? highest : first.height, nullptr};
 }
 
+/// Without those of lines that yield, where others are.
+std::span<const Claim> strongest(std::span<const Claim> claims, std::span<const Line> lines,
+                                 std::vector<Claim>& scratch) {
+  scratch.clear();
+  std::copy_if(claims.begin(), claims.end(), std::back_inserter(scratch),
+               [&](const Claim& claim) { return !lines[claim.line].yields; });
+  return scratch.empty() ? claims : scratch;
+}
+
 Result<void> set_heights(std::span<const Claim> claims, std::span<const Line> lines,
                          const std::array<double, 6>& affine, LineConflict conflict, Breaklines& placed) {
+  std::vector<Claim> scratch;
   for (std::size_t begin = 0, end = 0; begin < claims.size(); begin = end) {
     const std::uint32_t point = claims[begin].point;
     while (end < claims.size() && claims[end].point == point) ++end;
-    const Verdict verdict = judge(claims.subspan(begin, end - begin), conflict);
+    const std::span<const Claim> meeting = strongest(claims.subspan(begin, end - begin), lines, scratch);
+    const Verdict verdict = judge(meeting, conflict);
     placed.heights[point] = static_cast<float>(verdict.height);
     placed.is_hard[point] = true;
     if (verdict.opponent == nullptr) continue;
-    const Claim &one = claims[begin], &other = *verdict.opponent;
+    const Claim &one = meeting.front(), &other = *verdict.opponent;
     const double col = placed.points[point].x / double{kLatticeSteps},
                  row = placed.points[point].y / double{kLatticeSteps};
     return fail(

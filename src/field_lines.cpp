@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "breaklines.h"
+#include "profile.h"
 #include "refine/samples.h"
 
 namespace scarp {
@@ -50,26 +51,7 @@ class SoftLine {
                                             static_cast<std::int32_t>(std::lround(row * kLatticeSteps))});
   }
 
-  /// Where the surface is farthest from the chord; where there is none, because an end lies beyond the surface, where
-  /// that begins. 0: the chord will do.
-  std::size_t find_split(const std::vector<double>& heights, std::size_t first, std::size_t last) const {
-    const bool begins_beyond = std::isnan(heights[first]), ends_beyond = std::isnan(heights[last]);
-    const double rise = (heights[last] - heights[first]) / static_cast<double>(last - first);
-    double worst = tolerance_;
-    std::size_t at = 0;
-    for (std::size_t i = first + 1; i < last; ++i) {
-      if (std::isnan(heights[i])) continue;
-      if (begins_beyond) return i;
-      const double error = std::abs(heights[first] + rise * static_cast<double>(i - first) - heights[i]);
-      if (!ends_beyond && !(error > worst)) continue;
-      worst = error;
-      at = i;
-    }
-    return at;
-  }
-
-  /// Splits where the surface is farthest from the chord, until it is nowhere farther than the tolerance: Douglas and
-  /// Peucker's rule along the line. Two looks a sample.
+  /// Bends where the surface asks for it. Two looks a sample.
   void add_between(const Place& from, const Place& to, std::vector<Place>& points) const {
     const double length = std::hypot((affine_[5] * (to[0] - from[0]) - affine_[2] * (to[1] - from[1])) / determinant_,
                                      (affine_[1] * (to[1] - from[1]) - affine_[4] * (to[0] - from[0])) / determinant_);
@@ -79,19 +61,7 @@ class SoftLine {
     std::vector<double> heights;
     for (std::size_t i = 0; i <= looks; ++i)
       heights.push_back(height_at(between(from, to, static_cast<double>(i) / static_cast<double>(looks))));
-    std::vector<std::size_t> kept;
-    std::vector<std::pair<std::size_t, std::size_t>> open{{0, looks}};
-    while (!open.empty()) {
-      const auto [first, last] = open.back();
-      open.pop_back();
-      const std::size_t at = find_split(heights, first, last);
-      if (at == 0) continue;
-      kept.push_back(at);
-      open.emplace_back(first, at);
-      open.emplace_back(at, last);
-    }
-    std::sort(kept.begin(), kept.end());
-    for (const std::size_t i : kept)
+    for (const std::size_t i : find_bends(heights, tolerance_))
       points.push_back(between(from, to, static_cast<double>(i) / static_cast<double>(looks)));
   }
 

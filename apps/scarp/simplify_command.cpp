@@ -61,10 +61,10 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
       plan.lines.read(outcome.as_read, outcome.field.rows, progress, outcome.companions.warnings);
   if (!lines) return tl::unexpected(std::move(lines.error()));
   outcome.lines = std::move(*lines);
-  Result<std::vector<Lake>> lakes =
-      flatten_water(plan.lines, progress, outcome.field, outcome.lines, outcome.companions.warnings);
-  if (!lakes) return tl::unexpected(std::move(lakes.error()));
-  outcome.lakes = std::move(*lakes);
+  Result<WatersFound> waters = add_waters(plan.lines, progress, outcome.asked.value_or(0), outcome.field, outcome.lines,
+                                          outcome.companions.warnings);
+  if (!waters) return tl::unexpected(std::move(waters.error()));
+  outcome.waters = std::move(*waters);
   outcome.heights = height_range(outcome.field);
   outcome.seconds_read = seconds_since(start);
   return {};

@@ -10,6 +10,7 @@
 #include "judge.h"
 #include "scarp/height_field.h"
 #include "simplify_run.h"
+#include "waters.h"
 
 namespace scarp::cli {
 
@@ -20,8 +21,8 @@ struct Outcome : SimplifyRun {
   HeightRange heights;  ///< of the samples that were judged
   Channels channels;
   Companions companions;
-  LineConstraints lines;  ///< with the shores of lakes
-  std::vector<Lake> lakes;
+  LineConstraints lines;  ///< with shores and rivers
+  WatersFound waters;
   std::uint64_t filled = 0;
   std::optional<LargestError> bounded;  ///< where samples are ignored: of the others; images: norms
   std::optional<double> bounded_goal;   ///< where a script ignores them: of what the goal bounds

@@ -129,8 +129,9 @@ Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (lines == nullptr) return {};
   const char* obstacle = find_line_obstacle(given, plan);
   // Water is level where all corners of its triangles are: at samples and on its shore.
-  if (!given.lines.water.empty() && plan.simplify.vertices == Vertices::kFree) obstacle = "--vertices free";
-  if (!given.lines.water.empty()) plan.simplify.vertices = Vertices::kSamples;
+  const char* lakes = given.lines.find_lakes();
+  if (lakes != nullptr && plan.simplify.vertices == Vertices::kFree) obstacle = "--vertices free";
+  if (lakes != nullptr) plan.simplify.vertices = Vertices::kSamples;
   if (obstacle == nullptr) return {};
   return fail(ErrorKind::kUsage,
               fmt::format("{} and {} contradict each other: leave one of them out", lines, obstacle));
@@ -299,6 +300,8 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
       {"--max-points", given.max_points.has_value()},
       {"--breaklines", !given.lines.breaklines.empty()},
       {"--water", !given.lines.water.empty()},
+      {"--detect-flats", given.lines.flats.has_value()},
+      {"--rivers", !given.lines.rivers.empty()},
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
       {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
       {"--normals", plan.simplify.normals},
