@@ -40,10 +40,18 @@ std::vector<std::uint32_t> nearby_order(const std::vector<Point>& points) {
   return order;
 }
 
+/// The corners of all triangles.
+std::vector<Vertex> corners_of(const Triangulation& tin) {
+  std::vector<Vertex> corners(3 * tin.triangle_count());
+  for (HalfEdge h = 0; h < corners.size(); ++h) corners[h] = tin.origin(h);
+  return corners;
+}
+
 }  // namespace
 
 Result<ConstrainedMesh> ConstrainedMesh::lay(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph) {
   ConstrainedMesh mesh(raster, tin);
+  const std::vector<Vertex> corners = corners_of(tin);
   tin.scale(kLatticeSteps);
   std::vector<Vertex> vertices(graph.points.size(), kNone);
   for (const std::uint32_t i : nearby_order(graph.points)) {
@@ -64,6 +72,11 @@ Result<ConstrainedMesh> ConstrainedMesh::lay(const Raster& raster, Triangulation
     return fail(
         ErrorKind::kInternal,
         fmt::format("the line from ({}, {}) to ({}, {}) crosses the outline between two samples", p.x, p.y, q.x, q.y));
+  }
+  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+    bool is_old = 3 * t < corners.size();
+    for (HalfEdge h = 3 * t; is_old && h < 3 * t + 3; ++h) is_old = corners[h] == tin.origin(h);
+    if (!is_old) mesh.changed_.push_back(t);
   }
   return mesh;
 }
