@@ -254,7 +254,9 @@ class Run {
     auto laid = ConstrainedMesh::lay(raster_, domain_->tin, *lines_);
     if (!laid) return tl::unexpected(laid.error());
     const LatticeJudge judge(raster_, laid->heights(), criterion_.aim(), criterion_.aims());
-    Refinement refinement(judge, domain_->tin);
+    // What refinement left and no line touches keeps the bound.
+    Refinement refinement(judge, domain_->tin, Algorithm::kHeap, {}, Refinement::Start::kClean);
+    refinement.scan(laid->changed());
     const double first_error = refinement.worst_error();
     for (std::uint64_t step = 0; !refinement.done(); ++step) {
       if (refinement.is_full()) return fail(ErrorKind::kInput, kTooManyTriangles);

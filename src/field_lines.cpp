@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/parallel.h"
 #include "breaklines.h"
 #include "profile.h"
 #include "refine/samples.h"
@@ -131,25 +132,32 @@ void edit_samples(const Breaklines& placed, std::int32_t cols, FieldLines& lines
 
 HeightField FieldLines::apply(const HeightField& field) const {
   HeightField edited = field;
+  if (samples.empty()) return edited;
   edited.samples = samples.data();
   edited.nodata = std::nullopt;
   return edited;
 }
 
-Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, double tolerance) {
-  const auto cleaned = Samples::of(field);
+Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, double tolerance,
+                                 int threads) {
+  auto cleaned = Samples::of(field);
   if (!cleaned) return tl::unexpected(cleaned.error());
   const Raster raster = cleaned->raster();
   const SoftLine soft(raster, lines.affine, tolerance);
-  std::vector<Line> followed;
-  followed.reserve(lines.lines.size());
-  for (const Line& line : lines.lines) followed.push_back(soft.follow(line));
+  std::vector<Line> followed(lines.lines.size());
+  constexpr std::size_t kTogether = 64;
+  parallel_for((followed.size() + kTogether - 1) / kTogether, threads, [&](std::size_t part) {
+    const std::size_t first = part * kTogether, end = std::min(first + kTogether, followed.size());
+    for (std::size_t k = first; k < end; ++k) followed[k] = soft.follow(lines.lines[k]);
+  });
   const auto placed = place_breaklines(followed, lines.affine, raster, trace_outline(raster), lines.conflict);
   if (!placed) return tl::unexpected(placed.error());
   FieldLines result;
   result.graph = graph_of(*placed);
-  result.samples.assign(raster.samples, raster.row(raster.rows));
-  edit_samples(*placed, raster.cols, result);
+  if (std::find(placed->is_hard.begin(), placed->is_hard.end(), true) != placed->is_hard.end()) {
+    result.samples.assign(raster.samples, raster.row(raster.rows));
+    edit_samples(*placed, raster.cols, result);
+  }
   result.laid = lines.lines.size() - placed->outside;
   return result;
 }

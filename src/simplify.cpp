@@ -146,7 +146,7 @@ Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyO
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
   const auto start = Clock::now();
   const double tolerance = kLineShare * *options.max_error;
-  auto lines = prepare_lines(field, options.breaklines, tolerance);
+  auto lines = prepare_lines(field, options.breaklines, tolerance, options.threads);
   if (!lines) return tl::unexpected(lines.error());
   const double seconds = seconds_since(start);
   auto result = simplify_once(lines->apply(field), options, &lines->graph);

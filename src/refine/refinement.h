@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "refine/candidate_queue.h"
@@ -29,7 +30,7 @@ class Refinement {
   /// Whether the triangles there are need a look.
   enum class Start {
     kScan,   ///< scan every triangle that is not outside
-    kClean,  ///< all keep their bounds already
+    kClean,  ///< all keep their bounds already, or scan() looks at those that may not
   };
   /// The judge and `tin` stay alive; nobody else changes them. Edges are Delaunay, or follow the data where `edges`
   /// says so; triangles of `tin` stay as they are until a point is inserted.
@@ -63,6 +64,10 @@ class Refinement {
   bool has_changed(Triangle t) const { return t < changed_.size() && changed_[t] != 0; }
   std::uint32_t gain_near(Point p, Triangle hint) const { return gain(tin_.locate(p, hint)); }
   void rescan_changed();
+  /// Scans triangles, for which nobody else has answered.
+  void scan(std::span<const Triangle> triangles) {
+    for (const Triangle t : triangles) rescan(t);
+  }
 
   std::uint64_t triangle_count() const { return inside_; }
   Work work() const;
