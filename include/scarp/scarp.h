@@ -14,6 +14,7 @@
 #include "scarp/regions.h"
 #include "scarp/result.h"
 #include "scarp/simplify.h"
+#include "scarp/solid.h"
 #include "scarp/strategy.h"
 #include "scarp/version.h"
 #include "scarp/water.h"
