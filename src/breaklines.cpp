@@ -322,7 +322,7 @@ Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::arra
   const std::int32_t width = (raster.cols - 1) * kLatticeSteps, height = (raster.rows - 1) * kLatticeSteps;
   Arrangement arranged = arrange(lattice->parts(), rigid_segments(outline, width, height), width, height);
 
-  const std::vector<Claims> claims = collect_claims(arranged, *lattice, raster);
+  const std::vector<Claims> claims = collect_claims(arranged, *lattice, lines, raster);
   Breaklines placed;
   placed.outside = count_outside(arranged, *lattice, lines.size());
   placed.points = std::move(arranged.vertices);

@@ -15,6 +15,7 @@
 #include "scarp/result.h"
 #include "scarp/rivers.h"
 #include "scarp/simplify.h"
+#include "scarp/solid.h"
 #include "scarp/strategy.h"
 #include "scarp/version.h"
 #include "scarp/water.h"
