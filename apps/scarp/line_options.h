@@ -31,6 +31,10 @@ struct LineArguments {
                                std::vector<std::string>& warnings) const;
 };
 
+/// Refuses lines where the CRS that --crs names bends the grid of the raster.
+Result<void> check_frame_of_lines(const LineArguments& given, const Frame& frame, const std::string& crs_option,
+                                  const std::string& input);
+
 /// Makes the lakes of --water flat, and their shores lines of the mesh.
 Result<std::vector<Lake>> flatten_water(const LineArguments& given, const ProgressCallback& progress,
                                         OwnedHeightField& field, LineConstraints& lines,
