@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/caught.h"
+#include "grid/affine_map.h"
 
 namespace scarp {
 namespace {
@@ -21,20 +22,6 @@ struct Vertex {
 Vertex between(const Vertex& a, const Vertex& b, double at) {
   return {a.col + at * (b.col - a.col), a.row + at * (b.row - a.row), a.z + at * (b.z - a.z)};
 }
-
-class ToSamples {
- public:
-  explicit ToSamples(const std::array<double, 6>& a) : affine_(a), determinant_(a[1] * a[5] - a[2] * a[4]) {}
-  Vertex operator()(const std::array<double, 3>& point) const {
-    const double x = point[0] - affine_[0], y = point[1] - affine_[3];
-    return {(affine_[5] * x - affine_[2] * y) / determinant_, (affine_[1] * y - affine_[4] * x) / determinant_,
-            point[2]};
-  }
-
- private:
-  std::array<double, 6> affine_;
-  double determinant_;
-};
 
 /// Narrows [begin, end] to where from + t · span lies in [least, most]. False if that is nowhere.
 bool narrow(double from, double span, double least, double most, double& begin, double& end) {
@@ -256,13 +243,14 @@ Result<void> set_heights(std::span<const Claims> claims, std::span<const Line> l
 
 Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<double, 6>& affine,
                                 const Raster& raster) {
-  const ToSamples to_samples(affine);
+  const MapToSamples to_samples(affine);
   LatticeLines lattice(raster.cols, raster.rows);
   std::vector<Vertex> vertices;
   for (std::uint32_t k = 0; k < lines.size(); ++k) {
     vertices.clear();
     for (const auto& point : lines[k].points) {
-      vertices.push_back(to_samples(point));
+      const SamplePlace at = to_samples.place(point[0], point[1]);
+      vertices.push_back({at.col, at.row, point[2]});
       if (!vertices.back().is_finite())
         return fail(ErrorKind::kInput, fmt::format("{} has a vertex at {:.9g}, {:.9g}, too far away to be placed",
                                                    lines[k].name, point[0], point[1]));

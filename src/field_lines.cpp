@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "breaklines.h"
+#include "grid/affine_map.h"
 #include "profile.h"
 #include "refine/samples.h"
 
@@ -19,10 +20,7 @@ namespace {
 class SoftLine {
  public:
   SoftLine(const Raster& raster, const std::array<double, 6>& affine, double tolerance)
-      : raster_(raster),
-        affine_(affine),
-        determinant_(affine[1] * affine[5] - affine[2] * affine[4]),
-        tolerance_(tolerance) {}
+      : raster_(raster), to_samples_(affine), tolerance_(tolerance) {}
 
   Line follow(const Line& line) const {
     Line result = line;
@@ -44,9 +42,7 @@ class SoftLine {
   }
   /// The raster's surface there; NaN beyond it.
   double height_at(const Place& place) const {
-    const double x = place[0] - affine_[0], y = place[1] - affine_[3];
-    const double col = (affine_[5] * x - affine_[2] * y) / determinant_,
-                 row = (affine_[1] * y - affine_[4] * x) / determinant_;
+    const auto [col, row] = to_samples_.place(place[0], place[1]);
     if (!(col >= 0 && row >= 0 && col <= raster_.cols - 1 && row <= raster_.rows - 1)) return NAN;
     return height_between_samples(raster_, {static_cast<std::int32_t>(std::lround(col * kLatticeSteps)),
                                             static_cast<std::int32_t>(std::lround(row * kLatticeSteps))});
@@ -54,8 +50,8 @@ class SoftLine {
 
   /// Bends where the surface asks for it. Two looks a sample.
   void add_between(const Place& from, const Place& to, std::vector<Place>& points) const {
-    const double length = std::hypot((affine_[5] * (to[0] - from[0]) - affine_[2] * (to[1] - from[1])) / determinant_,
-                                     (affine_[1] * (to[1] - from[1]) - affine_[4] * (to[0] - from[0])) / determinant_);
+    const SamplePlace way = to_samples_.way(to[0] - from[0], to[1] - from[1]);
+    const double length = std::hypot(way.col, way.row);
     constexpr double kMostLooks = 1 << 20;
     const auto looks = static_cast<std::size_t>(std::min(std::ceil(2 * length), kMostLooks));
     if (looks < 2) return;
@@ -67,8 +63,8 @@ class SoftLine {
   }
 
   const Raster& raster_;
-  std::array<double, 6> affine_;
-  double determinant_, tolerance_;
+  MapToSamples to_samples_;
+  double tolerance_;
 };
 
 /// The edges of lines, and the points that they need.

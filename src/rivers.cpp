@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "breaklines.h"
+#include "grid/affine_map.h"
 #include "grid/raster.h"
 #include "line_marks.h"
 #include "profile.h"
@@ -29,7 +30,7 @@ bool is_closed(const Line& line) {
 class Ground {
  public:
   Ground(const OwnedHeightField& field, std::span<const Lake> lakes, const std::array<double, 6>& affine)
-      : raster_{field.samples.data(), field.cols, field.rows}, affine_(affine) {
+      : raster_{field.samples.data(), field.cols, field.rows}, to_samples_(affine) {
     if (lakes.empty()) return;
     lakes_.emplace(affine, field.cols, field.rows);
     for (const Lake& lake : lakes) {
@@ -38,12 +39,7 @@ class Ground {
     }
   }
 
-  /// In samples.
-  std::array<double, 2> place_of(const std::array<double, 3>& point) const {
-    const double determinant = affine_[1] * affine_[5] - affine_[2] * affine_[4];
-    const double x = point[0] - affine_[0], y = point[1] - affine_[3];
-    return {(affine_[5] * x - affine_[2] * y) / determinant, (affine_[1] * y - affine_[4] * x) / determinant};
-  }
+  SamplePlace place_of(const std::array<double, 3>& point) const { return to_samples_.place(point[0], point[1]); }
 
   struct Surface {
     double height = kNoHeight;  // beside the surface
@@ -76,7 +72,7 @@ class Ground {
   }
 
   Raster raster_;
-  std::array<double, 6> affine_;
+  MapToSamples to_samples_;
   std::optional<LineMarks> lakes_;
 };
 
@@ -90,7 +86,7 @@ class Course {
       if (k + 1 == line.points.size()) break;
       const auto p = ground.place_of(line.points[k]), q = ground.place_of(line.points[k + 1]);
       constexpr double kMostLooks = 1 << 20;
-      const double looks = std::min(std::ceil(2 * std::hypot(q[0] - p[0], q[1] - p[1])), kMostLooks);
+      const double looks = std::min(std::ceil(2 * std::hypot(q.col - p.col, q.row - p.row)), kMostLooks);
       for (double i = 1; i < looks; ++i) {
         const auto between = [&](std::size_t axis) {
           return line.points[k][axis] + i / looks * (line.points[k + 1][axis] - line.points[k][axis]);

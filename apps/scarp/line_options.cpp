@@ -116,6 +116,18 @@ Result<void> LineArguments::check() const {
   return rule ? Result<void>() : tl::unexpected(rule.error());
 }
 
+Result<void> check_frame_of_lines(const LineArguments& given, const Frame& frame, const std::string& crs_option,
+                                  const std::string& input) {
+  const char* lines = given.find_lines();
+  if (lines == nullptr || frame.is_affine()) return {};
+  const std::string crs = shell_word(crs_option);
+  return fail(
+      ErrorKind::kUsage,
+      fmt::format("{} and --crs {} contradict each other: lines are laid where the grid is regular, and in that "
+                  "CRS it is bent. Leave --crs out, or bend the raster first: gdalwarp -t_srs {} {} warped.tif",
+                  lines, crs, crs, shell_word(input)));
+}
+
 std::string LineArguments::canonical() const {
   std::string text;
   for (const std::string& file : breaklines) text += " --breaklines " + shell_word(base_name(file));

@@ -36,6 +36,10 @@ struct LineArguments {
 Result<std::vector<Line>> read_files(const std::vector<std::string>& files, const ReadLinesOptions& options,
                                      std::vector<std::string>& warnings);
 
+/// Refuses lines where the CRS that --crs names bends the grid of the raster.
+Result<void> check_frame_of_lines(const LineArguments& given, const Frame& frame, const std::string& crs_option,
+                                  const std::string& input);
+
 /// Puts the samples on hard lines at the heights that simplify() gave them.
 void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field);
 

@@ -198,6 +198,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
         "LandXML has no degrees: the surface is in metres around the raster's centre; a projected CRS (--crs) puts it "
         "in its place");
   }
+  if (auto checked = check_frame_of_lines(plan->lines, frame, plan->read.crs, plan->input); !checked) return checked;
   SimplifyOptions options = plan->simplify;
   options.max_error = outcome.asked;
   options.mask = outcome.companions.mask;
