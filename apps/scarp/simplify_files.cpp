@@ -23,6 +23,7 @@ void add_metadata(const SimplifyPlan& plan, Outcome& outcome) {
   Json error;
   error["asked"] = outcome.asked ? Json(*outcome.asked) : Json(nullptr);
   if (!plan.channels.image) error["max_error"] = measured.max_error;
+  if (outcome.print) error["max_error"] = outcome.print->max_error;
   if (outcome.field.sample_rounding > 0) error["sample_rounding"] = outcome.field.sample_rounding;
   if (!plan.channels.image) error["rmse"] = measured.rmse;
   error["samples"] = measured.samples;
