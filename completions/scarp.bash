@@ -42,7 +42,7 @@ _scarp() {
       return
       ;;
     -e | --max-error | -t | --max-triangles | -p | --max-points | --band | --nodata | --fill-distance | --background | \
-      --outline-tolerance | --base | --shape-threshold | --supersample | --texture-weight | --channel-weights | -j | \
+      --outline-tolerance | --base | --solid | --split | --shape-threshold | --supersample | --texture-weight | --channel-weights | -j | \
       --num-threads | --memory | --fail-above | --layer | --z-field | --breakline-z | --water-percentile | --detect-flats | --falloff | --seed | --range | --size)
       return
       ;;
@@ -55,7 +55,7 @@ _scarp() {
       paper) options='--help --version --data --out --no-timing --overwrite --quiet' ;;
       simplify)
         options+=' --max-error --max-triangles --max-points --nodata-policy --fill-distance --background'
-        options+=' --outline-tolerance --of --normals --base --preview --report --overwrite --num-threads --memory'
+        options+=' --outline-tolerance --of --normals --base --solid --split --preview --report --overwrite --num-threads --memory'
         options+=' --mask --tolerance --roi --falloff --script --image --texture --texture-weight --norm --channel-weights'
         options+=' --timing --effort --vertices --min-shape --time-limit --objective --importance --one-pass --order --algorithm --batch --edges --edge-score --shape-threshold --supersample'
         options+=' --breaklines --breakline-z --soft-breaklines --line-conflict --water --water-percentile --detect-flats --rivers'

@@ -73,6 +73,8 @@ complete -c scarp -n '__fish_seen_subcommand_from simplify' -l uvs -d 'Texture c
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l render -r -d 'Picture of the approximation (PNG)'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l normals -d 'Vertex normals from the full-resolution raster'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l base -x -d 'Close into a solid with a base at this height'
+complete -c scarp -n '__fish_seen_subcommand_from simplify' -l solid -x -d 'Close into a solid for printing: base=H,size=120mm,...'
+complete -c scarp -n '__fish_seen_subcommand_from simplify' -l split -x -d 'Cut the solid into sheets: CxR[,joint=dovetail][,gap=0.2mm]'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l preview -r -d 'Hillshade with the mesh over it (PNG)'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l report -r -d 'Numbers of this run (JSON)'
 

@@ -22,8 +22,8 @@ namespace {
 
 using Point2 = std::array<double, 2>;
 
-constexpr int kLeastCells = 2;       // of a sheet, across
-constexpr int kLeastTabCells = 12;   // of a sheet that has tabs
+constexpr int kLeastCells = 2;                               // of a sheet, across
+constexpr int kLeastTabCells = 12;                           // of a sheet that has tabs
 constexpr double kHead = 0.30, kNeck = 0.18, kDepth = 0.12;  // shares of the sheet that the tab stands on or in
 
 /// Where sheets begin and end, in samples.
@@ -94,9 +94,8 @@ bool is_before(const std::vector<Point2>& cut, Point2 p) {
 Result<void> check_span(const char* what, int samples, int parts, bool dovetail) {
   const int least = dovetail ? kLeastTabCells : kLeastCells;
   if (parts >= 1 && (samples - 1) / parts >= least) return {};
-  return fail(ErrorKind::kUsage,
-              fmt::format("{} samples cannot be cut into {} {} of sheets: each needs {} cells{}", samples, parts, what,
-                          least, dovetail ? " to hold its tabs" : ""));
+  return fail(ErrorKind::kUsage, fmt::format("{} samples cannot be cut into {} {} of sheets: each needs {} cells{}",
+                                             samples, parts, what, least, dovetail ? " to hold its tabs" : ""));
 }
 
 }  // namespace
@@ -139,8 +138,8 @@ std::vector<Line> SheetPlan::lines(const std::array<double, 6>& affine) const {
     Line line;
     line.name = fmt::format("cut {} between {}", number + 1, what);
     for (const auto& [col, row] : cut) {
-      line.points.push_back({affine[0] + affine[1] * col + affine[2] * row, affine[3] + affine[4] * col + affine[5] * row,
-                             std::numeric_limits<double>::quiet_NaN()});
+      line.points.push_back({affine[0] + affine[1] * col + affine[2] * row,
+                             affine[3] + affine[4] * col + affine[5] * row, std::numeric_limits<double>::quiet_NaN()});
     }
     lines.push_back(std::move(line));
   };

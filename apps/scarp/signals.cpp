@@ -17,8 +17,10 @@ static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_alw
 
 /// The default action, so that a shell sees a program ended by the signal, but without half a file left.
 extern "C" void on_end_signal(int signal) {
-  const char* half_written = pending_output();
-  if (half_written[0] != '\0') unlink(half_written);
+  for (int place = 0; place < scarp::kPendingOutputs; ++place) {
+    const char* half_written = pending_output(place);
+    if (half_written[0] != '\0') unlink(half_written);
+  }
   std::signal(signal, SIG_DFL);
   raise(signal);  // acts when this handler returns
 }

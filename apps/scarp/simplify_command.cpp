@@ -162,6 +162,15 @@ bool keeps_mesh_on_interrupt(const SimplifyOptions& options) {
   return is_long && !options.max_triangles && !options.max_vertices && options.memory_limit == 0;
 }
 
+/// A print is made with its mesh.
+Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyOptions& options, Outcome& outcome) {
+  if (!plan.solid) return simplify(outcome.view(), options);
+  Result<PrintedTerrain> printed = simplify_for_print(*plan.solid, outcome.field, options);
+  if (!printed) return tl::unexpected(std::move(printed.error()));
+  outcome.print = std::move(printed->print);
+  return std::move(printed->simplified);
+}
+
 Result<void> write_report(const SimplifyPlan& plan, const Json& report) {
   const std::string text = to_text(report);
   const std::vector<std::uint8_t> bytes(text.begin(), text.end());
@@ -211,7 +220,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
     display.let_interrupt_finish("fit");
   }
   if (plan->memory) options.memory_taken = bytes_taken(outcome.field, *plan->memory);
-  Result<Simplified> simplified = simplify(outcome.view(), options);
+  Result<Simplified> simplified = simplify_as_planned(*plan, options, outcome);
   if (!simplified) {
     Error error = std::move(simplified.error());
     constexpr std::string_view kLimit = "memory_limit";
@@ -261,11 +270,10 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   if (!files) return tl::unexpected(files.error());
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
 
-  // From here on the work is done: files appear one after the other, each whole.
-  for (const ReadyFile& file : *files) {
-    const Result<void> written = write_file(file.path, file.bytes, plan->overwrite);
-    if (!written) return written;
-  }
+  // From here on the work is done: all files get their names, or none.
+  std::vector<FileBytes> ready;
+  for (const ReadyFile& file : *files) ready.push_back({file.path, file.bytes});
+  if (const Result<void> written = write_files(ready, plan->overwrite); !written) return written;
   outcome.seconds_write = seconds_since(write_start);
   outcome.seconds_total = seconds_since(start);
   if (plan->report) {

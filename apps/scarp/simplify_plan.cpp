@@ -126,6 +126,7 @@ Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.lines = given.lines;
   if (auto checked = given.lines.check(); !checked) return checked;
   const char* lines = given.lines.find_lines();
+  if (lines == nullptr && plan.solid && plan.solid->is_split()) lines = "--split";
   if (lines == nullptr) return {};
   const char* obstacle = find_line_obstacle(given, plan);
   // Water is level where all corners of its triangles are: at samples and on its shore.
@@ -214,6 +215,44 @@ Result<void> plan_objective(const SimplifyArguments& given, SimplifyPlan& plan) 
   return {};
 }
 
+/// The option that asks for more than one bound on heights, by which alone a print is judged; null if there is none.
+const char* find_print_obstacle(const SimplifyArguments& given) {
+  if (given.base) return "--base";
+  if (given.normals) return "--normals";
+  if (given.uvs) return "--uvs";
+  if (given.channels.image) return "--image";
+  if (!given.channels.textures.empty()) return "--texture";
+  return find_bounds(given);
+}
+
+Result<void> plan_solid(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const Result<std::optional<SolidPlan>> solid = given.solid.parse();
+  if (!solid) return tl::unexpected(solid.error());
+  plan.solid = *solid;
+  if (!plan.solid) return {};
+  if (const char* obstacle = find_print_obstacle(given); obstacle != nullptr)
+    return fail(ErrorKind::kUsage,
+                fmt::format("--solid and {} contradict each other: leave one of them out", obstacle));
+  return {};
+}
+
+/// What solids need of the format, and it of them.
+Result<void> plan_solid_format(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const OutputFormat& format = plan.format;
+  if (format.is_mesh() && format.mesh == MeshFormat::k3mf && !plan.solid && !plan.base)
+    return fail(ErrorKind::kUsage,
+                "3MF holds closed solids only: say how to close the terrain, such as --solid size=120mm");
+  if (!plan.solid) return {};
+  if (!format.holds_prints())
+    return fail(ErrorKind::kUsage,
+                fmt::format("--solid is for printing, and {} has no place for millimetres: choose .stl, .3mf, .obj or "
+                            ".ply, or --base for a solid in the raster's units",
+                            format.title()));
+  if (plan.has_file_per_sheet() && is_stdout(given.output))
+    return fail(ErrorKind::kUsage, "--split writes several files: /dev/stdout is only one");
+  return {};
+}
+
 /// What the format has no place for: refused where nothing would be left, else a warning.
 Result<void> plan_attributes(const SimplifyArguments& given, SimplifyPlan& plan) {
   const OutputFormat& format = plan.format;
@@ -272,8 +311,14 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
   }
   const Result<void> attributes = plan_attributes(given, plan);
   if (!attributes) return attributes;
+  if (auto solid = plan_solid_format(given, plan); !solid) return solid;
 
-  std::vector<PlannedOutput> outputs{{"OUTPUT", given.output}};
+  std::vector<PlannedOutput> outputs;
+  if (!plan.has_file_per_sheet()) outputs.push_back({"OUTPUT", given.output});
+  for (int k = 0; plan.has_file_per_sheet() && k < plan.solid->columns * plan.solid->rows; ++k) {
+    const int columns = plan.solid->columns;
+    outputs.push_back({"--split", sheet_path(given.output, k / columns + 1, k % columns + 1)});
+  }
   const std::pair<const char*, const Given*> pictures[] = {{"--preview", &given.preview}, {"--render", &given.render}};
   for (const auto& [option, path] : pictures) {
     if (!*path) continue;
@@ -302,6 +347,7 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
       {"--water", !given.lines.water.empty()},
       {"--detect-flats", given.lines.flats.has_value()},
       {"--rivers", !given.lines.rivers.empty()},
+      {"--solid", plan.solid.has_value()},
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
       {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
       {"--normals", plan.simplify.normals},
@@ -356,6 +402,7 @@ std::string canonical_command(const SimplifyArguments& given) {
   for (const auto& [name, value] : options) {
     command += canonical_option(name, *value);
   }
+  command += given.solid.canonical();
   command +=
       given.companions.canonical() + given.lines.canonical() + given.channels.canonical() + given.strategy.canonical();
   if (given.strategy.asks_for_greedy()) command += " --order greedy";
@@ -381,8 +428,8 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   const Result<int> threads = parse_threads(given.threads);
   if (!threads) return tl::unexpected(threads.error());
   plan.simplify.threads = *threads;
-  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_lines, plan_order, plan_effort,
-                          plan_objective, plan_outputs, plan_memory}) {
+  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_solid, plan_lines, plan_order,
+                          plan_effort, plan_objective, plan_outputs, plan_memory}) {
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());
   }

@@ -13,6 +13,7 @@
 #include "options.h"
 #include "output_kind.h"
 #include "scarp/simplify.h"
+#include "solid_options.h"
 #include "strategy_options.h"
 
 namespace scarp::cli {
@@ -31,6 +32,7 @@ struct SimplifyArguments {
   ChannelArguments channels;
   LineArguments lines;
   MemoryArguments memory;
+  SolidArguments solid;
   bool normals = false, uvs = false, overwrite = false, quiet = false, timing = false, json_progress = false;
 
   void add_to(CLI::App& verb);
@@ -49,6 +51,7 @@ struct SimplifyPlan {
   double fill_distance = 100;
   float background = 0;
   std::optional<double> base;
+  std::optional<SolidPlan> solid;
   std::optional<std::string> preview, render, error_raster, report;
   bool overwrite = false;
   std::optional<std::uint64_t> memory;       ///< what the process may take
@@ -57,6 +60,9 @@ struct SimplifyPlan {
   /// The command for the mesh's metadata: options in a fixed order and with their long names, folders left out, and
   /// without what cannot change the mesh (threads, quietness, other outputs, the output's name).
   std::string canonical_command;
+
+  /// Of a print in sheets; else OUTPUT holds them all.
+  bool has_file_per_sheet() const { return solid && solid->is_split() && format.mesh != MeshFormat::k3mf; }
 };
 
 Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given);

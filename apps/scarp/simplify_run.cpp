@@ -80,8 +80,19 @@ Json describe_outputs(const std::vector<ReadyFile>& files) {
 }
 
 void add_solid(Json& report, const SimplifyPlan& plan, const SimplifyRun& run) {
+  if (run.print) report["solid"] = describe_print(*plan.solid, *run.print, print_paths(plan, *run.print));
   if (!plan.base) return;
   report["solid"] = Json{{"base", *plan.base}, {"vertices", run.solid_vertices}, {"triangles", run.solid_triangles}};
+}
+
+std::vector<std::string> print_paths(const SimplifyPlan& plan, const Print& print) {
+  std::vector<std::string> paths;
+  if (plan.has_file_per_sheet()) {
+    for (const Sheet& sheet : print.sheets) paths.push_back(sheet_path(plan.output, sheet.row, sheet.column));
+  } else {
+    paths.push_back(plan.output);
+  }
+  return paths;
 }
 
 std::string summary_line(const char* name, const std::string& value) {
@@ -96,6 +107,7 @@ std::string files_lines(const SimplifyPlan& plan, const std::vector<ReadyFile>& 
 }
 
 std::string solid_line(const SimplifyPlan& plan, const SimplifyRun& run) {
+  if (run.print) return print_lines(*plan.solid, *run.print);
   if (!plan.base) return "";
   return summary_line("solid", fmt::format("{}, base at {}", format_plural(run.solid_triangles, "triangle"),
                                            format_number(*plan.base)));

@@ -115,9 +115,9 @@ std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
 /// _CHANNEL_n where colours do not say it all), PLY (red green blue uchar, s t float, channel_n float), OBJ (vt,
 /// colours behind the coordinates), VTU and VTP (Colors, TCoords, channel_n); they read back the same, but for PLY's
 /// t = 1 − v, rounded to float32. 3MF: as encode_3mf() with one object. Deterministic; a GeoPackage's bytes also depend
-/// on the versions of GDAL and SQLite, a 3MF file's on that of zlib. Fails with kOutput where the format cannot hold the mesh: more vertices or triangles than signed 32-bit numbers
-/// count in 2DM and LandXML; degrees, a unit that LandXML does not know, or heights in another unit than x and y in
-/// LandXML.
+/// on the versions of GDAL and SQLite, a 3MF file's on that of zlib. Fails with kOutput where the format cannot hold
+/// the mesh: more vertices or triangles than signed 32-bit numbers count in 2DM and LandXML; degrees, a unit that
+/// LandXML does not know, or heights in another unit than x and y in LandXML.
 Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format);
 /// A 3MF file (core specification 1.2) of one or more solids, each an object named by its metadata["name"]: positions
 /// rounded to float32 and written so that they read back the same, offsets from the origin of the first object; its
@@ -152,9 +152,11 @@ Result<void> write_files(std::span<const FileBytes> files, bool overwrite = true
 /// The whole file (or pipe). kInput if it cannot be read.
 Result<std::vector<std::uint8_t>> read_file(const std::string& path);
 
-/// For signal handlers: the temporary name that write_file() is writing just now, for unlink(); empty if there is none.
-/// Points to a static buffer; async-signal-safe. If several threads write at once, the first one's.
-const char* pending_output();
+/// For signal handlers: the temporary names that write_file() and write_files() hold just now, for unlink(), in
+/// kPendingOutputs places; empty where there is none. Points to a static buffer; async-signal-safe. Beyond so many
+/// files at once, the first ones'.
+inline constexpr int kPendingOutputs = 128;
+const char* pending_output(int place = 0);
 
 /// 8-bit RGB, row-major, top row first.
 struct Picture {

@@ -42,9 +42,9 @@ struct Mesh {
 void optimize_order(Mesh& mesh);
 
 /// Closes an open terrain mesh into a solid: a flat base at z = `base` (absolute) and vertical walls along every border
-/// edge, outward-oriented, so that each edge has exactly two triangles. Border vertices that lie exactly on a straight
-/// line between their neighbours have no vertex below them: a part with n border vertices, c of them corners, and h
-/// holes gets n + c triangles for its walls and c + 2h − 2 for its base. Vertices where
+/// edge, outward-oriented, so that each edge has exactly two triangles. Border vertices between their neighbours on a
+/// line along x or y have no vertex below them: a part with n border vertices, of which c have one, and h holes gets
+/// n + c triangles for its walls and c + 2h − 2 for its base. Vertices where
 /// two parts of the domain meet in a single point are duplicated, one for each part: the solid is closed in its
 /// indices, though formats that know places only (STL) show four walls along that vertical edge (solid.h parts them).
 /// Normals are dropped; uvs, colours and channels of a new vertex are those of the vertex above it.

@@ -39,11 +39,11 @@ Result<Mesh> build_solid(Mesh terrain, double base);
 /// What a reader finds that rounds positions to float32 and takes vertices at one place for one, as those of STL do.
 struct SolidFacts {
   std::uint64_t triangles = 0;
-  std::uint64_t degenerate = 0;       ///< triangles without area
-  std::uint64_t faulty_edges = 0;     ///< edges without exactly two triangles that run along them in opposite directions
-  std::uint64_t pinched_vertices = 0; ///< vertices with more than one fan of triangles
-  std::uint64_t parts = 0;            ///< that no edge connects
-  std::uint64_t inside_out = 0;       ///< parts whose volume is not positive
+  std::uint64_t degenerate = 0;    ///< triangles without area
+  std::uint64_t faulty_edges = 0;  ///< edges without exactly two triangles that run along them in opposite directions
+  std::uint64_t pinched_vertices = 0;  ///< vertices with more than one fan of triangles
+  std::uint64_t parts = 0;             ///< that no edge connects
+  std::uint64_t inside_out = 0;        ///< parts whose volume is not positive
   double volume = 0;
   std::array<double, 3> low{}, high{};  ///< of all vertices, the mesh's origin included
 
@@ -59,16 +59,17 @@ SolidFacts measure_solid(const Mesh& mesh);
 
 /// How a terrain is cut into sheets.
 struct SheetOptions {
-  int columns = 1, rows = 1;         ///< of sheets, at least 1
-  bool dovetail = false;             ///< a trapezoid tab in the middle of each edge that two sheets share. DEFAULT: none.
-  double gap = 0;                    ///< between neighbours, in the unit of `cell`, at least 0
+  int columns = 1, rows = 1;  ///< of sheets, at least 1
+  bool dovetail = false;      ///< a trapezoid tab in the middle of each edge that two sheets share. DEFAULT: none.
+  double gap = 0;             ///< between neighbours, in the unit of `cell`, at least 0
   std::array<double, 2> cell{1, 1};  ///< width and height of a cell of the raster
 };
 
 /// Cuts along rows and columns of samples, from which tabs stand out.
 class SheetPlan {
  public:
-  /// Fails with kUsage where a sheet would be too narrow for two cells, its tabs or its gap: names the number of samples.
+  /// Fails with kUsage where a sheet would be too narrow for two cells, its tabs or its gap: names the number of
+  /// samples.
   static Result<SheetPlan> make(int cols, int rows, const SheetOptions& options);
 
   /// The cuts as soft lines for SimplifyOptions::breaklines, one after the other along which sheets end; `affine` as

@@ -9,9 +9,9 @@
 // last four, v may lie on a diagonal. Vertices with few neighbours go first, which keeps rings short. With exact
 // orientation nothing can go wrong; the border and all edges along it are never touched, so the result fits the walls.
 //
-// Then the vertices of the border go that lie on a straight line between their neighbours. Such a vertex has half a star,
-// whose ring is closed by that line; v lies on it, which is all that the test above needs: an ear at either end of the
-// line has v on its wrong side, and of the others there is always one.
+// Then the vertices of the border go that lie between their neighbours on a line along x or y. Such a vertex has half a
+// star, whose ring is closed by that line; v lies on it, which is all that the test above needs: an ear at either end
+// of the line has v on its wrong side, and of the others there is always one.
 //
 // This is vertex deletion by ear queue without its Delaunay priority (Devillers 2002, "On deletion in Delaunay
 // triangulations"): a floor may have long thin triangles.
@@ -104,7 +104,8 @@ class FlatBase {
     }
   }
 
-  /// The neighbours of v, counter-clockwise, and the triangles around it; from its border to its border if it lies there.
+  /// The neighbours of v, counter-clockwise, and the triangles around it; from its border to its border if it lies
+  /// there.
   void collect_ring(std::uint32_t v) {
     ring_.clear();
     star_.clear();
@@ -126,15 +127,14 @@ class FlatBase {
     ring_.back().next = 0;
   }
 
-  /// Of a vertex of the border, whose neighbours along it end its ring.
+  /// Of a vertex of the border, whose neighbours along it end its ring. Lines along an axis stay straight, and the wall
+  /// below them vertical, whatever is done to each coordinate: scaled, moved, rounded.
   bool is_straight(std::uint32_t v) const {
-    const std::size_t a = ring_.back().start, b = ring_.front().start;
-    if (orient(ring_.back().start, v, ring_.front().start) != 0) return false;
-    const auto lies_between = [&](std::size_t k) {
-      const double from = positions_[3 * a + k], at = positions_[3 * std::size_t{v} + k], to = positions_[3 * b + k];
-      return (from <= at && at <= to) || (to <= at && at <= from);
-    };
-    return lies_between(0) && lies_between(1);
+    const double *from = &positions_[3 * std::size_t{ring_.back().start}], *at = &positions_[3 * std::size_t{v}],
+                 *to = &positions_[3 * std::size_t{ring_.front().start}];
+    const auto is_between = [](double a, double b, double c) { return (a < b && b < c) || (c < b && b < a); };
+    return (from[0] == at[0] && at[0] == to[0] && is_between(from[1], at[1], to[1])) ||
+           (from[1] == at[1] && at[1] == to[1] && is_between(from[0], at[0], to[0]));
   }
 
   /// Fills ears_ with the triangles that fill the ring of v; ear number e will take the place of triangle star_[e].
@@ -191,7 +191,7 @@ class FlatBase {
   std::vector<std::uint32_t> outgoing_;  // one half-edge that starts at each vertex
   std::vector<std::uint32_t> degrees_;   // triangles at each vertex
   std::vector<bool> on_border_;
-  std::vector<RingEdge> ring_;           // as indexed by ring position; a linked list while ears are cut
+  std::vector<RingEdge> ring_;  // as indexed by ring position; a linked list while ears are cut
   std::vector<std::uint32_t> star_;
   std::vector<Ear> ears_;
   std::uint32_t last_across_ = kNoHalfEdge;  // of the last ear's third edge

@@ -8,7 +8,7 @@
 namespace scarp {
 
 /// Triangulates the region that `triangles` cover seen from above without its inner vertices, and without those of its
-/// border that lie exactly on a straight line between their neighbours: c corners and h holes make c + 2h − 2 triangles
+/// border that lie between their neighbours on a line along x or y: c corners and h holes make c + 2h − 2 triangles
 /// for each part. Counter-clockwise, like the input.
 /// `positions` holds 3 doubles a vertex, of which x and y are used; `twins` is build_twins(triangles).
 /// Decisions are exact. If any triangle given is not counter-clockwise, the input comes back as it is.

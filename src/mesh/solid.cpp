@@ -1,8 +1,8 @@
 // What a printer's software will see of a solid, and solids that stand it.
 //
 // Such software reads positions as float32 and joins vertices by their places. So we round before we judge, join what
-// has come to lie at one place, and then ask what makes a surface: every edge runs once in each direction, the triangles
-// at each vertex form one fan, none has lost its area, and each part encloses a volume.
+// has come to lie at one place, and then ask what makes a surface: every edge runs once in each direction, the
+// triangles at each vertex form one fan, none has lost its area, and each part encloses a volume.
 
 #include "scarp/solid.h"
 
@@ -36,9 +36,8 @@ std::vector<std::uint32_t> weld(const std::vector<float>& places, const std::vec
     const float* p = &places[3 * std::size_t{v}];
     return std::array{p[0], p[1], p[2]};
   };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return place(a) != place(b) ? place(a) < place(b) : a < b;
-  });
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return place(a) != place(b) ? place(a) < place(b) : a < b; });
   for (std::size_t k = 0; k < count; ++k) {
     const bool is_new = k == 0 || place(order[k]) != place(order[k - 1]);
     first[order[k]] = is_new ? order[k] : first[order[k - 1]];
@@ -103,8 +102,7 @@ class Inspection {
       if (twins_[h] == kNoHalfEdge) edges.push_back(std::minmax(triangles_[h], triangles_[next_half_edge(h)]));
     }
     std::sort(edges.begin(), edges.end());
-    facts_.faulty_edges =
-        static_cast<std::uint64_t>(std::unique(edges.begin(), edges.end()) - edges.begin());
+    facts_.faulty_edges = static_cast<std::uint64_t>(std::unique(edges.begin(), edges.end()) - edges.begin());
   }
 
   void count_pinched_vertices() {
@@ -203,16 +201,17 @@ Result<Mesh> build_solid(Mesh terrain, double base) {
     if (i % 3 == 2) lowest = std::min(lowest, terrain.origin[2] + terrain.positions[i]);
   }
   if (!is_below_all(terrain, base)) {
-    return fail(ErrorKind::kUsage, fmt::format("the base, at {:.10g}, is not below the lowest vertex, which is at {:.10g}",
-                                               base, lowest));
+    return fail(ErrorKind::kUsage,
+                fmt::format("the base, at {:.10g}, is not below the lowest vertex, which is at {:.10g}", base, lowest));
   }
   close_solid(terrain, base, true);
   const SolidFacts facts = measure_solid(terrain);
   if (!facts.is_solid()) {
-    return fail(ErrorKind::kPromise,
-                fmt::format("rounded to float32 the solid is not closed ({}): the mesh is too fine for its size, so ask "
-                            "for a larger error or a larger size",
-                            facts.list_faults()));
+    return fail(
+        ErrorKind::kPromise,
+        fmt::format("rounded to float32 the solid is not closed ({}): the mesh is too fine for its size, so ask "
+                    "for a larger error or a larger size",
+                    facts.list_faults()));
   }
   return terrain;
 }
