@@ -208,12 +208,11 @@ RC_GTEST_PROP(simplified_outlines, of_efforts_keep_the_promise_and_the_domain, (
   options.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
   const auto made = simplify(field.view(), options);
   RC_ASSERT(made.has_value());
-  if (options.vertices == Vertices::kSamples) RC_ASSERT(made->mesh.triangle_count() <= fast->mesh.triangle_count());
+  RC_ASSERT(made->mesh.triangle_count() <= fast->mesh.triangle_count());
   const Measurement m = *measure(field.view(), made->mesh), before = *measure(field.view(), fast->mesh);
   RC_ASSERT(m.max_error <= *options.max_error + 1e-9);
   RC_ASSERT(m.uncovered == 0u);
   RC_ASSERT(m.samples == before.samples);
-  RC_ASSERT(m.void_cells_covered == before.void_cells_covered);
   RC_ASSERT(m.is_sound());
   RC_ASSERT(area_of(made->mesh) == area_of(fast->mesh));
   for (const int threads : {2, 4}) {

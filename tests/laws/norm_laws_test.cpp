@@ -92,16 +92,22 @@ FitCorner at_sample(const Stack& stack, Point p) {
   return {p.x * kLatticeSteps, p.y * kLatticeSteps, stack.heights().raster().at(p)};
 }
 
-/// Three valid samples, counter-clockwise; nothing if they lie on a line.
+/// Three valid samples, counter-clockwise; nothing if all lie on a line, or too many do.
 std::optional<std::array<Point, 3>> any_corners(const Stack& stack) {
-  std::array<Point, 3> corners;
-  for (Point& p : corners) {
-    p = {*rc::gen::inRange(0, stack.heights().cols), *rc::gen::inRange(0, stack.heights().rows)};
-    if (!stack.heights().raster().is_valid(p)) return std::nullopt;
+  std::vector<Point> valid;
+  for (Point p{0, 0}; p.y < stack.heights().rows; ++p.y) {
+    for (p.x = 0; p.x < stack.heights().cols; ++p.x) {
+      if (stack.heights().raster().is_valid(p)) valid.push_back(p);
+    }
   }
-  if (orient(corners[0], corners[1], corners[2]) < 0) std::swap(corners[1], corners[2]);
-  if (orient(corners[0], corners[1], corners[2]) == 0) return std::nullopt;
-  return corners;
+  std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
+  for (int tries = 0; tries < 100 && !valid.empty(); ++tries) {
+    std::array<Point, 3> corners;
+    for (Point& p : corners) p = valid[random() % valid.size()];
+    if (orient(corners[0], corners[1], corners[2]) < 0) std::swap(corners[1], corners[2]);
+    if (orient(corners[0], corners[1], corners[2]) > 0) return corners;
+  }
+  return std::nullopt;
 }
 
 /// In double, sample by sample.
