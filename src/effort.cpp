@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 namespace scarp {
 
@@ -17,9 +18,11 @@ bool has_bounds(const SimplifyOptions& options) {
 
 bool inserts(const ScriptStep& step) { return step.action == ScriptStep::Action::kInsert; }
 
+static_assert(kMostFitFields > kMaxChannels);
+
 /// What asks for more than heights; null if nothing does.
 const char* find_beyond_heights(const HeightField& field, const SimplifyOptions& options) {
-  if (!field.channels.empty() || field.height_scale != 1) return "has no channels";
+  if (has_norm(field)) return "has no channels";
   return options.outline_tolerance > 0 ? "keeps the exact outline" : nullptr;
 }
 
@@ -40,7 +43,6 @@ const char* find_strategy(const SimplifyOptions& options) {
 
 /// What keeps a run from removing vertices; null if nothing does.
 const char* find_fit_obstacle(const HeightField& field, const SimplifyOptions& options) {
-  if (const char* obstacle = find_beyond_heights(field, options)) return obstacle;
   if (std::any_of(options.script.begin(), options.script.end(), inserts))
     return "takes vertices away, also those that a script inserts";
   if (has_bounds(options) && has_budget(options)) return "has no budget where samples have bounds of their own";
@@ -117,13 +119,15 @@ Result<void> check_effort(const HeightField& field, const SimplifyOptions& optio
   }
   if (auto sound = check_breaklines(field, options); !sound) return sound;
   if (options.vertices != Vertices::kFree || vertices_are_free(field, options)) return {};
-  return usage(fmt::format("free vertices need {}: leave them on samples", moves_vertices(options.effort)
-                                                                               ? "a frame in which the grid is regular"
-                                                                               : "high effort or more"));
+  return usage(fmt::format("free vertices need {}: leave them on samples",
+                           !moves_vertices(options.effort) ? "high effort or more"
+                           : has_norm(field)               ? "heights alone, without channels"
+                                                           : "a frame in which the grid is regular"));
 }
 
 bool vertices_are_free(const HeightField& field, const SimplifyOptions& options) {
-  return moves_vertices(options.effort) && options.vertices != Vertices::kSamples && field.frame.is_affine();
+  return moves_vertices(options.effort) && options.vertices != Vertices::kSamples && field.frame.is_affine() &&
+         !has_norm(field);
 }
 
 bool places_are_exact(const HeightField& field, const SimplifyOptions& options, std::int32_t steps) {
@@ -140,6 +144,21 @@ double aim_of(const HeightField& field, const SimplifyOptions& options) {
   constexpr double kRoundingShare = 0x1p-9;
   const std::int32_t steps = place_steps(field, options);
   return steps > 1 && !places_are_exact(field, options, steps) ? 1 - kRoundingShare : 1;
+}
+
+bool has_norm(const HeightField& field) { return !field.channels.empty() || field.height_scale != 1; }
+
+std::optional<FitNorm> fit_norm(const SimplifyOptions& options, const Raster& raster, const Criterion& criterion) {
+  const std::vector<JudgedField> fields = criterion.judged_fields();
+  if (fields.size() == 1 && fields[0].samples == raster.samples && fields[0].scale == 1) return std::nullopt;
+  FitNorm norm;
+  for (const JudgedField& field : fields) norm.fields.push_back({field.samples, field.scale});
+  norm.norm = options.norm;
+  norm.find_breach = [&judge = criterion.judge()](const std::array<Point, 3>& corners) {
+    const auto candidate = judge.find_candidate(corners, judge.fit(corners, {}));
+    return candidate ? std::optional(candidate->at) : std::nullopt;
+  };
+  return norm;
 }
 
 FitOptions fit_options(const HeightField& field, const SimplifyOptions& options, double threshold) {

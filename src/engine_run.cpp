@@ -278,6 +278,8 @@ class Run {
     refinement_.reset();
     FitOptions options = fit_options(field_, options_, criterion_.aim());
     options.bounds = criterion_.aims();
+    const auto norm = fit_norm(options_, raster_, criterion_);
+    if (norm) options.norm = &*norm;
     options.threads = fit_threads();
     Reporter reporter(options_.progress);
     if (options_.progress) {

@@ -166,7 +166,10 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& ask
   if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
   if (has_breaklines(options)) return simplify_with_lines(field, options);
   if (options.effort == Effort::kFast || !has_budget(options)) return simplify_once(field, options, nullptr);
-  return search_error(options, [&](const SimplifyOptions& once) { return simplify_once(field, once, nullptr); });
+  const auto run = [&](const SimplifyOptions& once) { return simplify_once(field, once, nullptr); };
+  if (!has_norm(field)) return search_error(options, run);
+  options.vertices = Vertices::kSamples;
+  return search_error(options, run, Judged::kNorm);
 } catch (const SourceFailure& failure) {
   return tl::unexpected(failure.error);
 } catch (const std::bad_alloc&) {

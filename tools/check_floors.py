@@ -36,7 +36,7 @@ ROOMS = {
                 "judging a mesh, without knowing how it was made"),
     "draw": (3, ["base", "grid", "geom", "mesh"], ["frame", "height_field", "io", "mesh", "picture", "result"],
              "pictures of fields, meshes and errors"),
-    "fit": (4, ["base", "grid", "geom", "tin"], ["result"], "better than greedy: vertices are taken out while the bound is kept"),
+    "fit": (4, ["base", "grid", "geom", "tin"], ["result", "strategy"], "better than greedy: vertices are taken out while the bound is kept"),
     "passes": (5, ["base", "grid", "geom", "mesh", "tin", "io", "refine", "measure", "draw", "fit"], ANY,
                "`src/*.cpp`, `src/*.h`: the lists of passes"),
     "apps": (6, [], ANY, "the command line; knows `include/scarp` only"),

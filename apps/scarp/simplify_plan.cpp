@@ -177,7 +177,7 @@ Result<void> plan_order(const SimplifyArguments& given, SimplifyPlan& plan) {
                           culprit));
 }
 
-/// Removal looks at heights alone, and budgets are met by one error for all samples.
+/// Removal chooses edges itself, and budgets are met by one error for all samples.
 Result<void> plan_effort(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (plan.simplify.effort == Effort::kFast) {
     const char* needless = given.strategy.min_shape    ? "--min-shape"
@@ -195,12 +195,17 @@ Result<void> plan_effort(const SimplifyArguments& given, SimplifyPlan& plan) {
                             "samples; leave one of them out",
                             *given.strategy.effort, budget, bounds));
   }
-  const char* culprit = plan.simplify.edges.data_dependent ? "--edges data" : find_beyond_heights(given, plan);
-  if (culprit == nullptr) return {};
+  if (plan.channels.has_channels() && plan.simplify.vertices == Vertices::kFree) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("--vertices free and {} contradict each other: a vertex between samples has no colour; "
+                            "leave one of them out",
+                            plan.channels.image ? "--image" : "--texture"));
+  }
+  if (!plan.simplify.edges.data_dependent) return {};
   return fail(ErrorKind::kUsage,
-              fmt::format("--effort {} and {} contradict each other: vertices are removed on heights alone; leave one "
-                          "of them out",
-                          *given.strategy.effort, culprit));
+              fmt::format("--effort {} and --edges data contradict each other: where vertices are removed edges are "
+                          "chosen anew; leave one of them out",
+                          *given.strategy.effort));
 }
 
 /// A max error decides the mesh, and so does fast effort.

@@ -54,10 +54,10 @@ struct SimplifyOptions {
   /// kDominant fails with kUsage together with a budget, a mask, tolerances, a script, channels, an importance, an
   /// algorithm, batches, data-dependent edges or an outline tolerance; kAuto then is kGreedy. DEFAULT: kAuto.
   Order order = Order::kAuto;
-  /// All but kFast fail with kUsage together with a script that inserts, channels, data-dependent edges, an outline
-  /// tolerance, or with a budget without samples in memory or beside a mask, tolerances or a script. DEFAULT: kAuto.
+  /// All but kFast fail with kUsage together with a script that inserts, data-dependent edges, or with a budget without
+  /// samples in memory or beside a mask, tolerances or a script. DEFAULT: kAuto.
   Effort effort = Effort::kAuto;
-  /// kFree fails with kUsage below kHigh and in frames that are not affine. DEFAULT: kAuto.
+  /// kFree fails with kUsage below kHigh, with channels and in frames that are not affine. DEFAULT: kAuto.
   Vertices vertices = Vertices::kAuto;
   /// Floor of the shapes of triangles, height over longest edge, 0 … 0.5, 0 for none: no vertex is removed or moved, no
   /// edge flipped if that leaves a triangle below it, unless it takes away one that is as bad. Triangles of refinement,
@@ -125,6 +125,7 @@ struct Simplified {
   double weighted_rmse = 0;       ///< root of the mean square of the same
   std::vector<Measurement> channel_measurements;  ///< of each channel, in its own units; without topology
   double combined_max_error = 0;                  ///< with channels: the largest norm
+  double combined_rmse = 0;                       ///< root of the mean square of the same
   Work work;                                      ///< what the engine did
   Order order = Order::kGreedy;                   ///< the order that was taken, never kAuto
   Effort effort = Effort::kFast;                  ///< the effort that was made, never kAuto
@@ -150,6 +151,7 @@ struct Simplified {
 /// flips edges and moves vertices around them, and takes all back where that does not mend it. Vertices that are free
 /// keep max_error on the lattice they move on; where float32 positions cannot hold that lattice exactly they aim 0.2 %
 /// below it, and should rounding break it yet, the run is made again with vertices on samples, unless kFree was asked.
+/// With channels vertices stay on samples, with their values, and the norm is what every effort keeps.
 ///
 /// Guarantees, for every input:
 /// (1) if max_error is given and no budget ended the run, every valid sample of the domain is covered and lies within
@@ -161,7 +163,8 @@ struct Simplified {
 /// (4) the result depends on the field and the options only, not on threads or machine.
 ///
 /// With channels, max_error bounds the norm of HeightField::channels instead (so the heights too where height_scale is
-/// at least 1); with a mask it bounds the weighted error; every tolerance is kept. In frames that are not exact these
+/// at least 1), whatever the effort, and objectives are those of the norm; with a mask it bounds the weighted error;
+/// every tolerance is kept. In frames that are not exact these
 /// are proven to a float32's rounding (2⁻²², and 2⁻²⁴ more a channel). Samples that are `ignored` have no bound.
 ///
 /// Budgets are upper bounds. With more than fast effort they are met by a search for the max error whose mesh takes 99

@@ -21,6 +21,7 @@
 #include <utility>
 
 #include "fit/cut.h"
+#include "fit/fit_norm.h"
 #include "fit/repair.h"
 #include "grid/raster.h"
 #include "grid/vertex_places.h"
@@ -48,6 +49,9 @@ struct FitOptions {
   /// Of samples with bounds of their own, row-major like the raster: at least 0, +infinity for none, no NaN. They stand
   /// in for the threshold; energies count errors in them. EMPTY: the threshold holds for all.
   std::span<const float> bounds = {};
+  /// Errors are norms over several fields. Then vertices stay on samples, and heights alone are not bounded. Stays
+  /// alive. DEFAULT: null, of heights alone.
+  const FitNorm* norm = nullptr;
   int threads = 0;
   /// Vertices must stay on sides that are no straight lines in the mesh's frame, or that somebody else shares.
   FreeSides free_sides = {};
@@ -100,8 +104,9 @@ struct Fitted {
 /// sides of the rectangle; repair lets the others move, on a side along it. Where heights or extents are beyond
 /// kMaxScanHeight, kMaxFitSteps, triangles stay as they are. Thresholds beyond 2⁻⁶⁰ … 2⁶⁰ are not repaired, sides
 /// beyond kMaxCoordinate / kLatticeSteps samples on samples only. Fails with kCancelled only. REQUIRES: the triangles
-/// inside keep the threshold and hold valid corners; threshold >= 0 and finite; a vertex that is not fixed, and no end
-/// of a constrained edge within the rectangle, is a sample, or vertices are free.
+/// inside keep the threshold, in the eyes of the norm's find_breach if there is one, and hold valid corners; threshold
+/// >= 0 and finite; a vertex that is not fixed, and no end of a constrained edge within the rectangle, is a sample, or
+/// vertices are free.
 Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexPlaces places, const FitOptions& options);
 inline Result<Fitted> fit(const Raster& raster, Triangulation tin, const FitOptions& options) {
   return fit(raster, std::move(tin), {}, options);
