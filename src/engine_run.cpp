@@ -26,6 +26,7 @@
 #include "refine/settle_edges.h"
 #include "refine/source_judge.h"
 #include "row_fit.h"
+#include "shape_refinement.h"
 
 namespace scarp {
 
@@ -57,6 +58,8 @@ class Run {
     if (!refined) return tl::unexpected(refined.error());
     if (auto laid = lay_lines(result); !laid) return tl::unexpected(laid.error());
     if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
+    const auto shaped = add_for_shapes(result);
+    if (!shaped) return tl::unexpected(shaped.error());
     // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
     // proof.
     const bool is_final = result.stop != StopReason::kMaxError || exact_ || !places_.are_samples();
@@ -65,6 +68,7 @@ class Run {
     order(result);
     result.seconds_refine += seconds_since(start);
     if (auto proven = prove_and_mend(result); !proven) return tl::unexpected(proven.error());
+    if (options_.shape.any()) result.shape = report_shapes(result.mesh, options_.shape, shaped->forced);
     return result;
   }
 
@@ -291,6 +295,24 @@ class Run {
     record(result, "fit", start);
     result.passes.back().removals = fitted->counts.removed;
     return {};
+  }
+
+  /// Vertices that angles and sizes of triangles need come, and others that the bound then needs.
+  Result<ShapeWork> add_for_shapes(Simplified& result) {
+    if (!options_.shape.any()) return ShapeWork{};
+    const auto start = Clock::now();
+    refinement_.reset();
+    ShapeTask task{options_.shape, field_.frame.affine, criterion_.aim(), criterion_.aims()};
+    task.progress = [&](std::uint64_t count, double error) {
+      return !reporter_.due() || reporter_.report("shape", 0, count, error);
+    };
+    VertexPlaces places = std::move(places_);
+    auto work = refine_shapes(raster_, domain_->tin, places, task);
+    if (!work) return work;
+    set_places(std::move(places), result);
+    result.passes.push_back(
+        {"shape", seconds_since(start), work->samples_scanned, work->triangles_scanned, work->insertions});
+    return work;
   }
 
   /// Of the vertices, after fitting.

@@ -112,8 +112,8 @@ Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
   return {};
 }
 
-/// The option beside which the mesh cannot hold lines; null if there is none.
-const char* find_line_obstacle(const SimplifyArguments& given, const SimplifyPlan& plan) {
+/// The option beside which the mesh can have no vertices between samples; null if there is none.
+const char* find_lattice_obstacle(const SimplifyArguments& given, const SimplifyPlan& plan) {
   if (plan.channels.image) return "--image";
   if (!given.channels.textures.empty()) return "--texture";
   if (plan.simplify.outline_tolerance > 0) return "--outline-tolerance";
@@ -127,13 +127,23 @@ Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (auto checked = given.lines.check(); !checked) return checked;
   const char* lines = given.lines.find_lines();
   if (lines == nullptr) return {};
-  const char* obstacle = find_line_obstacle(given, plan);
+  const char* obstacle = find_lattice_obstacle(given, plan);
   // Water is level where all corners of its triangles are: at samples and on its shore.
   if (!given.lines.water.empty() && plan.simplify.vertices == Vertices::kFree) obstacle = "--vertices free";
   if (!given.lines.water.empty()) plan.simplify.vertices = Vertices::kSamples;
   if (obstacle == nullptr) return {};
   return fail(ErrorKind::kUsage,
               fmt::format("{} and {} contradict each other: leave one of them out", lines, obstacle));
+}
+
+Result<void> plan_shape(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const Result<ShapeGoals> goals = given.shape.parse();
+  if (!goals) return tl::unexpected(goals.error());
+  plan.simplify.shape = *goals;
+  const char* goal = given.shape.find_goal();
+  const char* obstacle = goal == nullptr ? nullptr : find_lattice_obstacle(given, plan);
+  if (obstacle == nullptr) return {};
+  return fail(ErrorKind::kUsage, fmt::format("{} and {} contradict each other: leave one of them out", goal, obstacle));
 }
 
 /// The budget that was given; null if there is none.
@@ -299,6 +309,7 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
       {"--max-points", given.max_points.has_value()},
       {"--breaklines", !given.lines.breaklines.empty()},
       {"--water", !given.lines.water.empty()},
+      {given.shape.find_goal(), given.shape.find_goal() != nullptr},
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
       {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
       {"--normals", plan.simplify.normals},
@@ -353,8 +364,8 @@ std::string canonical_command(const SimplifyArguments& given) {
   for (const auto& [name, value] : options) {
     command += canonical_option(name, *value);
   }
-  command +=
-      given.companions.canonical() + given.lines.canonical() + given.channels.canonical() + given.strategy.canonical();
+  command += given.companions.canonical() + given.lines.canonical() + given.shape.canonical() +
+             given.channels.canonical() + given.strategy.canonical();
   if (given.strategy.asks_for_greedy()) command += " --order greedy";
   return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "");
 }
@@ -378,8 +389,8 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   const Result<int> threads = parse_threads(given.threads);
   if (!threads) return tl::unexpected(threads.error());
   plan.simplify.threads = *threads;
-  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_lines, plan_order, plan_effort,
-                          plan_objective, plan_outputs, plan_memory}) {
+  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_lines, plan_shape, plan_order,
+                          plan_effort, plan_objective, plan_outputs, plan_memory}) {
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());
   }

@@ -13,6 +13,7 @@
 #include "scarp/progress.h"
 #include "scarp/regions.h"
 #include "scarp/result.h"
+#include "scarp/shape.h"
 #include "scarp/simplify.h"
 #include "scarp/strategy.h"
 #include "scarp/version.h"

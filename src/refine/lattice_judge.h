@@ -16,22 +16,27 @@ namespace scarp {
 class PlaceHeights {
  public:
   explicit PlaceHeights(const Raster& raster) : raster_(raster) {}
-  /// For a place that is no sample's.
-  void set(Point place, float height) { heights_[key(place)] = height; }
+  void set(Point place, float height) {
+    heights_[key(place)] = height;
+    has_samples_ = has_samples_ || is_sample(place);
+  }
   static bool is_sample(Point place) { return place.x % kLatticeSteps == 0 && place.y % kLatticeSteps == 0; }
   /// REQUIRES: it was given, or is a sample's.
   float at(Point place) const {
-    return is_sample(place) ? raster_.at({place.x / kLatticeSteps, place.y / kLatticeSteps})
-                            : heights_.find(key(place))->second;
+    if (is_sample(place) && !has_samples_) return sample(place);
+    const auto given = heights_.find(key(place));
+    return given != heights_.end() ? given->second : sample(place);
   }
 
  private:
+  float sample(Point place) const { return raster_.at({place.x / kLatticeSteps, place.y / kLatticeSteps}); }
   static std::uint64_t key(Point place) {
     return std::uint64_t{static_cast<std::uint32_t>(place.y)} << 32 | static_cast<std::uint32_t>(place.x);
   }
 
   Raster raster_;
   std::unordered_map<std::uint64_t, float> heights_;
+  bool has_samples_ = false;  ///< samples were given other heights
 };
 
 /// Corners and candidates are in kLatticeSteps. Where samples have bounds of their own (row-major, +infinity for none),
