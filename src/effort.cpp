@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "shape_refinement.h"
+
 namespace scarp {
 
 namespace {
@@ -183,6 +185,7 @@ FitOptions fit_options(const HeightField& field, const SimplifyOptions& options,
   if (options.effort == Effort::kMax) fit.depth = kMaxDepth;
   fit.min_shape = options.min_shape.value_or(fit.vertices_are_free ? kUsualShape : 0);
   fit.aspect = std::hypot(a[2], a[5]) / std::hypot(a[1], a[4]);
+  if (options.shape.any()) fit.shape = shape_rule(options.shape, field.frame);
   if (!has_budget(options)) fit.is_time_up = either(options.is_time_up, options.is_enough);
   fit.goes_on = options.effort == Effort::kMax && options.is_time_up;
   return fit;

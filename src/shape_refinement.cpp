@@ -62,6 +62,7 @@ class ShapeRefiner {
         delaunay_(metric_),
         heights_(raster),
         judge_(raster, heights_, task.threshold, task.bounds),
+        fixed_(places.fixed),
         cosine2_(squares_of(task.goals.min_angle + kSlack).cosine),
         least_(kClosest * metric_.shorter_side()) {
     if (const auto& longest = task.goals.max_edge) {
@@ -101,7 +102,12 @@ class ShapeRefiner {
   VertexPlaces places() const {
     VertexPlaces places{kLatticeSteps, {}, {}};
     places.heights.reserve(tin_.vertex_count());
-    for (Vertex v = 0; v < tin_.vertex_count(); ++v) places.heights.push_back(heights_.at(tin_.point(v)));
+    for (Vertex v = 0; v < tin_.vertex_count(); ++v) {
+      const Point p = tin_.point(v);
+      places.heights.push_back(heights_.at(p));
+      const bool was_fixed = v < fixed_.size() && fixed_[v] != 0;
+      places.fixed.push_back(was_fixed || (!task_.vertices_are_free && !PlaceHeights::is_sample(p)) ? 1 : 0);
+    }
     return places;
   }
 
@@ -460,6 +466,7 @@ class ShapeRefiner {
   PlanDelaunay delaunay_;
   PlaceHeights heights_;
   LatticeJudge judge_;
+  std::vector<std::uint8_t> fixed_;  ///< as they were given
   double cosine2_, least_, longest2_ = std::numeric_limits<double>::infinity(), off_centre_ = 0;
   std::optional<Refinement> refinement_;
   std::optional<SizeField> sizes_;
@@ -472,6 +479,21 @@ class ShapeRefiner {
 };
 
 }  // namespace
+
+std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame) {
+  const auto& a = frame.affine;
+  if (goals.grade || a[1] * a[2] + a[4] * a[5] != 0) return std::nullopt;
+  const double width = std::sqrt(a[1] * a[1] + a[4] * a[4]), height = std::sqrt(a[2] * a[2] + a[5] * a[5]);
+  ShapeRule rule;
+  rule.by_angle = true;
+  rule.aspect = height / width;
+  // Without a smallest angle whatever has an area will do.
+  rule.floor = std::max(squares_of(goals.min_angle + kSlack).sine, std::numeric_limits<double>::min());
+  if (!goals.max_edge) return rule;
+  const double longest = *goals.max_edge / width * kLatticeSteps;
+  rule.longest_square = longest * longest * (1 - kSlack);
+  return rule;
+}
 
 Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexPlaces& places, const ShapeTask& task) {
   ShapeRefiner refiner(raster, tin, places, task);

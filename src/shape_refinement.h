@@ -18,10 +18,13 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 
+#include "fit/rules.h"
 #include "grid/raster.h"
 #include "grid/vertex_places.h"
+#include "scarp/frame.h"
 #include "scarp/mesh.h"
 #include "scarp/result.h"
 #include "scarp/shape.h"
@@ -34,6 +37,7 @@ struct ShapeTask {
   std::array<double, 6> affine;        ///< of the frame
   double threshold = 0;                ///< of errors
   std::span<const float> bounds = {};  ///< of samples, as LatticeJudge has them
+  bool vertices_are_free = false;      ///< who comes next may move them
   /// Told the vertices there are and the worst error; false stops with kCancelled.
   std::function<bool(std::uint64_t vertices, double error)> progress = {};
 };
@@ -44,10 +48,15 @@ struct ShapeWork {
 };
 
 /// Makes `tin` Delaunay in the frame, but for constrained edges, and adds vertices until every sample keeps its bound
-/// and the goals hold as ShapeGoals says. `places`: of the vertices; afterwards in kLatticeSteps, none fixed. Fails
-/// with kInput for too many triangles, kCancelled. REQUIRES: goals that were checked; sides of at most kMaxCoordinate /
-/// kLatticeSteps samples; an outline that is exact. Cost: expected O(log n) an insertion, but for scanning.
+/// and the goals hold as ShapeGoals says. `places`: of the vertices; afterwards in kLatticeSteps, those fixed that
+/// were, or that are no samples unless vertices are free. Fails with kInput for too many triangles, kCancelled.
+/// REQUIRES: goals that were checked; sides of at most kMaxCoordinate / kLatticeSteps samples; an outline that is
+/// exact. Cost: expected O(log n) an insertion, but for scanning.
 Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexPlaces& places, const ShapeTask& task);
+
+/// What keeps angles and lengths of edges, as refine_shapes() has left them, while vertices are removed and moved.
+/// Nothing where only insertion can: with a grade, and where rows and columns of the frame are not at right angles.
+std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame);
 
 /// What a finished mesh looks like. `forced`: see ShapeWork.
 ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, std::uint64_t forced);

@@ -17,11 +17,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "fit/cut.h"
 #include "fit/repair.h"
+#include "fit/rules.h"
 #include "grid/raster.h"
 #include "grid/vertex_places.h"
 #include "scarp/result.h"
@@ -57,6 +59,8 @@ struct FitOptions {
   /// of the triangles and saves time. Triangles of the mesh that is given may lie below; no move makes the worst worse.
   double min_shape = 0;
   double aspect = 1;  ///< of a sample: its height over its width, which shapes are reckoned with
+  /// Stands in for these two: angles, lengths of edges. DEFAULT: none.
+  std::optional<ShapeRule> shape = std::nullopt;
   /// Repair may put vertices between samples, on the lattice of fitting, and at heights of their own.
   bool vertices_are_free = false;
   std::int32_t patch_side = 0;  ///< in samples; 0: squares of kPatchTriangles, one for small meshes
