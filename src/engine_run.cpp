@@ -57,9 +57,8 @@ class Run {
     auto refined = tiled ? free_seams(std::move(*tiled), result) : insert_greedily(result);
     if (!refined) return tl::unexpected(refined.error());
     if (auto laid = lay_lines(result); !laid) return tl::unexpected(laid.error());
-    const auto shaped = add_for_shapes(result);
+    const auto shaped = fit_and_shape(result);
     if (!shaped) return tl::unexpected(shaped.error());
-    if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
     // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
     // proof.
     const bool is_final = result.stop != StopReason::kMaxError || exact_ || !places_.are_samples();
@@ -273,10 +272,21 @@ class Run {
     return {};
   }
 
+  /// Where removal keeps shapes it comes last: that leaves far fewer triangles.
+  Result<ShapeWork> fit_and_shape(Simplified& result) {
+    const bool removes_last = options_.shape.any() && shape_rule(options_.shape, field_.frame);
+    if (!removes_last) {
+      if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
+    }
+    auto shaped = add_for_shapes(result);
+    if (!shaped || !removes_last) return shaped;
+    if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
+    return shaped;
+  }
+
   /// Vertices that the bound can do without go.
   Result<void> remove_vertices(Simplified& result) {
     if (options_.effort == Effort::kFast || fits_rows(field_, options_)) return {};
-    if (options_.shape.any() && !shape_rule(options_.shape, field_.frame)) return {};
     const auto start = Clock::now();
     refinement_.reset();
     FitOptions options = fit_options(field_, options_, criterion_.aim());
@@ -304,7 +314,7 @@ class Run {
     const auto start = Clock::now();
     refinement_.reset();
     ShapeTask task{options_.shape, field_.frame.affine, criterion_.aim(), criterion_.aims()};
-    task.vertices_are_free = vertices_are_free(field_, options_);
+    task.all_may_go = vertices_are_free(field_, options_) || options_.effort == Effort::kNormal;
     task.progress = [&](std::uint64_t count, double error) {
       return !reporter_.due() || reporter_.report("shape", 0, count, error);
     };

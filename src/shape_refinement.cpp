@@ -27,11 +27,11 @@ using Vector = PlanMetric::Vector;
 using Location = Triangulation::Location;
 
 constexpr double kSlack = 1e-3;          ///< degrees, and share of lengths, that rounding of positions may take
-constexpr double kClosest = 0.25;        ///< of a sample: vertices for the sake of angles
+constexpr double kClosest = 1.0 / 32;    ///< of a sample: vertices for the sake of angles
 constexpr double kFinestSize = 0.5;      ///< of a sample: sizes that grade reckons with
 constexpr double kGradeFactor = 2;       ///< edges over sizes
 constexpr double kSnapShare = 1.0 / 12;  ///< steps of places over the distance to the nearest vertices
-constexpr double kAcute = 0.25;          ///< cos² of 60 degrees: corners between lines below that are acute
+constexpr double kAcute = 0.5;  ///< cos² of 45 degrees: corners between walls below that are acute, those of voids not
 
 Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1]}; }
 double dot_of(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]; }
@@ -106,7 +106,7 @@ class ShapeRefiner {
       const Point p = tin_.point(v);
       places.heights.push_back(heights_.at(p));
       const bool was_fixed = v < fixed_.size() && fixed_[v] != 0;
-      places.fixed.push_back(was_fixed || (!task_.vertices_are_free && !PlaceHeights::is_sample(p)) ? 1 : 0);
+      places.fixed.push_back(was_fixed || (!task_.all_may_go && !PlaceHeights::is_sample(p)) ? 1 : 0);
     }
     return places;
   }
@@ -402,7 +402,7 @@ class ShapeRefiner {
     const double share = std::clamp(shell / length, 0.25, 0.75);
     return begins ? share : 1 - share;
   }
-  /// Whether another wall than that to w begins at v, less than 60 degrees from it.
+  /// Whether another wall than that to w begins at v, less than 45 degrees from it.
   bool is_acute(Vertex v, Vertex w) const {
     const Point apex = tin_.point(v), end = tin_.point(w);
     bool found = false;

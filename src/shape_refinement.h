@@ -3,7 +3,7 @@
 // A triangle with too small an angle is given a vertex near the centre of its circle: the off-centre (A. Üngör, 2004),
 // which makes the angle over its shortest edge just what was asked, else the centre. Where that lies beyond an outline
 // or a line, or in the circle over one of its edges, the edge is halved instead (J. Ruppert, "A Delaunay refinement
-// algorithm for quality 2-dimensional mesh generation", 1995), at corners of less than 60 degrees at powers of two from
+// algorithm for quality 2-dimensional mesh generation", 1995), at corners of less than 45 degrees at powers of two from
 // the corner (J. R. Shewchuk, "Delaunay refinement algorithms for triangular mesh generation", 2002), so that both
 // sides get edges of the same lengths. A triangle that is too large gets the centre of its circle, or else its longest
 // edge is halved.
@@ -37,7 +37,7 @@ struct ShapeTask {
   std::array<double, 6> affine;        ///< of the frame
   double threshold = 0;                ///< of errors
   std::span<const float> bounds = {};  ///< of samples, as LatticeJudge has them
-  bool vertices_are_free = false;      ///< who comes next may move them
+  bool all_may_go = false;             ///< who comes next may remove, or move, vertices that are no samples
   /// Told the vertices there are and the worst error; false stops with kCancelled.
   std::function<bool(std::uint64_t vertices, double error)> progress = {};
 };

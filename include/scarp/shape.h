@@ -12,14 +12,14 @@ namespace scarp {
 ///
 /// New vertices lie on samples where triangles are large beside them, else on halves, quarters, … 256ths of a sample,
 /// at the height of the raster, which is bilinear between samples; each on a place of its own, and for the sake of
-/// angles none nearer to another than a quarter of a sample (a quarter of max_edge, if that is less). So refinement
-/// ends whatever is asked. Outlines are split where they run and stay as they are; breaklines are split within a 256th
-/// of a sample, at their own heights.
+/// angles none nearer to another than 1/32 of a sample (a quarter of max_edge, if that is less). So refinement ends
+/// whatever is asked. Outlines are split where they run, breaklines within a 256th of a sample of that, at their own
+/// heights. More than fast effort then removes and moves what angles, lengths and the bound can do without.
 ///
 /// Guarantees: (1) no edge is longer than max_edge; (2) grade holds, as below; (3) a triangle whose smallest angle is
 /// less than min_angle is counted in ShapeReport::below. Up to 20 degrees, and without corners of less than 60 degrees
-/// between lines or outline, theory leaves none but where lines come within half a sample of each other; beyond 20
-/// degrees nothing is proven, though up to 30 few are left.
+/// between lines or outline, theory leaves few or none; beyond 20 degrees nothing is proven, though on rasters without
+/// lines hardly any are left up to 30. Samples very near to lines leave some.
 struct ShapeGoals {
   /// Degrees, 0 … 33. DEFAULT: 0, any.
   double min_angle = 0;

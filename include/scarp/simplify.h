@@ -65,10 +65,10 @@ struct SimplifyOptions {
   /// and those that the outline of voids forces, may lie below. Fails with kUsage with fast effort.
   /// DEFAULT: 0.1 where vertices are free, else 0.
   std::optional<double> min_shape = std::nullopt;
-  /// Angles, edge lengths and their growth, for simulations: last of all vertices are added until they hold. Fails with
-  /// kUsage without a max error, together with a budget, channels, a mask, tolerances, a script, an outline tolerance
-  /// or strategies, without the samples in memory, in frames that are not affine and for goals out of range. DEFAULT:
-  /// none.
+  /// Angles, edge lengths and their growth, for simulations: vertices are added until they hold, then removed as far as
+  /// they still do (with a grade the other way round). Fails with kUsage without a max error, together with a budget,
+  /// channels, an outline tolerance or strategies, without the samples in memory, in frames that are not affine and for
+  /// goals out of range. DEFAULT: none.
   ShapeGoals shape = {};
   /// Asked often, on any thread, by all efforts but kFast; once true, true for good. Then vertices are no longer
   /// removed, and the mesh so far, which keeps the promise, is the result: it depends on the time. Fails with kUsage
@@ -107,7 +107,7 @@ struct SimplifyOptions {
 struct Pass {
   std::string_view name;  ///< "search"; "arrange"; "tiles", "seams"; "domain", "refine"; "lines"; "fit"; "shape";
                           ///< "freeze", "order", "prove"
-  double seconds = 0;  ///< wall clock
+  double seconds = 0;     ///< wall clock
   std::uint64_t samples_scanned = 0, triangles_scanned = 0, insertions = 0, removals = 0;
 };
 

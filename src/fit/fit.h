@@ -105,7 +105,7 @@ struct Fitted {
 /// kMaxScanHeight, kMaxFitSteps, triangles stay as they are. Thresholds beyond 2⁻⁶⁰ … 2⁶⁰ are not repaired, sides
 /// beyond kMaxCoordinate / kLatticeSteps samples on samples only. Fails with kCancelled only. REQUIRES: the triangles
 /// inside keep the threshold and hold valid corners; threshold >= 0 and finite; a vertex that is not fixed, and no end
-/// of a constrained edge within the rectangle, is a sample, or vertices are free.
+/// of a constrained edge within the rectangle, is a sample, or vertices are free, or the depth has no rounds.
 Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexPlaces places, const FitOptions& options);
 inline Result<Fitted> fit(const Raster& raster, Triangulation tin, const FitOptions& options) {
   return fit(raster, std::move(tin), {}, options);
