@@ -7,6 +7,8 @@
 #include <functional>
 #include <vector>
 
+#include "shape_refinement.h"
+
 namespace scarp {
 
 namespace {
@@ -68,16 +70,44 @@ Question either(const Question& first, const Question& second) {
   return [first, second] { return first() || second(); };
 }
 
+/// What keeps a run from vertices between samples beside the bound; null if nothing does.
+const char* find_lattice_obstacle(const HeightField& field, const SimplifyOptions& options) {
+  if (const char* obstacle = find_beyond_heights(field, options)) return obstacle;
+  if (field.samples == nullptr) return "needs the raster in memory as a whole";
+  if (!field.frame.is_affine()) return "needs a frame in which the grid is regular";
+  if (has_budget(options) || !options.max_error) return "needs a max error and no budget";
+  return find_strategy(options) != nullptr ? "has no strategies of insertion" : nullptr;
+}
+
 /// Whether lines can be laid.
 Result<void> check_breaklines(const HeightField& field, const SimplifyOptions& options) {
-  if (!has_breaklines(options)) return {};
-  const char* obstacle = find_beyond_heights(field, options);
-  if (obstacle == nullptr && field.samples == nullptr) obstacle = "needs the raster in memory as a whole";
-  if (obstacle == nullptr && !field.frame.is_affine()) obstacle = "needs a frame in which the grid is regular";
-  if (obstacle == nullptr && (has_budget(options) || !options.max_error)) obstacle = "needs a max error and no budget";
-  if (obstacle == nullptr && find_strategy(options) != nullptr) obstacle = "has no strategies of insertion";
+  const char* obstacle = has_breaklines(options) ? find_lattice_obstacle(field, options) : nullptr;
   if (obstacle == nullptr) return {};
   return fail(ErrorKind::kUsage, fmt::format("a mesh with breaklines {}: leave out one or the other", obstacle));
+}
+
+/// Whether shapes can be had.
+Result<void> check_shape(const HeightField& field, const SimplifyOptions& options) {
+  const ShapeGoals& shape = options.shape;
+  constexpr double kLargestAngle = 33, kLeastEdge = 0.125;
+  const auto usage = [](std::string message) { return fail(ErrorKind::kUsage, std::move(message)); };
+  if (!(shape.min_angle >= 0 && shape.min_angle <= kLargestAngle))
+    return usage(fmt::format("the minimum angle must lie in 0 … {} degrees, not {}", kLargestAngle, shape.min_angle));
+  if (shape.grade && !(*shape.grade > 0 && std::isfinite(*shape.grade)))
+    return usage(fmt::format("the grade must be a finite number above 0, not {}", *shape.grade));
+  if (!shape.any()) return {};
+  if (const char* obstacle = find_lattice_obstacle(field, options))
+    return usage(fmt::format("a mesh with goals for angles and edges {}: leave out one or the other", obstacle));
+  if (std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps)
+    return usage(
+        fmt::format("a raster of {} x {} samples is too large for goals of angles and edges: at most {} a side",
+                    field.cols, field.rows, kMaxCoordinate / kLatticeSteps));
+  const auto& a = field.frame.affine;
+  const double side = std::max(std::hypot(a[1], a[4]), std::hypot(a[2], a[5]));
+  if (shape.max_edge && !(*shape.max_edge >= kLeastEdge * side))
+    return usage(fmt::format("the max edge must be at least {} of a sample, that is {}, not {}", kLeastEdge,
+                             kLeastEdge * side, *shape.max_edge));
+  return {};
 }
 
 }  // namespace
@@ -118,6 +148,7 @@ Result<void> check_effort(const HeightField& field, const SimplifyOptions& optio
     return usage(fmt::format("more than fast effort {}: leave that out, or take fast effort", obstacle));
   }
   if (auto sound = check_breaklines(field, options); !sound) return sound;
+  if (auto sound = check_shape(field, options); !sound) return sound;
   if (options.vertices != Vertices::kFree || vertices_are_free(field, options)) return {};
   return usage(fmt::format("free vertices need {}: leave them on samples",
                            !moves_vertices(options.effort) ? "high effort or more"
@@ -136,7 +167,7 @@ bool places_are_exact(const HeightField& field, const SimplifyOptions& options, 
 }
 
 std::int32_t place_steps(const HeightField& field, const SimplifyOptions& options) {
-  if (has_breaklines(options)) return kLatticeSteps;
+  if (has_breaklines(options) || options.shape.any()) return kLatticeSteps;
   return vertices_are_free(field, options) ? kLatticeSteps / kFreeStep : 1;
 }
 
@@ -173,6 +204,7 @@ FitOptions fit_options(const HeightField& field, const SimplifyOptions& options,
   if (options.effort == Effort::kMax) fit.depth = kMaxDepth;
   fit.min_shape = options.min_shape.value_or(fit.vertices_are_free ? kUsualShape : 0);
   fit.aspect = std::hypot(a[2], a[5]) / std::hypot(a[1], a[4]);
+  if (options.shape.any()) fit.shape = shape_rule(options.shape, field.frame);
   if (!has_budget(options)) fit.is_time_up = either(options.is_time_up, options.is_enough);
   fit.goes_on = options.effort == Effort::kMax && options.is_time_up;
   return fit;

@@ -112,8 +112,8 @@ Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
   return {};
 }
 
-/// The option beside which the mesh cannot hold lines; null if there is none.
-const char* find_line_obstacle(const SimplifyArguments& given, const SimplifyPlan& plan) {
+/// The option beside which the mesh can have no vertices between samples; null if there is none.
+const char* find_lattice_obstacle(const SimplifyArguments& given, const SimplifyPlan& plan) {
   if (plan.channels.image) return "--image";
   if (!given.channels.textures.empty()) return "--texture";
   if (plan.simplify.outline_tolerance > 0) return "--outline-tolerance";
@@ -128,7 +128,7 @@ Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   const char* lines = given.lines.find_lines();
   if (lines == nullptr && plan.solid && plan.solid->is_split()) lines = "--split";
   if (lines == nullptr) return {};
-  const char* obstacle = find_line_obstacle(given, plan);
+  const char* obstacle = find_lattice_obstacle(given, plan);
   // Water is level where all corners of its triangles are: at samples and on its shore.
   const char* lakes = given.lines.find_lakes();
   if (lakes != nullptr && plan.simplify.vertices == Vertices::kFree) obstacle = "--vertices free";
@@ -136,6 +136,16 @@ Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (obstacle == nullptr) return {};
   return fail(ErrorKind::kUsage,
               fmt::format("{} and {} contradict each other: leave one of them out", lines, obstacle));
+}
+
+Result<void> plan_shape(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const Result<ShapeGoals> goals = given.shape.parse();
+  if (!goals) return tl::unexpected(goals.error());
+  plan.simplify.shape = *goals;
+  const char* goal = given.shape.find_goal();
+  const char* obstacle = goal == nullptr ? nullptr : find_lattice_obstacle(given, plan);
+  if (obstacle == nullptr) return {};
+  return fail(ErrorKind::kUsage, fmt::format("{} and {} contradict each other: leave one of them out", goal, obstacle));
 }
 
 /// The budget that was given; null if there is none.
@@ -353,6 +363,7 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
       {"--detect-flats", given.lines.flats.has_value()},
       {"--rivers", !given.lines.rivers.empty()},
       {"--solid", plan.solid.has_value()},
+      {given.shape.find_goal(), given.shape.find_goal() != nullptr},
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
       {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
       {"--normals", plan.simplify.normals},
@@ -408,8 +419,8 @@ std::string canonical_command(const SimplifyArguments& given) {
     command += canonical_option(name, *value);
   }
   command += given.solid.canonical();
-  command +=
-      given.companions.canonical() + given.lines.canonical() + given.channels.canonical() + given.strategy.canonical();
+  command += given.companions.canonical() + given.lines.canonical() + given.shape.canonical() +
+             given.channels.canonical() + given.strategy.canonical();
   if (given.strategy.asks_for_greedy()) command += " --order greedy";
   return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "");
 }
@@ -433,8 +444,8 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   const Result<int> threads = parse_threads(given.threads);
   if (!threads) return tl::unexpected(threads.error());
   plan.simplify.threads = *threads;
-  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_solid, plan_lines, plan_order,
-                          plan_effort, plan_objective, plan_outputs, plan_memory}) {
+  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_solid, plan_lines, plan_shape,
+                          plan_order, plan_effort, plan_objective, plan_outputs, plan_memory}) {
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());
   }

@@ -13,6 +13,7 @@
 #include "options.h"
 #include "output_kind.h"
 #include "scarp/simplify.h"
+#include "shape_options.h"
 #include "solid_options.h"
 #include "strategy_options.h"
 
@@ -31,6 +32,7 @@ struct SimplifyArguments {
   CompanionArguments companions;
   ChannelArguments channels;
   LineArguments lines;
+  ShapeArguments shape;
   MemoryArguments memory;
   SolidArguments solid;
   bool normals = false, uvs = false, overwrite = false, quiet = false, timing = false, json_progress = false;

@@ -138,6 +138,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["breaklines"] = describe_lines(plan.lines, outcome.lines.lines.size(), outcome.simplified);
   report["water"] = describe_lakes(outcome.waters.lakes);
   report["rivers"] = describe_rivers(outcome.waters.rivers);
+  report["shape"] = describe_shape(plan.simplify.shape, outcome.simplified);
   report["stopped_by"] = stop_name(outcome.simplified.stop);
   report["vertices"] = outcome.vertices;
   report["triangles"] = outcome.triangles;
@@ -179,6 +180,7 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
                   format_share(static_cast<double>(outcome.triangles), static_cast<double>(full)), format_count(full)));
   text += waters_lines(outcome.waters);
   text += lines_line(outcome.lines.lines.size(), outcome.simplified);
+  text += shape_line(plan.simplify.shape, outcome.simplified);
   text += solid_line(plan, outcome);
   text += describe_errors(plan, outcome);
   if (outcome.psnr) text += summary_line("PSNR", fmt::format("{:.2f} dB", *outcome.psnr));

@@ -14,6 +14,7 @@
 #include "scarp/regions.h"
 #include "scarp/result.h"
 #include "scarp/rivers.h"
+#include "scarp/shape.h"
 #include "scarp/simplify.h"
 #include "scarp/solid.h"
 #include "scarp/strategy.h"

@@ -16,6 +16,7 @@
 #include "scarp/mesh.h"
 #include "scarp/progress.h"
 #include "scarp/result.h"
+#include "scarp/shape.h"
 #include "scarp/strategy.h"
 
 namespace scarp {
@@ -64,6 +65,11 @@ struct SimplifyOptions {
   /// and those that the outline of voids forces, may lie below. Fails with kUsage with fast effort.
   /// DEFAULT: 0.1 where vertices are free, else 0.
   std::optional<double> min_shape = std::nullopt;
+  /// Angles, edge lengths and their growth, for simulations: vertices are added until they hold, then removed as far as
+  /// they still do (with a grade the other way round). Fails with kUsage without a max error, together with a budget,
+  /// channels, an outline tolerance or strategies, without the samples in memory, in frames that are not affine and for
+  /// goals out of range. DEFAULT: none.
+  ShapeGoals shape = {};
   /// Asked often, on any thread, by all efforts but kFast; once true, true for good. Then vertices are no longer
   /// removed, and the mesh so far, which keeps the promise, is the result: it depends on the time. Fails with kUsage
   /// together with a budget or fast effort. DEFAULT: never.
@@ -99,9 +105,9 @@ struct SimplifyOptions {
 
 /// A pass of simplify() and what it cost.
 struct Pass {
-  std::string_view
-      name;  ///< "search"; "arrange"; "tiles", "seams"; "domain", "refine"; "lines"; "fit"; "freeze", "order", "prove"
-  double seconds = 0;  ///< wall clock
+  std::string_view name;  ///< "search"; "arrange"; "tiles", "seams"; "domain", "refine"; "lines"; "fit"; "shape";
+                          ///< "freeze", "order", "prove"
+  double seconds = 0;     ///< wall clock
   std::uint64_t samples_scanned = 0, triangles_scanned = 0, insertions = 0, removals = 0;
 };
 
@@ -133,6 +139,7 @@ struct Simplified {
   bool is_cut_short = false;                      ///< by SimplifyOptions::is_time_up or is_enough
   std::vector<SampleEdit> edits;                  ///< by breaklines, in raster order
   std::uint64_t lines_laid = 0;                   ///< breaklines of which some part lies in the raster
+  std::optional<ShapeReport> shape;               ///< of `mesh`, where SimplifyOptions::shape asks for something
   std::vector<Pass> passes;                       ///< in the order in which they ended
   double seconds_refine = 0;                      ///< outline, refinement and freezing
   double seconds_measure = 0;                     ///< the proof
@@ -158,8 +165,8 @@ struct Simplified {
 ///     max_error − field.sample_rounding of `mesh`, positions as they are in it. Where offsets_are_exact() this holds
 ///     in exact arithmetic; else as far as measure()'s double arithmetic sees (10⁻¹² of the largest height);
 /// (2) the domain is the union of grid cells whose corners are all valid, and of half cells where three are;
-/// (3) vertices are samples, but where Simplified::vertices is kFree; triangles are counter-clockwise from above and
-///     share whole edges;
+/// (3) vertices are samples, but where Simplified::vertices is kFree, on lines, and where shapes were asked for;
+///     triangles are counter-clockwise from above and share whole edges;
 /// (4) the result depends on the field and the options only, not on threads or machine.
 ///
 /// With channels, max_error bounds the norm of HeightField::channels instead (so the heights too where height_scale is

@@ -74,7 +74,7 @@ class Rounds {
   Rounds(const Raster& raster, Triangulation tin, VertexPlaces places, const FitOptions& options)
       : raster_(raster),
         options_(options),
-        rules_{freedom_of(raster, options), {options.min_shape, options.aspect}},
+        rules_{freedom_of(raster, options), options.shape.value_or(ShapeRule{options.min_shape, options.aspect})},
         fitted_{std::move(tin), {}, std::move(places)},
         vertices_(fitted_.tin.vertex_count()),
         settled_(fitted_.tin.vertex_count(), 0),

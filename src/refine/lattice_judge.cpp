@@ -24,6 +24,7 @@ void PlaceHeights::set(Point place, float height) {
   Slot& slot = slots_[find(key(place))];
   if (slot.key == 0) ++taken_;
   slot = {key(place), height};
+  has_samples_ = has_samples_ || is_sample(place);
   if (2 * taken_ <= slots_.size()) return;
   const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(2 * slots_.size()));
   for (const Slot& moved : old) {

@@ -17,25 +17,26 @@ namespace scarp {
 class PlaceHeights {
  public:
   explicit PlaceHeights(const Raster& raster) : raster_(raster), slots_(kFewest) {}
-  /// For a place that is no sample's.
   void set(Point place, float height);
   static bool is_sample(Point place) { return place.x % kLatticeSteps == 0 && place.y % kLatticeSteps == 0; }
   /// REQUIRES: it was given, or is a sample's.
   float at(Point place) const {
-    return is_sample(place) ? raster_.at({place.x / kLatticeSteps, place.y / kLatticeSteps})
-                            : slots_[find(key(place))].height;
+    if (is_sample(place) && !has_samples_) return sample(place);
+    const Slot& slot = slots_[find(key(place))];
+    return slot.key != 0 ? slot.height : sample(place);
   }
 
  private:
-  /// An open table of which at most half is taken. No place that is given has the key 0.
+  /// An open table of which at most half is taken.
   struct Slot {
-    std::uint64_t key = 0;
+    std::uint64_t key = 0;  // of none
     float height = 0;
   };
   static constexpr std::size_t kFewest = 64;
 
+  float sample(Point place) const { return raster_.at({place.x / kLatticeSteps, place.y / kLatticeSteps}); }
   static std::uint64_t key(Point place) {
-    return std::uint64_t{static_cast<std::uint32_t>(place.y)} << 32 | static_cast<std::uint32_t>(place.x);
+    return (std::uint64_t{static_cast<std::uint32_t>(place.y)} << 32 | static_cast<std::uint32_t>(place.x)) + 1;
   }
   /// The key's slot, or the one where it would stand.
   std::size_t find(std::uint64_t key) const {
@@ -47,6 +48,7 @@ class PlaceHeights {
   Raster raster_;
   std::vector<Slot> slots_;
   std::size_t taken_ = 0;
+  bool has_samples_ = false;  ///< samples were given other heights
 };
 
 /// Corners and candidates are in kLatticeSteps. Where samples have bounds of their own (row-major, +infinity for none),

@@ -51,6 +51,12 @@ class Refinement {
   std::uint32_t gain_at(Point p) const { return gain(tin_.locate(p, tin_.last_touched())); }
   /// Inserts a given sample and rescans around it. REQUIRES: gain_at(p) > 0.
   void insert(Point p);
+  /// The same at a known location.
+  void insert_at(Point p, Triangulation::Location location);
+  /// Triangles around the vertex that was inserted last: all that this changed.
+  const std::vector<Triangle>& changed() const { return star_; }
+  /// Edges follow this rule from now on in place of the Delaunay property; it stays alive. REQUIRES: no EdgeRule.
+  void follow(FlipRule* flips) { flips_ = flips; }
 
   /// The candidates that a batch would insert now, worst first; empty if done(). A place on an edge may come twice.
   struct BatchCandidate {
@@ -73,7 +79,6 @@ class Refinement {
   Work work() const;
 
  private:
-  void insert_at(Point p, Triangulation::Location location);
   void add(Point p, Triangulation::Location location);
   void rescan(Triangle t);
   void rescan_all();
@@ -82,7 +87,8 @@ class Refinement {
   const Judge& judge_;
   Triangulation& tin_;
   Algorithm algorithm_;
-  std::unique_ptr<DataDependentRule> rule_;  // null: Delaunay
+  std::unique_ptr<DataDependentRule> rule_;  // null: Delaunay, or as flips_ wants it
+  FlipRule* flips_ = nullptr;
   std::unique_ptr<CandidateStore> candidates_;
   std::vector<Triangle> star_, unseen_;  // changed by the last insertion, by those not rescanned yet
   std::vector<std::uint8_t> changed_;
