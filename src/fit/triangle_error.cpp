@@ -197,14 +197,7 @@ std::size_t TriangleError::field_count() const { return norm_ != nullptr ? norm_
 
 Norm TriangleError::norm() const { return norm_ != nullptr ? norm_->norm() : Norm::kMax; }
 
-double TriangleError::value_at(std::size_t field, Point sample) const {
-  return norm_ != nullptr ? norm_->value_at(field, sample) : double{height_at(sample)};
-}
-
-double TriangleError::value_at(std::size_t field, const FitCorner& corner) const {
-  if (norm_ == nullptr) return corner.z;
-  return norm_->value_at(field, {corner.x / kLatticeSteps, corner.y / kLatticeSteps});
-}
+double TriangleError::norm_value_at(std::size_t field, Point sample) const { return norm_->value_at(field, sample); }
 
 double TriangleError::norm_bound_at(Point sample) const { return norm_->bound_at(sample); }
 

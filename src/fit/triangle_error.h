@@ -123,8 +123,13 @@ class TriangleError {
   /// How their errors are combined.
   Norm norm() const;
   /// Of a field at a sample, at a corner: times the field's scale, so that errors are limit_at()'s.
-  double value_at(std::size_t field, Point sample) const;
-  double value_at(std::size_t field, const FitCorner& corner) const;
+  double value_at(std::size_t field, Point sample) const {
+    return norm_ == nullptr ? double{height_at(sample)} : norm_value_at(field, sample);
+  }
+  double value_at(std::size_t field, const FitCorner& corner) const {
+    if (norm_ == nullptr) return double{corner.z};
+    return norm_value_at(field, {corner.x / kLatticeSteps, corner.y / kLatticeSteps});
+  }
 
  private:
   template <class Sums>
@@ -148,6 +153,7 @@ class TriangleError {
   template <class Tally>
   Point find_worst(const Tally& tally, std::int32_t y, std::int32_t first, std::int32_t last) const;
   double norm_bound_at(Point sample) const;
+  double norm_value_at(std::size_t field, Point sample) const;
   float bound_at(Point sample) const { return bounds_.at({first_.x + sample.x, first_.y + sample.y}); }
   double threshold_at(Point sample) const { return has_bounds() ? double{bound_at(sample)} : threshold_; }
   float in_thresholds(float error, Point sample) const;
