@@ -18,16 +18,34 @@ bool Flips::has_shape(const Patch::Quad& q) const {
   return worst >= shape_.lowered(shape_.lowered(shape_.floor, a, b, c), b, a, d);
 }
 
+bool Flips::Trial::operator==(const Trial& other) const {
+  const auto is_same = [](const FitCorner& a, const FitCorner& b) { return a.x == b.x && a.y == b.y && a.z == b.z; };
+  return limit == other.limit && std::equal(corners.begin(), corners.end(), other.corners.begin(), is_same);
+}
+
+Flips::Trial Flips::trial_of(const Patch::Quad& q, float limit) const {
+  const FitCorner &a = patch_.at(q.a), &b = patch_.at(q.b), &c = patch_.at(q.c), &d = patch_.at(q.d);
+  return q.a < q.b ? Trial{{a, b, c, d}, limit} : Trial{{b, a, d, c}, limit};
+}
+
+Flips::Trial& Flips::place_of(const Patch::Quad& q) { return refused_[(q.a * q.b + 3 * (q.c + q.d)) % kRefusals]; }
+
 bool Flips::improve(const TriangleError& error, Patch::Id face, unsigned edge) {
   if (Patch::is_border(patch_.face(face).links[edge])) return false;
   const Patch::Quad q = patch_.quad(face, edge);
   const FitCorner &a = patch_.at(q.a), &b = patch_.at(q.b), &c = patch_.at(q.c), &d = patch_.at(q.d);
   if (area2(c, a, d) <= 0 || area2(d, b, c) <= 0 || !has_shape(q)) return false;
   const float limit = (patch_.face(q.face).energy + patch_.face(q.beyond).energy) * (1 - kGain);
+  const Trial trial = trial_of(q, limit);
+  Trial& refused = place_of(q);
+  if (refused == trial) return false;
   const auto near = error.judge(c, a, d, limit);
-  if (near.kind != TriangleError::Verdict::Kind::kKeeps) return false;
-  const auto far = error.judge(d, b, c, limit - near.energy);
-  if (far.kind != TriangleError::Verdict::Kind::kKeeps) return false;
+  const bool near_keeps = near.kind == TriangleError::Verdict::Kind::kKeeps;
+  const auto far = near_keeps ? error.judge(d, b, c, limit - near.energy) : near;
+  if (far.kind != TriangleError::Verdict::Kind::kKeeps) {
+    refused = trial;
+    return false;
+  }
   patch_.flip(q);
   patch_.set_measure(q.face, near.worst, near.energy);
   patch_.set_measure(q.beyond, far.worst, far.energy);

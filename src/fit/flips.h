@@ -4,7 +4,13 @@
 // those between rings. A flip that lowers the energy Σ (error / threshold)⁸ lets edges run along ridges, and carries an
 // error that a ring cannot hold out of it. Within repair flips save up to 3 % of the triangles on samples, 1 % with
 // free vertices (bench/quality/fit.cpp, Fuji and Crater Lake at 2 to 0.5 % of the relief).
+//
+// Stars of a ring overlap, so repair asks for the same flip again and again, half of the times with nothing changed in
+// between. What was refused lately is remembered by all that it depends on, and refused at once.
 #pragma once
+
+#include <array>
+#include <cstddef>
 
 #include "fit/patch.h"
 #include "fit/rules.h"
@@ -14,19 +20,31 @@ namespace scarp {
 
 class Flips {
  public:
-  /// The patch stays alive.
+  /// For one rule of errors. The patch stays alive.
   Flips(Patch& patch, const ShapeRule& shape) : patch_(patch), shape_(shape) {}
 
   /// Flips the edge if it is no border, both new triangles are positive, of a shape that may be, and let through by the
   /// rule of `error`, and the sum of the energies falls. REQUIRES: energies of both triangles are known. Cost: at most
-  /// two scans.
+  /// two scans, none where the same was refused lately.
   bool improve(const TriangleError& error, Patch::Id face, unsigned edge);
 
  private:
+  /// A flip and what must be gained, whichever of the two triangles it is seen from.
+  struct Trial {
+    std::array<FitCorner, 4> corners;
+    float limit = 0;
+
+    bool operator==(const Trial& other) const;
+  };
+  static constexpr std::size_t kRefusals = 64;
+
   bool has_shape(const Patch::Quad& q) const;
+  Trial trial_of(const Patch::Quad& q, float limit) const;
+  Trial& place_of(const Patch::Quad& q);
 
   Patch& patch_;
   ShapeRule shape_;
+  std::array<Trial, kRefusals> refused_;  // by hash; the last one of each
 };
 
 }  // namespace scarp
