@@ -151,7 +151,7 @@ class ShapeRefiner {
     const double length2 = square(h);
     double excess = length2 / longest2_;
     if (sizes_) {
-      const double size = std::min(sizes_->at(tin_.origin(h)), sizes_->at(tin_.origin(Triangulation::next(h))));
+      const double size = std::max(sizes_->at(tin_.origin(h)), sizes_->at(tin_.origin(Triangulation::next(h))));
       excess = std::max(excess, length2 / (kGradeFactor * kGradeFactor * (1 - kSlack) * size * size));
     }
     return excess;

@@ -26,7 +26,7 @@ struct ShapeGoals {
   /// In the units of the mesh's x and y; at least an eighth of a sample. DEFAULT: none.
   std::optional<double> max_edge = std::nullopt;
   /// How fast sizes may grow, above 0: no edge is longer than 2·(s + grade·d), where s is the length of the shortest
-  /// edge at any vertex and d the way from there, along edges, to the nearer end. Lengths s below half a sample (of its
+  /// edge at any vertex and d the way from there, along edges, to its far end. Lengths s below half a sample (of its
   /// longer side) count as half a sample. DEFAULT: none.
   std::optional<double> grade = std::nullopt;
 
