@@ -151,7 +151,7 @@ class ShapeRefiner {
     const double length2 = square(h);
     double excess = length2 / longest2_;
     if (sizes_) {
-      const double size = std::min(sizes_->at(tin_.origin(h)), sizes_->at(tin_.origin(Triangulation::next(h))));
+      const double size = std::max(sizes_->at(tin_.origin(h)), sizes_->at(tin_.origin(Triangulation::next(h))));
       excess = std::max(excess, length2 / (kGradeFactor * kGradeFactor * (1 - kSlack) * size * size));
     }
     return excess;
@@ -324,9 +324,20 @@ class ShapeRefiner {
     return cavity.nearest2 >= least_ * least_ && insert_with_height(p, location);
   }
 
+  /// The raster's; in level triangles theirs, so that water is flat up to its shore.
+  float height_between(Point p, const Location& location) const {
+    const HalfEdge across = location.kind == Location::Kind::kOnEdge ? tin_.twin(location.edge) : location.edge;
+    for (const HalfEdge h : {location.edge, across}) {
+      const auto [a, b, c] = tin_.corners(h / 3);
+      const float z = heights_.at(a);
+      if (heights_.at(b) == z && heights_.at(c) == z) return z;
+    }
+    return static_cast<float>(height_between_samples(raster_, p));
+  }
+
   bool insert_with_height(Point p, const Location& location) {
     if (!PlaceHeights::is_sample(p)) {
-      const auto z = static_cast<float>(height_between_samples(raster_, p));
+      const float z = height_between(p, location);
       if (std::isnan(z)) return false;
       heights_.set(p, z);
     }

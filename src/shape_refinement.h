@@ -10,8 +10,8 @@
 //
 // How we differ: edges that no bad triangle asks for are not split, though they hold vertices in their circle; every
 // vertex has a place of its own on the raster's lattice, on samples where that is fine enough; between any two steps
-// samples that break the bound are inserted, worst first, as ever. None of these is nearer than `least distance` to
-// another for the sake of angles, edges are split for size only while they are longer than what is allowed, and samples
+// samples that break the bound are inserted, worst first, as ever. For the sake of angles none comes nearer to
+// another than 1/32 of a sample, edges are split for size only while they are longer than what is allowed, and samples
 // are finite: so it ends for any goal.
 #pragma once
 

@@ -33,8 +33,8 @@ void ShapeArguments::add_to(CLI::App& verb) {
       ->type_name("LENGTH")
       ->group(group);
   verb.add_option("--grade", grade,
-                  "How fast edges may grow: none is longer than\n2 (s + G d), d away from an edge of length s; 0.2 is "
-                  "\nmoderate")
+                  "How fast edges may grow: none is longer than\n2 (s + G d), d from its far end to an edge of\n"
+                  "length s; 0.2 is moderate")
       ->type_name("G")
       ->group(group);
 }

@@ -16,17 +16,17 @@ namespace scarp {
 /// whatever is asked. Outlines are split where they run, breaklines within a 256th of a sample of that, at their own
 /// heights. More than fast effort then removes and moves what angles, lengths and the bound can do without.
 ///
-/// Guarantees: (1) no edge is longer than max_edge; (2) grade holds, as below; (3) a triangle whose smallest angle is
-/// less than min_angle is counted in ShapeReport::below. Up to 20 degrees, and without corners of less than 60 degrees
-/// between lines or outline, theory leaves few or none; beyond 20 degrees nothing is proven, though on rasters without
-/// lines hardly any are left up to 30. Samples very near to lines leave some.
+/// Guarantees, but for the rounding of positions: (1) no edge is longer than max_edge; (2) grade holds, as below; (3) a
+/// triangle with an angle below min_angle is counted in ShapeReport::below. Up to 20 degrees, and without corners of
+/// less than 60 degrees between lines or outline, theory leaves few or none; beyond 20 degrees nothing is proven,
+/// though on rasters without lines hardly any are left up to 30. Samples very near to lines leave some.
 struct ShapeGoals {
   /// Degrees, 0 … 33. DEFAULT: 0, any.
   double min_angle = 0;
   /// In the units of the mesh's x and y; at least an eighth of a sample. DEFAULT: none.
   std::optional<double> max_edge = std::nullopt;
   /// How fast sizes may grow, above 0: no edge is longer than 2·(s + grade·d), where s is the length of the shortest
-  /// edge at any vertex and d the way from there, along edges, to the nearer end. Lengths s below half a sample (of its
+  /// edge at any vertex and d the way from there, along edges, to its far end. Lengths s below half a sample (of its
   /// longer side) count as half a sample. DEFAULT: none.
   std::optional<double> grade = std::nullopt;
 

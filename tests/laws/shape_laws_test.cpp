@@ -75,7 +75,7 @@ double worst_growth(const Mesh& mesh, double grade, double least) {
   }
   double worst = 0;
   visit_edges(mesh, [&](std::uint32_t v, std::uint32_t w) {
-    worst = std::max(worst, length(mesh, v, w) / (2 * std::min(sizes[v], sizes[w])));
+    worst = std::max(worst, length(mesh, v, w) / (2 * std::max(sizes[v], sizes[w])));
   });
   return worst;
 }
