@@ -52,6 +52,7 @@ complete -c scarp -n '__fish_seen_subcommand_from simplify' -l rivers -r -d 'Lin
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l min-angle -x -d 'No triangle has a smaller angle'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l max-edge -x -d 'No edge is longer'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l grade -x -d 'How fast edges may grow'
+complete -c scarp -n '__fish_seen_subcommand_from simplify' -l cliff -x -d 'Walls where neighbours differ by more'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l outline-tolerance -x -d 'How far the outline may move outwards'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l of -x -a 'glb obj ply stl tin 2dm vtu vtp landxml dxf gpkg svg eps dem' -d 'Format of the output'
 complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l roi -r -d 'Region of interest and its bound, FILE=M'

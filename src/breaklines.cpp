@@ -9,6 +9,7 @@
 
 #include "base/caught.h"
 #include "grid/affine_map.h"
+#include "scarp/cliffs.h"
 
 namespace scarp {
 namespace {
@@ -194,8 +195,12 @@ std::vector<Claims> collect_claims(const Arrangement& arranged, const LatticeLin
   claims.resize(points.size());
   const auto claim = [&](std::uint32_t point, std::uint32_t part, double height, double climb) {
     Claims& at = claims[point];
-    if (at.count == 0) at.climb = climb_of(raster, points[point]);
     const std::uint32_t line = lattice.line_of(part);
+    // Faults change no sample, should rounding lead one over it, and disagree with nobody.
+    const Point p = points[point];
+    const bool is_sample = p.x % kLatticeSteps == 0 && p.y % kLatticeSteps == 0;
+    if (is_fault(lines[line]) && (is_sample || at.count > 0)) return;
+    if (at.count == 0) at.climb = climb_of(raster, p);
     at.add(line, lines[line].yields, height, 2 * std::max(climb, at.climb) + std::abs(height) * 0x1p-23);
   };
   auto chain = arranged.chains.begin();
@@ -260,6 +265,28 @@ Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<do
   return lattice;
 }
 
+/// By edge: a line runs there that is no fault, or the outline. Empty without faults.
+std::vector<bool> held_edges(const Arrangement& arranged, const LatticeLines& lattice, std::span<const Line> lines) {
+  std::vector<bool> is_held;
+  if (std::none_of(lines.begin(), lines.end(), is_fault)) return is_held;
+  for (const Arrangement::Edge& edge : arranged.edges) is_held.push_back(edge.is_rigid);
+  const auto comes_before = [](const Arrangement::Edge& edge, const std::pair<std::uint32_t, std::uint32_t>& ends) {
+    return std::pair(edge.a, edge.b) < ends;
+  };
+  for (const auto& chain : arranged.chains) {
+    if (is_fault(lines[lattice.line_of(chain.line)])) continue;
+    for (const auto& stretch : arranged.stretches_of(chain)) {
+      const auto [first, last] = std::minmax(stretch.first, stretch.last);
+      for (std::uint32_t k = first; k < last; ++k) {
+        const std::pair<std::uint32_t, std::uint32_t> ends = std::minmax(arranged.passes[k], arranged.passes[k + 1]);
+        const auto at = std::lower_bound(arranged.edges.begin(), arranged.edges.end(), ends, comes_before);
+        is_held[static_cast<std::size_t>(at - arranged.edges.begin())] = true;
+      }
+    }
+  }
+  return is_held;
+}
+
 /// Lines without a chain.
 std::uint64_t count_outside(const Arrangement& arranged, const LatticeLines& lattice, std::size_t lines) {
   std::vector<bool> is_there(lines, false);
@@ -313,6 +340,7 @@ Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::arra
   const std::vector<Claims> claims = collect_claims(arranged, *lattice, lines, raster);
   Breaklines placed;
   placed.outside = count_outside(arranged, *lattice, lines.size());
+  placed.is_held = held_edges(arranged, *lattice, lines);
   placed.points = std::move(arranged.vertices);
   placed.edges = std::move(arranged.edges);
   placed.heights.reserve(placed.points.size());

@@ -27,6 +27,7 @@ struct Breaklines {
   std::vector<float> heights;
   std::vector<bool> is_hard;  ///< of each point: its height is that of lines
   std::vector<Arrangement::Edge> edges;
+  std::vector<bool> is_held;  ///< of each edge: more than faults run there; EMPTY: there are none
 
   std::uint64_t outside = 0;  ///< lines of which nothing is left
 };

@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "scarp/cliffs.h"
 #include "shape_refinement.h"
 
 namespace scarp {
@@ -82,8 +83,11 @@ const char* find_lattice_obstacle(const HeightField& field, const SimplifyOption
 /// Whether lines can be laid.
 Result<void> check_breaklines(const HeightField& field, const SimplifyOptions& options) {
   const char* obstacle = has_breaklines(options) ? find_lattice_obstacle(field, options) : nullptr;
+  if (obstacle == nullptr && has_faults(options) && options.shape.any()) obstacle = "has no goals for angles and edges";
   if (obstacle == nullptr) return {};
-  return fail(ErrorKind::kUsage, fmt::format("a mesh with breaklines {}: leave out one or the other", obstacle));
+  const auto& lines = options.breaklines.lines;
+  const char* what = std::all_of(lines.begin(), lines.end(), is_fault) ? "cliffs" : "breaklines";
+  return fail(ErrorKind::kUsage, fmt::format("a mesh with {} {}: leave out one or the other", what, obstacle));
 }
 
 /// Whether shapes can be had.
@@ -114,11 +118,16 @@ Result<void> check_shape(const HeightField& field, const SimplifyOptions& option
 
 bool has_breaklines(const SimplifyOptions& options) { return !options.breaklines.lines.empty(); }
 
+bool has_faults(const SimplifyOptions& options) {
+  return std::any_of(options.breaklines.lines.begin(), options.breaklines.lines.end(), is_fault);
+}
+
 bool has_budget(const SimplifyOptions& options) { return options.max_triangles || options.max_vertices; }
 
 const char* find_obstacle(const HeightField& field, const SimplifyOptions& options) {
   if (!options.max_error) return "needs a max error";
   if (has_budget(options)) return "has no budgets";
+  if (has_faults(options)) return "lays no faults";
   if (const char* obstacle = find_beyond_one_error(field, options)) return obstacle;
   return find_strategy(options);
 }

@@ -87,6 +87,7 @@ class Run {
     domain_ = std::move(*domain);
     follow_script();
     record(result, "domain", start);
+    if (lays_first()) return {};
     start = Clock::now();
     refinement_.emplace(criterion_.judge(), domain_->tin, options_.algorithm, options_.edges);
     const char* culprit = options_.script.empty() ? "the outline of the valid data alone needs"
@@ -122,6 +123,9 @@ class Run {
     record(result, "refine", again, refinement_->work());
     return refined;
   }
+
+  /// Whether there are faults: what refinement would do to a wall without them, it need not do with them.
+  bool lays_first() const { return lines_ != nullptr && lines_->has_starts(); }
 
   /// Inserts what the script wants; samples outside the domain cannot become vertices.
   void follow_script() {
@@ -258,8 +262,9 @@ class Run {
     if (!laid) return tl::unexpected(laid.error());
     const LatticeJudge judge(raster_, laid->heights(), criterion_.aim(), criterion_.aims());
     // What refinement left and no line touches keeps the bound.
-    Refinement refinement(judge, domain_->tin, Algorithm::kHeap, {}, Refinement::Start::kClean);
-    refinement.scan(laid->changed());
+    Refinement refinement(judge, domain_->tin, Algorithm::kHeap, {},
+                          lays_first() ? Refinement::Start::kScan : Refinement::Start::kClean);
+    if (!lays_first()) refinement.scan(laid->changed());
     const double first_error = refinement.worst_error();
     for (std::uint64_t step = 0; !refinement.done(); ++step) {
       if (refinement.is_full()) return fail(ErrorKind::kInput, kTooManyTriangles);
@@ -267,9 +272,18 @@ class Run {
           !reporter_.report("lines", error_progress(first_error, refinement.worst_error(), judge.goal()), vertices(),
                             refinement.worst_error()))
         return fail(ErrorKind::kCancelled, "cancelled while laying lines");
+      if (step % 256 == 0) {
+        if (auto fits =
+                memory_.check_mesh(0, vertices(), error_progress(first_error, refinement.worst_error(), judge.goal()));
+            !fits)
+          return fits;
+      }
       refinement.insert_worst();
     }
+    const bool may_move = options_.effort == Effort::kNormal || vertices_are_free(field_, options_);
+    if (options_.effort != Effort::kFast && may_move) laid->release_starts(domain_->tin);
     places_ = laid->places();
+    if (lays_first()) result.work = refinement.work();
     record(result, "lines", start, refinement.work());
     return {};
   }

@@ -79,10 +79,12 @@ ConstraintGraph graph_of(const Breaklines& placed) {
     }
     return numbers[point];
   };
-  for (const Arrangement::Edge& edge : placed.edges) {
+  for (std::size_t i = 0; i < placed.edges.size(); ++i) {
+    const Arrangement::Edge& edge = placed.edges[i];
     if (!edge.is_line) continue;
     const std::uint32_t a = number_of(edge.a), b = number_of(edge.b);
     graph.edges.push_back({a, b});
+    if (!placed.is_held.empty()) graph.is_start.push_back(placed.is_held[i] ? 0 : 1);
   }
   return graph;
 }
@@ -98,7 +100,7 @@ void visit_samples(Point a, Point b, const Visit& visit) {
   }
 }
 
-/// Gives the samples on hard lines the heights of the lines.
+/// Gives the samples on hard lines, but for faults, the heights of the lines.
 void edit_samples(const Breaklines& placed, std::int32_t cols, FieldLines& lines) {
   const auto edit = [&](Point p, double height) {
     float& sample =
@@ -108,8 +110,10 @@ void edit_samples(const Breaklines& placed, std::int32_t cols, FieldLines& lines
     lines.edits.push_back({p.x, p.y, sample, after});
     sample = after;
   };
-  for (const Arrangement::Edge& edge : placed.edges) {
+  for (std::size_t i = 0; i < placed.edges.size(); ++i) {
+    const Arrangement::Edge& edge = placed.edges[i];
     if (!edge.is_line || !placed.is_hard[edge.a] || !placed.is_hard[edge.b]) continue;
+    if (!placed.is_held.empty() && !placed.is_held[i]) continue;
     const double from{placed.heights[edge.a]}, to{placed.heights[edge.b]};
     visit_samples(placed.points[edge.a], placed.points[edge.b],
                   [&](Point p, double share) { edit(p, from + share * (to - from)); });

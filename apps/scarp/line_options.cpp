@@ -161,25 +161,25 @@ void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field) 
                   static_cast<std::size_t>(edit.col)] = edit.after;
 }
 
-Json describe_lines(const LineArguments& given, std::uint64_t lines, const Simplified& simplified) {
+Json describe_lines(const LineArguments& given, std::uint64_t lines, std::uint64_t laid,
+                    const std::vector<SampleEdit>& edits) {
   if (given.breaklines.empty()) return nullptr;
   return Json{{"files", given.breaklines},
               {"lines", lines},
-              {"laid", simplified.lines_laid},
-              {"edited_samples", simplified.edits.size()},
-              {"largest_edit", largest_edit(simplified.edits)}};
+              {"laid", laid},
+              {"edited_samples", edits.size()},
+              {"largest_edit", largest_edit(edits)}};
 }
 
-std::string lines_line(std::uint64_t lines, const Simplified& simplified) {
+std::string lines_line(std::uint64_t lines, std::uint64_t laid, const std::vector<SampleEdit>& edits) {
   if (lines == 0) return "";
-  std::string text = simplified.lines_laid == lines
-                         ? format_plural(lines, "line")
-                         : fmt::format("{} of {}, the others lie beside the raster",
-                                       format_count(simplified.lines_laid), format_plural(lines, "line"));
-  if (!simplified.edits.empty())
+  std::string text = laid == lines ? format_plural(lines, "line")
+                                   : fmt::format("{} of {}, the others lie beside the raster", format_count(laid),
+                                                 format_plural(lines, "line"));
+  if (!edits.empty())
     text +=
         fmt::format("; {} given their heights, changed by up to {}: the errors are those against the changed raster",
-                    format_plural(simplified.edits.size(), "sample"), format_number(largest_edit(simplified.edits)));
+                    format_plural(edits.size(), "sample"), format_number(largest_edit(edits)));
   return summary_line("breaklines", text);
 }
 

@@ -44,8 +44,9 @@ Result<void> check_frame_of_lines(const LineArguments& given, const Frame& frame
 void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field);
 
 /// The "breaklines" object of a report; null without lines.
-Json describe_lines(const LineArguments& given, std::uint64_t lines, const Simplified& simplified);
+Json describe_lines(const LineArguments& given, std::uint64_t lines, std::uint64_t laid,
+                    const std::vector<SampleEdit>& edits);
 /// Of the summary; empty without lines.
-std::string lines_line(std::uint64_t lines, const Simplified& simplified);
+std::string lines_line(std::uint64_t lines, std::uint64_t laid, const std::vector<SampleEdit>& edits);
 
 }  // namespace scarp::cli

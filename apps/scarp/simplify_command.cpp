@@ -65,6 +65,9 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
                                           outcome.companions.warnings);
   if (!waters) return tl::unexpected(std::move(waters.error()));
   outcome.waters = std::move(*waters);
+  auto cliffs = plan.cliff.add_cliffs(outcome.field.view(), outcome.asked.value_or(0), outcome.lines);
+  if (!cliffs) return tl::unexpected(std::move(cliffs.error()));
+  outcome.cliffs = std::move(*cliffs);
   outcome.heights = height_range(outcome.field);
   outcome.seconds_read = seconds_since(start);
   return {};

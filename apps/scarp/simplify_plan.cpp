@@ -124,11 +124,15 @@ const char* find_lattice_obstacle(const SimplifyArguments& given, const Simplify
 
 Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.lines = given.lines;
+  plan.cliff = given.cliff;
   if (auto checked = given.lines.check(); !checked) return checked;
-  const char* lines = given.lines.find_lines();
+  if (auto checked = given.cliff.check(given.max_error.has_value()); !checked) return checked;
+  const char* lines = given.cliff.height ? "--cliff" : given.lines.find_lines();
   if (lines == nullptr && plan.solid && plan.solid->is_split()) lines = "--split";
   if (lines == nullptr) return {};
   const char* obstacle = find_lattice_obstacle(given, plan);
+  if (given.cliff.height && given.shape.find_goal() != nullptr) obstacle = given.shape.find_goal();
+  if (given.cliff.height && plan.solid && plan.solid->is_split()) obstacle = "--split";
   // Water is level where all corners of its triangles are: at samples and on its shore.
   const char* lakes = given.lines.find_lakes();
   if (lakes != nullptr && plan.simplify.vertices == Vertices::kFree) obstacle = "--vertices free";
@@ -364,6 +368,7 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
       {"--rivers", !given.lines.rivers.empty()},
       {"--solid", plan.solid.has_value()},
       {given.shape.find_goal(), given.shape.find_goal() != nullptr},
+      {"--cliff", given.cliff.height.has_value()},
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
       {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
       {"--normals", plan.simplify.normals},
@@ -419,8 +424,8 @@ std::string canonical_command(const SimplifyArguments& given) {
     command += canonical_option(name, *value);
   }
   command += given.solid.canonical();
-  command += given.companions.canonical() + given.lines.canonical() + given.shape.canonical() +
-             given.channels.canonical() + given.strategy.canonical();
+  command += given.companions.canonical() + given.lines.canonical() + given.cliff.canonical() +
+             given.shape.canonical() + given.channels.canonical() + given.strategy.canonical();
   if (given.strategy.asks_for_greedy()) command += " --order greedy";
   return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "");
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "channels.h"
+#include "cliff_options.h"
 #include "companions.h"
 #include "line_options.h"
 #include "memory.h"
@@ -32,6 +33,7 @@ struct SimplifyArguments {
   CompanionArguments companions;
   ChannelArguments channels;
   LineArguments lines;
+  CliffArguments cliff;
   ShapeArguments shape;
   MemoryArguments memory;
   SolidArguments solid;
@@ -48,6 +50,7 @@ struct SimplifyPlan {
   SimplifyOptions simplify;  ///< without max_error, which may depend on the relief, and what CompanionArguments name
   CompanionArguments companions;
   LineArguments lines;
+  CliffArguments cliff;
   ChannelPlan channels;
   NodataPolicy policy = NodataPolicy::kHole;
   double fill_distance = 100;

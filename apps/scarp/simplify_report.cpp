@@ -135,9 +135,11 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   }
   report["strategy"]["roi"] = plan.companions.roi.empty() ? Json(nullptr) : Json(plan.companions.roi);
   report["strategy"]["falloff"] = or_null(plan.companions.falloff);
-  report["breaklines"] = describe_lines(plan.lines, outcome.lines.lines.size(), outcome.simplified);
+  report["breaklines"] =
+      describe_lines(plan.lines, outcome.line_count(), outcome.lines_laid(), outcome.simplified.edits);
   report["water"] = describe_lakes(outcome.waters.lakes);
   report["rivers"] = describe_rivers(outcome.waters.rivers);
+  report["cliffs"] = describe_cliffs(plan.cliff, outcome.cliffs);
   report["shape"] = describe_shape(plan.simplify.shape, outcome.simplified);
   report["stopped_by"] = stop_name(outcome.simplified.stop);
   report["vertices"] = outcome.vertices;
@@ -179,7 +181,8 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
       fmt::format("{}, {} of the full grid's {}", format_count(outcome.triangles),
                   format_share(static_cast<double>(outcome.triangles), static_cast<double>(full)), format_count(full)));
   text += waters_lines(outcome.waters);
-  text += lines_line(outcome.lines.lines.size(), outcome.simplified);
+  text += lines_line(outcome.line_count(), outcome.lines_laid(), outcome.simplified.edits);
+  text += cliffs_line(outcome.cliffs);
   text += shape_line(plan.simplify.shape, outcome.simplified);
   text += solid_line(plan, outcome);
   text += describe_errors(plan, outcome);

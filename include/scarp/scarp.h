@@ -1,6 +1,7 @@
 // The whole door.
 #pragma once
 
+#include "scarp/cliffs.h"
 #include "scarp/frame.h"
 #include "scarp/generate.h"
 #include "scarp/height_field.h"

@@ -47,27 +47,46 @@ std::vector<Vertex> corners_of(const Triangulation& tin) {
   return corners;
 }
 
+bool is_start(const ConstraintGraph& graph, std::size_t edge) {
+  return !graph.is_start.empty() && graph.is_start[edge] != 0;
+}
+
+/// Points with an edge that stays.
+std::vector<bool> held_points(const ConstraintGraph& graph) {
+  std::vector<bool> is_held(graph.points.size(), false);
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    if (is_start(graph, i)) continue;
+    for (const std::uint32_t end : graph.edges[i]) is_held[end] = true;
+  }
+  return is_held;
+}
+
 }  // namespace
+
+bool ConstraintGraph::has_starts() const { return std::find(is_start.begin(), is_start.end(), 1) != is_start.end(); }
 
 Result<ConstrainedMesh> ConstrainedMesh::lay(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph) {
   ConstrainedMesh mesh(raster, tin);
   const std::vector<Vertex> corners = corners_of(tin);
   tin.scale(kLatticeSteps);
   std::vector<Vertex> vertices(graph.points.size(), kNone);
+  const std::vector<bool> is_held = held_points(graph);
   for (const std::uint32_t i : nearby_order(graph.points)) {
     const Point p = graph.points[i];
     const auto location = tin.locate(p, tin.last_touched());
     if (!is_in_domain(tin, location)) continue;
     if (!PlaceHeights::is_sample(p)) mesh.heights_.set(p, graph.heights[i]);
     vertices[i] = tin.insert(p, location);
-    mesh.fixed_.push_back(vertices[i]);
+    (is_held[i] ? mesh.fixed_ : mesh.starts_).push_back(vertices[i]);
   }
   std::vector<Point> begins;
   begins.reserve(graph.edges.size());
   for (const auto& edge : graph.edges) begins.push_back(graph.points[edge[0]]);
   for (const std::uint32_t i : nearby_order(begins)) {
     const auto& [a, b] = graph.edges[i];
-    if (vertices[a] == kNone || vertices[b] == kNone || tin.constrain(vertices[a], vertices[b])) continue;
+    if (vertices[a] == kNone || vertices[b] == kNone) continue;
+    if (is_start(graph, i)) mesh.start_edges_.push_back({vertices[a], vertices[b]});
+    if (tin.constrain(vertices[a], vertices[b])) continue;
     const Point p = graph.points[a], q = graph.points[b];
     return fail(
         ErrorKind::kInternal,
@@ -81,12 +100,22 @@ Result<ConstrainedMesh> ConstrainedMesh::lay(const Raster& raster, Triangulation
   return mesh;
 }
 
+void ConstrainedMesh::release_starts(Triangulation& tin) {
+  for (const auto& [a, b] : start_edges_) {
+    const HalfEdge h = tin.find_edge(a, b);
+    // Where a sample lies on the edge, it is two by now: they stay.
+    if (h != kNone && tin.twin(h) != kNone) tin.release(h);
+  }
+  starts_.clear();
+}
+
 VertexPlaces ConstrainedMesh::places() const {
   VertexPlaces places{kLatticeSteps, {}, {}};
   places.heights.reserve(tin_->vertex_count());
   for (Vertex v = 0; v < tin_->vertex_count(); ++v) places.heights.push_back(heights_.at(tin_->point(v)));
   places.fixed.assign(tin_->vertex_count(), 0);
   for (const Vertex v : fixed_) places.fixed[v] = 1;
+  for (const Vertex v : starts_) places.fixed[v] = 1;
   return places;
 }
 

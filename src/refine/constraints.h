@@ -18,6 +18,9 @@ struct ConstraintGraph {
   std::vector<Point> points;                        ///< in kLatticeSteps, in the raster, each once
   std::vector<float> heights;                       ///< of the points; what a sample has counts before it
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< indices of points
+  std::vector<std::uint8_t> is_start;  ///< by edge: 1 where the mesh need not hold it in the end; EMPTY: all stay
+
+  bool has_starts() const;
 };
 
 /// The workbench with lines in it.
@@ -31,8 +34,11 @@ class ConstrainedMesh {
 
   /// Triangles that are others than before, ascending.
   const std::vector<Triangle>& changed() const { return changed_; }
+  /// Gives edges free that are but a start, and vertices that no other edge of the graph has.
+  void release_starts(Triangulation& tin);
+
   const PlaceHeights& heights() const { return heights_; }
-  /// Of all vertices that `tin` has by now: heights, and which of them belong to the graph.
+  /// Of all vertices that `tin` has by now: heights, and which of them belong to the graph and are not released.
   VertexPlaces places() const;
 
  private:
@@ -40,7 +46,8 @@ class ConstrainedMesh {
 
   const Triangulation* tin_;
   PlaceHeights heights_;
-  std::vector<Vertex> fixed_;
+  std::vector<Vertex> fixed_, starts_;  // of starts only, the latter
+  std::vector<std::array<Vertex, 2>> start_edges_;
   std::vector<Triangle> changed_;
 };
 

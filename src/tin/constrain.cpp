@@ -82,6 +82,10 @@ bool Triangulation::constrain(Vertex a, Vertex b) {
   return true;
 }
 
+void Triangulation::release(HalfEdge h) {
+  for (const HalfEdge side : {h, twins_[h]}) flags_[side / 3] &= static_cast<std::uint8_t>(~(1u << side % 3));
+}
+
 void Triangulation::force_edge(Vertex a, Vertex b, const std::vector<HalfEdge>& crossed) {
   const Point pa = points_[a], pb = points_[b];
   using Edge = std::pair<Vertex, Vertex>;

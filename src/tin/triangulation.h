@@ -107,6 +107,9 @@ class Triangulation {
   /// chain. Returns false, without change, if it would cross a constrained edge. REQUIRES: a != b.
   bool constrain(Vertex a, Vertex b);
 
+  /// Takes the constraint off an edge, on both sides. REQUIRES: it is no side of the rectangle.
+  void release(HalfEdge h);
+
   /// A triangle at the vertex that was inserted last: a good hint for locate().
   Triangle last_touched() const { return last_; }
 

@@ -1,0 +1,29 @@
+// --cliff: walls that the mesh holds by two lines.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "options.h"
+#include "report.h"
+#include "scarp/cliffs.h"
+
+namespace scarp::cli {
+
+struct CliffArguments {
+  Given height;
+
+  void add_to(CLI::App& verb);
+  Result<void> check(bool has_max_error) const;
+  std::string canonical() const { return canonical_option("--cliff", height); }
+  /// Adds the lines of walls to `lines`, around those that are there. Nothing without --cliff.
+  Result<std::optional<Cliffs>> add_cliffs(const HeightField& field, double max_error, LineConstraints& lines) const;
+};
+
+/// The "cliffs" object of a report; null without --cliff.
+Json describe_cliffs(const CliffArguments& given, const std::optional<Cliffs>& cliffs);
+/// Of the summary; empty without --cliff.
+std::string cliffs_line(const std::optional<Cliffs>& cliffs);
+
+}  // namespace scarp::cli
