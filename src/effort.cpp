@@ -59,20 +59,23 @@ const char* find_need_of_effort(const SimplifyOptions& options) {
 }
 
 /// Whether lines can be laid.
-Result<void> check_breaklines(const HeightField& field, const SimplifyOptions& options) {
-  if (!has_breaklines(options)) return {};
+Result<void> check_lines(const HeightField& field, const SimplifyOptions& options) {
+  if (!has_lines(options)) return {};
   const char* obstacle = find_beyond_heights(field, options);
   if (obstacle == nullptr && field.samples == nullptr) obstacle = "needs the raster in memory as a whole";
   if (obstacle == nullptr && !field.frame.is_affine()) obstacle = "needs a frame in which the grid is regular";
   if (obstacle == nullptr && (has_budget(options) || !options.max_error)) obstacle = "needs a max error and no budget";
   if (obstacle == nullptr && find_strategy(options) != nullptr) obstacle = "has no strategies of insertion";
   if (obstacle == nullptr) return {};
-  return fail(ErrorKind::kUsage, fmt::format("a mesh with breaklines {}: leave out one or the other", obstacle));
+  return fail(ErrorKind::kUsage, fmt::format("a mesh with {} {}: leave out one or the other",
+                                             options.cutline.rings.empty() ? "breaklines" : "a cutline", obstacle));
 }
 
 }  // namespace
 
-bool has_breaklines(const SimplifyOptions& options) { return !options.breaklines.lines.empty(); }
+bool has_lines(const SimplifyOptions& options) {
+  return !options.breaklines.lines.empty() || !options.cutline.rings.empty();
+}
 
 bool has_budget(const SimplifyOptions& options) { return options.max_triangles || options.max_vertices; }
 
@@ -107,7 +110,7 @@ Result<void> check_effort(const HeightField& field, const SimplifyOptions& optio
   } else if (const char* obstacle = find_fit_obstacle(field, options)) {
     return usage(fmt::format("more than fast effort {}: leave that out, or take fast effort", obstacle));
   }
-  if (auto sound = check_breaklines(field, options); !sound) return sound;
+  if (auto sound = check_lines(field, options); !sound) return sound;
   if (options.vertices != Vertices::kFree || vertices_are_free(field, options)) return {};
   return usage(fmt::format("free vertices need {}: leave them on samples", moves_vertices(options.effort)
                                                                                ? "a frame in which the grid is regular"
@@ -124,7 +127,7 @@ bool places_are_exact(const HeightField& field, const SimplifyOptions& options, 
 }
 
 std::int32_t place_steps(const HeightField& field, const SimplifyOptions& options) {
-  if (has_breaklines(options)) return kLatticeSteps;
+  if (has_lines(options)) return kLatticeSteps;
   return vertices_are_free(field, options) ? kLatticeSteps / kFreeStep : 1;
 }
 

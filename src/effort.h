@@ -10,7 +10,7 @@
 namespace scarp {
 
 bool has_budget(const SimplifyOptions& options);
-bool has_breaklines(const SimplifyOptions& options);
+bool has_lines(const SimplifyOptions& options);
 
 /// What keeps a run from the dominant order; null if nothing does.
 const char* find_obstacle(const HeightField& field, const SimplifyOptions& options);

@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "breaklines.h"
+#include "field_cut.h"
+#include "geom/polygon_cover.h"
 #include "refine/samples.h"
 
 namespace scarp {
@@ -22,11 +24,13 @@ class SoftLine {
         determinant_(affine[1] * affine[5] - affine[2] * affine[4]),
         tolerance_(tolerance) {}
 
-  Line follow(const Line& line) const {
+  /// `is_clipped`: the sides of the raster, along which it may run, are followed by others.
+  Line follow(const Line& line, bool is_clipped = false) const {
     Line result = line;
     result.points.clear();
     for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
       result.points.push_back(line.points[k]);
+      if (is_clipped && is_along_side(line.points[k], line.points[k + 1])) continue;
       if (std::isnan(line.points[k][2]) || std::isnan(line.points[k + 1][2]))
         add_between(line.points[k], line.points[k + 1], result.points);
     }
@@ -40,11 +44,25 @@ class SoftLine {
   static Place between(const Place& a, const Place& b, double share) {
     return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), std::numeric_limits<double>::quiet_NaN()};
   }
+  /// Column and row.
+  std::array<double, 2> sample_of(const Place& place) const {
+    const double x = place[0] - affine_[0], y = place[1] - affine_[3];
+    return {(affine_[5] * x - affine_[2] * y) / determinant_, (affine_[1] * y - affine_[4] * x) / determinant_};
+  }
+  /// Whether both are on the same side of the raster's rectangle, up to rounding.
+  bool is_along_side(const Place& a, const Place& b) const {
+    const auto p = sample_of(a), q = sample_of(b);
+    const std::array<double, 2> last{raster_.cols - 1.0, raster_.rows - 1.0};
+    for (const std::size_t axis : {0, 1}) {
+      for (const double side : {0.0, last[axis]}) {
+        if (std::max(std::abs(p[axis] - side), std::abs(q[axis] - side)) < 0.5 / kLatticeSteps) return true;
+      }
+    }
+    return false;
+  }
   /// The raster's surface there; NaN beyond it.
   double height_at(const Place& place) const {
-    const double x = place[0] - affine_[0], y = place[1] - affine_[3];
-    const double col = (affine_[5] * x - affine_[2] * y) / determinant_,
-                 row = (affine_[1] * y - affine_[4] * x) / determinant_;
+    const auto [col, row] = sample_of(place);
     if (!(col >= 0 && row >= 0 && col <= raster_.cols - 1 && row <= raster_.rows - 1)) return NAN;
     return height_between_samples(raster_, {static_cast<std::int32_t>(std::lround(col * kLatticeSteps)),
                                             static_cast<std::int32_t>(std::lround(row * kLatticeSteps))});
@@ -100,8 +118,67 @@ class SoftLine {
   double determinant_, tolerance_;
 };
 
-/// The edges of lines, and the points that they need.
-ConstraintGraph graph_of(const Breaklines& placed) {
+/// Edges among those that lines are part of.
+std::vector<GraphEdge> edges_of_lines(const Breaklines& placed) {
+  std::vector<GraphEdge> edges;
+  for (const Arrangement::Edge& edge : placed.edges) {
+    if (edge.is_line) edges.push_back({edge.a, edge.b});
+  }
+  return edges;
+}
+
+/// What lines pass, those from number `first` up to `end`.
+std::vector<PolygonEdge> passes_of(const Breaklines& placed, std::span<const Line> lines, std::size_t first,
+                                   std::size_t end) {
+  std::vector<PolygonEdge> passes;
+  for (const auto& chain : placed.chains) {
+    if (chain.line < first || chain.line >= end) continue;
+    const auto points = placed.points_of(chain);
+    for (std::size_t k = 0; k + 1 < points.size(); ++k)
+      passes.push_back(
+          {lines[chain.line].polygon, {std::min(points[k], points[k + 1]), std::max(points[k], points[k + 1])}});
+  }
+  return passes;
+}
+
+/// On the border of the raster's rectangle.
+bool is_on_side(Point p, Point q, const Raster& raster) {
+  const std::int32_t right = (raster.cols - 1) * kLatticeSteps, bottom = (raster.rows - 1) * kLatticeSteps;
+  return (p.x == q.x && (p.x == 0 || p.x == right)) || (p.y == q.y && (p.y == 0 || p.y == bottom));
+}
+
+/// Which edges become part of the mesh, and where the surface is cut.
+struct KeptEdges {
+  std::vector<GraphEdge> edges;
+  std::vector<GraphEdge> walls;  ///< of these, those that the surface ends at, which is on their positive side
+  std::vector<std::array<Point, 2>>
+      outline;  ///< of what stays: the walls, and where it ends at the sides of the raster
+};
+
+/// Edges of breaklines in and around polygons, and the outline of the polygons' union.
+KeptEdges cut_edges(const Breaklines& placed, std::span<const Line> lines, std::size_t breaklines,
+                    const Raster& raster) {
+  const std::vector<GraphEdge> edges = edges_of_lines(placed);
+  const std::vector<EdgeCover> covers =
+      cover_edges(placed.points, edges, passes_of(placed, lines, breaklines, lines.size()));
+  std::vector<bool> is_breakline(edges.size(), false);
+  for (const PolygonEdge& pass : passes_of(placed, lines, 0, breaklines))
+    is_breakline[static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), pass.edge) - edges.begin())] =
+        true;
+  KeptEdges kept;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto [a, b] = edges[i];
+    const bool before = covers[i].positive > 0, after = covers[i].negative > 0;
+    if (before != after) kept.outline.push_back({placed.points[a], placed.points[b]});
+    const bool is_wall = before != after && !is_on_side(placed.points[a], placed.points[b], raster);
+    if (is_wall) kept.walls.push_back(before ? edges[i] : GraphEdge{b, a});
+    if (is_wall || (is_breakline[i] && (before || after))) kept.edges.push_back(edges[i]);
+  }
+  return kept;
+}
+
+/// The edges and the points that they need.
+ConstraintGraph graph_of(const Breaklines& placed, const KeptEdges& kept) {
   ConstraintGraph graph;
   std::vector<std::uint32_t> numbers(placed.points.size(), kNone);
   const auto number_of = [&](std::uint32_t point) {
@@ -112,11 +189,14 @@ ConstraintGraph graph_of(const Breaklines& placed) {
     }
     return numbers[point];
   };
-  for (const Arrangement::Edge& edge : placed.edges) {
-    if (!edge.is_line) continue;
-    const std::uint32_t a = number_of(edge.a), b = number_of(edge.b);
-    graph.edges.push_back({a, b});
+  for (const auto& [a, b] : kept.edges) {
+    const std::uint32_t from = number_of(a), to = number_of(b);
+    graph.edges.push_back({from, to});
   }
+  if (kept.outline.empty()) return graph;
+  graph.cut.emplace();
+  for (const auto& [a, b] : kept.walls) graph.cut->walls.push_back({numbers[a], numbers[b]});
+  graph.cut->outline = kept.outline;
   return graph;
 }
 
@@ -157,6 +237,22 @@ void edit_samples(const Breaklines& placed, std::int32_t cols, FieldLines& lines
   });
 }
 
+/// Makes void what lies well beyond the cut, and tells which samples it takes away.
+Result<void> cut_samples(const Raster& raster, FieldLines& lines) {
+  if (!lines.graph.cut) return fail(ErrorKind::kInput, "the cutline lies beside the raster: nothing would be left");
+  SurfaceCut& cut = *lines.graph.cut;
+  cut.samples = sides_of_samples(cut.outline, raster.cols, raster.rows);
+  for (std::size_t i = 0; i < lines.samples.size(); ++i)
+    lines.valid += std::isnan(lines.samples[i]) ? 0 : 1;
+  if (!void_beyond(cut.outline, cut.samples, raster.cols, raster.rows, lines.samples))
+    return fail(ErrorKind::kInput, "no part of the raster's surface lies in the cutline: it holds voids only");
+  std::erase_if(lines.edits, [&](const SampleEdit& edit) {
+    return cut.samples[static_cast<std::size_t>(edit.row) * static_cast<std::size_t>(raster.cols) +
+                       static_cast<std::size_t>(edit.col)] == CutSide::kBeyond;
+  });
+  return {};
+}
+
 }  // namespace
 
 HeightField FieldLines::apply(const HeightField& field) const {
@@ -166,21 +262,34 @@ HeightField FieldLines::apply(const HeightField& field) const {
   return edited;
 }
 
-Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, double tolerance) {
+Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
+                                 double tolerance) {
   const auto cleaned = Samples::of(field);
   if (!cleaned) return tl::unexpected(cleaned.error());
   const Raster raster = cleaned->raster();
-  const SoftLine soft(raster, lines.affine, tolerance);
+  const bool is_cut = !cutline.rings.empty();
+  const std::array<double, 6>& affine = is_cut ? cutline.affine : lines.affine;
+  const SoftLine soft(raster, affine, tolerance);
   std::vector<Line> followed;
-  followed.reserve(lines.lines.size());
+  followed.reserve(lines.lines.size() + cutline.rings.size());
   for (const Line& line : lines.lines) followed.push_back(soft.follow(line));
-  const auto placed = place_breaklines(followed, lines.affine, raster, trace_outline(raster), lines.conflict);
+  for (const Line& ring : clip_rings(cutline, raster.cols, raster.rows)) followed.push_back(soft.follow(ring, true));
+  const auto placed = place_breaklines(followed, affine, raster, trace_outline(raster), lines.conflict);
   if (!placed) return tl::unexpected(placed.error());
   FieldLines result;
-  result.graph = graph_of(*placed);
   result.samples.assign(raster.samples, raster.row(raster.rows));
   edit_samples(*placed, raster.cols, result);
-  result.laid = lines.lines.size() - placed->outside;
+  std::vector<bool> is_laid(lines.lines.size(), false);
+  for (const auto& chain : placed->chains) {
+    if (chain.line < is_laid.size()) is_laid[chain.line] = true;
+  }
+  result.laid = static_cast<std::uint64_t>(std::count(is_laid.begin(), is_laid.end(), true));
+  if (!is_cut) {
+    result.graph = graph_of(*placed, {edges_of_lines(*placed), {}, {}});
+    return result;
+  }
+  result.graph = graph_of(*placed, cut_edges(*placed, followed, lines.lines.size(), raster));
+  if (auto cut = cut_samples(raster, result); !cut) return tl::unexpected(cut.error());
   return result;
 }
 

@@ -23,9 +23,10 @@ double largest_edit(const std::vector<SampleEdit>& edits) {
   return largest;
 }
 
-/// Of all files, in the CRS of the raster.
-Result<std::vector<Line>> read_files(const std::vector<std::string>& files, const ReadLinesOptions& options,
-                                     std::vector<std::string>& warnings) {
+}  // namespace
+
+Result<std::vector<Line>> read_line_files(const std::vector<std::string>& files, const ReadLinesOptions& options,
+                                          std::vector<std::string>& warnings) {
   std::vector<Line> lines;
   std::uint32_t polygons = 0;
   for (const std::string& file : files) {
@@ -40,8 +41,6 @@ Result<std::vector<Line>> read_files(const std::vector<std::string>& files, cons
   }
   return lines;
 }
-
-}  // namespace
 
 void LineArguments::add_to(CLI::App& verb) {
   const char* group = "Breaklines";
@@ -114,7 +113,7 @@ Result<LineConstraints> LineArguments::read(const RasterInfo& raster, int rows, 
   options.z_field = z_field.value_or("");
   options.ignore_z = are_soft;
   options.progress = progress;
-  auto lines = read_files(breaklines, options, warnings);
+  auto lines = read_line_files(breaklines, options, warnings);
   if (!lines) return tl::unexpected(std::move(lines.error()));
   constraints.lines = std::move(*lines);
   return constraints;
@@ -128,7 +127,7 @@ Result<std::vector<Lake>> flatten_water(const LineArguments& given, const Progre
   reading.crs = field.info.crs;
   reading.ignore_z = true;
   reading.progress = progress;
-  const auto polygons = read_files(given.water, reading, warnings);
+  const auto polygons = read_line_files(given.water, reading, warnings);
   if (!polygons) return tl::unexpected(polygons.error());
   WaterOptions options;
   options.affine = lines.affine;

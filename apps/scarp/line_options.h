@@ -31,6 +31,10 @@ struct LineArguments {
                                std::vector<std::string>& warnings) const;
 };
 
+/// The lines of all files; polygons are counted on from file to file. Sentences for the user in `warnings`.
+Result<std::vector<Line>> read_line_files(const std::vector<std::string>& files, const ReadLinesOptions& options,
+                                          std::vector<std::string>& warnings);
+
 /// Makes the lakes of --water flat, and their shores lines of the mesh.
 Result<std::vector<Lake>> flatten_water(const LineArguments& given, const ProgressCallback& progress,
                                         OwnedHeightField& field, LineConstraints& lines,

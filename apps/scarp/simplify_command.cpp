@@ -65,6 +65,9 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
       flatten_water(plan.lines, progress, outcome.field, outcome.lines, outcome.companions.warnings);
   if (!lakes) return tl::unexpected(std::move(lakes.error()));
   outcome.lakes = std::move(*lakes);
+  Result<Cut> cut = read_cut(plan.cut, outcome.as_read, progress, outcome.field, outcome.companions.warnings);
+  if (!cut) return tl::unexpected(std::move(cut.error()));
+  outcome.cut = std::move(*cut);
   outcome.heights = height_range(outcome.field);
   outcome.seconds_read = seconds_since(start);
   return {};
@@ -101,6 +104,7 @@ Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& pro
   JudgeOptions options;
   options.exceptions = &exceptions;
   options.keep_errors = !channels.empty() || (companions.ignores_samples() && companions.has_weights());
+  options.cutline = outcome.cut.judged();
   options.topology = false;
   options.threads = plan.simplify.threads;
   options.progress = progress;
@@ -146,6 +150,7 @@ Result<void> check_promise(const Outcome& outcome) {
 /// be so.
 Result<void> judge_topology(const ProgressCallback& progress, int threads, Outcome& outcome) {
   MeasureOptions options;
+  options.cutline = outcome.cut.judged();
   options.threads = threads;
   options.progress = progress;
   const Clock::time_point start = Clock::now();
@@ -198,6 +203,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   options.tolerance = outcome.companions.tolerance;
   options.script = outcome.companions.script;
   options.breaklines = outcome.lines;
+  options.cutline = outcome.cut.cutline;
   options.progress = display.callback();
   if (plan->memory) options.memory_taken = bytes_taken(outcome.field, *plan->memory);
   Result<Simplified> simplified = simplify(outcome.view(), options);

@@ -52,6 +52,7 @@ void SimplifyArguments::add_to(CLI::App& verb) {
   companions.add_to(verb,
                     "Lines 's COL ROW' (becomes a vertex), 'i COL ROW' or\n'u COL ROW' (never does, and has no bound)");
   lines.add_to(verb);
+  cut.add_to(verb);
   channels.add_to(verb);
   strategy.add_to(verb);
 

@@ -7,6 +7,7 @@
 
 #include "channels.h"
 #include "companions.h"
+#include "cutline_options.h"
 #include "judge.h"
 #include "scarp/height_field.h"
 #include "simplify_run.h"
@@ -22,6 +23,7 @@ struct Outcome : SimplifyRun {
   Companions companions;
   LineConstraints lines;  ///< with the shores of lakes
   std::vector<Lake> lakes;
+  Cut cut;
   std::uint64_t filled = 0;
   std::optional<LargestError> bounded;  ///< where samples are ignored: of the others; images: norms
   std::optional<double> bounded_goal;   ///< where a script ignores them: of what the goal bounds

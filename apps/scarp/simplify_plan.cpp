@@ -124,8 +124,12 @@ const char* find_line_obstacle(const SimplifyArguments& given, const SimplifyPla
 
 Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.lines = given.lines;
+  plan.cut = given.cut;
   if (auto checked = given.lines.check(); !checked) return checked;
+  if (auto checked = given.cut.check(); !checked) return checked;
   const char* lines = given.lines.find_lines();
+  const bool is_cut = lines == nullptr && given.cut.find_cut() != nullptr;
+  if (is_cut) lines = given.cut.find_cut();
   if (lines == nullptr) return {};
   const char* obstacle = find_line_obstacle(given, plan);
   // Water is level where all corners of its triangles are: at samples and on its shore.
@@ -133,7 +137,8 @@ Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (!given.lines.water.empty()) plan.simplify.vertices = Vertices::kSamples;
   if (obstacle == nullptr) return {};
   return fail(ErrorKind::kUsage,
-              fmt::format("{} and {} contradict each other: leave one of them out", lines, obstacle));
+              fmt::format("{} and {} contradict each other: leave one of them out{}", lines, obstacle,
+                          is_cut ? ", or cut at cells of the grid with --mask-outside" : ""));
 }
 
 /// The budget that was given; null if there is none.
@@ -299,6 +304,7 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
       {"--max-points", given.max_points.has_value()},
       {"--breaklines", !given.lines.breaklines.empty()},
       {"--water", !given.lines.water.empty()},
+      {"--cutline", !given.cut.files.empty()},
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
       {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
       {"--normals", plan.simplify.normals},
@@ -353,8 +359,8 @@ std::string canonical_command(const SimplifyArguments& given) {
   for (const auto& [name, value] : options) {
     command += canonical_option(name, *value);
   }
-  command +=
-      given.companions.canonical() + given.lines.canonical() + given.channels.canonical() + given.strategy.canonical();
+  command += given.companions.canonical() + given.lines.canonical() + given.cut.canonical() +
+             given.channels.canonical() + given.strategy.canonical();
   if (given.strategy.asks_for_greedy()) command += " --order greedy";
   return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "");
 }

@@ -8,6 +8,7 @@
 
 #include "channels.h"
 #include "companions.h"
+#include "cutline_options.h"
 #include "line_options.h"
 #include "memory.h"
 #include "options.h"
@@ -30,6 +31,7 @@ struct SimplifyArguments {
   CompanionArguments companions;
   ChannelArguments channels;
   LineArguments lines;
+  CutlineArguments cut;
   MemoryArguments memory;
   bool normals = false, uvs = false, overwrite = false, quiet = false, timing = false, json_progress = false;
 
@@ -44,6 +46,7 @@ struct SimplifyPlan {
   SimplifyOptions simplify;  ///< without max_error, which may depend on the relief, and what CompanionArguments name
   CompanionArguments companions;
   LineArguments lines;
+  CutlineArguments cut;
   ChannelPlan channels;
   NodataPolicy policy = NodataPolicy::kHole;
   double fill_distance = 100;

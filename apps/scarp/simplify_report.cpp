@@ -137,6 +137,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["strategy"]["falloff"] = or_null(plan.companions.falloff);
   report["breaklines"] = describe_lines(plan.lines, outcome.lines.lines.size(), outcome.simplified);
   report["water"] = describe_water(outcome.lakes);
+  report["cutline"] = describe_cut(plan.cut, outcome.cut, outcome.simplified.cut_off);
   report["stopped_by"] = stop_name(outcome.simplified.stop);
   report["vertices"] = outcome.vertices;
   report["triangles"] = outcome.triangles;
@@ -177,6 +178,7 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
       fmt::format("{}, {} of the full grid's {}", format_count(outcome.triangles),
                   format_share(static_cast<double>(outcome.triangles), static_cast<double>(full)), format_count(full)));
   text += water_line(outcome.lakes);
+  if (!plan.cut.files.empty()) text += summary_line("cutline", cut_words(outcome.cut, outcome.simplified.cut_off));
   text += lines_line(outcome.lines.lines.size(), outcome.simplified);
   text += solid_line(plan, outcome);
   text += describe_errors(plan, outcome);

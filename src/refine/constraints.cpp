@@ -71,6 +71,9 @@ Result<ConstrainedMesh> ConstrainedMesh::lay(const Raster& raster, Triangulation
         ErrorKind::kInternal,
         fmt::format("the line from ({}, {}) to ({}, {}) crosses the outline between two samples", p.x, p.y, q.x, q.y));
   }
+  if (graph.cut) {
+    if (auto cut = cut_away(tin, raster.cols, *graph.cut, vertices); !cut) return tl::unexpected(cut.error());
+  }
   return mesh;
 }
 

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "grid/raster.h"
 #include "grid/vertex_places.h"
+#include "refine/cut_away.h"
 #include "refine/lattice_judge.h"
 #include "scarp/result.h"
 #include "tin/triangulation.h"
@@ -18,14 +20,16 @@ struct ConstraintGraph {
   std::vector<Point> points;                        ///< in kLatticeSteps, in the raster, each once
   std::vector<float> heights;                       ///< of the points; what a sample has counts before it
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< indices of points
+  std::optional<SurfaceCut> cut;                    ///< nothing: all of the surface stays
 };
 
 /// The workbench with lines in it.
 class ConstrainedMesh {
  public:
   /// Turns the points of `tin` from samples into kLatticeSteps, and makes the graph's edges chains of its edges,
-  /// constrained. Points outside the domain are left out with their edges. `tin` and the raster stay alive; nobody else
-  /// changes them. Fails with kInternal where an edge crosses one that is constrained. REQUIRES: sides of at most
+  /// constrained; then what is cut away is marked outside. Points outside the domain are left out with their edges.
+  /// `tin` and the raster stay alive; nobody else changes them. Fails with kInternal where an edge crosses one that is
+  /// constrained, with kInput where nothing stays. REQUIRES: sides of at most
   /// kMaxCoordinate / kLatticeSteps samples; edges cross no constrained edge of `tin` but in points of the graph.
   static Result<ConstrainedMesh> lay(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph);
 
