@@ -15,7 +15,9 @@ namespace scarp {
 
 namespace {
 
-/// Gives a soft line the vertices that it needs to follow the raster.
+/// Gives a soft line the vertices that it needs to follow the raster. Those of a cutline's ring lie a sample apart
+/// where they may, and on samples where the ring passes some: triangles at edges much shorter than themselves are
+/// slivers.
 class SoftLine {
  public:
   SoftLine(const Raster& raster, const std::array<double, 6>& affine, double tolerance)
@@ -24,15 +26,15 @@ class SoftLine {
         determinant_(affine[1] * affine[5] - affine[2] * affine[4]),
         tolerance_(tolerance) {}
 
-  /// `is_clipped`: the sides of the raster, along which it may run, are followed by others.
-  Line follow(const Line& line, bool is_clipped = false) const {
+  /// `is_cut`: a ring that was clipped, and the sides of the raster, along which it may run, are followed by others.
+  Line follow(const Line& line, bool is_cut = false) const {
     Line result = line;
     result.points.clear();
     for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
       result.points.push_back(line.points[k]);
-      if (is_clipped && is_along_side(line.points[k], line.points[k + 1])) continue;
+      if (is_cut && is_along_side(line.points[k], line.points[k + 1])) continue;
       if (std::isnan(line.points[k][2]) || std::isnan(line.points[k + 1][2]))
-        add_between(line.points[k], line.points[k + 1], result.points);
+        add_between(line.points[k], line.points[k + 1], is_cut, result.points);
     }
     result.points.push_back(line.points.back());
     return result;
@@ -40,6 +42,7 @@ class SoftLine {
 
  private:
   using Place = std::array<double, 3>;
+  static constexpr std::size_t kLooksASample = 2;
 
   static Place between(const Place& a, const Place& b, double share) {
     return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), std::numeric_limits<double>::quiet_NaN()};
@@ -60,6 +63,16 @@ class SoftLine {
     }
     return false;
   }
+  /// The nearest sample where it lies on the line from one place to the other, else the place itself.
+  Place on_sample(const Place& place, const Place& from, const Place& to) const {
+    const auto p = sample_of(from), q = sample_of(to), at = sample_of(place);
+    const double col = std::round(at[0]), row = std::round(at[1]), dx = q[0] - p[0], dy = q[1] - p[1];
+    const double beside = (col - p[0]) * dy - (row - p[1]) * dx, along = (col - p[0]) * dx + (row - p[1]) * dy;
+    const double length = std::hypot(dx, dy);
+    if (std::abs(beside) >= 0.5 / kLatticeSteps * length || !(along > 0 && along < length * length)) return place;
+    return {affine_[0] + affine_[1] * col + affine_[2] * row, affine_[3] + affine_[4] * col + affine_[5] * row,
+            std::numeric_limits<double>::quiet_NaN()};
+  }
   /// The raster's surface there; NaN beyond it.
   double height_at(const Place& place) const {
     const auto [col, row] = sample_of(place);
@@ -69,8 +82,9 @@ class SoftLine {
   }
 
   /// Where the surface is farthest from the chord; where there is none, because an end lies beyond the surface, where
-  /// that begins. 0: the chord will do.
-  std::size_t find_split(const std::vector<double>& heights, std::size_t first, std::size_t last) const {
+  /// that begins. Nearer than `gap` looks to an end twice the error is allowed. 0: the chord will do.
+  std::size_t find_split(const std::vector<double>& heights, std::size_t first, std::size_t last,
+                         std::size_t gap) const {
     const bool begins_beyond = std::isnan(heights[first]), ends_beyond = std::isnan(heights[last]);
     const double rise = (heights[last] - heights[first]) / static_cast<double>(last - first);
     double worst = tolerance_;
@@ -78,7 +92,8 @@ class SoftLine {
     for (std::size_t i = first + 1; i < last; ++i) {
       if (std::isnan(heights[i])) continue;
       if (begins_beyond) return i;
-      const double error = std::abs(heights[first] + rise * static_cast<double>(i - first) - heights[i]);
+      const double allowed = i - first < gap || last - i < gap ? 2 : 1;
+      const double error = std::abs(heights[first] + rise * static_cast<double>(i - first) - heights[i]) / allowed;
       if (!ends_beyond && !(error > worst)) continue;
       worst = error;
       at = i;
@@ -88,11 +103,12 @@ class SoftLine {
 
   /// Splits where the surface is farthest from the chord, until it is nowhere farther than the tolerance: Douglas and
   /// Peucker's rule along the line. Two looks a sample.
-  void add_between(const Place& from, const Place& to, std::vector<Place>& points) const {
+  void add_between(const Place& from, const Place& to, bool is_cut, std::vector<Place>& points) const {
     const double length = std::hypot((affine_[5] * (to[0] - from[0]) - affine_[2] * (to[1] - from[1])) / determinant_,
                                      (affine_[1] * (to[1] - from[1]) - affine_[4] * (to[0] - from[0])) / determinant_);
     constexpr double kMostLooks = 1 << 20;
-    const auto looks = static_cast<std::size_t>(std::min(std::ceil(2 * length), kMostLooks));
+    const auto looks =
+        static_cast<std::size_t>(std::min(std::ceil(static_cast<double>(kLooksASample) * length), kMostLooks));
     if (looks < 2) return;
     std::vector<double> heights;
     for (std::size_t i = 0; i <= looks; ++i)
@@ -102,15 +118,17 @@ class SoftLine {
     while (!open.empty()) {
       const auto [first, last] = open.back();
       open.pop_back();
-      const std::size_t at = find_split(heights, first, last);
+      const std::size_t at = find_split(heights, first, last, is_cut ? kLooksASample : 1);
       if (at == 0) continue;
       kept.push_back(at);
       open.emplace_back(first, at);
       open.emplace_back(at, last);
     }
     std::sort(kept.begin(), kept.end());
-    for (const std::size_t i : kept)
-      points.push_back(between(from, to, static_cast<double>(i) / static_cast<double>(looks)));
+    for (const std::size_t i : kept) {
+      const Place place = between(from, to, static_cast<double>(i) / static_cast<double>(looks));
+      points.push_back(is_cut ? on_sample(place, from, to) : place);
+    }
   }
 
   const Raster& raster_;
@@ -242,8 +260,7 @@ Result<void> cut_samples(const Raster& raster, FieldLines& lines) {
   if (!lines.graph.cut) return fail(ErrorKind::kInput, "the cutline lies beside the raster: nothing would be left");
   SurfaceCut& cut = *lines.graph.cut;
   cut.samples = sides_of_samples(cut.outline, raster.cols, raster.rows);
-  for (std::size_t i = 0; i < lines.samples.size(); ++i)
-    lines.valid += std::isnan(lines.samples[i]) ? 0 : 1;
+  for (std::size_t i = 0; i < lines.samples.size(); ++i) lines.valid += std::isnan(lines.samples[i]) ? 0 : 1;
   if (!void_beyond(cut.outline, cut.samples, raster.cols, raster.rows, lines.samples))
     return fail(ErrorKind::kInput, "no part of the raster's surface lies in the cutline: it holds voids only");
   std::erase_if(lines.edits, [&](const SampleEdit& edit) {

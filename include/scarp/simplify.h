@@ -53,8 +53,8 @@ struct SimplifyOptions {
   LineConstraints breaklines = {};
   /// Polygons that the surface is cut to: of guarantee (2)'s domain what lies in them. Their rings become edges of the
   /// mesh, moved by 1/512 sample at most (3/512 where lines cross), at the heights of the raster between its samples;
-  /// they follow it to within half of max_error. Samples outside are not judged. Fails as breaklines do, and with
-  /// kInput where no part of the surface lies in the polygons. DEFAULT: none.
+  /// they follow it to within half of max_error, all of it within a sample of their vertices. Samples outside are not
+  /// judged. Fails as breaklines do, and with kInput where no surface lies in the polygons. DEFAULT: none.
   Cutline cutline = {};
   std::vector<ScriptStep> script = {};  ///< carried out in order before the first scan. DEFAULT: nothing.
   /// kDominant fails with kUsage together with a budget, a mask, tolerances, a script, channels, an importance, an

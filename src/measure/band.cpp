@@ -164,6 +164,10 @@ bool Band::find_missing() {
     const double* error = errors(row);
     for (int c = 0; c < cols_; ++c) {
       if (!std::isnan(error[c]) || std::isnan(height[c])) continue;
+      if (limits_.region != nullptr && limits_.region->place(c, row) == CutRegion::Place::kNear) {
+        ++report_.cut_off;
+        continue;
+      }
       if (!any) nearest_.assign(errors_.size(), {});
       any = true;
       row_missing_[static_cast<std::size_t>(row - first_)] = 1;
@@ -193,10 +197,6 @@ BandReport Band::finish(Histogram& histogram, Keep keep) {
     for (int c = 0; !nearest_.empty() && c < cols_; ++c) {
       if (!is_missing(c, row)) continue;
       if (std::isnan(error[c])) {
-        if (limits_.region != nullptr && limits_.region->place(c, row) == CutRegion::Place::kNear) {
-          ++report_.cut_off;
-          continue;
-        }
         if (report_.uncovered++ == 0) report_.uncovered_at = {c, row};
         if (limits_.with_uncovered) report_.uncovered_offenders.push_back({c, row, HUGE_VAL});
       } else if (is_offender(c, row, error[c])) {

@@ -92,7 +92,8 @@ class Band {
   /// Notes a sample of `triangle` that breaks the bound.
   void add_offender(std::uint32_t triangle, Offender offender) { report_.offenders.push_back({triangle, offender}); }
 
-  /// True if a sample of the row, or of the band, that must be covered is not. Valid after find_missing().
+  /// True if a sample of the row, or of the band, that must be covered is not. Valid after find_missing(), which is
+  /// called once; samples near the end of the region that are not covered are cut off then.
   bool find_missing();
   bool row_has_missing(int row) const { return row_missing_[static_cast<std::size_t>(row - first_)] != 0; }
   bool is_missing(int col, int row) const { return nearest_[at(col, row)].distance >= 0; }
