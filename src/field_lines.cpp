@@ -257,7 +257,9 @@ void edit_samples(const Breaklines& placed, std::int32_t cols, FieldLines& lines
 
 /// Makes void what lies well beyond the cut, and tells which samples it takes away.
 Result<void> cut_samples(const Raster& raster, FieldLines& lines) {
-  if (!lines.graph.cut) return fail(ErrorKind::kInput, "the cutline lies beside the raster: nothing would be left");
+  if (!lines.graph.cut)
+    return fail(ErrorKind::kInput,
+                "the cutline lies beside the raster, or is narrower than 1/256 sample: nothing would be left");
   SurfaceCut& cut = *lines.graph.cut;
   cut.samples = sides_of_samples(cut.outline, raster.cols, raster.rows);
   for (std::size_t i = 0; i < lines.samples.size(); ++i) lines.valid += std::isnan(lines.samples[i]) ? 0 : 1;

@@ -230,8 +230,8 @@ Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, std
         const Point beside{middle.x - side * step * uy / length, middle.y + side * step * ux / length};
         bool no_void_between = false;
         if (!domain.has_surface(beside, middle, kNoise, no_void_between)) continue;
-        const bool is_cut_off = region != nullptr && (!region->holds(beside.x, beside.y) ||
-                                                      region->is_near(beside.x, beside.y, CutRegion::kNear));
+        const bool is_cut_off = region != nullptr && (region->is_near(beside.x, beside.y, 2 * CutRegion::kNear) ||
+                                                      !region->holds(beside.x, beside.y));
         if (is_cut_off) continue;
         const bool ends_at_ring = region != nullptr && region->is_near(middle.x, middle.y, 2 * CutRegion::kNear);
         if (no_void_between && !is_flat && !ends_at_ring) {
