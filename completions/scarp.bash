@@ -37,13 +37,13 @@ _scarp() {
     --duplicates) COMPREPLY=($(compgen -W 'first last highest lowest mean' -- "$current")) && return ;;
     --line-conflict) COMPREPLY=($(compgen -W 'error first mean highest' -- "$current")) && return ;;
     --norm) COMPREPLY=($(compgen -W 'l1 l2 linf' -- "$current")) && return ;;
-    --preview | --render | --error-raster | --report | --map | --mask | --tolerance | --script | --texture | --breaklines | --water | --cutline | --roi)
+    --preview | --render | --error-raster | --report | --map | --mask | --tolerance | --script | --texture | --breaklines | --water | --rivers | --cutline | --roi)
       COMPREPLY=($(compgen -f -- "$current"))
       return
       ;;
     -e | --max-error | -t | --max-triangles | -p | --max-points | --band | --nodata | --fill-distance | --background | \
-      --outline-tolerance | --base | --shape-threshold | --supersample | --texture-weight | --channel-weights | -j | \
-      --num-threads | --memory | --fail-above | --layer | --z-field | --breakline-z | --water-percentile | --inset | --falloff | --seed | --range | --size)
+      --outline-tolerance | --base | --solid | --split | --shape-threshold | --supersample | --texture-weight | --channel-weights | -j | \
+      --num-threads | --memory | --fail-above | --layer | --z-field | --breakline-z | --water-percentile | --detect-flats | --inset | --min-angle | --max-edge | --grade | --falloff | --seed | --range | --size)
       return
       ;;
   esac
@@ -55,10 +55,11 @@ _scarp() {
       paper) options='--help --version --data --out --no-timing --overwrite --quiet' ;;
       simplify)
         options+=' --max-error --max-triangles --max-points --nodata-policy --fill-distance --background'
-        options+=' --outline-tolerance --of --normals --base --preview --report --overwrite --num-threads --memory'
+        options+=' --outline-tolerance --of --normals --base --solid --split --preview --report --overwrite --num-threads --memory'
         options+=' --mask --tolerance --roi --falloff --script --image --texture --texture-weight --norm --channel-weights'
         options+=' --timing --effort --vertices --min-shape --time-limit --objective --importance --one-pass --order --algorithm --batch --edges --edge-score --shape-threshold --supersample'
-        options+=' --breaklines --breakline-z --soft-breaklines --line-conflict --water --water-percentile'
+        options+=' --breaklines --breakline-z --soft-breaklines --line-conflict --water --water-percentile --detect-flats --rivers'
+        options+=' --min-angle --max-edge --grade'
         options+=' --cutline --inset --mask-outside'
         options+=' --uvs --render --error-raster'
         options+=' --points --duplicates --layer --z-field'

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/caught.h"
+#include "grid/affine_map.h"
 
 namespace scarp {
 namespace {
@@ -21,20 +22,6 @@ struct Vertex {
 Vertex between(const Vertex& a, const Vertex& b, double at) {
   return {a.col + at * (b.col - a.col), a.row + at * (b.row - a.row), a.z + at * (b.z - a.z)};
 }
-
-class ToSamples {
- public:
-  explicit ToSamples(const std::array<double, 6>& a) : affine_(a), determinant_(a[1] * a[5] - a[2] * a[4]) {}
-  Vertex operator()(const std::array<double, 3>& point) const {
-    const double x = point[0] - affine_[0], y = point[1] - affine_[3];
-    return {(affine_[5] * x - affine_[2] * y) / determinant_, (affine_[1] * y - affine_[4] * x) / determinant_,
-            point[2]};
-  }
-
- private:
-  std::array<double, 6> affine_;
-  double determinant_;
-};
 
 /// Narrows [begin, end] to where from + t · span lies in [least, most]. False if that is nowhere.
 bool narrow(double from, double span, double least, double most, double& begin, double& end) {
@@ -79,11 +66,19 @@ class LatticeLines {
     if (stop.fraction == 1) return z[1];
     return z[0] + stop.fraction * (z[1] - z[0]);
   }
-  /// Calls visit(part, point, height, climb) for each point of the parts that has a height. climb: the larger one of
-  /// the segments beside it, in a step.
+  bool has_heights() const {
+    return std::any_of(heights_.begin(), heights_.end(), [](double z) { return !std::isnan(z); });
+  }
+  /// Neither end of a segment has a height.
+  bool is_soft(std::uint32_t part, std::uint32_t segment) const {
+    const double* z = &heights_[parts_.begins[part] + segment];
+    return std::isnan(z[0]) && std::isnan(z[1]);
+  }
+  /// Calls visit(part, point, height, climb) for each point of the parts [from, to) that has a height. climb: the
+  /// larger one of the segments beside it, in a step.
   template <class Visit>
-  void visit_points(Visit&& visit) const {
-    for (std::uint32_t part = 0; part < parts_.size(); ++part) {
+  void visit_points(std::uint32_t from, std::uint32_t to, Visit&& visit) const {
+    for (std::uint32_t part = from; part < to; ++part) {
       const std::uint32_t first = parts_.begins[part], end = parts_.begins[part + 1];
       for (std::uint32_t k = first; k < end; ++k) {
         const double behind = k + 1 < end ? climbs_[k] : 0, before = k > first ? climbs_[k - 1] : 0;
@@ -138,10 +133,43 @@ std::vector<Segment> rigid_segments(const Outline& outline, std::int32_t width, 
   return rigid;
 }
 
-/// What hard lines say of the height of one point.
-struct Claim {
-  std::uint32_t point, line;
-  double height, tolerance;
+/// What hard lines say of the height of one point, line after line.
+struct Claims {
+  std::uint32_t first = 0, last = 0, opponent = 0;  ///< lines; the last one that had a say
+  std::uint32_t count = 0;                          ///< each line's heights, each once
+  bool are_opposed = false;
+  bool yield = false;  ///< they are of lines that do
+  double first_height = 0, first_tolerance = 0, last_height = 0, opposed_height = 0;
+  double sum = 0, highest = 0;
+  double climb = 0;  ///< of the raster, in a step
+
+  void add(std::uint32_t line, bool yields, double height, double tolerance) {
+    if (count > 0 && yields != yield) {
+      if (yields) return;
+      const double kept = climb;
+      *this = {};
+      climb = kept;
+    }
+    yield = yields;
+    if (count > 0 && last == line && last_height == height) return;
+    if (count++ == 0) {
+      first = line;
+      first_height = highest = height;
+      first_tolerance = tolerance;
+    }
+    last = line;
+    last_height = height;
+    sum += height;
+    highest = std::max(highest, height);
+    if (are_opposed || std::abs(height - first_height) <= tolerance + first_tolerance) return;
+    are_opposed = true;
+    opponent = line;
+    opposed_height = height;
+  }
+  double height(LineConflict conflict) const {
+    if (conflict == LineConflict::kMean) return sum / static_cast<double>(count);
+    return conflict == LineConflict::kHighest ? highest : first_height;
+  }
 };
 
 /// What the raster climbs in a step, in the cell of a point.
@@ -157,75 +185,57 @@ double climb_of(const Raster& raster, Point place) {
   return low <= high ? (high - low) / kLatticeSteps : 0;
 }
 
-/// All claims, those of a point one after the other in the order of lines, each once.
-std::vector<Claim> collect_claims(const Arrangement& arranged, const LatticeLines& lattice, const Raster& raster) {
+/// The claims on each point; empty where no line has heights.
+std::vector<Claims> collect_claims(const Arrangement& arranged, const LatticeLines& lattice,
+                                   std::span<const Line> lines, const Raster& raster) {
+  std::vector<Claims> claims;
+  if (!lattice.has_heights()) return claims;
   const auto& points = arranged.vertices;
-  std::vector<Claim> claims;
+  claims.resize(points.size());
   const auto claim = [&](std::uint32_t point, std::uint32_t part, double height, double climb) {
-    const double most = std::max(climb, climb_of(raster, points[point]));
-    claims.push_back({point, lattice.line_of(part), height, 2 * most + std::abs(height) * 0x1p-23});
+    Claims& at = claims[point];
+    if (at.count == 0) at.climb = climb_of(raster, points[point]);
+    const std::uint32_t line = lattice.line_of(part);
+    at.add(line, lines[line].yields, height, 2 * std::max(climb, at.climb) + std::abs(height) * 0x1p-23);
   };
-  for (const auto& chain : arranged.chains) {
-    for (const auto& stop : arranged.stops_of(chain)) {
-      const double height = lattice.height_at(chain.line, stop);
-      if (!std::isnan(height)) claim(stop.vertex, chain.line, height, lattice.climb_at(chain.line, stop));
+  auto chain = arranged.chains.begin();
+  for (std::uint32_t part = 0, end = 0; part < lattice.parts().size(); part = end) {
+    while (end < lattice.parts().size() && lattice.line_of(end) == lattice.line_of(part)) ++end;
+    for (; chain != arranged.chains.end() && chain->line < end; ++chain) {
+      for (const auto& stretch : arranged.stretches_of(*chain)) {
+        if (lattice.is_soft(chain->line, stretch.segment)) continue;
+        arranged.visit_stops(stretch, [&](const Arrangement::Stop& stop) {
+          const double height = lattice.height_at(chain->line, stop);
+          if (!std::isnan(height)) claim(stop.vertex, chain->line, height, lattice.climb_at(chain->line, stop));
+        });
+      }
     }
+    // A chain stops once where two vertices of a line share a place.
+    lattice.visit_points(part, end, [&](std::uint32_t of, Point p, double height, double climb) {
+      const auto found = std::lower_bound(points.begin(), points.end(), p, before);
+      if (found == points.end() || *found != p) return;
+      claim(static_cast<std::uint32_t>(found - points.begin()), of, height, climb);
+    });
   }
-  // A chain stops once where two vertices of a line share a place.
-  lattice.visit_points([&](std::uint32_t part, Point p, double height, double climb) {
-    const auto found = std::lower_bound(points.begin(), points.end(), p, before);
-    if (found == points.end() || *found != p) return;
-    claim(static_cast<std::uint32_t>(found - points.begin()), part, height, climb);
-  });
-  std::stable_sort(claims.begin(), claims.end(), [](const Claim& a, const Claim& b) {
-    return a.point != b.point ? a.point < b.point : a.line < b.line;
-  });
-  claims.erase(std::unique(claims.begin(), claims.end(),
-                           [](const Claim& a, const Claim& b) {
-                             return a.point == b.point && a.line == b.line && a.height == b.height;
-                           }),
-               claims.end());
   return claims;
 }
 
-/// The height of a point by its claims; nothing if they disagree and nobody shall have his way.
-struct Verdict {
-  double height = 0;
-  const Claim* opponent = nullptr;  ///< of the first claim, if they disagree
-};
-Verdict judge(std::span<const Claim> claims, LineConflict conflict) {
-  const Claim& first = claims.front();
-  double sum = 0, highest = first.height;
-  const Claim* opponent = nullptr;
-  for (const Claim& claim : claims) {
-    sum += claim.height;
-    highest = std::max(highest, claim.height);
-    if (opponent == nullptr && std::abs(claim.height - first.height) > claim.tolerance + first.tolerance)
-      opponent = &claim;
-  }
-  if (conflict == LineConflict::kError) return {first.height, opponent};
-  if (conflict == LineConflict::kMean) return {sum / static_cast<double>(claims.size()), nullptr};
-  return {conflict == LineConflict::kHighest ? highest : first.height, nullptr};
-}
-
-Result<void> set_heights(std::span<const Claim> claims, std::span<const Line> lines,
+Result<void> set_heights(std::span<const Claims> claims, std::span<const Line> lines,
                          const std::array<double, 6>& affine, LineConflict conflict, Breaklines& placed) {
-  for (std::size_t begin = 0, end = 0; begin < claims.size(); begin = end) {
-    const std::uint32_t point = claims[begin].point;
-    while (end < claims.size() && claims[end].point == point) ++end;
-    const Verdict verdict = judge(claims.subspan(begin, end - begin), conflict);
-    placed.heights[point] = static_cast<float>(verdict.height);
+  for (std::size_t point = 0; point < claims.size(); ++point) {
+    const Claims& at = claims[point];
+    if (at.count == 0) continue;
+    placed.heights[point] = static_cast<float>(at.height(conflict));
     placed.is_hard[point] = true;
-    if (verdict.opponent == nullptr) continue;
-    const Claim &one = claims[begin], &other = *verdict.opponent;
+    if (!at.are_opposed || conflict != LineConflict::kError) continue;
     const double col = placed.points[point].x / double{kLatticeSteps},
                  row = placed.points[point].y / double{kLatticeSteps};
     return fail(
         ErrorKind::kInput,
         fmt::format("{} has the height {:.9g} and {} has {:.9g} where they meet at {:.9g}, {:.9g}: mend one of "
                     "them, or say which height counts",
-                    lines[one.line].name, one.height,
-                    one.line == other.line ? "elsewhere along it" : lines[other.line].name, other.height,
+                    lines[at.first].name, at.first_height,
+                    at.first == at.opponent ? "elsewhere along it" : lines[at.opponent].name, at.opposed_height,
                     affine[0] + affine[1] * col + affine[2] * row, affine[3] + affine[4] * col + affine[5] * row));
   }
   return {};
@@ -233,13 +243,14 @@ Result<void> set_heights(std::span<const Claim> claims, std::span<const Line> li
 
 Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<double, 6>& affine,
                                 const Raster& raster) {
-  const ToSamples to_samples(affine);
+  const MapToSamples to_samples(affine);
   LatticeLines lattice(raster.cols, raster.rows);
   std::vector<Vertex> vertices;
   for (std::uint32_t k = 0; k < lines.size(); ++k) {
     vertices.clear();
     for (const auto& point : lines[k].points) {
-      vertices.push_back(to_samples(point));
+      const SamplePlace at = to_samples.place(point[0], point[1]);
+      vertices.push_back({at.col, at.row, point[2]});
       if (!vertices.back().is_finite())
         return fail(ErrorKind::kInput, fmt::format("{} has a vertex at {:.9g}, {:.9g}, too far away to be placed",
                                                    lines[k].name, point[0], point[1]));
@@ -249,15 +260,11 @@ Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<do
   return lattice;
 }
 
-void take_chains(const Arrangement& arranged, const LatticeLines& lattice, std::size_t lines, Breaklines& placed) {
+/// Lines without a chain.
+std::uint64_t count_outside(const Arrangement& arranged, const LatticeLines& lattice, std::size_t lines) {
   std::vector<bool> is_there(lines, false);
-  for (const auto& chain : arranged.chains) {
-    const std::uint32_t line = lattice.line_of(chain.line);
-    is_there[line] = true;
-    placed.chains.push_back({line, chain.begin, chain.end});
-  }
-  for (const auto& stop : arranged.stops) placed.passed.push_back(stop.vertex);
-  placed.outside = static_cast<std::uint64_t>(std::count(is_there.begin(), is_there.end(), false));
+  for (const auto& chain : arranged.chains) is_there[lattice.line_of(chain.line)] = true;
+  return static_cast<std::uint64_t>(std::count(is_there.begin(), is_there.end(), false));
 }
 
 }  // namespace
@@ -303,13 +310,14 @@ Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::arra
   const std::int32_t width = (raster.cols - 1) * kLatticeSteps, height = (raster.rows - 1) * kLatticeSteps;
   Arrangement arranged = arrange(lattice->parts(), rigid_segments(outline, width, height), width, height);
 
-  const std::vector<Claim> claims = collect_claims(arranged, *lattice, raster);
+  const std::vector<Claims> claims = collect_claims(arranged, *lattice, lines, raster);
   Breaklines placed;
+  placed.outside = count_outside(arranged, *lattice, lines.size());
   placed.points = std::move(arranged.vertices);
   placed.edges = std::move(arranged.edges);
+  placed.heights.reserve(placed.points.size());
   for (const Point p : placed.points) placed.heights.push_back(static_cast<float>(height_between_samples(raster, p)));
   placed.is_hard.assign(placed.points.size(), false);
-  take_chains(arranged, *lattice, lines.size(), placed);
   if (auto set = set_heights(claims, lines, affine, conflict, placed); !set) return tl::unexpected(set.error());
   return placed;
 } catch (...) {

@@ -28,18 +28,7 @@ struct Breaklines {
   std::vector<bool> is_hard;  ///< of each point: its height is that of lines
   std::vector<Arrangement::Edge> edges;
 
-  /// A line, or a part of it within the rectangle: points[passed[begin]], …, points[passed[end − 1]].
-  struct Chain {
-    std::uint32_t line;  ///< of the lines given
-    std::uint32_t begin, end;
-  };
-  std::vector<Chain> chains;  ///< in the order of the lines and along each
-  std::vector<std::uint32_t> passed;
-  std::uint64_t outside = 0;  ///< lines that no chain was left of
-
-  std::span<const std::uint32_t> points_of(const Chain& chain) const {
-    return std::span(passed).subspan(chain.begin, chain.end - chain.begin);
-  }
+  std::uint64_t outside = 0;  ///< lines of which nothing is left
 };
 
 /// Places lines on the lattice of a raster: a vertex of a line moves by half a step, 1/512 sample, at most, what runs
@@ -54,7 +43,7 @@ struct Breaklines {
 /// Fails with kInput where hard lines disagree (kError: names both and the place in map coordinates) and for
 /// coordinates that are too large for the raster to mean anything; with kUsage for a raster of more than 2^30 /
 /// kLatticeSteps samples a side. REQUIRES: lines as read_lines() gives them; the affine map can be inverted. Cost: as
-/// arrange().
+/// arrange(), and a look at each point of each hard line, which n that overlap make n²/2.
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
                                     const Raster& raster, const Outline& outline,
                                     LineConflict conflict = LineConflict::kError);

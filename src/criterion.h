@@ -40,6 +40,8 @@ class Criterion {
   /// Order of insertion for one pass, without the samples that have no bound; empty otherwise.
   std::vector<Point> ranking() const;
   std::uint64_t ignored() const { return ignored_; }
+  /// The fields whose errors count.
+  std::vector<JudgedField> judged_fields() const;
   bool has_error_goal() const { return bound_.has_value() || !options_->tolerance.empty(); }
 
  private:
@@ -48,7 +50,6 @@ class Criterion {
   Result<void> check_channels() const;
   Result<void> set_bounds();
   void set_factors();
-  std::vector<JudgedField> judged_fields() const;
 
   const HeightField* field_ = nullptr;
   const SimplifyOptions* options_ = nullptr;

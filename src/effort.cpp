@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <vector>
+
+#include "shape_refinement.h"
 
 namespace scarp {
 
@@ -16,9 +20,11 @@ bool has_bounds(const SimplifyOptions& options) {
 
 bool inserts(const ScriptStep& step) { return step.action == ScriptStep::Action::kInsert; }
 
+static_assert(kMostFitFields > kMaxChannels);
+
 /// What asks for more than heights; null if nothing does.
 const char* find_beyond_heights(const HeightField& field, const SimplifyOptions& options) {
-  if (!field.channels.empty() || field.height_scale != 1) return "has no channels";
+  if (has_norm(field)) return "has no channels";
   return options.outline_tolerance > 0 ? "keeps the exact outline" : nullptr;
 }
 
@@ -39,7 +45,6 @@ const char* find_strategy(const SimplifyOptions& options) {
 
 /// What keeps a run from removing vertices; null if nothing does.
 const char* find_fit_obstacle(const HeightField& field, const SimplifyOptions& options) {
-  if (const char* obstacle = find_beyond_heights(field, options)) return obstacle;
   if (std::any_of(options.script.begin(), options.script.end(), inserts))
     return "takes vertices away, also those that a script inserts";
   if (has_bounds(options) && has_budget(options)) return "has no budget where samples have bounds of their own";
@@ -58,17 +63,52 @@ const char* find_need_of_effort(const SimplifyOptions& options) {
   return options.is_time_up ? "a time limit" : nullptr;
 }
 
+using Question = std::function<bool()>;
+
+Question either(const Question& first, const Question& second) {
+  if (!first || !second) return first ? first : second;
+  return [first, second] { return first() || second(); };
+}
+
+/// What keeps a run from vertices between samples beside the bound; null if nothing does.
+const char* find_lattice_obstacle(const HeightField& field, const SimplifyOptions& options) {
+  if (const char* obstacle = find_beyond_heights(field, options)) return obstacle;
+  if (field.samples == nullptr) return "needs the raster in memory as a whole";
+  if (!field.frame.is_affine()) return "needs a frame in which the grid is regular";
+  if (has_budget(options) || !options.max_error) return "needs a max error and no budget";
+  return find_strategy(options) != nullptr ? "has no strategies of insertion" : nullptr;
+}
+
 /// Whether lines can be laid.
 Result<void> check_lines(const HeightField& field, const SimplifyOptions& options) {
-  if (!has_lines(options)) return {};
-  const char* obstacle = find_beyond_heights(field, options);
-  if (obstacle == nullptr && field.samples == nullptr) obstacle = "needs the raster in memory as a whole";
-  if (obstacle == nullptr && !field.frame.is_affine()) obstacle = "needs a frame in which the grid is regular";
-  if (obstacle == nullptr && (has_budget(options) || !options.max_error)) obstacle = "needs a max error and no budget";
-  if (obstacle == nullptr && find_strategy(options) != nullptr) obstacle = "has no strategies of insertion";
+  const char* obstacle = has_lines(options) ? find_lattice_obstacle(field, options) : nullptr;
   if (obstacle == nullptr) return {};
   return fail(ErrorKind::kUsage, fmt::format("a mesh with {} {}: leave out one or the other",
                                              options.cutline.rings.empty() ? "breaklines" : "a cutline", obstacle));
+}
+
+/// Whether shapes can be had.
+Result<void> check_shape(const HeightField& field, const SimplifyOptions& options) {
+  const ShapeGoals& shape = options.shape;
+  constexpr double kLargestAngle = 33, kLeastEdge = 0.125;
+  const auto usage = [](std::string message) { return fail(ErrorKind::kUsage, std::move(message)); };
+  if (!(shape.min_angle >= 0 && shape.min_angle <= kLargestAngle))
+    return usage(fmt::format("the minimum angle must lie in 0 … {} degrees, not {}", kLargestAngle, shape.min_angle));
+  if (shape.grade && !(*shape.grade > 0 && std::isfinite(*shape.grade)))
+    return usage(fmt::format("the grade must be a finite number above 0, not {}", *shape.grade));
+  if (!shape.any()) return {};
+  if (const char* obstacle = find_lattice_obstacle(field, options))
+    return usage(fmt::format("a mesh with goals for angles and edges {}: leave out one or the other", obstacle));
+  if (std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps)
+    return usage(
+        fmt::format("a raster of {} x {} samples is too large for goals of angles and edges: at most {} a side",
+                    field.cols, field.rows, kMaxCoordinate / kLatticeSteps));
+  const auto& a = field.frame.affine;
+  const double side = std::max(std::hypot(a[1], a[4]), std::hypot(a[2], a[5]));
+  if (shape.max_edge && !(*shape.max_edge >= kLeastEdge * side))
+    return usage(fmt::format("the max edge must be at least {} of a sample, that is {}, not {}", kLeastEdge,
+                             kLeastEdge * side, *shape.max_edge));
+  return {};
 }
 
 }  // namespace
@@ -111,14 +151,17 @@ Result<void> check_effort(const HeightField& field, const SimplifyOptions& optio
     return usage(fmt::format("more than fast effort {}: leave that out, or take fast effort", obstacle));
   }
   if (auto sound = check_lines(field, options); !sound) return sound;
+  if (auto sound = check_shape(field, options); !sound) return sound;
   if (options.vertices != Vertices::kFree || vertices_are_free(field, options)) return {};
-  return usage(fmt::format("free vertices need {}: leave them on samples", moves_vertices(options.effort)
-                                                                               ? "a frame in which the grid is regular"
-                                                                               : "high effort or more"));
+  return usage(fmt::format("free vertices need {}: leave them on samples",
+                           !moves_vertices(options.effort) ? "high effort or more"
+                           : has_norm(field)               ? "heights alone, without channels"
+                                                           : "a frame in which the grid is regular"));
 }
 
 bool vertices_are_free(const HeightField& field, const SimplifyOptions& options) {
-  return moves_vertices(options.effort) && options.vertices != Vertices::kSamples && field.frame.is_affine();
+  return moves_vertices(options.effort) && options.vertices != Vertices::kSamples && field.frame.is_affine() &&
+         !has_norm(field);
 }
 
 bool places_are_exact(const HeightField& field, const SimplifyOptions& options, std::int32_t steps) {
@@ -127,7 +170,7 @@ bool places_are_exact(const HeightField& field, const SimplifyOptions& options, 
 }
 
 std::int32_t place_steps(const HeightField& field, const SimplifyOptions& options) {
-  if (has_lines(options)) return kLatticeSteps;
+  if (has_lines(options) || options.shape.any()) return kLatticeSteps;
   return vertices_are_free(field, options) ? kLatticeSteps / kFreeStep : 1;
 }
 
@@ -135,6 +178,21 @@ double aim_of(const HeightField& field, const SimplifyOptions& options) {
   constexpr double kRoundingShare = 0x1p-9;
   const std::int32_t steps = place_steps(field, options);
   return steps > 1 && !places_are_exact(field, options, steps) ? 1 - kRoundingShare : 1;
+}
+
+bool has_norm(const HeightField& field) { return !field.channels.empty() || field.height_scale != 1; }
+
+std::optional<FitNorm> fit_norm(const SimplifyOptions& options, const Raster& raster, const Criterion& criterion) {
+  const std::vector<JudgedField> fields = criterion.judged_fields();
+  if (fields.size() == 1 && fields[0].samples == raster.samples && fields[0].scale == 1) return std::nullopt;
+  FitNorm norm;
+  for (const JudgedField& field : fields) norm.fields.push_back({field.samples, field.scale});
+  norm.norm = options.norm;
+  norm.find_breach = [&judge = criterion.judge()](const std::array<Point, 3>& corners) {
+    const auto candidate = judge.find_candidate(corners, judge.fit(corners, {}));
+    return candidate ? std::optional(candidate->at) : std::nullopt;
+  };
+  return norm;
 }
 
 FitOptions fit_options(const HeightField& field, const SimplifyOptions& options, double threshold) {
@@ -149,7 +207,8 @@ FitOptions fit_options(const HeightField& field, const SimplifyOptions& options,
   if (options.effort == Effort::kMax) fit.depth = kMaxDepth;
   fit.min_shape = options.min_shape.value_or(fit.vertices_are_free ? kUsualShape : 0);
   fit.aspect = std::hypot(a[2], a[5]) / std::hypot(a[1], a[4]);
-  fit.is_time_up = options.is_time_up;
+  if (options.shape.any()) fit.shape = shape_rule(options.shape, field.frame);
+  if (!has_budget(options)) fit.is_time_up = either(options.is_time_up, options.is_enough);
   fit.goes_on = options.effort == Effort::kMax && options.is_time_up;
   return fit;
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
+#include "criterion.h"
 #include "fit/fit.h"
 #include "scarp/result.h"
 #include "scarp/simplify.h"
@@ -31,11 +33,17 @@ bool places_are_exact(const HeightField& field, const SimplifyOptions& options, 
 /// How many places vertices may take between two samples, and one of these.
 std::int32_t place_steps(const HeightField& field, const SimplifyOptions& options);
 
-/// The share of every bound that is asked of the engine. Vertices between samples leave a little to the rounding of positions: no
-/// sample can be inserted among them to mend what that breaks.
+/// The share of every bound that is asked of the engine. Vertices between samples leave a little to the rounding of
+/// positions: no sample can be inserted among them to mend what that breaks.
 double aim_of(const HeightField& field, const SimplifyOptions& options);
 
-/// But for bounds of samples, threads and progress. `threshold`: what the mesh that is fitted keeps.
+/// Whether errors are norms over heights and channels.
+bool has_norm(const HeightField& field);
+
+/// The norm that fitting keeps; nothing where heights alone, as they are, decide. The criterion stays alive.
+std::optional<FitNorm> fit_norm(const SimplifyOptions& options, const Raster& raster, const Criterion& criterion);
+
+/// But for the norm, bounds of samples, threads and progress. `threshold`: what the mesh that is fitted keeps.
 FitOptions fit_options(const HeightField& field, const SimplifyOptions& options, double threshold);
 
 }  // namespace scarp

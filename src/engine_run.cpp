@@ -26,6 +26,7 @@
 #include "refine/settle_edges.h"
 #include "refine/source_judge.h"
 #include "row_fit.h"
+#include "shape_refinement.h"
 
 namespace scarp {
 
@@ -56,7 +57,8 @@ class Run {
     auto refined = tiled ? free_seams(std::move(*tiled), result) : insert_greedily(result);
     if (!refined) return tl::unexpected(refined.error());
     if (auto laid = lay_lines(result); !laid) return tl::unexpected(laid.error());
-    if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
+    const auto shaped = fit_and_shape(result);
+    if (!shaped) return tl::unexpected(shaped.error());
     // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
     // proof.
     const bool is_final = result.stop != StopReason::kMaxError || exact_ || !places_.are_samples();
@@ -65,6 +67,7 @@ class Run {
     order(result);
     result.seconds_refine += seconds_since(start);
     if (auto proven = prove_and_mend(result); !proven) return tl::unexpected(proven.error());
+    if (options_.shape.any()) result.shape = report_shapes(result.mesh, options_.shape, shaped->forced);
     return result;
   }
 
@@ -254,7 +257,9 @@ class Run {
     auto laid = ConstrainedMesh::lay(raster_, domain_->tin, *lines_);
     if (!laid) return tl::unexpected(laid.error());
     const LatticeJudge judge(raster_, laid->heights(), criterion_.aim(), criterion_.aims());
-    Refinement refinement(judge, domain_->tin);
+    // What refinement left and no line touches keeps the bound.
+    Refinement refinement(judge, domain_->tin, Algorithm::kHeap, {}, Refinement::Start::kClean);
+    refinement.scan(laid->changed());
     const double first_error = refinement.worst_error();
     for (std::uint64_t step = 0; !refinement.done(); ++step) {
       if (refinement.is_full()) return fail(ErrorKind::kInput, kTooManyTriangles);
@@ -269,6 +274,18 @@ class Run {
     return {};
   }
 
+  /// Where removal keeps shapes it comes last: that leaves far fewer triangles.
+  Result<ShapeWork> fit_and_shape(Simplified& result) {
+    const bool removes_last = options_.shape.any() && shape_rule(options_.shape, field_.frame);
+    if (!removes_last) {
+      if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
+    }
+    auto shaped = add_for_shapes(result);
+    if (!shaped || !removes_last) return shaped;
+    if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
+    return shaped;
+  }
+
   /// Vertices that the bound can do without go.
   Result<void> remove_vertices(Simplified& result) {
     if (options_.effort == Effort::kFast || fits_rows(field_, options_)) return {};
@@ -276,6 +293,8 @@ class Run {
     refinement_.reset();
     FitOptions options = fit_options(field_, options_, criterion_.aim());
     options.bounds = criterion_.aims();
+    const auto norm = fit_norm(options_, raster_, criterion_);
+    if (norm) options.norm = &*norm;
     options.threads = fit_threads();
     Reporter reporter(options_.progress);
     if (options_.progress) {
@@ -291,6 +310,25 @@ class Run {
     record(result, "fit", start);
     result.passes.back().removals = fitted->counts.removed;
     return {};
+  }
+
+  /// Vertices that angles and sizes of triangles need come, and others that the bound then needs.
+  Result<ShapeWork> add_for_shapes(Simplified& result) {
+    if (!options_.shape.any()) return ShapeWork{};
+    const auto start = Clock::now();
+    refinement_.reset();
+    ShapeTask task{options_.shape, field_.frame.affine, criterion_.aim(), criterion_.aims()};
+    task.all_may_go = vertices_are_free(field_, options_) || options_.effort == Effort::kNormal;
+    task.progress = [&](std::uint64_t count, double error) {
+      return !reporter_.due() || reporter_.report("shape", 0, count, error);
+    };
+    VertexPlaces places = std::move(places_);
+    auto work = refine_shapes(raster_, domain_->tin, places, task);
+    if (!work) return work;
+    set_places(std::move(places), result);
+    result.passes.push_back(
+        {"shape", seconds_since(start), work->samples_scanned, work->triangles_scanned, work->insertions});
+    return work;
   }
 
   /// Of the vertices, after fitting.

@@ -66,9 +66,10 @@ class SearchProgress {
 
 class ErrorSearch {
  public:
-  ErrorSearch(const SimplifyOptions& options, const RunOnce& run)
+  ErrorSearch(const SimplifyOptions& options, const RunOnce& run, Judged judged)
       : options_(options),
         run_(run),
+        judged_(judged),
         budget_(options),
         progress_(options.progress),
         floor_(options.max_error.value_or(0)) {}
@@ -89,9 +90,9 @@ class ErrorSearch {
     auto made = run(without_effort(options_), 0.1);
     if (!made) return tl::unexpected(made.error());
     best_ = std::move(*made);
-    has_room_ = best_.stop == StopReason::kMaxError || best_.stop == StopReason::kExact ||
-                best_.measurement.max_error <= floor_;
-    greedy_error_ = best_.measurement.max_error;
+    has_room_ =
+        best_.stop == StopReason::kMaxError || best_.stop == StopReason::kExact || max_error_of(best_) <= floor_;
+    greedy_error_ = max_error_of(best_);
     return {};
   }
 
@@ -206,7 +207,7 @@ class ErrorSearch {
     }
     is_at_floor_ = error == floor_;
     // A mesh is the same for all bounds down to its max error, or nearly so.
-    const double reached = std::min(error, made->measurement.max_error);
+    const double reached = std::min(error, max_error_of(*made));
     see(fits_, Sight{std::log(std::max(reached, std::numeric_limits<double>::min())), std::log(used)});
     made->stop = has_room_ ? best_.stop : stop_of(*made);
     if (!is_at_floor_ && !is_better(*made)) {
@@ -230,17 +231,24 @@ class ErrorSearch {
   }
 
   StopReason stop_of(const Simplified& made) const {
-    if (is_at_floor_ || made.measurement.max_error <= floor_)
+    if (is_at_floor_ || max_error_of(made) <= floor_)
       return options_.max_error ? StopReason::kMaxError : StopReason::kExact;
     const MeshSize vertices{made.mesh.vertex_count(), 0}, triangles{0, made.mesh.triangle_count()};
     return budget_.used(vertices) > budget_.used(triangles) ? StopReason::kMaxVertices : StopReason::kMaxTriangles;
   }
 
+  double max_error_of(const Simplified& made) const {
+    return judged_ == Judged::kNorm ? made.combined_max_error : made.measurement.max_error;
+  }
+  double rmse_of(const Simplified& made) const {
+    return judged_ == Judged::kNorm ? made.combined_rmse : made.measurement.rmse;
+  }
+
   bool is_better(const Simplified& made) const {
     const auto rank = [this](const Simplified& of) {
-      const Measurement& seen = of.measurement;
-      return options_.objective == Objective::kMax ? std::tuple(seen.max_error, seen.rmse, of.mesh.triangle_count())
-                                                   : std::tuple(seen.rmse, seen.max_error, of.mesh.triangle_count());
+      const double largest = max_error_of(of), rmse = rmse_of(of);
+      return options_.objective == Objective::kMax ? std::tuple(largest, rmse, of.mesh.triangle_count())
+                                                   : std::tuple(rmse, largest, of.mesh.triangle_count());
     };
     return rank(made) < rank(best_);
   }
@@ -281,6 +289,7 @@ class ErrorSearch {
 
   const SimplifyOptions& options_;
   const RunOnce& run_;
+  Judged judged_;
   Budget budget_;
   SearchProgress progress_;
   double floor_;  // the least bound that is of use
@@ -297,8 +306,8 @@ class ErrorSearch {
 
 }  // namespace
 
-Result<Simplified> search_error(const SimplifyOptions& options, const RunOnce& run) {
-  return ErrorSearch(options, run).execute();
+Result<Simplified> search_error(const SimplifyOptions& options, const RunOnce& run, Judged judged) {
+  return ErrorSearch(options, run, judged).execute();
 }
 
 }  // namespace scarp

@@ -15,6 +15,12 @@ namespace scarp {
 /// simplify() without a search: towards a max error with any effort, towards budgets with fast effort.
 using RunOnce = std::function<Result<Simplified>(const SimplifyOptions& options)>;
 
+/// Whose errors they are that a budget makes small.
+enum class Judged {
+  kHeights,  ///< Simplified::measurement
+  kNorm,     ///< of heights and channels: combined_max_error, combined_rmse
+};
+
 /// The mesh with the least max error, or RMSE (options.objective), of those that the search has seen within the
 /// budgets, at options.max_error if that is given and reached; the exact one if the budgets leave room for it.
 ///
@@ -25,7 +31,7 @@ using RunOnce = std::function<Result<Simplified>(const SimplifyOptions& options)
 /// three. Memory: the best mesh so far beside a run. Progress is that of one pass, "search".
 /// Fails as `run` does; a bound that cannot be kept (kPromise) only ends what lies below it.
 /// REQUIRES: a budget; more than fast effort.
-Result<Simplified> search_error(const SimplifyOptions& options, const RunOnce& run);
+Result<Simplified> search_error(const SimplifyOptions& options, const RunOnce& run, Judged judged = Judged::kHeights);
 
 inline constexpr int kMostRuns = 12;
 

@@ -6,9 +6,12 @@
 #include <numeric>
 #include <utility>
 
+#include "base/parallel.h"
 #include "breaklines.h"
 #include "field_cut.h"
 #include "geom/polygon_cover.h"
+#include "grid/affine_map.h"
+#include "profile.h"
 #include "refine/samples.h"
 
 namespace scarp {
@@ -21,10 +24,7 @@ namespace {
 class SoftLine {
  public:
   SoftLine(const Raster& raster, const std::array<double, 6>& affine, double tolerance)
-      : raster_(raster),
-        affine_(affine),
-        determinant_(affine[1] * affine[5] - affine[2] * affine[4]),
-        tolerance_(tolerance) {}
+      : raster_(raster), affine_(affine), to_samples_(affine), tolerance_(tolerance) {}
 
   /// `is_cut`: a ring that was clipped, and the sides of the raster, along which it may run, are followed by others.
   Line follow(const Line& line, bool is_cut = false) const {
@@ -49,8 +49,8 @@ class SoftLine {
   }
   /// Column and row.
   std::array<double, 2> sample_of(const Place& place) const {
-    const double x = place[0] - affine_[0], y = place[1] - affine_[3];
-    return {(affine_[5] * x - affine_[2] * y) / determinant_, (affine_[1] * y - affine_[4] * x) / determinant_};
+    const auto [col, row] = to_samples_.place(place[0], place[1]);
+    return {col, row};
   }
   /// Whether both are on the same side of the raster's rectangle, up to rounding.
   bool is_along_side(const Place& a, const Place& b) const {
@@ -81,31 +81,10 @@ class SoftLine {
                                             static_cast<std::int32_t>(std::lround(row * kLatticeSteps))});
   }
 
-  /// Where the surface is farthest from the chord; where there is none, because an end lies beyond the surface, where
-  /// that begins. Nearer than `gap` looks to an end twice the error is allowed. 0: the chord will do.
-  std::size_t find_split(const std::vector<double>& heights, std::size_t first, std::size_t last,
-                         std::size_t gap) const {
-    const bool begins_beyond = std::isnan(heights[first]), ends_beyond = std::isnan(heights[last]);
-    const double rise = (heights[last] - heights[first]) / static_cast<double>(last - first);
-    double worst = tolerance_;
-    std::size_t at = 0;
-    for (std::size_t i = first + 1; i < last; ++i) {
-      if (std::isnan(heights[i])) continue;
-      if (begins_beyond) return i;
-      const double allowed = i - first < gap || last - i < gap ? 2 : 1;
-      const double error = std::abs(heights[first] + rise * static_cast<double>(i - first) - heights[i]) / allowed;
-      if (!ends_beyond && !(error > worst)) continue;
-      worst = error;
-      at = i;
-    }
-    return at;
-  }
-
-  /// Splits where the surface is farthest from the chord, until it is nowhere farther than the tolerance: Douglas and
-  /// Peucker's rule along the line. Two looks a sample.
+  /// Bends where the surface asks for it. Two looks a sample.
   void add_between(const Place& from, const Place& to, bool is_cut, std::vector<Place>& points) const {
-    const double length = std::hypot((affine_[5] * (to[0] - from[0]) - affine_[2] * (to[1] - from[1])) / determinant_,
-                                     (affine_[1] * (to[1] - from[1]) - affine_[4] * (to[0] - from[0])) / determinant_);
+    const SamplePlace way = to_samples_.way(to[0] - from[0], to[1] - from[1]);
+    const double length = std::hypot(way.col, way.row);
     constexpr double kMostLooks = 1 << 20;
     const auto looks =
         static_cast<std::size_t>(std::min(std::ceil(static_cast<double>(kLooksASample) * length), kMostLooks));
@@ -113,19 +92,7 @@ class SoftLine {
     std::vector<double> heights;
     for (std::size_t i = 0; i <= looks; ++i)
       heights.push_back(height_at(between(from, to, static_cast<double>(i) / static_cast<double>(looks))));
-    std::vector<std::size_t> kept;
-    std::vector<std::pair<std::size_t, std::size_t>> open{{0, looks}};
-    while (!open.empty()) {
-      const auto [first, last] = open.back();
-      open.pop_back();
-      const std::size_t at = find_split(heights, first, last, is_cut ? kLooksASample : 1);
-      if (at == 0) continue;
-      kept.push_back(at);
-      open.emplace_back(first, at);
-      open.emplace_back(at, last);
-    }
-    std::sort(kept.begin(), kept.end());
-    for (const std::size_t i : kept) {
+    for (const std::size_t i : find_bends(heights, tolerance_, is_cut ? kLooksASample : 1)) {
       const Place place = between(from, to, static_cast<double>(i) / static_cast<double>(looks));
       points.push_back(is_cut ? on_sample(place, from, to) : place);
     }
@@ -133,7 +100,8 @@ class SoftLine {
 
   const Raster& raster_;
   std::array<double, 6> affine_;
-  double determinant_, tolerance_;
+  MapToSamples to_samples_;
+  double tolerance_;
 };
 
 /// Edges among those that lines are part of.
@@ -276,38 +244,47 @@ Result<void> cut_samples(const Raster& raster, FieldLines& lines) {
 
 HeightField FieldLines::apply(const HeightField& field) const {
   HeightField edited = field;
+  if (samples.empty()) return edited;
   edited.samples = samples.data();
   edited.nodata = std::nullopt;
   return edited;
 }
 
 Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
-                                 double tolerance) {
+                                 double tolerance, int threads) {
   const auto cleaned = Samples::of(field);
   if (!cleaned) return tl::unexpected(cleaned.error());
   const Raster raster = cleaned->raster();
   const bool is_cut = !cutline.rings.empty();
   const std::array<double, 6>& affine = is_cut ? cutline.affine : lines.affine;
   const SoftLine soft(raster, affine, tolerance);
-  std::vector<Line> followed;
-  followed.reserve(lines.lines.size() + cutline.rings.size());
-  for (const Line& line : lines.lines) followed.push_back(soft.follow(line));
-  for (const Line& ring : clip_rings(cutline, raster.cols, raster.rows)) followed.push_back(soft.follow(ring, true));
+  const std::vector<Line> rings = clip_rings(cutline, raster.cols, raster.rows);
+  const std::size_t breaklines = lines.lines.size();
+  std::vector<Line> followed(breaklines + rings.size());
+  constexpr std::size_t kTogether = 64;
+  parallel_for((followed.size() + kTogether - 1) / kTogether, threads, [&](std::size_t part) {
+    const std::size_t first = part * kTogether, end = std::min(first + kTogether, followed.size());
+    for (std::size_t k = first; k < end; ++k)
+      followed[k] = k < breaklines ? soft.follow(lines.lines[k]) : soft.follow(rings[k - breaklines], true);
+  });
   const auto placed = place_breaklines(followed, affine, raster, trace_outline(raster), lines.conflict);
   if (!placed) return tl::unexpected(placed.error());
   FieldLines result;
-  result.samples.assign(raster.samples, raster.row(raster.rows));
-  edit_samples(*placed, raster.cols, result);
-  std::vector<bool> is_laid(lines.lines.size(), false);
-  for (const auto& chain : placed->chains) {
-    if (chain.line < is_laid.size()) is_laid[chain.line] = true;
+  if (is_cut || std::find(placed->is_hard.begin(), placed->is_hard.end(), true) != placed->is_hard.end()) {
+    result.samples.assign(raster.samples, raster.row(raster.rows));
+    edit_samples(*placed, raster.cols, result);
   }
-  result.laid = static_cast<std::uint64_t>(std::count(is_laid.begin(), is_laid.end(), true));
   if (!is_cut) {
     result.graph = graph_of(*placed, {edges_of_lines(*placed), {}, {}});
+    result.laid = breaklines - placed->outside;
     return result;
   }
-  result.graph = graph_of(*placed, cut_edges(*placed, followed, lines.lines.size(), raster));
+  std::vector<bool> is_laid(breaklines, false);
+  for (const auto& chain : placed->chains) {
+    if (chain.line < breaklines) is_laid[chain.line] = true;
+  }
+  result.laid = static_cast<std::uint64_t>(std::count(is_laid.begin(), is_laid.end(), true));
+  result.graph = graph_of(*placed, cut_edges(*placed, followed, breaklines, raster));
   if (auto cut = cut_samples(raster, result); !cut) return tl::unexpected(cut.error());
   return result;
 }

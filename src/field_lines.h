@@ -15,12 +15,13 @@ namespace scarp {
 struct FieldLines {
   ConstraintGraph graph;
   /// The raster's, NaN where void and well beyond a cutline, with those on hard lines at the height of the line.
+  /// EMPTY: as the field has them.
   std::vector<float> samples;
   std::vector<SampleEdit> edits;  ///< of these samples
   std::uint64_t laid = 0;         ///< breaklines of which some part lies in the raster
   std::uint64_t valid = 0;        ///< samples, before the cut
 
-  /// `field` with these samples.
+  /// `field` with these samples, which stay here.
   HeightField apply(const HeightField& field) const;
 };
 
@@ -29,6 +30,6 @@ struct FieldLines {
 /// Fails as place_breaklines(), and with kInput where no surface lies in the cutline. REQUIRES: the field has its
 /// samples in memory and is no larger than the lattice; tolerance >= 0; lines and cutline in the same coordinates.
 Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
-                                 double tolerance);
+                                 double tolerance, int threads);
 
 }  // namespace scarp

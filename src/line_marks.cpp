@@ -8,18 +8,12 @@
 namespace scarp {
 
 LineMarks::LineMarks(const std::array<double, 6>& affine, int cols, int rows)
-    : affine_(affine),
+    : to_samples_(affine),
       cols_(cols),
       rows_(rows),
-      determinant_(affine[1] * affine[5] - affine[2] * affine[4]),
       marks_(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows), 0) {}
 
 bool LineMarks::any() const { return std::find(marks_.begin(), marks_.end(), 1) != marks_.end(); }
-
-LineMarks::Place LineMarks::place_of(const std::array<double, 3>& point) const {
-  const double x = point[0] - affine_[0], y = point[1] - affine_[3];
-  return {(affine_[5] * x - affine_[2] * y) / determinant_, (affine_[1] * y - affine_[4] * x) / determinant_};
-}
 
 void LineMarks::mark(int col, int row) {
   marks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(col)] = 1;
@@ -37,7 +31,7 @@ bool LineMarks::narrow(double from, double span, int size, double& begin, double
 
 void LineMarks::add_course(const Line& line, double reach) {
   for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
-    const Place p = place_of(line.points[k]), q = place_of(line.points[k + 1]);
+    const SamplePlace p = place_of(line.points[k]), q = place_of(line.points[k + 1]);
     double begin = 0, end = 1;
     if (!narrow(p.col, q.col - p.col, cols_, begin, end) || !narrow(p.row, q.row - p.row, rows_, begin, end)) continue;
     const double length = std::max(std::abs(q.col - p.col), std::abs(q.row - p.row)) * (end - begin);
@@ -66,7 +60,7 @@ void LineMarks::fill(const std::vector<const Line*>& rings) {
   std::vector<std::vector<double>> crossings(static_cast<std::size_t>(rows_));
   for (const Line* ring : rings) {
     for (std::size_t k = 0; k + 1 < ring->points.size(); ++k) {
-      Place p = place_of(ring->points[k]), q = place_of(ring->points[k + 1]);
+      SamplePlace p = place_of(ring->points[k]), q = place_of(ring->points[k + 1]);
       if (p.row > q.row) std::swap(p, q);
       // Half open, so that a vertex on a row counts once.
       const double first = std::max(std::ceil(p.row), 0.0), last = std::min(std::ceil(q.row), double{1} * rows_);

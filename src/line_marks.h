@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "grid/affine_map.h"
 #include "scarp/lines.h"
 
 namespace scarp {
@@ -26,18 +27,13 @@ class LineMarks {
   bool has(std::size_t i) const { return marks_[i] != 0; }
 
  private:
-  /// In samples.
-  struct Place {
-    double col, row;
-  };
-  Place place_of(const std::array<double, 3>& point) const;
+  SamplePlace place_of(const std::array<double, 3>& point) const { return to_samples_.place(point[0], point[1]); }
   static bool narrow(double from, double span, int size, double& begin, double& end);
   void mark(int col, int row);
   void fill(const std::vector<const Line*>& rings);
 
-  std::array<double, 6> affine_;
+  MapToSamples to_samples_;
   int cols_, rows_;
-  double determinant_;
   std::vector<std::uint8_t> marks_;
 };
 

@@ -110,18 +110,19 @@ void judge_samples(const SimplifyOptions& options, const Criterion& criterion, b
   const double rounding = 0x1p-24 * (4 + static_cast<double>(result.channel_measurements.size()));
   const bool has_weights = !options.mask.empty() || !options.tolerance.empty();
   const double arithmetic = exact ? kArithmetic * largest_height(result.mesh) : 0;
-  double squares = 0;
+  double squares = 0, combined_squares = 0;
   std::uint64_t count = 0;
   result.combined_max_error = result.weighted_max_error = 0;
   for (std::size_t i = 0; i < tally.size(); ++i) {
     const double error = tally.norm_at(i);
     if (std::isnan(error)) continue;
     result.combined_max_error = std::max(result.combined_max_error, error);
+    combined_squares += error * error;
+    ++count;
     if (has_weights) {
       const double value = weighted(options, i, error);
       result.weighted_max_error = std::max(result.weighted_max_error, value);
       squares += value * value;
-      ++count;
     }
     if (result.stop != StopReason::kMaxError) continue;
     const double bound = criterion.bounds().empty() ? *criterion.bound() : double{criterion.bounds()[i]};
@@ -132,7 +133,9 @@ void judge_samples(const SimplifyOptions& options, const Criterion& criterion, b
       proof.broken = fmt::format("the bound {} cannot be kept: at sample ({}, {}) the mesh is off by {}", bound,
                                  proof.offenders.back().col, proof.offenders.back().row, error);
   }
-  result.weighted_rmse = count == 0 ? 0 : std::sqrt(squares / static_cast<double>(count));
+  const auto samples = static_cast<double>(std::max<std::uint64_t>(count, 1));
+  result.weighted_rmse = std::sqrt(squares / samples);
+  result.combined_rmse = std::sqrt(combined_squares / samples);
 }
 
 /// Of the band that a thread judges.

@@ -146,7 +146,7 @@ Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyO
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
   const auto start = Clock::now();
   const double tolerance = kLineShare * *options.max_error;
-  auto lines = prepare_lines(field, options.breaklines, options.cutline, tolerance);
+  auto lines = prepare_lines(field, options.breaklines, options.cutline, tolerance, options.threads);
   if (!lines) return tl::unexpected(lines.error());
   const double seconds = seconds_since(start);
   auto result = simplify_once(lines->apply(field), options, &lines->graph);
@@ -168,7 +168,10 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& ask
   if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
   if (has_lines(options)) return simplify_with_lines(field, options);
   if (options.effort == Effort::kFast || !has_budget(options)) return simplify_once(field, options, nullptr);
-  return search_error(options, [&](const SimplifyOptions& once) { return simplify_once(field, once, nullptr); });
+  const auto run = [&](const SimplifyOptions& once) { return simplify_once(field, once, nullptr); };
+  if (!has_norm(field)) return search_error(options, run);
+  options.vertices = Vertices::kSamples;
+  return search_error(options, run, Judged::kNorm);
 } catch (const SourceFailure& failure) {
   return tl::unexpected(failure.error);
 } catch (const std::bad_alloc&) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "breaklines.h"
+#include "grid/affine_map.h"
 #include "grid/raster.h"
 #include "line_marks.h"
 
@@ -25,7 +26,7 @@ class Waters {
       : field_(field),
         options_(options),
         affine_(options.affine),
-        determinant_(affine_[1] * affine_[5] - affine_[2] * affine_[4]),
+        to_samples_(options.affine),
         is_water_(field.samples.size(), 0) {}
 
   std::optional<Lake> flatten(std::span<const Line> rings) {
@@ -59,10 +60,7 @@ class Waters {
   std::size_t index(int col, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(field_.cols) + static_cast<std::size_t>(col);
   }
-  std::array<double, 2> place_of(const std::array<double, 3>& point) const {
-    const double x = point[0] - affine_[0], y = point[1] - affine_[3];
-    return {(affine_[5] * x - affine_[2] * y) / determinant_, (affine_[1] * y - affine_[4] * x) / determinant_};
-  }
+  SamplePlace place_of(const std::array<double, 3>& point) const { return to_samples_.place(point[0], point[1]); }
 
   /// With a sample around.
   Box box_of(std::span<const Line> rings) const {
@@ -92,12 +90,12 @@ class Waters {
     for (const Line& ring : rings) {
       for (std::size_t k = 0; k + 1 < ring.points.size(); ++k) {
         const auto p = place_of(ring.points[k]), q = place_of(ring.points[k + 1]);
-        const double length = std::max(std::abs(q[0] - p[0]), std::abs(q[1] - p[1]));
+        const double length = std::max(std::abs(q.col - p.col), std::abs(q.row - p.row));
         constexpr double kMostLooks = 1 << 20;
         const auto looks = static_cast<int>(std::min(std::ceil(2 * length), kMostLooks)) + 1;
         for (int i = 0; i < looks; ++i) {
           const double at = static_cast<double>(i) / looks;
-          const double col = p[0] + at * (q[0] - p[0]), row = p[1] + at * (q[1] - p[1]);
+          const double col = p.col + at * (q.col - p.col), row = p.row + at * (q.row - p.row);
           if (!(col >= 0 && row >= 0 && col <= field_.cols - 1 && row <= field_.rows - 1)) continue;
           const double height =
               height_between_samples(raster, {static_cast<std::int32_t>(std::lround(col * kLatticeSteps)),
@@ -145,7 +143,7 @@ class Waters {
   OwnedHeightField& field_;
   WaterOptions options_;
   std::array<double, 6> affine_;
-  double determinant_;
+  MapToSamples to_samples_;
   std::vector<std::uint8_t> is_water_;
 };
 

@@ -66,7 +66,7 @@ Result<Cut> read_cut(const CutlineArguments& given, const RasterInfo& raster, co
   options.crs = raster.crs;
   options.ignore_z = true;
   options.progress = progress;
-  auto lines = read_line_files(given.files, options, warnings);
+  auto lines = read_files(given.files, options, warnings);
   if (!lines) return tl::unexpected(std::move(lines.error()));
   auto rings = close_rings(std::move(*lines));
   if (!rings) return tl::unexpected(std::move(rings.error()));

@@ -25,8 +25,8 @@ double largest_edit(const std::vector<SampleEdit>& edits) {
 
 }  // namespace
 
-Result<std::vector<Line>> read_line_files(const std::vector<std::string>& files, const ReadLinesOptions& options,
-                                          std::vector<std::string>& warnings) {
+Result<std::vector<Line>> read_files(const std::vector<std::string>& files, const ReadLinesOptions& options,
+                                     std::vector<std::string>& warnings) {
   std::vector<Line> lines;
   std::uint32_t polygons = 0;
   for (const std::string& file : files) {
@@ -66,11 +66,25 @@ void LineArguments::add_to(CLI::App& verb) {
   verb.add_option("--water-percentile", percentile, "Share of the shore that lies below the lake's level\n(default 5)")
       ->type_name("P")
       ->group("Water");
+  verb.add_option("--detect-flats", flats,
+                  "Keep areas of at least N samples of one height flat:\ntheir shores become edges of the mesh")
+      ->type_name("N")
+      ->group("Water");
+  verb.add_option("--rivers", rivers,
+                  "Lines that become edges of the mesh and never rise\ndownstream. May be given again")
+      ->type_name("FILE[:LAYER]")
+      ->group("Water");
 }
 
 const char* LineArguments::find_lines() const {
   if (!breaklines.empty()) return "--breaklines";
-  return water.empty() ? nullptr : "--water";
+  if (const char* lakes = find_lakes()) return lakes;
+  return rivers.empty() ? nullptr : "--rivers";
+}
+
+const char* LineArguments::find_lakes() const {
+  if (!water.empty()) return "--water";
+  return flats ? "--detect-flats" : nullptr;
 }
 
 Result<void> LineArguments::check() const {
@@ -78,7 +92,8 @@ Result<void> LineArguments::check() const {
                         : are_soft ? "--soft-breaklines"
                         : conflict ? "--line-conflict"
                                    : nullptr;
-  if (needing != nullptr && breaklines.empty())
+  const bool may_meet = conflict && !are_soft && !z_field && !rivers.empty();
+  if (needing != nullptr && breaklines.empty() && !may_meet)
     return fail(ErrorKind::kUsage, fmt::format("{} needs --breaklines: there are no lines without", needing));
   if (are_soft && z_field)
     return fail(ErrorKind::kUsage, "--soft-breaklines and --breakline-z contradict each other: leave one of them out");
@@ -89,9 +104,28 @@ Result<void> LineArguments::check() const {
     if (*share > 100)
       return fail(ErrorKind::kUsage, fmt::format("--water-percentile {} is above 100", shell_word(*percentile)));
   }
+  if (flats) {
+    if (!water.empty())
+      return fail(ErrorKind::kUsage,
+                  "--detect-flats and --water contradict each other: lakes are found, or named by a file");
+    const Result<std::uint64_t> samples = parse_count("--detect-flats", *flats, 3);
+    if (!samples) return tl::unexpected(samples.error());
+  }
   if (!conflict) return {};
   const Result<LineConflict> rule = choose("--line-conflict", *conflict, kConflicts);
   return rule ? Result<void>() : tl::unexpected(rule.error());
+}
+
+Result<void> check_frame_of_lines(const LineArguments& given, const Frame& frame, const std::string& crs_option,
+                                  const std::string& input) {
+  const char* lines = given.find_lines();
+  if (lines == nullptr || frame.is_affine()) return {};
+  const std::string crs = shell_word(crs_option);
+  return fail(
+      ErrorKind::kUsage,
+      fmt::format("{} and --crs {} contradict each other: lines are laid where the grid is regular, and in that "
+                  "CRS it is bent. Leave --crs out, or bend the raster first: gdalwarp -t_srs {} {} warped.tif",
+                  lines, crs, crs, shell_word(input)));
 }
 
 std::string LineArguments::canonical() const {
@@ -100,7 +134,9 @@ std::string LineArguments::canonical() const {
   text += canonical_option("--breakline-z", z_field) + (are_soft ? " --soft-breaklines" : "") +
           canonical_option("--line-conflict", conflict);
   for (const std::string& file : water) text += " --water " + shell_word(base_name(file));
-  return text + canonical_option("--water-percentile", percentile);
+  text += canonical_option("--water-percentile", percentile) + canonical_option("--detect-flats", flats);
+  for (const std::string& file : rivers) text += " --rivers " + shell_word(base_name(file));
+  return text;
 }
 
 Result<LineConstraints> LineArguments::read(const RasterInfo& raster, int rows, const ProgressCallback& progress,
@@ -113,30 +149,10 @@ Result<LineConstraints> LineArguments::read(const RasterInfo& raster, int rows, 
   options.z_field = z_field.value_or("");
   options.ignore_z = are_soft;
   options.progress = progress;
-  auto lines = read_line_files(breaklines, options, warnings);
+  auto lines = read_files(breaklines, options, warnings);
   if (!lines) return tl::unexpected(std::move(lines.error()));
   constraints.lines = std::move(*lines);
   return constraints;
-}
-
-Result<std::vector<Lake>> flatten_water(const LineArguments& given, const ProgressCallback& progress,
-                                        OwnedHeightField& field, LineConstraints& lines,
-                                        std::vector<std::string>& warnings) {
-  if (given.water.empty()) return std::vector<Lake>();
-  ReadLinesOptions reading;
-  reading.crs = field.info.crs;
-  reading.ignore_z = true;
-  reading.progress = progress;
-  const auto polygons = read_line_files(given.water, reading, warnings);
-  if (!polygons) return tl::unexpected(polygons.error());
-  WaterOptions options;
-  options.affine = lines.affine;
-  if (given.percentile) options.percentile = *parse_non_negative("--water-percentile", *given.percentile);
-  auto lakes = flatten_lakes(field, *polygons, options);
-  if (!lakes) return lakes;
-  if (lakes->empty()) warnings.push_back("--water names no lake in the raster: it changes nothing");
-  for (const Lake& lake : *lakes) lines.lines.insert(lines.lines.end(), lake.shore.begin(), lake.shore.end());
-  return lakes;
 }
 
 void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field) {
@@ -165,31 +181,6 @@ std::string lines_line(std::uint64_t lines, const Simplified& simplified) {
         fmt::format("; {} given their heights, changed by up to {}: the errors are those against the changed raster",
                     format_plural(simplified.edits.size(), "sample"), format_number(largest_edit(simplified.edits)));
   return summary_line("breaklines", text);
-}
-
-Json describe_water(const std::vector<Lake>& lakes) {
-  Json list = Json::array();
-  for (const Lake& lake : lakes)
-    list.push_back(Json{{"name", lake.name},
-                        {"level", lake.level},
-                        {"edited_samples", lake.samples},
-                        {"raised_around", lake.raised},
-                        {"largest_edit", lake.largest_change}});
-  return list;
-}
-
-std::string water_line(const std::vector<Lake>& lakes) {
-  if (lakes.empty()) return "";
-  std::uint64_t samples = 0;
-  double largest = 0;
-  for (const Lake& lake : lakes) {
-    samples += lake.samples + lake.raised;
-    largest = std::max(largest, lake.largest_change);
-  }
-  return summary_line(
-      "water",
-      fmt::format("{}; {} changed by up to {}: the errors are those against the changed raster",
-                  format_plural(lakes.size(), "lake"), format_plural(samples, "sample"), format_number(largest)));
 }
 
 }  // namespace scarp::cli

@@ -10,13 +10,12 @@
 #include "report.h"
 #include "scarp/lines.h"
 #include "scarp/simplify.h"
-#include "scarp/water.h"
 
 namespace scarp::cli {
 
 struct LineArguments {
-  std::vector<std::string> breaklines, water;  ///< FILE or FILE:LAYER
-  Given z_field, conflict, percentile;
+  std::vector<std::string> breaklines, water, rivers;  ///< FILE or FILE:LAYER
+  Given z_field, conflict, percentile, flats;
   bool are_soft = false;
 
   void add_to(CLI::App& verb);
@@ -24,6 +23,8 @@ struct LineArguments {
   Result<void> check() const;
   /// The option that asks for lines in the mesh; null if there is none.
   const char* find_lines() const;
+  /// The option that asks for lakes; null if there is none.
+  const char* find_lakes() const;
   /// The options as they can change the mesh, for the canonical command.
   std::string canonical() const;
   /// The lines of all files, in the CRS of the raster; sentences for the user in `warnings`.
@@ -31,14 +32,13 @@ struct LineArguments {
                                std::vector<std::string>& warnings) const;
 };
 
-/// The lines of all files; polygons are counted on from file to file. Sentences for the user in `warnings`.
-Result<std::vector<Line>> read_line_files(const std::vector<std::string>& files, const ReadLinesOptions& options,
-                                          std::vector<std::string>& warnings);
+/// The lines of all files.
+Result<std::vector<Line>> read_files(const std::vector<std::string>& files, const ReadLinesOptions& options,
+                                     std::vector<std::string>& warnings);
 
-/// Makes the lakes of --water flat, and their shores lines of the mesh.
-Result<std::vector<Lake>> flatten_water(const LineArguments& given, const ProgressCallback& progress,
-                                        OwnedHeightField& field, LineConstraints& lines,
-                                        std::vector<std::string>& warnings);
+/// Refuses lines where the CRS that --crs names bends the grid of the raster.
+Result<void> check_frame_of_lines(const LineArguments& given, const Frame& frame, const std::string& crs_option,
+                                  const std::string& input);
 
 /// Puts the samples on hard lines at the heights that simplify() gave them.
 void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field);
@@ -47,10 +47,5 @@ void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field);
 Json describe_lines(const LineArguments& given, std::uint64_t lines, const Simplified& simplified);
 /// Of the summary; empty without lines.
 std::string lines_line(std::uint64_t lines, const Simplified& simplified);
-
-/// The "water" list of a report.
-Json describe_water(const std::vector<Lake>& lakes);
-/// Of the summary; empty without lakes.
-std::string water_line(const std::vector<Lake>& lakes);
 
 }  // namespace scarp::cli

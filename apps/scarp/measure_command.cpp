@@ -9,6 +9,7 @@
 #include "measure_report.h"
 #include "progress_display.h"
 #include "scarp/picture.h"
+#include "scarp/solid.h"
 #include "signals.h"
 #include "text.h"
 
@@ -23,7 +24,7 @@ MeasureCommand::MeasureCommand(CLI::App& program)
       ->required();
   verb_
       ->add_option("MESH", mesh_,
-                   "Mesh to judge: GLB, OBJ, PLY, STL, TIN, 2DM, VTU, VTP,\nLandXML or DXF, recognised by content")
+                   "Mesh to judge: GLB, OBJ, PLY, STL, TIN, 2DM, VTU, VTP,\nLandXML, DXF or 3MF, recognised by content")
       ->type_name("")
       ->required();
   raster_.add_to(
@@ -128,6 +129,7 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
   Result<Mesh> mesh = read_mesh(mesh_);
   if (!mesh) return tl::unexpected(std::move(mesh.error()));
   judged.mesh = std::move(*mesh);
+  undo_placement(judged.mesh);
   const auto crs_of_mesh = judged.mesh.metadata.find("crs_option");
   const bool crs_from_mesh = !raster_.crs && crs_of_mesh != judged.mesh.metadata.end();
   if (crs_from_mesh) read->crs = crs_of_mesh->second;

@@ -12,7 +12,7 @@
 namespace scarp::cli {
 namespace {
 
-constexpr const char* kNames = "glb, obj, ply, stl, tin, 2dm, vtu, vtp, landxml, dxf, gpkg, svg, eps or dem";
+constexpr const char* kNames = "glb, obj, ply, stl, tin, 2dm, vtu, vtp, landxml, dxf, gpkg, 3mf, svg, eps or dem";
 
 /// What the verbs must know of a mesh format before they write it.
 struct MeshRow {
@@ -32,7 +32,8 @@ constexpr MeshRow kMeshRows[] = {{MeshFormat::kGlb, "glb", "GLB", 80, true, fals
                                  {MeshFormat::kVtp, "vtp", "VTP", 120, true, false},
                                  {MeshFormat::kLandXml, "landxml", "LandXML", 260, false, false},
                                  {MeshFormat::kDxf, "dxf", "DXF", 900, false, true},
-                                 {MeshFormat::kGpkg, "gpkg", "GeoPackage", 1200, false, true}};
+                                 {MeshFormat::kGpkg, "gpkg", "GeoPackage", 1200, false, true},
+                                 {MeshFormat::k3mf, "3mf", "3MF", 400, false, false}};
 
 const MeshRow& row_of(MeshFormat format) {
   for (const MeshRow& row : kMeshRows) {
@@ -101,6 +102,11 @@ std::uint64_t OutputFormat::bytes_per_vertex() const {
 
 bool OutputFormat::holds_attributes() const { return is_mesh() && row_of(mesh).holds_attributes; }
 
+bool OutputFormat::holds_prints() const {
+  return is_mesh() &&
+         (mesh == MeshFormat::kStl || mesh == MeshFormat::k3mf || mesh == MeshFormat::kObj || mesh == MeshFormat::kPly);
+}
+
 bool OutputFormat::is_on_maps() const { return is_mesh() && row_of(mesh).is_on_maps; }
 
 Result<OutputFormat> choose_output_format(const Given& of, const std::string& output) {
@@ -120,12 +126,12 @@ Result<OutputFormat> choose_output_format(const Given& of, const std::string& ou
   if (const std::optional<OutputFormat> named = find_format_of_extension(extension)) return *named;
   return fail(ErrorKind::kUsage,
               fmt::format("{} does not tell a format: end it in .glb, .obj, .ply, .stl, .tin, .2dm, .vtu, .vtp, .xml, "
-                          ".dxf, .gpkg, .svg, .eps, .tif or .pgm, or choose one with --of",
+                          ".dxf, .gpkg, .3mf, .svg, .eps, .tif or .pgm, or choose one with --of",
                           shell_word(output)));
 }
 
 Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, const std::string& unit) {
-  if (!format.is_mesh()) return {};
+  if (!format.is_mesh() || format.mesh == MeshFormat::k3mf) return {};
   Mesh sample;
   sample.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   sample.triangles = {0, 1, 2};

@@ -26,8 +26,12 @@ struct OutputFormat {
   std::uint64_t bytes_per_vertex() const;
   bool is_mesh() const { return kind == OutputKind::kMesh; }
   /// Positions are rounded to float32.
-  bool is_float32() const { return is_mesh() && (mesh == MeshFormat::kGlb || mesh == MeshFormat::kStl); }
+  bool is_float32() const {
+    return is_mesh() && (mesh == MeshFormat::kGlb || mesh == MeshFormat::kStl || mesh == MeshFormat::k3mf);
+  }
   bool is_landxml() const { return is_mesh() && mesh == MeshFormat::kLandXml; }
+  /// Can be a print: its coordinates are millimetres to those who print it.
+  bool holds_prints() const;
   /// Has a place for normals, uvs and colours.
   bool holds_attributes() const;
   /// Is laid on maps: x and y are the raster's own, degrees too, unless a CRS was asked for.

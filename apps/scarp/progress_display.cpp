@@ -50,7 +50,7 @@ ProgressCallback ProgressDisplay::callback() {
 }
 
 bool ProgressDisplay::show(const Progress& progress) {
-  if (interrupted()) return false;
+  if (interrupted() && !(progress.pass == finished_by_interrupt_ && content_with_interrupt())) return false;
   if (style_ == Style::kSilent) return true;
   const Clock::time_point now = Clock::now();
   const bool new_pass = !has_pass_ || progress.pass != pass_;

@@ -24,6 +24,8 @@ class ProgressDisplay {
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
+  /// From now on an interrupt in the pass of that name is content_with_interrupt(), instead of an end.
+  void let_interrupt_finish(std::string_view pass) { finished_by_interrupt_ = pass; }
   /// For the library's options. The display must outlive the call that uses it.
   ProgressCallback callback();
   /// Ends the last pass and erases the line. Call when the work has succeeded; nothing is shown afterwards.
@@ -47,7 +49,7 @@ class ProgressDisplay {
   Clock::time_point last_shown_;
   bool has_pass_ = false;
   bool line_shown_ = false;
-  std::string pass_;
+  std::string pass_, finished_by_interrupt_;
   double fraction_ = 0;
   std::uint64_t vertices_ = 0;
   double max_error_ = 0;

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 
 #include "scarp/io.h"
@@ -9,19 +10,24 @@
 namespace scarp::cli {
 namespace {
 
-volatile std::sig_atomic_t g_interrupted = 0;
+// Lock-free, so that a handler may touch them.
+std::atomic<int> g_signals = 0;
+std::atomic<bool> g_is_content = false;
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 /// The default action, so that a shell sees a program ended by the signal, but without half a file left.
 extern "C" void on_end_signal(int signal) {
-  const char* half_written = pending_output();
-  if (half_written[0] != '\0') unlink(half_written);
+  for (int place = 0; place < scarp::kPendingOutputs; ++place) {
+    const char* half_written = pending_output(place);
+    if (half_written[0] != '\0') unlink(half_written);
+  }
   std::signal(signal, SIG_DFL);
   raise(signal);  // acts when this handler returns
 }
 
 extern "C" void on_stop_signal(int signal) {
-  if (g_interrupted != 0) return on_end_signal(signal);
-  g_interrupted = 1;
+  const int taken = g_is_content ? 1 : 0;
+  if (g_signals.fetch_add(1) > taken) on_end_signal(signal);
 }
 
 }  // namespace
@@ -42,6 +48,11 @@ void install_signal_handlers() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-bool interrupted() { return g_interrupted != 0; }
+bool interrupted() { return g_signals > (g_is_content ? 1 : 0); }
+
+bool content_with_interrupt() {
+  if (g_signals > 0) g_is_content = true;
+  return g_is_content;
+}
 
 }  // namespace scarp::cli

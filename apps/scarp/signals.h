@@ -9,7 +9,11 @@ namespace scarp::cli {
 /// a full file become errors of the write that met them. Call once, first thing in main().
 void install_signal_handlers();
 
-/// True once SIGINT, SIGTERM or SIGHUP has arrived.
+/// True once SIGINT, SIGTERM or SIGHUP has arrived, but for one that content_with_interrupt() took.
 bool interrupted();
+
+/// Takes the first of these signals, if it has arrived, as a wish for what there is by now: the run goes on to write
+/// it, and the next signal counts as the first. Returns true from then on. May be called by any thread.
+bool content_with_interrupt();
 
 }  // namespace scarp::cli

@@ -61,10 +61,10 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
       plan.lines.read(outcome.as_read, outcome.field.rows, progress, outcome.companions.warnings);
   if (!lines) return tl::unexpected(std::move(lines.error()));
   outcome.lines = std::move(*lines);
-  Result<std::vector<Lake>> lakes =
-      flatten_water(plan.lines, progress, outcome.field, outcome.lines, outcome.companions.warnings);
-  if (!lakes) return tl::unexpected(std::move(lakes.error()));
-  outcome.lakes = std::move(*lakes);
+  Result<WatersFound> waters = add_waters(plan.lines, progress, outcome.asked.value_or(0), outcome.field, outcome.lines,
+                                          outcome.companions.warnings);
+  if (!waters) return tl::unexpected(std::move(waters.error()));
+  outcome.waters = std::move(*waters);
   Result<Cut> cut = read_cut(plan.cut, outcome.as_read, progress, outcome.field, outcome.companions.warnings);
   if (!cut) return tl::unexpected(std::move(cut.error()));
   outcome.cut = std::move(*cut);
@@ -161,6 +161,21 @@ Result<void> judge_topology(const ProgressCallback& progress, int threads, Outco
   return {};
 }
 
+/// Efforts that take long hold a mesh that keeps the bound all the while.
+bool keeps_mesh_on_interrupt(const SimplifyOptions& options) {
+  const bool is_long = options.effort == Effort::kHigh || options.effort == Effort::kMax;
+  return is_long && !options.max_triangles && !options.max_vertices && options.memory_limit == 0;
+}
+
+/// A print is made with its mesh.
+Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyOptions& options, Outcome& outcome) {
+  if (!plan.solid) return simplify(outcome.view(), options);
+  Result<PrintedTerrain> printed = simplify_for_print(*plan.solid, outcome.field, options);
+  if (!printed) return tl::unexpected(std::move(printed.error()));
+  outcome.print = std::move(printed->print);
+  return std::move(printed->simplified);
+}
+
 Result<void> write_report(const SimplifyPlan& plan, const Json& report) {
   const std::string text = to_text(report);
   const std::vector<std::uint8_t> bytes(text.begin(), text.end());
@@ -197,6 +212,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
         "LandXML has no degrees: the surface is in metres around the raster's centre; a projected CRS (--crs) puts it "
         "in its place");
   }
+  if (auto checked = check_frame_of_lines(plan->lines, frame, plan->read.crs, plan->input); !checked) return checked;
   SimplifyOptions options = plan->simplify;
   options.max_error = outcome.asked;
   options.mask = outcome.companions.mask;
@@ -205,8 +221,12 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   options.breaklines = outcome.lines;
   options.cutline = outcome.cut.cutline;
   options.progress = display.callback();
+  if (keeps_mesh_on_interrupt(options)) {
+    options.is_enough = content_with_interrupt;
+    display.let_interrupt_finish("fit");
+  }
   if (plan->memory) options.memory_taken = bytes_taken(outcome.field, *plan->memory);
-  Result<Simplified> simplified = simplify(outcome.view(), options);
+  Result<Simplified> simplified = simplify_as_planned(*plan, options, outcome);
   if (!simplified) {
     Error error = std::move(simplified.error());
     constexpr std::string_view kLimit = "memory_limit";
@@ -256,11 +276,10 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   if (!files) return tl::unexpected(files.error());
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
 
-  // From here on the work is done: files appear one after the other, each whole.
-  for (const ReadyFile& file : *files) {
-    const Result<void> written = write_file(file.path, file.bytes, plan->overwrite);
-    if (!written) return written;
-  }
+  // From here on the work is done: all files get their names, or none.
+  std::vector<FileBytes> ready;
+  for (const ReadyFile& file : *files) ready.push_back({file.path, file.bytes});
+  if (const Result<void> written = write_files(ready, plan->overwrite); !written) return written;
   outcome.seconds_write = seconds_since(write_start);
   outcome.seconds_total = seconds_since(start);
   if (plan->report) {

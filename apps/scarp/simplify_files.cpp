@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "judge.h"
@@ -20,6 +23,7 @@ void add_metadata(const SimplifyPlan& plan, Outcome& outcome) {
   Json error;
   error["asked"] = outcome.asked ? Json(*outcome.asked) : Json(nullptr);
   if (!plan.channels.image) error["max_error"] = measured.max_error;
+  if (outcome.print) error["max_error"] = outcome.print->max_error;
   if (outcome.field.sample_rounding > 0) error["sample_rounding"] = outcome.field.sample_rounding;
   if (!plan.channels.image) error["rmse"] = measured.rmse;
   error["samples"] = measured.samples;
@@ -68,9 +72,37 @@ Result<void> add_error_raster(const SimplifyPlan& plan, const ProgressCallback& 
   return {};
 }
 
+/// The sheets of the print, with the terrain's metadata.
+std::vector<Mesh> named_solids(const Outcome& outcome) {
+  std::vector<Mesh> solids;
+  const bool is_whole = outcome.print->sheets.size() == 1 && outcome.print->empty_sheets == 0;
+  for (const Sheet& sheet : outcome.print->sheets) {
+    solids.push_back(sheet.mesh);
+    solids.back().metadata.insert(outcome.simplified.mesh.metadata.begin(), outcome.simplified.mesh.metadata.end());
+    solids.back().metadata["name"] = is_whole ? "terrain" : fmt::format("r{}-c{}", sheet.row, sheet.column);
+  }
+  return solids;
+}
+
+/// A file for each sheet; the first file is OUTPUT's, whose place the first of them takes.
+Result<void> encode_sheets(const SimplifyPlan& plan, const Outcome& outcome, std::vector<ReadyFile>& files) {
+  const std::vector<std::string> paths = print_paths(plan, *outcome.print);
+  const std::vector<Mesh> solids = named_solids(outcome);
+  std::vector<ReadyFile> sheets;
+  for (std::size_t k = 0; k < solids.size(); ++k) {
+    Result<std::vector<std::uint8_t>> bytes = encode_mesh(solids[k], plan.format.mesh);
+    if (!bytes) return tl::unexpected(std::move(bytes.error()));
+    sheets.push_back({paths[k], plan.format.name(), std::move(*bytes)});
+  }
+  files.erase(files.begin());
+  files.insert(files.begin(), std::make_move_iterator(sheets.begin()), std::make_move_iterator(sheets.end()));
+  return {};
+}
+
 /// The bytes of OUTPUT.
 Result<std::vector<std::uint8_t>> encode_output(const SimplifyPlan& plan, const Outcome& outcome) {
   const Mesh& mesh = outcome.simplified.mesh;
+  if (outcome.print) return encode_3mf(named_solids(outcome));
   if (plan.format.kind != OutputKind::kDem) return encode_as(plan.format, mesh);
   const Result<std::vector<float>> heights = resample(outcome.field, mesh, plan.simplify.threads);
   if (!heights) return tl::unexpected(heights.error());
@@ -92,6 +124,10 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
   if (added) added = finish_mesh(plan, outcome);
   if (!added) return tl::unexpected(std::move(added.error()));
   add_metadata(plan, outcome);
+  if (outcome.print && plan.format.mesh != MeshFormat::k3mf) {
+    if (auto encoded = encode_sheets(plan, outcome, files); !encoded) return tl::unexpected(std::move(encoded.error()));
+    return files;
+  }
   Result<std::vector<std::uint8_t>> output = encode_output(plan, outcome);
   if (!output) return tl::unexpected(std::move(output.error()));
   files.front().bytes = std::move(*output);

@@ -10,10 +10,10 @@ void SimplifyArguments::add_to(CLI::App& verb) {
           "Raster of heights: a file or URL that GDAL opens, PGM\nor STM; with --image any image; or scattered points")
       ->type_name("")
       ->required();
-  verb.add_option(
-          "OUTPUT", output,
-          "Mesh to write: .glb, .obj, .ply, .stl, .tin, .2dm, .vtu,\n.vtp, .xml (LandXML), .dxf or .gpkg; its edges as "
-          ".svg\nor .eps; or the approximation as .tif or .pgm")
+  verb.add_option("OUTPUT", output,
+                  "Mesh to write: .glb, .obj, .ply, .stl, .tin, .2dm, .vtu,\n.vtp, .xml (LandXML), .dxf or .gpkg; "
+                  "solids also .3mf;\n"
+                  "its edges as .svg or .eps; or the approximation as .tif\nor .pgm")
       ->type_name("")
       ->required();
 
@@ -54,11 +54,13 @@ void SimplifyArguments::add_to(CLI::App& verb) {
   lines.add_to(verb);
   cut.add_to(verb);
   channels.add_to(verb);
+  shape.add_to(verb);
   strategy.add_to(verb);
 
-  verb.add_option("--of", format,
-                  "Format: glb, obj, ply, stl, tin (triangles as text),\n2dm, vtu, vtp, landxml, dxf, gpkg, svg or eps "
-                  "(edges),\ndem (the approximation as a raster). Default: by\nOUTPUT's extension")
+  verb.add_option(
+          "--of", format,
+          "Format: glb, obj, ply, stl, tin (triangles as text),\n2dm, vtu, vtp, landxml, dxf, gpkg, 3mf, svg or eps\n"
+          "(edges), dem (the approximation as a raster).\nDefault: by OUTPUT's extension")
       ->type_name("FORMAT")
       ->group("Output");
   verb.add_flag("--normals", normals, "Vertex normals from the full-resolution raster")->group("Output");
@@ -68,6 +70,7 @@ void SimplifyArguments::add_to(CLI::App& verb) {
                   "Close the mesh into a watertight solid with a flat\nbase at this height, in the raster's units")
       ->type_name("H")
       ->group("Output");
+  solid.add_to(verb);
   verb.add_option("--preview", preview, "Also draw a hillshade with the mesh over it")
       ->type_name("FILE.png")
       ->group("Output");
@@ -99,7 +102,7 @@ void SimplifyArguments::add_to(CLI::App& verb) {
       "  scarp simplify dem.tif hills.glb -e 1            every sample within 1 m\n"
       "  scarp simplify dem.tif hills.obj -e 0.5%         within half a percent of the relief\n"
       "  scarp simplify dem.tif hills.glb -t 5000 --preview hills.png --report hills.json\n"
-      "  scarp simplify dem.tif print.stl -e 1 --base 0   a solid for a 3-D printer\n"
+      "  scarp simplify dem.tif print.3mf -e 1 --solid size=120mm                 a solid for a 3-D printer\n"
       "  scarp simplify tile.png tile.glb -e 1 --decode terrarium\n"
       "  scarp simplify survey.csv hills.glb -e 0.5       scattered points: x, y, z\n"
       "  scarp simplify dem.tif hills.glb -e 1 --edges data --edge-score tight    fewer triangles\n"

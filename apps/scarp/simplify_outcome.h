@@ -11,6 +11,7 @@
 #include "judge.h"
 #include "scarp/height_field.h"
 #include "simplify_run.h"
+#include "waters.h"
 
 namespace scarp::cli {
 
@@ -21,8 +22,8 @@ struct Outcome : SimplifyRun {
   HeightRange heights;  ///< of the samples that were judged
   Channels channels;
   Companions companions;
-  LineConstraints lines;  ///< with the shores of lakes
-  std::vector<Lake> lakes;
+  LineConstraints lines;  ///< with shores and rivers
+  WatersFound waters;
   Cut cut;
   std::uint64_t filled = 0;
   std::optional<LargestError> bounded;  ///< where samples are ignored: of the others; images: norms

@@ -112,8 +112,8 @@ Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
   return {};
 }
 
-/// The option beside which the mesh cannot hold lines; null if there is none.
-const char* find_line_obstacle(const SimplifyArguments& given, const SimplifyPlan& plan) {
+/// The option beside which the mesh can have no vertices between samples; null if there is none.
+const char* find_lattice_obstacle(const SimplifyArguments& given, const SimplifyPlan& plan) {
   if (plan.channels.image) return "--image";
   if (!given.channels.textures.empty()) return "--texture";
   if (plan.simplify.outline_tolerance > 0) return "--outline-tolerance";
@@ -130,15 +130,27 @@ Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   const char* lines = given.lines.find_lines();
   const bool is_cut = lines == nullptr && given.cut.find_cut() != nullptr;
   if (is_cut) lines = given.cut.find_cut();
+  if (lines == nullptr && plan.solid && plan.solid->is_split()) lines = "--split";
   if (lines == nullptr) return {};
-  const char* obstacle = find_line_obstacle(given, plan);
+  const char* obstacle = find_lattice_obstacle(given, plan);
   // Water is level where all corners of its triangles are: at samples and on its shore.
-  if (!given.lines.water.empty() && plan.simplify.vertices == Vertices::kFree) obstacle = "--vertices free";
-  if (!given.lines.water.empty()) plan.simplify.vertices = Vertices::kSamples;
+  const char* lakes = given.lines.find_lakes();
+  if (lakes != nullptr && plan.simplify.vertices == Vertices::kFree) obstacle = "--vertices free";
+  if (lakes != nullptr) plan.simplify.vertices = Vertices::kSamples;
   if (obstacle == nullptr) return {};
   return fail(ErrorKind::kUsage,
               fmt::format("{} and {} contradict each other: leave one of them out{}", lines, obstacle,
                           is_cut ? ", or cut at cells of the grid with --mask-outside" : ""));
+}
+
+Result<void> plan_shape(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const Result<ShapeGoals> goals = given.shape.parse();
+  if (!goals) return tl::unexpected(goals.error());
+  plan.simplify.shape = *goals;
+  const char* goal = given.shape.find_goal();
+  const char* obstacle = goal == nullptr ? nullptr : find_lattice_obstacle(given, plan);
+  if (obstacle == nullptr) return {};
+  return fail(ErrorKind::kUsage, fmt::format("{} and {} contradict each other: leave one of them out", goal, obstacle));
 }
 
 /// The budget that was given; null if there is none.
@@ -180,7 +192,7 @@ Result<void> plan_order(const SimplifyArguments& given, SimplifyPlan& plan) {
                           culprit));
 }
 
-/// Removal looks at heights alone, and budgets are met by one error for all samples.
+/// Removal chooses edges itself, and budgets are met by one error for all samples.
 Result<void> plan_effort(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (plan.simplify.effort == Effort::kFast) {
     const char* needless = given.strategy.min_shape    ? "--min-shape"
@@ -198,12 +210,17 @@ Result<void> plan_effort(const SimplifyArguments& given, SimplifyPlan& plan) {
                             "samples; leave one of them out",
                             *given.strategy.effort, budget, bounds));
   }
-  const char* culprit = plan.simplify.edges.data_dependent ? "--edges data" : find_beyond_heights(given, plan);
-  if (culprit == nullptr) return {};
+  if (plan.channels.has_channels() && plan.simplify.vertices == Vertices::kFree) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("--vertices free and {} contradict each other: a vertex between samples has no colour; "
+                            "leave one of them out",
+                            plan.channels.image ? "--image" : "--texture"));
+  }
+  if (!plan.simplify.edges.data_dependent) return {};
   return fail(ErrorKind::kUsage,
-              fmt::format("--effort {} and {} contradict each other: vertices are removed on heights alone; leave one "
-                          "of them out",
-                          *given.strategy.effort, culprit));
+              fmt::format("--effort {} and --edges data contradict each other: where vertices are removed edges are "
+                          "chosen anew; leave one of them out",
+                          *given.strategy.effort));
 }
 
 /// A max error decides the mesh, and so does fast effort.
@@ -215,6 +232,44 @@ Result<void> plan_objective(const SimplifyArguments& given, SimplifyPlan& plan) 
   if (plan.simplify.effort == Effort::kFast)
     return fail(ErrorKind::kUsage,
                 "--objective rms needs --effort normal or high: fast effort lowers the max error only");
+  return {};
+}
+
+/// The option that asks for more than one bound on heights, by which alone a print is judged; null if there is none.
+const char* find_print_obstacle(const SimplifyArguments& given) {
+  if (given.base) return "--base";
+  if (given.normals) return "--normals";
+  if (given.uvs) return "--uvs";
+  if (given.channels.image) return "--image";
+  if (!given.channels.textures.empty()) return "--texture";
+  return find_bounds(given);
+}
+
+Result<void> plan_solid(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const Result<std::optional<SolidPlan>> solid = given.solid.parse();
+  if (!solid) return tl::unexpected(solid.error());
+  plan.solid = *solid;
+  if (!plan.solid) return {};
+  if (const char* obstacle = find_print_obstacle(given); obstacle != nullptr)
+    return fail(ErrorKind::kUsage,
+                fmt::format("--solid and {} contradict each other: leave one of them out", obstacle));
+  return {};
+}
+
+/// What solids need of the format, and it of them.
+Result<void> plan_solid_format(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const OutputFormat& format = plan.format;
+  if (format.is_mesh() && format.mesh == MeshFormat::k3mf && !plan.solid && !plan.base)
+    return fail(ErrorKind::kUsage,
+                "3MF holds closed solids only: say how to close the terrain, such as --solid size=120mm");
+  if (!plan.solid) return {};
+  if (!format.holds_prints())
+    return fail(ErrorKind::kUsage,
+                fmt::format("--solid is for printing, and {} has no place for millimetres: choose .stl, .3mf, .obj or "
+                            ".ply, or --base for a solid in the raster's units",
+                            format.title()));
+  if (plan.has_file_per_sheet() && is_stdout(given.output))
+    return fail(ErrorKind::kUsage, "--split writes several files: /dev/stdout is only one");
   return {};
 }
 
@@ -276,8 +331,14 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
   }
   const Result<void> attributes = plan_attributes(given, plan);
   if (!attributes) return attributes;
+  if (auto solid = plan_solid_format(given, plan); !solid) return solid;
 
-  std::vector<PlannedOutput> outputs{{"OUTPUT", given.output}};
+  std::vector<PlannedOutput> outputs;
+  if (!plan.has_file_per_sheet()) outputs.push_back({"OUTPUT", given.output});
+  for (int k = 0; plan.has_file_per_sheet() && k < plan.solid->columns * plan.solid->rows; ++k) {
+    const int columns = plan.solid->columns;
+    outputs.push_back({"--split", sheet_path(given.output, k / columns + 1, k % columns + 1)});
+  }
   const std::pair<const char*, const Given*> pictures[] = {{"--preview", &given.preview}, {"--render", &given.render}};
   for (const auto& [option, path] : pictures) {
     if (!*path) continue;
@@ -305,6 +366,10 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
       {"--breaklines", !given.lines.breaklines.empty()},
       {"--water", !given.lines.water.empty()},
       {"--cutline", !given.cut.files.empty()},
+      {"--detect-flats", given.lines.flats.has_value()},
+      {"--rivers", !given.lines.rivers.empty()},
+      {"--solid", plan.solid.has_value()},
+      {given.shape.find_goal(), given.shape.find_goal() != nullptr},
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
       {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
       {"--normals", plan.simplify.normals},
@@ -359,7 +424,8 @@ std::string canonical_command(const SimplifyArguments& given) {
   for (const auto& [name, value] : options) {
     command += canonical_option(name, *value);
   }
-  command += given.companions.canonical() + given.lines.canonical() + given.cut.canonical() +
+  command += given.solid.canonical();
+  command += given.companions.canonical() + given.lines.canonical() + given.cut.canonical() + given.shape.canonical() +
              given.channels.canonical() + given.strategy.canonical();
   if (given.strategy.asks_for_greedy()) command += " --order greedy";
   return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "");
@@ -384,8 +450,8 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   const Result<int> threads = parse_threads(given.threads);
   if (!threads) return tl::unexpected(threads.error());
   plan.simplify.threads = *threads;
-  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_lines, plan_order, plan_effort,
-                          plan_objective, plan_outputs, plan_memory}) {
+  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_solid, plan_lines, plan_shape,
+                          plan_order, plan_effort, plan_objective, plan_outputs, plan_memory}) {
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());
   }

@@ -14,6 +14,8 @@
 #include "options.h"
 #include "output_kind.h"
 #include "scarp/simplify.h"
+#include "shape_options.h"
+#include "solid_options.h"
 #include "strategy_options.h"
 
 namespace scarp::cli {
@@ -32,7 +34,9 @@ struct SimplifyArguments {
   ChannelArguments channels;
   LineArguments lines;
   CutlineArguments cut;
+  ShapeArguments shape;
   MemoryArguments memory;
+  SolidArguments solid;
   bool normals = false, uvs = false, overwrite = false, quiet = false, timing = false, json_progress = false;
 
   void add_to(CLI::App& verb);
@@ -52,6 +56,7 @@ struct SimplifyPlan {
   double fill_distance = 100;
   float background = 0;
   std::optional<double> base;
+  std::optional<SolidPlan> solid;
   std::optional<std::string> preview, render, error_raster, report;
   bool overwrite = false;
   std::optional<std::uint64_t> memory;       ///< what the process may take
@@ -60,6 +65,9 @@ struct SimplifyPlan {
   /// The command for the mesh's metadata: options in a fixed order and with their long names, folders left out, and
   /// without what cannot change the mesh (threads, quietness, other outputs, the output's name).
   std::string canonical_command;
+
+  /// Of a print in sheets; else OUTPUT holds them all.
+  bool has_file_per_sheet() const { return solid && solid->is_split() && format.mesh != MeshFormat::k3mf; }
 };
 
 Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given);

@@ -136,7 +136,9 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["strategy"]["roi"] = plan.companions.roi.empty() ? Json(nullptr) : Json(plan.companions.roi);
   report["strategy"]["falloff"] = or_null(plan.companions.falloff);
   report["breaklines"] = describe_lines(plan.lines, outcome.lines.lines.size(), outcome.simplified);
-  report["water"] = describe_water(outcome.lakes);
+  report["water"] = describe_lakes(outcome.waters.lakes);
+  report["rivers"] = describe_rivers(outcome.waters.rivers);
+  report["shape"] = describe_shape(plan.simplify.shape, outcome.simplified);
   report["cutline"] = describe_cut(plan.cut, outcome.cut, outcome.simplified.cut_off);
   report["stopped_by"] = stop_name(outcome.simplified.stop);
   report["vertices"] = outcome.vertices;
@@ -177,9 +179,10 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
       "triangles",
       fmt::format("{}, {} of the full grid's {}", format_count(outcome.triangles),
                   format_share(static_cast<double>(outcome.triangles), static_cast<double>(full)), format_count(full)));
-  text += water_line(outcome.lakes);
+  text += waters_lines(outcome.waters);
   if (!plan.cut.files.empty()) text += summary_line("cutline", cut_words(outcome.cut, outcome.simplified.cut_off));
   text += lines_line(outcome.lines.lines.size(), outcome.simplified);
+  text += shape_line(plan.simplify.shape, outcome.simplified);
   text += solid_line(plan, outcome);
   text += describe_errors(plan, outcome);
   if (outcome.psnr) text += summary_line("PSNR", fmt::format("{:.2f} dB", *outcome.psnr));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "scarp/version.h"
+#include "signals.h"
 #include "text.h"
 
 namespace scarp::cli {
@@ -15,6 +16,8 @@ std::vector<Pass> list_passes(const SimplifyRun& run) {
   passes.push_back({"write", run.seconds_write});
   return passes;
 }
+
+const char* end_of_effort() { return content_with_interrupt() ? "the interrupt" : "the time limit"; }
 
 }  // namespace
 
@@ -77,8 +80,19 @@ Json describe_outputs(const std::vector<ReadyFile>& files) {
 }
 
 void add_solid(Json& report, const SimplifyPlan& plan, const SimplifyRun& run) {
+  if (run.print) report["solid"] = describe_print(*plan.solid, *run.print, print_paths(plan, *run.print));
   if (!plan.base) return;
   report["solid"] = Json{{"base", *plan.base}, {"vertices", run.solid_vertices}, {"triangles", run.solid_triangles}};
+}
+
+std::vector<std::string> print_paths(const SimplifyPlan& plan, const Print& print) {
+  std::vector<std::string> paths;
+  if (plan.has_file_per_sheet()) {
+    for (const Sheet& sheet : print.sheets) paths.push_back(sheet_path(plan.output, sheet.row, sheet.column));
+  } else {
+    paths.push_back(plan.output);
+  }
+  return paths;
 }
 
 std::string summary_line(const char* name, const std::string& value) {
@@ -93,6 +107,7 @@ std::string files_lines(const SimplifyPlan& plan, const std::vector<ReadyFile>& 
 }
 
 std::string solid_line(const SimplifyPlan& plan, const SimplifyRun& run) {
+  if (run.print) return print_lines(*plan.solid, *run.print);
   if (!plan.base) return "";
   return summary_line("solid", fmt::format("{}, base at {}", format_plural(run.solid_triangles, "triangle"),
                                            format_number(*plan.base)));
@@ -125,8 +140,8 @@ std::string describe_end(const SimplifyPlan& plan, const SimplifyRun& run, const
   switch (run.simplified.stop) {
     case StopReason::kMaxError:
       return fmt::format("Reached the error goal{}: {} (asked {})",
-                         run.simplified.is_cut_short ? ", when the time limit ended the effort" : "", error.text,
-                         asked);
+                         run.simplified.is_cut_short ? fmt::format(", when {} ended the effort", end_of_effort()) : "",
+                         error.text, asked);
     case StopReason::kMaxTriangles:
       return fmt::format("Reached the triangle budget of {}: {}{}",
                          format_count(plan.simplify.max_triangles.value_or(0)), error.text, missed);

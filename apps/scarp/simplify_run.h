@@ -9,6 +9,7 @@
 #include "report.h"
 #include "scarp/simplify.h"
 #include "simplify_plan.h"
+#include "solid_run.h"
 
 namespace scarp::cli {
 
@@ -24,6 +25,7 @@ struct SimplifyRun {
   Simplified simplified;
   std::uint64_t vertices = 0, triangles = 0;              ///< of the terrain
   std::uint64_t solid_vertices = 0, solid_triangles = 0;  ///< with --base
+  std::optional<Print> print;                             ///< with --solid
   std::vector<std::string> warnings;
   double seconds_read = 0, seconds_write = 0, seconds_total = 0;
 };
@@ -40,6 +42,8 @@ Json describe_passes(const SimplifyRun& run);
 Json describe_seconds(const SimplifyRun& run);
 Json describe_outputs(const std::vector<ReadyFile>& files);
 void add_solid(Json& report, const SimplifyPlan& plan, const SimplifyRun& run);
+/// The file of each sheet of the print, or one that holds them all.
+std::vector<std::string> print_paths(const SimplifyPlan& plan, const Print& print);
 
 /// A line of the summary, and those that every summary has.
 std::string summary_line(const char* name, const std::string& value);

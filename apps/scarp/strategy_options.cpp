@@ -141,12 +141,12 @@ void StrategyArguments::add_to(CLI::App& verb) {
           "--effort", effort,
           "fast: the mesh as refined. normal (default where possible):\nthen removes vertices for as long as "
           "every sample keeps the\nbound: about half the triangles. high: and repairs what that\nbreaks: three "
-          "tenths, for ten times the time. max: deeper, a hundred\ntimes. With -t or -p: a smaller error instead. "
-          "On heights\nalone")
+          "tenths, for ten times the time. max: deeper, a hundred\ntimes. With -t or -p: a smaller error instead.\n"
+          "Not with --edges data")
       ->type_name("LEVEL");
   verb.add_option("--vertices", vertices,
                   "Where --effort high and max may put vertices: free (default;\nbetween samples too, with heights of "
-                  "their own) or samples (a\nfourth more triangles)")
+                  "their own; not\nwith --texture and --image) or samples (a fourth more triangles)")
       ->type_name("WHERE");
   verb.add_option(
           "--min-shape", min_shape,

@@ -1,18 +1,24 @@
 // Times the arrangement of lines: seconds of one core for several kinds of lines, and of reading them from a file.
 //
 //   speed_lines            a Markdown table, on a raster of 3601 × 3601 samples
+//   speed_lines --meshes   what lines add to the time of a mesh: 100,000 vertices on 10 million samples
 //   speed_lines FILE...    reads each file, file.gpkg:layer, as it is
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <filesystem>
+#include <limits>
 #include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "geom/arrangement.h"
-#include "scarp/lines.h"
+#include "scarp/scarp.h"
 
 namespace {
 
@@ -92,6 +98,74 @@ void time_arrangement(const char* name, const scarp::Polylines& lines) {
   std::fflush(stdout);
 }
 
+/// In samples, on the raster as it is.
+scarp::LineConstraints soft_lines(const scarp::Polylines& lines, int size) {
+  scarp::LineConstraints constraints;
+  const double scale = (size - 1.0) / kSize;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    scarp::Line line;
+    for (const Point p : lines[k])
+      line.points.push_back({p.x * scale, p.y * scale, std::numeric_limits<double>::quiet_NaN()});
+    constraints.lines.push_back(std::move(line));
+  }
+  return constraints;
+}
+
+/// Of simplify() and write_mesh(), the least of five runs; false if they fail.
+bool time_mesh(const scarp::OwnedHeightField& field, const scarp::SimplifyOptions& options, double& least,
+               scarp::Simplified& mesh) {
+  const std::string path = (std::filesystem::temp_directory_path() / "speed_lines.glb").string();
+  least = 1e9;
+  for (int run = 0; run < 5; ++run) {
+    const double start = seconds();
+    auto made = scarp::simplify(field.view(), options);
+    const bool is_written = made && scarp::write_mesh(made->mesh, path).has_value();
+    const double time = seconds() - start;
+    std::filesystem::remove(path);
+    if (!is_written) return false;
+    if (time >= least) continue;
+    least = time;
+    mesh = std::move(*made);
+  }
+  return true;
+}
+
+/// Seconds of all cores together.
+int time_meshes() {
+  constexpr int kSide = 3163;
+  const auto field = scarp::generate_field(scarp::FieldStyle::kFractal, kSide, kSide);
+  if (!field) return 1;
+  const std::pair<const char*, scarp::LineConstraints> kinds[] = {
+      {"none", {}},
+      {"1,000 walks", soft_lines(Drawing().walks(1000), kSide)},
+      {"1,000 circles", soft_lines(Drawing().circles(1000), kSide)},
+  };
+  std::printf("| effort | lines | triangles | s | to none | arrange | lines |\n|---|---|---|---|---|---|---|\n");
+  for (const auto& [name, effort] :
+       {std::pair{"fast", scarp::Effort::kFast}, std::pair{"normal", scarp::Effort::kNormal}}) {
+    double alone = 0;
+    for (const auto& [lines, constraints] : kinds) {
+      scarp::SimplifyOptions options;
+      options.max_error = 10;
+      options.effort = effort;
+      options.breaklines = constraints;
+      double time = 0;
+      scarp::Simplified mesh;
+      if (!time_mesh(*field, options, time, mesh)) return 1;
+      if (constraints.lines.empty()) alone = time;
+      double arrange = 0, lay = 0;
+      for (const scarp::Pass& pass : mesh.passes) {
+        if (pass.name == "arrange") arrange += pass.seconds;
+        if (pass.name == "lines") lay += pass.seconds;
+      }
+      std::printf("| %s | %s | %zu | %.2f | %.2f | %.2f | %.2f |\n", name, lines, mesh.mesh.triangle_count(), time,
+                  time / alone, arrange, lay);
+      std::fflush(stdout);
+    }
+  }
+  return 0;
+}
+
 int time_reading(const char* path) {
   const double start = seconds();
   const auto set = scarp::read_lines(path);
@@ -108,6 +182,7 @@ int time_reading(const char* path) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "--meshes") return time_meshes();
   int status = EXIT_SUCCESS;
   for (int k = 1; k < argc; ++k) status |= time_reading(argv[k]);
   if (argc > 1) return status;

@@ -100,8 +100,8 @@ std::uint64_t max_samples(std::uint64_t memory_limit);
 
 /// kTin is Scape's and Terra's: one line a triangle, "t" and nine numbers, no shared vertices. k2dm: SMS. kVtu, kVtp:
 /// VTK's XML, an unstructured grid or polydata. kLandXml: LandXML 1.2, a TIN surface. kDxf: 3DFACEs of release 12.
-/// kGpkg: GeoPackage, a layer of triangles as polygons.
-enum class MeshFormat { kGlb, kObj, kPly, kStl, kTin, k2dm, kVtu, kVtp, kLandXml, kDxf, kGpkg };
+/// kGpkg: GeoPackage, a layer of triangles as polygons. k3mf: 3MF, solids for printing.
+enum class MeshFormat { kGlb, kObj, kPly, kStl, kTin, k2dm, kVtu, kVtp, kLandXml, kDxf, kGpkg, k3mf };
 
 /// From a name ("glb", "OBJ", "landxml", …) or from a path's extension (".xml" is LandXML); nothing if unknown.
 std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
@@ -114,11 +114,17 @@ std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
 /// names. Colours, uvs and channels where the format has a place: GLB (COLOR_0 as linear float, TEXCOORD_0,
 /// _CHANNEL_n where colours do not say it all), PLY (red green blue uchar, s t float, channel_n float), OBJ (vt,
 /// colours behind the coordinates), VTU and VTP (Colors, TCoords, channel_n); they read back the same, but for PLY's
-/// t = 1 − v, rounded to float32. Deterministic; a GeoPackage's bytes also depend on the versions of GDAL and SQLite.
-/// Fails with kOutput where the format cannot hold the mesh: more vertices or triangles than signed 32-bit numbers
-/// count in 2DM and LandXML; degrees, a unit that LandXML does not know, or heights in another unit than x and y in
-/// LandXML.
+/// t = 1 − v, rounded to float32. 3MF: as encode_3mf() with one object. Deterministic; a GeoPackage's bytes also depend
+/// on the versions of GDAL and SQLite, a 3MF file's on that of zlib. Fails with kOutput where the format cannot hold
+/// the mesh: more vertices or triangles than signed 32-bit numbers count in 2DM and LandXML; degrees, a unit that
+/// LandXML does not know, or heights in another unit than x and y in LandXML.
 Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format);
+/// A 3MF file (core specification 1.2) of one or more solids, each an object named by its metadata["name"]: positions
+/// rounded to float32 and written so that they read back the same, offsets from the origin of the first object; its
+/// other metadata as the file's. The unit is the millimetre where metadata["placement"] says that the solid was placed
+/// (solid.h), else the metre. Fails with kOutput for a mesh that is no closed 2-manifold once its positions are rounded
+/// (measure_solid()).
+Result<std::vector<std::uint8_t>> encode_3mf(std::span<const Mesh> objects);
 /// Reads any of these formats but GeoPackage; recognises the format by content. Fails with kInput. Never trusts a
 /// length or an index in the file.
 Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
@@ -135,12 +141,22 @@ Result<Mesh> read_mesh(const std::string& path);
 /// devices and pipes, are written directly. A program that wants "file too large" as an error rather than as its end
 /// ignores SIGXFSZ.
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes, bool overwrite = true);
+struct FileBytes {
+  std::string path;
+  std::span<const std::uint8_t> bytes;
+};
+/// write_file() for several files that belong together: all have temporary names before the first is renamed, so that a
+/// full disk, a folder that may not be written or a name that is taken leaves none of them. Devices and pipes are
+/// written last.
+Result<void> write_files(std::span<const FileBytes> files, bool overwrite = true);
 /// The whole file (or pipe). kInput if it cannot be read.
 Result<std::vector<std::uint8_t>> read_file(const std::string& path);
 
-/// For signal handlers: the temporary name that write_file() is writing just now, for unlink(); empty if there is none.
-/// Points to a static buffer; async-signal-safe. If several threads write at once, the first one's.
-const char* pending_output();
+/// For signal handlers: the temporary names that write_file() and write_files() hold just now, for unlink(), in
+/// kPendingOutputs places; empty where there is none. Points to a static buffer; async-signal-safe. Beyond so many
+/// files at once, the first ones'.
+inline constexpr int kPendingOutputs = 128;
+const char* pending_output(int place = 0);
 
 /// 8-bit RGB, row-major, top row first.
 struct Picture {

@@ -27,6 +27,7 @@ struct Line {
   LineRole role = LineRole::kLine;
   std::uint32_t polygon = kNoPolygon;  ///< the rings of one polygon share it; counts from 0 in a LineSet
   std::string name;                    ///< for messages: "shores.gpkg:lakes feature 12"
+  bool yields = false;  ///< where it meets a hard line that does not, it takes that one's height: never a conflict
 
   bool is_ring() const { return role != LineRole::kLine; }
 };

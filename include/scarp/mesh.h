@@ -42,11 +42,12 @@ struct Mesh {
 void optimize_order(Mesh& mesh);
 
 /// Closes an open terrain mesh into a solid: a flat base at z = `base` (absolute) and vertical walls along every border
-/// edge, outward-oriented, so that each edge has exactly two triangles. The base uses the border's vertices only: a
-/// part with n border vertices and h holes gets n + 2h − 2 triangles for its base and 2n for its walls. Vertices where
+/// edge, outward-oriented, so that each edge has exactly two triangles. Border vertices between their neighbours on a
+/// line along x or y have no vertex below them: a part with n border vertices, of which c have one, and h holes gets
+/// n + c triangles for its walls and c + 2h − 2 for its base. Vertices where
 /// two parts of the domain meet in a single point are duplicated, one for each part: the solid is closed in its
-/// indices, though formats that know places only (STL) show four walls along that vertical edge. Normals are dropped;
-/// uvs, colours and channels of a new vertex are those of the vertex above it.
+/// indices, though formats that know places only (STL) show four walls along that vertical edge (solid.h parts them).
+/// Normals are dropped; uvs, colours and channels of a new vertex are those of the vertex above it.
 /// REQUIRES: every edge has one or two triangles, all counter-clockwise from above; base below every vertex.
 /// Returns false (mesh unchanged) if the base is not below every vertex, in float32 offsets too. Cost: O(n log n).
 bool add_base(Mesh& mesh, double base);

@@ -17,6 +17,7 @@
 #include "scarp/mesh.h"
 #include "scarp/progress.h"
 #include "scarp/result.h"
+#include "scarp/shape.h"
 #include "scarp/strategy.h"
 
 namespace scarp {
@@ -60,20 +61,28 @@ struct SimplifyOptions {
   /// kDominant fails with kUsage together with a budget, a mask, tolerances, a script, channels, an importance, an
   /// algorithm, batches, data-dependent edges or an outline tolerance; kAuto then is kGreedy. DEFAULT: kAuto.
   Order order = Order::kAuto;
-  /// All but kFast fail with kUsage together with a script that inserts, channels, data-dependent edges, an outline
-  /// tolerance, or with a budget without samples in memory or beside a mask, tolerances or a script. DEFAULT: kAuto.
+  /// All but kFast fail with kUsage together with a script that inserts, data-dependent edges, or with a budget without
+  /// samples in memory or beside a mask, tolerances or a script. DEFAULT: kAuto.
   Effort effort = Effort::kAuto;
-  /// kFree fails with kUsage below kHigh and in frames that are not affine. DEFAULT: kAuto.
+  /// kFree fails with kUsage below kHigh, with channels and in frames that are not affine. DEFAULT: kAuto.
   Vertices vertices = Vertices::kAuto;
   /// Floor of the shapes of triangles, height over longest edge, 0 … 0.5, 0 for none: no vertex is removed or moved, no
   /// edge flipped if that leaves a triangle below it, unless it takes away one that is as bad. Triangles of refinement,
   /// and those that the outline of voids forces, may lie below. Fails with kUsage with fast effort.
   /// DEFAULT: 0.1 where vertices are free, else 0.
   std::optional<double> min_shape = std::nullopt;
+  /// Angles, edge lengths and their growth, for simulations: vertices are added until they hold, then removed as far as
+  /// they still do (with a grade the other way round). Fails with kUsage without a max error, together with a budget,
+  /// channels, an outline tolerance or strategies, without the samples in memory, in frames that are not affine and for
+  /// goals out of range. DEFAULT: none.
+  ShapeGoals shape = {};
   /// Asked often, on any thread, by all efforts but kFast; once true, true for good. Then vertices are no longer
   /// removed, and the mesh so far, which keeps the promise, is the result: it depends on the time. Fails with kUsage
   /// together with a budget or fast effort. DEFAULT: never.
   std::function<bool()> is_time_up = {};
+  /// Asked and obeyed in the same way, for somebody who stops waiting: it is no time to use up, so kMax does not go on
+  /// until then. Not asked by fast effort and with a budget. DEFAULT: never.
+  std::function<bool()> is_enough = {};
   /// kRms fails with kUsage without a budget or with fast effort. DEFAULT: kMax.
   Objective objective = Objective::kMax;
   Importance importance = {};  ///< DEFAULT: global error
@@ -102,9 +111,9 @@ struct SimplifyOptions {
 
 /// A pass of simplify() and what it cost.
 struct Pass {
-  std::string_view
-      name;  ///< "search"; "arrange"; "tiles", "seams"; "domain", "refine"; "lines"; "fit"; "freeze", "order", "prove"
-  double seconds = 0;  ///< wall clock
+  std::string_view name;  ///< "search"; "arrange"; "tiles", "seams"; "domain", "refine"; "lines"; "fit"; "shape";
+                          ///< "freeze", "order", "prove"
+  double seconds = 0;     ///< wall clock
   std::uint64_t samples_scanned = 0, triangles_scanned = 0, insertions = 0, removals = 0;
 };
 
@@ -128,14 +137,16 @@ struct Simplified {
   double weighted_rmse = 0;       ///< root of the mean square of the same
   std::vector<Measurement> channel_measurements;  ///< of each channel, in its own units; without topology
   double combined_max_error = 0;                  ///< with channels: the largest norm
+  double combined_rmse = 0;                       ///< root of the mean square of the same
   Work work;                                      ///< what the engine did
   Order order = Order::kGreedy;                   ///< the order that was taken, never kAuto
   Effort effort = Effort::kFast;                  ///< the effort that was made, never kAuto
   Vertices vertices = Vertices::kSamples;         ///< where they are, never kAuto
-  bool is_cut_short = false;                      ///< by SimplifyOptions::is_time_up
+  bool is_cut_short = false;                      ///< by SimplifyOptions::is_time_up or is_enough
   std::vector<SampleEdit> edits;                  ///< by breaklines, in raster order
   std::uint64_t lines_laid = 0;                   ///< breaklines of which some part lies in the raster
   std::uint64_t cut_off = 0;                      ///< valid samples outside the cutline
+  std::optional<ShapeReport> shape;               ///< of `mesh`, where SimplifyOptions::shape asks for something
   std::vector<Pass> passes;                       ///< in the order in which they ended
   double seconds_refine = 0;                      ///< outline, refinement and freezing
   double seconds_measure = 0;                     ///< the proof
@@ -154,18 +165,20 @@ struct Simplified {
 /// flips edges and moves vertices around them, and takes all back where that does not mend it. Vertices that are free
 /// keep max_error on the lattice they move on; where float32 positions cannot hold that lattice exactly they aim 0.2 %
 /// below it, and should rounding break it yet, the run is made again with vertices on samples, unless kFree was asked.
+/// With channels vertices stay on samples, with their values, and the norm is what every effort keeps.
 ///
 /// Guarantees, for every input:
 /// (1) if max_error is given and no budget ended the run, every valid sample of the domain is covered and lies within
 ///     max_error − field.sample_rounding of `mesh`, positions as they are in it. Where offsets_are_exact() this holds
 ///     in exact arithmetic; else as far as measure()'s double arithmetic sees (10⁻¹² of the largest height);
 /// (2) the domain is the union of grid cells whose corners are all valid, and of half cells where three are;
-/// (3) vertices are samples, but where Simplified::vertices is kFree; triangles are counter-clockwise from above and
-///     share whole edges;
+/// (3) vertices are samples, but where Simplified::vertices is kFree, on lines, and where shapes were asked for;
+///     triangles are counter-clockwise from above and share whole edges;
 /// (4) the result depends on the field and the options only, not on threads or machine.
 ///
 /// With channels, max_error bounds the norm of HeightField::channels instead (so the heights too where height_scale is
-/// at least 1); with a mask it bounds the weighted error; every tolerance is kept. In frames that are not exact these
+/// at least 1), whatever the effort, and objectives are those of the norm; with a mask it bounds the weighted error;
+/// every tolerance is kept. In frames that are not exact these
 /// are proven to a float32's rounding (2⁻²², and 2⁻²⁴ more a channel). Samples that are `ignored` have no bound.
 ///
 /// Budgets are upper bounds. With more than fast effort they are met by a search for the max error whose mesh takes 99

@@ -57,7 +57,7 @@ enum class Effort {
             ///< bounds of their own; else kFast
   kFast,    ///< nothing: what refinement inserted stays
   kNormal,  ///< vertices are removed for as long as every sample keeps the bound: half the triangles, for a few times
-            ///< the time. On heights alone, row of tiles by row of tiles if not in memory; see simplify().
+            ///< the time. Row of tiles by row of tiles if samples are not in memory; see simplify().
   kHigh,  ///< more are removed, and what that breaks is repaired by flipping edges and moving vertices (see Vertices):
           ///< a third of the triangles, for some ten times the time of the greedy order. Where kNormal is
           ///< possible.
@@ -68,15 +68,17 @@ enum class Effort {
 /// What a budget makes as small as it can.
 enum class Objective {
   kMax,  ///< the max error
-  kRms,  ///< the root of the mean square error. With a budget and more than fast effort only; see simplify().
+  kRms,  ///< the root of the mean square error (with channels: of the norm, as the max error is). With a budget and
+         ///< more than fast effort only; see simplify().
 };
 
 /// Where vertices may be.
 enum class Vertices {
-  kAuto,     ///< kFree where kHigh and kMax can move them: in affine frames; else kSamples
+  kAuto,     ///< kFree where kHigh and kMax can move them: in affine frames, without channels; else kSamples
   kSamples,  ///< on samples, with their heights
   kFree,     ///< between samples too, in steps of an eighth, with heights of their own that are float32. For kHigh and
-             ///< kMax, in affine frames; vertices of the outline of voids, and corners, stay on samples
+             ///< kMax, in affine frames, on heights alone; vertices of the outline of voids, and corners, stay on
+             ///< samples
 };
 
 /// Inserting many samples between two looks at the mesh ("parallel" insertion of the report; Scape's thresholds).

@@ -44,4 +44,16 @@ struct WaterOptions {
 Result<std::vector<Lake>> flatten_lakes(OwnedHeightField& field, std::span<const Line> lines,
                                         const WaterOptions& options);
 
+struct FlatOptions {
+  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of shores: map_affine()
+  std::uint64_t min_samples = 100;                 ///< at least 3
+};
+
+/// The flat areas of the raster: at least so many samples of one height, connected side by side. Nothing is changed;
+/// their shores run from sample to sample, around the cells, and the halves of cells, whose corners belong to them. A
+/// mesh with these as breaklines and vertices on samples is level within each. In the order of their first samples.
+/// What is nowhere two samples wide has no area, and is left out. REQUIRES: the field has its samples in memory, or
+/// fails with kUsage, as it does for fewer than 3 samples. Cost: O(samples, and those of each area's box).
+Result<std::vector<Lake>> find_flats(const OwnedHeightField& field, const FlatOptions& options);
+
 }  // namespace scarp

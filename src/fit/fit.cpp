@@ -51,7 +51,7 @@ bool has_energies(const FitOptions& options) {
 
 Freedom freedom_of(const Raster& raster, const FitOptions& options) {
   const bool has_room = std::max(raster.cols, raster.rows) <= kMaxCoordinate / kLatticeSteps;
-  return options.vertices_are_free && has_room ? Freedom::kLattice : Freedom::kSamples;
+  return options.vertices_are_free && options.norm == nullptr && has_room ? Freedom::kLattice : Freedom::kSamples;
 }
 
 /// Lets vertices be as low and as high as samples are.
@@ -74,7 +74,7 @@ class Rounds {
   Rounds(const Raster& raster, Triangulation tin, VertexPlaces places, const FitOptions& options)
       : raster_(raster),
         options_(options),
-        rules_{freedom_of(raster, options), {options.min_shape, options.aspect}},
+        rules_{freedom_of(raster, options), options.shape.value_or(ShapeRule{options.min_shape, options.aspect})},
         fitted_{std::move(tin), {}, std::move(places)},
         vertices_(fitted_.tin.vertex_count()),
         settled_(fitted_.tin.vertex_count(), 0),
@@ -136,7 +136,8 @@ class Rounds {
     const auto one = [&](std::size_t i, std::size_t worker) {
       patches[i] = cutter.cut(i, scratch_[worker], vertices[i]);
       if (!is_time_up()) {
-        const TriangleError error = windows_[worker].errors(raster_, options_.bounds, patches[i], options_.threshold);
+        const TriangleError error =
+            windows_[worker].errors(raster_, options_.bounds, options_.norm, patches[i], options_.threshold);
         counts_[i] = job(patches[i], vertices[i], error);
       }
       patches[i].pack();

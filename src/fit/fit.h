@@ -17,11 +17,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "fit/cut.h"
+#include "fit/fit_norm.h"
 #include "fit/repair.h"
+#include "fit/rules.h"
 #include "grid/raster.h"
 #include "grid/vertex_places.h"
 #include "scarp/result.h"
@@ -48,6 +51,9 @@ struct FitOptions {
   /// Of samples with bounds of their own, row-major like the raster: at least 0, +infinity for none, no NaN. They stand
   /// in for the threshold; energies count errors in them. EMPTY: the threshold holds for all.
   std::span<const float> bounds = {};
+  /// Errors are norms over several fields. Then vertices stay on samples, and heights alone are not bounded. Stays
+  /// alive. DEFAULT: null, of heights alone.
+  const FitNorm* norm = nullptr;
   int threads = 0;
   /// Vertices must stay on sides that are no straight lines in the mesh's frame, or that somebody else shares.
   FreeSides free_sides = {};
@@ -57,6 +63,8 @@ struct FitOptions {
   /// of the triangles and saves time. Triangles of the mesh that is given may lie below; no move makes the worst worse.
   double min_shape = 0;
   double aspect = 1;  ///< of a sample: its height over its width, which shapes are reckoned with
+  /// Stands in for these two: angles, lengths of edges. DEFAULT: none.
+  std::optional<ShapeRule> shape = std::nullopt;
   /// Repair may put vertices between samples, on the lattice of fitting, and at heights of their own.
   bool vertices_are_free = false;
   std::int32_t patch_side = 0;  ///< in samples; 0: squares of kPatchTriangles, one for small meshes
@@ -100,8 +108,9 @@ struct Fitted {
 /// sides of the rectangle; repair lets the others move, on a side along it. Where heights or extents are beyond
 /// kMaxScanHeight, kMaxFitSteps, triangles stay as they are. Thresholds beyond 2⁻⁶⁰ … 2⁶⁰ are not repaired, sides
 /// beyond kMaxCoordinate / kLatticeSteps samples on samples only. Fails with kCancelled only. REQUIRES: the triangles
-/// inside keep the threshold and hold valid corners; threshold >= 0 and finite; a vertex that is not fixed, and no end
-/// of a constrained edge within the rectangle, is a sample, or vertices are free.
+/// inside keep the threshold, in the eyes of the norm's find_breach if there is one, and hold valid corners; threshold
+/// >= 0 and finite; a vertex that is not fixed, and no end of a constrained edge within the rectangle, is a sample, or
+/// vertices are free, or the depth has no rounds.
 Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexPlaces places, const FitOptions& options);
 inline Result<Fitted> fit(const Raster& raster, Triangulation tin, const FitOptions& options) {
   return fit(raster, std::move(tin), {}, options);

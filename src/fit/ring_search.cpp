@@ -84,13 +84,17 @@ bool RingSearch::improve(std::size_t first, std::size_t last, Point& witness) {
 
 /// Moves the corners so that the sample is the origin, and multiplies them pairwise.
 void RingSearch::look_from(Point sample) {
-  const double height = error_.height_at(sample);
+  const double height = error_.value_at(0, sample);
   limit_ = error_.limit_at(sample);
   for (std::size_t i = 0; i < size_; ++i) {
     x_[i] = ring_[i].x - sample.x * kLatticeSteps;
     y_[i] = ring_[i].y - sample.y * kLatticeSteps;
-    z_[i] = ring_[i].z - height;
+    z_[i] = error_.value_at(0, ring_[i]) - height;
     right_of_[i] = 0;
+  }
+  for (std::size_t k = 0; k < more_z_.size(); ++k) {
+    const double value = error_.value_at(k + 1, sample);
+    for (std::size_t i = 0; i < size_; ++i) more_z_[k][i] = error_.value_at(k + 1, ring_[i]) - value;
   }
   for (std::size_t i = 0; i < size_; ++i) {
     Set left = 0;
@@ -137,6 +141,15 @@ void RingSearch::keep_shapely(const FitCorner& hub) {
   }
 }
 
+/// Whether a triangle breaks the bound at the sample that is looked from, which it holds.
+inline bool RingSearch::breaks(std::size_t i, std::size_t q, std::size_t j) const {
+  const double wi = cross_[q][j], wq = -cross_[i][j], wj = cross_[i][q];
+  double error = std::abs(wi * z_[i] + wq * z_[q] + wj * z_[j]);
+  for (const auto& z : more_z_)
+    error = add_to_norm_of(error_.norm(), error, std::abs(wi * z[i] + wq * z[q] + wj * z[j]));
+  return error > limit_ * (wi + wq + wj);
+}
+
 /// Forbids the triangles that hold the sample that is looked from and break the threshold there; whether there are any.
 /// Rounding may forbid one at the threshold itself, never allow one: what is allowed is scanned.
 bool RingSearch::cross_out() {
@@ -147,8 +160,7 @@ bool RingSearch::cross_out() {
       if (wq < 0) continue;
       for (Set left = allowed_[i][j] & left_of_[i] & right_of_[j]; left != 0; left &= left - 1) {
         const std::size_t q = lowest(left);
-        const double wj = cross_[i][q], wi = cross_[q][j];
-        if (!(std::abs(wi * z_[i] + wq * z_[q] + wj * z_[j]) > limit_ * (wi + wq + wj))) continue;
+        if (!breaks(i, q, j)) continue;
         allowed_[i][j] &= ~only(q);
         any = true;
       }

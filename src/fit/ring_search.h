@@ -31,7 +31,8 @@ class RingSearch {
   static constexpr std::size_t kMostCorners = 16;
 
   /// The errors stay alive.
-  explicit RingSearch(const TriangleError& error, const ShapeRule& shape = {}) : error_(error), shape_(shape) {}
+  explicit RingSearch(const TriangleError& error, const ShapeRule& shape = {})
+      : error_(error), shape_(shape), more_z_(error.field_count() - 1) {}
 
   /// Whether the ring has a triangulation whose triangles are positive, keep the limit of `error` and have a shape that
   /// may be, those around the hub taken away; then the one with the least energy. `hub` is where the vertex is;
@@ -60,6 +61,7 @@ class RingSearch {
   void keep_positive();
   void keep_shapely(const FitCorner& hub);
   bool cross_out();
+  bool breaks(std::size_t i, std::size_t q, std::size_t j) const;
   bool connect();
   bool is_needed(std::size_t first, std::size_t last) const {
     return ((needed_from_[first] >> last | needed_to_[last] >> first) & 1) != 0;
@@ -70,13 +72,14 @@ class RingSearch {
   ShapeRule shape_;
   std::size_t size_ = 0;
   std::span<const FitCorner> ring_;
-  std::array<double, kMostCorners> x_, y_, z_;        // corners as seen from a sample
-  double limit_ = 0;                                  // of that sample
-  Table<double> cross_;                               // products of them
-  Table<double> square_;                              // of edges and diagonals, where there is a floor of shapes
-  std::array<Set, kMostCorners> left_of_, right_of_;  // last by first, first by last: where they are not negative
-  Table<Set> allowed_;                                // middles of triangles that are not crossed out
-  Table<Set> choices_;                                // those that leave intervals with triangulations on both sides
+  std::array<double, kMostCorners> x_, y_, z_;            // corners as seen from a sample
+  std::vector<std::array<double, kMostCorners>> more_z_;  // of the second field on
+  double limit_ = 0;                                      // of that sample
+  Table<double> cross_;                                   // products of them
+  Table<double> square_;                                  // of edges and diagonals, where there is a floor of shapes
+  std::array<Set, kMostCorners> left_of_, right_of_;      // last by first, first by last: where they are not negative
+  Table<Set> allowed_;                                    // middles of triangles that are not crossed out
+  Table<Set> choices_;  // those that leave intervals with triangulations on both sides
   std::array<Set, kMostCorners> open_from_, open_to_, needed_from_, needed_to_;
   Table<float> cost_, worst_, energy_;  // of the best triangulation; of its triangle at the interval
   Table<std::uint8_t> middle_;

@@ -19,8 +19,10 @@ enum class Freedom : std::uint8_t {
 /// away one that is worse, or as bad: slivers that a mesh begins with, or that its outline wants, are thus never made
 /// worse and hold up nobody.
 struct ShapeRule {
-  double floor = 0;   ///< 0: any shape
-  double aspect = 1;  ///< of a sample: its height over its width
+  double floor = 0;       ///< 0: any shape
+  double aspect = 1;      ///< of a sample: its height over its width
+  bool by_angle = false;  ///< the shape is the square of the smallest angle's sine instead
+  double longest_square = std::numeric_limits<double>::infinity();  ///< a triangle with an edge beyond has the shape 0
 
   bool is_on() const { return floor > 0; }
   /// Twice the area over the square of the longest edge, that is, height over longest edge: 0.87 where all edges are
@@ -29,7 +31,13 @@ struct ShapeRule {
     return of(static_cast<double>(area2(a, b, c)), square(a, b), square(b, c), square(c, a));
   }
   /// The same from twice the area and the squares of the edges.
-  double of(double area, double ab, double bc, double ca) const { return area * aspect / std::max({ab, bc, ca}); }
+  double of(double area, double ab, double bc, double ca) const {
+    const double longest = std::max({ab, bc, ca});
+    if (longest > longest_square) return 0;
+    if (!by_angle) return area * aspect / longest;
+    const double middle = std::max(std::min(ab, bc), std::min(std::max(ab, bc), ca));
+    return area * aspect / longest * (area * aspect / middle);
+  }
   /// Of an edge.
   double square(const FitCorner& p, const FitCorner& q) const {
     const double x = q.x - p.x, y = (q.y - p.y) * aspect;

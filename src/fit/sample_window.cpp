@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace scarp {
 
@@ -53,21 +54,40 @@ class BoundRange {
 
 }  // namespace
 
-TriangleError SampleWindow::errors(const Raster& raster, std::span<const float> bounds, const Patch& patch,
-                                   double threshold) {
+TriangleError SampleWindow::errors(const Raster& raster, std::span<const float> bounds, const FitNorm* norm,
+                                   const Patch& patch, double threshold) {
   const Patch::Window& window = patch.window();
   const std::int32_t stride = stride_of(window.cols);
   const std::int64_t size = std::int64_t{stride} * window.rows;
   const bool is_copied = size <= kMostPerTriangle * static_cast<std::int64_t>(patch.face_count());
-  if (is_copied) copy(raster, window, stride, samples_);
-  const Raster samples = is_copied ? Raster{samples_.data(), stride, window.rows} : raster;
+  const auto beside = [&](const float* values, std::vector<float>& buffer) {
+    if (!is_copied) return values;
+    copy({values, raster.cols, raster.rows}, window, stride, buffer);
+    return static_cast<const float*>(buffer.data());
+  };
+  Raster samples = raster;
+  samples.samples = beside(raster.samples, samples_);
+  if (is_copied) samples = {samples.samples, stride, window.rows};
   const Point first = is_copied ? Point{0, 0} : window.first;
-  if (bounds.empty()) return {samples, first, threshold};
   const Raster all{bounds.data(), raster.cols, raster.rows};
-  const BoundRange range(raster, all, window);
-  if (range.is_one()) return {samples, first, range.least()};
-  if (is_copied) copy(all, window, stride, bounds_);
-  return {samples, first, SampleBounds{is_copied ? bounds_.data() : bounds.data(), range.unit()}};
+  std::optional<BoundRange> range;
+  if (!bounds.empty()) range.emplace(raster, all, window);
+  const bool is_one = !range || range->is_one();
+  if (range && is_one) threshold = range->least();
+  const SampleBounds own = is_one ? SampleBounds{} : SampleBounds{beside(bounds.data(), bounds_), range->unit()};
+  if (norm == nullptr) return is_one ? TriangleError(samples, first, threshold) : TriangleError(samples, first, own);
+  fields_.resize(norm->fields.size());
+  NormError::Samples fields{samples, {}, first, window.first};
+  for (std::size_t k = 0; k < fields_.size(); ++k) {
+    const float* const of = norm->fields[k].samples;
+    fields.fields.push_back(of == raster.samples ? samples.samples : beside(of, fields_[k]));
+  }
+  if (is_one) {
+    norm_.emplace(*norm, std::move(fields), threshold);
+  } else {
+    norm_.emplace(*norm, std::move(fields), own);
+  }
+  return TriangleError(*norm_);
 }
 
 }  // namespace scarp

@@ -2,9 +2,12 @@
 // samples compete for the same lines of a cache.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "fit/fit_norm.h"
+#include "fit/norm_error.h"
 #include "fit/patch.h"
 #include "fit/triangle_error.h"
 #include "grid/raster.h"
@@ -17,11 +20,14 @@ class SampleWindow {
   /// The errors of triangles of the patch. A few long triangles may reach over samples that no other looks at: then
   /// they are read where they are. The window and the raster stay alive, and unchanged, as long as the errors.
   /// `bounds`: of the raster's samples, or empty; where all that the patch looks at are equal they are its threshold,
-  /// else it has bounds.
-  TriangleError errors(const Raster& raster, std::span<const float> bounds, const Patch& patch, double threshold);
+  /// else it has bounds. `norm`: of whose fields errors are; null: of heights alone.
+  TriangleError errors(const Raster& raster, std::span<const float> bounds, const FitNorm* norm, const Patch& patch,
+                       double threshold);
 
  private:
   std::vector<float> samples_, bounds_;
+  std::vector<std::vector<float>> fields_;
+  std::optional<NormError> norm_;
 };
 
 }  // namespace scarp

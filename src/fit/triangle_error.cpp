@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fit/norm_error.h"
 #include "fit/triangle_scan.h"
 #include "geom/exact_error.h"
 
@@ -72,7 +73,15 @@ TriangleError::TriangleError(const Raster& raster, Point first, const SampleBoun
   unit_ = bounds.unit;
 }
 
+TriangleError::TriangleError(const NormError& norm, const ErrorRule& rule)
+    : TriangleError(norm.heights(), norm.first(), 1, rule) {
+  unit_ = norm.unit();
+  if (!norm.has_energy()) per_threshold_ = per_square_ = 0;
+  norm_ = &norm;
+}
+
 TriangleError TriangleError::with(const ErrorRule& rule) const {
+  if (norm_ != nullptr) return TriangleError(*norm_, rule);
   if (has_bounds()) return {raster_, first_, SampleBounds{bounds_.samples, unit_}, rule};
   return {raster_, first_, threshold_, rule};
 }
@@ -174,6 +183,7 @@ bool holds_corners_only(const FitCorner& a, const FitCorner& b, const FitCorner&
 
 TriangleError::Verdict TriangleError::judge(const FitCorner& a, const FitCorner& b, const FitCorner& c,
                                             float energy_limit) const {
+  if (norm_ != nullptr) return norm_->judge({a, b, c}, energy_limit, {limit_, power_});
   if (holds_corners_only(a, b, c)) return judge_corners({a, b, c}, energy_limit);
   if (has_bounds()) {
     return power_ == ErrorRule::Power::kTwo ? judge_by<ByBounds<Squares>>(a, b, c, energy_limit)
@@ -182,6 +192,21 @@ TriangleError::Verdict TriangleError::judge(const FitCorner& a, const FitCorner&
   return power_ == ErrorRule::Power::kTwo ? judge_by<ByThreshold<Squares>>(a, b, c, energy_limit)
                                           : judge_by<ByThreshold<EighthPowers>>(a, b, c, energy_limit);
 }
+
+std::size_t TriangleError::field_count() const { return norm_ != nullptr ? norm_->field_count() : 1; }
+
+Norm TriangleError::norm() const { return norm_ != nullptr ? norm_->norm() : Norm::kMax; }
+
+double TriangleError::value_at(std::size_t field, Point sample) const {
+  return norm_ != nullptr ? norm_->value_at(field, sample) : double{height_at(sample)};
+}
+
+double TriangleError::value_at(std::size_t field, const FitCorner& corner) const {
+  if (norm_ == nullptr) return corner.z;
+  return norm_->value_at(field, {corner.x / kLatticeSteps, corner.y / kLatticeSteps});
+}
+
+double TriangleError::norm_bound_at(Point sample) const { return norm_->bound_at(sample); }
 
 template <class Tally>
 TriangleError::Verdict TriangleError::judge_by(const FitCorner& a, const FitCorner& b, const FitCorner& c,

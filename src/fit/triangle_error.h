@@ -8,12 +8,16 @@
 // Samples may have bounds of their own instead of the threshold: then errors count in bounds, the threshold is 1, and a
 // vertex' pull at a sample is the stronger the smaller its bound. A bound that lies within rounding (0, first of all)
 // binds, but has no energy: what is computed there would be noise.
+//
+// Where channels count too, errors are norms over several fields (norm_error.h), reckoned like those with bounds.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "base/point.h"
+#include "fit/fit_norm.h"
 #include "geom/predicates.h"
 #include "geom/scan_plane.h"
 #include "grid/raster.h"
@@ -44,6 +48,7 @@ struct ErrorRule {
 };
 
 struct TriangleTask;
+class NormError;
 
 /// Bounds of samples, row-major like them: at least 0, +infinity for none, no NaN.
 struct SampleBounds {
@@ -57,6 +62,8 @@ class TriangleError {
   TriangleError(const Raster& raster, Point first, double threshold, const ErrorRule& rule = {});
   /// The same by bounds; errors are counted in them, so that the threshold is 1. They stay alive.
   TriangleError(const Raster& raster, Point first, const SampleBounds& bounds, const ErrorRule& rule = {});
+  /// Norms over several fields, which stay alive. Then corners are samples.
+  explicit TriangleError(const NormError& norm, const ErrorRule& rule = {});
   /// The same samples by another rule.
   TriangleError with(const ErrorRule& rule) const;
 
@@ -84,8 +91,11 @@ class TriangleError {
     double push = 0;       ///< Σ t⁷ λ, positive where the plane is too high
     double slope_x = 0, slope_y = 0;  ///< of the plane, in units() a sample
   };
-  /// REQUIRES: (a, b, c) positive, has_energy(). Cost: as judge().
+  /// REQUIRES: (a, b, c) positive, has_energy(), no norm. Cost: as judge().
   Pull pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const;
+
+  /// The same for each field; of heights alone one. Fields are reckoned by their scales.
+  void pull(const FitCorner& a, const FitCorner& b, const FitCorner& c, std::vector<Pull>& pulls) const;
 
   /// The same with every t alike: stiffness Σ λ², push Σ t λ.
   Pull even_pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const;
@@ -101,9 +111,20 @@ class TriangleError {
   bool has_bounds() const { return bounds_.samples != nullptr; }
   bool has_energy() const { return per_threshold_ > 0; }
   /// slack × threshold, or the bound, of a sample counted from the first of the window.
-  double limit_at(Point sample) const { return has_bounds() ? limit_ * double{bound_at(sample)} : limit_; }
+  double limit_at(Point sample) const {
+    if (norm_ != nullptr) return limit_ * norm_bound_at(sample);
+    return has_bounds() ? limit_ * double{bound_at(sample)} : limit_;
+  }
   /// Of a sample counted from the first of the window.
   float height_at(Point sample) const { return raster_.at({first_.x + sample.x, first_.y + sample.y}); }
+
+  /// Fields whose errors count; of heights alone one.
+  std::size_t field_count() const;
+  /// How their errors are combined.
+  Norm norm() const;
+  /// Of a field at a sample, at a corner: times the field's scale, so that errors are limit_at()'s.
+  double value_at(std::size_t field, Point sample) const;
+  double value_at(std::size_t field, const FitCorner& corner) const;
 
  private:
   template <class Sums>
@@ -126,6 +147,7 @@ class TriangleError {
   bool settle(const Tally& tally, Verdict& verdict) const;
   template <class Tally>
   Point find_worst(const Tally& tally, std::int32_t y, std::int32_t first, std::int32_t last) const;
+  double norm_bound_at(Point sample) const;
   float bound_at(Point sample) const { return bounds_.at({first_.x + sample.x, first_.y + sample.y}); }
   double threshold_at(Point sample) const { return has_bounds() ? double{bound_at(sample)} : threshold_; }
   float in_thresholds(float error, Point sample) const;
@@ -137,6 +159,7 @@ class TriangleError {
   ErrorRule::Power power_;
   float per_threshold_, per_square_;  // 0 where squares of float32 come to an end
   const float* end_;                  // of the samples
+  const NormError* norm_ = nullptr;
 };
 
 }  // namespace scarp

@@ -1,4 +1,5 @@
 // What the samples of a triangle want of one of its corners.
+#include "fit/norm_error.h"
 #include "fit/triangle_scan.h"
 
 namespace scarp {
@@ -74,6 +75,14 @@ TriangleError::Pull TriangleError::pull(const FitCorner& a, const FitCorner& b, 
   });
   return {exact_sum_of(stiffness), exact_sum_of(push), double{task.plane.slope_x} / unit_,
           double{task.plane.slope_y} / unit_};
+}
+
+void TriangleError::pull(const FitCorner& a, const FitCorner& b, const FitCorner& c, std::vector<Pull>& pulls) const {
+  if (norm_ != nullptr) {
+    norm_->pull({a, b, c}, pulls);
+  } else {
+    pulls.assign(1, pull(a, b, c));
+  }
 }
 
 TriangleError::Pull TriangleError::even_pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const {

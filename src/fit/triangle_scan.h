@@ -1,5 +1,5 @@
 // The rows of one triangle, eight samples at a time: what judging a triangle and asking its samples have in common.
-// For triangle_error.cpp and triangle_pull.cpp alone.
+// For triangle_error.cpp, triangle_pull.cpp and norm_scan.h alone.
 #pragma once
 
 #include <algorithm>

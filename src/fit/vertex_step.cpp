@@ -49,26 +49,31 @@ Point unit_step(double x, double y) {
 }  // namespace
 
 /// Central differences, in units of the errors a sample; 0 where samples are void or beyond the window.
-VertexStep::Vector VertexStep::terrain_slope(const TriangleError& error, const FitCorner& at) const {
+VertexStep::Vector VertexStep::terrain_slope(const TriangleError& error, std::size_t field, const FitCorner& at) const {
   const auto& window = patch_.window();
   const Point p = sample_at(at);
   const auto slope = [&](Point before, Point after) {
     before = {std::max(before.x, 0), std::max(before.y, 0)};
     after = {std::min(after.x, window.cols - 1), std::min(after.y, window.rows - 1)};
-    const double rise = double{error.height_at(after)} - double{error.height_at(before)};
+    const double rise = error.value_at(field, after) - error.value_at(field, before);
     const std::int32_t run = (after.x - before.x) + (after.y - before.y);
-    return run == 0 || std::isnan(rise) ? 0.0 : rise / run / error.unit();
+    const bool is_known = !std::isnan(error.height_at(after) - error.height_at(before));
+    return run == 0 || !is_known ? 0.0 : rise / run / error.unit();
   };
   return {slope({p.x - 1, p.y}, {p.x + 1, p.y}), slope({p.x, p.y - 1}, {p.x, p.y + 1})};
 }
 
 /// In samples; along the side for a vertex on one.
-VertexStep::Vector VertexStep::newton_step(const TriangleError& error, const FitCorner& at) const {
-  const Vector terrain = is_free() ? Vector{} : terrain_slope(error, at);
+VertexStep::Vector VertexStep::newton_step(const TriangleError& error, const FitCorner& at) {
+  terrain_.clear();
+  for (std::size_t k = 0; k < error.field_count(); ++k)
+    terrain_.push_back(is_free() ? Vector{} : terrain_slope(error, k, at));
   NormalEquations system;
   for (std::size_t i = 0; i < star_.faces.size(); ++i) {
-    const auto pull = error.pull(at, ring(i), ring(i + 1));
-    system.add(pull, {is_free() ? 1.0 : 0.0, terrain.x - pull.slope_x, terrain.y - pull.slope_y});
+    error.pull(at, ring(i), ring(i + 1), pulls_);
+    for (std::size_t k = 0; k < pulls_.size(); ++k)
+      system.add(pulls_[k],
+                 {is_free() ? 1.0 : 0.0, terrain_[k].x - pulls_[k].slope_x, terrain_[k].y - pulls_[k].slope_y});
   }
   system.damp();
   if (!is_free()) system.fix(0);

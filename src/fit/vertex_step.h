@@ -7,7 +7,8 @@
 //   Σ_f A_f u_f u_fᵀ (dz, dx, dy) = −Σ_f B_f u_f,   u_f = (1, −g_f),  A_f = Σ t⁶ λ²,  B_f = Σ t⁷ λ over the samples of
 //   f
 //
-// says. Where vertices are samples the place decides the height: u_f = (0, s − g_f) with s the slope of the terrain.
+// says. Where vertices are samples the place decides the height: u_f = (0, s − g_f) with s the slope of the terrain;
+// where several fields count, each adds a u_f with its own slopes.
 // The step is tried at three lengths, rounded to the lattice. At each place a free vertex gets its best height, which
 // is exact (height_step.h). The first place is taken at which the energy of the star falls; if there is none, a free
 // vertex may still rise or fall where it is. Vertices on a side of the rectangle slide along it; locked ones stay.
@@ -54,8 +55,8 @@ class VertexStep {
     double x = 0, y = 0;
   };
   const FitCorner& ring(std::size_t i) const { return patch_.at(star_.ring[i % star_.ring.size()]); }
-  Vector terrain_slope(const TriangleError& error, const FitCorner& at) const;
-  Vector newton_step(const TriangleError& error, const FitCorner& at) const;
+  Vector terrain_slope(const TriangleError& error, std::size_t field, const FitCorner& at) const;
+  Vector newton_step(const TriangleError& error, const FitCorner& at);
   double mean_edge(const FitCorner& at) const;
   bool take_up(Patch::Id v);
   float energy() const;
@@ -71,6 +72,8 @@ class VertexStep {
   MoveRules rules_;
   Patch::Star star_;
   std::vector<TriangleError::Verdict> verdicts_;
+  std::vector<TriangleError::Pull> pulls_;  // of fields
+  std::vector<Vector> terrain_;
 };
 
 }  // namespace scarp

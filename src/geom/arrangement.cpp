@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/radix_sort.h"
+#include "geom/courses.h"
 #include "geom/hot_points.h"
 
 namespace scarp {
@@ -47,22 +49,15 @@ Pieces cut_lines(const Polylines& lines, std::int32_t width, std::int32_t height
   return cut;
 }
 
-void sort_uniquely(std::vector<Point>& points) {
-  std::sort(points.begin(), points.end(), before);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-}
-
 /// All ends and crossings.
-HotPoints find_hot_points(const Pieces& cut, std::span<const Segment> rigid, bool& is_exact) {
-  std::vector<Segment> segments;
-  segments.reserve(cut.pieces.size());
-  for (const Piece& piece : cut.pieces) segments.push_back(piece.clipped.segment);
-  auto [points, are_exact] = find_crossings(segments, rigid);
+HotPoints find_hot_points(std::span<const Segment> pieces, std::span<const Segment> rigid, const Courses& courses,
+                          const Courses& rigid_courses, bool& is_exact) {
+  auto [points, are_exact] = find_crossings(courses.segments, rigid_courses.segments);
   is_exact = are_exact;
-  points.reserve(points.size() + 2 * (segments.size() + rigid.size()));
-  for (const auto& list : {std::span<const Segment>(segments), rigid}) {
+  points.reserve(points.size() + 2 * (pieces.size() + rigid.size()));
+  for (const auto& list : {pieces, rigid}) {
     for (const Segment& s : list) {
-      points.push_back(s.from);
+      if (points.empty() || points.back() != s.from) points.push_back(s.from);
       points.push_back(s.to);
     }
   }
@@ -73,14 +68,22 @@ HotPoints find_hot_points(const Pieces& cut, std::span<const Segment> rigid, boo
 /// The ends of an edge in one number, the lower first.
 class Edges {
  public:
-  void add(std::uint32_t a, std::uint32_t b) { keys_.push_back(std::uint64_t{std::min(a, b)} << 32 | std::max(a, b)); }
+  explicit Edges(const HotPoints::Passes& passes) {
+    keys_.reserve(passes.points.size());
+    for (std::size_t k = 0; k + 1 < passes.begins.size(); ++k) {
+      for (std::size_t i = passes.begins[k] + 1; i < passes.begins[k + 1]; ++i)
+        add(passes.points[i - 1], passes.points[i]);
+    }
+  }
   const std::vector<std::uint64_t>& sort() {
-    std::sort(keys_.begin(), keys_.end());
+    radix_sort(keys_, [](std::uint64_t key) { return key; });
     keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
     return keys_;
   }
 
  private:
+  void add(std::uint32_t a, std::uint32_t b) { keys_.push_back(std::uint64_t{std::min(a, b)} << 32 | std::max(a, b)); }
+
   std::vector<std::uint64_t> keys_;
 };
 
@@ -109,38 +112,63 @@ void number_vertices(const std::vector<Point>& points, Arrangement& result) {
     result.vertices.push_back(points[k]);
   }
   for (auto& edge : result.edges) edge = {numbers[edge.a], numbers[edge.b], edge.is_rigid, edge.is_line};
-  for (auto& stop : result.stops) stop.vertex = numbers[stop.vertex];
+  for (std::uint32_t& vertex : result.passes) vertex = numbers[vertex];
+}
+
+/// Where on its course a segment begins and ends.
+Arrangement::Stretch stretch_of(const Piece& piece, const Segment& course, const HotPoints& hot,
+                                const HotPoints::Passes& passes, std::size_t begin, std::size_t end) {
+  const auto place_of = [&](Point p) {
+    if (p == course.from) return static_cast<std::uint32_t>(begin);
+    if (p == course.to) return static_cast<std::uint32_t>(end - 1);
+    const auto along = [&](Point q) {
+      return std::int64_t{course.to.x - course.from.x} * (q.x - course.from.x) +
+             std::int64_t{course.to.y - course.from.y} * (q.y - course.from.y);
+    };
+    const auto all = std::span(passes.points).subspan(begin, end - begin);
+    const auto found = std::partition_point(all.begin(), all.end(),
+                                            [&](std::uint32_t k) { return along(hot.points()[k]) < along(p); });
+    return static_cast<std::uint32_t>(begin + static_cast<std::size_t>(found - all.begin()));
+  };
+  const auto& [segment, from, to] = piece.clipped;
+  return {piece.segment, place_of(segment.from), place_of(segment.to), from, to};
 }
 
 }  // namespace
 
+std::vector<Arrangement::Stop> Arrangement::stops_of(const Chain& chain) const {
+  std::vector<Stop> stops;
+  for (const Stretch& stretch : stretches_of(chain)) {
+    visit_stops(stretch, [&](const Stop& stop) {
+      if (stops.empty() || stops.back().vertex != stop.vertex) stops.push_back(stop);
+    });
+  }
+  return stops;
+}
+
 Arrangement arrange(const Polylines& lines, std::span<const Segment> rigid, std::int32_t width, std::int32_t height) {
   Arrangement result;
   const Pieces cut = cut_lines(lines, width, height);
-  HotPoints hot = find_hot_points(cut, rigid, result.is_exact);
+  std::vector<Segment> segments;
+  segments.reserve(cut.pieces.size());
+  for (const Piece& piece : cut.pieces) segments.push_back(piece.clipped.segment);
+  const Courses courses = merge_overlaps(segments), rigid_courses = merge_overlaps(rigid);
+  const HotPoints hot = find_hot_points(segments, rigid, courses, rigid_courses, result.is_exact);
+  // A course passes what its segments pass: their ends are among its points, and between two of these both see the
+  // same squares.
+  HotPoints::Passes passes = hot.walk(courses.segments, false);
 
-  std::vector<HotPoints::Pass> passes;
-  Edges line_edges, rigid_edges;
-  for (const Segment& s : rigid) {
-    hot.walk(s, true, passes);
-    for (std::size_t k = 1; k < passes.size(); ++k) rigid_edges.add(passes[k - 1].point, passes[k].point);
+  result.stretches.reserve(cut.pieces.size());
+  for (std::size_t k = 0; k < cut.pieces.size(); ++k) {
+    const std::uint32_t course = courses.of[k];
+    result.stretches.push_back(stretch_of(cut.pieces[k], courses.segments[course], hot, passes, passes.begins[course],
+                                          passes.begins[course + 1]));
   }
-  for (const Run& run : cut.runs) {
-    const auto begin = static_cast<std::uint32_t>(result.stops.size());
-    for (std::size_t k = run.begin; k < run.end; ++k) {
-      const auto& [clipped, segment] = cut.pieces[k];
-      hot.walk(clipped.segment, false, passes);
-      for (const auto& pass : passes) {
-        if (result.stops.size() > begin) {
-          if (result.stops.back().vertex == pass.point) continue;
-          line_edges.add(result.stops.back().vertex, pass.point);
-        }
-        result.stops.push_back({pass.point, segment, clipped.begin + pass.fraction * (clipped.end - clipped.begin)});
-      }
-    }
-    result.chains.push_back({run.line, begin, static_cast<std::uint32_t>(result.stops.size())});
-  }
+  for (const Run& run : cut.runs)
+    result.chains.push_back({run.line, static_cast<std::uint32_t>(run.begin), static_cast<std::uint32_t>(run.end)});
+  Edges line_edges(passes), rigid_edges(hot.walk(rigid_courses.segments, true));
   result.edges = merge(line_edges.sort(), rigid_edges.sort());
+  result.passes = std::move(passes.points);
   number_vertices(hot.points(), result);
   return result;
 }

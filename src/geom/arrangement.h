@@ -50,21 +50,46 @@ struct Arrangement {
     std::uint32_t segment;  ///< of the line: from its points[segment] to points[segment + 1]
     double fraction;        ///< of that segment, 0 … 1; (segment, fraction) never decreases along a chain
   };
-  /// What became of a line, or of one part of it in the rectangle.
+  /// The part of one segment in a chain: it runs through passes[first] … passes[last], backwards where last < first.
+  struct Stretch {
+    std::uint32_t segment;  ///< of the line
+    std::uint32_t first, last;
+    double begin, end;  ///< where the segment begins and ends within the rectangle, as fractions of the whole
+  };
+  /// What became of a line, or of one part of it in the rectangle: at least two vertices, successive ones differ.
   struct Chain {
     std::uint32_t line;
-    std::uint32_t begin, end;  ///< stops[begin] … stops[end − 1], at least two; successive vertices differ
+    std::uint32_t begin, end;  ///< stretches[begin] … stretches[end − 1], each begins where the one before ends
   };
 
   std::vector<Point> vertices;  ///< in raster order, each once, each the end of an edge
   std::vector<Edge> edges;      ///< by (a, b), each once
-  std::vector<Stop> stops;
+  /// The vertices along each union of segments that lie upon each other, one union after the other: what many lines
+  /// share stands here once.
+  std::vector<std::uint32_t> passes;
+  std::vector<Stretch> stretches;
   std::vector<Chain> chains;  ///< in the order of the lines and along each
   bool is_exact = true;       ///< all crossings were lattice points, so nothing moved but cut ends
 
-  std::span<const Stop> stops_of(const Chain& chain) const {
-    return std::span(stops).subspan(chain.begin, chain.end - chain.begin);
+  /// Calls visit(stop) for the vertices of a stretch, in the order of the line.
+  template <class Visit>
+  void visit_stops(const Stretch& stretch, Visit&& visit) const {
+    const Point from = vertices[passes[stretch.first]], to = vertices[passes[stretch.last]];
+    const std::int64_t dx = to.x - from.x, dy = to.y - from.y;
+    const auto whole = static_cast<double>(dx * dx + dy * dy);
+    const std::uint32_t step = stretch.first < stretch.last ? 1u : ~0u;
+    for (std::uint32_t k = stretch.first;; k += step) {
+      const Point p = vertices[passes[k]];
+      const double along = static_cast<double>(dx * (p.x - from.x) + dy * (p.y - from.y)) / whole;
+      visit(Stop{passes[k], stretch.segment, stretch.begin + along * (stretch.end - stretch.begin)});
+      if (k == stretch.last) return;
+    }
   }
+  std::span<const Stretch> stretches_of(const Chain& chain) const {
+    return std::span(stretches).subspan(chain.begin, chain.end - chain.begin);
+  }
+  /// All of a chain, each vertex between two stretches once.
+  std::vector<Stop> stops_of(const Chain& chain) const;
 };
 
 /// Cuts lines to [0, width] × [0, height] and arranges them with rigid segments.
@@ -80,7 +105,7 @@ struct Arrangement {
 /// REQUIRES: 0 < width, height <= kMaxCoordinate; rigid segments lie in the rectangle, run along axes or diagonals
 /// between points of even coordinates, and are no points. Lines may be anything.
 /// Cost: O((n + k) log n) for n segments and k crossings that are not crowded; two to three seconds for a million
-/// segments (bench/speed/speed_lines.cpp). Chains hold every vertex they pass, which n overlapping segments make n²/2.
+/// segments (bench/speed/speed_lines.cpp). n segments that overlap on one line cost no more, and as many passes.
 Arrangement arrange(const Polylines& lines, std::span<const Segment> rigid, std::int32_t width, std::int32_t height);
 
 }  // namespace scarp

@@ -19,6 +19,10 @@ inline bool overlaps(const Box& a, const Box& b) {
   return a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1;
 }
 
+inline Box hull_of(const Box& a, const Box& b) {
+  return {a.x0 < b.x0 ? a.x0 : b.x0, a.y0 < b.y0 ? a.y0 : b.y0, a.x1 > b.x1 ? a.x1 : b.x1, a.y1 > b.y1 ? a.y1 : b.y1};
+}
+
 class BoxTree {
  public:
   /// REQUIRES: coordinates in [0, kMaxCoordinate]. Cost: O(n log n).
@@ -28,10 +32,29 @@ class BoxTree {
   std::span<const std::uint32_t> order() const { return order_; }
   const Box& box_at(std::size_t place) const { return levels_[0][place]; }
 
+  /// Neighbours in that order, so many in each group but the last: what is near one of them is near all.
+  static constexpr std::size_t kGroup = 8;
+  std::size_t group_count() const { return (order_.size() + kGroup - 1) / kGroup; }
+  const Box& hull_of_group(std::size_t group) const { return levels_[1][group]; }
+
+  /// The places, from `first` on in the tree's order, of boxes that overlap a box. False if they are more than `most`.
+  bool gather(const Box& box, std::size_t first, std::size_t most, std::vector<std::size_t>& places) const;
+
   /// Calls visit(index) for each box that `meets` says true of, among those from `first` on in the tree's order.
   /// REQUIRES: meets(a box) where it holds of a box within it.
   template <class Meets, class Visit>
   void visit(Meets&& meets, Visit&& visit, std::size_t first = 0) const {
+    visit_places(
+        meets, [&](std::size_t place) { visit(order_[place]); }, first);
+  }
+
+ private:
+  static constexpr std::size_t kFanBits = 3, kFan = std::size_t{1} << kFanBits;
+  static constexpr std::size_t kMostPending = kFan * (64 / kFanBits);
+  static_assert(kFan == kGroup);
+
+  template <class Meets, class Visit>
+  void visit_places(const Meets& meets, const Visit& visit, std::size_t first) const {
     struct Node {
       std::size_t level, place;
     };
@@ -46,17 +69,13 @@ class BoxTree {
       for (std::size_t k = node.place * kFan; k < end; ++k) {
         if (((k + 1) << (kFanBits * level)) <= first || !meets(boxes[k])) continue;
         if (level == 0) {
-          visit(order_[k]);
+          visit(k);
         } else {
           pending[count++] = {level, k};
         }
       }
     }
   }
-
- private:
-  static constexpr std::size_t kFanBits = 3, kFan = std::size_t{1} << kFanBits;
-  static constexpr std::size_t kMostPending = kFan * (64 / kFanBits);
 
   std::vector<std::uint32_t> order_;
   std::vector<std::vector<Box>> levels_;  ///< 0: the boxes; above: the hull of each kFan; the last is one box

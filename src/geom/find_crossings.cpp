@@ -1,53 +1,16 @@
-// Pairs of segments come from a tree of boxes. Two measures keep the number of pairs down: segments that lie upon each
-// other become one, and long ones are cut into pieces of the mean length, so that a box holds little but its segment;
-// together there are at most twice as many pieces as segments.
+// Pairs of segments come from a tree of boxes. Long segments are cut into pieces of the mean length, so that a box
+// holds little but its segment; together there are at most twice as many pieces as segments. Neighbours in the tree ask
+// for the boxes around them together, unless those are too many for all of them to look at.
 #include <algorithm>
 #include <cstdlib>
-#include <numeric>
 
 #include "base/int128.h"
+#include "base/radix_sort.h"
 #include "geom/box_tree.h"
 #include "geom/segments.h"
 
 namespace scarp {
 namespace {
-
-/// A segment on its line: the line's direction without a common factor and its distance from (0, 0) in those terms.
-struct OnLine {
-  Point direction;
-  std::int64_t offset;
-  Segment segment;  ///< from before to
-};
-
-OnLine on_line(Segment s) {
-  if (before(s.to, s.from)) std::swap(s.from, s.to);
-  const std::int32_t x = s.to.x - s.from.x, y = s.to.y - s.from.y, factor = std::gcd(x, y);
-  const Point direction{x / factor, y / factor};
-  return {direction, std::int64_t{direction.x} * s.from.y - std::int64_t{direction.y} * s.from.x, s};
-}
-
-bool same_line(const OnLine& a, const OnLine& b) { return a.direction == b.direction && a.offset == b.offset; }
-
-/// The unions of segments of one line that have more than a point in common.
-std::vector<Segment> merge_overlaps(std::span<const Segment> segments) {
-  std::vector<OnLine> sorted(segments.size());
-  std::transform(segments.begin(), segments.end(), sorted.begin(), on_line);
-  std::sort(sorted.begin(), sorted.end(), [](const OnLine& a, const OnLine& b) {
-    if (a.direction != b.direction) return before(a.direction, b.direction);
-    if (a.offset != b.offset) return a.offset < b.offset;
-    return before(a.segment.from, b.segment.from);
-  });
-  std::vector<Segment> merged;
-  for (std::size_t k = 0; k < sorted.size(); ++k) {
-    const Segment& s = sorted[k].segment;
-    if (k > 0 && same_line(sorted[k - 1], sorted[k]) && before(s.from, merged.back().to)) {
-      if (before(merged.back().to, s.to)) merged.back().to = s.to;
-    } else {
-      merged.push_back(s);
-    }
-  }
-  return merged;
-}
 
 std::int64_t length(const Segment& s) {
   return std::max(std::int64_t{std::abs(s.to.x - s.from.x)}, std::int64_t{std::abs(s.to.y - s.from.y)});
@@ -136,8 +99,7 @@ class Finder {
 
   /// Thousands of lines through one point are millions of pairs.
   void tidy() {
-    std::sort(found_.points.begin(), found_.points.end(), before);
-    found_.points.erase(std::unique(found_.points.begin(), found_.points.end()), found_.points.end());
+    sort_uniquely(found_.points);
     next_tidying_ = std::max(next_tidying_, 2 * found_.points.size());
   }
 
@@ -147,26 +109,36 @@ class Finder {
   std::size_t next_tidying_ = std::size_t{1} << 20;
 };
 
+/// Calls visit(a, b) for each two places of boxes that overlap.
+template <class Visit>
+void visit_overlaps(const BoxTree& tree, const Visit& visit) {
+  constexpr std::size_t kMostGathered = 64;
+  std::vector<std::size_t> near;
+  for (std::size_t group = 0; group < tree.group_count(); ++group) {
+    const std::size_t begin = group * BoxTree::kGroup, end = std::min(begin + BoxTree::kGroup, tree.order().size());
+    const bool is_near = tree.gather(tree.hull_of_group(group), begin, kMostGathered, near);
+    for (std::size_t place = begin; place < end; ++place) {
+      const Box& box = tree.box_at(place);
+      if (!is_near) tree.gather(box, place + 1, tree.order().size(), near);
+      for (const std::size_t other : near) {
+        if (other > place && overlaps(box, tree.box_at(other))) visit(place, other);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 Crossings find_crossings(std::span<const Segment> lines, std::span<const Segment> rigid) {
-  std::vector<Segment> segments = merge_overlaps(lines);
-  const std::size_t first_rigid = segments.size();
-  const std::vector<Segment> merged_rigid = merge_overlaps(rigid);
-  segments.insert(segments.end(), merged_rigid.begin(), merged_rigid.end());
-
+  std::vector<Segment> segments(lines.begin(), lines.end());
+  segments.insert(segments.end(), rigid.begin(), rigid.end());
   const Pieces pieces = cut(segments);
   const BoxTree tree(pieces.boxes);
-  Finder finder(segments, first_rigid);
-  for (std::size_t place = 0; place < tree.order().size(); ++place) {
-    const Box& box = tree.box_at(place);
-    const std::uint32_t owner = pieces.owners[tree.order()[place]];
-    tree.visit([&](const Box& other) { return overlaps(box, other); },
-               [&](std::uint32_t other) {
-                 if (pieces.owners[other] != owner) finder.judge(owner, pieces.owners[other]);
-               },
-               place + 1);
-  }
+  Finder finder(segments, lines.size());
+  visit_overlaps(tree, [&](std::size_t a, std::size_t b) {
+    const std::uint32_t one = pieces.owners[tree.order()[a]], other = pieces.owners[tree.order()[b]];
+    if (one != other) finder.judge(one, other);
+  });
   return finder.take();
 }
 

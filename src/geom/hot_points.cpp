@@ -16,15 +16,15 @@ std::vector<Box> boxes_of(std::span<const Point> points) {
 
 std::int64_t cross(std::int64_t ax, std::int64_t ay, std::int64_t bx, std::int64_t by) { return ax * by - ay * bx; }
 
+Box box_of(const Segment& s) {
+  return {std::min(s.from.x, s.to.x), std::min(s.from.y, s.to.y), std::max(s.from.x, s.to.x),
+          std::max(s.from.y, s.to.y)};
+}
+
 /// A segment as seen by boxes: whether the square of any lattice point in one may be met.
 class Reach {
  public:
-  explicit Reach(const Segment& s)
-      : from_(s.from),
-        dx_(s.to.x - s.from.x),
-        dy_(s.to.y - s.from.y),
-        box_{std::min(s.from.x, s.to.x), std::min(s.from.y, s.to.y), std::max(s.from.x, s.to.x),
-             std::max(s.from.y, s.to.y)} {}
+  explicit Reach(const Segment& s) : from_(s.from), dx_(s.to.x - s.from.x), dy_(s.to.y - s.from.y), box_(box_of(s)) {}
 
   bool operator()(const Box& box) const {
     if (!overlaps(box, box_)) return false;
@@ -93,33 +93,61 @@ HotPoints::Meets HotPoints::meets(const Segment& segment, std::uint32_t point) c
   return is_its_own ? Meets::kSquare : Meets::kCorner;
 }
 
-void HotPoints::walk(const Segment& segment, bool is_rigid, std::vector<Pass>& passes) {
-  const Point from = segment.from, to = segment.to;
-  const std::int64_t dx = to.x - from.x, dy = to.y - from.y;
-  const bool only_on = is_rigid || is_exact_;
-  candidates_.clear();
-  tree_.visit(Reach(segment), [&](std::uint32_t k) {
-    const Meets how = meets(segment, k);
-    const bool is_passed = only_on ? orient(from, to, points_[k]) == 0 : how == Meets::kSquare;
-    if (is_passed || (!only_on && how == Meets::kCorner))
-      candidates_.push_back({dx * (points_[k].x - from.x) + dy * (points_[k].y - from.y), k, is_passed});
-  });
-  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+void HotPoints::add_candidate(const Segment& segment, bool only_on, std::uint32_t point,
+                              std::vector<Candidate>& candidates) const {
+  const Point p = points_[point];
+  const auto [from, to] = segment;
+  if (only_on && orient(from, to, p) != 0) return;
+  const Meets how = only_on ? Meets::kSquare : meets(segment, point);
+  if (how == Meets::kNo) return;
+  const std::int64_t along =
+      std::int64_t{to.x - from.x} * (p.x - from.x) + std::int64_t{to.y - from.y} * (p.y - from.y);
+  candidates.push_back({along, point, how == Meets::kSquare});
+}
+
+void HotPoints::pass(std::vector<Candidate>& candidates, Passes& passes) const {
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return std::tie(a.along, b.is_passed, a.point) < std::tie(b.along, a.is_passed, b.point);
   });
-
-  passes.clear();
-  const double whole = static_cast<double>(dx * dx + dy * dy);
-  const auto pass = [&](const Candidate& c) { passes.push_back({c.point, static_cast<double>(c.along) / whole}); };
-  for (std::size_t k = 0, last = 0; k < candidates_.size(); ++k) {
-    if (!candidates_[k].is_passed) continue;
+  for (std::size_t k = 0, last = 0; k < candidates.size(); ++k) {
+    if (!candidates[k].is_passed) continue;
     for (std::size_t corner = last + 1; corner < k; ++corner) {
-      if (lies_on(points_[candidates_[last].point], points_[candidates_[k].point], points_[candidates_[corner].point]))
-        pass(candidates_[corner]);
+      if (lies_on(points_[candidates[last].point], points_[candidates[k].point], points_[candidates[corner].point]))
+        passes.points.push_back(candidates[corner].point);
     }
-    pass(candidates_[k]);
+    passes.points.push_back(candidates[k].point);
     last = k;
   }
+  passes.begins.push_back(passes.points.size());
+}
+
+HotPoints::Passes HotPoints::walk(std::span<const Segment> segments, bool are_rigid) const {
+  constexpr std::size_t kTogether = 8, kMostGathered = 64;
+  const bool only_on = are_rigid || is_exact_;
+  Passes passes;
+  passes.begins.reserve(segments.size() + 1);
+  passes.points.reserve(3 * segments.size());
+  std::vector<std::size_t> near;
+  std::vector<Candidate> candidates;
+  for (std::size_t begin = 0; begin < segments.size(); begin += kTogether) {
+    const auto group = segments.subspan(begin, std::min(kTogether, segments.size() - begin));
+    Box hull = box_of(group[0]);
+    for (const Segment& s : group) hull = hull_of(hull, box_of(s));
+    const bool is_near = tree_.gather(hull, 0, kMostGathered, near);
+    for (const Segment& s : group) {
+      candidates.clear();
+      const Box box = box_of(s);
+      if (is_near) {
+        for (const std::size_t place : near) {
+          if (overlaps(box, tree_.box_at(place))) add_candidate(s, only_on, tree_.order()[place], candidates);
+        }
+      } else {
+        tree_.visit(Reach(s), [&](std::uint32_t point) { add_candidate(s, only_on, point, candidates); });
+      }
+      pass(candidates, passes);
+    }
+  }
+  return passes;
 }
 
 }  // namespace scarp

@@ -19,13 +19,14 @@ class HotPoints {
 
   const std::vector<Point>& points() const { return points_; }
 
-  /// A point that a segment passes: its number, and how far along it lies, 0 … 1.
-  struct Pass {
-    std::uint32_t point;
-    double fraction;
+  /// The points that segments pass, those of each one after the other.
+  struct Passes {
+    std::vector<std::uint32_t> points;   ///< numbers of points
+    std::vector<std::size_t> begins{0};  ///< segment k passes points[begins[k]] … points[begins[k + 1] − 1]
   };
-  /// The points that the segment passes, both ends included, in order. A rigid one passes points that lie on it.
-  void walk(const Segment& segment, bool is_rigid, std::vector<Pass>& passes);
+  /// Both ends included, in order. Rigid segments pass the points that lie on them. Cost: O(log n) a segment and what
+  /// it passes, less where segments that follow each other are near each other.
+  Passes walk(std::span<const Segment> segments, bool are_rigid) const;
 
  private:
   enum class Meets { kNo, kCorner, kSquare };
@@ -35,6 +36,9 @@ class HotPoints {
     bool is_passed;  ///< else the segment touches a corner that belongs to another square
   };
   Meets meets(const Segment& segment, std::uint32_t point) const;
+  void add_candidate(const Segment& segment, bool only_on, std::uint32_t point,
+                     std::vector<Candidate>& candidates) const;
+  void pass(std::vector<Candidate>& candidates, Passes& passes) const;
   bool lies_on_falling_rigid(Point p) const;
 
   struct Falling {
@@ -45,7 +49,6 @@ class HotPoints {
   bool is_exact_;
   std::vector<Falling> falling_;  ///< rigid segments with constant x + y, unions of overlapping ones, sorted
   BoxTree tree_;
-  std::vector<Candidate> candidates_;
 };
 
 }  // namespace scarp

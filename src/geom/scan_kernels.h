@@ -56,9 +56,10 @@ struct ScanKernels {
 
   /// For x in [0, count): error = |base + slope · (offset + x) − samples[x]| in double, each operation rounded, as
   /// Plane::height_at() does. Where the largest exceeds `worst`, stores it there and the first such x in `at`; returns
-  /// whether it did. NaN samples count for nothing. The plain judge's row, bit for bit.
-  bool (*scan_row)(const float* samples, std::int32_t count, double base, double slope, std::int32_t offset,
-                   double& worst, std::int32_t& at);
+  /// whether it did. NaN samples count for nothing. The plain judge's row, bit for bit. REQUIRES: sums of `offset` and
+  /// whole numbers up to `count` are exact.
+  bool (*scan_row)(const float* samples, std::int32_t count, double base, double slope, double offset, double& worst,
+                   std::int32_t& at);
 };
 
 /// The kernels in use: the best set of this machine, or the one that the environment variable SCARP_KERNEL names (any

@@ -46,11 +46,11 @@ float fill_blocks(const TileView& tile, float* low, float* high, std::uint64_t& 
   return most;
 }
 
-bool scan_row(const float* samples, std::int32_t count, double base, double slope, std::int32_t offset, double& worst,
+bool scan_row(const float* samples, std::int32_t count, double base, double slope, double offset, double& worst,
               std::int32_t& at) {
   bool found = false;
   for (std::int32_t x = 0; x < count; ++x) {
-    const double error = std::abs(base + slope * static_cast<double>(offset + x) - double{samples[x]});
+    const double error = std::abs(base + slope * (offset + x) - double{samples[x]});
     if (error > worst) {
       worst = error;
       at = x;

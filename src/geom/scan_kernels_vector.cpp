@@ -96,13 +96,13 @@ float fill_blocks(const TileView& tile, float* low, float* high, std::uint64_t& 
   return most;
 }
 
-bool scan_row(const float* samples, std::int32_t count, double base, double slope, std::int32_t offset, double& worst,
+bool scan_row(const float* samples, std::int32_t count, double base, double slope, double offset, double& worst,
               std::int32_t& at) {
   const hn::ScalableTag<double> d;
   const hn::Rebind<float, decltype(d)> df;
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
   const auto base_height = hn::Set(d, base), slopes = hn::Set(d, slope), step = hn::Set(d, static_cast<double>(lanes));
-  auto along = hn::Add(hn::Iota(d, 0), hn::Set(d, static_cast<double>(offset)));
+  auto along = hn::Add(hn::Iota(d, 0), hn::Set(d, offset));
   auto most = hn::Set(d, worst), most_along = along;
   std::int32_t x = 0;
   for (; x + lanes <= count; x += lanes) {
@@ -119,11 +119,11 @@ bool scan_row(const float* samples, std::int32_t count, double base, double slop
     worst = hn::GetLane(largest);
     const auto none = hn::Set(d, std::numeric_limits<double>::max());
     const auto first = hn::MinOfLanes(d, hn::IfThenElse(hn::Eq(most, largest), most_along, none));
-    at = static_cast<std::int32_t>(hn::GetLane(first)) - offset;
+    at = static_cast<std::int32_t>(hn::GetLane(first) - offset);
     found = true;
   }
   for (; x < count; ++x) {
-    const double along_x = slope * static_cast<double>(offset + x);
+    const double along_x = slope * (offset + x);
     const double signed_error = base + along_x - double{samples[x]};
     const double error = signed_error < 0 ? -signed_error : signed_error;
     if (error > worst) {

@@ -33,8 +33,9 @@ struct Crossings {
 };
 
 /// Where two segments cross in a point that is an end of neither, rounded to the nearest lattice point, halves up. A
-/// crossing with a rigid segment is rounded to a point on it. REQUIRES: no segment is a point; coordinates in [0,
-/// kMaxCoordinate]; `rigid` run along the axes or diagonals between points of even coordinates.
+/// crossing with a rigid segment is rounded to a point on it. REQUIRES: no segment is a point; no two of one kind have
+/// more than a point in common; coordinates in [0, kMaxCoordinate]; `rigid` run along the axes or diagonals between
+/// points of even coordinates.
 /// Cost: O((n + k) log n) for k pairs of pieces, of the mean length of all segments, whose boxes meet.
 Crossings find_crossings(std::span<const Segment> lines, std::span<const Segment> rigid);
 

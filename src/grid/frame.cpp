@@ -15,14 +15,6 @@ bool is_float32(double value) {
          static_cast<double>(static_cast<float>(value)) == value;
 }
 
-/// step·k is a float32 for every k in [first, last].
-bool multiples_are_float32(double step, int first, int last) {
-  for (int k = first; k <= last; ++k) {
-    if (!is_float32(step * k)) return false;
-  }
-  return true;
-}
-
 /// p·i + q·j is a float32 for |i| <= reach_i, |j| <= reach_j, because both are multiples of one power of two and the
 /// sum stays within 24 bits of it.
 bool sums_are_float32(double p, double q, int reach_i, int reach_j) {
@@ -32,7 +24,17 @@ bool sums_are_float32(double p, double q, int reach_i, int reach_j) {
   int exponent = std::ilogb(span) - 23;
   if (span == std::ldexp(1.0, exponent + 23)) --exponent;  // 2^24 itself is a float32
   const double unit = std::ldexp(1.0, exponent);
-  return std::fmod(p, unit) == 0 && std::fmod(q, unit) == 0;
+  return unit >= std::numeric_limits<float>::denorm_min() && std::fmod(p, unit) == 0 && std::fmod(q, unit) == 0;
+}
+
+/// step·k is a float32 for every k in [first, last].
+bool multiples_are_float32(double step, int first, int last) {
+  // A step of few digits, such as a power of two, is one whatever it is multiplied with.
+  if (sums_are_float32(step, 0, std::max(std::abs(first), std::abs(last)), 0)) return true;
+  for (int k = first; k <= last; ++k) {
+    if (!is_float32(step * k)) return false;
+  }
+  return true;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/curve.h"
 #include "grid/far_points.h"
 
 namespace scarp {
@@ -96,16 +97,6 @@ Snapped snap_to_power_of_two(const PointSet& points, const Extent& x, const Exte
   for (std::size_t i = 0; i < points.size(); ++i)
     snapped.at.push_back({whole(points.x[i] - x.least), whole(y.most - points.y[i])});
   return snapped;
-}
-
-/// Every other bit of the result is one of the value's 30.
-std::uint64_t spread(std::int32_t value) {
-  auto bits = static_cast<std::uint64_t>(value);
-  bits = (bits | bits << 16) & 0x0000ffff0000ffffu;
-  bits = (bits | bits << 8) & 0x00ff00ff00ff00ffu;
-  bits = (bits | bits << 4) & 0x0f0f0f0f0f0f0f0fu;
-  bits = (bits | bits << 2) & 0x3333333333333333u;
-  return (bits | bits << 1) & 0x5555555555555555u;
 }
 
 struct Keyed {
@@ -205,7 +196,8 @@ Result<PointPlaces> find_places(const PointSet& points, DuplicatePolicy policy) 
   std::vector<Keyed> keys;
   keys.reserve(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i)
-    keys.push_back({spread(snapped.at[i].x) | spread(snapped.at[i].y) << 1, i});
+    keys.push_back(
+        {curve_place(static_cast<std::uint64_t>(snapped.at[i].x), static_cast<std::uint64_t>(snapped.at[i].y)), i});
   std::sort(keys.begin(), keys.end(),
             [](const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.point < b.point; });
   places.lattice = snapped.lattice;

@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <random>
 #include <system_error>
@@ -25,31 +26,35 @@ namespace scarp {
 namespace {
 
 constexpr std::size_t kPendingSize = 4096 + 64;  // the longest path that open() takes, and our suffix
-char pending_name[kPendingSize];
-std::atomic<bool> pending_taken{false};
+char pending_names[kPendingOutputs][kPendingSize];
+std::atomic<bool> pending_taken[kPendingOutputs];
 
 /// Holds the name for pending_output() while it lives. The first character is set last and cleared first, so that a
 /// handler that interrupts us sees a whole name or none.
 class PendingName {
  public:
   explicit PendingName(const std::string& name) {
-    if (name.empty() || name.size() >= kPendingSize || pending_taken.exchange(true)) return;
-    owner_ = true;
-    for (std::size_t i = 1; i <= name.size(); ++i) pending_name[i] = name.c_str()[i];
+    if (name.empty() || name.size() >= kPendingSize) return;
+    int place = 0;
+    while (place < kPendingOutputs && pending_taken[place].exchange(true)) ++place;
+    if (place == kPendingOutputs) return;
+    place_ = place;
+    char* held = pending_names[place];
+    for (std::size_t i = 1; i <= name.size(); ++i) held[i] = name.c_str()[i];
     std::atomic_signal_fence(std::memory_order_seq_cst);
-    pending_name[0] = name[0];
+    held[0] = name[0];
   }
   PendingName(const PendingName&) = delete;
   PendingName& operator=(const PendingName&) = delete;
   ~PendingName() {
-    if (!owner_) return;
-    pending_name[0] = '\0';
+    if (place_ < 0) return;
+    pending_names[place_][0] = '\0';
     std::atomic_signal_fence(std::memory_order_seq_cst);
-    pending_taken = false;
+    pending_taken[place_] = false;
   }
 
  private:
-  bool owner_ = false;
+  int place_ = -1;
 };
 
 std::string reason(int error) {
@@ -185,31 +190,35 @@ class TemporaryFile {
   bool is_ours_ = false;
 };
 
-}  // namespace
+tl::unexpected<Error> name_is_taken(const std::string& path) {
+  return fail(ErrorKind::kOutput, fmt::format("{} exists; use --overwrite to replace it", path));
+}
 
-const char* pending_output() { return pending_name; }
+/// A file whose bytes are on disk and wait for their name.
+struct Staged {
+  std::string path, target;
+  std::unique_ptr<TemporaryFile> temporary;  ///< none for what is written directly
+};
 
-Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes, bool overwrite) try {
+Result<Staged> stage(const FileBytes& file, bool overwrite) {
+  const std::string& path = file.path;
   if (path.empty()) return fail(ErrorKind::kOutput, "cannot write a file without a name");
-  if (path == "/dev/stdout") return write_directly(path, ::dup(STDOUT_FILENO), bytes);
+  if (path == "/dev/stdout") return Staged{path, path, nullptr};
 
-  const auto taken = [&] {
-    return fail(ErrorKind::kOutput, fmt::format("{} exists; use --overwrite to replace it", path));
-  };
   struct stat old {};
   const bool exists = ::stat(path.c_str(), &old) == 0;
   if (!exists && errno == ELOOP) return fail_writing(path, "its symbolic links lead in a circle");
   if (exists) {
     if (S_ISDIR(old.st_mode)) return fail_writing(path, "it is a folder; name a file in it");
-    if (!S_ISREG(old.st_mode)) return write_directly(path, ::open(path.c_str(), O_WRONLY | O_CLOEXEC), bytes);
-    if (!overwrite) return taken();
+    if (!S_ISREG(old.st_mode)) return Staged{path, path, nullptr};
+    if (!overwrite) return name_is_taken(path);
     if (::access(path.c_str(), W_OK) != 0) return fail_writing(path, "the existing file may not be written");
   }
 
   const std::string target = follow_links(path);
-  TemporaryFile temporary(folder_of(target));
-  if (temporary.fd() < 0) {
-    const int why = temporary.error();
+  auto temporary = std::make_unique<TemporaryFile>(folder_of(target));
+  if (temporary->fd() < 0) {
+    const int why = temporary->error();
     std::error_code ignored;
     const std::filesystem::path folder = folder_of(target);
     const bool has_folder = folder.empty() || std::filesystem::is_directory(folder, ignored);
@@ -219,17 +228,49 @@ Result<void> write_file(const std::string& path, std::span<const std::uint8_t> b
     if (why == EACCES || why == EPERM) return fail_writing(path, "its folder may not be written");
     return fail_writing(path, reason(why));
   }
-  int error = write_all(temporary.fd(), bytes);
-  if (error == 0 && exists && ::fchmod(temporary.fd(), old.st_mode & 07777) != 0 && errno != EPERM) error = errno;
-  if (error == 0) error = sync_file(temporary.fd());
-  if (const int closing = temporary.close(); error == 0) error = closing;
-  if (error == 0) error = take_name(temporary.name(), target, overwrite);
-  if (error == EEXIST) return taken();
+  int error = write_all(temporary->fd(), file.bytes);
+  if (error == 0 && exists && ::fchmod(temporary->fd(), old.st_mode & 07777) != 0 && errno != EPERM) error = errno;
+  if (error == 0) error = sync_file(temporary->fd());
+  if (const int closing = temporary->close(); error == 0) error = closing;
   if (error != 0) return fail_writing(path, reason(error));
-  temporary.let_go();
+  return Staged{path, target, std::move(temporary)};
+}
+
+}  // namespace
+
+const char* pending_output(int place) { return place >= 0 && place < kPendingOutputs ? pending_names[place] : ""; }
+
+Result<void> write_files(std::span<const FileBytes> files, bool overwrite) {
+  std::vector<Staged> staged;
+  staged.reserve(files.size());
+  for (const FileBytes& file : files) {
+    try {
+      auto next = stage(file, overwrite);
+      if (!next) return tl::unexpected(std::move(next.error()));
+      staged.push_back(std::move(*next));
+    } catch (...) {
+      return caught(ErrorKind::kOutput, "write " + file.path);
+    }
+  }
+  for (Staged& file : staged) {
+    if (!file.temporary) continue;
+    const int error = take_name(file.temporary->name(), file.target, overwrite);
+    if (error == EEXIST) return name_is_taken(file.path);
+    if (error != 0) return fail_writing(file.path, reason(error));
+    file.temporary->let_go();
+  }
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    if (staged[k].temporary) continue;
+    const bool is_stdout = files[k].path == "/dev/stdout";
+    const int fd = is_stdout ? ::dup(STDOUT_FILENO) : ::open(files[k].path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (auto written = write_directly(files[k].path, fd, files[k].bytes); !written) return written;
+  }
   return {};
-} catch (...) {
-  return caught(ErrorKind::kOutput, "write " + path);
+}
+
+Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes, bool overwrite) {
+  const FileBytes file{path, bytes};
+  return write_files({&file, 1}, overwrite);
 }
 
 Result<std::vector<std::uint8_t>> read_file(const std::string& path) {

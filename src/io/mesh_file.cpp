@@ -88,7 +88,8 @@ constexpr FormatRow kFormats[] = {{MeshFormat::kGlb, "glb", encode_glb, decode_g
                                   {MeshFormat::kVtp, "vtp", encode_vtp, decode_vtk, false},
                                   {MeshFormat::kLandXml, "landxml", encode_landxml, decode_landxml, false},
                                   {MeshFormat::kDxf, "dxf", encode_dxf, decode_dxf, false},
-                                  {MeshFormat::kGpkg, "gpkg", encode_gpkg, nullptr, false}};
+                                  {MeshFormat::kGpkg, "gpkg", encode_gpkg, nullptr, false},
+                                  {MeshFormat::k3mf, "3mf", encode_one_3mf, decode_3mf, true}};
 
 const FormatRow* find_row(MeshFormat format) {
   for (const FormatRow& row : kFormats) {
@@ -116,6 +117,7 @@ std::optional<MeshFormat> recognise(std::span<const std::uint8_t> bytes, const s
   if (starts_with(bytes, "glTF")) return MeshFormat::kGlb;
   if (starts_with(bytes, "ply\n") || starts_with(bytes, "ply\r")) return MeshFormat::kPly;
   if (starts_with(bytes, "SQLite format 3")) return MeshFormat::kGpkg;
+  if (starts_with(bytes, "PK\3\4")) return MeshFormat::k3mf;
   if (const auto xml = recognise_xml(bytes)) return xml;
   if (is_binary_stl(bytes)) return MeshFormat::kStl;
   if (!looks_like_text(bytes)) {
@@ -286,7 +288,7 @@ Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string&
   if (bytes.empty()) return unusable("the file is empty");
   const auto format = recognise(bytes, name_for_errors);
   if (!format) {
-    return unusable("it is neither GLB nor OBJ, PLY, STL, TIN, 2DM, VTU, VTP, LandXML or DXF");
+    return unusable("it is neither GLB nor OBJ, PLY, STL, TIN, 2DM, VTU, VTP, LandXML, DXF or 3MF");
   }
   const auto decode = find_row(*format)->decode;
   if (decode == nullptr) return unusable("it is a GeoPackage, which Scarp writes and does not read");
@@ -305,7 +307,7 @@ Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional
   if (!format) format = find_mesh_format(path);
   if (!format) {
     return fail(ErrorKind::kOutput, fmt::format("the name {} does not tell a mesh format: end it in .glb, .obj, .ply, "
-                                                ".stl, .tin, .2dm, .vtu, .vtp, .xml, .dxf or .gpkg, or name the format",
+                                                ".stl, .tin, .2dm, .vtu, .vtp, .xml, .dxf, .gpkg or .3mf, or name the format",
                                                 path));
   }
   auto bytes = encode_mesh(mesh, *format);

@@ -80,6 +80,11 @@ Result<Mesh> decode_vtk(std::span<const std::uint8_t> bytes);
 Result<Mesh> decode_landxml(std::span<const std::uint8_t> bytes);
 Result<Mesh> decode_dxf(std::span<const std::uint8_t> bytes);
 
+/// Of one solid.
+Result<std::vector<std::uint8_t>> encode_one_3mf(const Mesh& mesh);
+/// All objects that the file builds, as one mesh.
+Result<Mesh> decode_3mf(std::span<const std::uint8_t> bytes);
+
 /// Bytes of a GLB file but its JSON text: whether it stays below 4 GiB is known before it is made. `floats`: numbers
 /// per vertex, 3 of them its position.
 std::uint64_t glb_binary_size(std::uint64_t vertices, std::uint64_t triangles, std::uint64_t floats);

@@ -12,16 +12,10 @@
 
 #include "io/mesh_file.h"
 #include "io/mesh_file_text.h"
+#include "io/text_comments.h"
 
 namespace scarp {
 namespace {
-
-constexpr std::string_view kCounts = "scarp.counts: ", kOrigin = "scarp.origin: ", kEnd = "scarp.end", kKey = "scarp ";
-
-std::string_view trim(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  return text;
-}
 
 struct ObjReader {
   explicit ObjReader(std::span<const std::uint8_t> bytes) : cursor(bytes) {}
@@ -33,28 +27,7 @@ struct ObjReader {
   bool uvs_match = true;               // and so has its place in the image
   std::vector<double> colors;          // of the vertices that have them
   std::vector<std::uint32_t> corners;  // of the face at hand
-  std::optional<std::array<double, 3>> origin;
-  std::int64_t announced_vertices = -1, announced_triangles = -1;
-  bool ended = false;
-
-  void read_comment(std::string_view text) {
-    text = trim(text);
-    if (text.starts_with(kCounts)) {
-      TextCursor words(
-          {reinterpret_cast<const std::uint8_t*>(text.data()) + kCounts.size(), text.size() - kCounts.size()});
-      std::int64_t vertices = 0, triangles = 0;
-      if (parse_integer(words.word(), vertices) && parse_integer(words.word(), triangles)) {
-        announced_vertices = vertices;
-        announced_triangles = triangles;
-      }
-    } else if (text.starts_with(kOrigin)) {
-      origin = parse_origin(text.substr(kOrigin.size()));
-    } else if (text == kEnd) {
-      ended = true;
-    } else if (text.starts_with(kKey)) {
-      parse_metadata_line(text.substr(kKey.size()), mesh.metadata);
-    }
-  }
+  TextComments comments;
 
   /// Reads "7", "7/1", "7//3" or "7/1/3". Numbers are 1-based; negative ones count back from the newest.
   bool read_corner(std::string_view word) {
@@ -136,7 +109,7 @@ struct ObjReader {
       if (corners.size() < 3) return "a face needs at least three corners";
       append_fan(corners, mesh.triangles);
     } else if (word == "#") {
-      read_comment(cursor.rest_of_line());
+      comments.read(cursor.rest_of_line(), mesh.metadata);
       return {};
     }
     cursor.rest_of_line();
@@ -150,17 +123,17 @@ struct ObjReader {
     }
     const auto vertices = static_cast<std::int64_t>(mesh.vertex_count());
     const auto triangles = static_cast<std::int64_t>(mesh.triangle_count());
-    if (announced_vertices >= 0 && !ended) {
+    if (comments.vertices >= 0 && !comments.has_ended) {
       return fmt::format(
           "it announces {} vertices and {} triangles and ends without an end mark after {} and {}: it was "
           "cut off",
-          announced_vertices, announced_triangles, vertices, triangles);
+          comments.vertices, comments.triangles, vertices, triangles);
     }
     if (normals_match && normals.size() == mesh.positions.size()) mesh.normals = std::move(normals);
     if (uvs_match && uvs.size() == 2 * mesh.vertex_count()) mesh.uvs = std::move(uvs);
     take_colors();
     // Positions must be sound before they are moved; the caller repeats this check for every format.
-    if (origin && find_unreadable(mesh).empty()) set_origin(mesh, *origin);
+    if (comments.origin && find_unreadable(mesh).empty()) set_origin(mesh, *comments.origin);
     return {};
   }
 };
@@ -172,9 +145,7 @@ Result<std::vector<std::uint8_t>> encode_obj(const Mesh& mesh) {
   bytes.reserve(mesh.positions.size() * 14 + mesh.normals.size() * 12 + mesh.triangles.size() * 8);
   auto out = std::back_inserter(bytes);
   fmt::format_to(out, "# Terrain by Scarp. Right-handed, x east, y north, z up; faces counter-clockwise from above.\n");
-  fmt::format_to(out, "# {}{} {}\n", kCounts, mesh.vertex_count(), mesh.triangle_count());
-  if (mesh.origin != std::array<double, 3>{}) fmt::format_to(out, "# {}{}\n", kOrigin, origin_text(mesh.origin));
-  for (const auto& [key, value] : mesh.metadata) fmt::format_to(out, "# {}{}\n", kKey, metadata_line(key, value));
+  TextComments::write(mesh, bytes);
   fmt::format_to(out, "o terrain\n");
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     const auto p = mesh.vertex(v);
@@ -198,7 +169,7 @@ Result<std::vector<std::uint8_t>> encode_obj(const Mesh& mesh) {
     if (with_normals) fmt::format_to(out, "{}{}", with_uvs ? "/" : "//", number);
     if (i % 3 == 2) bytes.push_back('\n');
   }
-  fmt::format_to(out, "# {}\n", kEnd);
+  TextComments::write_end(bytes);
   return bytes;
 }
 

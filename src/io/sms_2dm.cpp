@@ -13,11 +13,10 @@
 #include "io/id_table.h"
 #include "io/mesh_file.h"
 #include "io/mesh_file_text.h"
+#include "io/text_comments.h"
 
 namespace scarp {
 namespace {
-
-constexpr std::string_view kCounts = "scarp.counts: ", kOrigin = "scarp.origin: ", kEnd = "scarp.end", kKey = "scarp ";
 
 struct Sms2dmReader {
   explicit Sms2dmReader(std::span<const std::uint8_t> bytes) : cursor(bytes) {}
@@ -26,28 +25,7 @@ struct Sms2dmReader {
   Mesh mesh;
   IdTable nodes;
   std::vector<std::int64_t> corners;  // numbers of nodes, three a triangle
-  std::optional<std::array<double, 3>> origin;
-  std::int64_t announced_vertices = -1, announced_triangles = -1;
-  bool ended = false;
-
-  void read_comment(std::string_view text) {
-    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-    if (text.starts_with(kCounts)) {
-      const std::string_view counts = text.substr(kCounts.size());
-      TextCursor words({reinterpret_cast<const std::uint8_t*>(counts.data()), counts.size()});
-      std::int64_t vertices = 0, triangles = 0;
-      if (parse_integer(words.word(), vertices) && parse_integer(words.word(), triangles)) {
-        announced_vertices = vertices;
-        announced_triangles = triangles;
-      }
-    } else if (text.starts_with(kOrigin)) {
-      origin = parse_origin(text.substr(kOrigin.size()));
-    } else if (text == kEnd) {
-      ended = true;
-    } else if (text.starts_with(kKey)) {
-      parse_metadata_line(text.substr(kKey.size()), mesh.metadata);
-    }
-  }
+  TextComments comments;
 
   /// Returns the complaint; empty if there is none.
   std::string read_node() {
@@ -83,7 +61,7 @@ struct Sms2dmReader {
     } else if (word == "E6T" || word == "E8Q" || word == "E9Q") {
       complaint = fmt::format("{} is an element with curved edges, which no triangle is", word);
     } else if (word == "#") {
-      read_comment(cursor.rest_of_line());
+      comments.read(cursor.rest_of_line(), mesh.metadata);
       return {};
     }
     if (complaint.empty()) cursor.rest_of_line();
@@ -95,10 +73,11 @@ struct Sms2dmReader {
       const std::size_t line = cursor.line();
       if (std::string complaint = read_line(); !complaint.empty()) return fmt::format("line {}: {}", line, complaint);
     }
-    if (announced_vertices >= 0 && (!ended || announced_vertices != static_cast<std::int64_t>(mesh.vertex_count()) ||
-                                    announced_triangles != static_cast<std::int64_t>(corners.size() / 3))) {
+    if (comments.vertices >= 0 &&
+        (!comments.has_ended || comments.vertices != static_cast<std::int64_t>(mesh.vertex_count()) ||
+         comments.triangles != static_cast<std::int64_t>(corners.size() / 3))) {
       return fmt::format("it announces {} nodes and {} triangles and ends with {} and {}: it was cut off",
-                         announced_vertices, announced_triangles, mesh.vertex_count(), corners.size() / 3);
+                         comments.vertices, comments.triangles, mesh.vertex_count(), corners.size() / 3);
     }
     if (mesh.vertex_count() > std::numeric_limits<std::uint32_t>::max()) return "it has more nodes than 32 bits number";
     if (const auto twice = nodes.finish(0)) return fmt::format("two of its nodes have the number {}", *twice);
@@ -108,7 +87,7 @@ struct Sms2dmReader {
       if (!vertex) return fmt::format("an element names node {}, and there is none", corner);
       mesh.triangles.push_back(*vertex);
     }
-    if (origin) set_origin(mesh, *origin);
+    if (comments.origin) set_origin(mesh, *comments.origin);
     return {};
   }
 };
@@ -122,9 +101,7 @@ Result<std::vector<std::uint8_t>> encode_2dm(const Mesh& mesh) {
   auto out = std::back_inserter(bytes);
   fmt::format_to(out, "MESH2D\nMESHNAME \"terrain\"\nNUM_MATERIALS_PER_ELEM 1\n");
   fmt::format_to(out, "# Terrain by Scarp: x east, y north, z up; elements counter-clockwise from above\n");
-  fmt::format_to(out, "# {}{} {}\n", kCounts, mesh.vertex_count(), mesh.triangle_count());
-  if (mesh.origin != std::array<double, 3>{}) fmt::format_to(out, "# {}{}\n", kOrigin, origin_text(mesh.origin));
-  for (const auto& [key, value] : mesh.metadata) fmt::format_to(out, "# {}{}\n", kKey, metadata_line(key, value));
+  TextComments::write(mesh, bytes);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::uint32_t* corners = &mesh.triangles[3 * t];
     fmt::format_to(out, "E3T {} {} {} {} 1\n", t + 1, corners[0] + 1, corners[1] + 1, corners[2] + 1);
@@ -133,7 +110,7 @@ Result<std::vector<std::uint8_t>> encode_2dm(const Mesh& mesh) {
     const auto p = mesh.vertex(v);
     fmt::format_to(out, "ND {} {} {} {}\n", v + 1, p[0], p[1], p[2]);
   }
-  fmt::format_to(out, "# {}\n", kEnd);
+  TextComments::write_end(bytes);
   return bytes;
 }
 

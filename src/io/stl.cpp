@@ -1,7 +1,8 @@
 // STL: triangles without vertices' names. Binary on writing; binary and text on reading.
 //
 // The format has three float32 per corner and no origin, so we write offsets and keep the origin in the 80 bytes of
-// the header, which begin with "scarp" (a header that begins with "solid" would be taken for text). On reading, corners
+// the header, which begin with "scarp" (a header that begins with "solid" would be taken for text); or the placement of
+// a solid that has one, as text or, where that is too long, as its six doubles. On reading, corners
 // at exactly one place become one vertex, so that the topology is known again.
 
 #include <fmt/format.h>
@@ -20,10 +21,42 @@ namespace scarp {
 namespace {
 
 constexpr std::size_t kHeaderSize = 80, kTriangleSize = 50;
-constexpr std::string_view kOriginDecimal = "scarp origin ", kOriginBits = "scarp origin bits ";
+constexpr std::string_view kOriginDecimal = "scarp origin ", kOriginBits = "scarp origin bits ",
+                           kPlaced = "scarp placed ", kPlacedBytes = "scarp placed\1";
+constexpr const char* kPlacement = "placement";
+
+std::string placement_header(const std::string& placement) {
+  if (kPlaced.size() + placement.size() < kHeaderSize) return fmt::format("{}{}", kPlaced, placement);
+  std::vector<std::uint8_t> bytes(48);
+  std::uint8_t* at = bytes.data();
+  TextCursor cursor({reinterpret_cast<const std::uint8_t*>(placement.data()), placement.size()});
+  for (int k = 0; k < 6; ++k) {
+    double number = 0;
+    if (!cursor.number(number)) return {};
+    store_number(at, number);
+  }
+  return std::string(kPlacedBytes) + std::string(bytes.begin(), bytes.end());
+}
+
+/// What stands behind placement_header()'s words; nothing if there are none.
+std::optional<std::string> parse_placement(std::string_view header) {
+  if (header.starts_with(kPlaced)) {
+    header.remove_prefix(kPlaced.size());
+    return std::string(header.substr(0, header.find('\0')));
+  }
+  if (!header.starts_with(kPlacedBytes)) return std::nullopt;
+  const auto* at = reinterpret_cast<const std::uint8_t*>(header.data()) + kPlacedBytes.size();
+  std::string text;
+  for (std::size_t k = 0; k < 6; ++k) text += fmt::format("{}{}", k == 0 ? "" : " ", load_number<double>(at + 8 * k));
+  return text;
+}
 
 /// Decimal where it fits into the header, which is nearly always; else the bits of the three doubles.
-std::string header_text(const std::array<double, 3>& origin) {
+std::string header_text(const Mesh& mesh) {
+  const std::array<double, 3>& origin = mesh.origin;
+  if (const auto placed = mesh.metadata.find(kPlacement); placed != mesh.metadata.end()) {
+    if (std::string text = placement_header(placed->second); !text.empty()) return text;
+  }
   std::string text = fmt::format("{}{}", kOriginDecimal, origin_text(origin));
   if (text.size() < kHeaderSize) return text;
   return fmt::format("{}{:016x}{:016x}{:016x}", kOriginBits, std::bit_cast<std::uint64_t>(origin[0]),
@@ -77,9 +110,9 @@ Result<Mesh> decode_binary(std::span<const std::uint8_t> bytes) {
       mesh.triangles.push_back(welder.find_or_add(x, y, z));
     }
   }
-  if (const auto origin = parse_header({reinterpret_cast<const char*>(bytes.data()), kHeaderSize})) {
-    mesh.origin = *origin;
-  }
+  const std::string_view header(reinterpret_cast<const char*>(bytes.data()), kHeaderSize);
+  if (const auto origin = parse_header(header)) mesh.origin = *origin;
+  if (auto placement = parse_placement(header)) mesh.metadata[kPlacement] = std::move(*placement);
   return mesh;
 }
 
@@ -141,7 +174,7 @@ Result<std::vector<std::uint8_t>> encode_stl(const Mesh& mesh) {
                                                 std::numeric_limits<std::uint32_t>::max(), count));
   }
   std::vector<std::uint8_t> bytes(kHeaderSize + 4 + kTriangleSize * count);
-  const std::string header = header_text(mesh.origin);
+  const std::string header = header_text(mesh);
   std::memcpy(bytes.data(), header.data(), header.size());
   std::uint8_t* at = bytes.data() + kHeaderSize;
   store_number(at, static_cast<std::uint32_t>(count));

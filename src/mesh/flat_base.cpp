@@ -9,6 +9,10 @@
 // last four, v may lie on a diagonal. Vertices with few neighbours go first, which keeps rings short. With exact
 // orientation nothing can go wrong; the border and all edges along it are never touched, so the result fits the walls.
 //
+// Then the vertices of the border go that lie between their neighbours on a line along x or y. Such a vertex has half a
+// star, whose ring is closed by that line; v lies on it, which is all that the test above needs: an ear at either end
+// of the line has v on its wrong side, and of the others there is always one.
+//
 // This is vertex deletion by ear queue without its Delaunay priority (Devillers 2002, "On deletion in Delaunay
 // triangulations"): a floor may have long thin triangles.
 
@@ -33,7 +37,9 @@ class FlatBase {
     for (std::size_t t = 0; t < triangles_.size(); t += 3) {
       if (!turns_left(triangles_[t], triangles_[t + 1], triangles_[t + 2])) return std::move(triangles_);
     }
-    remove_inner_vertices();
+    find_degrees();
+    remove_vertices(false);
+    remove_vertices(true);
     std::size_t kept = 0;
     for (std::size_t t = 0; t < triangles_.size(); t += 3) {
       if (triangles_[t] == triangles_[t + 1]) continue;  // a slot given back
@@ -60,53 +66,75 @@ class FlatBase {
   }
   bool turns_left(std::uint32_t a, std::uint32_t b, std::uint32_t c) const { return orient(a, b, c) > 0; }
 
-  void remove_inner_vertices() {
+  void find_degrees() {
     const std::size_t vertices = positions_.size() / 3;
-    std::vector<std::uint32_t> degrees(vertices, 0);
+    degrees_.assign(vertices, 0);
     outgoing_.assign(vertices, kNoHalfEdge);
-    std::vector<bool> on_border(vertices, false);
+    on_border_.assign(vertices, false);
     for (std::uint32_t h = 0; h < triangles_.size(); ++h) {
       outgoing_[triangles_[h]] = h;
-      ++degrees[triangles_[h]];
-      if (twins_[h] == kNoHalfEdge) on_border[triangles_[h]] = on_border[triangles_[next_half_edge(h)]] = true;
+      ++degrees_[triangles_[h]];
+      if (twins_[h] == kNoHalfEdge) on_border_[triangles_[h]] = on_border_[triangles_[next_half_edge(h)]] = true;
     }
+  }
+
+  /// Those of the border that it does not need, or all inner ones.
+  void remove_vertices(bool of_border) {
     using Entry = std::pair<std::uint32_t, std::uint32_t>;  // neighbours, vertex
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    for (std::uint32_t v = 0; v < vertices; ++v) {
-      if (degrees[v] > 0 && !on_border[v]) queue.push({degrees[v], v});
+    for (std::uint32_t v = 0; v < degrees_.size(); ++v) {
+      if (degrees_[v] > 0 && on_border_[v] == of_border) queue.push({degrees_[v], v});
     }
     while (!queue.empty()) {
       const auto [degree, v] = queue.top();
       queue.pop();
-      if (degree != degrees[v]) continue;  // an entry of the past
+      if (degree != degrees_[v]) continue;  // an entry of the past
       collect_ring(v);
-      if (ring_.size() != degree || !cut_ears(v)) continue;
-      for (const RingEdge& edge : ring_) degrees[edge.start] -= 2;
-      for (const Ear& ear : ears_) {
-        for (const std::uint32_t corner : ear.corners) ++degrees[corner];
+      if (star_.size() != degree || (of_border && !is_straight(v)) || !cut_ears(v)) continue;
+      for (const std::uint32_t t : star_) {
+        for (std::uint32_t k = 0; k < 3; ++k) --degrees_[triangles_[3 * t + k]];
       }
-      degrees[v] = 0;
+      for (const Ear& ear : ears_) {
+        for (const std::uint32_t corner : ear.corners) ++degrees_[corner];
+      }
       replace_star();
       for (const RingEdge& edge : ring_) {
-        if (!on_border[edge.start]) queue.push({degrees[edge.start], edge.start});
+        if (on_border_[edge.start] == of_border) queue.push({degrees_[edge.start], edge.start});
       }
     }
   }
 
-  /// The neighbours of v, counter-clockwise, and the triangles around it.
+  /// The neighbours of v, counter-clockwise, and the triangles around it; from its border to its border if it lies
+  /// there.
   void collect_ring(std::uint32_t v) {
     ring_.clear();
     star_.clear();
-    std::uint32_t h = outgoing_[v];
-    do {
-      const std::uint32_t opposite = next_half_edge(h);
+    std::uint32_t first = outgoing_[v];
+    while (on_border_[v] && twins_[first] != kNoHalfEdge) first = next_half_edge(twins_[first]);
+    std::uint32_t h = first;
+    const auto add = [this](std::uint32_t start, std::uint32_t across) {
       const auto at = static_cast<std::uint32_t>(ring_.size());
-      ring_.push_back({triangles_[opposite], twins_[opposite], at - 1, at + 1});
+      ring_.push_back({start, across, at - 1, at + 1});
+    };
+    do {
+      const std::uint32_t opposite = next_half_edge(h), last = previous_half_edge(h);
+      add(triangles_[opposite], twins_[opposite]);
       star_.push_back(h / 3);
-      h = twins_[previous_half_edge(h)];
-    } while (h != outgoing_[v] && h != kNoHalfEdge);
+      h = twins_[last];
+      if (h == kNoHalfEdge) add(triangles_[last], kNoHalfEdge);
+    } while (h != first && h != kNoHalfEdge);
     ring_.front().previous = static_cast<std::uint32_t>(ring_.size() - 1);
     ring_.back().next = 0;
+  }
+
+  /// Of a vertex of the border, whose neighbours along it end its ring. Lines along an axis stay straight, and the wall
+  /// below them vertical, whatever is done to each coordinate: scaled, moved, rounded.
+  bool is_straight(std::uint32_t v) const {
+    const double *from = &positions_[3 * std::size_t{ring_.back().start}], *at = &positions_[3 * std::size_t{v}],
+                 *to = &positions_[3 * std::size_t{ring_.front().start}];
+    const auto is_between = [](double a, double b, double c) { return (a < b && b < c) || (c < b && b < a); };
+    return (from[0] == at[0] && at[0] == to[0] && is_between(from[1], at[1], to[1])) ||
+           (from[1] == at[1] && at[1] == to[1] && is_between(from[0], at[0], to[0]));
   }
 
   /// Fills ears_ with the triangles that fill the ring of v; ear number e will take the place of triangle star_[e].
@@ -149,7 +177,7 @@ class FlatBase {
     }
     link(3 * star_[ears_.size() - 1] + 2, last_across_);
     for (std::size_t e = ears_.size(); e < star_.size(); ++e) {
-      triangles_[3 * star_[e] + 1] = triangles_[3 * star_[e]];  // two triangles fewer
+      triangles_[3 * star_[e] + 1] = triangles_[3 * star_[e]];  // one or two triangles fewer
     }
   }
 
@@ -161,7 +189,9 @@ class FlatBase {
   std::span<const double> positions_;
   std::vector<std::uint32_t> triangles_, twins_;
   std::vector<std::uint32_t> outgoing_;  // one half-edge that starts at each vertex
-  std::vector<RingEdge> ring_;           // as indexed by ring position; a linked list while ears are cut
+  std::vector<std::uint32_t> degrees_;   // triangles at each vertex
+  std::vector<bool> on_border_;
+  std::vector<RingEdge> ring_;  // as indexed by ring position; a linked list while ears are cut
   std::vector<std::uint32_t> star_;
   std::vector<Ear> ears_;
   std::uint32_t last_across_ = kNoHalfEdge;  // of the last ear's third edge

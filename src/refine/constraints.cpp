@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/curve.h"
+#include "base/radix_sort.h"
+
 namespace scarp {
 
 namespace {
@@ -23,33 +26,32 @@ bool is_in_domain(const Triangulation& tin, const Triangulation::Location& locat
   return std::any_of(star.begin(), star.end(), [&](Triangle t) { return !tin.is_outside(t); });
 }
 
-/// The bits of a coordinate, every other one.
-std::uint64_t spread(std::int32_t coordinate) {
-  auto bits = static_cast<std::uint64_t>(static_cast<std::uint32_t>(coordinate));
-  bits = (bits | bits << 16) & 0x0000ffff0000ffff;
-  bits = (bits | bits << 8) & 0x00ff00ff00ff00ff;
-  bits = (bits | bits << 4) & 0x0f0f0f0f0f0f0f0f;
-  bits = (bits | bits << 2) & 0x3333333333333333;
-  return (bits | bits << 1) & 0x5555555555555555;
-}
-
 /// Indices of points along Morton's curve: whoever looks for one after the other in a triangulation has short ways.
 std::vector<std::uint32_t> nearby_order(const std::vector<Point>& points) {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
   keys.reserve(points.size());
   for (const Point p : points)
-    keys.emplace_back(spread(p.y) << 1 | spread(p.x), static_cast<std::uint32_t>(keys.size()));
-  std::sort(keys.begin(), keys.end());
+    keys.emplace_back(curve_place(static_cast<std::uint32_t>(p.x), static_cast<std::uint32_t>(p.y)),
+                      static_cast<std::uint32_t>(keys.size()));
+  radix_sort(keys, [](const auto& key) { return key.first; });
   std::vector<std::uint32_t> order;
   order.reserve(keys.size());
   for (const auto& [key, i] : keys) order.push_back(i);
   return order;
 }
 
+/// The corners of all triangles.
+std::vector<Vertex> corners_of(const Triangulation& tin) {
+  std::vector<Vertex> corners(3 * tin.triangle_count());
+  for (HalfEdge h = 0; h < corners.size(); ++h) corners[h] = tin.origin(h);
+  return corners;
+}
+
 }  // namespace
 
 Result<ConstrainedMesh> ConstrainedMesh::lay(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph) {
   ConstrainedMesh mesh(raster, tin);
+  const std::vector<Vertex> corners = corners_of(tin);
   tin.scale(kLatticeSteps);
   std::vector<Vertex> vertices(graph.points.size(), kNone);
   for (const std::uint32_t i : nearby_order(graph.points)) {
@@ -70,6 +72,11 @@ Result<ConstrainedMesh> ConstrainedMesh::lay(const Raster& raster, Triangulation
     return fail(
         ErrorKind::kInternal,
         fmt::format("the line from ({}, {}) to ({}, {}) crosses the outline between two samples", p.x, p.y, q.x, q.y));
+  }
+  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+    bool is_old = 3 * t < corners.size();
+    for (HalfEdge h = 3 * t; is_old && h < 3 * t + 3; ++h) is_old = corners[h] == tin.origin(h);
+    if (!is_old) mesh.changed_.push_back(t);
   }
   if (graph.cut) {
     if (auto cut = cut_away(tin, raster.cols, *graph.cut, vertices); !cut) return tl::unexpected(cut.error());

@@ -33,6 +33,8 @@ class ConstrainedMesh {
   /// kMaxCoordinate / kLatticeSteps samples; edges cross no constrained edge of `tin` but in points of the graph.
   static Result<ConstrainedMesh> lay(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph);
 
+  /// Triangles that are others than before, ascending.
+  const std::vector<Triangle>& changed() const { return changed_; }
   const PlaceHeights& heights() const { return heights_; }
   /// Of all vertices that `tin` has by now: heights, and which of them belong to the graph.
   VertexPlaces places() const;
@@ -43,6 +45,7 @@ class ConstrainedMesh {
   const Triangulation* tin_;
   PlaceHeights heights_;
   std::vector<Vertex> fixed_;
+  std::vector<Triangle> changed_;
 };
 
 }  // namespace scarp

@@ -2,18 +2,35 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "geom/exact_error.h"
 #include "geom/sample_scan.h"
+#include "geom/scan_kernels.h"
 #include "refine/between.h"
 
 namespace scarp {
 
 namespace {
 
+/// Rows of fewer samples are faster without vectors.
+constexpr std::int32_t kMinVectorRow = 16;
+
 Point place_of(std::int32_t x, std::int32_t y) { return {x * kLatticeSteps, y * kLatticeSteps}; }
 
 }  // namespace
+
+void PlaceHeights::set(Point place, float height) {
+  Slot& slot = slots_[find(key(place))];
+  if (slot.key == 0) ++taken_;
+  slot = {key(place), height};
+  has_samples_ = has_samples_ || is_sample(place);
+  if (2 * taken_ <= slots_.size()) return;
+  const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(2 * slots_.size()));
+  for (const Slot& moved : old) {
+    if (moved.key != 0) slots_[find(moved.key)] = moved;
+  }
+}
 
 std::array<float, 3> LatticeJudge::heights_at(const std::array<Point, 3>& corners) const {
   return {heights_.at(corners[0]), heights_.at(corners[1]), heights_.at(corners[2])};
@@ -31,6 +48,45 @@ double LatticeJudge::importance(double error, double bound) const {
 }
 
 Fit LatticeJudge::fit(const std::array<Point, 3>& corners, const FitQuestion&) const {
+  return bounds_.empty() ? fit_evenly(corners) : fit_by_bounds(corners);
+}
+
+/// The largest error, where it may exceed the threshold.
+Fit LatticeJudge::fit_evenly(const std::array<Point, 3>& corners) const {
+  const Plane plane = plane_of(corners);
+  const double least = threshold_ - plane.guard;
+  double worst = std::nextafter(least, -1.0);  // what equals `least` is in doubt too
+  Point at;
+  const ScanKernels& kernels = scan_kernels();
+  // Powers of two: each product rounds as slope_x times steps does.
+  const double slope = plane.slope_x * kLatticeSteps, base = plane.base.x / double{kLatticeSteps};
+  Fit fit;
+  fit.guard = plane.guard;
+  scan_samples(corners, kLatticeSteps, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    fit.scanned += static_cast<std::uint64_t>(last - first + 1);
+    const float* const samples = raster_.row(y);
+    const double row_height = plane.row_height(y * kLatticeSteps);
+    if (last - first + 1 >= kMinVectorRow) {
+      std::int32_t found = 0;
+      if (kernels.scan_row(samples + first, last - first + 1, row_height, slope, first - base, worst, found))
+        at = place_of(first + found, y);
+      return;
+    }
+    for (std::int32_t x = first; x <= last; ++x) {
+      const double error = std::abs(row_height + slope * (x - base) - double{samples[x]});
+      if (!(error > worst)) continue;  // void, or not the worst
+      worst = error;
+      at = place_of(x, y);
+    }
+  });
+  if (!(worst >= least && worst >= 0)) return fit;
+  fit.unsettled = true;
+  fit.max_error = worst;
+  fit.worst = {worst, at};
+  return fit;
+}
+
+Fit LatticeJudge::fit_by_bounds(const std::array<Point, 3>& corners) const {
   const Plane plane = plane_of(corners);
   Fit fit;
   fit.guard = plane.guard;

@@ -1,9 +1,10 @@
 // The judge of triangles whose corners lie between samples, at heights of their own.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
+#include <vector>
 
 #include "geom/plane.h"
 #include "grid/raster.h"
@@ -15,23 +16,39 @@ namespace scarp {
 /// Heights at places of the lattice: those that were given, else the sample's.
 class PlaceHeights {
  public:
-  explicit PlaceHeights(const Raster& raster) : raster_(raster) {}
-  /// For a place that is no sample's.
-  void set(Point place, float height) { heights_[key(place)] = height; }
+  explicit PlaceHeights(const Raster& raster) : raster_(raster), slots_(kFewest) {}
+  void set(Point place, float height);
   static bool is_sample(Point place) { return place.x % kLatticeSteps == 0 && place.y % kLatticeSteps == 0; }
   /// REQUIRES: it was given, or is a sample's.
   float at(Point place) const {
-    return is_sample(place) ? raster_.at({place.x / kLatticeSteps, place.y / kLatticeSteps})
-                            : heights_.find(key(place))->second;
+    if (is_sample(place) && !has_samples_) return sample(place);
+    const Slot& slot = slots_[find(key(place))];
+    return slot.key != 0 ? slot.height : sample(place);
   }
 
  private:
+  /// An open table of which at most half is taken.
+  struct Slot {
+    std::uint64_t key = 0;  // of none
+    float height = 0;
+  };
+  static constexpr std::size_t kFewest = 64;
+
+  float sample(Point place) const { return raster_.at({place.x / kLatticeSteps, place.y / kLatticeSteps}); }
   static std::uint64_t key(Point place) {
-    return std::uint64_t{static_cast<std::uint32_t>(place.y)} << 32 | static_cast<std::uint32_t>(place.x);
+    return (std::uint64_t{static_cast<std::uint32_t>(place.y)} << 32 | static_cast<std::uint32_t>(place.x)) + 1;
+  }
+  /// The key's slot, or the one where it would stand.
+  std::size_t find(std::uint64_t key) const {
+    std::size_t slot = (key * 0x9e3779b97f4a7c15) >> 32 & (slots_.size() - 1);
+    while (slots_[slot].key != key && slots_[slot].key != 0) slot = (slot + 1) & (slots_.size() - 1);
+    return slot;
   }
 
   Raster raster_;
-  std::unordered_map<std::uint64_t, float> heights_;
+  std::vector<Slot> slots_;
+  std::size_t taken_ = 0;
+  bool has_samples_ = false;  ///< samples were given other heights
 };
 
 /// Corners and candidates are in kLatticeSteps. Where samples have bounds of their own (row-major, +infinity for none),
@@ -49,6 +66,8 @@ class LatticeJudge final : public Judge {
   double bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const override;
 
  private:
+  Fit fit_evenly(const std::array<Point, 3>& corners) const;
+  Fit fit_by_bounds(const std::array<Point, 3>& corners) const;
   std::array<float, 3> heights_at(const std::array<Point, 3>& corners) const;
   Plane plane_of(const std::array<Point, 3>& corners) const { return Plane::through(corners, heights_at(corners)); }
   double bound_at(std::int32_t x, std::int32_t y) const;

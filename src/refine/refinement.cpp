@@ -76,7 +76,7 @@ void Refinement::add(Point p, Triangulation::Location location) {
     rule_->insert(tin_, p, location);
     star_ = rule_->changed();
   } else {
-    tin_.star(tin_.insert(p, location), star_);
+    tin_.star(tin_.insert(p, location, flips_), star_);
   }
   candidates_->grow(tin_.triangle_count());
 }

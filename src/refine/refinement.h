@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "refine/candidate_queue.h"
@@ -29,7 +30,7 @@ class Refinement {
   /// Whether the triangles there are need a look.
   enum class Start {
     kScan,   ///< scan every triangle that is not outside
-    kClean,  ///< all keep their bounds already
+    kClean,  ///< all keep their bounds already, or scan() looks at those that may not
   };
   /// The judge and `tin` stay alive; nobody else changes them. Edges are Delaunay, or follow the data where `edges`
   /// says so; triangles of `tin` stay as they are until a point is inserted.
@@ -50,6 +51,12 @@ class Refinement {
   std::uint32_t gain_at(Point p) const { return gain(tin_.locate(p, tin_.last_touched())); }
   /// Inserts a given sample and rescans around it. REQUIRES: gain_at(p) > 0.
   void insert(Point p);
+  /// The same at a known location.
+  void insert_at(Point p, Triangulation::Location location);
+  /// Triangles around the vertex that was inserted last: all that this changed.
+  const std::vector<Triangle>& changed() const { return star_; }
+  /// Edges follow this rule from now on in place of the Delaunay property; it stays alive. REQUIRES: no EdgeRule.
+  void follow(FlipRule* flips) { flips_ = flips; }
 
   /// The candidates that a batch would insert now, worst first; empty if done(). A place on an edge may come twice.
   struct BatchCandidate {
@@ -63,12 +70,15 @@ class Refinement {
   bool has_changed(Triangle t) const { return t < changed_.size() && changed_[t] != 0; }
   std::uint32_t gain_near(Point p, Triangle hint) const { return gain(tin_.locate(p, hint)); }
   void rescan_changed();
+  /// Scans triangles, for which nobody else has answered.
+  void scan(std::span<const Triangle> triangles) {
+    for (const Triangle t : triangles) rescan(t);
+  }
 
   std::uint64_t triangle_count() const { return inside_; }
   Work work() const;
 
  private:
-  void insert_at(Point p, Triangulation::Location location);
   void add(Point p, Triangulation::Location location);
   void rescan(Triangle t);
   void rescan_all();
@@ -77,7 +87,8 @@ class Refinement {
   const Judge& judge_;
   Triangulation& tin_;
   Algorithm algorithm_;
-  std::unique_ptr<DataDependentRule> rule_;  // null: Delaunay
+  std::unique_ptr<DataDependentRule> rule_;  // null: Delaunay, or as flips_ wants it
+  FlipRule* flips_ = nullptr;
   std::unique_ptr<CandidateStore> candidates_;
   std::vector<Triangle> star_, unseen_;  // changed by the last insertion, by those not rescanned yet
   std::vector<std::uint8_t> changed_;

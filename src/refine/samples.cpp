@@ -24,7 +24,16 @@ Result<Samples> Samples::of(const HeightField& field) {
   samples.raster_ = {field.samples, field.cols, field.rows};
   const std::size_t count = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
   const auto must_change = [&](float z) { return std::isinf(z) || (field.nodata && z == *field.nodata); };
-  if (std::any_of(field.samples, field.samples + count, must_change)) {
+  // Without a way out in the middle of a row, so that compilers see vectors.
+  bool is_clean = true;
+  const float nodata = field.nodata.value_or(std::numeric_limits<float>::infinity());
+  for (std::size_t first = 0, cols = static_cast<std::size_t>(field.cols); is_clean && first < count; first += cols) {
+    int unfit = 0;
+    for (std::size_t i = first; i < first + cols; ++i)
+      unfit += std::abs(field.samples[i]) == std::numeric_limits<float>::infinity() || field.samples[i] == nodata;
+    is_clean = unfit == 0;
+  }
+  if (!is_clean) {
     samples.cleaned_.assign(field.samples, field.samples + count);
     for (float& z : samples.cleaned_) {
       if (must_change(z)) z = std::numeric_limits<float>::quiet_NaN();

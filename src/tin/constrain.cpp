@@ -57,6 +57,11 @@ Triangulation::Passage Triangulation::passage(Vertex from, Vertex to) const {
 }
 
 bool Triangulation::constrain(Vertex a, Vertex b) {
+  if (const HalfEdge edge = find_edge(a, b); edge != kNone) {
+    set_constrained(edge);
+    last_ = edge / 3;
+    return true;
+  }
   std::vector<std::pair<Vertex, Vertex>> pieces;
   for (Vertex v = a; v != b;) {
     const Passage p = passage(v, b);

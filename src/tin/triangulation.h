@@ -85,9 +85,9 @@ class Triangulation {
   /// The same where t is known to contain p (closed).
   Location locate_in(Point p, Triangle t) const;
 
-  /// Inserts p at its location and restores the Delaunay property, or what `rule` holds for one: it is asked about
-  /// edges that face the new vertex, and each flip adds a spoke to that vertex, so the questions end. Returns the new
-  /// vertex; for kOnVertex the one that is there. Constraints on a split edge hold on both halves. Cost: expected O(1).
+  /// Inserts p and restores the Delaunay property, or what `rule` holds for one: it is asked about edges that face the
+  /// new vertex, and each flip adds a spoke to it, so the questions end. Returns the vertex that is there. An edge's
+  /// constraint holds on both halves; p may lie beside it while the four triangles are positive. Cost: expected O(1).
   Vertex insert(Point p, Location location, FlipRule* rule = nullptr);
 
   /// Asks the rule about the edges of the list, and again about the four edges around each one that it flips, until it

@@ -97,3 +97,17 @@ refuses 1 "--breaklines" "$scarp" simplify hills.tif x.glb -e 12 --line-conflict
 refuses 1 "--max-triangles" "$scarp" simplify hills.tif x.glb -t 100 --breaklines soft.geojson
 refuses 1 "--breaklines" "$scarp" simplify hills.tif x.glb -e 12 --importance local --breaklines soft.geojson
 refuses 2 "missing.gpkg" "$scarp" simplify hills.tif x.glb -e 12 --breaklines missing.gpkg
+
+# Where the grid is bent no line is straight: the option is named, and the way out.
+python3 - <<'PYTHON'
+import json
+line = {"type": "LineString", "coordinates": [[-84.40, 36.20], [-84.10, 36.40]]}
+json.dump({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry": line}]},
+          open("road.geojson", "w"))
+ring = {"type": "Polygon", "coordinates": [[[-84.30, 36.25], [-84.25, 36.25], [-84.25, 36.30], [-84.30, 36.25]]]}
+json.dump({"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry": ring}]},
+          open("lake.geojson", "w"))
+PYTHON
+succeeds "$scarp" simplify "$dem" same.glb -e 50 --crs EPSG:4326 --breaklines road.geojson
+refuses 1 "gdalwarp -t_srs EPSG:32616 $dem" "$scarp" simplify "$dem" x.glb -e 50 --crs EPSG:32616 --breaklines road.geojson
+refuses 1 "--water and --crs EPSG:32616" "$scarp" simplify "$dem" x.glb -e 50 --crs EPSG:32616 --water lake.geojson

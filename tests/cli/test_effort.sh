@@ -120,10 +120,7 @@ for bounds in "--mask weights.tif" "--tolerance falling.tif" "--script ignored.t
 done
 
 # What removal has no place for is named.
-for other in "--texture $dem" "--outline-tolerance 1" "--edges data"; do
-  # shellcheck disable=SC2086
-  refuses 1 "--effort normal and --" "$scarp" simplify "$dem" never.glb -e 20 --effort normal $other
-done
+refuses 1 "--effort normal and --edges data" "$scarp" simplify "$dem" never.glb -e 20 --effort normal --edges data
 refuses 1 "--vertices free needs --effort high" "$scarp" simplify "$dem" never.glb -e 20 --vertices free
 refuses 1 "--vertices" "$scarp" simplify "$dem" never.glb -e 20 --effort high --vertices some
 refuses 1 "regular" "$scarp" simplify "$dem" never.glb -e 20 --effort high --vertices free --crs EPSG:32616

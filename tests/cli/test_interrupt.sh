@@ -52,6 +52,40 @@ interrupt_after INT 1 "$scarp" simplify big.tif out.glb -e 0 --overwrite
 [ "$(cat out.glb)" = mine ] || fail "the old file is gone"
 [ "$(find . -type f | sort | tr '\n' ' ')" = "./big.tif ./out.glb " ] || fail "files are left"
 
+# A long effort ends with the mesh so far, but stops without one as long as there is none, and where there is a budget.
+succeeds "$scarp" generate fractal 500 500 hills.tif --seed 7
+wait_for_pass() {
+  for ((i = 0; i < 600; ++i)); do
+    grep -q "\"pass\":\"$1\"" "$logs/err" && return
+    sleep 0.1
+  done
+  fail "the pass $1 does not begin"
+}
+cut_short() {
+  local signal=$1 effort=$2
+  set -m
+  "$scarp" simplify hills.tif cut.glb -e 0.2% --effort "$effort" --report cut.json --json-progress > "$logs/out" 2> "$logs/err" &
+  pid=$!
+  set +m
+  wait_for_pass fit
+  kill "-$signal" "$pid" || fail "$effort effort ended by itself"
+  code=0
+  wait "$pid" || code=$?
+  [ "$code" = 0 ] || fail "exit code $code after $signal in $effort effort"
+  grep -q "when the interrupt ended the effort" "$logs/out" || fail "the summary does not tell of the interrupt"
+  [ "$(json cut.json strategy cut_short)" = true ] || fail "the report does not tell that the effort was cut short"
+  succeeds "$scarp" measure hills.tif cut.glb --fail-above "$(json cut.json goal max_error)"
+  rm cut.glb cut.json
+}
+cut_short INT high
+cut_short TERM max
+for option in "-t 20000" "-e 0.2% --memory 200M"; do
+  # shellcheck disable=SC2086  # options are meant to be split
+  interrupt_after INT 1 "$scarp" simplify hills.tif cut.glb --effort max $option
+  [ "$code" = 5 ] || fail "exit code $code instead of 5 with $option"
+  [ ! -e cut.glb ] || fail "a file is left with $option"
+done
+
 # measure and info stop as well.
 succeeds "$scarp" simplify "$dem" small.obj -e 1
 interrupt_after INT 0.3 "$scarp" info big.tif

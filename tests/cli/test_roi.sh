@@ -22,6 +22,13 @@ for effort in fast high; do
   succeeds "$scarp" measure "$dem" near.glb --fail-above 50 --roi site.geojson=2 --falloff 5000 --roi road.geojson=10
   holds "$(json near.json triangles) > $(json roi.json triangles)"
 done
+# Lines in the mesh leave the bounds of the samples as they are.
+for effort in fast normal high; do
+  succeeds "$scarp" simplify "$dem" lines.glb -e 50 --roi site.geojson=2 --falloff 5000 --breaklines road.geojson \
+    --effort "$effort" --report lines.json --overwrite
+  [ "$(json lines.json breaklines laid)" = 1 ] || fail "the line is not laid with $effort effort"
+  succeeds "$scarp" measure "$dem" lines.glb --fail-above 50 --roi site.geojson=2 --falloff 5000
+done
 try "$scarp" measure "$dem" roi.glb --fail-above 50 --roi site.geojson=2 --falloff 5000
 [ "$code" = 3 ] || fail "a mesh without falloff keeps the bounds of one"
 succeeds "$scarp" simplify "$dem" only.glb --roi site.geojson=2

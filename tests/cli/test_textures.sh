@@ -41,8 +41,8 @@ try "$scarp" measure "$dem" t.ply --texture ortho.tif --norm linf --texture-weig
 [ "$code" = 3 ] && grep -q 'combined max error .* exceeds 40' "$logs/err" || fail "a broken bound passes"
 
 # More weight on the texture, better colours; heights only with 0; textures only with 1.
-succeeds textured a.glb -p 1500 --texture ortho.tif --texture-weight 0 --report a.json
-succeeds textured b.glb -p 1500 --texture ortho.tif --texture-weight 0.9 --report b.json --render b.png
+succeeds textured a.glb -p 1500 --texture ortho.tif --texture-weight 0 --effort fast --report a.json
+succeeds textured b.glb -p 1500 --texture ortho.tif --texture-weight 0.9 --effort fast --report b.json --render b.png
 succeeds textured c.glb -p 1500 --texture ortho.tif --texture-weight 1 --report c.json
 succeeds textured plain.glb -p 1500 --effort fast --report plain.json
 holds "$(json a.json max_error) == $(json plain.json max_error)"

@@ -51,6 +51,62 @@ succeeds "$scarp" simplify "$dem" high.glb -e 20 --water lakes.geojson --water-p
 holds "$(json high.json water 0 level) > $(json lake.json water 0 level)"
 succeeds "$scarp" simplify "$dem" away.glb -e 20 --water away.geojson
 grep -q "no lake in the raster" "$logs/err" || fail "no warning that a lake lies beside the raster"
+
+# Flat areas as they are, and rivers that never rise: walked in the file.
+# Their courses pass no sample closer than a vertex may be moved.
+cat > courses.py <<'PYTHON'
+courses = [[(20.3, 293.1), (80.3, 53.1), (200.3, 113.1)], [(200.3, 113.1), (260.3, 233.1), (310.3, 283.1)]]
+PYTHON
+python3 - <<'PYTHON'
+import json
+from courses import courses
+lon = lambda column: -84.41375 + (column + 0.5) * 0.000833333333333
+lat = lambda line: 36.44625 - (343 - line + 0.5) * 0.000833333333333
+def river(points): return {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [(lon(x), lat(y)) for x, y in points]}}
+json.dump({"type": "FeatureCollection", "features": [
+    river(points) for points in courses]},
+    open("rivers.geojson", "w"))
+PYTHON
+for effort in fast normal high; do
+  succeeds "$scarp" simplify "$dem" river.obj -e 20 --effort "$effort" --detect-flats 12 --rivers rivers.geojson --crs grid \
+    --report river.json --overwrite
+  holds "$(json river.json max_error) <= 20"
+  python3 - <<'PYTHON' || fail "a river rises with $effort effort"
+import json
+report = json.load(open("river.json"))
+assert len(report["rivers"]) == 2 and len(report["water"]) > 0, report["rivers"]
+assert all(r["source"] >= r["mouth"] and r["deepest_cut"] > 0 for r in report["rivers"])
+assert all(lake["edited_samples"] == 0 for lake in report["water"])
+vertices, edges = [], set()
+for line in open("river.obj"):
+    words = line.split()
+    if words[:1] == ["v"]: vertices.append(tuple(map(float, words[1:4])))
+    if words[:1] == ["f"]:
+        face = [int(w.split("/")[0]) - 1 for w in words[1:]]
+        edges |= {tuple(sorted((face[k], face[k - 1]))) for k in range(3)}
+from courses import courses
+for river, places in zip(report["rivers"], courses):
+    if river["turned"]: places.reverse()
+    heights = []
+    for (px, py), (qx, qy) in zip(places, places[1:]):
+        length2 = (qx - px) ** 2 + (qy - py) ** 2
+        near = []
+        for v, (x, y, z) in enumerate(vertices):
+            along = ((x - px) * (qx - px) + (y - py) * (qy - py)) / length2
+            across = abs((qx - px) * (y - py) - (qy - py) * (x - px)) / length2 ** 0.5
+            if across < 0.0061 and -1e-4 < along < 1 + 1e-4: near.append((along, v))
+        near.sort()
+        assert len(near) > 1 and all(tuple(sorted((a, b))) in edges for (_, a), (_, b) in zip(near, near[1:])), near[:5]
+        heights += [vertices[v][2] for _, v in near]
+    assert all(a >= b for a, b in zip(heights, heights[1:])), heights
+    assert heights[0] == river["source"] and heights[-1] == river["mouth"], (heights[0], heights[-1], river)
+PYTHON
+done
+succeeds "$scarp" simplify "$dem" both.glb -e 20 --water lakes.geojson --rivers rivers.geojson
+refuses 1 "--water" "$scarp" simplify "$dem" x.glb -e 20 --water lakes.geojson --detect-flats 12
+refuses 1 "--detect-flats" "$scarp" simplify "$dem" x.glb -e 20 --detect-flats 2
+refuses 1 "--max-triangles" "$scarp" simplify "$dem" x.glb -t 100 --rivers rivers.geojson
+
 refuses 1 "--vertices free" "$scarp" simplify "$dem" x.glb -e 20 --effort high --vertices free --water lakes.geojson
 refuses 1 "--max-triangles" "$scarp" simplify "$dem" x.glb -t 100 --water lakes.geojson
 refuses 1 "--water-percentile" "$scarp" simplify "$dem" x.glb -e 20 --water lakes.geojson --water-percentile 101

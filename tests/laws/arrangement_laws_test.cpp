@@ -157,10 +157,11 @@ std::string judge_chains(const Soup& soup, const Arrangement& result) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> passed;
   std::vector<std::set<std::pair<std::uint32_t, std::uint32_t>>> stops(soup.lines.size());  // place, vertex
   for (const auto& chain : result.chains) {
-    if (chain.end - chain.begin < 2) return "a chain of one vertex";
     const auto line = soup.lines[chain.line];
     const Arrangement::Stop* last = nullptr;
-    for (const auto& stop : result.stops_of(chain)) {
+    const auto all = result.stops_of(chain);
+    if (all.size() < 2) return "a chain of one vertex";
+    for (const auto& stop : all) {
       const Segment s{line[stop.segment], line[stop.segment + 1]};
       const bool is_cut = !is_inside(soup, s.from) || !is_inside(soup, s.to);
       const Point p = result.vertices[stop.vertex];
@@ -313,7 +314,7 @@ TEST(arrangement, a_bow_tie_gets_a_knot) {
   EXPECT_TRUE(result.is_exact);
   ASSERT_EQ(result.chains.size(), 1u);
   EXPECT_EQ(result.stops_of(result.chains[0]).size(), 7u);
-  EXPECT_EQ(result.stops[1].fraction, 0.5);
+  EXPECT_EQ(result.stops_of(result.chains[0])[1].fraction, 0.5);
 }
 
 /// The line passes the corners of (1, 1), (4, 2) and (7, 3); the first and the last belong to these squares, since
@@ -359,6 +360,24 @@ TEST(arrangement, takes_coordinates_as_large_as_they_come) {
   EXPECT_EQ(find_crossing(result), "");
   EXPECT_EQ(result.vertices.front(), (Point{0, 0}));
   EXPECT_EQ(result.vertices.back(), (Point{kMaxCoordinate, kMaxCoordinate}));
+}
+
+TEST(arrangement, what_lines_share_is_passed_once) {
+  constexpr std::uint32_t kLines = 20000;
+  constexpr std::int32_t kSize = 1 << 20;
+  Polylines lines;
+  for (std::int32_t k = 0; k < std::int32_t{kLines}; ++k)
+    lines.add(std::vector<Point>{{k, 2 * k}, {kSize / 2 - 3 * k, kSize - 6 * k}});
+  const Arrangement result = arrange(lines, {}, kSize, kSize);
+  EXPECT_EQ(result.vertices.size(), 2 * kLines);
+  EXPECT_EQ(result.edges.size(), 2 * kLines - 1);
+  EXPECT_EQ(result.passes.size(), 2 * kLines);
+  EXPECT_EQ(result.stretches.size(), kLines);
+  ASSERT_EQ(result.chains.size(), kLines);
+  const auto stops = result.stops_of(result.chains[kLines - 2]);
+  EXPECT_EQ(result.vertices[stops.front().vertex], (Point{kLines - 2, 2 * kLines - 4}));
+  EXPECT_EQ(stops.size(), 2 * kLines - 2 * (kLines - 2));
+  EXPECT_EQ(stops.back().fraction, 1);
 }
 
 TEST(arrangement, thousands_of_lines_may_meet_in_one_point) {

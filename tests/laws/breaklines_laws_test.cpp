@@ -94,9 +94,8 @@ RC_GTEST_PROP(breaklines, hard_lines_of_a_plane_meet_in_peace_and_stay_on_it, ()
     const double lift = placed->is_hard[k] ? 100 : 0;
     RC_ASSERT(std::abs(placed->heights[k] - lift - plane_at(scene, placed->points[k])) <= 3 * climb + 1e-3);
   }
-  for (const auto& chain : placed->chains) {
-    for (const std::uint32_t k : placed->points_of(chain)) RC_ASSERT(placed->is_hard[k]);
-  }
+  for (const auto& edge : placed->edges)
+    RC_ASSERT(!edge.is_line || (placed->is_hard[edge.a] && placed->is_hard[edge.b]));
 }
 
 RC_GTEST_PROP(breaklines, soft_lines_lie_on_the_raster, ()) {
@@ -211,10 +210,10 @@ TEST(breaklines, lines_far_away_are_cut_or_counted) {
   const auto placed = scene.place();
   ASSERT_TRUE(placed.has_value());
   EXPECT_EQ(placed->outside, 1u);
-  ASSERT_EQ(placed->chains.size(), 1u);
-  const auto passed = placed->points_of(placed->chains[0]);
-  EXPECT_EQ(placed->points[passed.front()], (Point{0, 512}));
-  EXPECT_EQ(placed->points[passed.back()], (Point{1024, 512}));
+  const auto edge = std::find_if(placed->edges.begin(), placed->edges.end(), [](const auto& e) { return e.is_line; });
+  ASSERT_NE(edge, placed->edges.end());
+  EXPECT_EQ(placed->points[edge->a], (Point{0, 512}));
+  EXPECT_EQ(placed->points[edge->b], (Point{1024, 512}));
   const auto refused = flat(5, {{{1e308, -1e308, 0}, {-1e308, 1e308, 0}}}).place();
   EXPECT_TRUE(refused.has_value());
   Scene stretched = flat(5, {{{1e300, 0, 0}, {0, 1, 0}}});

@@ -122,5 +122,18 @@ RC_GTEST_PROP(constraints, lines_and_the_bound_survive_refinement_and_fitting, (
   RC_ASSERT(find_moved_point(fitted, graph, field.raster()) == "");
 }
 
+TEST(constraints, heights_of_thousands_of_places_are_found_again) {
+  const std::vector<float> samples(4, 7.0F);
+  PlaceHeights heights({samples.data(), 2, 2});
+  const auto is_between = [](std::int32_t k) { return !PlaceHeights::is_sample({k % 257, k / 257}); };
+  for (std::int32_t round : {0, 1}) {
+    for (std::int32_t k = 0; k < 257 * 257; k += 7) {
+      if (is_between(k)) heights.set({k % 257, k / 257}, static_cast<float>(k + round));
+    }
+  }
+  for (std::int32_t k = 0; k < 257 * 257; k += 7)
+    ASSERT_EQ(heights.at({k % 257, k / 257}), is_between(k) ? static_cast<float>(k + 1) : 7.0F);
+}
+
 }  // namespace
 }  // namespace scarp

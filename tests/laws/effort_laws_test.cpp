@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 
 #include "laws/any_field.h"
 #include "laws/fields.h"
@@ -189,6 +190,21 @@ TEST(effort, a_run_whose_time_is_up_keeps_the_promise) {
     EXPECT_EQ(m.uncovered, 0u);
     EXPECT_TRUE(m.is_sound());
   }
+}
+
+TEST(effort, somebody_who_has_enough_ends_it_and_else_changes_nothing) {
+  const Field field = testing::random_field(26, 120, 90, Relief::kRidges, 0.02);
+  const auto with = [&](const std::function<bool()>& is_enough) {
+    auto options = with_effort(2, Effort::kMax);
+    options.is_enough = is_enough;
+    return *simplify(field.view(), options);
+  };
+  const Simplified whole = with({}), waited = with([] { return false; }), cut = with([] { return true; });
+  EXPECT_EQ(waited.mesh.positions, whole.mesh.positions);
+  EXPECT_FALSE(waited.is_cut_short);
+  EXPECT_TRUE(cut.is_cut_short);
+  EXPECT_EQ(cut.mesh.triangle_count(), simplify(field.view(), with_effort(2, Effort::kFast))->mesh.triangle_count());
+  EXPECT_LE(measure(field.view(), cut.mesh)->max_error, 2 + 1e-9);
 }
 
 TEST(effort, what_needs_more_than_fast_effort_is_refused_with_it) {

@@ -72,7 +72,25 @@ std::size_t border_edges(const Mesh& mesh) {
   return static_cast<std::size_t>(std::count(twins.begin(), twins.end(), kNoHalfEdge));
 }
 
-/// Adds a base at −3.5 and checks closedness and volume. Returns the number of triangles in the floor.
+/// Border vertices at which the border turns, those of each fan counted.
+std::size_t corners(const Mesh& mesh) {
+  const auto twins = build_twins(mesh.triangles);
+  const auto point = [&](std::uint32_t h) {
+    const double* p = &mesh.positions[3 * std::size_t{mesh.triangles[h]}];
+    return Point2{p[0], p[1]};
+  };
+  std::size_t count = 0;
+  for (std::uint32_t h = 0; h < twins.size(); ++h) {
+    if (twins[h] != kNoHalfEdge) continue;
+    std::uint32_t onward = next_half_edge(h);
+    while (twins[onward] != kNoHalfEdge) onward = next_half_edge(twins[onward]);
+    count += exact_orient(point(h), point(onward), point(next_half_edge(onward))) != 0;
+  }
+  return count;
+}
+
+/// Adds a base at −3.5 and checks closedness and volume. Returns the number of triangles in floor and walls beyond one
+/// for each border edge.
 std::size_t check_solid(Mesh mesh, double tolerance = 1e-9) {
   const std::size_t top = mesh.triangle_count(), border = border_edges(mesh);
   const double expected = volume_above(mesh, -3.5);
@@ -81,33 +99,33 @@ std::size_t check_solid(Mesh mesh, double tolerance = 1e-9) {
   expect_closed_manifold(mesh);
   EXPECT_NEAR(signed_volume(mesh), expected, tolerance * expected);
   EXPECT_GT(signed_volume(mesh), 0);
-  return mesh.triangle_count() - top - 2 * border;
+  return mesh.triangle_count() - top - border;
 }
 
-TEST(Solid, RectangleHasAFloorOfItsBorderOnly) {
+TEST(Solid, RectangleHasAFloorOfTwoTriangles) {
   const Mesh mesh = grid_mesh(7, 5, [](int, int) { return true; });
-  EXPECT_EQ(check_solid(mesh), border_edges(mesh) - 2);
+  EXPECT_EQ(check_solid(mesh), 4 + 2u);
 }
 
 TEST(Solid, SingleTriangle) {
   Mesh mesh;
   mesh.positions = {0, 0, 1, 1, 0, 2, 0, 1, 3};
   mesh.triangles = {0, 1, 2};
-  EXPECT_EQ(check_solid(mesh), 1u);
+  EXPECT_EQ(check_solid(mesh), 3 + 1u);
 }
 
 TEST(Solid, HolesAndParts) {
   const Mesh ring = grid_mesh(9, 9, [](int i, int j) { return !(i >= 3 && i < 6 && j >= 2 && j < 7); });
-  EXPECT_EQ(check_solid(ring), border_edges(ring) + 2 - 2);
+  EXPECT_EQ(check_solid(ring), 8 + 8 + 2 - 2u);
   const Mesh parts = grid_mesh(9, 9, [](int i, int j) { return i != 4 && j != 4; });
-  EXPECT_EQ(check_solid(parts), border_edges(parts) - 4 * 2);
+  EXPECT_EQ(check_solid(parts), 4 * (4 + 2u));
 }
 
 TEST(Solid, Checkerboards) {
   const Mesh board = grid_mesh(8, 8, [](int i, int j) { return (i + j) % 2 == 0; });
-  EXPECT_EQ(check_solid(board), board.triangle_count());  // 32 loose squares: four walls and two floor triangles each
+  EXPECT_EQ(check_solid(board), 32 * (4 + 2u));  // loose squares
   const Mesh coarse = grid_mesh(12, 12, [](int i, int j) { return (i / 3 + j / 3) % 2 == 0; });
-  EXPECT_EQ(check_solid(coarse), 8 * (12 - 2u));
+  EXPECT_EQ(check_solid(coarse), 8 * (4 + 2u));
   // A frame of cells whose hole touches the hole beside it in a point, and the outer border too.
   const Mesh touching =
       grid_mesh(6, 6, [](int i, int j) { return !((i == 1 && j == 1) || (i == 2 && j == 2) || (i == 0 && j == 3)); });
@@ -124,17 +142,26 @@ TEST(Solid, RandomDomains) {
     cells[0] = true;
     const Mesh mesh =
         grid_mesh(cols, rows, [&](int i, int j) { return cells[static_cast<std::size_t>(j * cols + i)]; });
-    // By Euler: a triangulation without inner vertices of n border vertices, p parts and h holes has n + 2h − 2p
-    // triangles. Every part's floor must have the Euler number of its top.
+    // By Euler: a triangulation of c corners without inner vertices has the triangles of the terrain, less two for each
+    // inner vertex and one for each straight one of the border.
+    std::vector<bool> is_used(mesh.vertex_count(), false);
+    for (const std::uint32_t v : mesh.triangles) is_used[v] = true;
     const auto twins = build_twins(mesh.triangles);
-    check_solid(mesh);
+    std::vector<bool> on_border(mesh.vertex_count(), false);
+    for (std::uint32_t h = 0; h < twins.size(); ++h) {
+      if (twins[h] == kNoHalfEdge) on_border[mesh.triangles[h]] = true;
+    }
+    std::size_t inner = 0;
+    for (std::size_t v = 0; v < is_used.size(); ++v) inner += is_used[v] && !on_border[v];
+    const std::size_t straight = border_edges(mesh) - corners(mesh);
+    EXPECT_EQ(check_solid(mesh), corners(mesh) + mesh.triangle_count() - 2 * inner - straight);
     if (HasFatalFailure() || HasNonfatalFailure()) FAIL() << "round " << round;
   }
 }
 
 TEST(Solid, LargeFloorIsFastAndMinimal) {
   const Mesh mesh = grid_mesh(400, 400, [](int i, int j) { return !(i == 200 && j == 200); });
-  EXPECT_EQ(check_solid(mesh), border_edges(mesh) + 2 - 2);
+  EXPECT_EQ(check_solid(mesh), 8 + 8 + 2 - 2u);
 }
 
 TEST(Solid, UnevenPositionsStillTriangulate) {
@@ -148,13 +175,13 @@ TEST(Solid, UnevenPositionsStillTriangulate) {
     mesh.triangles.insert(mesh.triangles.end(),
                           {0, 1 + static_cast<std::uint32_t>(i), 1 + static_cast<std::uint32_t>((i + 1) % 40)});
   }
-  EXPECT_EQ(check_solid(mesh, 1e-6), 38u);  // its volume is the difference of large terms
+  EXPECT_EQ(check_solid(mesh, 1e-6), 40 + 38u);  // its volume is the difference of large terms
 }
 
 TEST(Solid, OverlappingInputStaysClosed) {
   Mesh mesh = grid_mesh(3, 3, [](int, int) { return true; });
   mesh.positions[3 * 5] += 70;  // pulls a vertex across its neighbours: some triangles turn over
-  EXPECT_EQ(check_solid(mesh), mesh.triangle_count());
+  EXPECT_EQ(check_solid(mesh), border_edges(mesh) + mesh.triangle_count());
 }
 
 TEST(Solid, RefusesABaseThatIsNotBelow) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scarp/simplify.h"
@@ -144,6 +145,74 @@ TEST(water, beside_the_raster_is_left_out) {
   options.affine = field.frame.affine;
   EXPECT_TRUE(flatten_lakes(field, lines, options)->empty());
   EXPECT_EQ(field.samples, before);
+}
+
+/// Two ponds in rough ground, one with an island, and a terrace of one row.
+OwnedHeightField ponds() {
+  OwnedHeightField field = valley();
+  for (int row = 0; row < field.rows; ++row) {
+    for (int col = 0; col < field.cols; ++col) {
+      float& sample = field.samples[static_cast<std::size_t>(row * field.cols + col)];
+      const bool is_first = col >= 4 && col < 14 && row >= 6 && row < 16 && !(col == 8 && row == 9);
+      if (is_first) sample = 11.03125F;
+      if (std::hypot(col - 27, row - 33) < 6.5) sample = 3.25F;
+      if (row == 24) sample = 17.03125F;
+    }
+  }
+  return field;
+}
+
+TEST(flats, are_found_where_they_are_and_nothing_is_changed) {
+  const OwnedHeightField field = ponds();
+  const auto flats = find_flats(field, {field.frame.affine, 20});
+  ASSERT_TRUE(flats);
+  ASSERT_EQ(flats->size(), 2u) << "a row of samples has no area";
+  EXPECT_EQ((*flats)[0].level, 11.03125);
+  EXPECT_EQ((*flats)[1].level, 3.25);
+  EXPECT_EQ((*flats)[0].shore.size(), 2u) << "a rim and an island";
+  EXPECT_EQ((*flats)[0].samples + (*flats)[0].raised, 0u);
+  for (const Lake& flat : *flats) {
+    for (const Line& ring : flat.shore) {
+      EXPECT_EQ(ring.points.front(), ring.points.back());
+      for (const auto& [x, y, z] : ring.points) {
+        EXPECT_EQ(z, flat.level);
+        EXPECT_EQ(double{field.samples[static_cast<std::size_t>((field.rows - 1 - y) * field.cols + x)]}, flat.level);
+      }
+    }
+  }
+  EXPECT_EQ(find_flats(field, {field.frame.affine, 96})->size(), 2u);
+  EXPECT_EQ(find_flats(field, {field.frame.affine, 100})->size(), 1u) << "the first has 99 samples";
+  EXPECT_EQ(find_flats(field, {field.frame.affine, 2}).error().kind, ErrorKind::kUsage);
+}
+
+TEST(flats, are_level_in_the_mesh) {
+  const OwnedHeightField field = ponds();
+  const auto flats = find_flats(field, {field.frame.affine, 20});
+  ASSERT_TRUE(flats);
+  for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
+    SimplifyOptions options;
+    options.max_error = 4;
+    options.effort = effort;
+    options.vertices = Vertices::kSamples;
+    options.float32_positions = false;
+    options.breaklines.affine = field.frame.affine;
+    for (const Lake& flat : *flats)
+      options.breaklines.lines.insert(options.breaklines.lines.end(), flat.shore.begin(), flat.shore.end());
+    const auto result = simplify(field, options);
+    ASSERT_TRUE(result) << result.error().message;
+    EXPECT_TRUE(result->edits.empty());
+    std::size_t level = 0;
+    for (std::size_t t = 0; t < result->mesh.triangles.size(); t += 3) {
+      std::array<std::array<double, 3>, 3> corners{};
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = result->mesh.vertex(result->mesh.triangles[t + k]);
+      const double x = (corners[0][0] + corners[1][0] + corners[2][0]) / 3,
+                   row = field.rows - 1 - (corners[0][1] + corners[1][1] + corners[2][1]) / 3;
+      if (!(std::hypot(x - 27, row - 33) < 5)) continue;
+      ++level;
+      for (const auto& corner : corners) EXPECT_EQ(corner[2], 3.25);
+    }
+    EXPECT_GT(level, 0u);
+  }
 }
 
 }  // namespace

@@ -59,12 +59,11 @@ bool may_hold_lines(OGRLayerH layer) {
 
 Result<OGRLayerH> find_layer(const Opened& opened) {
   const int count = GDALDatasetGetLayerCount(opened.dataset.get());
-  std::string names;
+  const std::string names = layer_names(opened.dataset.get());
   std::vector<OGRLayerH> fitting;
   for (int i = 0; i < count; ++i) {
     OGRLayerH layer = GDALDatasetGetLayer(opened.dataset.get(), i);
     if (opened.layer.empty() ? may_hold_lines(layer) : opened.layer == OGR_L_GetName(layer)) fitting.push_back(layer);
-    names += (names.empty() ? "" : ", ") + std::string(OGR_L_GetName(layer));
   }
   if (!fitting.empty() && (fitting.size() == 1 || !opened.layer.empty())) return fitting.front();
   if (!fitting.empty())
@@ -258,20 +257,9 @@ Result<LineSet> read(const std::string& path, const ReadLinesOptions& options) {
   set.layer = OGR_L_GetName(*layer);
   set.format = GDALGetDriverShortName(GDALGetDatasetDriver(opened->dataset.get()));
   Collector collector(height_field, options.ignore_z, set);
-  const auto count = static_cast<double>(std::max<GIntBig>(1, OGR_L_GetFeatureCount(*layer, 0)));
-  std::uint64_t features = 0;
-  OGR_L_ResetReading(*layer);
-  session.clear();
-  while (const Feature feature{OGR_L_GetNextFeature(*layer)}) {
-    const auto added = collector.add(feature.get());
-    if (!added) return tl::unexpected(added.error());
-    if (++features % 65536 != 0 || !options.progress) continue;
-    if (!options.progress({"read", std::min(1.0, static_cast<double>(features) / count), 0, 0}))
-      return fail(ErrorKind::kCancelled, "cancelled while reading lines");
-  }
-  if (session.failed())
-    return fail(ErrorKind::kInput,
-                fmt::format("{}: the layer {} cannot be read to its end: {}", set.path, set.layer, session.reason()));
+  const auto collected = each_feature(session, *layer, set.path, options.progress,
+                                      [&](OGRFeatureH feature) { return collector.add(feature); });
+  if (!collected) return tl::unexpected(collected.error());
   if (set.lines.empty())
     return fail(ErrorKind::kInput, fmt::format("{}: the layer {} holds no lines or polygons", set.path, set.layer));
   collector.warn();

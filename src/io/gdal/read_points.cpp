@@ -20,15 +20,12 @@ bool may_hold_points(OGRLayerH layer) {
 }
 
 Result<OGRLayerH> find_layer(GDALDatasetH dataset, const std::string& path, const std::string& wanted) {
-  const int count = GDALDatasetGetLayerCount(dataset);
-  std::string names;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < GDALDatasetGetLayerCount(dataset); ++i) {
     OGRLayerH layer = GDALDatasetGetLayer(dataset, i);
     if (wanted.empty() ? may_hold_points(layer) : wanted == OGR_L_GetName(layer)) return layer;
-    names += (names.empty() ? "" : ", ") + std::string(OGR_L_GetName(layer));
   }
   if (wanted.empty()) return fail(ErrorKind::kInput, path + ": holds no layer of points");
-  return fail(ErrorKind::kInput, fmt::format("{}: holds no layer '{}', only {}", path, wanted, names));
+  return fail(ErrorKind::kInput, fmt::format("{}: holds no layer '{}', only {}", path, wanted, layer_names(dataset)));
 }
 
 /// Where heights come from: an attribute, or the third coordinate.
@@ -215,20 +212,9 @@ Result<PointSet> read(const std::string& path, const ReadPointsOptions& options)
   points.path = path;
   points.format = GDALGetDriverShortName(GDALGetDatasetDriver(dataset->get()));
   Collector collector(path, *height_field, points);
-  const auto count = static_cast<double>(std::max<GIntBig>(1, OGR_L_GetFeatureCount(*layer, 0)));
-  std::uint64_t features = 0;
-  OGR_L_ResetReading(*layer);
-  session.clear();
-  while (const Feature feature{OGR_L_GetNextFeature(*layer)}) {
-    const auto added = collector.add(feature.get());
-    if (!added) return tl::unexpected(added.error());
-    if (++features % 65536 != 0 || !options.progress) continue;
-    if (!options.progress({"read", std::min(1.0, static_cast<double>(features) / count), 0, 0}))
-      return fail(ErrorKind::kCancelled, "cancelled while reading");
-  }
-  if (session.failed())
-    return fail(ErrorKind::kInput, fmt::format("{}: the layer {} cannot be read to its end: {}", path,
-                                               OGR_L_GetName(*layer), session.reason()));
+  const auto collected = each_feature(session, *layer, path, options.progress,
+                                      [&](OGRFeatureH feature) { return collector.add(feature); });
+  if (!collected) return tl::unexpected(collected.error());
   if (points.size() == 0)
     return fail(ErrorKind::kInput, fmt::format("{}: the layer {} holds no points", path, OGR_L_GetName(*layer)));
   if (collector.without_geometry() > 0)

@@ -3,6 +3,9 @@
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
+
 namespace scarp::gdal {
 
 Result<Dataset> open_vector(Session& session, const std::string& path, const char* what, const char* expected) {
@@ -31,6 +34,30 @@ Result<int> find_field(OGRLayerH layer, const std::string& path, const std::stri
     names += (i == 0 ? "" : ", ") + std::string(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i)));
   return fail(ErrorKind::kInput, fmt::format("{}: the layer {} has no attribute '{}'{}", path, OGR_L_GetName(layer),
                                              name, names.empty() ? "" : ", only " + names));
+}
+
+std::string layer_names(GDALDatasetH dataset) {
+  std::string names;
+  for (int i = 0; i < GDALDatasetGetLayerCount(dataset); ++i)
+    names += (i == 0 ? "" : ", ") + std::string(OGR_L_GetName(GDALDatasetGetLayer(dataset, i)));
+  return names;
+}
+
+Result<void> each_feature(Session& session, OGRLayerH layer, const std::string& path, const ProgressCallback& progress,
+                          const std::function<Result<void>(OGRFeatureH)>& add) {
+  const auto count = static_cast<double>(std::max<GIntBig>(1, OGR_L_GetFeatureCount(layer, 0)));
+  std::uint64_t features = 0;
+  OGR_L_ResetReading(layer);
+  session.clear();
+  while (const Feature feature{OGR_L_GetNextFeature(layer)}) {
+    if (auto added = add(feature.get()); !added) return added;
+    if (++features % 65536 != 0 || !progress) continue;
+    if (!progress({"read", std::min(1.0, static_cast<double>(features) / count), 0, 0}))
+      return fail(ErrorKind::kCancelled, "cancelled while reading");
+  }
+  if (!session.failed()) return {};
+  return fail(ErrorKind::kInput, fmt::format("{}: the layer {} cannot be read to its end: {}", path,
+                                             OGR_L_GetName(layer), session.reason()));
 }
 
 }  // namespace scarp::gdal

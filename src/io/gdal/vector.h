@@ -3,11 +3,13 @@
 
 #include <ogr_api.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <type_traits>
 
 #include "io/gdal/open.h"
+#include "scarp/progress.h"
 
 namespace scarp::gdal {
 
@@ -22,5 +24,13 @@ Result<Dataset> open_vector(Session& session, const std::string& path, const cha
 
 /// The attribute `name` of a layer. kInput if there is none; tells which there are.
 Result<int> find_field(OGRLayerH layer, const std::string& path, const std::string& name);
+
+/// The names of all layers, with commas.
+std::string layer_names(GDALDatasetH dataset);
+
+/// Calls add(feature) for the features of a layer, until it fails. Fails with kCancelled where `progress` says so, and
+/// with kInput where the layer cannot be read to its end.
+Result<void> each_feature(Session& session, OGRLayerH layer, const std::string& path, const ProgressCallback& progress,
+                          const std::function<Result<void>(OGRFeatureH)>& add);
 
 }  // namespace scarp::gdal

@@ -1,0 +1,30 @@
+// Lakes and rivers that the mesh must hold.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "line_options.h"
+#include "report.h"
+#include "scarp/rivers.h"
+#include "scarp/water.h"
+
+namespace scarp::cli {
+
+struct WatersFound {
+  std::vector<Lake> lakes;
+  std::vector<River> rivers;
+};
+
+/// Makes the lakes of --water flat, or finds those of --detect-flats, lets --rivers flow, and makes shores and courses
+/// `lines` of the mesh. `max_error`: what rivers may lie beside the lowest of what is upstream, twice.
+Result<WatersFound> add_waters(const LineArguments& given, const ProgressCallback& progress, double max_error,
+                               OwnedHeightField& field, LineConstraints& lines, std::vector<std::string>& warnings);
+
+/// The "water" and "rivers" lists of a report.
+Json describe_lakes(const std::vector<Lake>& lakes);
+Json describe_rivers(const std::vector<River>& rivers);
+/// Of the summary; empty without lakes and rivers.
+std::string waters_lines(const WatersFound& waters);
+
+}  // namespace scarp::cli

@@ -1,0 +1,44 @@
+// Running water: lines that never rise downstream.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scarp/height_field.h"
+#include "scarp/lines.h"
+#include "scarp/result.h"
+#include "scarp/water.h"
+
+namespace scarp {
+
+struct River {
+  std::string name;
+  double source = 0, mouth = 0;  ///< heights of its ends, or of its first and last place in the raster
+  double deepest_cut = 0;        ///< by how much it lies below the raster, at most
+  bool is_turned = false;        ///< it flows against the order in which its points were given
+  Line course;                   ///< with heights: a breakline for SimplifyOptions::breaklines, that yields to shores
+};
+
+struct RiverOptions {
+  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of the lines: map_affine()
+  /// How far a course may leave the exact one between its vertices, in z units, at least 0. DEFAULT: 0, two vertices a
+  /// sample.
+  double tolerance = 0;
+};
+
+/// Gives each line of `lines` heights that never rise along it, from the end where the raster is higher to the other:
+/// at each place the lowest of the raster's surface there and upstream. Rivers that share a vertex share its height,
+/// the lowest of all, so that a confluence is no step. Within `lakes`, which flatten_lakes() or find_flats() made of
+/// this field, and less than a sample beside them, rivers have the lake's level, even where that is a rise.
+///
+/// Parts beside the raster and in voids have no heights. Rings are left out, as are lines without a height anywhere.
+/// The raster stays as it is: as hard breaklines, rivers run in gorges a sample wide where they lie below it. Heights
+/// are float32. REQUIRES: the field has its samples in memory, or fails with kUsage, as it does for a negative
+/// tolerance; the affine map can be inverted. Cost: O(samples along the lines); O(samples) with lakes.
+Result<std::vector<River>> carve_rivers(const OwnedHeightField& field, std::span<const Line> lines,
+                                        std::span<const Lake> lakes, const RiverOptions& options);
+
+}  // namespace scarp

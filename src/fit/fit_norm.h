@@ -1,0 +1,40 @@
+// Errors of several fields that count together, for fitting: heights and channels.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "base/point.h"
+#include "scarp/strategy.h"
+
+namespace scarp {
+
+/// The most fields that count together.
+inline constexpr std::size_t kMostFitFields = 65;
+
+/// What the error of a sample is, where it is not that of its height.
+struct FitNorm {
+  struct Field {
+    const float* samples = nullptr;  ///< row-major like the raster; finite wherever that has a height
+    double scale = 1;                ///< what its errors count; above 0
+  };
+  std::vector<Field> fields;  ///< at least one, at most kMostFitFields; the heights are among them where they count
+  Norm norm = Norm::kSum;
+  /// A sample of the closed triangle that breaks its bound; nothing if all keep it. Asked where rounding leaves doubt,
+  /// on any thread, about triangles whose corners are samples, positive. It has the last word: what it lets through is
+  /// what may be.
+  std::function<std::optional<Point>(const std::array<Point, 3>& corners)> find_breach = {};
+};
+
+/// The norm of errors one after the other: what it is with one more, which is not negative.
+inline double add_to_norm_of(Norm norm, double so_far, double error) {
+  if (norm == Norm::kSum) return so_far + error;
+  return norm == Norm::kMax ? std::max(so_far, error) : std::sqrt(so_far * so_far + error * error);
+}
+
+}  // namespace scarp

@@ -1,0 +1,89 @@
+// How far the samples of one trial triangle lie off its planes, where heights and channels count together.
+//
+// Each field has a plane of its own, through its values at the corners, which are samples. The error of a sample is the
+// norm of the fields' errors, each times its scale. As for heights alone (triangle_error.h) the scan is of float32,
+// eight samples at a time, and ends at the first row that breaks the bound. What lies within the guard of the bound is
+// decided by the judge of refinement (FitNorm::find_breach), so that fitting lets through what refinement would.
+//
+// Errors are reckoned in units of the threshold, or with bounds of samples in a power of two near them. u = 2⁻²⁴. To
+// the planes' guards, which are those of a threshold of 0 (scan_plane.h), times the scales, come roundings that grow
+// with the norm: 5u of each error, u of a scale, u of its product, as many as there are fields of the sum, 6u of
+// squares, roots and the bound: less than (m + 12)u for m fields, of which kWidening is twice as much.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "fit/fit_norm.h"
+#include "fit/triangle_error.h"
+#include "grid/raster.h"
+
+namespace scarp {
+
+struct NormScan;
+struct NormPlanes;
+
+class NormError {
+ public:
+  using Corners = std::array<FitCorner, 3>;
+  using Verdict = TriangleError::Verdict;
+  using Pull = TriangleError::Pull;
+
+  /// The samples that triangles lie over, in the raster or copied out of it.
+  struct Samples {
+    Raster heights;                    ///< say which samples are valid
+    std::vector<const float*> fields;  ///< in the order of the norm's, each beside the heights
+    Point first;                       ///< from where corners are counted
+    Point origin;                      ///< the same sample in the whole raster
+  };
+  /// One threshold for all. Everything stays alive. REQUIRES: threshold >= 0, finite.
+  NormError(const FitNorm& norm, Samples samples, double threshold);
+  /// Bounds beside the heights.
+  NormError(const FitNorm& norm, Samples samples, const SampleBounds& bounds);
+
+  /// As TriangleError::judge(): errors, slack and energies are those of the norm, counted in bounds. Without energies,
+  /// and where values are beyond kMaxScanHeight, slack is 1. REQUIRES: corners are samples; positive.
+  Verdict judge(const Corners& corners, float energy_limit, const ErrorRule& rule) const;
+
+  /// What the samples want of the first corner, a Pull for each field. The energy's derivatives for the sum of squares
+  /// and the largest error, of which the eighth powers are summed up; the other's are reckoned as if it were the first.
+  /// REQUIRES, cost: as judge().
+  void pull(const Corners& corners, std::vector<Pull>& pulls) const;
+
+  const Raster& heights() const { return samples_.heights; }
+  Point first() const { return samples_.first; }
+  Norm norm() const { return norm_.norm; }
+  std::size_t field_count() const { return norm_.fields.size(); }
+  bool has_energy() const { return per_unit_ > 0; }
+  double unit() const { return unit_; }
+  /// In the unit of the heights' errors, of a sample counted from the first of the window.
+  double value_at(std::size_t field, Point sample) const {
+    return norm_.fields[field].scale * double{raw_value_at(field, sample)};
+  }
+  double bound_at(Point sample) const {
+    return bounds_.samples == nullptr ? unit_
+                                      : double{bounds_.at({samples_.first.x + sample.x, samples_.first.y + sample.y})};
+  }
+
+ private:
+  NormScan scan() const;
+  template <Norm kNorm>
+  Verdict judge_by(const NormPlanes& planes, float energy_limit, const ErrorRule& rule) const;
+  Verdict judge_slowly(const Corners& corners, float energy_limit) const;
+  std::optional<Point> find_breach(const Corners& corners) const;
+  float raw_value_at(std::size_t field, Point sample) const {
+    return samples_.fields[field][static_cast<std::size_t>(samples_.first.y + sample.y) *
+                                      static_cast<std::size_t>(samples_.heights.cols) +
+                                  static_cast<std::size_t>(samples_.first.x + sample.x)];
+  }
+
+  const FitNorm& norm_;
+  Samples samples_;
+  Raster bounds_;
+  double unit_;
+  double per_unit_;  // 0: errors have no energy, and are all decided slowly
+};
+
+}  // namespace scarp

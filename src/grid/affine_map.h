@@ -1,0 +1,30 @@
+// From the coordinates of a map to columns and rows: the inverse of an affine map of samples.
+#pragma once
+
+#include <array>
+
+namespace scarp {
+
+/// A place or a way in samples, not rounded.
+struct SamplePlace {
+  double col = 0, row = 0;
+};
+
+class MapToSamples {
+ public:
+  /// `affine`: from samples to the map, as Frame::affine. REQUIRES: it can be inverted.
+  explicit MapToSamples(const std::array<double, 6>& affine)
+      : affine_(affine), determinant_(affine[1] * affine[5] - affine[2] * affine[4]) {}
+
+  SamplePlace place(double x, double y) const { return way(x - affine_[0], y - affine_[3]); }
+  /// Of a difference of two places.
+  SamplePlace way(double x, double y) const {
+    return {(affine_[5] * x - affine_[2] * y) / determinant_, (affine_[1] * y - affine_[4] * x) / determinant_};
+  }
+
+ private:
+  std::array<double, 6> affine_;
+  double determinant_;
+};
+
+}  // namespace scarp

@@ -1,0 +1,56 @@
+// Lengths, angles and circles of lattice points as they are in a mesh's coordinates, where samples need not be square.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "tin/triangulation.h"
+
+namespace scarp {
+
+/// Offsets of lattice points in an affine frame. IEEE arithmetic and square roots only: the same on every machine.
+class PlanMetric {
+ public:
+  using Vector = std::array<double, 2>;
+
+  /// `affine` as Frame::affine, of samples; points are in so many steps from one to the next. REQUIRES: it can be
+  /// inverted.
+  PlanMetric(const std::array<double, 6>& affine, std::int32_t steps);
+
+  Vector to_plan(const Vector& offset) const;     ///< of steps
+  Vector to_lattice(const Vector& offset) const;  ///< in steps
+  Vector between(Point a, Point b) const { return to_plan({double(b.x) - a.x, double(b.y) - a.y}); }
+  double square(Point a, Point b) const;               ///< of their distance
+  double dot(Point apex, Point a, Point b) const;      ///< of the vectors from the apex
+  double shorter_side() const { return short_side_; }  ///< of a sample
+  double longer_side() const { return long_side_; }
+  /// Whether d lies inside the circle through the corners of a positive triangle. Exact where samples are square; else
+  /// what rounding leaves in doubt is outside.
+  bool is_in_circle(const std::array<Point, 3>& corners, Point d) const;
+
+ private:
+  std::array<double, 4> to_plan_, to_lattice_;  ///< row by row
+  double short_side_, long_side_;
+  bool is_similar_;  ///< the lattice's circles are circles
+};
+
+/// Delaunay edges in such a frame.
+class PlanDelaunay final : public FlipRule {
+ public:
+  explicit PlanDelaunay(const PlanMetric& metric) : metric_(metric) {}
+  bool should_flip(const Triangulation& tin, HalfEdge h) override;
+
+ private:
+  const PlanMetric& metric_;
+};
+
+/// Flips free edges until all are Delaunay.
+void restore_delaunay(Triangulation& tin, PlanDelaunay& rule);
+
+/// sin² and cos² of an angle of 0 … 90 degrees, by their series: no two C libraries agree on the last bit.
+struct SquaredAngle {
+  double sine, cosine;
+};
+SquaredAngle squares_of(double degrees);
+
+}  // namespace scarp

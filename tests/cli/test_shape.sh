@@ -1,0 +1,92 @@
+#!/usr/bin/env bash
+# --min-angle, --max-edge, --grade: meshes for simulation keep the bound, and angles and edges that are computed here from
+# the files keep what was asked.
+source "$(dirname "$0")/lib.sh"
+need python3
+
+cat >look.py <<'PYTHON'
+"""look.py FILE: triangles, smallest angle, shortest and longest edge of a .2dm or .obj, seen from above."""
+import math, sys
+nodes, triangles = {}, []
+for line in open(sys.argv[1]):
+    word = line.split()
+    if word and word[0] == "ND":
+        nodes[int(word[1])] = tuple(map(float, word[2:4]))
+    elif word and word[0] == "E3T":
+        triangles.append(tuple(map(int, word[2:5])))
+    elif word and word[0] == "v":
+        nodes[len(nodes) + 1] = tuple(map(float, word[1:3]))
+    elif word and word[0] == "f":
+        triangles.append(tuple(int(v.split("/")[0]) for v in word[1:4]))
+smallest, shortest, longest = 180.0, math.inf, 0.0
+for t in triangles:
+    p = [nodes[v] for v in t]
+    sides = [math.dist(p[(k + 1) % 3], p[(k + 2) % 3]) for k in range(3)]
+    shortest, longest = min(shortest, *sides), max(longest, *sides)
+    for k in range(3):
+        b, c = sides[(k + 1) % 3], sides[(k + 2) % 3]
+        smallest = min(smallest, math.degrees(math.acos(max(-1, min(1, (b * b + c * c - sides[k] ** 2) / (2 * b * c))))))
+print(len(triangles), f"{smallest:.6f} {shortest:.9g} {longest:.9g}")
+PYTHON
+
+# The bundled raster as a mesh for flow solvers, in degrees as it is, with every effort and on any number of threads.
+for effort in fast normal high; do
+  succeeds "$scarp" simplify "$dem" one.2dm -e 20 --min-angle 25 --effort "$effort" -j 1 --report r.json --overwrite
+  succeeds "$scarp" simplify "$dem" four.2dm -e 20 --min-angle 25 --effort "$effort" -j 4 --overwrite
+  cmp one.2dm four.2dm || fail "-j 4 makes another mesh with $effort effort"
+  read -r count smallest shortest longest < <(python3 look.py one.2dm)
+  holds "$smallest >= 25"
+  [ "$(json r.json shape below)" = 0 ] || fail "triangles with smaller angles are left"
+  [ "$(json r.json topology sound)" = true ] || fail "$effort effort makes an unsound mesh"
+  holds "$(json r.json shape min_angle) - $smallest < 0.0001 && $smallest - $(json r.json shape min_angle) < 0.0001"
+  holds "$(json r.json shape longest_edge) - $longest < 1e-6 && $longest - $(json r.json shape longest_edge) < 1e-6"
+  succeeds "$scarp" measure "$dem" one.2dm --fail-above 20
+  counts="${counts:-} $count"
+done
+read -r fast normal high <<<"$counts"
+holds "$normal < $fast && $high < $normal"
+python3 - r.json <<'PYTHON' || fail "the histogram is not of all triangles"
+import json, sys
+report = json.load(open(sys.argv[1]))
+assert len(report["shape"]["histogram"]) == 12
+assert sum(report["shape"]["histogram"]) == report["triangles"]
+assert not any(report["shape"]["histogram"][:5])
+PYTHON
+
+# In metres; the edges of the file are no longer than asked.
+succeeds "$scarp" simplify "$dem" short.obj -e 20 --max-edge 400
+read -r count smallest shortest longest < <(python3 look.py short.obj)
+holds "$longest <= 400"
+succeeds "$scarp" measure "$dem" short.obj --fail-above 20
+succeeds "$scarp" simplify "$dem" graded.obj -e 60 --grade 0.3 --min-angle 20 --max-edge 3000
+read -r count smallest shortest longest < <(python3 look.py graded.obj)
+holds "$smallest >= 20"
+succeeds "$scarp" measure "$dem" graded.obj --fail-above 60
+
+# Voids, and lines that meet at angles below what is asked: these are counted, all others hold.
+succeeds "$scarp" simplify "$dem" plain.2dm -e 20 --report r.json --overwrite
+[ "$(json r.json shape)" = null ] || fail "a report of shapes that nobody asked for"
+succeeds "$scarp" generate smooth 60 50 hills.tif --seed 4 -q
+echo '{"type": "FeatureCollection", "features": [
+ {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[5.2, 5.4], [50.3, 40.1], [9.7, 12.3]]}},
+ {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[40, 5], [10.5, 40.25]]}}]}' >lines.geojson
+for effort in fast high; do
+  succeeds "$scarp" simplify hills.tif river.obj -e 10 --min-angle 25 --breaklines lines.geojson --effort "$effort" --report r.json --overwrite
+  [ "$(json r.json topology sound)" = true ] || fail "lines and angles make an unsound mesh"
+  holds "$(json r.json shape below) == $(json r.json shape forced)"
+  holds "$(json r.json shape below) > 0 && $(json r.json shape below) < 10"
+  succeeds "$scarp" measure hills.tif river.obj --fail-above 10
+done
+succeeds "$scarp" simplify hills.tif river.obj -e 10 --min-angle 25 --overwrite
+grep -q "shape .*smallest angle .*asked 25" "$logs/out" || fail "the summary does not tell the smallest angle"
+
+# What cannot be is refused, by name.
+refuses 1 "--min-angle" "$scarp" simplify hills.tif x.obj -e 10 --min-angle 40
+refuses 1 "--min-angle" "$scarp" simplify hills.tif x.obj -e 10 --min-angle some
+refuses 1 "--max-edge" "$scarp" simplify hills.tif x.obj -e 10 --max-edge 0
+refuses 1 "max edge" "$scarp" simplify hills.tif x.obj -e 10 --max-edge 0.01
+refuses 1 "--grade" "$scarp" simplify hills.tif x.obj -e 10 --grade -1
+refuses 1 "--max-triangles" "$scarp" simplify hills.tif x.obj -t 100 --min-angle 20
+refuses 1 "--edges" "$scarp" simplify hills.tif x.obj -e 10 --edges data --min-angle 20
+refuses 1 "--outline-tolerance" "$scarp" simplify hills.tif x.obj -e 10 --outline-tolerance 2 --min-angle 20
+refuses 1 "regular" "$scarp" simplify "$dem" x.obj -e 20 --crs EPSG:3857 --min-angle 20

@@ -1,0 +1,241 @@
+// Efforts at the public door where more counts than heights on the exact outline: channels, simplified outlines.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "laws/any_field.h"
+#include "laws/fields.h"
+#include "laws/strategies.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+namespace {
+
+using testing::any_field;
+using testing::Field;
+using testing::Relief;
+
+/// Heights and what lies beside them.
+struct Coloured {
+  Field heights;
+  std::vector<Field> layers;
+  std::vector<double> scales;
+  double height_scale = 1;
+
+  HeightField view() const {
+    HeightField view = heights.view();
+    view.height_scale = height_scale;
+    for (std::size_t k = 0; k < layers.size(); ++k) view.channels.push_back({layers[k].samples.data(), scales[k]});
+    return view;
+  }
+};
+
+Coloured any_coloured(std::int32_t largest) {
+  Coloured made{any_field(largest), {}, {}, *rc::gen::element(1.0, 1.0, 0.0, 2.0, 0.25)};
+  // No channels: heights alone, that count otherwise.
+  const auto count = *rc::gen::inRange(made.height_scale == 1 || made.height_scale == 0 ? 1 : 0, 4);
+  for (int k = 0; k < count; ++k) {
+    made.layers.push_back(testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), made.heights.cols,
+                                                made.heights.rows,
+                                                *rc::gen::element(Relief::kTies, Relief::kFlat, Relief::kRidges)));
+    made.scales.push_back(k == 0 ? *rc::gen::element(0.5, 1.0, 3.0) : *rc::gen::element(0.0, 1.0));
+  }
+  return made;
+}
+
+/// Of a sample, by brute force; NaN where no triangle holds it.
+double norm_at(const Mesh& mesh, const HeightField& view, Norm norm, int col, int row) {
+  double sum = 0, squares = 0, largest = 0;
+  for (int k = -1; k < static_cast<int>(view.channels.size()); ++k) {
+    const double scale = k < 0 ? view.height_scale : view.channels[static_cast<std::size_t>(k)].scale;
+    const double error = scale * testing::error_at(mesh, view, col, row, k);
+    if (std::isnan(error)) return NAN;
+    sum += error;
+    squares += error * error;
+    largest = std::max(largest, error);
+  }
+  return norm == Norm::kSum ? sum : norm == Norm::kSquares ? std::sqrt(squares) : largest;
+}
+
+bool is_same_mesh(const Simplified& a, const Simplified& b) {
+  return a.mesh.positions == b.mesh.positions && a.mesh.triangles == b.mesh.triangles &&
+         a.mesh.channels == b.mesh.channels;
+}
+
+RC_GTEST_PROP(channels_of_efforts, keep_their_norm_with_no_more_triangles_on_any_number_of_threads, ()) {
+  const Coloured coloured = any_coloured(18);
+  const HeightField view = coloured.view();
+  SimplifyOptions options;
+  options.norm = *rc::gen::element(Norm::kSum, Norm::kSquares, Norm::kMax);
+  options.max_error = *rc::gen::element(0.0, 1.0, 2.0, 7.0, 40.0);
+  options.effort = Effort::kFast;
+  options.threads = 1;
+  const auto fast = simplify(view, options);
+  RC_PRE(fast.has_value());
+  options.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh, Effort::kMax);
+  const auto made = simplify(view, options);
+  RC_ASSERT(made.has_value());
+  RC_ASSERT(made->vertices == Vertices::kSamples);
+  RC_ASSERT(made->mesh.triangle_count() <= fast->mesh.triangle_count());
+  RC_ASSERT(made->combined_max_error <= *options.max_error * (1 + 1e-6));
+  RC_ASSERT(made->measurement.uncovered == 0u);
+  RC_ASSERT(measure(view, made->mesh)->is_sound());
+  for (int row = 0; row < view.rows; ++row) {
+    for (int col = 0; col < view.cols; ++col) {
+      if (std::isnan(testing::error_at(made->mesh, view, col, row))) continue;
+      RC_ASSERT(norm_at(made->mesh, view, options.norm, col, row) <= *options.max_error * (1 + 1e-9) + 1e-9);
+    }
+  }
+  for (const int threads : {2, 4}) {
+    options.threads = threads;
+    RC_ASSERT(is_same_mesh(*simplify(view, options), *made));
+  }
+}
+
+RC_GTEST_PROP(channels_of_efforts, keep_bounds_of_samples, ()) {
+  const Coloured coloured = any_coloured(18);
+  const HeightField view = coloured.view();
+  const float levels[] = {1, 1.5f, 8, 0, 300, std::numeric_limits<float>::infinity()};
+  std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
+  std::vector<float> bounds, mask;
+  for (std::size_t i = 0; i < coloured.heights.samples.size(); ++i) bounds.push_back(levels[random() % 6]);
+  SimplifyOptions options;
+  options.norm = *rc::gen::element(Norm::kSum, Norm::kSquares, Norm::kMax);
+  options.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
+  if (*rc::gen::arbitrary<bool>()) {
+    options.tolerance = bounds;
+  } else {
+    options.max_error = 3;
+    for (float& bound : bounds) {
+      mask.push_back(bound > 0 ? 3 / bound : 4);
+      bound = 3 / mask.back();
+    }
+    options.mask = mask;
+  }
+  const auto made = simplify(view, options);
+  RC_PRE(made.has_value());
+  for (int row = 0; row < view.rows; ++row) {
+    for (int col = 0; col < view.cols; ++col) {
+      const double norm = norm_at(made->mesh, view, options.norm, col, row);
+      const double bound = bounds[static_cast<std::size_t>(row * view.cols + col)];
+      RC_ASSERT(std::isnan(norm) || norm <= bound * (1 + 1e-6) + 1e-9);
+    }
+  }
+}
+
+RC_GTEST_PROP(channels_of_efforts, spend_budgets_on_their_norm, ()) {
+  const Coloured coloured = any_coloured(30);
+  const HeightField view = coloured.view();
+  SimplifyOptions options;
+  options.norm = *rc::gen::element(Norm::kSum, Norm::kSquares, Norm::kMax);
+  options.max_triangles = *rc::gen::inRange<std::uint64_t>(4, 600);
+  options.effort = Effort::kFast;
+  const auto greedy = simplify(view, options);
+  options.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
+  options.objective = *rc::gen::element(Objective::kMax, Objective::kRms);
+  const auto made = simplify(view, options);
+  RC_ASSERT(made.has_value() == greedy.has_value());
+  RC_PRE(made.has_value());
+  RC_ASSERT(made->mesh.triangle_count() <= *options.max_triangles);
+  if (options.objective == Objective::kMax) {
+    RC_ASSERT(made->combined_max_error <= greedy->combined_max_error * (1 + 1e-6));
+  } else {
+    RC_ASSERT(made->combined_rmse <= greedy->combined_rmse * (1 + 1e-6));
+  }
+}
+
+TEST(channels_of_efforts, take_fewer_triangles_with_each_level) {
+  Coloured coloured{testing::random_field(21, 300, 200, Relief::kRidges, 0.02), {}, {}, 1};
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    coloured.layers.push_back(testing::random_field(21 + k, 300, 200, Relief::kRidges));
+    coloured.scales.push_back(0.5);
+  }
+  for (const Norm norm : {Norm::kSum, Norm::kSquares, Norm::kMax}) {
+    std::size_t before = SIZE_MAX;
+    for (const Effort effort : {Effort::kFast, Effort::kAuto, Effort::kHigh, Effort::kMax}) {
+      SimplifyOptions options;
+      options.norm = norm;
+      options.max_error = 20;
+      options.effort = effort;
+      const auto made = simplify(coloured.view(), options);
+      ASSERT_TRUE(made) << made.error().message;
+      EXPECT_EQ(made->effort, effort == Effort::kAuto ? Effort::kNormal : effort);
+      EXPECT_LT(static_cast<double>(made->mesh.triangle_count()), 0.97 * static_cast<double>(before));
+      before = made->mesh.triangle_count();
+    }
+  }
+}
+
+TEST(channels_of_efforts, refuse_free_vertices) {
+  Coloured coloured{testing::random_field(21, 30, 20, Relief::kRidges), {}, {}, 1};
+  coloured.layers.push_back(coloured.heights);
+  coloured.scales.push_back(1);
+  SimplifyOptions options;
+  options.max_error = 1;
+  options.effort = Effort::kHigh;
+  options.vertices = Vertices::kFree;
+  const auto made = simplify(coloured.view(), options);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().kind, ErrorKind::kUsage);
+}
+
+/// Of the mesh seen from above, exact: places are eighths of samples.
+double area_of(const Mesh& mesh) {
+  double area = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    const auto a = mesh.vertex(mesh.triangles[3 * t]), b = mesh.vertex(mesh.triangles[3 * t + 1]),
+               c = mesh.vertex(mesh.triangles[3 * t + 2]);
+    area += (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  }
+  return area;
+}
+
+RC_GTEST_PROP(simplified_outlines, of_efforts_keep_the_promise_and_the_domain, ()) {
+  const Field field = any_field(40);
+  SimplifyOptions options;
+  options.outline_tolerance = *rc::gen::element(0.5, 1.0, 3.0, 20.0);
+  options.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
+  options.effort = Effort::kFast;
+  options.threads = 1;
+  const auto fast = simplify(field.view(), options);
+  RC_PRE(fast.has_value());
+  options.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh, Effort::kMax);
+  options.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
+  const auto made = simplify(field.view(), options);
+  RC_ASSERT(made.has_value());
+  RC_ASSERT(made->mesh.triangle_count() <= fast->mesh.triangle_count());
+  const Measurement m = *measure(field.view(), made->mesh), before = *measure(field.view(), fast->mesh);
+  RC_ASSERT(m.max_error <= *options.max_error + 1e-9);
+  RC_ASSERT(m.uncovered == 0u);
+  RC_ASSERT(m.samples == before.samples);
+  RC_ASSERT(m.is_sound());
+  RC_ASSERT(area_of(made->mesh) == area_of(fast->mesh));
+  for (const int threads : {2, 4}) {
+    options.threads = threads;
+    RC_ASSERT(is_same_mesh(*simplify(field.view(), options), *made));
+  }
+}
+
+TEST(simplified_outlines, take_fewer_triangles_with_each_level) {
+  const Field field = testing::random_field(22, 300, 200, Relief::kRidges, 0.2);
+  std::size_t before = SIZE_MAX;
+  for (const Effort effort : {Effort::kFast, Effort::kAuto, Effort::kHigh}) {
+    SimplifyOptions options;
+    options.max_error = 8;
+    options.outline_tolerance = 3;
+    options.effort = effort;
+    const auto made = simplify(field.view(), options);
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_EQ(made->effort, effort == Effort::kAuto ? Effort::kNormal : effort);
+    EXPECT_LT(static_cast<double>(made->mesh.triangle_count()), 0.9 * static_cast<double>(before));
+    before = made->mesh.triangle_count();
+  }
+}
+
+}  // namespace
+}  // namespace scarp

@@ -1,0 +1,250 @@
+// Laws of shapes: the bound, angles, lengths and their growth hold in the mesh that is given back, whatever the raster.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "laws/any_field.h"
+#include "scarp/measure.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+namespace {
+
+using testing::Field;
+
+double length(const Mesh& mesh, std::uint32_t v, std::uint32_t w) {
+  return std::hypot(mesh.positions[3 * v] - mesh.positions[3 * w],
+                    mesh.positions[3 * v + 1] - mesh.positions[3 * w + 1]);
+}
+
+/// Of the corner of a triangle, in degrees.
+double angle(const Mesh& mesh, std::size_t corner) {
+  const std::size_t t = corner / 3;
+  const std::uint32_t apex = mesh.triangles[corner], v = mesh.triangles[3 * t + (corner + 1) % 3],
+                      w = mesh.triangles[3 * t + (corner + 2) % 3];
+  const double a = length(mesh, v, w), b = length(mesh, apex, v), c = length(mesh, apex, w);
+  return std::acos(std::clamp((b * b + c * c - a * a) / (2 * b * c), -1.0, 1.0)) * 180 / std::numbers::pi;
+}
+
+/// Triangles with an angle below this; counted with other arithmetic than the engine's.
+std::uint64_t count_below(const Mesh& mesh, double degrees) {
+  std::uint64_t below = 0;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    bool is_below = false;
+    for (std::size_t corner = 3 * t; corner < 3 * t + 3; ++corner)
+      is_below = is_below || angle(mesh, corner) < degrees - 1e-4;
+    below += is_below;
+  }
+  return below;
+}
+
+double longest_edge(const Mesh& mesh) {
+  double longest = 0;
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k)
+    longest = std::max(longest, length(mesh, mesh.triangles[k], mesh.triangles[k % 3 == 2 ? k - 2 : k + 1]));
+  return longest;
+}
+
+/// Visits the ends of every edge, some twice.
+template <class Visit>
+void visit_edges(const Mesh& mesh, Visit&& visit) {
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k)
+    visit(mesh.triangles[k], mesh.triangles[k % 3 == 2 ? k - 2 : k + 1]);
+}
+
+/// The largest length of an edge over what a grade allows, by the definition: sizes spread along edges until none
+/// falls.
+double worst_growth(const Mesh& mesh, double grade, double least) {
+  std::vector<double> sizes(mesh.vertex_count(), std::numeric_limits<double>::infinity());
+  visit_edges(mesh, [&](std::uint32_t v, std::uint32_t w) {
+    for (const std::uint32_t u : {v, w}) sizes[u] = std::min(sizes[u], std::max(length(mesh, v, w), least));
+  });
+  for (bool falls = true; falls;) {
+    falls = false;
+    visit_edges(mesh, [&](std::uint32_t v, std::uint32_t w) {
+      for (const auto& [from, to] : {std::pair{v, w}, std::pair{w, v}}) {
+        const double size = sizes[from] + grade * length(mesh, v, w);
+        if (!(size < sizes[to])) continue;
+        sizes[to] = size;
+        falls = true;
+      }
+    });
+  }
+  double worst = 0;
+  visit_edges(mesh, [&](std::uint32_t v, std::uint32_t w) {
+    worst = std::max(worst, length(mesh, v, w) / (2 * std::min(sizes[v], sizes[w])));
+  });
+  return worst;
+}
+
+SimplifyOptions any_run() {
+  SimplifyOptions options;
+  options.max_error = *rc::gen::element(0.0, 0.5, 2.0, 20.0, 2000.0);
+  options.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
+  options.order = *rc::gen::element(Order::kAuto, Order::kGreedy);
+  options.float32_positions = *rc::gen::arbitrary<bool>();
+  options.threads = 1;
+  return options;
+}
+
+/// Samples that are no squares, in a frame that may turn.
+Frame any_frame(int rows) {
+  Frame frame = grid_frame(rows);
+  if (*rc::gen::inRange(0, 3) > 0) return frame;
+  const double across = *rc::gen::element(0.5, 1.0, 3.0), down = *rc::gen::element(-2.0, -1.0, 1.0);
+  frame.affine = {100, across, *rc::gen::element(0.0, 0.25), 2000, *rc::gen::element(0.0, 0.125), down};
+  return frame;
+}
+
+double longer_side(const Frame& frame) {
+  return std::max(std::hypot(frame.affine[1], frame.affine[4]), std::hypot(frame.affine[2], frame.affine[5]));
+}
+
+/// Two lines of the map over the raster.
+std::vector<Line> any_lines(const Field& field) {
+  std::vector<Line> lines(2);
+  for (Line& line : lines) {
+    line.name = "line";
+    for (int k = 0; k < 3; ++k) {
+      const auto at = [](int most) { return *rc::gen::inRange(-100, 100 * most) / 100.0; };
+      line.points.push_back({at(field.cols), at(field.rows), std::numeric_limits<double>::quiet_NaN()});
+    }
+    line.points.erase(std::unique(line.points.begin(), line.points.end(),
+                                  [](const auto& a, const auto& b) { return a[0] == b[0] && a[1] == b[1]; }),
+                      line.points.end());
+    if (line.points.size() < 2) line.points.push_back({-1, -1, 0});
+  }
+  return lines;
+}
+
+/// The mesh; the bound, soundness and what the report tells of it have been looked at.
+Simplified simplified(const HeightField& field, const SimplifyOptions& options) {
+  auto result = simplify(field, options);
+  RC_ASSERT(result.has_value() || result.error().kind == ErrorKind::kInput);
+  RC_PRE(result.has_value());
+  const auto judged = measure(field, result->mesh);
+  RC_ASSERT(judged.has_value());
+  RC_ASSERT(judged->max_error <= *options.max_error * (1 + 1e-9) + 1e-9 || !result->edits.empty());
+  RC_ASSERT(judged->uncovered == 0u);
+  RC_ASSERT(judged->is_sound());
+  RC_ASSERT(result->shape.has_value());
+  RC_ASSERT(std::abs(result->shape->min_angle - judged->min_angle) < 1e-6);
+  RC_ASSERT(std::abs(result->shape->longest_edge - longest_edge(result->mesh)) < 1e-6);
+  std::uint64_t total = 0;
+  for (const std::uint64_t count : result->shape->histogram) total += count;
+  RC_ASSERT(total == result->mesh.triangle_count());
+  return std::move(*result);
+}
+
+RC_GTEST_PROP(shape, angles_that_theory_grants_hold_without_an_exception, ()) {
+  const Field field = testing::any_field(14);
+  HeightField view = field.view();
+  view.frame = any_frame(field.rows);
+  SimplifyOptions options = any_run();
+  options.shape.min_angle = *rc::gen::element(5.0, 15.0, 20.0);
+  const Simplified result = simplified(view, options);
+  // Corners of voids have 45 degrees at least where samples are squares.
+  const bool has_squares = view.frame.kind == Frame::Kind::kGrid && view.frame.affine[1] == -view.frame.affine[5] &&
+                           view.frame.affine[2] == 0 && view.frame.affine[4] == 0;
+  RC_CLASSIFY(has_squares);
+  if (has_squares) RC_ASSERT(count_below(result.mesh, options.shape.min_angle) == 0u);
+  RC_ASSERT(count_below(result.mesh, options.shape.min_angle) <= result.shape->below);
+}
+
+RC_GTEST_PROP(shape, edges_are_never_too_long, ()) {
+  const Field field = testing::any_field(12);
+  HeightField view = field.view();
+  view.frame = any_frame(field.rows);
+  SimplifyOptions options = any_run();
+  options.shape.max_edge = longer_side(view.frame) * *rc::gen::element(0.3, 1.0, 2.5, 7.0);
+  if (*rc::gen::arbitrary<bool>()) options.shape.min_angle = 25;
+  if (*rc::gen::arbitrary<bool>()) {
+    options.breaklines.lines = any_lines(field);
+    options.breaklines.affine = {0, 1, 0, 0, 0, 1};
+  }
+  const Simplified result = simplified(view, options);
+  RC_ASSERT(longest_edge(result.mesh) <= *options.shape.max_edge);
+}
+
+RC_GTEST_PROP(shape, edges_grow_no_faster_than_asked, ()) {
+  const Field field = testing::any_field(20);
+  HeightField view = field.view();
+  view.frame = any_frame(field.rows);
+  SimplifyOptions options = any_run();
+  options.shape.grade = *rc::gen::element(0.05, 0.2, 1.0);
+  if (*rc::gen::arbitrary<bool>()) options.shape.min_angle = 25;
+  const Simplified result = simplified(view, options);
+  RC_ASSERT(worst_growth(result.mesh, *options.shape.grade, longer_side(view.frame) / 2) <= 1);
+}
+
+RC_GTEST_PROP(shape, it_ends_whatever_is_asked, ()) {
+  const Field field = testing::any_field(12);
+  SimplifyOptions options = any_run();
+  options.shape.min_angle = 33;
+  options.breaklines.lines = any_lines(field);
+  options.breaklines.affine = {0, 1, 0, 0, 0, 1};
+  const Simplified result = simplified(field.view(), options);
+  RC_ASSERT(count_below(result.mesh, 33) <= result.shape->below);
+  RC_ASSERT(result.shape->forced <= result.shape->below);
+}
+
+TEST(shape, lines_that_are_halved_stay_where_they_are) {
+  const Field field = testing::random_field(3, 60, 40, testing::Relief::kRidges);
+  SimplifyOptions options;
+  options.max_error = 5;
+  options.threads = 1;
+  options.float32_positions = false;
+  options.shape.max_edge = 0.7;
+  Line line;
+  line.name = "dike";
+  line.points = {{3.3, 2.1, 100}, {50.7, 33.9, 160}};
+  options.breaklines.lines = {line};
+  options.breaklines.affine = {0, 1, 0, 0, 0, 1};
+  const auto result = simplify(field.view(), options);
+  ASSERT_TRUE(result.has_value()) << result.error().message;
+  // The way along the line, by vertices within a step and a half of it that have its height.
+  std::vector<double> along;
+  const double dx = 50.7 - 3.3, dy = 33.9 - 2.1, size = std::hypot(dx, dy);
+  for (std::size_t v = 0; v < result->mesh.vertex_count(); ++v) {
+    const auto [x, y, z] = result->mesh.vertex(v);
+    const double u = x - 3.3, w = field.rows - 1 - y - 2.1, at = (u * dx + w * dy) / size;
+    const double off = std::abs(u * dy - w * dx) / size;
+    if (off < 1.5 / 256 && at > -0.01 && at < size + 0.01 && std::abs(z - 100 - 60 * at / size) < 0.02)
+      along.push_back(at);
+  }
+  std::sort(along.begin(), along.end());
+  ASSERT_GT(along.size(), size / 0.7);
+  EXPECT_NEAR(along.front(), 0, 0.01);
+  EXPECT_NEAR(along.back(), size, 0.01);
+  for (std::size_t k = 1; k < along.size(); ++k) EXPECT_LE(along[k] - along[k - 1], 0.71);
+}
+
+TEST(shape, goals_out_of_range_are_refused_in_a_sentence) {
+  const Field field = testing::random_field(1, 9, 9, testing::Relief::kRidges);
+  const auto refuses = [&](const ShapeGoals& goals, const char* words) {
+    SimplifyOptions options;
+    options.max_error = 1;
+    options.shape = goals;
+    const auto result = simplify(field.view(), options);
+    ASSERT_FALSE(result.has_value());
+    EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
+    EXPECT_NE(result.error().message.find(words), std::string::npos) << result.error().message;
+  };
+  refuses({.min_angle = 34}, "0 … 33");
+  refuses({.min_angle = std::nan("")}, "0 … 33");
+  refuses({.max_edge = 0.1}, "at least 0.125");
+  refuses({.grade = 0}, "above 0");
+  SimplifyOptions options;
+  options.max_error = 1;
+  options.max_triangles = 50;
+  options.shape.min_angle = 20;
+  const auto result = simplify(field.view(), options);
+  ASSERT_FALSE(result.has_value());
+  EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
+}
+
+}  // namespace
+}  // namespace scarp
