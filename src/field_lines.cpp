@@ -267,7 +267,7 @@ Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints
     for (std::size_t k = first; k < end; ++k)
       followed[k] = k < breaklines ? soft.follow(lines.lines[k]) : soft.follow(rings[k - breaklines], true);
   });
-  const auto placed = place_breaklines(followed, affine, raster, trace_outline(raster), lines.conflict);
+  const auto placed = place_breaklines(followed, affine, raster, trace_outline(raster), lines.conflict, is_cut);
   if (!placed) return tl::unexpected(placed.error());
   FieldLines result;
   if (is_cut || std::find(placed->is_hard.begin(), placed->is_hard.end(), true) != placed->is_hard.end()) {
