@@ -12,7 +12,7 @@ def layer(name, *geometries):
 x, y = -84.24, 36.30
 star = [[x + (0.12 if k % 2 else 0.06) * math.cos(k * math.pi / 8), y + (0.11 if k % 2 else 0.05) * math.sin(k * math.pi / 8)] for k in range(16)]
 hole = [[x - .02, y - .02], [x + .015, y - .018], [x + .02, y + .017], [x - .018, y + .02]]
-square = [[-84.40, 36.17], [-84.37, 36.17], [-84.37, 36.2], [-84.40, 36.2]]
+square = [[-84.4003, 36.1703], [-84.3697, 36.1703], [-84.3697, 36.2004], [-84.4003, 36.2004]]
 ring = lambda points: points + points[:1]
 layer("star.geojson", ("MultiPolygon", [[ring(star), ring(hole)], [ring(square)]]))
 layer("bow.geojson", ("Polygon", [ring([[-84.35, 36.2], [-84.2, 36.4], [-84.2, 36.2], [-84.35, 36.4]])]))
