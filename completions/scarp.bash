@@ -37,13 +37,13 @@ _scarp() {
     --duplicates) COMPREPLY=($(compgen -W 'first last highest lowest mean' -- "$current")) && return ;;
     --line-conflict) COMPREPLY=($(compgen -W 'error first mean highest' -- "$current")) && return ;;
     --norm) COMPREPLY=($(compgen -W 'l1 l2 linf' -- "$current")) && return ;;
-    --preview | --render | --error-raster | --report | --map | --mask | --tolerance | --script | --texture | --breaklines | --water | --rivers | --roi)
+    --preview | --render | --error-raster | --report | --map | --mask | --tolerance | --script | --texture | --breaklines | --water | --rivers | --cutline | --roi)
       COMPREPLY=($(compgen -f -- "$current"))
       return
       ;;
     -e | --max-error | -t | --max-triangles | -p | --max-points | --band | --nodata | --fill-distance | --background | \
       --outline-tolerance | --base | --solid | --split | --shape-threshold | --supersample | --texture-weight | --channel-weights | -j | \
-      --num-threads | --memory | --fail-above | --layer | --z-field | --breakline-z | --water-percentile | --detect-flats | --min-angle | --max-edge | --grade | --cliff | --falloff | --seed | --range | --size)
+      --num-threads | --memory | --fail-above | --layer | --z-field | --breakline-z | --water-percentile | --detect-flats | --inset | --min-angle | --max-edge | --grade | --cliff | --falloff | --seed | --range | --size)
       return
       ;;
   esac
@@ -60,12 +60,14 @@ _scarp() {
         options+=' --timing --effort --vertices --min-shape --time-limit --objective --importance --one-pass --order --algorithm --batch --edges --edge-score --shape-threshold --supersample'
         options+=' --breaklines --breakline-z --soft-breaklines --line-conflict --water --water-percentile --detect-flats --rivers --cliff'
         options+=' --min-angle --max-edge --grade'
+        options+=' --cutline --inset --mask-outside'
         options+=' --uvs --render --error-raster'
         options+=' --points --duplicates --layer --z-field'
         ;;
       measure)
         options+=' --points --duplicates --layer --z-field'
         options+=' --fail-above --json --map --error-raster --overwrite --num-threads --memory'
+        options+=' --cutline --inset --mask-outside'
         options+=' --mask --tolerance --roi --falloff --script --image --texture --texture-weight --norm --channel-weights'
         ;;
       info) options+=' --json' ;;

@@ -288,6 +288,14 @@ std::vector<bool> held_edges(const Arrangement& arranged, const LatticeLines& la
 }
 
 /// Lines without a chain.
+void take_chains(const Arrangement& arranged, const LatticeLines& lattice, Breaklines& placed) {
+  for (const auto& chain : arranged.chains) {
+    const auto begin = static_cast<std::uint32_t>(placed.passed.size());
+    for (const auto& stop : arranged.stops_of(chain)) placed.passed.push_back(stop.vertex);
+    placed.chains.push_back({lattice.line_of(chain.line), begin, static_cast<std::uint32_t>(placed.passed.size())});
+  }
+}
+
 std::uint64_t count_outside(const Arrangement& arranged, const LatticeLines& lattice, std::size_t lines) {
   std::vector<bool> is_there(lines, false);
   for (const auto& chain : arranged.chains) is_there[lattice.line_of(chain.line)] = true;
@@ -328,7 +336,8 @@ double height_between_samples(const Raster& raster, Point place) {
 }
 
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
-                                    const Raster& raster, const Outline& outline, LineConflict conflict) try {
+                                    const Raster& raster, const Outline& outline, LineConflict conflict,
+                                    bool with_chains) try {
   if (std::max(raster.cols, raster.rows) > kMaxCoordinate / kLatticeSteps)
     return fail(ErrorKind::kUsage, fmt::format("a raster of {} x {} samples is too large for lines: at most {} a side",
                                                raster.cols, raster.rows, kMaxCoordinate / kLatticeSteps));
@@ -341,6 +350,7 @@ Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::arra
   Breaklines placed;
   placed.outside = count_outside(arranged, *lattice, lines.size());
   placed.is_held = held_edges(arranged, *lattice, lines);
+  if (with_chains) take_chains(arranged, *lattice, placed);
   placed.points = std::move(arranged.vertices);
   placed.edges = std::move(arranged.edges);
   placed.heights.reserve(placed.points.size());

@@ -30,6 +30,18 @@ struct Breaklines {
   std::vector<bool> is_held;  ///< of each edge: more than faults run there; EMPTY: there are none
 
   std::uint64_t outside = 0;  ///< lines of which nothing is left
+
+  /// A line, or a part of it within the rectangle: points[passed[begin]], …, points[passed[end − 1]].
+  struct Chain {
+    std::uint32_t line;  ///< of the lines given
+    std::uint32_t begin, end;
+  };
+  std::vector<Chain> chains;  ///< in the order of the lines and along each; where they were asked for
+  std::vector<std::uint32_t> passed;
+
+  std::span<const std::uint32_t> points_of(const Chain& chain) const {
+    return std::span(passed).subspan(chain.begin, chain.end - chain.begin);
+  }
 };
 
 /// Places lines on the lattice of a raster: a vertex of a line moves by half a step, 1/512 sample, at most, what runs
@@ -44,10 +56,10 @@ struct Breaklines {
 /// Fails with kInput where hard lines disagree (kError: names both and the place in map coordinates) and for
 /// coordinates that are too large for the raster to mean anything; with kUsage for a raster of more than 2^30 /
 /// kLatticeSteps samples a side. REQUIRES: lines as read_lines() gives them; the affine map can be inverted. Cost: as
-/// arrange(), and a look at each point of each hard line, which n that overlap make n²/2.
+/// arrange(), and a look at each point of each hard line (with chains: of each line), which n that overlap make n²/2.
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
                                     const Raster& raster, const Outline& outline,
-                                    LineConflict conflict = LineConflict::kError);
+                                    LineConflict conflict = LineConflict::kError, bool with_chains = false);
 
 /// The surface of `heights` above, at a point in kLatticeSteps of a sample within the raster.
 double height_between_samples(const Raster& raster, Point place);

@@ -81,12 +81,16 @@ const char* find_lattice_obstacle(const HeightField& field, const SimplifyOption
 }
 
 /// Whether lines can be laid.
-Result<void> check_breaklines(const HeightField& field, const SimplifyOptions& options) {
-  const char* obstacle = has_breaklines(options) ? find_lattice_obstacle(field, options) : nullptr;
-  if (obstacle == nullptr && has_faults(options) && options.shape.any()) obstacle = "has no goals for angles and edges";
+Result<void> check_lines(const HeightField& field, const SimplifyOptions& options) {
+  const char* obstacle = has_lines(options) ? find_lattice_obstacle(field, options) : nullptr;
+  const bool is_cut = !options.cutline.rings.empty();
+  if (obstacle == nullptr && (has_faults(options) || is_cut) && options.shape.any())
+    obstacle = "has no goals for angles and edges";
+  if (obstacle == nullptr && has_faults(options) && is_cut) obstacle = "has no cliffs";
   if (obstacle == nullptr) return {};
   const auto& lines = options.breaklines.lines;
-  const char* what = std::all_of(lines.begin(), lines.end(), is_fault) ? "cliffs" : "breaklines";
+  const bool are_faults = std::all_of(lines.begin(), lines.end(), is_fault);
+  const char* what = is_cut ? "a cutline" : are_faults ? "cliffs" : "breaklines";
   return fail(ErrorKind::kUsage, fmt::format("a mesh with {} {}: leave out one or the other", what, obstacle));
 }
 
@@ -116,7 +120,9 @@ Result<void> check_shape(const HeightField& field, const SimplifyOptions& option
 
 }  // namespace
 
-bool has_breaklines(const SimplifyOptions& options) { return !options.breaklines.lines.empty(); }
+bool has_lines(const SimplifyOptions& options) {
+  return !options.breaklines.lines.empty() || !options.cutline.rings.empty();
+}
 
 bool has_faults(const SimplifyOptions& options) {
   return std::any_of(options.breaklines.lines.begin(), options.breaklines.lines.end(), is_fault);
@@ -156,7 +162,7 @@ Result<void> check_effort(const HeightField& field, const SimplifyOptions& optio
   } else if (const char* obstacle = find_fit_obstacle(field, options)) {
     return usage(fmt::format("more than fast effort {}: leave that out, or take fast effort", obstacle));
   }
-  if (auto sound = check_breaklines(field, options); !sound) return sound;
+  if (auto sound = check_lines(field, options); !sound) return sound;
   if (auto sound = check_shape(field, options); !sound) return sound;
   if (options.vertices != Vertices::kFree || vertices_are_free(field, options)) return {};
   return usage(fmt::format("free vertices need {}: leave them on samples",
@@ -176,7 +182,7 @@ bool places_are_exact(const HeightField& field, const SimplifyOptions& options, 
 }
 
 std::int32_t place_steps(const HeightField& field, const SimplifyOptions& options) {
-  if (has_breaklines(options) || options.shape.any()) return kLatticeSteps;
+  if (has_lines(options) || options.shape.any()) return kLatticeSteps;
   return vertices_are_free(field, options) ? kLatticeSteps / kFreeStep : 1;
 }
 

@@ -12,7 +12,7 @@
 namespace scarp {
 
 bool has_budget(const SimplifyOptions& options);
-bool has_breaklines(const SimplifyOptions& options);
+bool has_lines(const SimplifyOptions& options);
 bool has_faults(const SimplifyOptions& options);  ///< among the breaklines
 
 /// What keeps a run from the dominant order; null if nothing does.

@@ -8,6 +8,8 @@
 
 #include "base/parallel.h"
 #include "breaklines.h"
+#include "field_cut.h"
+#include "geom/polygon_cover.h"
 #include "grid/affine_map.h"
 #include "profile.h"
 #include "refine/samples.h"
@@ -16,19 +18,23 @@ namespace scarp {
 
 namespace {
 
-/// Gives a soft line the vertices that it needs to follow the raster.
+/// Gives a soft line the vertices that it needs to follow the raster. Those of a cutline's ring lie a sample apart
+/// where they may, and on samples where the ring passes some: triangles at edges much shorter than themselves are
+/// slivers.
 class SoftLine {
  public:
   SoftLine(const Raster& raster, const std::array<double, 6>& affine, double tolerance)
-      : raster_(raster), to_samples_(affine), tolerance_(tolerance) {}
+      : raster_(raster), affine_(affine), to_samples_(affine), tolerance_(tolerance) {}
 
-  Line follow(const Line& line) const {
+  /// `is_cut`: a ring that was clipped, and the sides of the raster, along which it may run, are followed by others.
+  Line follow(const Line& line, bool is_cut = false) const {
     Line result = line;
     result.points.clear();
     for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
       result.points.push_back(line.points[k]);
+      if (is_cut && is_along_side(line.points[k], line.points[k + 1])) continue;
       if (std::isnan(line.points[k][2]) || std::isnan(line.points[k + 1][2]))
-        add_between(line.points[k], line.points[k + 1], result.points);
+        add_between(line.points[k], line.points[k + 1], is_cut, result.points);
     }
     result.points.push_back(line.points.back());
     return result;
@@ -36,39 +42,140 @@ class SoftLine {
 
  private:
   using Place = std::array<double, 3>;
+  static constexpr std::size_t kLooksASample = 2;
 
   static Place between(const Place& a, const Place& b, double share) {
     return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), std::numeric_limits<double>::quiet_NaN()};
   }
+  /// Column and row.
+  std::array<double, 2> sample_of(const Place& place) const {
+    const auto [col, row] = to_samples_.place(place[0], place[1]);
+    return {col, row};
+  }
+  /// Whether both are on the same side of the raster's rectangle, up to rounding.
+  bool is_along_side(const Place& a, const Place& b) const {
+    const auto p = sample_of(a), q = sample_of(b);
+    const std::array<double, 2> last{raster_.cols - 1.0, raster_.rows - 1.0};
+    for (const std::size_t axis : {0, 1}) {
+      for (const double side : {0.0, last[axis]}) {
+        if (std::max(std::abs(p[axis] - side), std::abs(q[axis] - side)) < 0.5 / kLatticeSteps) return true;
+      }
+    }
+    return false;
+  }
+  /// The nearest sample where it lies on the line from one place to the other, else the place itself.
+  Place on_sample(const Place& place, const Place& from, const Place& to) const {
+    const auto p = sample_of(from), q = sample_of(to), at = sample_of(place);
+    const double col = std::round(at[0]), row = std::round(at[1]), dx = q[0] - p[0], dy = q[1] - p[1];
+    const double beside = (col - p[0]) * dy - (row - p[1]) * dx, along = (col - p[0]) * dx + (row - p[1]) * dy;
+    const double length = std::hypot(dx, dy);
+    if (std::abs(beside) >= 0.5 / kLatticeSteps * length || !(along > 0 && along < length * length)) return place;
+    return {affine_[0] + affine_[1] * col + affine_[2] * row, affine_[3] + affine_[4] * col + affine_[5] * row,
+            std::numeric_limits<double>::quiet_NaN()};
+  }
   /// The raster's surface there; NaN beyond it.
   double height_at(const Place& place) const {
-    const auto [col, row] = to_samples_.place(place[0], place[1]);
+    const auto [col, row] = sample_of(place);
     if (!(col >= 0 && row >= 0 && col <= raster_.cols - 1 && row <= raster_.rows - 1)) return NAN;
     return height_between_samples(raster_, {static_cast<std::int32_t>(std::lround(col * kLatticeSteps)),
                                             static_cast<std::int32_t>(std::lround(row * kLatticeSteps))});
   }
 
   /// Bends where the surface asks for it. Two looks a sample.
-  void add_between(const Place& from, const Place& to, std::vector<Place>& points) const {
+  void add_between(const Place& from, const Place& to, bool is_cut, std::vector<Place>& points) const {
     const SamplePlace way = to_samples_.way(to[0] - from[0], to[1] - from[1]);
     const double length = std::hypot(way.col, way.row);
     constexpr double kMostLooks = 1 << 20;
-    const auto looks = static_cast<std::size_t>(std::min(std::ceil(2 * length), kMostLooks));
+    const auto looks =
+        static_cast<std::size_t>(std::min(std::ceil(static_cast<double>(kLooksASample) * length), kMostLooks));
     if (looks < 2) return;
     std::vector<double> heights;
     for (std::size_t i = 0; i <= looks; ++i)
       heights.push_back(height_at(between(from, to, static_cast<double>(i) / static_cast<double>(looks))));
-    for (const std::size_t i : find_bends(heights, tolerance_))
-      points.push_back(between(from, to, static_cast<double>(i) / static_cast<double>(looks)));
+    for (const std::size_t i : find_bends(heights, tolerance_, is_cut ? kLooksASample : 1)) {
+      const Place place = between(from, to, static_cast<double>(i) / static_cast<double>(looks));
+      points.push_back(is_cut ? on_sample(place, from, to) : place);
+    }
   }
 
   const Raster& raster_;
+  std::array<double, 6> affine_;
   MapToSamples to_samples_;
   double tolerance_;
 };
 
-/// The edges of lines, and the points that they need.
-ConstraintGraph graph_of(const Breaklines& placed) {
+/// Edges among those that lines are part of.
+std::vector<GraphEdge> edges_of_lines(const Breaklines& placed) {
+  std::vector<GraphEdge> edges;
+  for (const Arrangement::Edge& edge : placed.edges) {
+    if (edge.is_line) edges.push_back({edge.a, edge.b});
+  }
+  return edges;
+}
+
+/// What lines pass, those from number `first` up to `end`.
+std::vector<PolygonEdge> passes_of(const Breaklines& placed, std::span<const Line> lines, std::size_t first,
+                                   std::size_t end) {
+  std::vector<PolygonEdge> passes;
+  for (const auto& chain : placed.chains) {
+    if (chain.line < first || chain.line >= end) continue;
+    const auto points = placed.points_of(chain);
+    for (std::size_t k = 0; k + 1 < points.size(); ++k)
+      passes.push_back(
+          {lines[chain.line].polygon, {std::min(points[k], points[k + 1]), std::max(points[k], points[k + 1])}});
+  }
+  return passes;
+}
+
+/// On the border of the raster's rectangle.
+bool is_on_side(Point p, Point q, const Raster& raster) {
+  const std::int32_t right = (raster.cols - 1) * kLatticeSteps, bottom = (raster.rows - 1) * kLatticeSteps;
+  return (p.x == q.x && (p.x == 0 || p.x == right)) || (p.y == q.y && (p.y == 0 || p.y == bottom));
+}
+
+/// Which edges become part of the mesh, and where the surface is cut.
+struct KeptEdges {
+  std::vector<GraphEdge> edges;
+  std::vector<std::uint8_t> is_start;  ///< as in the graph
+  std::vector<GraphEdge> walls;        ///< of these, those that the surface ends at, which is on their positive side
+  std::vector<std::array<Point, 2>>
+      outline;  ///< of what stays: the walls, and where it ends at the sides of the raster
+};
+
+/// Edges of breaklines in and around polygons, and the outline of the polygons' union.
+KeptEdges cut_edges(const Breaklines& placed, std::span<const Line> lines, std::size_t breaklines,
+                    const Raster& raster) {
+  const std::vector<GraphEdge> edges = edges_of_lines(placed);
+  const std::vector<EdgeCover> covers =
+      cover_edges(placed.points, edges, passes_of(placed, lines, breaklines, lines.size()));
+  std::vector<bool> is_breakline(edges.size(), false);
+  for (const PolygonEdge& pass : passes_of(placed, lines, 0, breaklines))
+    is_breakline[static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), pass.edge) - edges.begin())] =
+        true;
+  KeptEdges kept;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto [a, b] = edges[i];
+    const bool before = covers[i].positive > 0, after = covers[i].negative > 0;
+    if (before != after) kept.outline.push_back({placed.points[a], placed.points[b]});
+    const bool is_wall = before != after && !is_on_side(placed.points[a], placed.points[b], raster);
+    if (is_wall) kept.walls.push_back(before ? edges[i] : GraphEdge{b, a});
+    if (is_wall || (is_breakline[i] && (before || after))) kept.edges.push_back(edges[i]);
+  }
+  return kept;
+}
+
+/// Where nothing is cut.
+KeptEdges all_edges(const Breaklines& placed) {
+  KeptEdges kept;
+  kept.edges = edges_of_lines(placed);
+  for (std::size_t i = 0; i < placed.is_held.size(); ++i) {
+    if (placed.edges[i].is_line) kept.is_start.push_back(placed.is_held[i] ? 0 : 1);
+  }
+  return kept;
+}
+
+/// The edges and the points that they need.
+ConstraintGraph graph_of(const Breaklines& placed, const KeptEdges& kept) {
   ConstraintGraph graph;
   std::vector<std::uint32_t> numbers(placed.points.size(), kNone);
   const auto number_of = [&](std::uint32_t point) {
@@ -79,13 +186,15 @@ ConstraintGraph graph_of(const Breaklines& placed) {
     }
     return numbers[point];
   };
-  for (std::size_t i = 0; i < placed.edges.size(); ++i) {
-    const Arrangement::Edge& edge = placed.edges[i];
-    if (!edge.is_line) continue;
-    const std::uint32_t a = number_of(edge.a), b = number_of(edge.b);
-    graph.edges.push_back({a, b});
-    if (!placed.is_held.empty()) graph.is_start.push_back(placed.is_held[i] ? 0 : 1);
+  for (const auto& [a, b] : kept.edges) {
+    const std::uint32_t from = number_of(a), to = number_of(b);
+    graph.edges.push_back({from, to});
   }
+  graph.is_start = kept.is_start;
+  if (kept.outline.empty()) return graph;
+  graph.cut.emplace();
+  for (const auto& [a, b] : kept.walls) graph.cut->walls.push_back({numbers[a], numbers[b]});
+  graph.cut->outline = kept.outline;
   return graph;
 }
 
@@ -128,6 +237,23 @@ void edit_samples(const Breaklines& placed, std::int32_t cols, FieldLines& lines
   });
 }
 
+/// Makes void what lies well beyond the cut, and tells which samples it takes away.
+Result<void> cut_samples(const Raster& raster, FieldLines& lines) {
+  if (!lines.graph.cut)
+    return fail(ErrorKind::kInput,
+                "the cutline lies beside the raster, or is narrower than 1/256 sample: nothing would be left");
+  SurfaceCut& cut = *lines.graph.cut;
+  cut.samples = sides_of_samples(cut.outline, raster.cols, raster.rows);
+  for (std::size_t i = 0; i < lines.samples.size(); ++i) lines.valid += std::isnan(lines.samples[i]) ? 0 : 1;
+  if (!void_beyond(cut.outline, cut.samples, raster.cols, raster.rows, lines.samples))
+    return fail(ErrorKind::kInput, "no part of the raster's surface lies in the cutline: it holds voids only");
+  std::erase_if(lines.edits, [&](const SampleEdit& edit) {
+    return cut.samples[static_cast<std::size_t>(edit.row) * static_cast<std::size_t>(raster.cols) +
+                       static_cast<std::size_t>(edit.col)] == CutSide::kBeyond;
+  });
+  return {};
+}
+
 }  // namespace
 
 HeightField FieldLines::apply(const HeightField& field) const {
@@ -138,27 +264,42 @@ HeightField FieldLines::apply(const HeightField& field) const {
   return edited;
 }
 
-Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, double tolerance,
-                                 int threads) {
-  auto cleaned = Samples::of(field);
+Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
+                                 double tolerance, int threads) {
+  const auto cleaned = Samples::of(field);
   if (!cleaned) return tl::unexpected(cleaned.error());
   const Raster raster = cleaned->raster();
-  const SoftLine soft(raster, lines.affine, tolerance);
-  std::vector<Line> followed(lines.lines.size());
+  const bool is_cut = !cutline.rings.empty();
+  const std::array<double, 6>& affine = is_cut ? cutline.affine : lines.affine;
+  const SoftLine soft(raster, affine, tolerance);
+  const std::vector<Line> rings = clip_rings(cutline, raster.cols, raster.rows);
+  const std::size_t breaklines = lines.lines.size();
+  std::vector<Line> followed(breaklines + rings.size());
   constexpr std::size_t kTogether = 64;
   parallel_for((followed.size() + kTogether - 1) / kTogether, threads, [&](std::size_t part) {
     const std::size_t first = part * kTogether, end = std::min(first + kTogether, followed.size());
-    for (std::size_t k = first; k < end; ++k) followed[k] = soft.follow(lines.lines[k]);
+    for (std::size_t k = first; k < end; ++k)
+      followed[k] = k < breaklines ? soft.follow(lines.lines[k]) : soft.follow(rings[k - breaklines], true);
   });
-  const auto placed = place_breaklines(followed, lines.affine, raster, trace_outline(raster), lines.conflict);
+  const auto placed = place_breaklines(followed, affine, raster, trace_outline(raster), lines.conflict, is_cut);
   if (!placed) return tl::unexpected(placed.error());
   FieldLines result;
-  result.graph = graph_of(*placed);
-  if (std::find(placed->is_hard.begin(), placed->is_hard.end(), true) != placed->is_hard.end()) {
+  if (is_cut || std::find(placed->is_hard.begin(), placed->is_hard.end(), true) != placed->is_hard.end()) {
     result.samples.assign(raster.samples, raster.row(raster.rows));
     edit_samples(*placed, raster.cols, result);
   }
-  result.laid = lines.lines.size() - placed->outside;
+  if (!is_cut) {
+    result.graph = graph_of(*placed, all_edges(*placed));
+    result.laid = breaklines - placed->outside;
+    return result;
+  }
+  std::vector<bool> is_laid(breaklines, false);
+  for (const auto& chain : placed->chains) {
+    if (chain.line < breaklines) is_laid[chain.line] = true;
+  }
+  result.laid = static_cast<std::uint64_t>(std::count(is_laid.begin(), is_laid.end(), true));
+  result.graph = graph_of(*placed, cut_edges(*placed, followed, breaklines, raster));
+  if (auto cut = cut_samples(raster, result); !cut) return tl::unexpected(cut.error());
   return result;
 }
 

@@ -167,6 +167,7 @@ Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, co
   const bool by_sample = !criterion.bounds().empty() || !field.channels.empty() || field.height_scale != 1;
   MeasureOptions judge;
   judge.topology = !exact;
+  if (!options.cutline.rings.empty()) judge.cutline = &options.cutline;
   judge.threads = threads_within(field, options);
   judge.progress = options.progress;
   if (result.stop == StopReason::kMaxError) judge.collect_above = by_sample ? HUGE_VAL : *criterion.bound();

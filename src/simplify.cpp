@@ -146,7 +146,7 @@ Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyO
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
   const auto start = Clock::now();
   const double tolerance = kLineShare * *options.max_error;
-  auto lines = prepare_lines(field, options.breaklines, tolerance, options.threads);
+  auto lines = prepare_lines(field, options.breaklines, options.cutline, tolerance, options.threads);
   if (!lines) return tl::unexpected(lines.error());
   const double seconds = seconds_since(start);
   auto result = simplify_once(lines->apply(field), options, &lines->graph);
@@ -154,6 +154,8 @@ Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyO
   result->passes.insert(result->passes.begin(), Pass{"arrange", seconds});
   result->edits = std::move(lines->edits);
   result->lines_laid = lines->laid;
+  const Measurement& measured = result->measurement;
+  if (lines->valid > 0) result->cut_off = lines->valid - measured.samples - measured.uncovered - measured.stray;
   return result;
 }
 
@@ -164,7 +166,7 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& ask
   options.effort = choose_effort(field, asked);
   if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
   if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
-  if (has_breaklines(options)) return simplify_with_lines(field, options);
+  if (has_lines(options)) return simplify_with_lines(field, options);
   if (options.effort == Effort::kFast || !has_budget(options)) return simplify_once(field, options, nullptr);
   const auto run = [&](const SimplifyOptions& once) { return simplify_once(field, once, nullptr); };
   if (!has_norm(field)) return search_error(options, run);

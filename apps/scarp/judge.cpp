@@ -80,6 +80,7 @@ Result<Judgement> judge(const HeightField& heights, const Mesh& mesh, const Chan
   options.threads = request.threads;
   options.progress = request.progress;
   options.topology = request.topology;
+  options.cutline = request.cutline;
   if (request.exceptions) options.tolerance = request.exceptions->limits;
   const auto keep_errors = [&](int row, std::span<const float> errors) {
     const std::size_t start = static_cast<std::size_t>(row) * cols;

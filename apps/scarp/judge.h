@@ -7,6 +7,7 @@
 
 #include "channels.h"
 #include "companions.h"
+#include "scarp/cutline.h"
 #include "scarp/height_field.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
@@ -32,6 +33,7 @@ struct JudgeOptions {
   bool keep_errors = false;
   bool topology = true;
   const Exceptions* exceptions = nullptr;  ///< null or empty: none
+  const Cutline* cutline = nullptr;        ///< as MeasureOptions::cutline
   int threads = 0;
   ProgressCallback progress = {};
 };

@@ -41,6 +41,7 @@ MeasureCommand::MeasureCommand(CLI::App& program)
       ->type_name("E")
       ->group("Verdict");
   companions_.add_to(*verb_, "Samples that its lines 'i COL ROW' and 'u COL ROW'\nname have no bound (as in simplify)");
+  cut_.add_to(*verb_);
   channels_.add_to(*verb_);
   verb_->add_flag("--json", json_, "The report as JSON on stdout")->group("Output");
   verb_->add_option("--map", map_, "Draw the signed errors in diverging colours")
@@ -147,6 +148,9 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
                                                   judged.fail_above, progress);
   if (!companions) return tl::unexpected(std::move(companions.error()));
   judged.companions = std::move(*companions);
+  Result<Cut> cut = read_cut(cut_, judged.field.info, progress, judged.field, judged.companions.warnings);
+  if (!cut) return tl::unexpected(std::move(cut.error()));
+  judged.cut = std::move(*cut);
   judged.warnings = judged.field.info.warnings;
   judged.warnings.insert(judged.warnings.end(), judged.companions.warnings.begin(), judged.companions.warnings.end());
   return {};
@@ -177,7 +181,7 @@ Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judg
 std::optional<std::string> MeasureCommand::find_need_of_samples() const {
   if (map_) return "--map";
   if (error_raster_) return "--error-raster";
-  const std::string others = companions_.canonical() + channels_.canonical();
+  const std::string others = companions_.canonical() + cut_.canonical() + channels_.canonical();
   if (others.empty()) return std::nullopt;
   return others.substr(1, others.find(' ', 1) - 1);
 }
@@ -200,6 +204,7 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
   judged.plan = std::move(*plan);
   const Result<void> companions_agree = companions_.check("--fail-above", fail_above_.has_value());
   if (!companions_agree) return companions_agree;
+  if (auto checked = cut_.check(); !checked) return checked;
   const Result<std::optional<std::uint64_t>> limit = memory_.parse();
   if (!limit) return tl::unexpected(limit.error());
   if (*limit && judged.plan.image) {
@@ -222,6 +227,7 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
   judged.exceptions = find_exceptions(judged.field, judged.companions, judged.fail_above.has_value());
   JudgeOptions options;
   options.exceptions = &judged.exceptions;
+  options.cutline = judged.cut.judged();
   options.keep_errors = map_ || error_raster_ || judged.companions.has_weights() || !judged.channels.empty();
   options.threads = *threads;
   options.progress = display.callback();
@@ -243,7 +249,7 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
 
   if (!quiet_) print_warnings(judged.warnings);
   if (json_) {
-    const Result<void> printed = print_to_stdout(to_text(make_report(judged, mesh_, command_line)));
+    const Result<void> printed = print_to_stdout(to_text(make_report(judged, mesh_, cut_, command_line)));
     if (!printed) return printed;
   } else if (!quiet_) {
     const std::string table = make_table(judged, raster_.path, mesh_);

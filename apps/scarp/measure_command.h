@@ -6,6 +6,7 @@
 
 #include "channels.h"
 #include "companions.h"
+#include "cutline_options.h"
 #include "measure_report.h"
 #include "memory.h"
 #include "options.h"
@@ -37,6 +38,7 @@ class MeasureCommand {
   PointsArguments points_;
   std::string mesh_;
   CompanionArguments companions_;
+  CutlineArguments cut_;
   ChannelArguments channels_;
   MemoryArguments memory_;
   Given map_, error_raster_, fail_above_, threads_;

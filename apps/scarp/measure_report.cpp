@@ -128,7 +128,8 @@ void decide(Judged& judged) {
                           judged.judgement.heights.heights, judged.judgement.uncovered_sample);
 }
 
-Json make_report(const Judged& judged, const std::string& mesh_path, const std::string& command_line) {
+Json make_report(const Judged& judged, const std::string& mesh_path, const CutlineArguments& cutline,
+                 const std::string& command_line) {
   Json report;
   report["scarp"] = version();
   report["command"] = command_line;
@@ -152,6 +153,7 @@ Json make_report(const Judged& judged, const std::string& mesh_path, const std::
     report["combined_max_error"] = judged.combined->largest.value;
     report["channels"] = describe_channels(judged.channels.names, judged.channels.scales, judged.judgement.channels);
   }
+  report["cutline"] = describe_cut(cutline, judged.cut, judged.judgement.heights.cut_off);
   add_coverage(report, judged.judgement.heights);
   report["fail_above"] = judged.fail_above ? Json(*judged.fail_above) : Json(nullptr);
   report["passed"] = judged.has_verdict() ? Json(!judged.broken) : Json(nullptr);
@@ -169,6 +171,7 @@ std::string make_table(const Judged& judged, const std::string& raster_path, con
   text += describe_weighed(judged);
   text += line("samples judged", format_count(m.samples));
   text += line("samples uncovered", format_count(m.uncovered));
+  if (judged.cut.polygons > 0) text += line("cutline", cut_words(judged.cut, m.cut_off));
   if (m.stray > 0) text += line("samples stray", format_count(m.stray) + ", outside every cell of the domain");
   text += line("void cells covered", format_count(m.void_cells_covered));
   text += line("vertices", format_count(m.vertices));

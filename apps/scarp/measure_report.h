@@ -7,6 +7,7 @@
 
 #include "channels.h"
 #include "companions.h"
+#include "cutline_options.h"
 #include "judge.h"
 #include "report.h"
 #include "scarp/height_field.h"
@@ -20,6 +21,7 @@ struct Judged {
   Channels channels;
   Companions companions;
   Exceptions exceptions;
+  Cut cut;
   Mesh mesh;
   Judgement judgement;
   std::optional<WeighedErrors> combined;  ///< of heights and channels, compared with fail_above
@@ -39,7 +41,8 @@ struct Judged {
 void decide(Judged& judged);
 
 /// The JSON of --json.
-Json make_report(const Judged& judged, const std::string& mesh_path, const std::string& command_line);
+Json make_report(const Judged& judged, const std::string& mesh_path, const CutlineArguments& cutline,
+                 const std::string& command_line);
 /// The table on standard output.
 std::string make_table(const Judged& judged, const std::string& raster_path, const std::string& mesh_path);
 

@@ -68,6 +68,9 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
   auto cliffs = plan.cliff.add_cliffs(outcome.field.view(), outcome.asked.value_or(0), outcome.lines);
   if (!cliffs) return tl::unexpected(std::move(cliffs.error()));
   outcome.cliffs = std::move(*cliffs);
+  Result<Cut> cut = read_cut(plan.cut, outcome.as_read, progress, outcome.field, outcome.companions.warnings);
+  if (!cut) return tl::unexpected(std::move(cut.error()));
+  outcome.cut = std::move(*cut);
   outcome.heights = height_range(outcome.field);
   outcome.seconds_read = seconds_since(start);
   return {};
@@ -104,6 +107,7 @@ Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& pro
   JudgeOptions options;
   options.exceptions = &exceptions;
   options.keep_errors = !channels.empty() || (companions.ignores_samples() && companions.has_weights());
+  options.cutline = outcome.cut.judged();
   options.topology = false;
   options.threads = plan.simplify.threads;
   options.progress = progress;
@@ -149,6 +153,7 @@ Result<void> check_promise(const Outcome& outcome) {
 /// be so.
 Result<void> judge_topology(const ProgressCallback& progress, int threads, Outcome& outcome) {
   MeasureOptions options;
+  options.cutline = outcome.cut.judged();
   options.threads = threads;
   options.progress = progress;
   const Clock::time_point start = Clock::now();
@@ -217,6 +222,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   options.tolerance = outcome.companions.tolerance;
   options.script = outcome.companions.script;
   options.breaklines = outcome.lines;
+  options.cutline = outcome.cut.cutline;
   options.progress = display.callback();
   if (keeps_mesh_on_interrupt(options)) {
     options.is_enough = content_with_interrupt;

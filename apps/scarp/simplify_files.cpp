@@ -56,6 +56,7 @@ Result<void> add_error_raster(const SimplifyPlan& plan, const ProgressCallback& 
   JudgeOptions options;
   options.keep_errors = true;
   options.topology = false;
+  options.cutline = outcome.cut.judged();
   options.threads = plan.simplify.threads;
   options.progress = progress;
   static const Channels kNoChannels;

@@ -7,6 +7,7 @@
 
 #include "channels.h"
 #include "companions.h"
+#include "cutline_options.h"
 #include "judge.h"
 #include "scarp/height_field.h"
 #include "simplify_run.h"
@@ -24,6 +25,7 @@ struct Outcome : SimplifyRun {
   LineConstraints lines;  ///< with shores, rivers and the lines of cliffs
   WatersFound waters;
   std::optional<Cliffs> cliffs;
+  Cut cut;
   std::uint64_t filled = 0;
   std::optional<LargestError> bounded;  ///< where samples are ignored: of the others; images: norms
   std::optional<double> bounded_goal;   ///< where a script ignores them: of what the goal bounds

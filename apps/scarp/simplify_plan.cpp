@@ -125,9 +125,13 @@ const char* find_lattice_obstacle(const SimplifyArguments& given, const Simplify
 Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.lines = given.lines;
   plan.cliff = given.cliff;
+  plan.cut = given.cut;
   if (auto checked = given.lines.check(); !checked) return checked;
   if (auto checked = given.cliff.check(given.max_error.has_value()); !checked) return checked;
+  if (auto checked = given.cut.check(); !checked) return checked;
   const char* lines = given.cliff.height ? "--cliff" : given.lines.find_lines();
+  const bool is_cut = lines == nullptr && given.cut.find_cut() != nullptr;
+  if (is_cut) lines = given.cut.find_cut();
   if (lines == nullptr && plan.solid && plan.solid->is_split()) lines = "--split";
   if (lines == nullptr) return {};
   const char* obstacle = find_lattice_obstacle(given, plan);
@@ -139,7 +143,8 @@ Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (lakes != nullptr) plan.simplify.vertices = Vertices::kSamples;
   if (obstacle == nullptr) return {};
   return fail(ErrorKind::kUsage,
-              fmt::format("{} and {} contradict each other: leave one of them out", lines, obstacle));
+              fmt::format("{} and {} contradict each other: leave one of them out{}", lines, obstacle,
+                          is_cut ? ", or cut at cells of the grid with --mask-outside" : ""));
 }
 
 Result<void> plan_shape(const SimplifyArguments& given, SimplifyPlan& plan) {
@@ -364,6 +369,7 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
       {"--max-points", given.max_points.has_value()},
       {"--breaklines", !given.lines.breaklines.empty()},
       {"--water", !given.lines.water.empty()},
+      {"--cutline", !given.cut.files.empty()},
       {"--detect-flats", given.lines.flats.has_value()},
       {"--rivers", !given.lines.rivers.empty()},
       {"--solid", plan.solid.has_value()},
@@ -424,7 +430,7 @@ std::string canonical_command(const SimplifyArguments& given) {
     command += canonical_option(name, *value);
   }
   command += given.solid.canonical();
-  command += given.companions.canonical() + given.lines.canonical() + given.cliff.canonical() +
+  command += given.companions.canonical() + given.lines.canonical() + given.cliff.canonical() + given.cut.canonical() +
              given.shape.canonical() + given.channels.canonical() + given.strategy.canonical();
   if (given.strategy.asks_for_greedy()) command += " --order greedy";
   return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "");

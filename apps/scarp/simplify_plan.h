@@ -9,6 +9,7 @@
 #include "channels.h"
 #include "cliff_options.h"
 #include "companions.h"
+#include "cutline_options.h"
 #include "line_options.h"
 #include "memory.h"
 #include "options.h"
@@ -34,6 +35,7 @@ struct SimplifyArguments {
   ChannelArguments channels;
   LineArguments lines;
   CliffArguments cliff;
+  CutlineArguments cut;
   ShapeArguments shape;
   MemoryArguments memory;
   SolidArguments solid;
@@ -51,6 +53,7 @@ struct SimplifyPlan {
   CompanionArguments companions;
   LineArguments lines;
   CliffArguments cliff;
+  CutlineArguments cut;
   ChannelPlan channels;
   NodataPolicy policy = NodataPolicy::kHole;
   double fill_distance = 100;

@@ -141,6 +141,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["rivers"] = describe_rivers(outcome.waters.rivers);
   report["cliffs"] = describe_cliffs(plan.cliff, outcome.cliffs);
   report["shape"] = describe_shape(plan.simplify.shape, outcome.simplified);
+  report["cutline"] = describe_cut(plan.cut, outcome.cut, outcome.simplified.cut_off);
   report["stopped_by"] = stop_name(outcome.simplified.stop);
   report["vertices"] = outcome.vertices;
   report["triangles"] = outcome.triangles;
@@ -181,6 +182,7 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
       fmt::format("{}, {} of the full grid's {}", format_count(outcome.triangles),
                   format_share(static_cast<double>(outcome.triangles), static_cast<double>(full)), format_count(full)));
   text += waters_lines(outcome.waters);
+  if (!plan.cut.files.empty()) text += summary_line("cutline", cut_words(outcome.cut, outcome.simplified.cut_off));
   text += lines_line(outcome.line_count(), outcome.lines_laid(), outcome.simplified.edits);
   text += cliffs_line(outcome.cliffs);
   text += shape_line(plan.simplify.shape, outcome.simplified);

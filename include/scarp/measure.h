@@ -16,6 +16,8 @@
 
 namespace scarp {
 
+struct Cutline;
+
 struct MeasureOptions {
   /// A sample farther than this from every triangle (in samples, horizontally) is uncovered; a nearer one is judged
   /// against the plane of the nearest triangle (of one thinner than this, against its nearest point). Absorbs the
@@ -28,6 +30,10 @@ struct MeasureOptions {
   /// Empty, or cols·rows bounds, one a sample (+infinity: none): `Measurement::over_tolerance` counts the samples whose
   /// error is above theirs, and they are offenders. Borrowed. DEFAULT: empty.
   std::span<const float> tolerance = {};
+  /// Where the mesh was cut: samples in a polygon, farther than 1/64 sample from its rings, are to be covered; nearer
+  /// ones, on either side, are judged where they are covered; others are not. Edges along the rings are no gaps. The
+  /// rings are taken as they are, not as the mesh rounded them. Borrowed. DEFAULT: null, the whole domain.
+  const Cutline* cutline = nullptr;
   /// If set, called once for each row in ascending order with the signed error (mesh − sample) of every sample; NaN
   /// where the sample is void or uncovered. The span is valid during the call only.
   std::function<void(int row, std::span<const float> errors)> on_row = {};
@@ -49,8 +55,9 @@ struct Measurement {
   std::uint64_t samples = 0;                         ///< valid samples judged (covered)
   std::uint64_t uncovered = 0;                       ///< valid samples of valid cells that no triangle covers
   std::array<std::int32_t, 2> uncovered_at{-1, -1};  ///< (col, row) of the first of them, row by row; (−1, −1): none
-  std::uint64_t stray = 0;  ///< valid samples outside every valid cell (no three valid corners): outside the domain
-  HeightRange heights;      ///< of all valid samples: judged, uncovered and stray
+  std::uint64_t stray = 0;    ///< valid samples outside every valid cell (no three valid corners): outside the domain
+  std::uint64_t cut_off = 0;  ///< valid samples beyond MeasureOptions::cutline, not judged
+  HeightRange heights;        ///< of all valid samples: judged, uncovered, stray and cut off
   std::uint64_t void_cells_covered =
       0;  ///< cells (or half cells) without valid corners that the mesh covers at their centre
 

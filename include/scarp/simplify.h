@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scarp/cutline.h"
 #include "scarp/height_field.h"
 #include "scarp/lines.h"
 #include "scarp/measure.h"
@@ -51,6 +52,11 @@ struct SimplifyOptions {
   /// budget, channels, an outline tolerance or strategies, without the samples in memory and in frames that are not
   /// affine; with kInput for lines whose heights contradict each other, named. DEFAULT: none.
   LineConstraints breaklines = {};
+  /// Polygons that the surface is cut to: of guarantee (2)'s domain what lies in them. Their rings become edges of the
+  /// mesh, moved by 1/512 sample at most (3/512 where lines cross), at the heights of the raster between its samples;
+  /// they follow it to within half of max_error, all of it within a sample of their vertices. Samples outside are not
+  /// judged. Fails as breaklines do, and with kInput where no surface lies in the polygons. DEFAULT: none.
+  Cutline cutline = {};
   std::vector<ScriptStep> script = {};  ///< carried out in order before the first scan. DEFAULT: nothing.
   /// kDominant fails with kUsage together with a budget, a mask, tolerances, a script, channels, an importance, an
   /// algorithm, batches, data-dependent edges or an outline tolerance; kAuto then is kGreedy. DEFAULT: kAuto.
@@ -139,6 +145,7 @@ struct Simplified {
   bool is_cut_short = false;                      ///< by SimplifyOptions::is_time_up or is_enough
   std::vector<SampleEdit> edits;                  ///< by breaklines, in raster order
   std::uint64_t lines_laid = 0;                   ///< breaklines of which some part lies in the raster
+  std::uint64_t cut_off = 0;                      ///< valid samples outside the cutline
   std::optional<ShapeReport> shape;               ///< of `mesh`, where SimplifyOptions::shape asks for something
   std::vector<Pass> passes;                       ///< in the order in which they ended
   double seconds_refine = 0;                      ///< outline, refinement and freezing

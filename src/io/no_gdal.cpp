@@ -5,6 +5,7 @@
 #include "io/mesh_file.h"
 #include "io/point_source.h"
 #include "io/raster_source.h"
+#include "scarp/cutline.h"
 #include "scarp/lines.h"
 
 namespace scarp {
@@ -43,6 +44,11 @@ Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptio
 
 Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions&) {
   return fail(ErrorKind::kInput, path + ": this build of Scarp reads no vector data: it was built without GDAL");
+}
+
+Result<std::vector<Line>> inset_polygons(std::span<const Line>, double, const std::array<double, 2>&) {
+  return fail(ErrorKind::kUsage,
+              "polygons cannot be moved inwards: this build of Scarp has no GDAL, whose GEOS does that");
 }
 
 bool opens_as_raster(const std::string&) { return false; }

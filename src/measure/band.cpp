@@ -56,6 +56,7 @@ Result<Band> Band::read(const HeightField& field, int first, int rows, const Lim
     return tl::unexpected(std::move(read.error()));
   band.report_.heights = find_range({band.heights(first), band.errors_.size()});
   band.classify();
+  if (limits.region != nullptr) band.cut();
   return band;
 }
 
@@ -107,7 +108,9 @@ void Band::classify() {
         const bool right = c + 1 < cols && (above[c] >= 3 || below[c] >= 3);
         if (left || right) continue;
         heights[c] = nan;
-        ++report_.stray;
+        const bool is_cut_off =
+            limits_.region != nullptr && limits_.region->place(static_cast<int>(c), row) == CutRegion::Place::kOutside;
+        ++(is_cut_off ? report_.cut_off : report_.stray);
       }
       for (std::size_t c = 0; has_cells && c + 1 < cols; ++c) {
         if (below[c] == 4) continue;
@@ -125,6 +128,17 @@ void Band::classify() {
     std::swap(here, after);
     std::swap(above, below);
     here_is_whole = after_is_whole;
+  }
+}
+
+void Band::cut() {
+  for (int row = first_; row < end(); ++row) {
+    float* heights = &heights_[height_at(0, row)];
+    for (int c = 0; c < cols_; ++c) {
+      if (std::isnan(heights[c]) || limits_.region->place(c, row) != CutRegion::Place::kOutside) continue;
+      heights[c] = std::numeric_limits<float>::quiet_NaN();
+      ++report_.cut_off;
+    }
   }
 }
 
@@ -150,6 +164,10 @@ bool Band::find_missing() {
     const double* error = errors(row);
     for (int c = 0; c < cols_; ++c) {
       if (!std::isnan(error[c]) || std::isnan(height[c])) continue;
+      if (limits_.region != nullptr && limits_.region->place(c, row) == CutRegion::Place::kNear) {
+        ++report_.cut_off;
+        continue;
+      }
       if (!any) nearest_.assign(errors_.size(), {});
       any = true;
       row_missing_[static_cast<std::size_t>(row - first_)] = 1;

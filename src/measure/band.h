@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "measure/cut_region.h"
 #include "measure/error_summary.h"
 #include "scarp/height_field.h"
 #include "scarp/measure.h"
@@ -37,7 +38,7 @@ inline bool is_worse_of_triangle(const TriangleOffender& a, const TriangleOffend
 struct BandReport {
   std::vector<RowSums> rows;
   HeightRange heights;
-  std::uint64_t uncovered = 0, stray = 0, void_cells_covered = 0;
+  std::uint64_t uncovered = 0, stray = 0, cut_off = 0, void_cells_covered = 0;
   std::array<std::int32_t, 2> uncovered_at{-1, -1};  ///< the first one
   std::vector<TriangleOffender> offenders;
   std::vector<Offender> uncovered_offenders;
@@ -50,6 +51,7 @@ struct Limits {
   double everywhere = HUGE_VAL;
   std::span<const float> by_sample = {};  ///< of the whole field; empty: none
   bool with_uncovered = false;            ///< so are samples that no triangle covers
+  const CutRegion* region = nullptr;      ///< what samples outside say does not count; null: there is none
 };
 
 /// What a band hands back for each sample: nothing, mesh − sample, or the mesh's height.
@@ -60,8 +62,8 @@ class Band {
  public:
   static int rows_per_band(int cols) { return cols <= 4096 ? 32 : std::max(8, 32 * 4096 / cols); }
 
-  /// Reads the rows, with every sample that need not be covered (void or stray) as NaN, and finds the cells that must
-  /// not be covered. Fails as the field's source does.
+  /// Reads the rows, with every sample that need not be covered (void, stray or cut off) as NaN, and finds the cells
+  /// that must not be covered. Fails as the field's source does.
   static Result<Band> read(const HeightField& field, int first, int rows, const Limits& limits, double guard);
 
   int first() const { return first_; }
@@ -90,7 +92,8 @@ class Band {
   /// Notes a sample of `triangle` that breaks the bound.
   void add_offender(std::uint32_t triangle, Offender offender) { report_.offenders.push_back({triangle, offender}); }
 
-  /// True if a sample of the row, or of the band, that must be covered is not. Valid after find_missing().
+  /// True if a sample of the row, or of the band, that must be covered is not. Valid after find_missing(), which is
+  /// called once; samples near the end of the region that are not covered are cut off then.
   bool find_missing();
   bool row_has_missing(int row) const { return row_missing_[static_cast<std::size_t>(row - first_)] != 0; }
   bool is_missing(int col, int row) const { return nearest_[at(col, row)].distance >= 0; }
@@ -133,6 +136,7 @@ class Band {
                                           static_cast<std::size_t>(col)]};
   }
   void classify();
+  void cut();
 
   int cols_ = 0, first_ = 0, rows_ = 0;
   bool has_row_below_ = false;  // in the field

@@ -6,7 +6,8 @@
 //
 // There may be, in a mesh without fault: where the outline was simplified, a thin wedge of void can part an edge from
 // the surface of another place. There the point is covered, and the edge itself lies in the void; it is a gap only if
-// the point is bare, or if no void parts it from the edge (a crack thinner than the step outwards).
+// the point is bare, or if no void parts it from the edge (a crack thinner than the step outwards). Likewise where the
+// mesh was cut: a slit of the cutline may part an edge from the surface beside it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -189,7 +190,7 @@ void settle(const HeightField& field, const Mesh& mesh, const std::vector<Doubt>
 }  // namespace
 
 Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, std::span<const std::uint32_t> welded,
-                                 std::span<const OpenEdge> open, double tolerance) {
+                                 std::span<const OpenEdge> open, double tolerance, const CutRegion* region) {
   if (open.empty()) return 0;
   // Ends of the edge, then the triangle's third corner.
   std::vector<std::uint32_t> vertices;
@@ -229,7 +230,11 @@ Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, std
         const Point beside{middle.x - side * step * uy / length, middle.y + side * step * ux / length};
         bool no_void_between = false;
         if (!domain.has_surface(beside, middle, kNoise, no_void_between)) continue;
-        if (no_void_between && !is_flat) {
+        const bool is_cut_off = region != nullptr && (region->is_near(beside.x, beside.y, 2 * CutRegion::kNear) ||
+                                                      !region->holds(beside.x, beside.y));
+        if (is_cut_off) continue;
+        const bool ends_at_ring = region != nullptr && region->is_near(middle.x, middle.y, 2 * CutRegion::kNear);
+        if (no_void_between && !is_flat && !ends_at_ring) {
           is_gap[e] = true;
           break;
         }

@@ -8,11 +8,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/caught.h"
 #include "base/parallel.h"
 #include "measure/band.h"
 #include "measure/check_mesh.h"
+#include "measure/cut_region.h"
 #include "measure/grid_map.h"
 #include "measure/progress_gate.h"
 #include "measure/scanner.h"
@@ -84,6 +86,7 @@ class Verdict {
     result_.uncovered += report.uncovered;
     result_.over_tolerance += report.over_tolerance;
     result_.stray += report.stray;
+    result_.cut_off += report.cut_off;
     result_.void_cells_covered += report.void_cells_covered;
     for (std::size_t i = 0; i < report.rows.size(); ++i) {
       const judge::RowSums& row = report.rows[i];
@@ -170,9 +173,10 @@ double error_guard(const Mesh& mesh) {
 /// Fills all that concerns heights; on_row is given what `keep` says. Fails with kCancelled if the caller stops it, and
 /// as the field's source does.
 Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const judge::Scanner& scanner,
-                           const MeasureOptions& options, judge::Keep keep, ProgressGate& gate, Measurement& result) {
+                           const judge::CutRegion* region, const MeasureOptions& options, judge::Keep keep,
+                           ProgressGate& gate, Measurement& result) {
   const judge::Limits limits{options.collect_above.value_or(HUGE_VAL), options.tolerance,
-                             options.collect_above.has_value() || !options.tolerance.empty()};
+                             options.collect_above.has_value() || !options.tolerance.empty(), region};
   const double guard = error_guard(mesh);
   const int height = Band::rows_per_band(field.cols);
   const int bands = (field.rows - 1) / height + 1;
@@ -249,7 +253,10 @@ Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const Me
 
   const double tolerance = options.coverage_tolerance;
   const auto scanner = make_scanner(field, mesh, judged, tolerance);
-  if (auto judged_heights = judge_heights(field, mesh, *scanner, options, judge::Keep::kErrors, gate, result);
+  std::optional<judge::CutRegion> cut;
+  if (options.cutline != nullptr) cut.emplace(*options.cutline, field.cols, field.rows);
+  const judge::CutRegion* region = cut ? &*cut : nullptr;
+  if (auto judged_heights = judge_heights(field, mesh, *scanner, region, options, judge::Keep::kErrors, gate, result);
       !judged_heights) {
     return tl::unexpected(std::move(judged_heights.error()));
   }
@@ -262,7 +269,7 @@ Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const Me
     result.border_loops = edges.loops;
     judge::measure_shape(mesh, judged, result);
     result.t_junctions = judge::count_t_junctions(mesh, welded, edges.open);
-    const Result<std::uint64_t> gaps = judge::count_gaps(field, mesh, welded, edges.open, tolerance);
+    const Result<std::uint64_t> gaps = judge::count_gaps(field, mesh, welded, edges.open, tolerance, region);
     if (!gaps) return tl::unexpected(gaps.error());
     result.gaps = *gaps;
     bool is_stopped = false;
@@ -293,7 +300,7 @@ Result<std::vector<float>> resample(const HeightField& field, const Mesh& mesh, 
   const auto scanner = make_scanner(field, mesh, find_surface(mesh, false).judged, options.coverage_tolerance);
   ProgressGate gate(options.progress);
   Measurement ignored;
-  auto judged = judge_heights(field, mesh, *scanner, options, judge::Keep::kHeights, gate, ignored);
+  auto judged = judge_heights(field, mesh, *scanner, nullptr, options, judge::Keep::kHeights, gate, ignored);
   if (!judged) return tl::unexpected(std::move(judged.error()));
   return heights;
 } catch (...) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "measure/cut_region.h"
 #include "scarp/height_field.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
@@ -34,10 +35,11 @@ EdgeReport check_edges(const Mesh& mesh, std::span<const std::uint32_t> welded);
 std::uint64_t count_t_junctions(const Mesh& mesh, std::span<const std::uint32_t> welded,
                                 std::span<const OpenEdge> open);
 
-/// Open edges beside which the domain of `field` goes on; see Measurement::gaps. Cost: O(open edges · samples beside
-/// each · log), O(triangles) more if there is doubt. Fails as the field's source does.
+/// Open edges beside which the domain of `field` goes on, within `region` (null: everywhere); see Measurement::gaps.
+/// Cost: O(open edges · samples beside each · log), O(triangles) more if there is doubt. Fails as the field's source
+/// does.
 Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, std::span<const std::uint32_t> welded,
-                                 std::span<const OpenEdge> open, double tolerance);
+                                 std::span<const OpenEdge> open, double tolerance, const CutRegion* region);
 
 /// Pairs among the triangles `ids` whose interiors overlap seen from above by more than rounding; at most kMostOverlaps
 /// are counted. `go_on` is called from this thread from time to time; false ends the search. Cost: O(triangles · log)

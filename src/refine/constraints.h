@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "grid/raster.h"
 #include "grid/vertex_places.h"
+#include "refine/cut_away.h"
 #include "refine/lattice_judge.h"
 #include "scarp/result.h"
 #include "tin/triangulation.h"
@@ -19,6 +21,7 @@ struct ConstraintGraph {
   std::vector<float> heights;                       ///< of the points; what a sample has counts before it
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< indices of points
   std::vector<std::uint8_t> is_start;  ///< by edge: 1 where the mesh need not hold it in the end; EMPTY: all stay
+  std::optional<SurfaceCut> cut;       ///< nothing: all of the surface stays
 
   bool has_starts() const;
 };
@@ -27,8 +30,9 @@ struct ConstraintGraph {
 class ConstrainedMesh {
  public:
   /// Turns the points of `tin` from samples into kLatticeSteps, and makes the graph's edges chains of its edges,
-  /// constrained. Points outside the domain are left out with their edges. `tin` and the raster stay alive; nobody else
-  /// changes them. Fails with kInternal where an edge crosses one that is constrained. REQUIRES: sides of at most
+  /// constrained; then what is cut away is marked outside. Points outside the domain are left out with their edges.
+  /// `tin` and the raster stay alive; nobody else changes them. Fails with kInternal where an edge crosses one that is
+  /// constrained, with kInput where nothing stays. REQUIRES: sides of at most
   /// kMaxCoordinate / kLatticeSteps samples; edges cross no constrained edge of `tin` but in points of the graph.
   static Result<ConstrainedMesh> lay(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph);
 

@@ -1,0 +1,51 @@
+// What lies in the polygons that a mesh was cut to.
+//
+// The rings are taken as they are, in double arithmetic; the mesh has them rounded to its lattice, by 3/512 sample at
+// most. So near the rings nothing is asked: kNear is twice as far and more.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scarp/cutline.h"
+
+namespace scarp::judge {
+
+class CutRegion {
+ public:
+  static constexpr double kNear = 1.0 / 64;  ///< in samples
+
+  /// REQUIRES: the affine map can be inverted. Cost: O(samples + segments · rows that they cross).
+  CutRegion(const Cutline& cutline, int cols, int rows);
+
+  enum class Place : std::uint8_t { kOutside, kNear, kInside };
+  /// Of a sample.
+  Place place(int col, int row) const {
+    return places_[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(col)];
+  }
+  /// Whether a point of the grid lies in a polygon. REQUIRES: its row is in the field. Cost: O(segments in that row).
+  bool holds(double x, double y) const;
+  /// Whether a ring is no farther than `distance`, at most 2 · kNear. As holds().
+  bool is_near(double x, double y, double distance) const;
+
+ private:
+  struct Segment {
+    double x0, y0, x1, y1;
+    std::uint32_t polygon;
+  };
+  static double distance(const Segment& s, double x, double y);
+  static bool crosses(const Segment& s, double x, double y);
+  const std::vector<Segment>& segments_at(double y) const;
+  void add(const Segment& segment);
+  void mark_inside(int row);
+  void mark_near(int row);
+  Place& at(int col, int row) {
+    return places_[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(col)];
+  }
+
+  int cols_, rows_;
+  std::vector<std::vector<Segment>> segments_;  // by row of cells, those within 2 kNear of it; of a polygon in sequence
+  std::vector<Place> places_;
+};
+
+}  // namespace scarp::judge
