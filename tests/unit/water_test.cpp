@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "scarp/simplify.h"
 
@@ -81,7 +82,12 @@ TEST(water, is_level_in_the_raster_and_has_a_rim) {
 }
 
 TEST(water, is_level_in_the_mesh) {
-  for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
+  for (const auto& [effort, longest] : {std::pair{Effort::kFast, 0.0},
+                                        {Effort::kNormal, 0.0},
+                                        {Effort::kHigh, 0.0},
+                                        {Effort::kFast, 1.3},
+                                        {Effort::kNormal, 2.5},
+                                        {Effort::kHigh, 2.5}}) {
     OwnedHeightField field = valley();
     WaterOptions water;
     water.affine = field.frame.affine;
@@ -94,10 +100,11 @@ TEST(water, is_level_in_the_mesh) {
     options.float32_positions = false;
     options.breaklines.affine = field.frame.affine;
     options.breaklines.lines = lakes->front().shore;
+    if (longest > 0) options.shape = {.min_angle = 25, .max_edge = longest};
     const auto result = simplify(field, options);
     ASSERT_TRUE(result) << result.error().message;
-    const auto inside = [](double x, double y) {  // of the shore and not of the island, a sample away from both
-      return x > 14 && x < 27 && y > 14 && y < 32 && !(x > 17 && x < 24 && y > 19 && y < 27);
+    const auto inside = [](double x, double y) {  // of the shore and not of the island
+      return x > 12.3 && x < 28 && y > 12.5 && y < 33.2 && !(x > 18 && x < 23 && y > 20 && y < 25.8);
     };
     std::size_t level = 0;
     for (std::size_t t = 0; t < result->mesh.triangles.size(); t += 3) {
