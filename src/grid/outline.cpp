@@ -83,7 +83,7 @@ bool is_whole(const Raster& raster) {
 }
 
 Outline trace_outline(const Raster& raster) {
-  if (is_whole(raster))
+  if (raster.cols > 1 && raster.rows > 1 && is_whole(raster))
     return {{{raster.cols - 1, 0}, {raster.cols - 1, raster.rows - 1}, {0, raster.rows - 1}, {0, 0}}};
   const std::vector<DirectedEdge> edges = border_edges(raster);
   std::vector<bool> used(edges.size(), false);
