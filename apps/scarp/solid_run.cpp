@@ -106,7 +106,7 @@ Result<std::optional<SheetPlan>> plan_sheets(const SolidPlan& plan, const Height
 }
 
 Result<Print> make_print(const SolidPlan& plan, const HeightField& field, const SheetPlan* sheets, const Mesh& terrain,
-                         int threads) {
+                         const Cutline* cutline, int threads) {
   const Result<SolidPlace> place = find_place(plan, terrain);
   if (!place) return tl::unexpected(place.error());
   Print print;
@@ -128,6 +128,7 @@ Result<Print> make_print(const SolidPlan& plan, const HeightField& field, const 
   }
   MeasureOptions options;
   options.topology = false;
+  options.cutline = cutline;
   options.threads = threads;
   const Result<Measurement> judged = measure(field, join_tops(print.sheets, top_sizes), options);
   if (!judged) return tl::unexpected(judged.error());
@@ -154,6 +155,7 @@ Result<PrintedTerrain> simplify_for_print(const SolidPlan& plan, OwnedHeightFiel
   constexpr double kReserve = 0x1p-10;
   constexpr int kMostRuns = 4;
   const std::optional<double> asked = options.max_error;
+  const Cutline* cutline = options.cutline.rings.empty() ? nullptr : &options.cutline;
   if (asked) options.max_error = *asked * (1 - kReserve);
   std::vector<SampleEdit> edits;
   for (int run = 1;; ++run) {
@@ -161,7 +163,8 @@ Result<PrintedTerrain> simplify_for_print(const SolidPlan& plan, OwnedHeightFiel
     if (!simplified) return tl::unexpected(std::move(simplified.error()));
     apply_edits(simplified->edits, field);
     if (run == 1) edits = simplified->edits;
-    Result<Print> print = make_print(plan, field, *sheets ? &**sheets : nullptr, simplified->mesh, options.threads);
+    Result<Print> print =
+        make_print(plan, field, *sheets ? &**sheets : nullptr, simplified->mesh, cutline, options.threads);
     if (!print) return tl::unexpected(std::move(print.error()));
     const double excess =
         asked ? print->max_error + field.sample_rounding - *asked - judging_allowance(*asked, height_range(field)) : 0;

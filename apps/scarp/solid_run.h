@@ -33,10 +33,11 @@ struct Print {
 /// SheetPlan. REQUIRES: the samples are in memory.
 Result<std::optional<SheetPlan>> plan_sheets(const SolidPlan& plan, const HeightField& field);
 
-/// Places, cuts and closes the terrain, of which the cuts are edges, and judges the tops against the samples.
-/// Fails as build_solid(), and with kPromise where samples have no top above them and no gap accounts for it.
+/// Places, cuts and closes the terrain, of which the cuts are edges, and judges the tops against the samples, those
+/// within the cutline if there is one. Fails as build_solid(), and with kPromise where samples have no top above them
+/// and no gap accounts for it.
 Result<Print> make_print(const SolidPlan& plan, const HeightField& field, const SheetPlan* sheets, const Mesh& terrain,
-                         int threads);
+                         const Cutline* cutline, int threads);
 
 /// simplify() with the cuts as lines, again with a smaller bound where rounding to the print's float32 costs more than
 /// was reserved. Fails with kPromise where that does not help, and as simplify() and make_print().

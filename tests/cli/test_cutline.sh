@@ -144,6 +144,12 @@ refuses 2 "lies in the polygons" "$scarp" simplify "$dem" x.glb -e 20 --cutline 
 refuses 2 "point.geojson" "$scarp" simplify "$dem" x.glb -e 20 --cutline point.geojson
 refuses 2 "nothing.gpkg" "$scarp" simplify "$dem" x.glb -e 20 --cutline nothing.gpkg
 refuses 2 "nothing of the polygons is left" "$scarp" simplify "$dem" x.glb -e 20 --cutline star.geojson --inset 20000
+# A print of what lies in the polygon, whole and in sheets.
+succeeds "$scarp" simplify "$dem" print.stl -e 20 --cutline star.geojson --solid size=100mm
+succeeds "$scarp" measure "$dem" print.stl --cutline star.geojson --fail-above 20
+grep -q "closed solid" "$logs/out" || fail "the print is not closed"
+succeeds "$scarp" simplify "$dem" sheet.stl -e 20 --cutline star.geojson --solid size=100mm --split 2x1
+
 refuses 1 "--inset" "$scarp" simplify "$dem" x.glb -e 20 --inset 5
 refuses 1 "--inset" "$scarp" simplify "$dem" x.glb -e 20 --cutline star.geojson --inset wide
 refuses 1 "--mask-outside" "$scarp" measure "$dem" one.glb --mask-outside
