@@ -12,7 +12,7 @@
 #include "base/int128.h"
 #include "geom/arrangement.h"
 
-namespace scarp {
+namespace scarp::arrangement_laws_test {
 namespace {
 
 using Edge = Arrangement::Edge;
@@ -391,4 +391,4 @@ TEST(arrangement, thousands_of_lines_may_meet_in_one_point) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::arrangement_laws_test

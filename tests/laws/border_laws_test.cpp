@@ -10,7 +10,7 @@
 #include "refine/tile_domain.h"
 #include "refine/tile_plan.h"
 
-namespace scarp {
+namespace scarp::border_laws_test {
 namespace {
 
 using testing::Field;
@@ -223,4 +223,4 @@ TEST(tile_plan, tiles_cover_the_raster_and_share_their_sides) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::border_laws_test

@@ -17,7 +17,7 @@
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::bounds_laws_test {
 namespace {
 
 using testing::any_depth;
@@ -311,4 +311,4 @@ TEST(bounds, budgets_and_inserted_vertices_are_refused_with_more_than_fast_effor
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::bounds_laws_test

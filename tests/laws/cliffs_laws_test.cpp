@@ -12,7 +12,7 @@
 #include "scarp/cliffs.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::cliffs_laws_test {
 namespace {
 
 using testing::Field;
@@ -251,4 +251,4 @@ TEST(Cliffs, RefuseHeightsThatAreNone) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::cliffs_laws_test

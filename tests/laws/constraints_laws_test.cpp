@@ -7,7 +7,7 @@
 #include "laws/fit_meshes.h"
 #include "refine/constraints.h"
 
-namespace scarp {
+namespace scarp::constraints_laws_test {
 namespace {
 
 using testing::Field;
@@ -136,4 +136,4 @@ TEST(constraints, heights_of_thousands_of_places_are_found_again) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::constraints_laws_test

@@ -15,7 +15,7 @@
 #include "scarp/cutline.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::cutline_laws_test {
 namespace {
 
 using testing::any_field;
@@ -407,4 +407,4 @@ RC_GTEST_PROP(polygon_cover, counts_the_polygons_on_both_sides_of_every_edge, ()
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::cutline_laws_test

@@ -14,7 +14,7 @@
 #include "refine/settle_edges.h"
 #include "scarp/generate.h"
 
-namespace scarp {
+namespace scarp::data_dependent_laws_test {
 namespace {
 
 using testing::Field;
@@ -156,4 +156,4 @@ TEST(data_dependent, follows_a_diagonal_step_far_better_than_delaunay) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::data_dependent_laws_test

@@ -12,7 +12,7 @@
 #include "refine/tile.h"
 #include "refine/tile_domain.h"
 
-namespace scarp {
+namespace scarp::dominant_laws_test {
 namespace {
 
 using testing::Field;
@@ -248,4 +248,4 @@ TEST(coarse_start, is_left_out_where_the_mesh_will_be_dense) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::dominant_laws_test

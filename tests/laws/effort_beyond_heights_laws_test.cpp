@@ -13,7 +13,7 @@
 #include "laws/strategies.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::effort_beyond_heights_laws_test {
 namespace {
 
 using testing::any_field;
@@ -238,4 +238,4 @@ TEST(simplified_outlines, take_fewer_triangles_with_each_level) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::effort_beyond_heights_laws_test

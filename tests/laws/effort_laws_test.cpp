@@ -12,7 +12,7 @@
 #include "scarp/io.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::effort_laws_test {
 namespace {
 
 using testing::any_field;
@@ -228,4 +228,4 @@ TEST(effort, free_vertices_that_cannot_be_are_refused) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::effort_laws_test

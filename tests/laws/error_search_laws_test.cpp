@@ -10,7 +10,7 @@
 #include "laws/fields.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::error_search_laws_test {
 namespace {
 
 using testing::any_field;
@@ -221,4 +221,4 @@ TEST(error_search, goes_around_bounds_that_cannot_be_kept) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::error_search_laws_test

@@ -14,7 +14,7 @@
 #include "laws/mesh_laws.h"
 #include "laws/tile_meshes.h"
 
-namespace scarp {
+namespace scarp::fit_laws_test {
 namespace {
 
 using testing::any_field;
@@ -345,4 +345,4 @@ RC_GTEST_PROP(ring_search, finds_the_least_energy_of_all_triangulations, ()) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::fit_laws_test

@@ -9,7 +9,7 @@
 #include "laws/any_field.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::line_laws_test {
 namespace {
 
 using testing::any_field;
@@ -105,4 +105,4 @@ TEST(lines, contradict_budgets_strategies_and_frames) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::line_laws_test

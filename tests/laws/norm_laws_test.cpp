@@ -16,7 +16,7 @@
 #include "laws/mesh_laws.h"
 #include "refine/sample_judge.h"
 
-namespace scarp {
+namespace scarp::norm_laws_test {
 namespace {
 
 using testing::any_depth;
@@ -279,4 +279,4 @@ TEST(norms, of_the_same_field_thrice_take_as_many_triangles_as_heights_alone) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::norm_laws_test

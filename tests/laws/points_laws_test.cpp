@@ -14,7 +14,7 @@
 #include "refine/scattered.h"
 #include "scarp/points.h"
 
-namespace scarp {
+namespace scarp::points_laws_test {
 namespace {
 
 using testing::Heights;
@@ -278,4 +278,4 @@ TEST(points, keep_their_bound_where_slivers_along_the_hull_are_steep) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::points_laws_test

@@ -19,7 +19,7 @@
 #include "refine/samples.h"
 #include "refine/tiled.h"
 
-namespace scarp {
+namespace scarp::real_rasters_test {
 namespace {
 
 /// Every `stride`th sample of every `stride`th row.
@@ -162,4 +162,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::real_rasters_test

@@ -13,7 +13,7 @@
 #include "refine/textbook.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::refinement_laws_test {
 namespace {
 
 using testing::Field;
@@ -166,4 +166,4 @@ TEST(refinement, next_gain_says_how_many_triangles_will_come) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::refinement_laws_test

@@ -21,7 +21,7 @@
 #include "laws/mesh_laws.h"
 #include "laws/tile_meshes.h"
 
-namespace scarp {
+namespace scarp::repair_laws_test {
 namespace {
 
 using testing::any_depth;
@@ -527,4 +527,4 @@ RC_GTEST_PROP(height_step, finds_the_lowest_energy, ()) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::repair_laws_test

@@ -15,7 +15,7 @@
 #include "row_fit.h"
 #include "scarp/measure.h"
 
-namespace scarp {
+namespace scarp::row_fit_laws_test {
 namespace {
 
 using testing::ArraySource;
@@ -176,4 +176,4 @@ TEST(rows, budgets_with_effort_need_the_samples_in_memory) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::row_fit_laws_test

@@ -6,7 +6,7 @@
 #include "geom/scan.h"
 #include "laws/scan_tiles.h"
 
-namespace scarp {
+namespace scarp::scan_kernels_laws_test {
 namespace {
 
 using testing::Field;
@@ -154,8 +154,7 @@ RC_GTEST_PROP(scan_kernels_laws, rows_agree_to_the_bit, ()) {
   double expected = start;
   std::int32_t expected_at = -7;
   for (std::int32_t x = 0; x < count; ++x) {
-    const double error =
-        std::abs(base + slope * (offset + x) - double{samples[static_cast<std::size_t>(x)]});
+    const double error = std::abs(base + slope * (offset + x) - double{samples[static_cast<std::size_t>(x)]});
     if (error > expected) {
       expected = error;
       expected_at = x;
@@ -171,4 +170,4 @@ RC_GTEST_PROP(scan_kernels_laws, rows_agree_to_the_bit, ()) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::scan_kernels_laws_test

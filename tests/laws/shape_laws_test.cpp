@@ -10,7 +10,7 @@
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::shape_laws_test {
 namespace {
 
 using testing::Field;
@@ -247,4 +247,4 @@ TEST(shape, goals_out_of_range_are_refused_in_a_sentence) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::shape_laws_test

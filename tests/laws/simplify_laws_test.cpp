@@ -9,7 +9,7 @@
 #include "scarp/io.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::simplify_laws_test {
 namespace {
 
 using testing::any_field;
@@ -393,4 +393,4 @@ TEST(simplify, a_simplified_outline_loses_no_sample) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::simplify_laws_test

@@ -10,7 +10,7 @@
 #include "scarp/simplify.h"
 #include "scarp/solid.h"
 
-namespace scarp {
+namespace scarp::solid_laws_test {
 namespace {
 
 using testing::any_field;
@@ -162,4 +162,4 @@ TEST(SheetPlan, RefusesWhatIsTooNarrow) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::solid_laws_test

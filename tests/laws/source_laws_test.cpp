@@ -11,7 +11,7 @@
 #include "scarp/picture.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::source_laws_test {
 namespace {
 
 using testing::ArraySource;
@@ -148,4 +148,4 @@ TEST(measuring, tells_the_range_of_all_samples_and_the_first_uncovered_one) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::source_laws_test

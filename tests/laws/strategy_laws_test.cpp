@@ -13,7 +13,7 @@
 #include "refine/refinement.h"
 #include "refine/sample_judge.h"
 
-namespace scarp {
+namespace scarp::strategy_laws_test {
 namespace {
 
 using testing::Field;
@@ -416,4 +416,4 @@ TEST(strategies, contradictions_are_refused_in_one_sentence) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::strategy_laws_test

@@ -6,7 +6,7 @@
 
 #include "laws/tile_meshes.h"
 
-namespace scarp {
+namespace scarp::tile_mesh_laws_test {
 namespace {
 
 using testing::Field;
@@ -198,4 +198,4 @@ TEST(tile_mesh, a_vertex_is_not_inserted_twice) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::tile_mesh_laws_test

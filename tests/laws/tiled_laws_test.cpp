@@ -15,7 +15,7 @@
 #include "scarp/measure.h"
 #include "tin/assembly.h"
 
-namespace scarp {
+namespace scarp::tiled_laws_test {
 namespace {
 
 using testing::Field;
@@ -255,4 +255,4 @@ TEST(tiled, a_source_that_fails_is_reported_in_its_own_words) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::tiled_laws_test

@@ -8,7 +8,7 @@
 #include "scarp/picture.h"
 #include "unit/measure_meshes.h"
 
-namespace scarp::testing {
+namespace scarp::testing::draw_test {
 namespace {
 
 std::array<int, 3> pixel(const Picture& picture, int x, int y) {
@@ -151,4 +151,4 @@ TEST(Canvas, WritesNumbers) {
 }
 
 }  // namespace
-}  // namespace scarp::testing
+}  // namespace scarp::testing::draw_test

@@ -7,7 +7,7 @@
 #include "mesh_samples.h"
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::dxf_test {
 namespace {
 
 using test::sample_mesh;
@@ -84,4 +84,4 @@ TEST(Dxf, NamesTheFault) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::dxf_test

@@ -3,7 +3,7 @@
 #include "mesh_samples.h"
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::landxml_test {
 namespace {
 
 using test::sample_mesh;
@@ -123,4 +123,4 @@ TEST(LandXml, NamesTheFault) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::landxml_test

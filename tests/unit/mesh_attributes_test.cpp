@@ -11,7 +11,7 @@
 #include "mesh_samples.h"
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::mesh_attributes_test {
 namespace {
 
 using test::to_bytes;
@@ -244,4 +244,4 @@ TEST(Tin, ReadsWhatScapeAndTerraWrite) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::mesh_attributes_test

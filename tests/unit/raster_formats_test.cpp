@@ -5,7 +5,7 @@
 
 #include "raster_files.h"
 
-namespace scarp {
+namespace scarp::raster_formats_test {
 namespace {
 
 using testing::run;
@@ -195,4 +195,4 @@ TEST_F(RasterFormats, PngOfAPictureReadsBack) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::raster_formats_test

@@ -6,7 +6,7 @@
 
 #include "raster_files.h"
 
-namespace scarp {
+namespace scarp::raster_frames_test {
 namespace {
 
 using testing::contains;
@@ -205,4 +205,4 @@ TEST_F(RasterFrames, UnitsThatDoNotMix) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::raster_frames_test

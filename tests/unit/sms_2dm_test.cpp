@@ -3,7 +3,7 @@
 #include "mesh_samples.h"
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::sms_2dm_test {
 namespace {
 
 using test::sample_mesh;
@@ -68,4 +68,4 @@ TEST(Sms2dm, NamesTheFault) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::sms_2dm_test

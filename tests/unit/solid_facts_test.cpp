@@ -6,7 +6,7 @@
 #include "mesh_samples.h"
 #include "scarp/solid.h"
 
-namespace scarp {
+namespace scarp::solid_facts_test {
 namespace {
 
 using test::grid_mesh;
@@ -109,4 +109,4 @@ TEST(PlaceMesh, ComesBackAsTheRoundedPositionsSay) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::solid_facts_test

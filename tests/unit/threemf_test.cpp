@@ -9,7 +9,7 @@
 #include "scarp/io.h"
 #include "scarp/solid.h"
 
-namespace scarp {
+namespace scarp::threemf_test {
 namespace {
 
 Mesh sample_solid() {
@@ -155,4 +155,4 @@ TEST(StlPlacement, IsInTheHeaderHoweverLong) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::threemf_test

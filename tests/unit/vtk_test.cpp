@@ -6,7 +6,7 @@
 #include "mesh_samples.h"
 #include "scarp/io.h"
 
-namespace scarp {
+namespace scarp::vtk_test {
 namespace {
 
 using test::sample_mesh;
@@ -145,4 +145,4 @@ TEST(VtkDialects, ArraysThatShareBytesAreRefused) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::vtk_test

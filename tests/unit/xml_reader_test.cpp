@@ -5,7 +5,7 @@
 
 #include "mesh_samples.h"
 
-namespace scarp {
+namespace scarp::xml_reader_test {
 namespace {
 
 using Event = XmlReader::Event;
@@ -61,4 +61,4 @@ TEST(XmlReader, UndoesWhatItWrites) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::xml_reader_test
