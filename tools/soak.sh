@@ -22,7 +22,7 @@ laws() {
 tools/configure.sh "$build" --preset release && cmake --build "$build" -j "$jobs" --target scarp_tests || exit 1
 fuzz=no
 if command -v clang++ >/dev/null; then
-  tools/configure.sh "$build-fuzz" --preset fuzz && cmake --build "$build-fuzz" -j "$jobs" || exit 1
+  tools/configure.sh "$build-fuzz" --preset fuzz && cmake --build "$build-fuzz" -j "$jobs" --target fuzzers || exit 1
   fuzz=yes
 else
   echo "clang++ is missing: the fuzzers are skipped, the laws get all the time"

@@ -4,9 +4,9 @@
 #   1. Release: all tests through ctest (unit tests, laws, scripts that drive the program).
 #   2. AddressSanitizer and UndefinedBehaviorSanitizer: unit tests and laws again, asserts on; with a quarter of the
 #      random cases, and of the samples of real rasters a share (tests/laws/sanitized.h). One process runs many tests,
-#      since each start costs.
-#   3. ThreadSanitizer: the tests that use threads.
-#   4. Fuzzers, SCARP_FUZZ_SECONDS (20) each; needs clang.
+#      since each start costs. With clang this is the build of the fuzzers, so that the library is compiled once.
+#   3. Fuzzers, SCARP_FUZZ_SECONDS (10) each; needs clang.
+#   4. ThreadSanitizer: the tests that use threads.
 #
 # Chance begins at the same seed in every run: tests/laws/fixed_seed.cpp, SCARP_FUZZ_SEED; tools/soak.sh takes fresh ones.
 #
@@ -113,19 +113,22 @@ install_validator
 if build_stage "$build" release all; then run_ctest "$build"; fi
 
 announce "2/4 address and undefined behaviour sanitizers: unit tests and laws"
-if build_stage "$build-asan" asan scarp_tests; then run_gtest "$build-asan/bin/scarp_tests" 40; fi
-
-announce "3/4 thread sanitizer: tests that use threads"
-if build_stage "$build-tsan" tsan scarp_thread_tests; then
-  TSAN_OPTIONS="suppressions=$PWD/tools/tsan.supp ${TSAN_OPTIONS-}" run_gtest "$build-tsan/bin/scarp_thread_tests"
+sanitized=asan targets=(scarp_tests)
+if command -v clang++ >/dev/null; then sanitized=fuzz targets+=(fuzzers); fi
+if build_stage "$build-$sanitized" "$sanitized" "${targets[@]}"; then
+  run_gtest "$build-$sanitized/bin/scarp_tests" 40
+  announce "3/4 fuzzers"
+  if [ "$sanitized" = fuzz ]; then
+    SCARP_FUZZ_SECONDS=${SCARP_FUZZ_SECONDS:-10} run_ctest "$build-fuzz" -R '^fuzz[.]'
+  else
+    echo "clang++ is missing: the fuzzers are skipped"
+    add 0 0 1
+  fi
 fi
 
-announce "4/4 fuzzers"
-if ! command -v clang++ >/dev/null; then
-  echo "clang++ is missing: the fuzzers are skipped"
-  add 0 0 1
-elif build_stage "$build-fuzz" fuzz all; then
-  run_ctest "$build-fuzz"
+announce "4/4 thread sanitizer: tests that use threads"
+if build_stage "$build-tsan" tsan scarp_thread_tests; then
+  TSAN_OPTIONS="suppressions=$PWD/tools/tsan.supp ${TSAN_OPTIONS-}" run_gtest "$build-tsan/bin/scarp_thread_tests"
 fi
 
 printf '\nAll stages, in %d s:\n' $(($(date +%s) - start))

@@ -2,9 +2,17 @@
 // arithmetic on the way, not for rare cases, and does with fewer cases and samples than Release.
 #pragma once
 
+#if defined(__has_feature)
+#define SCARP_HAS_SANITIZER (__has_feature(address_sanitizer) || __has_feature(thread_sanitizer))
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SCARP_HAS_SANITIZER 1
+#else
+#define SCARP_HAS_SANITIZER 0
+#endif
+
 namespace scarp::testing {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if SCARP_HAS_SANITIZER
 inline constexpr bool kIsSanitized = true;
 #else
 inline constexpr bool kIsSanitized = false;
