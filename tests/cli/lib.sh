@@ -14,6 +14,12 @@ mkdir "$root/run" "$logs"
 trap 'rm -rf "$root"' EXIT
 cd "$root/run"
 
+# The interpreter itself: what a version manager puts in its place takes longer to start than most programs here to run.
+if command -v python3 > /dev/null; then
+  python_program=$(python3 -c 'import sys; print(sys.executable)')
+  python3() { "$python_program" "$@"; }
+fi
+
 fail() {
   echo "FAILED: $*" >&2
   if [ -s "$logs/err" ]; then sed 's/^/  stderr: /' "$logs/err" >&2; fi
@@ -62,7 +68,7 @@ refuses() {
 
 # json FILE KEY...: the value in a JSON file, as JSON ("5.0", "\"x\"", "null"); fails where a key is missing.
 json() {
-  python3 - "$@" <<'PYTHON'
+  python3 -I -S - "$@" <<'PYTHON'
 import json, sys
 value = json.load(open(sys.argv[1]))
 for key in sys.argv[2:]:
@@ -97,7 +103,8 @@ if any(v != v for values in grid for v in values):
 for values in grid:
     print(" ".join("-9999" if v != v else repr(float(v)) for v in values))
 PYTHON
-  gdal_translate -q -ot "${3:-Float32}" $(corners_of "$dem") "$1.asc" "$1"
+  dem_corners=${dem_corners:-$(corners_of "$dem")}
+  gdal_translate -q -ot "${3:-Float32}" $dem_corners "$1.asc" "$1"
   rm "$1.asc"
 }
 

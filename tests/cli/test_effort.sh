@@ -4,7 +4,7 @@ source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
 # The mesh is smaller by what QUALITY's measurements let expect (0.54 to 0.60), and every sample keeps the bound.
-for error in 84 16.8 4.2; do
+for error in 84 16.8 8.4; do
   succeeds "$scarp" simplify "$dem" fast.glb -e "$error" --effort fast --report fast.json --overwrite
   succeeds "$scarp" simplify "$dem" normal.glb -e "$error" --effort normal --report normal.json --overwrite
   holds "$(json normal.json triangles) < 0.63 * $(json fast.json triangles)"
@@ -30,21 +30,21 @@ grep -aq -- '--effort normal"' normal.glb || fail "the metadata does not tell th
 
 # max goes deeper, and on for as long as it may; a limit that is over before removal begins leaves refinement's mesh, or
 # what removal has made of it.
-succeeds "$scarp" simplify "$dem" max.glb -e 84 --effort max --report max.json --overwrite
-succeeds "$scarp" simplify "$dem" high.glb -e 84 --effort high --report high.json --overwrite
+succeeds "$scarp" simplify "$dem" max.glb -e 168 --effort max --report max.json --overwrite
+succeeds "$scarp" simplify "$dem" high.glb -e 168 --effort high --report high.json --overwrite
 holds "$(json max.json triangles) < $(json high.json triangles)"
-succeeds "$scarp" simplify "$dem" longer.glb -e 84 --effort max --time-limit 4 --report longer.json --overwrite
+succeeds "$scarp" simplify "$dem" longer.glb -e 168 --effort max --time-limit 3 --report longer.json --overwrite
 holds "$(json longer.json triangles) <= $(json max.json triangles)"
-succeeds "$scarp" simplify "$dem" short.glb -e 4.2 --effort max --time-limit 0 --report short.json --overwrite
+succeeds "$scarp" simplify "$dem" short.glb -e 8.4 --effort max --time-limit 0 --report short.json --overwrite
 [ "$(json max.json strategy cut_short) $(json short.json strategy cut_short)" = "false true" ] ||
   fail "the report does not tell that the time was up"
-succeeds "$scarp" simplify "$dem" fast.glb -e 4.2 --effort fast --report fast.json --overwrite
+succeeds "$scarp" simplify "$dem" fast.glb -e 8.4 --effort fast --report fast.json --overwrite
 holds "$(json short.json triangles) <= 1.01 * $(json fast.json triangles)"
-for mesh in max longer; do succeeds "$scarp" measure "$dem" "$mesh.glb" --fail-above 84; done
-succeeds "$scarp" measure "$dem" short.glb --fail-above 4.2
+for mesh in max longer; do succeeds "$scarp" measure "$dem" "$mesh.glb" --fail-above 168; done
+succeeds "$scarp" measure "$dem" short.glb --fail-above 8.4
 
 # A limit that is not reached changes nothing but for max, and efforts go on from any strategy.
-succeeds "$scarp" simplify "$dem" limited.glb -e 84 --effort high --time-limit 100 --report limited.json
+succeeds "$scarp" simplify "$dem" limited.glb -e 168 --effort high --time-limit 100 --report limited.json
 holds "$(json limited.json triangles) == $(json high.json triangles)"
 succeeds "$scarp" simplify "$dem" local.glb -e 20 --importance local --effort high --report local.json
 succeeds "$scarp" simplify "$dem" local_fast.glb -e 20 --importance local --report local_fast.json
@@ -87,7 +87,7 @@ for effort in normal high; do
 
   # Threads change nothing.
   for threads in 1 2 7; do
-    succeeds "$scarp" simplify "$dem" "threads$threads.glb" -e 2 --effort "$effort" -j "$threads" --overwrite
+    succeeds "$scarp" simplify "$dem" "threads$threads.glb" -e 8 --effort "$effort" -j "$threads" --overwrite
     cmp threads1.glb "threads$threads.glb" || fail "-j $threads makes another mesh with $effort effort"
   done
 done

@@ -47,7 +47,7 @@ succeeds "$scarp" simplify photo.tif percent.ply -e 10% --image --report s.json 
 holds "$(json s.json goal max_error) == 25.5"
 
 # y is up as the image is seen, and the first row is the top.
-succeeds "$scarp" simplify photo.png up.ply -p 500 --image --report s.json --overwrite
+succeeds "$scarp" simplify photo.png up.ply -p 500 --image --effort fast --report s.json --overwrite
 [ "$(json s.json frame kind)" = '"grid"' ] || fail "an image without a place is not in the grid frame"
 
 # More is better in refinement, and the picture of an exact mesh is the image.
@@ -58,7 +58,7 @@ for points in 100 400 1600; do
   last=$(json s.json psnr)
 done
 make_image flat.tif '10 + col // 4' 20 30
-succeeds "$scarp" simplify flat.tif r.ply -e 0 --image --render r.png --report s.json --overwrite
+succeeds "$scarp" simplify flat.tif r.ply -e 0 --image --effort fast --render r.png --report s.json --overwrite
 [ "$(json s.json psnr)" = '"inf"' ] || fail "an exact mesh does not look like its image"
 gdalinfo r.png | grep -q 'Size is 403, 344' || fail "the rendering has another size"
 
