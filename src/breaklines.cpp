@@ -14,10 +14,13 @@
 namespace scarp {
 namespace {
 
+/// Farther away doubles do not tell a step of the lattice, so nobody knows where a line enters the raster.
+constexpr double kFarthestSample = 0x1p41;
+
 /// A vertex of a line in samples, not rounded.
 struct Vertex {
   double col = 0, row = 0, z = 0;
-  bool is_finite() const { return std::isfinite(col) && std::isfinite(row); }
+  bool can_be_placed() const { return std::abs(col) <= kFarthestSample && std::abs(row) <= kFarthestSample; }
 };
 
 Vertex between(const Vertex& a, const Vertex& b, double at) {
@@ -256,7 +259,7 @@ Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<do
     for (const auto& point : lines[k].points) {
       const SamplePlace at = to_samples.place(point[0], point[1]);
       vertices.push_back({at.col, at.row, point[2]});
-      if (!vertices.back().is_finite())
+      if (!vertices.back().can_be_placed())
         return fail(ErrorKind::kInput, fmt::format("{} has a vertex at {:.9g}, {:.9g}, too far away to be placed",
                                                    lines[k].name, point[0], point[1]));
     }
@@ -333,6 +336,12 @@ double height_between_samples(const Raster& raster, Point place) {
     weight += weights[k];
   }
   return weight == 0 ? std::numeric_limits<double>::quiet_NaN() : weight == 1 ? sum : sum / weight;
+}
+
+double surface_at(const Raster& raster, SamplePlace place) {
+  if (!(place.col >= 0 && place.row >= 0 && place.col <= raster.cols - 1 && place.row <= raster.rows - 1)) return NAN;
+  return height_between_samples(raster, {static_cast<std::int32_t>(std::lround(place.col * kLatticeSteps)),
+                                         static_cast<std::int32_t>(std::lround(place.row * kLatticeSteps))});
 }
 
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,

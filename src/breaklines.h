@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geom/arrangement.h"
+#include "grid/affine_map.h"
 #include "grid/outline.h"
 #include "grid/raster.h"
 #include "grid/vertex_places.h"
@@ -63,5 +64,8 @@ Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::arra
 
 /// The surface of `heights` above, at a point in kLatticeSteps of a sample within the raster.
 double height_between_samples(const Raster& raster, Point place);
+
+/// The same at the lattice place next to this one; NaN beyond the raster.
+double surface_at(const Raster& raster, SamplePlace place);
 
 }  // namespace scarp

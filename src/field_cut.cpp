@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "grid/affine_map.h"
 #include "grid/vertex_places.h"
 #include "line_marks.h"
 
@@ -23,7 +24,7 @@ struct RingPoint {
 class RingClipper {
  public:
   RingClipper(const std::array<double, 6>& affine, std::int32_t cols, std::int32_t rows)
-      : affine_(affine), determinant_(affine[1] * affine[5] - affine[2] * affine[4]), last_{cols - 1.0, rows - 1.0} {}
+      : affine_(affine), to_samples_(affine), last_{cols - 1.0, rows - 1.0} {}
 
   Line clip(const Line& ring) {
     points_.clear();
@@ -47,9 +48,8 @@ class RingClipper {
 
  private:
   RingPoint place(const std::array<double, 3>& point) const {
-    const double x = point[0] - affine_[0], y = point[1] - affine_[3];
-    return {{point[0], point[1], std::numeric_limits<double>::quiet_NaN()},
-            {(affine_[5] * x - affine_[2] * y) / determinant_, (affine_[1] * y - affine_[4] * x) / determinant_}};
+    const SamplePlace at = to_samples_.place(point[0], point[1]);
+    return {{point[0], point[1], std::numeric_limits<double>::quiet_NaN()}, {at.col, at.row}};
   }
 
   /// Keeps what is not beyond a line: direction · (coordinate − limit) >= 0.
@@ -74,7 +74,7 @@ class RingClipper {
   }
 
   std::array<double, 6> affine_;
-  double determinant_;
+  MapToSamples to_samples_;
   std::array<double, 2> last_;
   std::vector<RingPoint> points_, clipped_;
 };

@@ -76,9 +76,7 @@ class SoftLine {
   /// The raster's surface there; NaN beyond it.
   double height_at(const Place& place) const {
     const auto [col, row] = sample_of(place);
-    if (!(col >= 0 && row >= 0 && col <= raster_.cols - 1 && row <= raster_.rows - 1)) return NAN;
-    return height_between_samples(raster_, {static_cast<std::int32_t>(std::lround(col * kLatticeSteps)),
-                                            static_cast<std::int32_t>(std::lround(row * kLatticeSteps))});
+    return surface_at(raster_, {col, row});
   }
 
   /// Bends where the surface asks for it. Two looks a sample.

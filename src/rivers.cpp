@@ -50,10 +50,7 @@ class Ground {
     if (!(col >= 0 && row >= 0 && col <= raster_.cols - 1 && row <= raster_.rows - 1)) return {};
     const double water = lakes_ ? level_around(col, row) : kNoHeight;
     if (!std::isnan(water)) return {water, true};
-    const auto height = static_cast<float>(
-        height_between_samples(raster_, {static_cast<std::int32_t>(std::lround(col * kLatticeSteps)),
-                                         static_cast<std::int32_t>(std::lround(row * kLatticeSteps))}));
-    return {height, false};
+    return {static_cast<float>(surface_at(raster_, {col, row})), false};
   }
 
  private:

@@ -95,11 +95,7 @@ class Waters {
         const auto looks = static_cast<int>(std::min(std::ceil(2 * length), kMostLooks)) + 1;
         for (int i = 0; i < looks; ++i) {
           const double at = static_cast<double>(i) / looks;
-          const double col = p.col + at * (q.col - p.col), row = p.row + at * (q.row - p.row);
-          if (!(col >= 0 && row >= 0 && col <= field_.cols - 1 && row <= field_.rows - 1)) continue;
-          const double height =
-              height_between_samples(raster, {static_cast<std::int32_t>(std::lround(col * kLatticeSteps)),
-                                              static_cast<std::int32_t>(std::lround(row * kLatticeSteps))});
+          const double height = surface_at(raster, {p.col + at * (q.col - p.col), p.row + at * (q.row - p.row)});
           if (!std::isnan(height)) heights.push_back(static_cast<float>(height));
         }
       }
