@@ -130,37 +130,49 @@ bool time_mesh(const scarp::OwnedHeightField& field, const scarp::SimplifyOption
   return true;
 }
 
-/// Seconds of all cores together.
+/// One row of the table for each kind of lines; seconds of all cores together.
+bool time_meshes(const scarp::OwnedHeightField& field,
+                 const std::vector<std::pair<const char*, scarp::LineConstraints>>& kinds, const char* name,
+                 scarp::SimplifyOptions options) {
+  double alone = 0;
+  for (const auto& [lines, constraints] : kinds) {
+    options.breaklines = constraints;
+    double time = 0;
+    scarp::Simplified mesh;
+    if (!time_mesh(field, options, time, mesh)) return false;
+    if (constraints.lines.empty()) alone = time;
+    double arrange = 0, lay = 0;
+    for (const scarp::Pass& pass : mesh.passes) {
+      if (pass.name == "arrange") arrange += pass.seconds;
+      if (pass.name == "lines") lay += pass.seconds;
+    }
+    std::printf("| %s | %g | %s | %zu | %.2f | %.2f | %.2f | %.2f |\n", name, *options.max_error, lines,
+                mesh.mesh.triangle_count(), time, time / alone, arrange, lay);
+    std::fflush(stdout);
+  }
+  return true;
+}
+
+/// From bounds that leave far fewer triangles than the lines ask for, to one that leaves several times as many.
 int time_meshes() {
   constexpr int kSide = 3163;
   const auto field = scarp::generate_field(scarp::FieldStyle::kFractal, kSide, kSide);
   if (!field) return 1;
-  const std::pair<const char*, scarp::LineConstraints> kinds[] = {
+  const std::vector<std::pair<const char*, scarp::LineConstraints>> kinds{
       {"none", {}},
       {"1,000 walks", soft_lines(Drawing().walks(1000), kSide)},
       {"1,000 circles", soft_lines(Drawing().circles(1000), kSide)},
   };
-  std::printf("| effort | lines | triangles | s | to none | arrange | lines |\n|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| effort | max error | lines | triangles | s | to none | arrange | lines "
+      "|\n|---|---|---|---|---|---|---|---|\n");
   for (const auto& [name, effort] :
        {std::pair{"fast", scarp::Effort::kFast}, std::pair{"normal", scarp::Effort::kNormal}}) {
-    double alone = 0;
-    for (const auto& [lines, constraints] : kinds) {
+    for (const double error : {10.0, 5.0, 2.5}) {
       scarp::SimplifyOptions options;
-      options.max_error = 10;
+      options.max_error = error;
       options.effort = effort;
-      options.breaklines = constraints;
-      double time = 0;
-      scarp::Simplified mesh;
-      if (!time_mesh(*field, options, time, mesh)) return 1;
-      if (constraints.lines.empty()) alone = time;
-      double arrange = 0, lay = 0;
-      for (const scarp::Pass& pass : mesh.passes) {
-        if (pass.name == "arrange") arrange += pass.seconds;
-        if (pass.name == "lines") lay += pass.seconds;
-      }
-      std::printf("| %s | %s | %zu | %.2f | %.2f | %.2f | %.2f |\n", name, lines, mesh.mesh.triangle_count(), time,
-                  time / alone, arrange, lay);
-      std::fflush(stdout);
+      if (!time_meshes(*field, kinds, name, std::move(options))) return 1;
     }
   }
   return 0;
