@@ -241,7 +241,7 @@ Result<void> set_heights(std::span<const Claims> claims, std::span<const Line> l
     return fail(
         ErrorKind::kInput,
         fmt::format("{} has the height {:.9g} and {} has {:.9g} where they meet at {:.9g}, {:.9g}: mend one of "
-                    "them, or say which height counts",
+                    "them, or say which height counts (line conflict: first, mean or highest)",
                     lines[at.first].name, at.first_height,
                     at.first == at.opponent ? "elsewhere along it" : lines[at.opponent].name, at.opposed_height,
                     affine[0] + affine[1] * col + affine[2] * row, affine[3] + affine[4] * col + affine[5] * row));
@@ -262,6 +262,11 @@ Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<do
       if (!vertices.back().can_be_placed())
         return fail(ErrorKind::kInput, fmt::format("{} has a vertex at {:.9g}, {:.9g}, too far away to be placed",
                                                    lines[k].name, point[0], point[1]));
+      if (std::abs(point[2]) > double{std::numeric_limits<float>::max()})
+        return fail(ErrorKind::kInput,
+                    fmt::format("{} has the height {:.9g}, which is none: heights are float32, of at "
+                                "most 3.4e38; mend it, or let the line be soft",
+                                lines[k].name, point[2]));
     }
     lattice.add(k, vertices);
   }

@@ -29,12 +29,34 @@ class Waters {
         to_samples_(options.affine),
         is_water_(field.samples.size(), 0) {}
 
-  std::optional<Lake> flatten(std::span<const Line> rings) {
-    const std::optional<double> level = level_of(rings);
-    if (!level) return std::nullopt;
+  /// The percentile of the surface along the rings; nothing where it is nowhere valid.
+  std::optional<double> level_of(std::span<const Line> rings) const {
+    const Raster raster{field_.samples.data(), field_.cols, field_.rows};
+    std::vector<float> heights;
+    for (const Line& ring : rings) {
+      for (std::size_t k = 0; k + 1 < ring.points.size(); ++k) {
+        const auto p = place_of(ring.points[k]), q = place_of(ring.points[k + 1]);
+        const double length = std::max(std::abs(q.col - p.col), std::abs(q.row - p.row));
+        constexpr double kMostLooks = 1 << 20;
+        const auto looks = static_cast<int>(std::min(std::ceil(2 * length), kMostLooks)) + 1;
+        for (int i = 0; i < looks; ++i) {
+          const double at = static_cast<double>(i) / looks;
+          const double height = surface_at(raster, {p.col + at * (q.col - p.col), p.row + at * (q.row - p.row)});
+          if (!std::isnan(height)) heights.push_back(static_cast<float>(height));
+        }
+      }
+    }
+    if (heights.empty()) return std::nullopt;
+    const auto rank = static_cast<std::ptrdiff_t>(options_.percentile / 100 * static_cast<double>(heights.size() - 1));
+    std::nth_element(heights.begin(), heights.begin() + rank, heights.end());
+    return double{heights[static_cast<std::size_t>(rank)]};
+  }
+
+  /// REQUIRES: a level of level_of().
+  Lake flatten(std::span<const Line> rings, double level) {
     Lake lake;
     lake.name = rings.front().name;
-    lake.level = *level;
+    lake.level = level;
     const Box box = box_of(rings);
     std::array<double, 6> affine = affine_;
     affine[0] += box.col * affine_[1] + box.row * affine_[2];
@@ -81,29 +103,6 @@ class Waters {
               first_row = within(std::floor(top) - 1, field_.rows);
     return {first_col, first_row, within(std::ceil(right) + 2, field_.cols) - first_col,
             within(std::ceil(bottom) + 2, field_.rows) - first_row};
-  }
-
-  /// The percentile of the surface along the rings; nothing where it is nowhere valid.
-  std::optional<double> level_of(std::span<const Line> rings) const {
-    const Raster raster{field_.samples.data(), field_.cols, field_.rows};
-    std::vector<float> heights;
-    for (const Line& ring : rings) {
-      for (std::size_t k = 0; k + 1 < ring.points.size(); ++k) {
-        const auto p = place_of(ring.points[k]), q = place_of(ring.points[k + 1]);
-        const double length = std::max(std::abs(q.col - p.col), std::abs(q.row - p.row));
-        constexpr double kMostLooks = 1 << 20;
-        const auto looks = static_cast<int>(std::min(std::ceil(2 * length), kMostLooks)) + 1;
-        for (int i = 0; i < looks; ++i) {
-          const double at = static_cast<double>(i) / looks;
-          const double height = surface_at(raster, {p.col + at * (q.col - p.col), p.row + at * (q.row - p.row)});
-          if (!std::isnan(height)) heights.push_back(static_cast<float>(height));
-        }
-      }
-    }
-    if (heights.empty()) return std::nullopt;
-    const auto rank = static_cast<std::ptrdiff_t>(options_.percentile / 100 * static_cast<double>(heights.size() - 1));
-    std::nth_element(heights.begin(), heights.begin() + rank, heights.end());
-    return double{heights[static_cast<std::size_t>(rank)]};
   }
 
   template <class Visit>
@@ -153,17 +152,18 @@ Result<std::vector<Lake>> flatten_lakes(OwnedHeightField& field, std::span<const
   if (!(options.freeboard > 0 && std::isfinite(options.freeboard)))
     return fail(ErrorKind::kUsage, fmt::format("the freeboard must be above 0, not {}", options.freeboard));
   if (field.source != nullptr) return fail(ErrorKind::kUsage, "lakes need the raster in memory as a whole");
-  std::vector<Lake> lakes;
   Waters waters(field, options);
+  // All levels before any change: a lake's shore is the raster's, not what its neighbour has made of it.
+  std::vector<std::pair<std::span<const Line>, double>> found;
   for (std::size_t first = 0, end = 0; first < lines.size(); first = end) {
-    for (end = first + 1; end < lines.size() && lines[end].polygon == lines[first].polygon; ++end) {
-    }
-    if (!lines[first].is_ring()) {
-      end = first + 1;
-      continue;
-    }
-    if (auto lake = waters.flatten(lines.subspan(first, end - first))) lakes.push_back(std::move(*lake));
+    end = first + 1;
+    if (!lines[first].is_ring()) continue;
+    while (end < lines.size() && lines[end].polygon == lines[first].polygon) ++end;
+    const auto rings = lines.subspan(first, end - first);
+    if (const auto level = waters.level_of(rings)) found.emplace_back(rings, *level);
   }
+  std::vector<Lake> lakes;
+  for (const auto& [rings, level] : found) lakes.push_back(waters.flatten(rings, level));
   return lakes;
 }
 

@@ -24,6 +24,23 @@ std::array<double, 2> unit_of(const RasterInfo& raster) {
   return {raster.cell_x_m / raster.cell_x, raster.cell_y_m / raster.cell_y};
 }
 
+/// Some cell has three heights or four, so that there is a surface.
+bool has_cell(const OwnedHeightField& field) {
+  const auto is_height = [&](int col, int row) {
+    return std::isnan(field.samples[static_cast<std::size_t>(row) * static_cast<std::size_t>(field.cols) +
+                                    static_cast<std::size_t>(col)])
+               ? 0
+               : 1;
+  };
+  for (int row = 0; row + 1 < field.rows; ++row) {
+    for (int col = 0; col + 1 < field.cols; ++col) {
+      if (is_height(col, row) + is_height(col + 1, row) + is_height(col, row + 1) + is_height(col + 1, row + 1) >= 3)
+        return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 void CutlineArguments::add_to(CLI::App& verb) {
@@ -88,9 +105,11 @@ Result<Cut> read_cut(const CutlineArguments& given, const RasterInfo& raster, co
   cut.masked = void_outside(field, cut.cutline);
   cut.cutline.rings.clear();
   const bool is_void = std::all_of(field.samples.begin(), field.samples.end(), [](float z) { return std::isnan(z); });
-  if (is_void)
-    return fail(ErrorKind::kInput, fmt::format("--cutline {} --mask-outside: no height of {} lies in the polygons",
-                                               shell_word(given.files.front()), raster.path));
+  if (is_void || (cut.masked > 0 && !has_cell(field)))
+    return fail(ErrorKind::kInput,
+                fmt::format("--cutline {} --mask-outside: no {} of {} lies in the polygons{}",
+                            shell_word(given.files.front()), is_void ? "height" : "cell with three heights",
+                            raster.path, is_void ? "" : ": leave --mask-outside out to cut through cells"));
   return cut;
 }
 

@@ -92,7 +92,7 @@ Result<void> LineArguments::check() const {
                         : are_soft ? "--soft-breaklines"
                         : conflict ? "--line-conflict"
                                    : nullptr;
-  const bool may_meet = conflict && !are_soft && !z_field && !rivers.empty();
+  const bool may_meet = conflict && !are_soft && !z_field && (!rivers.empty() || !water.empty());
   if (needing != nullptr && breaklines.empty() && !may_meet)
     return fail(ErrorKind::kUsage, fmt::format("{} needs --breaklines: there are no lines without", needing));
   if (are_soft && z_field)
@@ -173,9 +173,11 @@ Json describe_lines(const LineArguments& given, std::uint64_t lines, std::uint64
 
 std::string lines_line(std::uint64_t lines, std::uint64_t laid, const std::vector<SampleEdit>& edits) {
   if (lines == 0) return "";
-  std::string text = laid == lines ? format_plural(lines, "line")
-                                   : fmt::format("{} of {}, the others lie beside the raster", format_count(laid),
-                                                 format_plural(lines, "line"));
+  std::string text = format_plural(lines, "line");
+  if (laid != lines) {
+    text = fmt::format("{} of {}, the {} beside the raster", laid == 0 ? "none" : format_count(laid), text,
+                       lines - laid == 1 ? "other lies" : "others lie");
+  }
   if (!edits.empty())
     text +=
         fmt::format("; {} given their heights, changed by up to {}: the errors are those against the changed raster",

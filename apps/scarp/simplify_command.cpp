@@ -267,6 +267,11 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
         "the greedy order was taken: the goal is so coarse that tiles would cost vertices, or the heights span "
         "magnitudes beyond exact arithmetic");
   }
+  if (outcome.line_count() > 0 && outcome.lines_laid() == 0) {
+    outcome.warnings.push_back(
+        fmt::format("{}: no line lies on the raster's surface, so they change nothing: is their CRS the right one?",
+                    plan->lines.find_lines()));
+  }
   if (const std::string faults = list_faults(outcome.simplified.measurement); !faults.empty()) {
     outcome.warnings.push_back("the mesh keeps its error bound but is not sound: " + faults);
   }

@@ -96,6 +96,26 @@ refuses 1 "--line-conflict" "$scarp" simplify hills.tif x.glb -e 12 --breaklines
 refuses 1 "--breaklines" "$scarp" simplify hills.tif x.glb -e 12 --line-conflict mean
 refuses 1 "--max-triangles" "$scarp" simplify hills.tif x.glb -t 100 --breaklines soft.geojson
 refuses 1 "--breaklines" "$scarp" simplify hills.tif x.glb -e 12 --importance local --breaklines soft.geojson
+# A height that no float32 holds; lines far from the raster, which is told; a file that says that its CRS is undefined.
+python3 - <<'PYTHON'
+import json
+def line(name, points):
+    json.dump({"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": points}}, open(name, "w"))
+line("sky.geojson", [[10, 10, 5], [50, 50, 1e300]])
+line("far.geojson", [[1000, 10], [1500, 50]])
+PYTHON
+refuses 2 "sky.geojson feature 0 has the height 1e+300" "$scarp" simplify hills.tif x.glb -e 12 --breaklines sky.geojson
+succeeds "$scarp" simplify hills.tif sky.glb -e 12 --breaklines sky.geojson --soft-breaklines
+succeeds "$scarp" simplify hills.tif far.glb -e 12 --breaklines far.geojson
+grep -q "warning: --breaklines: no line lies on the raster's surface" "$logs/err" || fail "lines beside the raster are not told"
+if command -v ogr2ogr > /dev/null && command -v gdal_translate > /dev/null; then
+  succeeds gdal_translate -q -a_srs EPSG:32611 hills.tif utm.tif
+  succeeds ogr2ogr -f GPKG undefined.gpkg soft.geojson -a_srs None
+  succeeds "$scarp" simplify utm.tif undefined.glb -e 12 --breaklines undefined.gpkg --report undefined.json
+  [ "$(json undefined.json breaklines laid)" = 3 ] || fail "a GeoPackage of undefined CRS is not taken for the raster's"
+  grep -q "undefined.gpkg has no CRS" "$logs/err" || fail "an undefined CRS is not told"
+fi
+
 refuses 2 "missing.gpkg" "$scarp" simplify hills.tif x.glb -e 12 --breaklines missing.gpkg
 
 # Where the grid is bent no line is straight: the option is named, and the way out.

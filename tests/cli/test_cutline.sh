@@ -141,6 +141,9 @@ holds "$(json out.json cutline samples_outside) < $(json cut.json cutline sample
 refuses 2 "open.geojson feature 0 is an open line" "$scarp" simplify "$dem" x.glb -e 20 --cutline open.geojson
 refuses 2 "beside the raster" "$scarp" simplify "$dem" x.glb -e 20 --cutline away.geojson
 refuses 2 "lies in the polygons" "$scarp" simplify "$dem" x.glb -e 20 --cutline away.geojson --mask-outside
+# A strip that holds samples and no cell.
+echo '{"type":"Polygon","coordinates":[[[-84.3,36.2998],[-84.1,36.2998],[-84.1,36.3004],[-84.3,36.2998]]]}' > strip.geojson
+refuses 2 "no cell with three heights" "$scarp" simplify "$dem" x.glb -e 20 --cutline strip.geojson --mask-outside
 refuses 2 "point.geojson" "$scarp" simplify "$dem" x.glb -e 20 --cutline point.geojson
 refuses 2 "nothing.gpkg" "$scarp" simplify "$dem" x.glb -e 20 --cutline nothing.gpkg
 refuses 2 "nothing of the polygons is left" "$scarp" simplify "$dem" x.glb -e 20 --cutline star.geojson --inset 20000

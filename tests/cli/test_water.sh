@@ -107,6 +107,18 @@ refuses 1 "--water" "$scarp" simplify "$dem" x.glb -e 20 --water lakes.geojson -
 refuses 1 "--detect-flats" "$scarp" simplify "$dem" x.glb -e 20 --detect-flats 2
 refuses 1 "--max-triangles" "$scarp" simplify "$dem" x.glb -t 100 --rivers rivers.geojson
 
+# Two lakes of different levels that share a shore are a conflict, named, with a way out.
+python3 - <<'PYTHON'
+import json
+def lake(x): return {"type": "Feature", "properties": {}, "geometry": {"type": "Polygon", "coordinates": [
+    [[x, 36.25], [x + 0.03, 36.25], [x + 0.03, 36.28], [x, 36.28], [x, 36.25]]]}}
+json.dump({"type": "FeatureCollection", "features": [lake(-84.30), lake(-84.27)]}, open("side.geojson", "w"))
+json.dump({"type": "FeatureCollection", "features": [lake(-84.30), lake(-84.30)]}, open("twice.geojson", "w"))
+PYTHON
+refuses 2 "side.geojson feature 0 has the height" "$scarp" simplify "$dem" x.glb -e 20 --water side.geojson
+succeeds "$scarp" simplify "$dem" side.glb -e 20 --water side.geojson --line-conflict highest
+succeeds "$scarp" simplify "$dem" twice.glb -e 20 --water twice.geojson
+
 refuses 1 "--vertices free" "$scarp" simplify "$dem" x.glb -e 20 --effort high --vertices free --water lakes.geojson
 refuses 1 "--max-triangles" "$scarp" simplify "$dem" x.glb -t 100 --water lakes.geojson
 refuses 1 "--water-percentile" "$scarp" simplify "$dem" x.glb -e 20 --water lakes.geojson --water-percentile 101

@@ -180,7 +180,7 @@ TEST(breaklines, hard_lines_that_disagree_are_named_or_settled) {
   EXPECT_EQ(refused.error().kind, ErrorKind::kInput);
   EXPECT_EQ(refused.error().message,
             "line 0 has the height 12 and line 1 has 30 where they meet at 1020, 1980: mend one of them, or say which "
-            "height counts");
+            "height counts (line conflict: first, mean or highest)");
   EXPECT_EQ(height_at(*scene.place(LineConflict::kFirst), 2, 2), 12);
   EXPECT_EQ(height_at(*scene.place(LineConflict::kMean), 2, 2), 21);
   EXPECT_EQ(height_at(*scene.place(LineConflict::kHighest), 2, 2), 30);

@@ -144,6 +144,34 @@ TEST(water, of_the_percentile_and_nothing_else) {
   EXPECT_EQ(flatten_lakes(field, {}, options).error().kind, ErrorKind::kUsage);
 }
 
+TEST(water, has_the_level_that_it_has_without_its_neighbours) {
+  const auto flatten = [](const std::vector<Line>& lines) {
+    OwnedHeightField field = valley();
+    WaterOptions options;
+    options.affine = field.frame.affine;
+    options.percentile = 40;
+    return *flatten_lakes(field, lines, options);
+  };
+  const std::vector<Line> lake = lake_with_island();
+  std::vector<Line> neighbour = {ring({{20, 5, NAN}, {36, 9, NAN}, {29, 30, NAN}}, LineRole::kOuter)};
+  const double alone = flatten(lake).front().level, other = flatten(neighbour).front().level;
+  ASSERT_NE(alone, other);
+  // Twice the same, and one that overlaps both.
+  std::vector<Line> lines = lake;
+  for (Line again : lake) {
+    again.polygon = 1;
+    lines.push_back(std::move(again));
+  }
+  neighbour.front().polygon = 2;
+  lines.push_back(neighbour.front());
+  const auto lakes = flatten(lines);
+  ASSERT_EQ(lakes.size(), 3u);
+  EXPECT_EQ(lakes[0].level, alone);
+  EXPECT_EQ(lakes[1].level, alone);
+  EXPECT_EQ(lakes[1].samples + lakes[1].raised, 0u);
+  EXPECT_EQ(lakes[2].level, other);
+}
+
 TEST(water, beside_the_raster_is_left_out) {
   OwnedHeightField field = valley();
   const auto before = field.samples;

@@ -263,7 +263,7 @@ Result<LineSet> read(const std::string& path, const ReadLinesOptions& options) {
   if (set.lines.empty())
     return fail(ErrorKind::kInput, fmt::format("{}: the layer {} holds no lines or polygons", set.path, set.layer));
   collector.warn();
-  const Crs crs = copy_crs(OGR_L_GetSpatialRef(*layer));
+  const Crs crs = layer_crs(*layer);
   set.crs = crs_name(crs);
   if (auto placed = place(crs, options.crs, set); !placed) return tl::unexpected(placed.error());
   for (const std::string& warning : session.warnings()) set.warnings.push_back("GDAL: " + warning);

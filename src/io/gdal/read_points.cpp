@@ -220,7 +220,7 @@ Result<PointSet> read(const std::string& path, const ReadPointsOptions& options)
   if (collector.without_geometry() > 0)
     points.warnings.push_back(
         fmt::format("{} features of {} have no point and were left out", collector.without_geometry(), path));
-  const Crs crs = copy_crs(OGR_L_GetSpatialRef(*layer));
+  const Crs crs = layer_crs(*layer);
   if (auto placed = place(crs, options.crs, points); !placed) return tl::unexpected(placed.error());
   for (const std::string& warning : session.warnings()) points.warnings.push_back("GDAL: " + warning);
   return points;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string_view>
 
 namespace scarp::gdal {
 
@@ -41,6 +42,12 @@ std::string layer_names(GDALDatasetH dataset) {
   for (int i = 0; i < GDALDatasetGetLayerCount(dataset); ++i)
     names += (i == 0 ? "" : ", ") + std::string(OGR_L_GetName(GDALDatasetGetLayer(dataset, i)));
   return names;
+}
+
+Crs layer_crs(OGRLayerH layer) {
+  Crs crs = copy_crs(OGR_L_GetSpatialRef(layer));
+  if (crs && std::string_view(OSRGetName(crs.get())).starts_with("Undefined ")) return nullptr;
+  return crs;
 }
 
 Result<void> each_feature(Session& session, OGRLayerH layer, const std::string& path, const ProgressCallback& progress,

@@ -8,6 +8,7 @@
 #include <string>
 #include <type_traits>
 
+#include "io/gdal/crs.h"
 #include "io/gdal/open.h"
 #include "scarp/progress.h"
 
@@ -27,6 +28,9 @@ Result<int> find_field(OGRLayerH layer, const std::string& path, const std::stri
 
 /// The names of all layers, with commas.
 std::string layer_names(GDALDatasetH dataset);
+
+/// The CRS of a layer; none where the file says that it is undefined (GeoPackage's srs_id 0 and -1).
+Crs layer_crs(OGRLayerH layer);
 
 /// Calls add(feature) for the features of a layer, until it fails. Fails with kCancelled where `progress` says so, and
 /// with kInput where the layer cannot be read to its end.
