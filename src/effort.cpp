@@ -76,13 +76,16 @@ const char* find_lattice_obstacle(const HeightField& field, const SimplifyOption
   if (const char* obstacle = find_beyond_heights(field, options)) return obstacle;
   if (field.samples == nullptr) return "needs the raster in memory as a whole";
   if (!field.frame.is_affine()) return "needs a frame in which the grid is regular";
-  if (has_budget(options) || !options.max_error) return "needs a max error and no budget";
   return find_strategy(options) != nullptr ? "has no strategies of insertion" : nullptr;
 }
 
 /// Whether lines can be laid.
 Result<void> check_lines(const HeightField& field, const SimplifyOptions& options) {
   const char* obstacle = has_lines(options) ? find_lattice_obstacle(field, options) : nullptr;
+  if (has_lines(options) && obstacle == nullptr && !has_budget(options) && !options.max_error)
+    obstacle = "needs a max error or a budget";
+  if (has_lines(options) && obstacle == nullptr && has_budget(options) && has_bounds(options))
+    obstacle = "has no budget where samples have bounds of their own";
   const bool is_cut = !options.cutline.rings.empty();
   if (obstacle == nullptr && (has_faults(options) || is_cut) && options.shape.any())
     obstacle = "has no goals for angles and edges";
@@ -104,7 +107,9 @@ Result<void> check_shape(const HeightField& field, const SimplifyOptions& option
   if (shape.grade && !(*shape.grade > 0 && std::isfinite(*shape.grade)))
     return usage(fmt::format("the grade must be a finite number above 0, not {}", *shape.grade));
   if (!shape.any()) return {};
-  if (const char* obstacle = find_lattice_obstacle(field, options))
+  const char* obstacle = find_lattice_obstacle(field, options);
+  if (obstacle == nullptr && (has_budget(options) || !options.max_error)) obstacle = "needs a max error and no budget";
+  if (obstacle != nullptr)
     return usage(fmt::format("a mesh with goals for angles and edges {}: leave out one or the other", obstacle));
   if (std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps)
     return usage(
@@ -121,7 +126,7 @@ Result<void> check_shape(const HeightField& field, const SimplifyOptions& option
 }  // namespace
 
 bool has_lines(const SimplifyOptions& options) {
-  return !options.breaklines.lines.empty() || !options.cutline.rings.empty();
+  return !options.breaklines.lines.empty() || options.breaklines_for || !options.cutline.rings.empty();
 }
 
 bool has_faults(const SimplifyOptions& options) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "goals.h"
+#include "search_progress.h"
 
 namespace scarp {
 
@@ -33,37 +34,6 @@ double power_between(const Sight& a, const Sight& b) {
   return run == 0 ? kUsualPower : std::clamp((b.used - a.used) / run, 0.3, 20.0);
 }
 
-/// Tells the whole search as one pass. Each stage takes its share of what was left.
-class SearchProgress {
- public:
-  explicit SearchProgress(const ProgressCallback& callback) : callback_(callback), reporter_(callback) {}
-
-  /// False: cancelled.
-  bool begin(double share) {
-    begin_ = end_;
-    end_ = begin_ + share * (1 - begin_);
-    return reporter_.report("search", begin_, 0, 0);
-  }
-  ProgressCallback of_run(bool has_fit) {
-    if (!callback_) return {};
-    return [this, has_fit](const Progress& progress) {
-      return reporter_.report("search", begin_ + share_of(progress, has_fit) * (end_ - begin_), progress.vertices,
-                              progress.max_error);
-    };
-  }
-
- private:
-  static double share_of(const Progress& progress, bool has_fit) {
-    constexpr double kRefine = 0.1;
-    if (progress.pass == "refine") return has_fit ? kRefine * progress.fraction : progress.fraction;
-    return progress.pass == "fit" ? kRefine + (1 - kRefine) * progress.fraction : 1;
-  }
-
-  const ProgressCallback& callback_;
-  Reporter reporter_;
-  double begin_ = 0, end_ = 0;
-};
-
 class ErrorSearch {
  public:
   ErrorSearch(const SimplifyOptions& options, const RunOnce& run, Judged judged)
@@ -78,6 +48,12 @@ class ErrorSearch {
     const auto start = Clock::now();
     if (auto begun = begin_greedily(); !begun) return tl::unexpected(begun.error());
     if (auto searched = search(); !searched) return tl::unexpected(searched.error());
+    // The greedy mesh may have been searched for, too.
+    if (best_.passes.front().name == others_.name) {
+      note(best_.passes.front());
+      best_.seconds_refine -= best_.passes.front().seconds;
+      best_.passes.erase(best_.passes.begin());
+    }
     best_.passes.insert(best_.passes.begin(), others_);
     best_.passes.front().seconds = seconds_since(start) - best_.seconds_refine - best_.seconds_measure;
     best_.seconds_refine += best_.passes.front().seconds;
@@ -210,7 +186,9 @@ class ErrorSearch {
     const double reached = std::min(error, max_error_of(*made));
     see(fits_, Sight{std::log(std::max(reached, std::numeric_limits<double>::min())), std::log(used)});
     made->stop = has_room_ ? best_.stop : stop_of(*made);
-    if (!is_at_floor_ && !is_better(*made)) {
+    // Lines that follow the floor may need more than those of the error that was found to reach it.
+    const bool is_larger = has_room_ && made->mesh.triangle_count() > best_.mesh.triangle_count();
+    if (is_larger || (!is_at_floor_ && !is_better(*made))) {
       note(*made);
       return {};
     }
@@ -279,12 +257,13 @@ class ErrorSearch {
 
   /// What a run did whose mesh is not kept.
   void note(const Simplified& made) {
-    for (const Pass& pass : made.passes) {
-      others_.samples_scanned += pass.samples_scanned;
-      others_.triangles_scanned += pass.triangles_scanned;
-      others_.insertions += pass.insertions;
-      others_.removals += pass.removals;
-    }
+    for (const Pass& pass : made.passes) note(pass);
+  }
+  void note(const Pass& pass) {
+    others_.samples_scanned += pass.samples_scanned;
+    others_.triangles_scanned += pass.triangles_scanned;
+    others_.insertions += pass.insertions;
+    others_.removals += pass.removals;
   }
 
   const SimplifyOptions& options_;

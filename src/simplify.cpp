@@ -17,6 +17,7 @@
 #include "field_lines.h"
 #include "goals.h"
 #include "grid/raster.h"
+#include "line_budget.h"
 #include "proof.h"
 #include "refine/samples.h"
 #include "refine/source_judge.h"
@@ -142,9 +143,17 @@ Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions
 /// Soft lines follow the raster to within this share of the max error.
 constexpr double kLineShare = 0.5;
 
-Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyOptions& options) {
+/// Towards a max error.
+Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyOptions& asked) {
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
   const auto start = Clock::now();
+  SimplifyOptions options = asked;
+  if (asked.breaklines_for) {
+    auto lines = asked.breaklines_for(*asked.max_error);
+    if (!lines) return tl::unexpected(lines.error());
+    options.breaklines = std::move(*lines);
+    if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
+  }
   const double tolerance = kLineShare * *options.max_error;
   auto lines = prepare_lines(field, options.breaklines, options.cutline, tolerance, options.threads);
   if (!lines) return tl::unexpected(lines.error());
@@ -154,9 +163,29 @@ Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyO
   result->passes.insert(result->passes.begin(), Pass{"arrange", seconds});
   result->edits = std::move(lines->edits);
   result->lines_laid = lines->laid;
+  result->lines_for = *options.max_error;
   const Measurement& measured = result->measurement;
   if (lines->valid > 0) result->cut_off = lines->valid - measured.samples - measured.uncovered - measured.stray;
   return result;
+}
+
+/// With the budgets there are.
+Result<Simplified> simplify_lines_within(const HeightField& field, const SimplifyOptions& options) {
+  if (!has_budget(options)) return simplify_with_lines(field, options);
+  bool has_mesh = false;
+  // Lines are what they are for each error anew: slivers of a cutline may vanish at one and not at another. What was
+  // possible once goes on.
+  const RunOnce towards_error = [&](const SimplifyOptions& once) {
+    auto made = simplify_with_lines(field, once);
+    if (!made && has_mesh && made.error().kind == ErrorKind::kInput) made.error().kind = ErrorKind::kPromise;
+    has_mesh = has_mesh || made.has_value();
+    return made;
+  };
+  const double most = largest_line_error(field, options);
+  const RunOnce run = [&](const SimplifyOptions& once) {
+    return has_budget(once) ? search_line_error(once, most, towards_error) : towards_error(once);
+  };
+  return options.effort == Effort::kFast ? run(options) : search_error(options, run);
 }
 
 }  // namespace
@@ -166,7 +195,7 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& ask
   options.effort = choose_effort(field, asked);
   if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
   if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
-  if (has_lines(options)) return simplify_with_lines(field, options);
+  if (has_lines(options)) return simplify_lines_within(field, options);
   if (options.effort == Effort::kFast || !has_budget(options)) return simplify_once(field, options, nullptr);
   const auto run = [&](const SimplifyOptions& once) { return simplify_once(field, once, nullptr); };
   if (!has_norm(field)) return search_error(options, run);

@@ -15,7 +15,8 @@ struct CliffArguments {
   Given height;
 
   void add_to(CLI::App& verb);
-  Result<void> check(bool has_max_error) const;
+  /// `has_error`: there is one for all samples, given or to be searched for.
+  Result<void> check(bool has_error) const;
   std::string canonical() const { return canonical_option("--cliff", height); }
   /// Adds the lines of walls to `lines`, around those that are there. Nothing without --cliff.
   Result<std::optional<Cliffs>> add_cliffs(const HeightField& field, double max_error, LineConstraints& lines) const;

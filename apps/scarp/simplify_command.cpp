@@ -46,6 +46,27 @@ Result<void> read_colors(const SimplifyPlan& plan, const ReadOptions& options, b
   return {};
 }
 
+/// Rivers and walls are fitted to the max error: that of a budget's mesh is not known before the mesh is.
+bool has_lines_to_fit(const SimplifyPlan& plan) {
+  const bool has_budget = plan.simplify.max_triangles || plan.simplify.max_vertices;
+  return has_budget && (!plan.lines.rivers.empty() || plan.cliff.height);
+}
+
+/// All lines of a mesh of such an error, and the walls among them.
+struct FittedLines {
+  LineConstraints lines;
+  std::optional<Cliffs> cliffs;
+};
+Result<FittedLines> fit_lines(const SimplifyPlan& plan, const Outcome& outcome, double max_error) {
+  FittedLines fitted{outcome.lines, std::nullopt};
+  if (auto rivers = add_rivers(outcome.waters, outcome.field, max_error, fitted.lines); !rivers)
+    return tl::unexpected(rivers.error());
+  auto cliffs = plan.cliff.add_cliffs(outcome.field.view(), max_error, fitted.lines);
+  if (!cliffs) return tl::unexpected(cliffs.error());
+  fitted.cliffs = std::move(*cliffs);
+  return fitted;
+}
+
 Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const ProgressCallback& progress, Outcome& outcome) {
   const Clock::time_point start = Clock::now();
   ReadOptions options = plan.read;
@@ -61,13 +82,17 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
       plan.lines.read(outcome.as_read, outcome.field.rows, progress, outcome.companions.warnings);
   if (!lines) return tl::unexpected(std::move(lines.error()));
   outcome.lines = std::move(*lines);
-  Result<WatersFound> waters = add_waters(plan.lines, progress, outcome.asked.value_or(0), outcome.field, outcome.lines,
-                                          outcome.companions.warnings);
+  const bool fits_later = has_lines_to_fit(plan);
+  const std::optional<double> max_error = fits_later ? std::nullopt : std::optional(outcome.asked.value_or(0));
+  Result<WatersFound> waters =
+      add_waters(plan.lines, progress, max_error, outcome.field, outcome.lines, outcome.companions.warnings);
   if (!waters) return tl::unexpected(std::move(waters.error()));
   outcome.waters = std::move(*waters);
-  auto cliffs = plan.cliff.add_cliffs(outcome.field.view(), outcome.asked.value_or(0), outcome.lines);
-  if (!cliffs) return tl::unexpected(std::move(cliffs.error()));
-  outcome.cliffs = std::move(*cliffs);
+  if (!fits_later) {
+    auto cliffs = plan.cliff.add_cliffs(outcome.field.view(), outcome.asked.value_or(0), outcome.lines);
+    if (!cliffs) return tl::unexpected(std::move(cliffs.error()));
+    outcome.cliffs = std::move(*cliffs);
+  }
   Result<Cut> cut = read_cut(plan.cut, outcome.as_read, progress, outcome.field, outcome.companions.warnings);
   if (!cut) return tl::unexpected(std::move(cut.error()));
   outcome.cut = std::move(*cut);
@@ -223,6 +248,13 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   options.script = outcome.companions.script;
   options.breaklines = outcome.lines;
   options.cutline = outcome.cut.cutline;
+  if (has_lines_to_fit(*plan)) {
+    options.breaklines_for = [&plan, &outcome](double max_error) -> Result<LineConstraints> {
+      auto fitted = fit_lines(*plan, outcome, max_error);
+      if (!fitted) return tl::unexpected(std::move(fitted.error()));
+      return std::move(fitted->lines);
+    };
+  }
   options.progress = display.callback();
   if (keeps_mesh_on_interrupt(options)) {
     options.is_enough = content_with_interrupt;
@@ -240,6 +272,12 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
     return tl::unexpected(std::move(error));
   }
   outcome.simplified = std::move(*simplified);
+  if (options.breaklines_for) {
+    auto fitted = fit_lines(*plan, outcome, outcome.simplified.lines_for);
+    if (!fitted) return tl::unexpected(std::move(fitted.error()));
+    outcome.lines = std::move(fitted->lines);
+    outcome.cliffs = std::move(fitted->cliffs);
+  }
   apply_edits(outcome.simplified.edits, outcome.field);
   if (outcome.field.source) outcome.heights = outcome.simplified.measurement.heights;
   complete_info(outcome.heights, outcome.as_read);

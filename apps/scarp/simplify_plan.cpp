@@ -112,13 +112,24 @@ Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
   return {};
 }
 
+/// The budget that was given; null if there is none.
+const char* find_budget(const SimplifyArguments& given) {
+  if (given.max_triangles) return "--max-triangles";
+  return given.max_points ? "--max-points" : nullptr;
+}
+
+/// The option that gives samples bounds of their own; null if there is none.
+const char* find_bounds(const SimplifyArguments& given) {
+  if (given.companions.mask) return "--mask";
+  if (const char* tolerance = given.companions.find_tolerance()) return tolerance;
+  return given.companions.script ? "--script" : nullptr;
+}
+
 /// The option beside which the mesh can have no vertices between samples; null if there is none.
 const char* find_lattice_obstacle(const SimplifyArguments& given, const SimplifyPlan& plan) {
   if (plan.channels.image) return "--image";
   if (!given.channels.textures.empty()) return "--texture";
   if (plan.simplify.outline_tolerance > 0) return "--outline-tolerance";
-  if (given.max_triangles) return "--max-triangles";
-  if (given.max_points) return "--max-points";
   return given.strategy.dominant_obstacle();
 }
 
@@ -127,16 +138,23 @@ Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.cliff = given.cliff;
   plan.cut = given.cut;
   if (auto checked = given.lines.check(); !checked) return checked;
-  if (auto checked = given.cliff.check(given.max_error.has_value()); !checked) return checked;
+  if (auto checked = given.cliff.check(given.max_error || find_budget(given) != nullptr); !checked) return checked;
   if (auto checked = given.cut.check(); !checked) return checked;
   const char* lines = given.cliff.height ? "--cliff" : given.lines.find_lines();
   const bool is_cut = lines == nullptr && given.cut.find_cut() != nullptr;
   if (is_cut) lines = given.cut.find_cut();
-  if (lines == nullptr && plan.solid && plan.solid->is_split()) lines = "--split";
+  const bool is_split = plan.solid && plan.solid->is_split();
+  if (lines == nullptr && is_split) lines = "--split";
   if (lines == nullptr) return {};
-  const char* obstacle = find_lattice_obstacle(given, plan);
+  const char *obstacle = find_lattice_obstacle(given, plan), *budget = find_budget(given);
+  if (budget != nullptr && is_split) lines = "--split", obstacle = budget;
+  if (const char* bounds = find_bounds(given); obstacle == nullptr && budget != nullptr && bounds != nullptr)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{}, {} and {} contradict each other: a budget is met by one error for all samples; leave "
+                            "one of them out",
+                            lines, budget, bounds));
   if (given.cliff.height && given.shape.find_goal() != nullptr) obstacle = given.shape.find_goal();
-  if (given.cliff.height && plan.solid && plan.solid->is_split()) obstacle = "--split";
+  if (given.cliff.height && is_split) obstacle = "--split";
   // Water is level where all corners of its triangles are: at samples and on its shore.
   const char* lakes = given.lines.find_lakes();
   if (lakes != nullptr && plan.simplify.vertices == Vertices::kFree) obstacle = "--vertices free";
@@ -153,21 +171,9 @@ Result<void> plan_shape(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.simplify.shape = *goals;
   const char* goal = given.shape.find_goal();
   const char* obstacle = goal == nullptr ? nullptr : find_lattice_obstacle(given, plan);
+  if (goal != nullptr && obstacle == nullptr) obstacle = find_budget(given);
   if (obstacle == nullptr) return {};
   return fail(ErrorKind::kUsage, fmt::format("{} and {} contradict each other: leave one of them out", goal, obstacle));
-}
-
-/// The budget that was given; null if there is none.
-const char* find_budget(const SimplifyArguments& given) {
-  if (given.max_triangles) return "--max-triangles";
-  return given.max_points ? "--max-points" : nullptr;
-}
-
-/// The option that gives samples bounds of their own; null if there is none.
-const char* find_bounds(const SimplifyArguments& given) {
-  if (given.companions.mask) return "--mask";
-  if (const char* tolerance = given.companions.find_tolerance()) return tolerance;
-  return given.companions.script ? "--script" : nullptr;
 }
 
 /// The option that asks for more than heights; null if there is none.

@@ -38,17 +38,10 @@ Result<std::vector<Lake>> add_lakes(const LineArguments& given, const ProgressCa
   return lakes;
 }
 
-Result<std::vector<River>> add_rivers(const LineArguments& given, const ProgressCallback& progress, double max_error,
-                                      const OwnedHeightField& field, const std::vector<Lake>& lakes,
-                                      const std::array<double, 6>& affine, std::vector<std::string>& warnings) {
-  if (given.rivers.empty()) return std::vector<River>();
-  const auto lines = read_files(given.rivers, plan_reading(field, progress), warnings);
-  if (!lines) return tl::unexpected(lines.error());
-  auto rivers = carve_rivers(field, *lines, lakes, {affine, max_error / 2});
-  if (rivers && rivers->size() < lines->size())
-    warnings.push_back(fmt::format("--rivers: {} beside the raster or closed: no river",
-                                   format_plural(lines->size() - rivers->size(), "line")));
-  return rivers;
+Result<std::vector<Line>> read_streams(const LineArguments& given, const ProgressCallback& progress,
+                                       const OwnedHeightField& field, std::vector<std::string>& warnings) {
+  if (given.rivers.empty()) return std::vector<Line>();
+  return read_files(given.rivers, plan_reading(field, progress), warnings);
 }
 
 std::string lakes_line(const std::vector<Lake>& lakes) {
@@ -76,18 +69,37 @@ std::string rivers_line(const std::vector<River>& rivers) {
 
 }  // namespace
 
-Result<WatersFound> add_waters(const LineArguments& given, const ProgressCallback& progress, double max_error,
-                               OwnedHeightField& field, LineConstraints& lines, std::vector<std::string>& warnings) {
+Result<WatersFound> add_waters(const LineArguments& given, const ProgressCallback& progress,
+                               const std::optional<double>& max_error, OwnedHeightField& field, LineConstraints& lines,
+                               std::vector<std::string>& warnings) {
   WatersFound found;
   auto lakes = add_lakes(given, progress, field, lines.affine, warnings);
   if (!lakes) return tl::unexpected(lakes.error());
   found.lakes = std::move(*lakes);
-  auto rivers = add_rivers(given, progress, max_error, field, found.lakes, lines.affine, warnings);
-  if (!rivers) return tl::unexpected(rivers.error());
-  found.rivers = std::move(*rivers);
+  auto streams = read_streams(given, progress, field, warnings);
+  if (!streams) return tl::unexpected(streams.error());
+  found.streams = std::move(*streams);
+  if (!found.streams.empty()) {
+    auto rivers = carve_rivers(field, found.streams, found.lakes, {lines.affine, max_error.value_or(0) / 2});
+    if (!rivers) return tl::unexpected(rivers.error());
+    found.rivers = std::move(*rivers);
+  }
+  if (found.rivers.size() < found.streams.size())
+    warnings.push_back(fmt::format("--rivers: {} beside the raster or closed: no river",
+                                   format_plural(found.streams.size() - found.rivers.size(), "line")));
   for (const Lake& lake : found.lakes) lines.lines.insert(lines.lines.end(), lake.shore.begin(), lake.shore.end());
+  if (!max_error) return found;
   for (const River& river : found.rivers) lines.lines.push_back(river.course);
   return found;
+}
+
+Result<void> add_rivers(const WatersFound& waters, const OwnedHeightField& field, double max_error,
+                        LineConstraints& lines) {
+  if (waters.streams.empty()) return {};
+  auto rivers = carve_rivers(field, waters.streams, waters.lakes, {lines.affine, max_error / 2});
+  if (!rivers) return tl::unexpected(rivers.error());
+  for (River& river : *rivers) lines.lines.push_back(std::move(river.course));
+  return {};
 }
 
 Json describe_lakes(const std::vector<Lake>& lakes) {

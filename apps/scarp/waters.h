@@ -1,6 +1,7 @@
 // Lakes and rivers that the mesh must hold.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,19 @@ namespace scarp::cli {
 struct WatersFound {
   std::vector<Lake> lakes;
   std::vector<River> rivers;
+  std::vector<Line> streams;  ///< what --rivers names, as it was read
 };
 
 /// Makes the lakes of --water flat, or finds those of --detect-flats, lets --rivers flow, and makes shores and courses
-/// `lines` of the mesh. `max_error`: what rivers may lie beside the lowest of what is upstream, twice.
-Result<WatersFound> add_waters(const LineArguments& given, const ProgressCallback& progress, double max_error,
-                               OwnedHeightField& field, LineConstraints& lines, std::vector<std::string>& warnings);
+/// `lines` of the mesh. `max_error`: what rivers may lie beside the lowest of what is upstream, twice; nothing: it is
+/// not known yet, and add_rivers() is to make courses lines.
+Result<WatersFound> add_waters(const LineArguments& given, const ProgressCallback& progress,
+                               const std::optional<double>& max_error, OwnedHeightField& field, LineConstraints& lines,
+                               std::vector<std::string>& warnings);
+
+/// Makes the courses of rivers, as a mesh of so large an error needs them, lines of it.
+Result<void> add_rivers(const WatersFound& waters, const OwnedHeightField& field, double max_error,
+                        LineConstraints& lines);
 
 /// The "water" and "rivers" lists of a report.
 Json describe_lakes(const std::vector<Lake>& lakes);

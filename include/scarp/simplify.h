@@ -48,10 +48,15 @@ struct SimplifyOptions {
   std::span<const float> tolerance = {};
   /// Breaklines. A hard line keeps its heights, a soft one follows the raster. Where a hard line passes through a
   /// sample that has another height, the sample is given the line's, and what is promised holds for the samples as they
-  /// are then (Simplified::edits). Fails with kUsage without a max error, together with a
-  /// budget, channels, an outline tolerance or strategies, without the samples in memory and in frames that are not
-  /// affine; with kInput for lines whose heights contradict each other, named. DEFAULT: none.
+  /// are then (Simplified::edits). Fails with kUsage without a max error or a budget, together with channels, an outline
+  /// tolerance or strategies, without the samples in memory and in frames that are not affine; with kInput for lines
+  /// whose heights contradict each other, named. With a budget an error is searched for, whatever the effort (see
+  /// "Budgets"); fails with kUsage beside a mask, tolerances or a script, and for a budget below what lines and outline
+  /// need. DEFAULT: none.
   LineConstraints breaklines = {};
+  /// Breaklines that depend on the max error of the mesh to come, such as rivers and the lines of cliffs: asked for all
+  /// breaklines, in place of the above, before each run that a budget's search makes, or once. DEFAULT: none.
+  std::function<Result<LineConstraints>(double max_error)> breaklines_for = {};
   /// Polygons that the surface is cut to: of guarantee (2)'s domain what lies in them. Their rings become edges of the
   /// mesh, moved by 1/512 sample at most (3/512 where lines cross), at the heights of the raster between its samples;
   /// they follow it to within half of max_error, all of it within a sample of their vertices. Samples outside are not
@@ -145,6 +150,7 @@ struct Simplified {
   bool is_cut_short = false;                      ///< by SimplifyOptions::is_time_up or is_enough
   std::vector<SampleEdit> edits;                  ///< by breaklines, in raster order
   std::uint64_t lines_laid = 0;                   ///< breaklines of which some part lies in the raster
+  double lines_for = 0;                           ///< the max error that lines were laid for, given or found
   std::uint64_t cut_off = 0;                      ///< valid samples outside the cutline
   std::optional<ShapeReport> shape;               ///< of `mesh`, where SimplifyOptions::shape asks for something
   std::vector<Pass> passes;                       ///< in the order in which they ended
@@ -184,7 +190,8 @@ struct Simplified {
 /// Budgets are upper bounds. With more than fast effort they are met by a search for the max error whose mesh takes 99
 /// % of them, 97 % where that takes long, mostly in two or three runs of that effort after a greedy one; less where
 /// triangles jump because many samples share an error. What the objective names is never larger than in the greedy mesh
-/// for the same budgets. A max_error that fits is a goal of its own, and so is 0 where all samples fit (kExact).
+/// for the same budgets. A max_error that fits is a goal of its own, and so is 0 where all samples fit (kExact). With
+/// lines fast effort, too, searches for the max error: the mesh is that of this error, and lines follow it.
 ///
 /// Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex and some
 /// 20 MB. In the dominant order it is 4.6 bytes a sample plus 72 a vertex until the mesh is frozen, and a tile's

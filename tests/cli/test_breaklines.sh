@@ -94,7 +94,6 @@ for rule in first mean highest; do
 done
 refuses 1 "--line-conflict" "$scarp" simplify hills.tif x.glb -e 12 --breaklines cross.geojson --line-conflict odd
 refuses 1 "--breaklines" "$scarp" simplify hills.tif x.glb -e 12 --line-conflict mean
-refuses 1 "--max-triangles" "$scarp" simplify hills.tif x.glb -t 100 --breaklines soft.geojson
 refuses 1 "--breaklines" "$scarp" simplify hills.tif x.glb -e 12 --importance local --breaklines soft.geojson
 # A height that no float32 holds; lines far from the raster, which is told; a file that says that its CRS is undefined.
 python3 - <<'PYTHON'

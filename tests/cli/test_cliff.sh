@@ -57,7 +57,5 @@ done
 refuses 1 "--cliff" "$scarp" simplify house.asc x.glb -e 0.5 --cliff 0
 refuses 1 "--cliff" "$scarp" simplify house.asc x.glb -e 0.5 --cliff -2
 refuses 1 "--cliff" "$scarp" simplify house.asc x.glb -e 0.5 --cliff tall
-refuses 1 "--max-error" "$scarp" simplify house.asc x.glb -t 100 --cliff 3
-refuses 1 "--max-triangles" "$scarp" simplify house.asc x.glb -e 0.5 -t 100 --cliff 3
 refuses 1 "--min-angle" "$scarp" simplify house.asc x.2dm -e 0.5 --min-angle 20 --cliff 3
 refuses 1 "dominant" "$scarp" simplify house.asc x.glb -e 0.5 --order dominant --cliff 3

@@ -156,6 +156,6 @@ succeeds "$scarp" simplify "$dem" sheet.stl -e 20 --cutline star.geojson --solid
 refuses 1 "--inset" "$scarp" simplify "$dem" x.glb -e 20 --inset 5
 refuses 1 "--inset" "$scarp" simplify "$dem" x.glb -e 20 --cutline star.geojson --inset wide
 refuses 1 "--mask-outside" "$scarp" measure "$dem" one.glb --mask-outside
-refuses 1 "--mask-outside" "$scarp" simplify "$dem" x.glb -t 100 --cutline star.geojson
+refuses 1 "--mask-outside" "$scarp" simplify "$dem" x.glb -e 20 --outline-tolerance 1 --cutline star.geojson
 refuses 1 "--cutline" "$scarp" simplify "$dem" x.glb -e 20 --edges data --cutline star.geojson
 refuses 1 "needs a frame" "$scarp" simplify "$dem" x.glb -e 20 --crs EPSG:32616 --cutline star.geojson

@@ -105,7 +105,6 @@ done
 succeeds "$scarp" simplify "$dem" both.glb -e 20 --water lakes.geojson --rivers rivers.geojson
 refuses 1 "--water" "$scarp" simplify "$dem" x.glb -e 20 --water lakes.geojson --detect-flats 12
 refuses 1 "--detect-flats" "$scarp" simplify "$dem" x.glb -e 20 --detect-flats 2
-refuses 1 "--max-triangles" "$scarp" simplify "$dem" x.glb -t 100 --rivers rivers.geojson
 
 # Two lakes of different levels that share a shore are a conflict, named, with a way out.
 python3 - <<'PYTHON'
@@ -120,7 +119,6 @@ succeeds "$scarp" simplify "$dem" side.glb -e 20 --water side.geojson --line-con
 succeeds "$scarp" simplify "$dem" twice.glb -e 20 --water twice.geojson
 
 refuses 1 "--vertices free" "$scarp" simplify "$dem" x.glb -e 20 --effort high --vertices free --water lakes.geojson
-refuses 1 "--max-triangles" "$scarp" simplify "$dem" x.glb -t 100 --water lakes.geojson
 refuses 1 "--water-percentile" "$scarp" simplify "$dem" x.glb -e 20 --water lakes.geojson --water-percentile 101
 refuses 1 "--water" "$scarp" simplify "$dem" x.glb -e 20 --water-percentile 10
 refuses 2 "nothing.gpkg" "$scarp" simplify "$dem" x.glb -e 20 --water nothing.gpkg

@@ -2,44 +2,16 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
-#include <limits>
-#include <random>
-
 #include "laws/any_field.h"
+#include "laws/any_lines.h"
 #include "scarp/simplify.h"
 
 namespace scarp::line_laws_test {
 namespace {
 
 using testing::any_field;
+using testing::any_lines;
 using testing::Field;
-
-/// Walks of any kind, within the raster and beyond, some with heights near those of the raster.
-LineConstraints any_lines(const Field& field) {
-  std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
-  const auto between = [&](double low, double high) {
-    return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
-  };
-  LineConstraints constraints;
-  constraints.affine = grid_frame(field.rows).affine;
-  constraints.conflict = *rc::gen::element(LineConflict::kFirst, LineConflict::kMean, LineConflict::kHighest);
-  const int count = *rc::gen::inRange(1, 6);
-  const bool is_on_samples = *rc::gen::arbitrary<bool>();
-  for (int k = 0; k < count; ++k) {
-    Line line;
-    line.name = "line";
-    const bool is_hard = random() % 3 == 0;
-    for (auto n = 2 + random() % 5; n > 0; --n) {
-      const double reach = random() % 8 == 0 ? 100 : 0.5;
-      double x = between(-reach, field.cols + reach), y = between(-reach, field.rows + reach);
-      if (is_on_samples) x = std::round(x), y = std::round(y);
-      line.points.push_back({x, y, is_hard ? between(-20, 60) : std::numeric_limits<double>::quiet_NaN()});
-    }
-    constraints.lines.push_back(line);
-  }
-  return constraints;
-}
 
 RC_GTEST_PROP(lines, keep_the_bound_against_the_edited_raster_in_the_eyes_of_the_judge, ()) {
   Field field = any_field(40);
@@ -81,7 +53,7 @@ RC_GTEST_PROP(lines, give_the_same_mesh_on_any_number_of_threads, ()) {
   RC_ASSERT(!one || (one->mesh.positions == three->mesh.positions && one->mesh.triangles == three->mesh.triangles));
 }
 
-TEST(lines, contradict_budgets_strategies_and_frames) {
+TEST(lines, contradict_strategies_and_budgets_of_samples_with_bounds) {
   const Field field = testing::random_field(3, 30, 20, testing::Relief::kRidges);
   SimplifyOptions options;
   Line line;
@@ -89,13 +61,18 @@ TEST(lines, contradict_budgets_strategies_and_frames) {
   options.breaklines.lines = {line};
   options.max_error = 1;
   ASSERT_TRUE(simplify(field.view(), options));
-  auto with_budget = options;
-  with_budget.max_triangles = 50;
-  EXPECT_EQ(simplify(field.view(), with_budget).error().kind, ErrorKind::kUsage);
-  auto without_error = options;
-  without_error.max_error = std::nullopt;
-  without_error.max_vertices = 50;
-  EXPECT_EQ(simplify(field.view(), without_error).error().kind, ErrorKind::kUsage);
+  const std::vector<float> ones(field.samples.size(), 1);
+  auto with_mask = options;
+  with_mask.max_vertices = 50;
+  ASSERT_TRUE(simplify(field.view(), with_mask));
+  with_mask.mask = ones;
+  for (const Effort effort : {Effort::kFast, Effort::kNormal}) {
+    with_mask.effort = effort;
+    const auto refused = simplify(field.view(), with_mask);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().kind, ErrorKind::kUsage);
+    EXPECT_NE(refused.error().message.find("no budget where samples have bounds of their own"), std::string::npos);
+  }
   auto with_edges = options;
   with_edges.edges.data_dependent = true;
   EXPECT_EQ(simplify(field.view(), with_edges).error().kind, ErrorKind::kUsage);

@@ -1,0 +1,192 @@
+// Laws of budgets with lines: what fits is kept to, what cannot fit is named, and every mesh is that of some max error.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "laws/any_field.h"
+#include "laws/any_lines.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+namespace {
+
+using testing::any_field;
+using testing::any_lines;
+using testing::Field;
+
+/// Lines, or polygons, or both, and a budget that may be too small.
+SimplifyOptions any_lines_and_budget(const Field& field) {
+  SimplifyOptions options;
+  options.breaklines = any_lines(field);
+  if (*rc::gen::inRange(0, 3) == 0) {
+    LineConstraints rings = any_lines(field);
+    options.cutline.affine = rings.affine;
+    for (std::uint32_t k = 0; k < rings.lines.size(); ++k) {
+      Line& ring = rings.lines[k];
+      ring.role = LineRole::kOuter;
+      ring.polygon = k;
+      ring.points.push_back(ring.points.front());
+      if (ring.points.size() >= 4) options.cutline.rings.push_back(ring);
+    }
+    if (!options.cutline.rings.empty() && *rc::gen::arbitrary<bool>()) options.breaklines.lines.clear();
+  }
+  const auto budget = *rc::gen::inRange<std::uint64_t>(2, 500);
+  if (*rc::gen::arbitrary<bool>()) options.max_vertices = budget;
+  if (!options.max_vertices || *rc::gen::arbitrary<bool>()) options.max_triangles = 2 * budget;
+  if (*rc::gen::element(false, false, true)) options.max_error = *rc::gen::element(0.0, 0.7, 5.0);
+  options.effort = Effort::kFast;
+  return options;
+}
+
+bool is_within(const Simplified& made, const SimplifyOptions& options) {
+  return made.mesh.vertex_count() <= options.max_vertices.value_or(made.mesh.vertex_count()) &&
+         made.mesh.triangle_count() <= options.max_triangles.value_or(made.mesh.triangle_count());
+}
+
+Field edited(Field field, const Simplified& made) {
+  for (const SampleEdit& edit : made.edits)
+    field.samples[static_cast<std::size_t>(edit.row) * static_cast<std::size_t>(field.cols) +
+                  static_cast<std::size_t>(edit.col)] = edit.after;
+  return field;
+}
+
+/// The number that the sentence says would do.
+std::uint64_t needed(const std::string& sentence) {
+  const auto at = sentence.find(" need ");
+  return at == std::string::npos ? 0 : std::stoull(sentence.substr(at + 6));
+}
+
+RC_GTEST_PROP(line_budget, is_kept_and_the_mesh_is_that_of_the_error_it_was_made_for, ()) {
+  const Field field = any_field(30);
+  const SimplifyOptions options = any_lines_and_budget(field);
+  const auto made = simplify(field.view(), options);
+  if (!made) {
+    RC_ASSERT(made.error().kind == ErrorKind::kInput || made.error().kind == ErrorKind::kUsage);
+    return;
+  }
+  RC_ASSERT(is_within(*made, options));
+  MeasureOptions judging;
+  if (!options.cutline.rings.empty()) judging.cutline = &options.cutline;
+  const Measurement seen = *measure(edited(field, *made).view(), made->mesh, judging);
+  RC_ASSERT(seen.is_sound());
+  RC_ASSERT(seen.uncovered == 0u);
+  RC_ASSERT(seen.max_error == made->measurement.max_error);
+  RC_ASSERT(seen.max_error <= made->lines_for + 1e-9);
+  if (made->stop == StopReason::kMaxError) RC_ASSERT(seen.max_error <= *options.max_error + 1e-9);
+  if (made->stop == StopReason::kExact) RC_ASSERT(seen.max_error <= 1e-9);
+  SimplifyOptions towards_error = options;
+  towards_error.max_triangles = towards_error.max_vertices = std::nullopt;
+  towards_error.max_error = made->lines_for;
+  const auto again = simplify(field.view(), towards_error);
+  RC_ASSERT(again.has_value());
+  RC_ASSERT(again->mesh.positions == made->mesh.positions);
+  RC_ASSERT(again->mesh.triangles == made->mesh.triangles);
+}
+
+RC_GTEST_PROP(line_budget, that_is_too_small_is_refused_with_the_least_that_will_do, ()) {
+  const Field field = any_field(30);
+  SimplifyOptions options = any_lines_and_budget(field);
+  options.max_triangles = std::nullopt;
+  options.max_vertices = 1;
+  const auto none = simplify(field.view(), options);
+  RC_ASSERT(!none.has_value());
+  if (none.error().kind == ErrorKind::kInput) return;
+  RC_ASSERT(none.error().kind == ErrorKind::kUsage);
+  const std::uint64_t least = needed(none.error().message);
+  RC_ASSERT(least >= 3u);
+  options.max_vertices = least - 1;
+  RC_ASSERT(!simplify(field.view(), options).has_value());
+  options.max_vertices = least;
+  const auto made = simplify(field.view(), options);
+  RC_ASSERT(made.has_value());
+  RC_ASSERT(made->mesh.vertex_count() == least);
+}
+
+RC_GTEST_PROP(line_budget, effort_never_has_the_larger_error, ()) {
+  const Field field = any_field(30);
+  SimplifyOptions options = any_lines_and_budget(field);
+  const auto fast = simplify(field.view(), options);
+  options.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
+  const auto made = simplify(field.view(), options);
+  RC_ASSERT(made.has_value() == fast.has_value());
+  if (!made) {
+    RC_ASSERT(made.error().message == fast.error().message);
+    return;
+  }
+  RC_ASSERT(is_within(*made, options));
+  const bool is_exact = fast->stop == StopReason::kMaxError || fast->stop == StopReason::kExact;
+  if (is_exact) RC_ASSERT(made->mesh.triangle_count() <= fast->mesh.triangle_count());
+  if (is_exact) RC_ASSERT(made->stop == fast->stop);
+  if (!is_exact && made->stop != StopReason::kMaxError)
+    RC_ASSERT(made->measurement.max_error <= fast->measurement.max_error);
+}
+
+RC_GTEST_PROP(line_budget, threads_change_nothing, ()) {
+  const Field field = any_field(40);
+  SimplifyOptions options = any_lines_and_budget(field);
+  options.effort = *rc::gen::element(Effort::kFast, Effort::kNormal);
+  options.threads = 1;
+  const auto one = simplify(field.view(), options);
+  options.threads = 3;
+  const auto three = simplify(field.view(), options);
+  RC_ASSERT(one.has_value() == three.has_value());
+  RC_ASSERT(!one || (one->mesh.positions == three->mesh.positions && one->mesh.triangles == three->mesh.triangles));
+}
+
+TEST(line_budget, is_used_where_triangles_grow_smoothly) {
+  Field field{200, 150, {}};
+  for (int y = 0; y < field.rows; ++y) {
+    for (int x = 0; x < field.cols; ++x)
+      field.samples.push_back(static_cast<float>(40 * std::sin(0.05 * x) * std::cos(0.07 * y) +
+                                                 10 * std::sin(0.2 * x + 0.13 * y) +
+                                                 3 * std::sin(0.9 * x) * std::cos(0.8 * y)));
+  }
+  SimplifyOptions options;
+  options.breaklines.affine = grid_frame(field.rows).affine;
+  Line line;
+  line.points = {{10.3, 5.5, NAN}, {150.2, 120.7, NAN}, {190.4, 11.6, NAN}};
+  options.breaklines.lines = {line};
+  for (const std::uint64_t budget : {500u, 1000u, 5000u}) {
+    options.max_triangles = budget;
+    for (const Effort effort : {Effort::kFast, Effort::kNormal}) {
+      options.effort = effort;
+      const auto made = simplify(field.view(), options);
+      ASSERT_TRUE(made) << made.error().message;
+      EXPECT_GE(made->mesh.triangle_count(), 97 * budget / 100);
+      EXPECT_EQ(made->stop, StopReason::kMaxTriangles);
+      EXPECT_EQ(made->passes.front().name, "search");
+      EXPECT_EQ(made->lines_laid, 1u);
+    }
+  }
+}
+
+TEST(line_budget, asks_for_lines_that_depend_on_the_error) {
+  const Field field = testing::random_field(5, 60, 50, testing::Relief::kRidges);
+  SimplifyOptions options;
+  options.max_vertices = 200;
+  options.effort = Effort::kFast;
+  std::vector<double> asked;
+  options.breaklines_for = [&](double max_error) -> Result<LineConstraints> {
+    asked.push_back(max_error);
+    LineConstraints lines;
+    lines.lines.resize(1);
+    lines.lines[0].points = {{5, 5.5, NAN}, {50, 40.5, NAN}};
+    return lines;
+  };
+  const auto made = simplify(field.view(), options);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_GT(asked.size(), 2u);
+  EXPECT_NE(std::find(asked.begin(), asked.end(), made->lines_for), asked.end());
+  EXPECT_LE(made->mesh.vertex_count(), 200u);
+  options.breaklines_for = [](double) -> Result<LineConstraints> {
+    return tl::unexpected(Error{ErrorKind::kInput, "no lines today"});
+  };
+  EXPECT_EQ(simplify(field.view(), options).error().message, "no lines today");
+}
+
+}  // namespace
+}  // namespace scarp
