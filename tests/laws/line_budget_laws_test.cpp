@@ -11,7 +11,7 @@
 #include "laws/any_lines.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::line_budget_laws_test {
 namespace {
 
 using testing::any_field;
@@ -189,4 +189,4 @@ TEST(line_budget, asks_for_lines_that_depend_on_the_error) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::line_budget_laws_test
