@@ -22,9 +22,17 @@ class Profiles {
 
   Hollow at(Point p) const {
     if (!raster_.is_valid(p)) return Hollow::kNone;
+    // Most samples end here.
+    std::array<Point, 4> ways{};
+    std::size_t count = 0;
+    for (const Point way : {Point{1, 0}, Point{0, 1}, Point{1, 1}, Point{1, -1}}) {
+      if (!falls(p, {-way.x, -way.y}) && !falls(p, way)) ways[count++] = way;
+    }
+    if (count < 2) return Hollow::kNone;
     // How many profiles are at least so good, and how many of them have both sides.
     std::array<int, 3> profiles{}, whole{};
-    for (const Point way : {Point{1, 0}, Point{0, 1}, Point{1, 1}, Point{1, -1}}) {
+    for (std::size_t w = 0; w < count; ++w) {
+      const Point way = ways[w];
       const Side before = look(p, {-way.x, -way.y});
       if (before.rise == Hollow::kNone && !before.is_cut) continue;
       const Side behind = look(p, way);
@@ -46,6 +54,14 @@ class Profiles {
   }
 
  private:
+  bool has_height(Point p) const {
+    return p.x >= 0 && p.y >= 0 && p.x < raster_.cols && p.y < raster_.rows && raster_.is_valid(p);
+  }
+  bool falls(Point p, Point way) const {
+    const Point q{p.x + way.x, p.y + way.y};
+    return has_height(q) && raster_.at(q) < raster_.at(p);
+  }
+
   Side look(Point p, Point way) const {
     const float here = raster_.at(p);
     Side side;
@@ -53,7 +69,7 @@ class Profiles {
     bool is_level = true;
     for (std::int32_t k = 1; k <= kHollowReach; ++k) {
       const Point q{p.x + k * way.x, p.y + k * way.y};
-      if (q.x < 0 || q.y < 0 || q.x >= raster_.cols || q.y >= raster_.rows || !raster_.is_valid(q)) return side;
+      if (!has_height(q)) return side;
       const float there = raster_.at(q);
       is_level = is_level && there == here;
       if (is_level) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/caught.h"
 #include "base/parallel.h"
 #include "goals.h"
 #include "grid/vertex_places.h"
@@ -49,16 +50,37 @@ Line to_map(const std::vector<Point>& vertices, const RidgeOptions& options, std
 /// Detection on a raster and on the same upside down.
 class Detection {
  public:
-  Detection(const Raster& raster, const RidgeOptions& options) : raster_(raster), options_(options) {
+  Detection(const Raster& raster, const RidgeOptions& options)
+      : raster_(raster), options_(options), reporter_(options.progress) {
     if (options.avoid.empty()) return;
     marks_.emplace(options.affine, raster.cols, raster.rows);
     for (const Line& line : options.avoid) marks_->add_course(line);
   }
 
-  std::vector<Line> valleys(const Raster& raster, const char* name) const {
+  Result<Ridges> run() {
+    Ridges found;
+    auto valleys = find(raster_, "valley");
+    if (!valleys) return tl::unexpected(valleys.error());
+    found.valleys = std::move(*valleys);
+    std::vector<float> turned(raster_.samples, raster_.row(raster_.rows));
+    for (float& height : turned) height = -height;
+    auto ridges = find({turned.data(), raster_.cols, raster_.rows}, "ridge");
+    if (!ridges) return tl::unexpected(ridges.error());
+    found.ridges = std::move(*ridges);
+    for (const auto* lines : {&found.valleys, &found.ridges}) {
+      for (const Line& line : *lines) found.vertices += line.points.size();
+    }
+    return found;
+  }
+
+ private:
+  Result<std::vector<Line>> find(const Raster& raster, const char* name) {
+    if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
     const std::vector<Hollow> hollows = find_hollows(raster, options_.height, options_.threads);
+    if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
     const std::vector<ValleyPath> paths =
         follow_valleys(raster, hollows, [&](std::size_t i) { return marks_ && marks_->has(i); });
+    if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
     std::vector<Line> lines(paths.size());
     parallel_for(paths.size(), options_.threads, [&](std::size_t k) {
       lines[k] = to_map(fewest_vertices(raster, paths[k], kHeightShare * options_.max_error), options_,
@@ -67,39 +89,31 @@ class Detection {
     return lines;
   }
 
-  std::vector<Line> ridges() const {
-    std::vector<float> turned(raster_.samples, raster_.row(raster_.rows));
-    for (float& height : turned) height = -height;
-    return valleys({turned.data(), raster_.cols, raster_.rows}, "ridge");
+  Result<void> take_step() {
+    constexpr double kSteps = 6;
+    if (reporter_.report("ridges", steps_++ / kSteps, 0, 0)) return {};
+    return fail(ErrorKind::kCancelled, "cancelled while looking for ridges");
   }
 
- private:
   const Raster& raster_;
   const RidgeOptions& options_;
+  Reporter reporter_;
   std::optional<LineMarks> marks_;
+  int steps_ = 0;
 };
 
 }  // namespace
 
-Result<Ridges> detect_ridges(const HeightField& field, const RidgeOptions& options) {
+Result<Ridges> detect_ridges(const HeightField& field, const RidgeOptions& options) try {
   if (auto sound = check_ridges(options); !sound) return tl::unexpected(sound.error());
   const auto samples = Samples::of(field);
   if (!samples) return tl::unexpected(samples.error());
   const Raster raster = samples->raster();
-  Ridges found;
   // Lines on a finer lattice need room.
-  if (std::max(raster.cols, raster.rows) > kMaxCoordinate / kLatticeSteps) return found;
-  Reporter reporter(options.progress);
-  const auto goes_on = [&](double share) { return reporter.report("ridges", share, 0, 0); };
-  const Detection detection(raster, options);
-  if (!goes_on(0)) return fail(ErrorKind::kCancelled, "cancelled while looking for ridges");
-  found.valleys = detection.valleys(raster, "valley");
-  if (!goes_on(0.5)) return fail(ErrorKind::kCancelled, "cancelled while looking for ridges");
-  found.ridges = detection.ridges();
-  for (const auto* lines : {&found.valleys, &found.ridges}) {
-    for (const Line& line : *lines) found.vertices += line.points.size();
-  }
-  return found;
+  if (std::max(raster.cols, raster.rows) > kMaxCoordinate / kLatticeSteps) return Ridges{};
+  return Detection(raster, options).run();
+} catch (...) {
+  return caught(ErrorKind::kInput, "look for ridges");
 }
 
 }  // namespace scarp
