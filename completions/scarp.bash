@@ -43,7 +43,7 @@ _scarp() {
       ;;
     -e | --max-error | -t | --max-triangles | -p | --max-points | --band | --nodata | --fill-distance | --background | \
       --outline-tolerance | --base | --solid | --split | --shape-threshold | --supersample | --texture-weight | --channel-weights | -j | \
-      --num-threads | --memory | --fail-above | --layer | --z-field | --breakline-z | --water-percentile | --detect-flats | --inset | --min-angle | --max-edge | --grade | --cliff | --falloff | --seed | --range | --size)
+      --num-threads | --memory | --fail-above | --layer | --z-field | --breakline-z | --water-percentile | --detect-flats | --inset | --min-angle | --max-edge | --grade | --cliff | --ridges | --falloff | --seed | --range | --size)
       return
       ;;
   esac
@@ -58,7 +58,7 @@ _scarp() {
         options+=' --outline-tolerance --of --normals --base --solid --split --preview --report --overwrite --num-threads --memory'
         options+=' --mask --tolerance --roi --falloff --script --image --texture --texture-weight --norm --channel-weights'
         options+=' --timing --effort --vertices --min-shape --time-limit --objective --importance --one-pass --order --algorithm --batch --edges --edge-score --shape-threshold --supersample'
-        options+=' --breaklines --breakline-z --soft-breaklines --line-conflict --water --water-percentile --detect-flats --rivers --cliff'
+        options+=' --breaklines --breakline-z --soft-breaklines --line-conflict --water --water-percentile --detect-flats --rivers --cliff --ridges --keep-ridges'
         options+=' --min-angle --max-edge --grade'
         options+=' --cutline --inset --mask-outside'
         options+=' --uvs --render --error-raster'

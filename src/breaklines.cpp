@@ -10,6 +10,7 @@
 #include "base/caught.h"
 #include "grid/affine_map.h"
 #include "scarp/cliffs.h"
+#include "scarp/ridges.h"
 
 namespace scarp {
 namespace {
@@ -273,16 +274,19 @@ Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<do
   return lattice;
 }
 
-/// By edge: a line runs there that is no fault, or the outline. Empty without faults.
+/// A line that is laid first and need not be held in the end.
+bool is_start(const Line& line) { return is_fault(line) || line.polygon == kRidgeLine; }
+
+/// By edge: a line runs there that is no start, or the outline. Empty without starts.
 std::vector<bool> held_edges(const Arrangement& arranged, const LatticeLines& lattice, std::span<const Line> lines) {
   std::vector<bool> is_held;
-  if (std::none_of(lines.begin(), lines.end(), is_fault)) return is_held;
+  if (std::none_of(lines.begin(), lines.end(), is_start)) return is_held;
   for (const Arrangement::Edge& edge : arranged.edges) is_held.push_back(edge.is_rigid);
   const auto comes_before = [](const Arrangement::Edge& edge, const std::pair<std::uint32_t, std::uint32_t>& ends) {
     return std::pair(edge.a, edge.b) < ends;
   };
   for (const auto& chain : arranged.chains) {
-    if (is_fault(lines[lattice.line_of(chain.line)])) continue;
+    if (is_start(lines[lattice.line_of(chain.line)])) continue;
     for (const auto& stretch : arranged.stretches_of(chain)) {
       const auto [first, last] = std::minmax(stretch.first, stretch.last);
       for (std::uint32_t k = first; k < last; ++k) {
@@ -311,6 +315,8 @@ std::uint64_t count_outside(const Arrangement& arranged, const LatticeLines& lat
 }
 
 }  // namespace
+
+bool is_laid_first(const Line& line) { return is_fault(line) || is_ridge_line(line); }
 
 std::array<double, 6> map_affine(const RasterInfo& info, int rows) {
   if (!info.has_georeference) return grid_frame(rows).affine;

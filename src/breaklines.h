@@ -28,7 +28,7 @@ struct Breaklines {
   std::vector<float> heights;
   std::vector<bool> is_hard;  ///< of each point: its height is that of lines
   std::vector<Arrangement::Edge> edges;
-  std::vector<bool> is_held;  ///< of each edge: more than faults run there; EMPTY: there are none
+  std::vector<bool> is_held;  ///< of each edge: more than starts run there; EMPTY: there are none
 
   std::uint64_t outside = 0;  ///< lines of which nothing is left
 
@@ -44,6 +44,9 @@ struct Breaklines {
     return std::span(passed).subspan(chain.begin, chain.end - chain.begin);
   }
 };
+
+/// A line that was found in the raster, and is laid before refinement.
+bool is_laid_first(const Line& line);
 
 /// Places lines on the lattice of a raster: a vertex of a line moves by half a step, 1/512 sample, at most, what runs
 /// between its vertices by one and a half. `affine` takes samples to the coordinates of the lines, as

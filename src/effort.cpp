@@ -7,7 +7,9 @@
 #include <functional>
 #include <vector>
 
+#include "breaklines.h"
 #include "scarp/cliffs.h"
+#include "scarp/ridges.h"
 #include "shape_refinement.h"
 
 namespace scarp {
@@ -92,8 +94,8 @@ Result<void> check_lines(const HeightField& field, const SimplifyOptions& option
   if (obstacle == nullptr && has_faults(options) && is_cut) obstacle = "has no cliffs";
   if (obstacle == nullptr) return {};
   const auto& lines = options.breaklines.lines;
-  const bool are_faults = std::all_of(lines.begin(), lines.end(), is_fault);
-  const char* what = is_cut ? "a cutline" : are_faults ? "cliffs" : "breaklines";
+  const auto all = [&](bool (*kind)(const Line&)) { return std::all_of(lines.begin(), lines.end(), kind); };
+  const char* what = is_cut ? "a cutline" : all(is_fault) ? "cliffs" : all(is_ridge_line) ? "ridges" : "breaklines";
   return fail(ErrorKind::kUsage, fmt::format("a mesh with {} {}: leave out one or the other", what, obstacle));
 }
 
@@ -133,12 +135,16 @@ bool has_faults(const SimplifyOptions& options) {
   return std::any_of(options.breaklines.lines.begin(), options.breaklines.lines.end(), is_fault);
 }
 
+bool lays_first(const SimplifyOptions& options) {
+  return std::any_of(options.breaklines.lines.begin(), options.breaklines.lines.end(), is_laid_first);
+}
+
 bool has_budget(const SimplifyOptions& options) { return options.max_triangles || options.max_vertices; }
 
 const char* find_obstacle(const HeightField& field, const SimplifyOptions& options) {
   if (!options.max_error) return "needs a max error";
   if (has_budget(options)) return "has no budgets";
-  if (has_faults(options)) return "lays no faults";
+  if (lays_first(options)) return "lays no lines of cliffs and ridges";
   if (const char* obstacle = find_beyond_one_error(field, options)) return obstacle;
   return find_strategy(options);
 }

@@ -14,6 +14,7 @@ namespace scarp {
 bool has_budget(const SimplifyOptions& options);
 bool has_lines(const SimplifyOptions& options);
 bool has_faults(const SimplifyOptions& options);  ///< among the breaklines
+bool lays_first(const SimplifyOptions& options);  ///< faults, ridges or valleys
 
 /// What keeps a run from the dominant order; null if nothing does.
 const char* find_obstacle(const HeightField& field, const SimplifyOptions& options);

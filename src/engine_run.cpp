@@ -124,8 +124,8 @@ class Run {
     return refined;
   }
 
-  /// Whether there are faults: what refinement would do to a wall without them, it need not do with them.
-  bool lays_first() const { return lines_ != nullptr && lines_->has_starts(); }
+  /// Whether there are faults or ridges: what refinement would do there without them, it need not do with them.
+  bool lays_first() const { return lines_ != nullptr && lines_->is_laid_first; }
 
   /// Inserts what the script wants; samples outside the domain cannot become vertices.
   void follow_script() {

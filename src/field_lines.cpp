@@ -144,6 +144,10 @@ struct KeptEdges {
 KeptEdges cut_edges(const Breaklines& placed, std::span<const Line> lines, std::size_t breaklines,
                     const Raster& raster) {
   const std::vector<GraphEdge> edges = edges_of_lines(placed);
+  std::vector<std::uint8_t> is_start(edges.size(), 0);
+  for (std::size_t i = 0, line = 0; i < placed.is_held.size(); ++i) {
+    if (placed.edges[i].is_line) is_start[line++] = placed.is_held[i] ? 0 : 1;
+  }
   const std::vector<EdgeCover> covers =
       cover_edges(placed.points, edges, passes_of(placed, lines, breaklines, lines.size()));
   std::vector<bool> is_breakline(edges.size(), false);
@@ -157,7 +161,9 @@ KeptEdges cut_edges(const Breaklines& placed, std::span<const Line> lines, std::
     if (before != after) kept.outline.push_back({placed.points[a], placed.points[b]});
     const bool is_wall = before != after && !is_on_side(placed.points[a], placed.points[b], raster);
     if (is_wall) kept.walls.push_back(before ? edges[i] : GraphEdge{b, a});
-    if (is_wall || (is_breakline[i] && (before || after))) kept.edges.push_back(edges[i]);
+    if (!is_wall && !(is_breakline[i] && (before || after))) continue;
+    kept.edges.push_back(edges[i]);
+    kept.is_start.push_back(is_start[i]);
   }
   return kept;
 }
@@ -286,17 +292,21 @@ Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints
     result.samples.assign(raster.samples, raster.row(raster.rows));
     edit_samples(*placed, raster.cols, result);
   }
-  if (!is_cut) {
-    result.graph = graph_of(*placed, all_edges(*placed));
-    result.laid = breaklines - placed->outside;
-    return result;
-  }
-  std::vector<bool> is_laid(breaklines, false);
+  // Those that were found in the raster are no lines of the caller's.
+  std::vector<bool> is_laid(breaklines, !is_cut);
   for (const auto& chain : placed->chains) {
     if (chain.line < breaklines) is_laid[chain.line] = true;
   }
-  result.laid = static_cast<std::uint64_t>(std::count(is_laid.begin(), is_laid.end(), true));
+  for (std::size_t k = 0; k < breaklines; ++k) result.laid += is_laid[k] && !is_laid_first(lines.lines[k]) ? 1 : 0;
+  const bool has_first = std::any_of(lines.lines.begin(), lines.lines.end(), is_laid_first);
+  if (!is_cut) {
+    result.laid -= placed->outside;
+    result.graph = graph_of(*placed, all_edges(*placed));
+    result.graph.is_laid_first = has_first;
+    return result;
+  }
   result.graph = graph_of(*placed, cut_edges(*placed, followed, breaklines, raster));
+  result.graph.is_laid_first = has_first;
   if (auto cut = cut_samples(raster, result); !cut) return tl::unexpected(cut.error());
   return result;
 }

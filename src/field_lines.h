@@ -18,7 +18,7 @@ struct FieldLines {
   /// EMPTY: as the field has them.
   std::vector<float> samples;
   std::vector<SampleEdit> edits;  ///< of these samples
-  std::uint64_t laid = 0;         ///< breaklines of which some part lies in the raster
+  std::uint64_t laid = 0;         ///< breaklines of which some part lies in the raster, but for those laid first
   std::uint64_t valid = 0;        ///< samples, before the cut
 
   /// `field` with these samples, which stay here.

@@ -46,24 +46,28 @@ Result<void> read_colors(const SimplifyPlan& plan, const ReadOptions& options, b
   return {};
 }
 
-/// Rivers and walls are fitted to the max error: that of a budget's mesh is not known before the mesh is.
+/// Rivers, walls and ridges are fitted to the max error: that of a budget's mesh is not known before the mesh is.
 bool has_lines_to_fit(const SimplifyPlan& plan) {
   const bool has_budget = plan.simplify.max_triangles || plan.simplify.max_vertices;
-  return has_budget && (!plan.lines.rivers.empty() || plan.cliff.height);
+  return has_budget && (!plan.lines.rivers.empty() || plan.cliff.height || plan.ridges.height);
 }
 
-/// All lines of a mesh of such an error, and the walls among them.
+/// All lines of a mesh of such an error, and the walls and ridges among them.
 struct FittedLines {
   LineConstraints lines;
   std::optional<Cliffs> cliffs;
+  std::optional<Ridges> ridges;
 };
 Result<FittedLines> fit_lines(const SimplifyPlan& plan, const Outcome& outcome, double max_error) {
-  FittedLines fitted{outcome.lines, std::nullopt};
+  FittedLines fitted{outcome.lines, std::nullopt, std::nullopt};
   if (auto rivers = add_rivers(outcome.waters, outcome.field, max_error, fitted.lines); !rivers)
     return tl::unexpected(rivers.error());
   auto cliffs = plan.cliff.add_cliffs(outcome.field.view(), max_error, fitted.lines);
   if (!cliffs) return tl::unexpected(cliffs.error());
   fitted.cliffs = std::move(*cliffs);
+  auto ridges = plan.ridges.add_ridges(outcome.field.view(), max_error, plan.simplify.threads, {}, fitted.lines);
+  if (!ridges) return tl::unexpected(ridges.error());
+  fitted.ridges = std::move(*ridges);
   return fitted;
 }
 
@@ -92,6 +96,10 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
     auto cliffs = plan.cliff.add_cliffs(outcome.field.view(), outcome.asked.value_or(0), outcome.lines);
     if (!cliffs) return tl::unexpected(std::move(cliffs.error()));
     outcome.cliffs = std::move(*cliffs);
+    auto ridges = plan.ridges.add_ridges(outcome.field.view(), outcome.asked.value_or(0), plan.simplify.threads,
+                                         progress, outcome.lines);
+    if (!ridges) return tl::unexpected(std::move(ridges.error()));
+    outcome.ridges = std::move(*ridges);
   }
   Result<Cut> cut = read_cut(plan.cut, outcome.as_read, progress, outcome.field, outcome.companions.warnings);
   if (!cut) return tl::unexpected(std::move(cut.error()));
@@ -277,6 +285,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
     if (!fitted) return tl::unexpected(std::move(fitted.error()));
     outcome.lines = std::move(fitted->lines);
     outcome.cliffs = std::move(fitted->cliffs);
+    outcome.ridges = std::move(fitted->ridges);
   }
   apply_edits(outcome.simplified.edits, outcome.field);
   if (outcome.field.source) outcome.heights = outcome.simplified.measurement.heights;

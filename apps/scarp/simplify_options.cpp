@@ -53,6 +53,7 @@ void SimplifyArguments::add_to(CLI::App& verb) {
                     "Lines 's COL ROW' (becomes a vertex), 'i COL ROW' or\n'u COL ROW' (never does, and has no bound)");
   lines.add_to(verb);
   cliff.add_to(verb);
+  ridges.add_to(verb);
   cut.add_to(verb);
   channels.add_to(verb);
   shape.add_to(verb);

@@ -22,19 +22,21 @@ struct Outcome : SimplifyRun {
   HeightRange heights;  ///< of the samples that were judged
   Channels channels;
   Companions companions;
-  LineConstraints lines;  ///< with shores, rivers and the lines of cliffs
+  LineConstraints lines;  ///< with shores, rivers and the lines of cliffs and ridges
   WatersFound waters;
   std::optional<Cliffs> cliffs;
+  std::optional<Ridges> ridges;
   Cut cut;
   std::uint64_t filled = 0;
   std::optional<LargestError> bounded;  ///< where samples are ignored: of the others; images: norms
   std::optional<double> bounded_goal;   ///< where a script ignores them: of what the goal bounds
   std::optional<double> psnr;           ///< of the rendering, in dB; +infinity if it is the image
 
-  /// Breaklines and shores, all of them and those of which a part lies in the raster: lines of cliffs always do.
-  std::uint64_t line_count() const { return lines.lines.size() - cliff_line_count(); }
-  std::uint64_t lines_laid() const { return simplified.lines_laid - cliff_line_count(); }
-  std::uint64_t cliff_line_count() const { return cliffs ? cliffs->lines.size() : 0; }
+  /// Breaklines and shores.
+  std::uint64_t line_count() const {
+    return lines.lines.size() - (cliffs ? cliffs->lines.size() : 0) -
+           (ridges ? ridges->ridges.size() + ridges->valleys.size() : 0);
+  }
 
   /// The field with its channels.
   HeightField view() const {

@@ -136,11 +136,14 @@ const char* find_lattice_obstacle(const SimplifyArguments& given, const Simplify
 Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.lines = given.lines;
   plan.cliff = given.cliff;
+  plan.ridges = given.ridges;
   plan.cut = given.cut;
   if (auto checked = given.lines.check(); !checked) return checked;
   if (auto checked = given.cliff.check(given.max_error || find_budget(given) != nullptr); !checked) return checked;
+  if (auto checked = given.ridges.check(given.max_error || find_budget(given) != nullptr); !checked) return checked;
   if (auto checked = given.cut.check(); !checked) return checked;
   const char* lines = given.cliff.height ? "--cliff" : given.lines.find_lines();
+  if (lines == nullptr && given.ridges.height) lines = "--ridges";
   const bool is_cut = lines == nullptr && given.cut.find_cut() != nullptr;
   if (is_cut) lines = given.cut.find_cut();
   const bool is_split = plan.solid && plan.solid->is_split();
@@ -381,6 +384,7 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
       {"--solid", plan.solid.has_value()},
       {given.shape.find_goal(), given.shape.find_goal() != nullptr},
       {"--cliff", given.cliff.height.has_value()},
+      {"--ridges", given.ridges.height.has_value()},
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
       {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
       {"--normals", plan.simplify.normals},
@@ -436,8 +440,9 @@ std::string canonical_command(const SimplifyArguments& given) {
     command += canonical_option(name, *value);
   }
   command += given.solid.canonical();
-  command += given.companions.canonical() + given.lines.canonical() + given.cliff.canonical() + given.cut.canonical() +
-             given.shape.canonical() + given.channels.canonical() + given.strategy.canonical();
+  command += given.companions.canonical() + given.lines.canonical() + given.cliff.canonical() +
+             given.ridges.canonical() + given.cut.canonical() + given.shape.canonical() + given.channels.canonical() +
+             given.strategy.canonical();
   if (given.strategy.asks_for_greedy()) command += " --order greedy";
   return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "");
 }

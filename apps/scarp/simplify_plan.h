@@ -14,6 +14,7 @@
 #include "memory.h"
 #include "options.h"
 #include "output_kind.h"
+#include "ridge_options.h"
 #include "scarp/simplify.h"
 #include "shape_options.h"
 #include "solid_options.h"
@@ -35,6 +36,7 @@ struct SimplifyArguments {
   ChannelArguments channels;
   LineArguments lines;
   CliffArguments cliff;
+  RidgeArguments ridges;
   CutlineArguments cut;
   ShapeArguments shape;
   MemoryArguments memory;
@@ -53,6 +55,7 @@ struct SimplifyPlan {
   CompanionArguments companions;
   LineArguments lines;
   CliffArguments cliff;
+  RidgeArguments ridges;
   CutlineArguments cut;
   ChannelPlan channels;
   NodataPolicy policy = NodataPolicy::kHole;

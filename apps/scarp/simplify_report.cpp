@@ -136,10 +136,11 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["strategy"]["roi"] = plan.companions.roi.empty() ? Json(nullptr) : Json(plan.companions.roi);
   report["strategy"]["falloff"] = or_null(plan.companions.falloff);
   report["breaklines"] =
-      describe_lines(plan.lines, outcome.line_count(), outcome.lines_laid(), outcome.simplified.edits);
+      describe_lines(plan.lines, outcome.line_count(), outcome.simplified.lines_laid, outcome.simplified.edits);
   report["water"] = describe_lakes(outcome.waters.lakes);
   report["rivers"] = describe_rivers(outcome.waters.rivers);
   report["cliffs"] = describe_cliffs(plan.cliff, outcome.cliffs);
+  report["ridges"] = describe_ridges(plan.ridges, outcome.ridges);
   report["shape"] = describe_shape(plan.simplify.shape, outcome.simplified);
   report["cutline"] = describe_cut(plan.cut, outcome.cut, outcome.simplified.cut_off);
   report["stopped_by"] = stop_name(outcome.simplified.stop);
@@ -183,8 +184,9 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
                   format_share(static_cast<double>(outcome.triangles), static_cast<double>(full)), format_count(full)));
   text += waters_lines(outcome.waters);
   if (!plan.cut.files.empty()) text += summary_line("cutline", cut_words(outcome.cut, outcome.simplified.cut_off));
-  text += lines_line(outcome.line_count(), outcome.lines_laid(), outcome.simplified.edits);
+  text += lines_line(outcome.line_count(), outcome.simplified.lines_laid, outcome.simplified.edits);
   text += cliffs_line(outcome.cliffs);
+  text += ridges_line(outcome.ridges);
   text += shape_line(plan.simplify.shape, outcome.simplified);
   text += solid_line(plan, outcome);
   text += describe_errors(plan, outcome);

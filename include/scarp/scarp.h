@@ -14,6 +14,7 @@
 #include "scarp/progress.h"
 #include "scarp/regions.h"
 #include "scarp/result.h"
+#include "scarp/ridges.h"
 #include "scarp/rivers.h"
 #include "scarp/shape.h"
 #include "scarp/simplify.h"

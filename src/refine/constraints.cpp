@@ -63,8 +63,6 @@ std::vector<bool> held_points(const ConstraintGraph& graph) {
 
 }  // namespace
 
-bool ConstraintGraph::has_starts() const { return std::find(is_start.begin(), is_start.end(), 1) != is_start.end(); }
-
 Result<ConstrainedMesh> ConstrainedMesh::lay(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph) {
   ConstrainedMesh mesh(raster, tin);
   const std::vector<Vertex> corners = corners_of(tin);

@@ -21,9 +21,8 @@ struct ConstraintGraph {
   std::vector<float> heights;                       ///< of the points; what a sample has counts before it
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< indices of points
   std::vector<std::uint8_t> is_start;  ///< by edge: 1 where the mesh need not hold it in the end; EMPTY: all stay
+  bool is_laid_first = false;          ///< before the surface is refined
   std::optional<SurfaceCut> cut;       ///< nothing: all of the surface stays
-
-  bool has_starts() const;
 };
 
 /// The workbench with lines in it.

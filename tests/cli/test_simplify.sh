@@ -13,7 +13,7 @@ tail -n 1 "$logs/out" | grep -Eq '^Reached the error goal: max error [0-9.]+ \(a
 python3 - hills.json "$(wc -c < hills.glb)" <<'PYTHON'
 import json, sys
 r = json.load(open(sys.argv[1]))
-assert list(r) == ["scarp", "command", "input", "frame", "goal", "strategy", "breaklines", "water", "rivers", "cliffs", "shape", "cutline", "stopped_by", "vertices", "triangles",
+assert list(r) == ["scarp", "command", "input", "frame", "goal", "strategy", "breaklines", "water", "rivers", "cliffs", "ridges", "shape", "cutline", "stopped_by", "vertices", "triangles",
                    "full_triangles", "max_error", "max_error_at", "rmse", "mean_error", "mean_abs_error", "p50", "p95", "p99", "p999", "ignored",
                    "samples", "uncovered", "stray", "void_cells_covered", "topology", "work", "passes", "seconds", "outputs",
                    "warnings"], list(r)

@@ -1,0 +1,26 @@
+// Where a raster lies lower than what is on both sides.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "grid/raster.h"
+
+namespace scarp {
+
+/// How clearly a sample lies lower than both sides of it.
+enum class Hollow : std::uint8_t {
+  kNone,
+  kFaint,  ///< by half the height asked for
+  kClear,  ///< by all of it
+};
+
+inline constexpr std::int32_t kHollowReach = 16;  ///< how far a profile is looked along, in samples
+
+/// Of each sample: the second best of the four profiles through it, the row, the column and both diagonals. A profile
+/// is as good as the lower one of its two sides, and a side as the highest rise within kHollowReach samples before it
+/// falls below the sample. Where the nearest sample of a side is void or beyond the raster the other side counts for
+/// both, if another profile has two. Of a level stretch of a profile the middle alone lies low, a sample or two.
+std::vector<Hollow> find_hollows(const Raster& raster, double height, int threads);
+
+}  // namespace scarp
