@@ -12,7 +12,7 @@
 #include "scarp/ridges.h"
 #include "scarp/simplify.h"
 
-namespace scarp {
+namespace scarp::ridges_laws_test {
 namespace {
 
 using testing::Field;
@@ -274,4 +274,4 @@ TEST(Ridges, RefuseHeightsThatAreNone) {
 }
 
 }  // namespace
-}  // namespace scarp
+}  // namespace scarp::ridges_laws_test
