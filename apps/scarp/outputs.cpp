@@ -1,5 +1,6 @@
 // Checks of output files before any work is done: nobody should wait an hour to learn that a folder does not exist.
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cctype>
@@ -7,6 +8,8 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <system_error>
 
 #include "options.h"
@@ -26,13 +29,13 @@ bool names_device(const std::string& path) {
   return is_stdout(path) || is_device(fs::status(path, error));
 }
 
-bool are_same_file(const std::string& a, const std::string& b) {
+/// Equal for two names of one file, whether it is there or not; empty where that cannot be told.
+std::string identity_of(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0) return fmt::format("{} {}", status.st_dev, status.st_ino);
   std::error_code error;
-  if (fs::equivalent(a, b, error) && !error) return true;
-  const fs::path full_a = fs::weakly_canonical(fs::absolute(a, error), error);
-  if (error) return false;
-  const fs::path full_b = fs::weakly_canonical(fs::absolute(b, error), error);
-  return !error && full_a == full_b;
+  const fs::path full = fs::weakly_canonical(fs::absolute(path, error), error);
+  return error ? std::string() : full.string();
 }
 
 /// Why no file can be made in the folder, which exists; empty if one can. Permissions do not tell, to root and in
@@ -79,19 +82,20 @@ Result<void> check_output(const PlannedOutput& output, bool overwrite) {
 
 Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<std::string>& inputs,
                            bool overwrite) {
-  for (std::size_t k = 0; k < outputs.size(); ++k) {
-    const PlannedOutput& output = outputs[k];
-    const bool device = names_device(output.path);
-    for (const std::string& input : inputs) {
-      if (!device && are_same_file(output.path, input)) {
+  std::set<std::string> read;
+  for (const std::string& input : inputs) read.insert(identity_of(input));
+  std::map<std::string, std::string> written;  // and the option that says so
+  for (const PlannedOutput& output : outputs) {
+    const std::string identity = names_device(output.path) ? "" : identity_of(output.path);
+    if (!identity.empty()) {
+      if (read.contains(identity)) {
         return fail(ErrorKind::kUsage,
                     fmt::format("{} {} is an input file: choose another name", output.option, output.path));
       }
-    }
-    for (std::size_t earlier = 0; earlier < k; ++earlier) {
-      if (!device && are_same_file(output.path, outputs[earlier].path)) {
-        return fail(ErrorKind::kUsage, fmt::format("{} and {} name the same file, {}", outputs[earlier].option,
-                                                   output.option, output.path));
+      const auto [earlier, is_first] = written.emplace(identity, output.option);
+      if (!is_first) {
+        return fail(ErrorKind::kUsage,
+                    fmt::format("{} and {} name the same file, {}", earlier->second, output.option, output.path));
       }
     }
     const Result<void> checked = check_output(output, overwrite);

@@ -104,6 +104,9 @@ refuses 1 "needs the size of the print" "$scarp" simplify "$dem" x.stl -e 20 --s
 refuses 1 "base and thickness contradict" "$scarp" simplify "$dem" x.stl -e 20 --solid base=0,thickness=3
 refuses 1 "--split needs --solid" "$scarp" simplify "$dem" x.stl -e 20 --split 2x2
 refuses 1 "no COLUMNSxROWS" "$scarp" simplify "$dem" x.stl -e 20 --solid size=100 --split 3
+# Ten thousand names are compared in no time.
+succeeds "$scarp" generate smooth 40 30 small.tif -q
+refuses 1 "cannot be cut into 100 columns" "$scarp" simplify small.tif x.stl -e 20 --solid size=100 --split 100x100
 refuses 1 "no key jiont" "$scarp" simplify "$dem" x.stl -e 20 --solid size=100 --split 2x2,jiont=dovetail
 refuses 1 "each needs 12 cells" "$scarp" simplify "$dem" x.stl -e 20 --solid size=100 --split 9x40,joint=dovetail
 refuses 1 "too wide" "$scarp" simplify "$dem" x.stl -e 20 --solid size=100 --split 2x2,gap=30mm
