@@ -138,6 +138,10 @@ succeeds "$scarp" simplify "$dem" out.glb -e 20 --cutline star.geojson --inset=-
 holds "$(json in.json cutline samples_outside) > $(json cut.json cutline samples_outside)"
 holds "$(json out.json cutline samples_outside) < $(json cut.json cutline samples_outside)"
 
+# A distance that coordinates cannot hold is none.
+succeeds "$scarp" simplify "$dem" tiny.glb -e 20 --cutline star.geojson --inset 1e-300 --report tiny.json
+holds "$(json tiny.json cutline samples_outside) == $(json cut.json cutline samples_outside)"
+
 refuses 2 "open.geojson feature 0 is an open line" "$scarp" simplify "$dem" x.glb -e 20 --cutline open.geojson
 refuses 2 "beside the raster" "$scarp" simplify "$dem" x.glb -e 20 --cutline away.geojson
 refuses 2 "lies in the polygons" "$scarp" simplify "$dem" x.glb -e 20 --cutline away.geojson --mask-outside

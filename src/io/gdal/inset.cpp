@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <ogr_geometry.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -44,6 +46,15 @@ bool to_polygons(std::span<const Line> rings, const std::array<double, 2>& unit,
   return true;
 }
 
+/// Coordinates can tell the distance from 0; GEOS makes polygons vanish where they cannot.
+bool is_distance(double distance, const OGRGeometry& polygons) {
+  OGREnvelope box;
+  polygons.getEnvelope(&box);
+  const double largest =
+      std::max({std::abs(box.MinX), std::abs(box.MaxX), std::abs(box.MinY), std::abs(box.MaxY), 0.0});
+  return std::abs(distance) > 0x1p-40 * largest;
+}
+
 void add_ring(const OGRLinearRing& ring, LineRole role, std::uint32_t polygon, const std::array<double, 2>& unit,
               const std::string& name, std::vector<Line>& rings) {
   Line line;
@@ -62,7 +73,8 @@ Result<std::vector<Line>> inset(std::span<const Line> rings, double distance, co
   OGRMultiPolygon polygons;
   const bool are_valid = to_polygons(rings, unit, polygons);
   const Owned whole(are_valid ? polygons.UnionCascaded() : nullptr);
-  const Owned moved(whole ? whole->Buffer(-distance, kSegmentsPerQuarter) : nullptr);
+  const bool moves = whole && is_distance(distance, *whole);
+  const Owned moved(!whole ? nullptr : moves ? whole->Buffer(-distance, kSegmentsPerQuarter) : whole->clone());
   if (!moved)
     return fail(ErrorKind::kInput,
                 fmt::format("the polygons cannot be moved inwards by {}: {}", distance, session.reason()));
