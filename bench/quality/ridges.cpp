@@ -31,6 +31,7 @@ struct Case {
   std::array<double, 2> errors;
 };
 constexpr Case kCases[] = {{"fuji.tif", {20, 50}},
+                           {"bigtujunga30m.tif", {15, 35}},
                            {"bigtujunga30m.tif", {20, 50}},
                            {"jacksboro_fault.tif", {20, 50}},
                            {"crater.tif", {10, 25}},
