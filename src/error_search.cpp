@@ -49,7 +49,7 @@ class ErrorSearch {
     if (auto begun = begin_greedily(); !begun) return tl::unexpected(begun.error());
     if (auto searched = search(); !searched) return tl::unexpected(searched.error());
     // The greedy mesh may have been searched for, too.
-    if (best_.passes.front().name == others_.name) {
+    if (!best_.passes.empty() && best_.passes.front().name == others_.name) {
       note(best_.passes.front());
       best_.seconds_refine -= best_.passes.front().seconds;
       best_.passes.erase(best_.passes.begin());

@@ -17,7 +17,7 @@ void RidgeArguments::add_to(CLI::App& verb) {
       ->type_name("H")
       ->group(group);
   verb.add_flag("--keep-ridges", are_kept,
-                "Keep all of these lines as edges of the mesh, whatever\nthe effort: more triangles, truer water")
+                "Keep all of these lines as edges of the mesh, whatever\nthe effort: this takes more triangles")
       ->group(group);
 }
 
