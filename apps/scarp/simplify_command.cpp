@@ -314,7 +314,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
         "the greedy order was taken: the goal is so coarse that tiles would cost vertices, or the heights span "
         "magnitudes beyond exact arithmetic");
   }
-  if (outcome.line_count() > 0 && outcome.lines_laid() == 0) {
+  if (outcome.line_count() > 0 && outcome.simplified.lines_laid == 0) {
     outcome.warnings.push_back(
         fmt::format("{}: no line lies on the raster's surface, so they change nothing: is their CRS the right one?",
                     plan->lines.find_lines()));
