@@ -127,9 +127,8 @@ class LatticeLines {
   std::vector<Point> part_;  ///< at work
 };
 
-std::vector<Segment> rigid_segments(const Outline& outline, std::int32_t width, std::int32_t height) {
-  std::vector<Segment> rigid{
-      {{0, 0}, {width, 0}}, {{width, 0}, {width, height}}, {{width, height}, {0, height}}, {{0, height}, {0, 0}}};
+std::vector<Segment> segments_of(const Outline& outline) {
+  std::vector<Segment> rigid;
   const auto in_steps = [](Point p) { return Point{p.x * kLatticeSteps, p.y * kLatticeSteps}; };
   for (const auto& polygon : outline) {
     for (std::size_t k = 0; k < polygon.size(); ++k)
@@ -178,21 +177,21 @@ struct Claims {
 };
 
 /// What the raster climbs in a step, in the cell of a point.
-double climb_of(const Raster& raster, Point place) {
-  const std::int32_t col = std::min(place.x / kLatticeSteps, raster.cols - 2),
-                     row = std::min(place.y / kLatticeSteps, raster.rows - 2);
+double climb_of(const LineSamples& samples, Point place) {
+  const std::int32_t col = std::min(place.x / kLatticeSteps, samples.cols() - 2),
+                     row = std::min(place.y / kLatticeSteps, samples.rows() - 2);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Point p : {Point{col, row}, {col + 1, row}, {col, row + 1}, {col + 1, row + 1}}) {
-    if (!raster.is_valid(p)) continue;
-    low = std::min(low, double{raster.at(p)});
-    high = std::max(high, double{raster.at(p)});
+    if (!samples.is_valid(p)) continue;
+    low = std::min(low, double{samples.at(p)});
+    high = std::max(high, double{samples.at(p)});
   }
   return low <= high ? (high - low) / kLatticeSteps : 0;
 }
 
 /// The claims on each point; empty where no line has heights.
 std::vector<Claims> collect_claims(const Arrangement& arranged, const LatticeLines& lattice,
-                                   std::span<const Line> lines, const Raster& raster) {
+                                   std::span<const Line> lines, const LineSamples& samples) {
   std::vector<Claims> claims;
   if (!lattice.has_heights()) return claims;
   const auto& points = arranged.vertices;
@@ -204,7 +203,7 @@ std::vector<Claims> collect_claims(const Arrangement& arranged, const LatticeLin
     const Point p = points[point];
     const bool is_sample = p.x % kLatticeSteps == 0 && p.y % kLatticeSteps == 0;
     if (is_fault(lines[line]) && (is_sample || at.count > 0)) return;
-    if (at.count == 0) at.climb = climb_of(raster, p);
+    if (at.count == 0) at.climb = climb_of(samples, p);
     at.add(line, lines[line].yields, height, 2 * std::max(climb, at.climb) + std::abs(height) * 0x1p-23);
   };
   auto chain = arranged.chains.begin();
@@ -250,10 +249,10 @@ Result<void> set_heights(std::span<const Claims> claims, std::span<const Line> l
   return {};
 }
 
-Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<double, 6>& affine,
-                                const Raster& raster) {
+Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<double, 6>& affine, std::int32_t cols,
+                                std::int32_t rows) {
   const MapToSamples to_samples(affine);
-  LatticeLines lattice(raster.cols, raster.rows);
+  LatticeLines lattice(cols, rows);
   std::vector<Vertex> vertices;
   for (std::uint32_t k = 0; k < lines.size(); ++k) {
     vertices.clear();
@@ -314,21 +313,12 @@ std::uint64_t count_outside(const Arrangement& arranged, const LatticeLines& lat
   return static_cast<std::uint64_t>(std::count(is_there.begin(), is_there.end(), false));
 }
 
-}  // namespace
-
-bool is_laid_first(const Line& line) { return is_fault(line) || is_ridge_line(line); }
-
-std::array<double, 6> map_affine(const RasterInfo& info, int rows) {
-  if (!info.has_georeference) return grid_frame(rows).affine;
-  const auto& g = info.geotransform;  // of pixel corners
-  return {g[0] + g[1] / 2 + g[2] / 2, g[1], g[2], g[3] + g[4] / 2 + g[5] / 2, g[4], g[5]};
-}
-
-double height_between_samples(const Raster& raster, Point place) {
+template <class Heights>
+double bilinear_at(const Heights& raster, std::int32_t cols, std::int32_t rows, Point place) {
   if (place.x % kLatticeSteps == 0 && place.y % kLatticeSteps == 0)
     return raster.at({place.x / kLatticeSteps, place.y / kLatticeSteps});
-  const std::int32_t col = std::min(place.x / kLatticeSteps, raster.cols - 2),
-                     row = std::min(place.y / kLatticeSteps, raster.rows - 2);
+  const std::int32_t col = std::min(place.x / kLatticeSteps, cols - 2),
+                     row = std::min(place.y / kLatticeSteps, rows - 2);
   const double right = place.x / double{kLatticeSteps} - col, down = place.y / double{kLatticeSteps} - row;
   // Around the cell, so that k and k + 2 are opposite.
   const std::array<double, 4> weights{(1 - right) * (1 - down), right * (1 - down), right * down, (1 - right) * down};
@@ -349,24 +339,64 @@ double height_between_samples(const Raster& raster, Point place) {
   return weight == 0 ? std::numeric_limits<double>::quiet_NaN() : weight == 1 ? sum : sum / weight;
 }
 
-double surface_at(const Raster& raster, SamplePlace place) {
-  if (!(place.col >= 0 && place.row >= 0 && place.col <= raster.cols - 1 && place.row <= raster.rows - 1)) return NAN;
-  return height_between_samples(raster, {static_cast<std::int32_t>(std::lround(place.col * kLatticeSteps)),
-                                         static_cast<std::int32_t>(std::lround(place.row * kLatticeSteps))});
+}  // namespace
+
+bool is_laid_first(const Line& line) { return is_fault(line) || is_ridge_line(line); }
+
+std::array<double, 6> map_affine(const RasterInfo& info, int rows) {
+  if (!info.has_georeference) return grid_frame(rows).affine;
+  const auto& g = info.geotransform;  // of pixel corners
+  return {g[0] + g[1] / 2 + g[2] / 2, g[1], g[2], g[3] + g[4] / 2 + g[5] / 2, g[4], g[5]};
+}
+
+double height_between_samples(const Raster& raster, Point place) {
+  return bilinear_at(raster, raster.cols, raster.rows, place);
+}
+
+double surface_at(const LineSamples& samples, SamplePlace place) {
+  if (!(place.col >= 0 && place.row >= 0 && place.col <= samples.cols() - 1 && place.row <= samples.rows() - 1))
+    return NAN;
+  return bilinear_at(samples, samples.cols(), samples.rows(),
+                     {static_cast<std::int32_t>(std::lround(place.col * kLatticeSteps)),
+                      static_cast<std::int32_t>(std::lround(place.row * kLatticeSteps))});
+}
+
+double surface_at(const Raster& raster, SamplePlace place) { return surface_at(LineSamples(raster), place); }
+
+Result<std::vector<Segment>> find_courses(std::span<const Line> lines, const std::array<double, 6>& affine,
+                                          std::int32_t cols, std::int32_t rows) {
+  const auto lattice = to_lattice(lines, affine, cols, rows);
+  if (!lattice) return tl::unexpected(lattice.error());
+  std::vector<Segment> courses;
+  for (std::uint32_t part = 0; part < lattice->parts().size(); ++part) {
+    const auto points = lattice->parts()[part];
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) courses.push_back({points[k], points[k + 1]});
+  }
+  return courses;
 }
 
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
                                     const Raster& raster, const Outline& outline, LineConflict conflict,
-                                    bool with_chains) try {
-  if (std::max(raster.cols, raster.rows) > kMaxCoordinate / kLatticeSteps)
-    return fail(ErrorKind::kUsage, fmt::format("a raster of {} x {} samples is too large for lines: at most {} a side",
-                                               raster.cols, raster.rows, kMaxCoordinate / kLatticeSteps));
-  const auto lattice = to_lattice(lines, affine, raster);
-  if (!lattice) return tl::unexpected(lattice.error());
-  const std::int32_t width = (raster.cols - 1) * kLatticeSteps, height = (raster.rows - 1) * kLatticeSteps;
-  Arrangement arranged = arrange(lattice->parts(), rigid_segments(outline, width, height), width, height);
+                                    bool with_chains) {
+  return place_breaklines(lines, affine, LineSamples(raster), segments_of(outline), conflict, with_chains);
+}
 
-  const std::vector<Claims> claims = collect_claims(arranged, *lattice, lines, raster);
+Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
+                                    const LineSamples& samples, std::span<const Segment> rigid, LineConflict conflict,
+                                    bool with_chains) try {
+  const std::int32_t cols = samples.cols(), rows = samples.rows();
+  if (std::max(cols, rows) > kMaxCoordinate / kLatticeSteps)
+    return fail(ErrorKind::kUsage, fmt::format("a raster of {} x {} samples is too large for lines: at most {} a side",
+                                               cols, rows, kMaxCoordinate / kLatticeSteps));
+  const auto lattice = to_lattice(lines, affine, cols, rows);
+  if (!lattice) return tl::unexpected(lattice.error());
+  const std::int32_t width = (cols - 1) * kLatticeSteps, height = (rows - 1) * kLatticeSteps;
+  std::vector<Segment> fixed{
+      {{0, 0}, {width, 0}}, {{width, 0}, {width, height}}, {{width, height}, {0, height}}, {{0, height}, {0, 0}}};
+  fixed.insert(fixed.end(), rigid.begin(), rigid.end());
+  Arrangement arranged = arrange(lattice->parts(), fixed, width, height);
+
+  const std::vector<Claims> claims = collect_claims(arranged, *lattice, lines, samples);
   Breaklines placed;
   placed.outside = count_outside(arranged, *lattice, lines.size());
   placed.is_held = held_edges(arranged, *lattice, lines);
@@ -374,7 +404,7 @@ Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::arra
   placed.points = std::move(arranged.vertices);
   placed.edges = std::move(arranged.edges);
   placed.heights.reserve(placed.points.size());
-  for (const Point p : placed.points) placed.heights.push_back(static_cast<float>(height_between_samples(raster, p)));
+  for (const Point p : placed.points) placed.heights.push_back(static_cast<float>(bilinear_at(samples, cols, rows, p)));
   placed.is_hard.assign(placed.points.size(), false);
   if (auto set = set_heights(claims, lines, affine, conflict, placed); !set) return tl::unexpected(set.error());
   return placed;

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "geom/arrangement.h"
+#include "geom/segments.h"
 #include "grid/affine_map.h"
 #include "grid/outline.h"
 #include "grid/raster.h"
 #include "grid/vertex_places.h"
+#include "line_samples.h"
 #include "scarp/height_field.h"
 #include "scarp/lines.h"
 #include "scarp/result.h"
@@ -65,10 +67,22 @@ Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::arra
                                     const Raster& raster, const Outline& outline,
                                     LineConflict conflict = LineConflict::kError, bool with_chains = false);
 
+/// The same with samples that need but lie near lines. `rigid`: beside the rectangle, in kLatticeSteps: the outline, as
+/// far as lines pass, and whatever else they are to be cut at.
+Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
+                                    const LineSamples& samples, std::span<const Segment> rigid, LineConflict conflict,
+                                    bool with_chains);
+
+/// Where lines run in the raster and a sample around it, in kLatticeSteps. Fails with kInput for coordinates that are
+/// too large.
+Result<std::vector<Segment>> find_courses(std::span<const Line> lines, const std::array<double, 6>& affine,
+                                          std::int32_t cols, std::int32_t rows);
+
 /// The surface of `heights` above, at a point in kLatticeSteps of a sample within the raster.
 double height_between_samples(const Raster& raster, Point place);
 
 /// The same at the lattice place next to this one; NaN beyond the raster.
 double surface_at(const Raster& raster, SamplePlace place);
+double surface_at(const LineSamples& samples, SamplePlace place);
 
 }  // namespace scarp

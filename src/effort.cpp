@@ -76,7 +76,6 @@ Question either(const Question& first, const Question& second) {
 /// What keeps a run from vertices between samples beside the bound; null if nothing does.
 const char* find_lattice_obstacle(const HeightField& field, const SimplifyOptions& options) {
   if (const char* obstacle = find_beyond_heights(field, options)) return obstacle;
-  if (field.samples == nullptr) return "needs the raster in memory as a whole";
   if (!field.frame.is_affine()) return "needs a frame in which the grid is regular";
   return find_strategy(options) != nullptr ? "has no strategies of insertion" : nullptr;
 }
@@ -86,16 +85,24 @@ Result<void> check_lines(const HeightField& field, const SimplifyOptions& option
   const char* obstacle = has_lines(options) ? find_lattice_obstacle(field, options) : nullptr;
   if (has_lines(options) && obstacle == nullptr && !has_budget(options) && !options.max_error)
     obstacle = "needs a max error or a budget";
+  if (has_lines(options) && obstacle == nullptr && has_budget(options) && field.samples == nullptr)
+    obstacle = "needs the raster in memory as a whole for a budget";
   if (has_lines(options) && obstacle == nullptr && has_budget(options) && has_bounds(options))
     obstacle = "has no budget where samples have bounds of their own";
   const bool is_cut = !options.cutline.rings.empty();
-  if (obstacle == nullptr && (has_faults(options) || is_cut) && options.shape.any())
-    obstacle = "has no goals for angles and edges";
-  if (obstacle == nullptr && has_faults(options) && is_cut) obstacle = "has no cliffs";
+  if (obstacle == nullptr && field.samples == nullptr && (lays_first(options) || is_cut))
+    obstacle = "needs the raster in memory as a whole";
+  const bool is_of_faults = obstacle == nullptr && has_faults(options) && options.shape.any();
+  if (is_of_faults) obstacle = "has no goals for angles and edges";
   if (obstacle == nullptr) return {};
   const auto& lines = options.breaklines.lines;
-  const auto all = [&](bool (*kind)(const Line&)) { return std::all_of(lines.begin(), lines.end(), kind); };
-  const char* what = is_cut ? "a cutline" : all(is_fault) ? "cliffs" : all(is_ridge_line) ? "ridges" : "breaklines";
+  const auto all = [&](bool (*kind)(const Line&)) {
+    return !lines.empty() && std::all_of(lines.begin(), lines.end(), kind);
+  };
+  const char* what = is_of_faults || all(is_fault) ? "cliffs"
+                     : is_cut                      ? "a cutline"
+                     : all(is_ridge_line)          ? "ridges"
+                                                   : "breaklines";
   return fail(ErrorKind::kUsage, fmt::format("a mesh with {} {}: leave out one or the other", what, obstacle));
 }
 
@@ -110,6 +117,7 @@ Result<void> check_shape(const HeightField& field, const SimplifyOptions& option
     return usage(fmt::format("the grade must be a finite number above 0, not {}", *shape.grade));
   if (!shape.any()) return {};
   const char* obstacle = find_lattice_obstacle(field, options);
+  if (obstacle == nullptr && field.samples == nullptr) obstacle = "needs the raster in memory as a whole";
   if (obstacle == nullptr && (has_budget(options) || !options.max_error)) obstacle = "needs a max error and no budget";
   if (obstacle != nullptr)
     return usage(fmt::format("a mesh with goals for angles and edges {}: leave out one or the other", obstacle));

@@ -107,7 +107,7 @@ class Run {
     domain_ = std::move(tiled.domain);
     heights_ = std::move(tiled.heights);
     result.work = tiled.work;
-    if (fits_rows(field_, options_)) {
+    if (finishes_rows(field_, options_)) {
       set_places({tiled.steps, tiled.steps > 1 ? std::move(heights_) : std::vector<float>(), {}}, result);
     } else if (field_.samples != nullptr || field_.source->is_in_memory()) {
       const Work work = release_seams(domain_->tin, criterion_.judge(), std::move(tiled.seams), options_.threads);
@@ -302,7 +302,7 @@ class Run {
 
   /// Vertices that the bound can do without go.
   Result<void> remove_vertices(Simplified& result) {
-    if (options_.effort == Effort::kFast || fits_rows(field_, options_)) return {};
+    if (options_.effort == Effort::kFast || finishes_rows(field_, options_)) return {};
     const auto start = Clock::now();
     refinement_.reset();
     FitOptions options = fit_options(field_, options_, criterion_.aim());

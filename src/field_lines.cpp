@@ -13,6 +13,8 @@
 #include "grid/affine_map.h"
 #include "profile.h"
 #include "refine/samples.h"
+#include "refine/tiled.h"
+#include "scarp/edits.h"
 
 namespace scarp {
 
@@ -23,8 +25,8 @@ namespace {
 /// slivers.
 class SoftLine {
  public:
-  SoftLine(const Raster& raster, const std::array<double, 6>& affine, double tolerance)
-      : raster_(raster), affine_(affine), to_samples_(affine), tolerance_(tolerance) {}
+  SoftLine(const LineSamples& samples, const std::array<double, 6>& affine, double tolerance)
+      : samples_(samples), affine_(affine), to_samples_(affine), tolerance_(tolerance) {}
 
   /// `is_cut`: a ring that was clipped, and the sides of the raster, along which it may run, are followed by others.
   Line follow(const Line& line, bool is_cut = false) const {
@@ -55,7 +57,7 @@ class SoftLine {
   /// Whether both are on the same side of the raster's rectangle, up to rounding.
   bool is_along_side(const Place& a, const Place& b) const {
     const auto p = sample_of(a), q = sample_of(b);
-    const std::array<double, 2> last{raster_.cols - 1.0, raster_.rows - 1.0};
+    const std::array<double, 2> last{samples_.cols() - 1.0, samples_.rows() - 1.0};
     for (const std::size_t axis : {0, 1}) {
       for (const double side : {0.0, last[axis]}) {
         if (std::max(std::abs(p[axis] - side), std::abs(q[axis] - side)) < 0.5 / kLatticeSteps) return true;
@@ -76,7 +78,7 @@ class SoftLine {
   /// The raster's surface there; NaN beyond it.
   double height_at(const Place& place) const {
     const auto [col, row] = sample_of(place);
-    return surface_at(raster_, {col, row});
+    return surface_at(samples_, {col, row});
   }
 
   /// Bends where the surface asks for it. Two looks a sample.
@@ -96,7 +98,7 @@ class SoftLine {
     }
   }
 
-  const Raster& raster_;
+  const LineSamples& samples_;
   std::array<double, 6> affine_;
   MapToSamples to_samples_;
   double tolerance_;
@@ -109,6 +111,15 @@ std::vector<GraphEdge> edges_of_lines(const Breaklines& placed) {
     if (edge.is_line) edges.push_back({edge.a, edge.b});
   }
   return edges;
+}
+
+/// Of these edges, 1 where none but lines of faults run. EMPTY: there are no faults.
+std::vector<std::uint8_t> starts_of_lines(const Breaklines& placed) {
+  std::vector<std::uint8_t> is_start;
+  for (std::size_t i = 0; i < placed.is_held.size(); ++i) {
+    if (placed.edges[i].is_line) is_start.push_back(placed.is_held[i] ? 0 : 1);
+  }
+  return is_start;
 }
 
 /// What lines pass, those from number `first` up to `end`.
@@ -172,9 +183,7 @@ KeptEdges cut_edges(const Breaklines& placed, std::span<const Line> lines, std::
 KeptEdges all_edges(const Breaklines& placed) {
   KeptEdges kept;
   kept.edges = edges_of_lines(placed);
-  for (std::size_t i = 0; i < placed.is_held.size(); ++i) {
-    if (placed.edges[i].is_line) kept.is_start.push_back(placed.is_held[i] ? 0 : 1);
-  }
+  kept.is_start = starts_of_lines(placed);
   return kept;
 }
 
@@ -213,15 +222,15 @@ void visit_samples(Point a, Point b, const Visit& visit) {
   }
 }
 
-/// Gives the samples on hard lines, but for faults, the heights of the lines.
-void edit_samples(const Breaklines& placed, std::int32_t cols, FieldLines& lines) {
+/// Gives the samples on hard lines, but for faults, the heights of the lines. `change(p, height)` does so, and returns
+/// what the sample was.
+template <class Change>
+std::vector<SampleEdit> edit_samples(const Breaklines& placed, const Change& change) {
+  std::vector<SampleEdit> edits;
   const auto edit = [&](Point p, double height) {
-    float& sample =
-        lines.samples[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(p.x)];
     const auto after = static_cast<float>(height);
-    if (std::isnan(sample) || sample == after) return;
-    lines.edits.push_back({p.x, p.y, sample, after});
-    sample = after;
+    const float before = change(p, after);
+    if (!std::isnan(before) && before != after) edits.push_back({p.x, p.y, before, after});
   };
   for (std::size_t i = 0; i < placed.edges.size(); ++i) {
     const Arrangement::Edge& edge = placed.edges[i];
@@ -236,9 +245,10 @@ void edit_samples(const Breaklines& placed, std::int32_t cols, FieldLines& lines
     if (placed.is_hard[i] && PlaceHeights::is_sample(p))
       edit({p.x / kLatticeSteps, p.y / kLatticeSteps}, placed.heights[i]);
   }
-  std::sort(lines.edits.begin(), lines.edits.end(), [](const SampleEdit& a, const SampleEdit& b) {
+  std::stable_sort(edits.begin(), edits.end(), [](const SampleEdit& a, const SampleEdit& b) {
     return before({a.col, a.row}, {b.col, b.row});
   });
+  return edits;
 }
 
 /// Makes void what lies well beyond the cut, and tells which samples it takes away.
@@ -262,35 +272,96 @@ Result<void> cut_samples(const Raster& raster, FieldLines& lines) {
 
 HeightField FieldLines::apply(const HeightField& field) const {
   HeightField edited = field;
+  if (source) edited.source = source.get();
   if (samples.empty()) return edited;
   edited.samples = samples.data();
   edited.nodata = std::nullopt;
   return edited;
 }
 
+namespace {
+
+/// Lines, `count` of them, with the vertices that they need. `follow(k)`: one of them.
+template <class Follow>
+std::vector<Line> follow_all(std::size_t count, int threads, const Follow& follow) {
+  std::vector<Line> followed(count);
+  constexpr std::size_t kTogether = 64;
+  parallel_for((count + kTogether - 1) / kTogether, threads, [&](std::size_t part) {
+    const std::size_t first = part * kTogether, end = std::min(first + kTogether, count);
+    for (std::size_t k = first; k < end; ++k) followed[k] = follow(k);
+  });
+  return followed;
+}
+
+/// Of breaklines alone, in a raster that is not in memory.
+Result<FieldLines> prepare_from_source(const HeightField& field, const LineConstraints& lines, double tolerance,
+                                       int threads, std::int32_t row_side) {
+  const auto courses = find_courses(lines.lines, lines.affine, field.cols, field.rows);
+  if (!courses) return tl::unexpected(courses.error());
+  auto samples = LineSamples::read(field, *courses);
+  if (!samples) return tl::unexpected(samples.error());
+  const SoftLine soft(*samples, lines.affine, tolerance);
+  const std::vector<Line> followed =
+      follow_all(lines.lines.size(), threads, [&](std::size_t k) { return soft.follow(lines.lines[k]); });
+  std::vector<Segment> rigid = samples->outline_near();
+  const std::int32_t width = (field.cols - 1) * kLatticeSteps;
+  for (const std::int32_t row : shared_rows(field, row_side))
+    rigid.push_back({{0, row * kLatticeSteps}, {width, row * kLatticeSteps}});
+  const auto placed = place_breaklines(followed, lines.affine, *samples, rigid, lines.conflict, false);
+  if (!placed) return tl::unexpected(placed.error());
+  FieldLines result;
+  result.edits = edit_samples(*placed, [&](Point p, float after) { return samples->change(p, after); });
+  if (!result.edits.empty()) result.source = edit_source({std::shared_ptr<const void>(), field.source}, result.edits);
+  result.graph = graph_of(*placed, all_edges(*placed));
+  result.laid = lines.lines.size() - placed->outside;
+  return result;
+}
+
+}  // namespace
+
+std::uint64_t line_bytes(const HeightField& field, const LineConstraints& lines) {
+  constexpr double kBytesPerVertex = 300, kBytesPerSample = 100;
+  const MapToSamples to_samples(lines.affine);
+  const double longest = static_cast<double>(field.cols) + field.rows;
+  double bytes = 0;
+  for (const Line& line : lines.lines) {
+    bytes += kBytesPerVertex * static_cast<double>(line.points.size());
+    for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
+      const SamplePlace way =
+          to_samples.way(line.points[k + 1][0] - line.points[k][0], line.points[k + 1][1] - line.points[k][1]);
+      bytes += kBytesPerSample * std::fmin(std::hypot(way.col, way.row), longest);
+    }
+  }
+  return static_cast<std::uint64_t>(bytes);
+}
+
 Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
-                                 double tolerance, int threads) {
+                                 double tolerance, int threads, std::int32_t row_side) {
+  if (field.samples == nullptr) return prepare_from_source(field, lines, tolerance, threads, row_side);
   const auto cleaned = Samples::of(field);
   if (!cleaned) return tl::unexpected(cleaned.error());
   const Raster raster = cleaned->raster();
   const bool is_cut = !cutline.rings.empty();
   const std::array<double, 6>& affine = is_cut ? cutline.affine : lines.affine;
-  const SoftLine soft(raster, affine, tolerance);
+  const LineSamples samples(raster);
+  const SoftLine soft(samples, affine, tolerance);
   const std::vector<Line> rings = clip_rings(cutline, raster.cols, raster.rows);
   const std::size_t breaklines = lines.lines.size();
-  std::vector<Line> followed(breaklines + rings.size());
-  constexpr std::size_t kTogether = 64;
-  parallel_for((followed.size() + kTogether - 1) / kTogether, threads, [&](std::size_t part) {
-    const std::size_t first = part * kTogether, end = std::min(first + kTogether, followed.size());
-    for (std::size_t k = first; k < end; ++k)
-      followed[k] = k < breaklines ? soft.follow(lines.lines[k]) : soft.follow(rings[k - breaklines], true);
+  const std::vector<Line> followed = follow_all(breaklines + rings.size(), threads, [&](std::size_t k) {
+    return k < breaklines ? soft.follow(lines.lines[k]) : soft.follow(rings[k - breaklines], true);
   });
   const auto placed = place_breaklines(followed, affine, raster, trace_outline(raster), lines.conflict, is_cut);
   if (!placed) return tl::unexpected(placed.error());
   FieldLines result;
   if (is_cut || std::find(placed->is_hard.begin(), placed->is_hard.end(), true) != placed->is_hard.end()) {
     result.samples.assign(raster.samples, raster.row(raster.rows));
-    edit_samples(*placed, raster.cols, result);
+    result.edits = edit_samples(*placed, [&](Point p, float after) {
+      float& sample = result.samples[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(raster.cols) +
+                                     static_cast<std::size_t>(p.x)];
+      const float before = sample;
+      if (!std::isnan(before)) sample = after;
+      return before;
+    });
   }
   // Those that were found in the raster are no lines of the caller's.
   std::vector<bool> is_laid(breaklines, !is_cut);

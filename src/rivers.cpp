@@ -14,6 +14,7 @@
 #include "grid/affine_map.h"
 #include "grid/raster.h"
 #include "line_marks.h"
+#include "line_samples.h"
 #include "profile.h"
 
 namespace scarp {
@@ -29,10 +30,10 @@ bool is_closed(const Line& line) {
 /// The raster's surface, with lakes a sample wider than they are.
 class Ground {
  public:
-  Ground(const OwnedHeightField& field, std::span<const Lake> lakes, const std::array<double, 6>& affine)
-      : raster_{field.samples.data(), field.cols, field.rows}, to_samples_(affine) {
+  Ground(LineSamples samples, std::span<const Lake> lakes, const std::array<double, 6>& affine)
+      : samples_(std::move(samples)), to_samples_(affine) {
     if (lakes.empty()) return;
-    lakes_.emplace(affine, field.cols, field.rows);
+    lakes_.emplace(affine, samples_.cols(), samples_.rows());
     for (const Lake& lake : lakes) {
       lakes_->add_polygons(lake.shore);
       for (const Line& ring : lake.shore) lakes_->add_course(ring, 1.0 / 128);
@@ -47,10 +48,10 @@ class Ground {
   };
   Surface at(const std::array<double, 3>& point) const {
     const auto [col, row] = place_of(point);
-    if (!(col >= 0 && row >= 0 && col <= raster_.cols - 1 && row <= raster_.rows - 1)) return {};
+    if (!(col >= 0 && row >= 0 && col <= samples_.cols() - 1 && row <= samples_.rows() - 1)) return {};
     const double water = lakes_ ? level_around(col, row) : kNoHeight;
     if (!std::isnan(water)) return {water, true};
-    return {static_cast<float>(surface_at(raster_, {col, row})), false};
+    return {static_cast<float>(surface_at(samples_, {col, row})), false};
   }
 
  private:
@@ -61,14 +62,14 @@ class Ground {
       for (const double x : {std::floor(col), std::ceil(col)}) {
         const Point p{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)};
         const std::size_t at =
-            static_cast<std::size_t>(p.y) * static_cast<std::size_t>(raster_.cols) + static_cast<std::size_t>(p.x);
-        if (lakes_->has(at) && raster_.is_valid(p)) level = std::fmin(level, double{raster_.at(p)});
+            static_cast<std::size_t>(p.y) * static_cast<std::size_t>(samples_.cols()) + static_cast<std::size_t>(p.x);
+        if (lakes_->has(at) && samples_.is_valid(p)) level = std::fmin(level, double{samples_.at(p)});
       }
     }
     return level;
   }
 
-  Raster raster_;
+  LineSamples samples_;
   MapToSamples to_samples_;
   std::optional<LineMarks> lakes_;
 };
@@ -181,6 +182,15 @@ class Course {
   bool is_turned_ = false;
 };
 
+/// Of a field with a source, those near the lines.
+Result<LineSamples> samples_along(const OwnedHeightField& field, std::span<const Line> lines,
+                                  const std::array<double, 6>& affine) {
+  if (field.source == nullptr) return LineSamples(Raster{field.samples.data(), field.cols, field.rows});
+  const auto courses = find_courses(lines, affine, field.cols, field.rows);
+  if (!courses) return tl::unexpected(courses.error());
+  return LineSamples::read(field, *courses);
+}
+
 }  // namespace
 
 Result<std::vector<River>> carve_rivers(const OwnedHeightField& field, std::span<const Line> lines,
@@ -188,8 +198,11 @@ Result<std::vector<River>> carve_rivers(const OwnedHeightField& field, std::span
   if (!(options.tolerance >= 0))
     return fail(ErrorKind::kUsage,
                 fmt::format("the tolerance of rivers must be at least 0, not {}", options.tolerance));
-  if (field.source != nullptr) return fail(ErrorKind::kUsage, "rivers need the raster in memory as a whole");
-  const Ground ground(field, lakes, options.affine);
+  if (field.source != nullptr && !lakes.empty())
+    return fail(ErrorKind::kUsage, "rivers through lakes need the raster in memory as a whole");
+  auto samples = samples_along(field, lines, options.affine);
+  if (!samples) return tl::unexpected(samples.error());
+  const Ground ground(std::move(*samples), lakes, options.affine);
   std::vector<Course> courses;
   for (const Line& line : lines) {
     if (is_closed(line)) continue;

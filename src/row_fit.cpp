@@ -1,12 +1,14 @@
 #include "row_fit.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "base/parallel.h"
 #include "effort.h"
 #include "fit/fit.h"
 #include "goals.h"
+#include "row_lines.h"
 
 namespace scarp {
 
@@ -17,31 +19,59 @@ bool has_room(const HeightField& field) { return std::max(field.cols, field.rows
 
 }  // namespace
 
-bool fits_rows(const HeightField& field, const SimplifyOptions& options) {
-  return field.samples == nullptr && options.effort != Effort::kFast;
+bool finishes_rows(const HeightField& field, const SimplifyOptions& options) {
+  return field.samples == nullptr && (options.effort != Effort::kFast || has_lines(options));
 }
 
-void fit_rows(const HeightField& field, const SimplifyOptions& options, double threshold, RowFits& fits,
-              TiledOptions& tiles) {
+void finish_rows(const HeightField& field, const SimplifyOptions& options, const ConstraintGraph* lines,
+                 double threshold, RowFits& fits, TiledOptions& tiles) {
   FitOptions whole = fit_options(field, options, threshold);
   whole.threads = options.threads;
   whole.vertices_are_free = whole.vertices_are_free && has_room(field);
   whole.goes_on = false;
+  const bool is_fitted = options.effort != Effort::kFast;
   const auto threads = static_cast<std::uint64_t>(thread_count(options.threads));
-  tiles.finish_bytes_per_vertex = kFitBytesPerVertex + kFitBytesPerVertexAndThread * threads;
-  tiles.finish_row = [whole, &fits, on = tiles.progress](TileRow row) -> Result<FinishedRow> {
-    const auto start = Clock::now();
+  if (is_fitted) tiles.finish_bytes_per_vertex = kFitBytesPerVertex + kFitBytesPerVertexAndThread * threads;
+  std::shared_ptr<RowLines> laying;
+  if (lines != nullptr) {
+    laying = std::make_shared<RowLines>(*lines);
+    if (tiles.tile_side == 0) tiles.tile_side = side_of_rows(field, options);
+    tiles.finish_bytes_per_vertex = std::max(tiles.finish_bytes_per_vertex, kRowLineBytesPerVertex);
+  }
+  tiles.finish_row = [whole, is_fitted, laying, threshold, &fits,
+                      on = tiles.progress](TileRow row) -> Result<FinishedRow> {
+    const Raster samples = row.samples;
     FitOptions here = whole;
     here.free_sides.top = here.free_sides.top && !row.has_above;
     here.free_sides.bottom = here.free_sides.bottom && !row.has_below;
+    FinishedRow finished{std::move(row.tin), {}};
+    if (laying) {
+      const auto start = Clock::now();
+      row.tin = std::move(finished.tin);
+      auto laid =
+          laying->lay(std::move(row), threshold, [&on](std::uint64_t vertices) { return !on || on(0, vertices); });
+      if (!laid) return laid;
+      finished = std::move(*laid);
+      fits.seconds_of_lines += seconds_since(start);
+      fits.lines = laying->work();
+    }
+    if (!is_fitted) return finished;
+    const auto start = Clock::now();
     if (on) here.progress = [&on](double, std::uint64_t vertices) { return on(0, vertices); };
-    auto fitted = fit(row.samples, std::move(row.tin), here);
+    auto fitted = fit(samples, std::move(finished.tin), std::move(finished.places), here);
     if (!fitted) return tl::unexpected(fitted.error());
     fits.seconds += seconds_since(start);
     fits.removed += fitted->counts.removed;
     fits.is_cut_short = fits.is_cut_short || fitted->is_cut_short;
     return FinishedRow{std::move(fitted->tin), std::move(fitted->places)};
   };
+}
+
+std::int32_t side_of_rows(const HeightField& field, const SimplifyOptions& options) {
+  TiledOptions tiles;
+  tiles.memory = memory_budget(field, options);
+  tiles.finish_row = [](TileRow) -> Result<FinishedRow> { return fail(ErrorKind::kInternal, "no row is there yet"); };
+  return streamed_side(field, tiles);
 }
 
 }  // namespace scarp

@@ -1,4 +1,5 @@
-// Effort where the samples are not in memory as a whole: each row of tiles is fitted while its samples are there.
+// Lines and effort where the samples are not in memory as a whole: each row of tiles is given its lines and fitted
+// while its samples are there.
 //
 //     row above, done ──────────────    its lower border is the next row's upper one: the vertices on it stay, and
 //     row at hand     │     │     │     everything between, across the tiles' own borders too, is fitted as one mesh
@@ -8,26 +9,32 @@
 
 #include <cstdint>
 
+#include "refine/constraints.h"
 #include "refine/tiled.h"
 #include "scarp/height_field.h"
 #include "scarp/simplify.h"
 
 namespace scarp {
 
-/// What fitting row by row has done so far.
+/// What finishing row by row has done so far.
 struct RowFits {
-  double seconds = 0;
+  double seconds = 0;  ///< of fitting
+  double seconds_of_lines = 0;
+  Work lines;                 ///< of laying them
   std::uint64_t removed = 0;  ///< vertices
   bool is_cut_short = false;  ///< by the time: rows that come later stay as they are
 };
 
-/// Whether rows are fitted, instead of the finished mesh.
-bool fits_rows(const HeightField& field, const SimplifyOptions& options);
+/// Whether rows are finished, with lines or by fitting, instead of the whole mesh.
+bool finishes_rows(const HeightField& field, const SimplifyOptions& options);
 
-/// Lets refine_tiled() fit each row with the effort of `options` to the threshold, and adds to `fits`. Vertices are
-/// free as in fit(); effort kMax does not go on until a time is up, as the first row would use it all. Progress is told
-/// through `tiles.progress`, as it is now. All stay alive.
-void fit_rows(const HeightField& field, const SimplifyOptions& options, double threshold, RowFits& fits,
-              TiledOptions& tiles);
+/// Lets refine_tiled() lay lines into each row (null: none), then fit it with the effort of `options` to the threshold,
+/// and adds to `fits`. Vertices are free as in fit(); effort kMax does not go on until a time is up, as the first row
+/// would use it all. Progress is told through `tiles.progress`, as it is now. All stay alive.
+void finish_rows(const HeightField& field, const SimplifyOptions& options, const ConstraintGraph* lines,
+                 double threshold, RowFits& fits, TiledOptions& tiles);
+
+/// The side of tiles of such a run, which cuts lines where rows meet.
+std::int32_t side_of_rows(const HeightField& field, const SimplifyOptions& options);
 
 }  // namespace scarp

@@ -380,22 +380,24 @@ class ShapeRefiner {
     const Vertex from = tin_.origin(h), to = tin_.origin(Triangulation::next(h));
     const Point a = tin_.point(from), b = tin_.point(to);
     const double share = share_of_split(h);
+    // The outline of the valid data stays where it is; where a cutline ends the surface few lattice places are exactly
+    // on the way.
     std::optional<Point> p;
+    if (!is_line(h)) p = on_outline(a, b, share);
+    const bool bends = !p && tin_.twin(h) != kNone;
     std::pair<Point, Point> line{a, b};
-    if (is_line(h)) {
+    if (bends) {
       for (const Vertex v : {from, to}) {
         if (const auto bent = lines_.find(v); bent != lines_.end()) line = bent->second;
       }
       p = beside(on_line(line, {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)}), h);
-    } else {
-      p = on_outline(a, b, share);
     }
     if (!p) return false;
     if (!PlaceHeights::is_sample(*p) || !raster_.is_valid({p->x / kLatticeSteps, p->y / kLatticeSteps})) {
       const double za = heights_.at(a), zb = heights_.at(b);
       heights_.set(*p, static_cast<float>(za + (zb - za) * std::sqrt(metric_.square(a, *p) / square(h))));
     }
-    if (is_line(h)) lines_[static_cast<Vertex>(tin_.vertex_count())] = line;
+    if (bends) lines_[static_cast<Vertex>(tin_.vertex_count())] = line;
     const HalfEdge g = tin_.twin(h);
     refinement_->insert_at(*p, {Location::Kind::kOnEdge, std::min(h, g)});
     note_insertion();

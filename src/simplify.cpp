@@ -48,7 +48,7 @@ Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions
                                  const ConstraintGraph* lines);
 
 Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const SimplifyOptions& options,
-                                          const Criterion& criterion, RowFits& fits) {
+                                          const Criterion& criterion, const ConstraintGraph* lines, RowFits& fits) {
   TiledOptions tiles;
   tiles.threshold = criterion.judge().goal();
   tiles.threads = options.threads;
@@ -61,7 +61,7 @@ Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const Simpli
       return !reporter.due() || reporter.report("refine", share, vertices, 0);
     };
   }
-  if (fits_rows(field, options)) fit_rows(field, options, criterion.aim(), fits, tiles);
+  if (finishes_rows(field, options)) finish_rows(field, options, lines, criterion.aim(), fits, tiles);
   return refine_tiled(field, tiles);
 }
 
@@ -84,7 +84,7 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
   if (auto fits = memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
   const auto start = Clock::now();
   RowFits fits;
-  auto tiled = refine_tiles(field, options, *criterion, fits);
+  auto tiled = refine_tiles(field, options, *criterion, lines, fits);
   if (!tiled) return tl::unexpected(tiled.error());
   if (!*tiled) {
     if (field.samples == nullptr)
@@ -99,10 +99,14 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
     return tl::unexpected(has_room.error());
   const Work& work = (*tiled)->work;
   const double seconds = seconds_since(start);
-  std::vector<Pass> passes{
-      {"tiles", seconds - fits.seconds, work.samples_scanned, work.triangles_scanned, work.passes}};
-  if (fits_rows(field, options)) passes.push_back({"fit", fits.seconds, 0, 0, 0, fits.removed});
-  auto result = run_engine(field, raster, options, *criterion, lines, std::move(*tiled));
+  std::vector<Pass> passes{{"tiles", seconds - fits.seconds - fits.seconds_of_lines, work.samples_scanned,
+                            work.triangles_scanned, work.passes}};
+  const bool by_rows = finishes_rows(field, options);
+  if (by_rows && lines != nullptr)
+    passes.push_back(
+        {"lines", fits.seconds_of_lines, fits.lines.samples_scanned, fits.lines.triangles_scanned, fits.lines.passes});
+  if (by_rows && options.effort != Effort::kFast) passes.push_back({"fit", fits.seconds, 0, 0, 0, fits.removed});
+  auto result = run_engine(field, raster, options, *criterion, by_rows ? nullptr : lines, std::move(*tiled));
   if (!result) return result;
   result->passes.insert(result->passes.begin(), passes.begin(), passes.end());
   result->seconds_refine += seconds;
@@ -154,8 +158,11 @@ Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyO
     options.breaklines = std::move(*lines);
     if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
   }
+  options.memory_taken += line_bytes(field, options.breaklines);
+  if (auto fits = memory_budget(field, options).check_start(0); !fits) return tl::unexpected(fits.error());
   const double tolerance = kLineShare * *options.max_error;
-  auto lines = prepare_lines(field, options.breaklines, options.cutline, tolerance, options.threads);
+  auto lines = prepare_lines(field, options.breaklines, options.cutline, tolerance, options.threads,
+                             field.samples != nullptr ? 0 : side_of_rows(field, options));
   if (!lines) return tl::unexpected(lines.error());
   const double seconds = seconds_since(start);
   auto result = simplify_once(lines->apply(field), options, &lines->graph);

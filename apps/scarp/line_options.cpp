@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "scarp/edits.h"
 #include "simplify_run.h"
 #include "text.h"
 
@@ -156,6 +157,10 @@ Result<LineConstraints> LineArguments::read(const RasterInfo& raster, int rows, 
 }
 
 void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field) {
+  if (field.source) {
+    if (!edits.empty()) field.source = edit_source(field.source, edits);
+    return;
+  }
   for (const SampleEdit& edit : edits)
     field.samples[static_cast<std::size_t>(edit.row) * static_cast<std::size_t>(field.cols) +
                   static_cast<std::size_t>(edit.col)] = edit.after;

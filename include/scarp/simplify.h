@@ -49,8 +49,8 @@ struct SimplifyOptions {
   /// Breaklines. A hard line keeps its heights, a soft one follows the raster. Where a hard line passes through a
   /// sample that has another height, the sample is given the line's, and what is promised holds for the samples as they
   /// are then (Simplified::edits). Fails with kUsage without a max error or a budget, together with channels, an outline
-  /// tolerance or strategies, without the samples in memory and in frames that are not affine; with kInput for lines
-  /// whose heights contradict each other, named. With a budget an error is searched for, whatever the effort (see
+  /// tolerance or strategies, and in frames that are not affine; faults (cliffs.h) also without the samples in memory;
+  /// with kInput for lines whose heights contradict each other, named. With a budget an error is searched for, whatever the effort (see
   /// "Budgets"); fails with kUsage beside a mask, tolerances or a script, and for a budget below what lines and outline
   /// need. DEFAULT: none.
   LineConstraints breaklines = {};
@@ -60,7 +60,7 @@ struct SimplifyOptions {
   /// Polygons that the surface is cut to: of guarantee (2)'s domain what lies in them. Their rings become edges of the
   /// mesh, moved by 1/512 sample at most (3/512 where lines cross), at the heights of the raster between its samples;
   /// they follow it to within half of max_error, all of it within a sample of their vertices. Samples outside are not
-  /// judged. Fails as breaklines do, and with kInput where no surface lies in the polygons. DEFAULT: none.
+  /// judged. Fails as faults do, and with kInput where no surface lies in the polygons. DEFAULT: none.
   Cutline cutline = {};
   std::vector<ScriptStep> script = {};  ///< carried out in order before the first scan. DEFAULT: nothing.
   /// kDominant fails with kUsage together with a budget, a mask, tolerances, a script, channels, an importance, an

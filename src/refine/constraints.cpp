@@ -72,7 +72,8 @@ Result<ConstrainedMesh> ConstrainedMesh::lay(const Raster& raster, Triangulation
   for (const std::uint32_t i : nearby_order(graph.points)) {
     const Point p = graph.points[i];
     const auto location = tin.locate(p, tin.last_touched());
-    if (!is_in_domain(tin, location)) continue;
+    const bool is_shared = !graph.is_shared.empty() && graph.is_shared[i] != 0;
+    if (!is_shared && !is_in_domain(tin, location)) continue;
     if (!PlaceHeights::is_sample(p)) mesh.heights_.set(p, graph.heights[i]);
     vertices[i] = tin.insert(p, location);
     (is_held[i] ? mesh.fixed_ : mesh.starts_).push_back(vertices[i]);

@@ -20,19 +20,20 @@ struct ConstraintGraph {
   std::vector<Point> points;                        ///< in kLatticeSteps, in the raster, each once
   std::vector<float> heights;                       ///< of the points; what a sample has counts before it
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< indices of points
-  std::vector<std::uint8_t> is_start;  ///< by edge: 1 where the mesh need not hold it in the end; EMPTY: all stay
-  bool is_laid_first = false;          ///< before the surface is refined
-  std::optional<SurfaceCut> cut;       ///< nothing: all of the surface stays
+  std::vector<std::uint8_t> is_shared;  ///< by point: 1 where it is laid beside the domain too; EMPTY: none is
+  std::vector<std::uint8_t> is_start;   ///< by edge: 1 where the mesh need not hold it in the end; EMPTY: all stay
+  bool is_laid_first = false;           ///< before the surface is refined
+  std::optional<SurfaceCut> cut;        ///< nothing: all of the surface stays
 };
 
 /// The workbench with lines in it.
 class ConstrainedMesh {
  public:
   /// Turns the points of `tin` from samples into kLatticeSteps, and makes the graph's edges chains of its edges,
-  /// constrained; then what is cut away is marked outside. Points outside the domain are left out with their edges.
-  /// `tin` and the raster stay alive; nobody else changes them. Fails with kInternal where an edge crosses one that is
-  /// constrained, with kInput where nothing stays. REQUIRES: sides of at most
-  /// kMaxCoordinate / kLatticeSteps samples; edges cross no constrained edge of `tin` but in points of the graph.
+  /// constrained; then what is cut away is marked outside. Points outside the domain, but for shared ones, are left out
+  /// with their edges. `tin` and the raster stay alive; nobody else changes them. Fails with kInternal where an edge
+  /// crosses one that is constrained, with kInput where nothing stays. REQUIRES: sides of at most kMaxCoordinate /
+  /// kLatticeSteps samples; edges cross no constrained edge of `tin` but in points of the graph.
   static Result<ConstrainedMesh> lay(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph);
 
   /// Triangles that are others than before, ascending.

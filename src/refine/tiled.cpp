@@ -216,7 +216,7 @@ class TiledRun {
   Result<void> finish_row(const TileWindow& window) {
     const Raster samples = band_.raster(window.row, window.rows);
     std::vector<HalfEdge> seams;
-    TileRow row{samples, row_.finish(seams), window.row > 0, window.row + window.rows < field_.rows};
+    TileRow row{samples, window.row, row_.finish(seams), window.row > 0, window.row + window.rows < field_.rows};
     row_ = Assembly(plan_.per_row());
     const auto finished = options_.finish_row(std::move(row));
     if (!finished) return tl::unexpected(finished.error());
@@ -257,8 +257,9 @@ class TiledRun {
   bool is_unsuited_ = false;
 };
 
-/// Where tiles go by rows: tiles whose rows fit a quarter of the memory. What finishes them pays for each line between
-/// two rows.
+}  // namespace
+
+/// Rows fit a quarter of the memory. What finishes them pays for each line between two of them.
 std::int32_t streamed_side(const HeightField& field, const TiledOptions& options) {
   const MemoryBudget& memory = options.memory;
   std::int32_t side = options.finish_row ? 1024 : 512;
@@ -267,7 +268,13 @@ std::int32_t streamed_side(const HeightField& field, const TiledOptions& options
   return side;
 }
 
-}  // namespace
+std::vector<std::int32_t> shared_rows(const HeightField& field, std::int32_t side) {
+  const TilePlan plan(field.cols, field.rows, side);
+  std::vector<std::int32_t> rows;
+  for (std::size_t tile = plan.per_row(); tile < plan.count(); tile += plan.per_row())
+    rows.push_back(plan.window(tile).row);
+  return rows;
+}
 
 Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options) {
   const bool is_streamed = goes_by_rows(field, options);

@@ -34,6 +34,7 @@ namespace scarp {
 /// The mesh of a row of tiles, and its samples.
 struct TileRow {
   Raster samples;
+  std::int32_t first = 0;  ///< of its rows of samples, in the raster
   Triangulation tin;
   bool has_above = false, has_below = false;  ///< neighbours, which have the vertices on their shared border too
 };
@@ -66,6 +67,11 @@ struct Tiled {
   std::int32_t steps = 1;       ///< of the domain's points between two samples
   Work work;
 };
+
+/// The side of tiles where they go by rows, from the memory there is, and the rows of samples that rows of tiles of
+/// such a side share, ascending.
+std::int32_t streamed_side(const HeightField& field, const TiledOptions& options);
+std::vector<std::int32_t> shared_rows(const HeightField& field, std::int32_t side);
 
 /// Where the field's source is not in memory, or rows are finished, one row of tiles after the other is read and
 /// refined.

@@ -157,6 +157,17 @@ succeeds "$scarp" measure "$dem" print.stl --cutline star.geojson --fail-above 2
 grep -q "closed solid" "$logs/out" || fail "the print is not closed"
 succeeds "$scarp" simplify "$dem" sheet.stl -e 20 --cutline star.geojson --solid size=100mm --split 2x1
 
+# Shapes up to the boundary, and walls within it.
+for effort in fast high; do
+  succeeds "$scarp" simplify "$dem" shape.ply -e 20 --crs local --min-angle 25 --max-edge 2000 --effort "$effort" \
+    --cutline star.geojson --report shape.json --overwrite
+  succeeds "$scarp" measure "$dem" shape.ply --cutline star.geojson --fail-above 20
+  holds "$(json shape.json shape longest_edge) <= 2000"
+  holds "$(json shape.json shape below) - $(json shape.json shape forced) <= 5"
+  succeeds "$scarp" simplify "$dem" walls.ply -e 5 --cliff 30 --effort "$effort" --cutline star.geojson --report walls.json --overwrite
+  succeeds "$scarp" measure "$dem" walls.ply --cutline star.geojson --fail-above 5
+done
+
 refuses 1 "--inset" "$scarp" simplify "$dem" x.glb -e 20 --inset 5
 refuses 1 "--inset" "$scarp" simplify "$dem" x.glb -e 20 --cutline star.geojson --inset wide
 refuses 1 "--mask-outside" "$scarp" measure "$dem" one.glb --mask-outside

@@ -12,6 +12,7 @@
 #include "geom/polygon_cover.h"
 #include "grid/vertex_places.h"
 #include "laws/any_field.h"
+#include "scarp/cliffs.h"
 #include "scarp/cutline.h"
 #include "scarp/simplify.h"
 
@@ -225,6 +226,41 @@ RC_GTEST_PROP(cutlines, keep_the_bound_in_the_eyes_of_the_judge, ()) {
   RC_ASSERT(m.is_sound());
   RC_ASSERT(m.samples + m.stray + m.cut_off == m.heights.valid);
   RC_ASSERT(result->measurement.samples == m.samples);
+  options.threads = 3;
+  const auto again = simplify(field.view(), options);
+  RC_ASSERT(again->mesh.positions == result->mesh.positions && again->mesh.triangles == result->mesh.triangles);
+}
+
+RC_GTEST_PROP(cutlines, hold_shapes_or_the_lines_of_walls_within_the_bound, ()) {
+  const Field field = any_field(24);
+  Draughtsman draughtsman(*rc::gen::arbitrary<std::uint32_t>());
+  SimplifyOptions options = any_options(draughtsman.rings(field));
+  options.max_error = *rc::gen::element(0.5, 1.0, 3.0, 20.0);
+  const bool has_walls = *rc::gen::arbitrary<bool>();
+  if (has_walls) {
+    options.order = Order::kAuto;
+    const auto cliffs =
+        detect_cliffs(field.view(), {.height = 2 * *options.max_error, .max_error = *options.max_error});
+    RC_ASSERT(cliffs.has_value());
+    options.breaklines.lines = cliffs->lines;
+  } else {
+    options.shape.min_angle = *rc::gen::element(0.0, 15.0, 28.0);
+    options.shape.max_edge = *rc::gen::element(1.5, 6.0);
+  }
+  const auto result = simplify(field.view(), options);
+  if (!result) {
+    RC_LOG() << result.error().message;
+    RC_ASSERT(result.error().kind == ErrorKind::kInput);
+    return;
+  }
+  MeasureOptions judge;
+  judge.cutline = &options.cutline;
+  const Measurement m = *measure(field.view(), result->mesh, judge);
+  RC_ASSERT(m.max_error <= *options.max_error + 1e-9);
+  RC_ASSERT(m.uncovered == 0u);
+  RC_ASSERT(m.void_cells_covered == 0u);
+  RC_ASSERT(m.is_sound());
+  if (!has_walls) RC_ASSERT(result->shape->longest_edge <= *options.shape.max_edge + 1e-4);
   options.threads = 3;
   const auto again = simplify(field.view(), options);
   RC_ASSERT(again->mesh.positions == result->mesh.positions && again->mesh.triangles == result->mesh.triangles);

@@ -45,7 +45,7 @@ SimplifyOptions any_options() {
 Result<std::optional<Tiled>> refine_and_fit(const HeightField& field, const SimplifyOptions& options,
                                             std::int32_t tile_side, RowFits& fits) {
   TiledOptions tiles{.threshold = *options.max_error, .threads = options.threads, .tile_side = tile_side};
-  fit_rows(field, options, *options.max_error, fits, tiles);
+  finish_rows(field, options, nullptr, *options.max_error, fits, tiles);
   return refine_tiled(field, tiles);
 }
 
@@ -158,7 +158,7 @@ TEST(rows, are_cancelled_while_they_are_fitted) {
   TiledOptions tiles{.threshold = 4, .threads = 1, .tile_side = 64};
   int calls = 0;
   tiles.progress = [&](double share, std::uint64_t) { return share > 0 || ++calls < 2; };
-  fit_rows(field.view(), options, 4, fits, tiles);
+  finish_rows(field.view(), options, nullptr, 4, fits, tiles);
   const auto cancelled = refine_tiled(with_source(field.view(), source), tiles);
   ASSERT_FALSE(cancelled);
   EXPECT_EQ(cancelled.error().kind, ErrorKind::kCancelled);

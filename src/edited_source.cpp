@@ -1,0 +1,39 @@
+#include <algorithm>
+#include <utility>
+
+#include "scarp/edits.h"
+
+namespace scarp {
+
+namespace {
+
+class EditedSource final : public SampleSource {
+ public:
+  EditedSource(std::shared_ptr<const SampleSource> source, std::vector<SampleEdit> edits)
+      : source_(std::move(source)), edits_(std::move(edits)) {}
+
+  Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
+    if (auto copied = source_->read(col, row, cols, rows, out, stride); !copied) return copied;
+    for (int y = 0; y < rows; ++y) {
+      auto edit = std::lower_bound(edits_.begin(), edits_.end(), std::pair(row + y, col),
+                                   [](const SampleEdit& e, const auto& at) { return std::pair(e.row, e.col) < at; });
+      for (; edit != edits_.end() && edit->row == row + y && edit->col < col + cols; ++edit)
+        out[y * stride + edit->col - col] = edit->after;
+    }
+    return {};
+  }
+  bool is_in_memory() const override { return source_->is_in_memory(); }
+
+ private:
+  std::shared_ptr<const SampleSource> source_;
+  std::vector<SampleEdit> edits_;
+};
+
+}  // namespace
+
+std::shared_ptr<const SampleSource> edit_source(std::shared_ptr<const SampleSource> source,
+                                                std::vector<SampleEdit> edits) {
+  return std::make_shared<EditedSource>(std::move(source), std::move(edits));
+}
+
+}  // namespace scarp

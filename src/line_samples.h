@@ -1,0 +1,64 @@
+// The samples that lines look at: all of a raster, or, of one that is not in memory, those near lines.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "geom/segments.h"
+#include "grid/raster.h"
+#include "scarp/height_field.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+class LineSamples {
+ public:
+  /// All, borrowed.
+  explicit LineSamples(const Raster& raster) : raster_(raster) {}
+
+  /// Those of the cells that segments on the lattice pass, and of the cells around them, read from the top down.
+  /// Segments may leave the raster, by some samples. Fails as the field does. Memory: 4 bytes a sample, 24 for each row
+  /// that a line crosses, 8 for each row of the raster.
+  static Result<LineSamples> read(const HeightField& field, std::span<const Segment> near);
+
+  std::int32_t cols() const { return raster_.cols; }
+  std::int32_t rows() const { return raster_.rows; }
+  /// NaN where void, or not near a line.
+  float at(Point p) const {
+    if (raster_.samples != nullptr) return raster_.at(p);
+    const std::size_t i = find(p);
+    return i == kNowhere ? std::numeric_limits<float>::quiet_NaN() : heights_[i];
+  }
+  bool is_valid(Point p) const { return !std::isnan(at(p)); }
+  /// Gives a sample near a line another height, unless it is void; returns what it was. REQUIRES: read().
+  float change(Point p, float height);
+
+  /// The outline of the surface near the lines, as far as both sides of it are known; without the sides of the raster.
+  /// REQUIRES: read().
+  std::vector<Segment> outline_near() const;
+
+  std::uint64_t bytes() const { return sizeof(float) * heights_.size() + sizeof(Run) * runs_.size(); }
+
+ private:
+  struct Run {
+    std::int32_t row, col, end;
+    std::size_t first;  // of its heights
+  };
+  static constexpr std::size_t kNowhere = ~std::size_t{0};
+
+  LineSamples(std::int32_t cols, std::int32_t rows) : raster_{nullptr, cols, rows} {}
+  void mark(const Segment& segment);
+  void merge_marks();
+  std::size_t find(Point p) const;
+  bool has_cell(std::int32_t col, std::int32_t row) const;
+
+  Raster raster_;
+  std::vector<Run> runs_;            // by row and column, apart from each other
+  std::vector<std::size_t> begins_;  // of each row's runs, and the end of the last
+  std::vector<float> heights_;
+};
+
+}  // namespace scarp

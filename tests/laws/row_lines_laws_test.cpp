@@ -1,0 +1,199 @@
+// Laws of lines where samples come row of tiles by row of tiles: they are chains of edges across all rows, and the
+// promise is that of lines in memory.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "field_lines.h"
+#include "laws/any_field.h"
+#include "laws/any_lines.h"
+#include "laws/array_source.h"
+#include "laws/mesh_laws.h"
+#include "line_samples.h"
+#include "refine/domain.h"
+#include "refine/freeze.h"
+#include "row_fit.h"
+#include "scarp/edits.h"
+#include "scarp/measure.h"
+
+namespace scarp {
+namespace {
+
+using testing::any_field;
+using testing::any_lines;
+using testing::ArraySource;
+using testing::Field;
+using testing::with_source;
+
+/// A field that is read window by window, and its lines cut where rows of tiles meet.
+struct RowScene {
+  Field field = any_field(50);
+  ArraySource source{field.view()};
+  HeightField streamed = with_source(field.view(), source);
+  std::int32_t side = *rc::gen::element(8, 16, 31);
+  SimplifyOptions options;
+
+  RowScene() {
+    options.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0, 1e6);
+    options.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
+    options.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
+    options.breaklines = any_lines(field);
+    options.threads = *rc::gen::element(1, 2);
+  }
+  RowScene(const RowScene&) = delete;
+  Result<FieldLines> lines() const {
+    return prepare_lines(streamed, options.breaklines, {}, *options.max_error / 2, 1, side);
+  }
+  Result<std::optional<Tiled>> refine(const FieldLines& lines) const {
+    RowFits fits;
+    TiledOptions tiles{.threshold = *options.max_error, .threads = options.threads, .tile_side = side};
+    finish_rows(streamed, options, &lines.graph, *options.max_error, fits, tiles);
+    return refine_tiled(lines.apply(streamed), tiles);
+  }
+};
+
+/// Each edge of the graph whose ends are vertices is a chain of constrained edges.
+bool holds_lines(const Tiled& tiled, const ConstraintGraph& graph) {
+  const Triangulation& tin = tiled.domain.tin;
+  std::map<std::pair<std::int32_t, std::int32_t>, Vertex> vertices;
+  for (Vertex v = 0; v < tin.vertex_count(); ++v) vertices[{tin.point(v).x, tin.point(v).y}] = v;
+  for (const auto& [a, b] : graph.edges) {
+    const Point p = graph.points[a], q = graph.points[b];
+    if (!vertices.contains({p.x, p.y}) || !vertices.contains({q.x, q.y})) continue;
+    const auto along = [&](Point at) {
+      return std::int64_t{at.x - p.x} * (q.x - p.x) + std::int64_t{at.y - p.y} * (q.y - p.y);
+    };
+    std::vector<std::pair<std::int64_t, Vertex>> on;
+    for (Vertex v = 0; v < tin.vertex_count(); ++v) {
+      const Point at = tin.point(v);
+      const std::int64_t beside = std::int64_t{at.x - p.x} * (q.y - p.y) - std::int64_t{at.y - p.y} * (q.x - p.x);
+      if (beside == 0 && along(at) >= 0 && along(at) <= along(q)) on.emplace_back(along(at), v);
+    }
+    std::sort(on.begin(), on.end());
+    for (std::size_t k = 0; k + 1 < on.size(); ++k) {
+      const auto [from, to] = std::pair(on[k].second, on[k + 1].second);
+      if (tin.find_edge(from, to) == kNone && tin.find_edge(to, from) == kNone) return false;
+    }
+  }
+  return true;
+}
+
+RC_GTEST_PROP(row_lines, are_chains_of_edges_and_the_bound_holds_against_the_edited_source, ()) {
+  const RowScene scene;
+  const auto lines = scene.lines();
+  RC_PRE(lines.has_value());
+  const auto domain = build_domain(scene.field.raster(), 0, grid_frame(scene.field.rows));
+  const auto made = scene.refine(*lines);
+  RC_ASSERT(made.has_value() == domain.has_value());
+  if (!made) return;
+  const Tiled& tiled = **made;
+  const Triangulation& tin = tiled.domain.tin;
+  RC_ASSERT(tiled.steps == kLatticeSteps);
+  const std::string unsound =
+      testing::verify_triangulation(tin, (scene.field.cols - 1) * kLatticeSteps + 1,
+                                    (scene.field.rows - 1) * kLatticeSteps + 1, testing::Edges::kAny);
+  RC_ASSERT(unsound == "");
+  RC_ASSERT(holds_lines(tiled, lines->graph));
+  const HeightField edited = lines->apply(scene.streamed);
+  const auto judged = measure(edited, freeze(SampleHeights(edited, {}), tin, {tiled.steps, tiled.heights, {}},
+                                             scene.field.view().frame, false));
+  RC_ASSERT(judged.has_value());
+  RC_ASSERT(judged->uncovered == 0u);
+  RC_ASSERT(judged->void_cells_covered == 0u);
+  RC_ASSERT(judged->is_sound());
+  RC_ASSERT(judged->max_error <= *scene.options.max_error + 1e-9);
+}
+
+RC_GTEST_PROP(row_lines, are_laid_alike_by_any_number_of_threads, ()) {
+  RowScene scene;
+  const auto lines = scene.lines();
+  RC_PRE(lines.has_value());
+  scene.options.threads = 1;
+  const auto first = scene.refine(*lines);
+  RC_PRE(first.has_value());
+  scene.options.threads = 3;
+  const auto again = scene.refine(*lines);
+  RC_ASSERT(again.has_value());
+  const Triangulation &a = (*first)->domain.tin, &b = (*again)->domain.tin;
+  RC_ASSERT(a.vertex_count() == b.vertex_count() && a.triangle_count() == b.triangle_count());
+  for (Vertex v = 0; v < a.vertex_count(); ++v) RC_ASSERT(a.point(v) == b.point(v));
+  for (HalfEdge h = 0; h < 3 * a.triangle_count(); ++h) RC_ASSERT(a.origin(h) == b.origin(h) && a.twin(h) == b.twin(h));
+  const auto is_same = [](float x, float y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  RC_ASSERT(std::equal((*first)->heights.begin(), (*first)->heights.end(), (*again)->heights.begin(),
+                       (*again)->heights.end(), is_same));
+}
+
+RC_GTEST_PROP(row_lines, in_one_row_are_those_of_a_raster_in_memory, ()) {
+  const RowScene scene;
+  const auto streamed =
+      prepare_lines(scene.streamed, scene.options.breaklines, {}, *scene.options.max_error / 2, 1, 4096);
+  const auto held = prepare_lines(scene.field.view(), scene.options.breaklines, {}, *scene.options.max_error / 2, 1);
+  RC_ASSERT(streamed.has_value() == held.has_value());
+  if (!held) return;
+  RC_ASSERT(streamed->laid == held->laid);
+  // Beside voids the outline is cut at every sample.
+  const bool is_whole =
+      std::none_of(scene.field.samples.begin(), scene.field.samples.end(), [](float z) { return std::isnan(z); });
+  if (!is_whole) return;
+  RC_ASSERT(streamed->graph.points == held->graph.points);
+  RC_ASSERT(streamed->graph.heights == held->graph.heights);
+  RC_ASSERT(streamed->graph.edges == held->graph.edges);
+  RC_ASSERT(streamed->edits.size() == held->edits.size());
+  for (std::size_t k = 0; k < held->edits.size(); ++k) {
+    const SampleEdit &a = held->edits[k], &b = streamed->edits[k];
+    RC_ASSERT(a.col == b.col && a.row == b.row && a.before == b.before && a.after == b.after);
+  }
+}
+
+TEST(row_lines, at_the_public_door_change_the_samples_that_hard_lines_pass) {
+  Field field{700, 900, {}};
+  for (std::int32_t y = 0; y < field.rows; ++y) {
+    for (std::int32_t x = 0; x < field.cols; ++x)
+      field.samples.push_back(static_cast<float>(50 * std::sin(0.05 * x) + 30 * std::cos(0.07 * y + 0.02 * x)));
+  }
+  const ArraySource source(field.view());
+  const HeightField streamed = with_source(field.view(), source);
+  SimplifyOptions options;
+  options.max_error = 5;
+  options.memory_limit = 4ull * 4 * 256 * static_cast<std::uint64_t>(field.cols);
+  options.threads = 1;
+  Line hard, soft;
+  hard.points = {{100, 20, 200}, {100, 850, 200}};
+  soft.points = {{10.3, 5.5, NAN}, {650.2, 880.7, NAN}};
+  options.breaklines.lines = {hard, soft};
+  for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
+    options.effort = effort;
+    const auto made = simplify(streamed, options);
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_EQ(made->lines_laid, 2u);
+    EXPECT_EQ(made->edits.size(), 831u);
+    EXPECT_LE(made->measurement.max_error, 5 + 1e-9);
+    const auto edited = edit_source({std::shared_ptr<const void>(), &source}, made->edits);
+    const Measurement seen = *measure(with_source(field.view(), *edited), made->mesh);
+    EXPECT_TRUE(seen.is_sound());
+    EXPECT_EQ(seen.max_error, made->measurement.max_error);
+    EXPECT_GT(measure(field.view(), made->mesh)->max_error, 100);
+  }
+  options.shape.min_angle = 20;
+  EXPECT_NE(simplify(streamed, options).error().message.find("raster in memory as a whole"), std::string::npos);
+}
+
+TEST(row_lines, tell_what_the_source_says) {
+  const Field field = testing::random_field(3, 60, 50, testing::Relief::kRidges);
+  const ArraySource broken(field.view(), 30);
+  SimplifyOptions options;
+  options.max_error = 1;
+  Line line;
+  line.points = {{5, 5, NAN}, {50, 45, NAN}};
+  options.breaklines.lines = {line};
+  EXPECT_EQ(simplify(with_source(field.view(), broken), options).error().message, "row 30 is broken");
+}
+
+}  // namespace
+}  // namespace scarp
