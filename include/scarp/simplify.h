@@ -48,11 +48,11 @@ struct SimplifyOptions {
   std::span<const float> tolerance = {};
   /// Breaklines. A hard line keeps its heights, a soft one follows the raster. Where a hard line passes through a
   /// sample that has another height, the sample is given the line's, and what is promised holds for the samples as they
-  /// are then (Simplified::edits). Fails with kUsage without a max error or a budget, together with channels, an outline
-  /// tolerance or strategies, and in frames that are not affine; faults (cliffs.h) also without the samples in memory;
-  /// with kInput for lines whose heights contradict each other, named. With a budget an error is searched for, whatever the effort (see
-  /// "Budgets"); fails with kUsage beside a mask, tolerances or a script, and for a budget below what lines and outline
-  /// need. DEFAULT: none.
+  /// are then (Simplified::edits). Fails with kUsage without a max error or a budget, together with channels, an
+  /// outline tolerance or strategies, and in frames that are not affine; faults (cliffs.h) also without the samples in
+  /// memory; with kInput for lines whose heights contradict each other, named. With a budget an error is searched for,
+  /// whatever the effort (see "Budgets"); fails with kUsage beside a mask, tolerances or a script, and for a budget
+  /// below what lines and outline need. DEFAULT: none.
   LineConstraints breaklines = {};
   /// Breaklines that depend on the max error of the mesh to come, such as rivers and the lines of cliffs: asked for all
   /// breaklines, in place of the above, before each run that a budget's search makes, or once. DEFAULT: none.

@@ -36,7 +36,8 @@ struct WaterOptions {
 /// percentile of its shore says. The shore is the raster's surface along all its rings, looked at twice a sample. Then
 /// those of the eight neighbours of its samples that belong to no lake and are lower than level + freeboard are put
 /// there, so that water has a rim. Lakes are taken in the order of `lines`; what two of them hold belongs to the later
-/// one. Levels are those of the field as it is given. Polygons without a valid sample on their shore are left out, as lines are.
+/// one. Levels are those of the field as it is given. Polygons without a valid sample on their shore are left out, as
+/// lines are.
 ///
 /// A mesh with the shores as breaklines and vertices on samples is level within each lake: all corners of its triangles
 /// are. REQUIRES: the field has its samples in memory; the affine map can be inverted. Fails with kUsage for options

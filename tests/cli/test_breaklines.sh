@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# --breaklines: every line is a chain of edges of the mesh, hard ones at their own heights, and the bound holds against the
-# raster as the lines left it.
+# --breaklines: every line is a chain of edges of the mesh, hard ones at their own heights, and the bound holds against
+# the raster as the lines left it.
 source "$(dirname "$0")/lib.sh"
 need python3
 
