@@ -10,9 +10,8 @@
 // of 1197 x 643 samples; that round takes some 3 % of the time (bench/quality/fit.cpp).
 //
 // Where there is a time to use up, rounds go on: repair alone soon finds nothing more, but once all vertices have been
-// moved a little, wherever the bound lets them, it does. Max at 1 % of the relief leaves 0.249 of greedy's triangles on
-// Fuji, 0.270 on Crater Lake; two rounds more of the same 0.246, 0.267; rounds with shakes in some three times the time
-// of max 0.240, 0.259, and in the end, after four to five times, 0.238, 0.256.
+// moved a little, wherever the bound lets them, it does. Max at 1 % of the relief, with shapes of at least a tenth,
+// leaves 0.237 of greedy's triangles on Fuji, 0.263 on Crater Lake; after five to six times its time 0.230, 0.254.
 #pragma once
 
 #include <cstdint>
@@ -42,9 +41,9 @@ struct FitDepth {
 /// With free vertices, over the 19 cases of repair.h: 0.291 of greedy's triangles (0.303 with shapes of at least a
 /// tenth, in 5 to 30 times its time), with an RMSE 1.10 times as large.
 inline constexpr FitDepth kHighDepth{2, {4, 1.5, false}, 3};
-/// The same: 0.254 (of 6 cases beyond 0.358), in 26 to 205 times (9 to 48) its time, with an RMSE 1.15 (1.41) times as
-/// large.
-inline constexpr FitDepth kMaxDepth{3, {6, 2.5, true}, 3};
+/// With shapes of at least a tenth, over the 42 cases of bench/quality/efforts.csv: 0.295 of greedy's triangles, with
+/// an RMSE 1.20 times as large, in 10 to 127 times its time.
+inline constexpr FitDepth kMaxDepth{3, {6, 2.5, true, true, true}, 3};
 
 struct FitOptions {
   double threshold = 0;

@@ -12,12 +12,6 @@ namespace {
 constexpr std::array<double, 9> kBinomials{1, 8, 28, 56, 70, 56, 28, 8, 1};
 constexpr int kDoublings = 40, kHalvings = 14;
 
-double energy_at(const TriangleError::Moments& moments, double rise) {
-  double sum = 0;
-  for (std::size_t k = moments.size(); k-- > 0;) sum = sum * rise + kBinomials[k] * moments[k];
-  return sum;
-}
-
 double slope_at(const TriangleError::Moments& moments, double rise) {
   double sum = 0;
   for (std::size_t k = moments.size() - 1; k > 0; --k)
@@ -43,8 +37,14 @@ HeightStep best_height(const TriangleError::Moments& moments, double lowest, dou
     (falls_at(middle) ? near : far) = middle;
   }
   const double rise = std::clamp(direction * (near + far) / 2, lowest, highest);
-  const HeightStep best{rise, energy_at(moments, rise)};
+  const HeightStep best{rise, energy_after(moments, rise)};
   return best.energy < level.energy ? best : level;
+}
+
+double energy_after(const TriangleError::Moments& moments, double rise) {
+  double sum = 0;
+  for (std::size_t k = moments.size(); k-- > 0;) sum = sum * rise + kBinomials[k] * moments[k];
+  return sum;
 }
 
 double scale_of_rises(const TriangleError::Moments& moments) {

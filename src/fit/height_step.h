@@ -24,6 +24,9 @@ struct HeightStep {
 /// a polynomial, which leave it within 2⁻¹⁶ · scale of where it is, or 2⁻¹⁶ of its own rise.
 HeightStep best_height(const TriangleError::Moments& moments, double lowest, double highest, double scale = 1);
 
+/// The energy after a rise.
+double energy_after(const TriangleError::Moments& moments, double rise);
+
 /// By Minkowski's inequality the minimum lies within twice this rise. 1 where the moments do not tell.
 double scale_of_rises(const TriangleError::Moments& moments);
 

@@ -31,6 +31,24 @@ bool Repair::remove(Patch::Id v, const Patch::Star& star, std::span<const Patch:
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     if (patch_.face(star.faces[i]).energy < 0) measure(patch_, loose_, star.faces[i]);
   }
+  return finish();
+}
+
+bool Repair::merge(Patch::Id v, const Patch::Star& star, std::span<const Patch::RingTriangle> fan, Patch::Id u,
+                   const FitCorner& place) {
+  moved_.assign(1, u);
+  patch_.begin();
+  patch_.remove(v, star, fan);
+  patch_.move(u, place);
+  patch_.find_star(u, star_);
+  ring_ = star_.ring;
+  ring_.push_back(u);
+  for (const Patch::Id f : star_.faces) measure(patch_, loose_, f);
+  return finish();
+}
+
+/// Mends what a removal broke, or takes all of it back.
+bool Repair::finish() {
   if (!mend()) {
     patch_.roll_back();
     return false;

@@ -33,20 +33,27 @@ namespace scarp {
 
 /// How far repair goes for one vertex.
 struct RepairDepth {
-  int rounds = 4;       ///< of steps and flips
-  double slack = 1.5;   ///< thresholds that triangles of a ring may begin with, 1 … 4
-  bool probes = false;  ///< every second round, vertices of the ring look around themselves too (VertexStep::probe)
+  int rounds = 4;          ///< of steps and flips
+  double slack = 1.5;      ///< thresholds that triangles of a ring may begin with, 1 … 4
+  bool probes = false;     ///< every second round, vertices of the ring look around themselves too (VertexStep::probe)
+  bool rooms = false;      ///< heights of free vertices seek the room that the bound leaves (height_room.h)
+  bool collapses = false;  ///< where vertices are free, after each round a pass of collapses (collapse.h)
 };
 
 class Repair {
  public:
   /// `loose`: with the slack of the depth. Patch and errors stay alive.
   Repair(Patch& patch, const TriangleError& loose, const RepairDepth& depth, const MoveRules& rules)
-      : patch_(patch), loose_(loose), depth_(depth), flips_(patch, rules.shape), step_(patch, rules) {}
+      : patch_(patch), loose_(loose), depth_(depth), flips_(patch, rules.shape), step_(patch, rules, depth.rooms) {}
 
   /// Removes v, whose star is given, for these triangles of its ring; false, and nothing has changed, where the bound
   /// cannot be repaired. REQUIRES: every triangle of the patch keeps the bound, energies are known.
   bool remove(Patch::Id v, const Patch::Star& star, std::span<const Patch::RingTriangle> triangles);
+
+  /// Removes v for a fan about its neighbour u, which moves: two vertices become one. The same else. REQUIRES besides:
+  /// u's triangles are then positive and keep the limit.
+  bool merge(Patch::Id v, const Patch::Star& star, std::span<const Patch::RingTriangle> fan, Patch::Id u,
+             const FitCorner& place);
 
   /// Corners of the triangles that the last removal changed, each once.
   std::span<const Patch::Id> changed() const { return changed_; }
@@ -56,6 +63,7 @@ class Repair {
     double sum = 0, worst = 0;  // over the threshold, in thresholds
     bool any = false;
   };
+  bool finish();
   bool mend();
   bool is_strained(Patch::Id v, double share);
   void look_around(int round);

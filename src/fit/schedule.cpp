@@ -1,5 +1,6 @@
 #include "fit/schedule.h"
 
+#include "fit/collapse.h"
 #include "fit/flips.h"
 #include "fit/lazy_queue.h"
 #include "fit/repair.h"
@@ -32,6 +33,7 @@ class Schedule {
     if (options_.shake != 0) shake();
     sweep();
     remove_all();
+    if (options_.depth.collapses && options_.rules.freedom == Freedom::kLattice) collapse();
     for (int i = 0; i < options_.polishes; ++i) polish();
     return counts_;
   }
@@ -50,6 +52,13 @@ class Schedule {
         if (!patch_.is_removed(v)) offer(v);
       });
     }
+  }
+
+  void collapse() {
+    Collapse pass(patch_, loose_, options_.rules, repair_);
+    const auto [done, tried] = pass.run([this](Id v) { return is_wanted(v); }, options_.is_time_up);
+    counts_.removed += done;
+    counts_.tried += tried;
   }
 
   bool is_wanted(Id v) const { return options_.wanted.empty() || options_.wanted[v] != 0; }

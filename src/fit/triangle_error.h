@@ -106,6 +106,16 @@ class TriangleError {
   /// Adds a triangle's. REQUIRES, cost: as pull().
   void add_moments(const FitCorner& a, const FitCorner& b, const FitCorner& c, Moments& moments) const;
 
+  /// Rises of corner a, in units, at which samples keep the threshold, as far as rounding knows.
+  struct Room {
+    float lowest, highest;
+
+    bool is_open() const { return lowest < highest; }
+  };
+  /// Leaves of the room what the samples of a triangle leave, but for those in which the corner hardly weighs.
+  /// REQUIRES, cost: as pull().
+  void narrow(const FitCorner& a, const FitCorner& b, const FitCorner& c, Room& room) const;
+
   double threshold() const { return threshold_; }  ///< of Verdict::worst; 1 with bounds
   double unit() const { return unit_; }            ///< of rises: the threshold, or that of the bounds
   bool has_bounds() const { return bounds_.samples != nullptr; }

@@ -1,4 +1,6 @@
 // What the samples of a triangle want of one of its corners.
+#include <algorithm>
+
 #include "fit/norm_error.h"
 #include "fit/triangle_scan.h"
 
@@ -112,6 +114,20 @@ void TriangleError::add_moments(const FitCorner& a, const FitCorner& b, const Fi
     sums[8] += share4 * share4;
   });
   for (std::size_t k = 0; k < sums.size(); ++k) moments[k] += exact_sum_of(sums[k]);
+}
+
+void TriangleError::narrow(const FitCorner& a, const FitCorner& b, const FitCorner& c, Room& room) const {
+  const TriangleTask task = task_of(a, b, c);
+  constexpr float kLeastShare = 1e-5f;
+  Floats lowest = all(room.lowest), highest = all(room.highest);
+  each_residual(task, {a, b, c}, [&](Floats t, Floats share) {
+    const Masks weighs = share > all(kLeastShare);
+    const Floats down = (all(-1) - t) / share, up = (all(1) - t) / share;
+    lowest = weighs & (down > lowest) ? down : lowest;
+    highest = weighs & (up < highest) ? up : highest;
+  });
+  room.lowest = std::max({lowest[0], lowest[1], lowest[2], lowest[3]});
+  room.highest = std::min({highest[0], highest[1], highest[2], highest[3]});
 }
 
 }  // namespace scarp

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fit/height_room.h"
 #include "fit/height_step.h"
 #include "fit/normal_equations.h"
 
@@ -92,9 +93,11 @@ double VertexStep::mean_edge(const FitCorner& at) const {
 }
 
 /// Finds the star of a vertex that may move.
-bool VertexStep::take_up(Patch::Id v) {
+bool VertexStep::take_up(const TriangleError& error, Patch::Id v) {
   if (patch_.is_locked(v)) return false;
   patch_.find_star(v, star_);
+  is_over_ = std::any_of(star_.faces.begin(), star_.faces.end(),
+                         [&](Patch::Id f) { return patch_.face(f).worst > error.threshold(); });
   return star_.closed || star_.side == Patch::kSide;
 }
 
@@ -105,7 +108,7 @@ float VertexStep::energy() const {
 }
 
 bool VertexStep::improve(const TriangleError& error, Patch::Id v) {
-  if (!take_up(v)) return false;
+  if (!take_up(error, v)) return false;
   const float limit = energy() * (1 - kGain);
   const FitCorner from = patch_.at(v);
   const Vector step = newton_step(error, from);
@@ -119,38 +122,34 @@ bool VertexStep::improve(const TriangleError& error, Patch::Id v) {
     if (by == Point{0, 0}) by = unit_step(step.x, step.y);
     if (by == last) continue;
     last = by;
-    FitCorner place = beside(from, by);
-    if (fits(place, floor) && energy_at(error, from, place) < limit && try_place(error, v, place, limit)) return true;
+    const FitCorner place = beside(from, by);
+    if (fits(place, floor) && take(error, v, offer_at(error, from, place, limit), limit)) return true;
   }
   if (!is_free()) return false;
-  FitCorner place = from;
-  return energy_at(error, from, place) < limit && place.z != from.z && try_place(error, v, place, limit);
+  const Offer here = offer_at(error, from, from, limit);
+  return here.place.z != from.z && take(error, v, here, limit);
 }
 
 bool VertexStep::probe(const TriangleError& error, Patch::Id v, double reach) {
-  if (!take_up(v)) return false;
+  if (!take_up(error, v)) return false;
   const float limit = energy() * (1 - kGain);
   const FitCorner from = patch_.at(v);
   const double floor = shape_floor(from);
   const auto steps = static_cast<std::int32_t>(std::max(1L, std::lround(reach * mean_edge(from) / unit())));
-  FitCorner best = from;
-  float least = limit;
+  Offer best{from, limit};
   for (const Point& way : kWays) {
     if (!star_.closed && (ring(0).y == from.y ? way.y : way.x) != 0) continue;
-    FitCorner place = beside(from, {way.x * steps, way.y * steps});
+    const FitCorner place = beside(from, {way.x * steps, way.y * steps});
     if (!fits(place, floor)) continue;
-    if (!is_free() && energy_at(error, from, place) < limit && try_place(error, v, place, limit)) return true;
-    if (!is_free()) continue;
-    if (const float there = energy_at(error, from, place); there < least) {
-      least = there;
-      best = place;
-    }
+    const Offer there = offer_at(error, from, place, limit);
+    if (!is_free() && take(error, v, there, limit)) return true;
+    if (is_free() && there.energy < best.energy) best = there;
   }
-  return least < limit && try_place(error, v, best, limit);
+  return take(error, v, best, limit);
 }
 
 bool VertexStep::shake(const TriangleError& error, Patch::Id v, std::uint32_t dice) {
-  if (!take_up(v)) return false;
+  if (!take_up(error, v)) return false;
   const FitCorner from = patch_.at(v);
   const float limit = energy() * kShakeCost;
   const double reach = kShakeReach * mean_edge(from) / unit() / 0x8000;
@@ -159,13 +158,13 @@ bool VertexStep::shake(const TriangleError& error, Patch::Id v, std::uint32_t di
   };
   Point by{part(dice), part(dice >> 16)};
   if (!star_.closed) (ring(0).y == from.y ? by.y : by.x) = 0;
-  FitCorner place = beside(from, by);
+  const FitCorner place = beside(from, by);
   if (by == Point{0, 0} || !fits(place, shape_floor(from))) return false;
-  return energy_at(error, from, place) < limit && try_place(error, v, place, limit);
+  return take(error, v, offer_at(error, from, place, limit), limit);
 }
 
 bool VertexStep::level(const TriangleError& error, Patch::Id v) {
-  if (!is_free() || !take_up(v)) return false;
+  if (!is_free() || !take_up(error, v)) return false;
   const FitCorner from = patch_.at(v);
   double stiffness = 0, push = 0;
   for (std::size_t i = 0; i < star_.faces.size(); ++i) {
@@ -179,7 +178,7 @@ bool VertexStep::level(const TriangleError& error, Patch::Id v) {
     FitCorner place = from;
     place.z = std::clamp(static_cast<float>(double{from.z} + rise), rules_.lowest, rules_.highest);
     if (place.z == from.z || !(std::abs(place.z) <= kMaxScanHeight)) return false;
-    if (try_place(error, v, place, std::numeric_limits<float>::infinity())) return true;
+    if (take(error, v, {place, 0}, std::numeric_limits<float>::infinity())) return true;
   }
   return false;
 }
@@ -205,33 +204,50 @@ bool VertexStep::fits(const FitCorner& place, double floor) const {
   return true;
 }
 
-/// Gives the place its height; the energy of the star there, as far as rounding knows, infinite where no vertex may be.
-float VertexStep::energy_at(const TriangleError& error, const FitCorner& from, FitCorner& place) const {
+/// Gives the place its height. Where that mends the star its energy counts as below the limit.
+VertexStep::Offer VertexStep::offer_at(const TriangleError& error, const FitCorner& from, FitCorner place,
+                                       float limit) const {
   constexpr float kNever = std::numeric_limits<float>::infinity();
   if (!is_free()) {
     place.z = error.height_at(sample_at(place));
-    return std::abs(place.z) <= kMaxScanHeight ? 0 : kNever;
+    return {place, std::abs(place.z) <= kMaxScanHeight ? 0 : kNever};
   }
   const float rise = terrain_height(error, patch_.window(), place) - terrain_height(error, patch_.window(), from);
   place.z = std::isnan(rise) ? from.z : from.z + rise;
   TriangleError::Moments moments{};
   for (std::size_t i = 0; i < star_.faces.size(); ++i) error.add_moments(place, ring(i), ring(i + 1), moments);
   const auto rise_to = [&](float height) { return (double{height} - double{place.z}) / error.unit(); };
+  const double lowest = rise_to(rules_.lowest), highest = rise_to(rules_.highest);
   const double scale = error.has_bounds() ? scale_of_rises(moments) : 1;
-  const HeightStep best = best_height(moments, rise_to(rules_.lowest), rise_to(rules_.highest), scale);
+  HeightStep best = best_height(moments, lowest, highest, scale);
+  bool mends = false;
+  if (seeks_room_ && (is_over_ || best.energy < limit)) {
+    TriangleError::Room room{static_cast<float>(lowest), static_cast<float>(highest)};
+    for (std::size_t i = 0; i < star_.faces.size() && room.is_open(); ++i)
+      error.narrow(place, ring(i), ring(i + 1), room);
+    if (const auto within = rise_in(room, best.rise, scale)) {
+      best = {*within, energy_after(moments, *within)};
+      mends = is_over_;
+    }
+  }
   const auto height = static_cast<float>(double{place.z} + best.rise * error.unit());
   place.z = std::clamp(height, rules_.lowest, rules_.highest);
-  return std::abs(place.z) <= kMaxScanHeight ? static_cast<float>(best.energy) : kNever;
+  if (!(std::abs(place.z) <= kMaxScanHeight)) return {place, kNever};
+  const auto energy = static_cast<float>(best.energy);
+  return {place, mends ? std::min(energy, limit * (1 - kGain)) : energy, mends};
 }
 
-bool VertexStep::try_place(const TriangleError& error, Patch::Id v, FitCorner place, float limit) {
+/// Moves v there if that is better than the limit, and the rule of `error` lets it.
+bool VertexStep::take(const TriangleError& error, Patch::Id v, const Offer& offer, float limit) {
+  if (!(offer.energy < limit)) return false;
+  if (offer.mends) limit = std::numeric_limits<float>::infinity();
   verdicts_.clear();
   for (std::size_t i = 0; i < star_.faces.size(); ++i) {
-    verdicts_.push_back(error.judge(place, ring(i), ring(i + 1), limit));
+    verdicts_.push_back(error.judge(offer.place, ring(i), ring(i + 1), limit));
     if (verdicts_.back().kind != TriangleError::Verdict::Kind::kKeeps) return false;
     limit -= verdicts_.back().energy;
   }
-  patch_.move(v, place);
+  patch_.move(v, offer.place);
   for (std::size_t i = 0; i < star_.faces.size(); ++i)
     patch_.set_measure(star_.faces[i], verdicts_[i].worst, verdicts_[i].energy);
   return true;

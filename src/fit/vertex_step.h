@@ -10,7 +10,8 @@
 // says. Where vertices are samples the place decides the height: u_f = (0, s − g_f) with s the slope of the terrain;
 // where several fields count, each adds a u_f with its own slopes.
 // The step is tried at three lengths, rounded to the lattice. At each place a free vertex gets its best height, which
-// is exact (height_step.h). The first place is taken at which the energy of the star falls; if there is none, a free
+// is exact (height_step.h), or the nearest in the room that the bound leaves (height_room.h). The first place is taken
+// at which the energy of the star falls, or that gives a star beyond the bound its room; if there is none, a free
 // vertex may still rise or fall where it is. Vertices on a side of the rectangle slide along it; locked ones stay.
 //
 // Polishing levels heights instead, by Σ t² within the bound: three sweeps after the last round lower the RMSE by 2.6 %
@@ -31,8 +32,9 @@ namespace scarp {
 
 class VertexStep {
  public:
-  /// The patch stays alive.
-  VertexStep(Patch& patch, const MoveRules& rules) : patch_(patch), rules_(rules) {}
+  /// The patch stays alive. `seeks_room`: free vertices prefer heights at which their stars keep the bound.
+  VertexStep(Patch& patch, const MoveRules& rules, bool seeks_room = false)
+      : patch_(patch), rules_(rules), seeks_room_(seeks_room) {}
 
   /// Moves v if a step lowers the energy of its star, every triangle of which the rule of `error` lets through and has
   /// a shape that may be; whether it did. REQUIRES: v is not removed, energies of its triangles are known. Cost: a scan
@@ -54,23 +56,31 @@ class VertexStep {
   struct Vector {
     double x = 0, y = 0;
   };
+  /// A place, and what the star would be with its vertex there.
+  struct Offer {
+    FitCorner place;
+    float energy;        ///< as far as rounding knows; infinite where no vertex may be
+    bool mends = false;  ///< the star breaks the bound, and has room there
+  };
   const FitCorner& ring(std::size_t i) const { return patch_.at(star_.ring[i % star_.ring.size()]); }
   Vector terrain_slope(const TriangleError& error, std::size_t field, const FitCorner& at) const;
   Vector newton_step(const TriangleError& error, const FitCorner& at);
   double mean_edge(const FitCorner& at) const;
-  bool take_up(Patch::Id v);
+  bool take_up(const TriangleError& error, Patch::Id v);
   float energy() const;
   FitCorner beside(const FitCorner& from, Point by) const;
   std::int32_t unit() const { return is_free() ? kFreeStep : kLatticeSteps; }
   bool is_free() const { return rules_.freedom == Freedom::kLattice; }
   double shape_floor(const FitCorner& from) const;
   bool fits(const FitCorner& place, double floor) const;
-  float energy_at(const TriangleError& error, const FitCorner& from, FitCorner& place) const;
-  bool try_place(const TriangleError& error, Patch::Id v, FitCorner place, float limit);
+  Offer offer_at(const TriangleError& error, const FitCorner& from, FitCorner place, float limit) const;
+  bool take(const TriangleError& error, Patch::Id v, const Offer& offer, float limit);
 
   Patch& patch_;
   MoveRules rules_;
+  bool seeks_room_;
   Patch::Star star_;
+  bool is_over_ = false;  // a triangle of the star breaks the bound
   std::vector<TriangleError::Verdict> verdicts_;
   std::vector<TriangleError::Pull> pulls_;  // of fields
   std::vector<Vector> terrain_;

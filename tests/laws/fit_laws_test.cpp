@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fit/fit.h"
+#include "fit/height_room.h"
 #include "fit/ring_search.h"
 #include "geom/exact_error.h"
 #include "laws/fit_meshes.h"
@@ -169,6 +170,11 @@ struct Oracle {
   double energy = 0, eighth = 0, worst = 0;  // worst: in thresholds
   double stiffness = 0, push = 0;
 
+  struct Residual {
+    double error, weight;  // of the first corner
+  };
+  std::vector<Residual> residuals;
+
   Oracle(const Raster& raster, const std::array<FitCorner, 3>& corners, double threshold) {
     std::array<Point, 3> places;
     std::array<float, 3> heights;
@@ -195,6 +201,7 @@ struct Oracle {
         energy += error * error;
         eighth += std::pow(error, 8);
         worst = std::max(worst, std::abs(error));
+        residuals.push_back({error, weights[0]});
         stiffness += std::pow(error, 6) * weights[0] * weights[0];
         push += std::pow(error, 7) * weights[0];
       }
@@ -260,6 +267,29 @@ RC_GTEST_PROP(triangle_error, pulls_as_the_samples_do, ()) {
   RC_ASSERT(std::abs(moments[0] - oracle.eighth) <= 1e-2 * (1 + oracle.eighth));
   RC_ASSERT(std::abs(moments[1] - oracle.push) <= 1e-2 * (1 + oracle.eighth));
   RC_ASSERT(std::abs(moments[2] - oracle.stiffness) <= 1e-2 * (1 + oracle.stiffness));
+}
+
+RC_GTEST_PROP(height_room, holds_the_rises_that_keep_the_threshold_and_no_others, ()) {
+  const Field field = any_field();
+  const double threshold = *rc::gen::element(2.0, 7.3, 30.0);
+  std::array<FitCorner, 3> corners{any_corner(field), any_corner(field), any_corner(field)};
+  RC_PRE(area_of(corners[0], corners[1], corners[2]) > 0);
+  const TriangleError error(field.raster(), {0, 0}, threshold);
+  const Oracle oracle(field.raster(), corners, threshold);
+  RC_PRE(oracle.worst < 10);
+  TriangleError::Room room{-100, 100};
+  error.narrow(corners[0], corners[1], corners[2], room);
+  const double wish = *rc::gen::inRange(-300, 300) / 100.0;
+  const auto rise = rise_in(room, wish);
+  const auto worst_after = [&](double by, double least_weight) {
+    double worst = 0;
+    for (const auto& [t, weight] : oracle.residuals) {
+      if (weight > least_weight) worst = std::max(worst, std::abs(t + weight * by));
+    }
+    return worst;
+  };
+  if (rise) RC_ASSERT(worst_after(*rise, 1e-2) <= 1.01);
+  if (!rise || std::abs(*rise - wish) > 2e-4) RC_ASSERT(worst_after(wish, 0) >= 0.99);
 }
 
 RC_GTEST_PROP(triangle_error, gives_up_only_where_the_energy_reaches_the_limit, ()) {

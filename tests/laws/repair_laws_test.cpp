@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "fit/collapse.h"
 #include "fit/cut.h"
 #include "fit/fit.h"
 #include "fit/flips.h"
@@ -386,6 +387,14 @@ double rise_of_energy(const Patch& patch, const Picture& before) {
   return sum;
 }
 
+/// Whether a triangle around v broke the threshold.
+bool was_over(const Patch& patch, const Picture& before, Patch::Id v, double threshold) {
+  Patch::Star star;
+  patch.find_star(v, star);
+  return std::any_of(star.faces.begin(), star.faces.end(),
+                     [&](Patch::Id f) { return before.faces[f].worst > threshold; });
+}
+
 /// Of the faces that have changed none is below the floor and worse than all that they were before.
 bool keeps_shape(const Patch& patch, const Picture& before, const ShapeRule& rule) {
   testing::ShapeOracle floor(rule.floor), worst(1.0);
@@ -477,6 +486,28 @@ RC_GTEST_PROP(vertex_step, lowers_the_energy_keeps_the_bound_and_ends_where_vert
   RC_ASSERT(is_measured(patch, error));
 }
 
+RC_GTEST_PROP(vertex_step, that_seeks_room_lets_the_energy_rise_only_where_the_star_breaks_the_bound, ()) {
+  Bench bench;
+  RC_PRE(bench.cut());
+  Patch& patch = bench.patch;
+  // What the mesh keeps is within the slack of less.
+  const TriangleError error =
+      TriangleError(bench.field.raster(), patch.window().first, bench.threshold / 1.5, {2, ErrorRule::Power::kEight});
+  for (Patch::Id f = 0; f < patch.face_count(); ++f) measure(patch, error, f);
+  const auto [lowest, highest] = range_of(bench.field);
+  const ShapeRule shape{0.125, 1};
+  VertexStep step(patch, {Freedom::kLattice, shape, lowest, highest}, true);
+  for (Patch::Id v = 0; v < patch.node_count(); ++v) {
+    const Picture before(patch);
+    const bool moved = *rc::gen::element(false, true) ? step.improve(error, v) : step.probe(error, v, 0.15);
+    if (!moved) continue;
+    RC_ASSERT(keeps_shape(patch, before, shape));
+    RC_ASSERT(lowest <= patch.at(v).z && patch.at(v).z <= highest);
+    RC_ASSERT(rise_of_energy(patch, before) < 0 || was_over(patch, before, v, error.threshold()));
+  }
+  RC_ASSERT(verify(patch) == "");
+}
+
 RC_GTEST_PROP(vertex_step, shakes_and_levels_within_the_bound_and_the_range, ()) {
   Bench bench;
   RC_PRE(bench.cut());
@@ -497,6 +528,45 @@ RC_GTEST_PROP(vertex_step, shakes_and_levels_within_the_bound_and_the_range, ())
   }
   RC_ASSERT(verify(patch) == "");
   RC_ASSERT(is_measured(patch, error));
+}
+
+RC_GTEST_PROP(collapse, makes_one_vertex_of_two_within_the_bound_the_range_and_the_shapes, ()) {
+  Bench bench;
+  RC_PRE(bench.cut());
+  Patch& patch = bench.patch;
+  const TriangleError error = bench.errors({1, ErrorRule::Power::kEight});
+  const TriangleError loose = error.with({2.5, ErrorRule::Power::kEight});
+  for (Patch::Id f = 0; f < patch.face_count(); ++f) measure(patch, error, f);
+  const auto [lowest, highest] = range_of(bench.field);
+  const ShapeRule shape{*rc::gen::element(0.0, 0.125), 1};
+  const MoveRules rules{Freedom::kLattice, shape, lowest, highest};
+  Repair repair(patch, loose, {6, 2.5, true, true, true}, rules);
+  const auto thinnest = [&] {
+    double least = 1;
+    for (Patch::Id f = 0; f < patch.face_count(); ++f) {
+      const auto& [a, b, c] = patch.face(f).corners;
+      if (a != kNone) least = shape.lowered(least, patch.at(a), patch.at(b), patch.at(c));
+    }
+    return least;
+  };
+  const double thinnest_before = thinnest();
+  const Picture before(patch);
+  const auto counts = Collapse(patch, loose, rules, repair).run([](Patch::Id) { return true; }, {});
+  std::uint64_t removed = 0;
+  for (Patch::Id v = 0; v < patch.node_count(); ++v) {
+    removed += patch.is_removed(v) ? 1 : 0;
+    if (!patch.is_removed(v) && patch.at(v).z != before.places[v].z)
+      RC_ASSERT(!patch.is_locked(v) && lowest <= patch.at(v).z && patch.at(v).z <= highest);
+  }
+  RC_ASSERT(removed == counts.done);
+  RC_ASSERT(thinnest() >= std::min(shape.floor, thinnest_before));
+  RC_ASSERT(verify(patch) == "");
+  for (Patch::Id f = 0; f < patch.face_count(); ++f) {
+    const auto& [a, b, c] = patch.face(f).corners;
+    if (a == kNone) continue;
+    const auto verdict = error.judge(patch.at(a), patch.at(b), patch.at(c), std::numeric_limits<float>::infinity());
+    RC_ASSERT(verdict.kind == TriangleError::Verdict::Kind::kKeeps);
+  }
 }
 
 RC_GTEST_PROP(height_step, finds_the_lowest_energy, ()) {

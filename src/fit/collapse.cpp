@@ -1,0 +1,173 @@
+#include "fit/collapse.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "fit/height_room.h"
+#include "fit/height_step.h"
+
+namespace scarp {
+
+namespace {
+
+/// Rises of energy beyond this are not worth trying, nor are searches that begin this many times as far away.
+constexpr float kMostRise = 300, kFar = 10;
+
+/// Longer rings are not looked at.
+constexpr std::size_t kMostCorners = 16;
+
+constexpr std::array<double, 3> kStarts{0.5, 0.15, 0.85}, kReaches{0.3, 0.15, 0.07};
+constexpr int kSteps = 3;  // of each reach
+constexpr std::array<Point, 4> kWays{Point{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+
+constexpr float kNever = std::numeric_limits<float>::infinity();
+
+}  // namespace
+
+/// False where the edge is not for collapsing.
+bool Collapse::find_polygon(Patch::Id v, Patch::Id u) {
+  for (const Patch::Id end : {v, u}) {
+    if (patch_.is_removed(end) || patch_.is_locked(end)) return false;
+  }
+  patch_.find_star(v, star_);
+  patch_.find_star(u, other_);
+  const std::size_t n = star_.ring.size(), m = other_.ring.size();
+  if (!star_.closed || !other_.closed || std::min(n, m) < 4 || std::max(n, m) > kMostCorners) return false;
+  hub_ = static_cast<std::size_t>(std::find(star_.ring.begin(), star_.ring.end(), u) - star_.ring.begin());
+  const auto back =
+      static_cast<std::size_t>(std::find(other_.ring.begin(), other_.ring.end(), v) - other_.ring.begin());
+  if (hub_ == n || back == m) return false;
+  polygon_.clear();
+  for (std::size_t i = 1; i < n; ++i) polygon_.push_back(star_.ring[(hub_ + i) % n]);
+  for (std::size_t i = 2; i + 1 < m; ++i) {
+    const Patch::Id beyond = other_.ring[(back + i) % m];
+    // A third common neighbour: triangles between would be turned inside out.
+    if (std::find(polygon_.begin(), polygon_.end(), beyond) != polygon_.end()) return false;
+    polygon_.push_back(beyond);
+  }
+  energy_ = 0;
+  floor_ = rules_.shape.floor;
+  const auto replace = [&](Patch::Id f) {
+    const auto& [a, b, c] = patch_.face(f).corners;
+    energy_ += patch_.face(f).energy;
+    if (rules_.shape.is_on()) floor_ = rules_.shape.lowered(floor_, patch_.at(a), patch_.at(b), patch_.at(c));
+  };
+  for (const Patch::Id f : star_.faces) replace(f);
+  // The first and the last triangle from v on are the two that both stars share.
+  for (std::size_t i = 1; i + 1 < m; ++i) replace(other_.faces[(back + i) % m]);
+  return true;
+}
+
+/// Whether the fan's triangles would be positive, and above the floor.
+bool Collapse::fits(const FitCorner& place) const {
+  for (std::size_t i = 0; i < polygon_.size(); ++i) {
+    if (area2(place, corner(i), corner(i + 1)) <= 0) return false;
+    if (rules_.shape.is_on() && rules_.shape.shape(place, corner(i), corner(i + 1)) < floor_) return false;
+  }
+  return true;
+}
+
+/// Gives the place its best height; the energy of the fan there. In the room only where it is the least so far.
+float Collapse::settle(FitCorner& place, float least) const {
+  TriangleError::Moments moments{};
+  for (std::size_t i = 0; i < polygon_.size(); ++i) loose_.add_moments(place, corner(i), corner(i + 1), moments);
+  const auto rise_to = [&](float height) { return (double{height} - double{place.z}) / loose_.unit(); };
+  const double lowest = rise_to(rules_.lowest), highest = rise_to(rules_.highest);
+  const double scale = loose_.has_bounds() ? scale_of_rises(moments) : 1;
+  const HeightStep best = best_height(moments, lowest, highest, scale);
+  if (!(best.energy < least)) return kNever;
+  TriangleError::Room room{static_cast<float>(lowest), static_cast<float>(highest)};
+  for (std::size_t i = 0; i < polygon_.size() && room.is_open(); ++i)
+    loose_.narrow(place, corner(i), corner(i + 1), room);
+  const double rise = rise_in(room, best.rise, scale).value_or(best.rise);
+  place.z = std::clamp(static_cast<float>(double{place.z} + rise * loose_.unit()), rules_.lowest, rules_.highest);
+  return std::abs(place.z) <= kMaxScanHeight ? static_cast<float>(best.energy) : kNever;
+}
+
+/// The best place of the new vertex; false where it promises too little.
+bool Collapse::search(Patch::Id v, Patch::Id u, Offer& offer) const {
+  const FitCorner &a = patch_.at(v), &b = patch_.at(u);
+  float least = kNever;
+  FitCorner best;
+  const auto look = [&](double x, double y, double z) {
+    FitCorner place{static_cast<std::int32_t>(std::lround(x / kFreeStep)) * kFreeStep,
+                    static_cast<std::int32_t>(std::lround(y / kFreeStep)) * kFreeStep, static_cast<float>(z)};
+    const float energy = fits(place) ? settle(place, least) : kNever;
+    if (!(energy < least)) return false;
+    least = energy;
+    best = place;
+    return true;
+  };
+  const double x = b.x - a.x, y = b.y - a.y, z = double{b.z} - double{a.z};
+  for (const double share : kStarts) look(a.x + share * x, a.y + share * y, double{a.z} + share * z);
+  if (!(least < energy_ + kFar * kMostRise)) return false;
+  const double length = std::sqrt(x * x + y * y);
+  for (const double reach : kReaches) {
+    bool is_better = true;
+    for (int step = 0; is_better && step < kSteps; ++step) {
+      const FitCorner from = best;
+      is_better = false;
+      for (const Point& way : kWays)
+        is_better |= look(from.x + way.x * reach * length, from.y + way.y * reach * length, double{from.z});
+    }
+  }
+  if (!(least < energy_ + kMostRise)) return false;
+  offer = {least - energy_, v, u, best};
+  return true;
+}
+
+/// Each edge once, from the end that comes first.
+void Collapse::offer_edges_of(Patch::Id v, const std::function<bool(Patch::Id)>& is_wanted) {
+  if (patch_.is_removed(v) || patch_.is_locked(v)) return;
+  patch_.find_star(v, around_);
+  for (const Patch::Id u : around_.ring) {
+    Offer offer;
+    if (u > v && (is_wanted(v) || is_wanted(u)) && find_polygon(v, u) && search(v, u, offer)) offers_.push_back(offer);
+  }
+}
+
+/// The triangles of a fan about the hub, in the order of Patch::RingTriangle, between two corners of the ring of v.
+void Collapse::add_fan(std::size_t first, std::size_t last) {
+  if (last < first + 2) return;
+  const std::size_t middle = first == hub_ ? last - 1 : last == hub_ ? first + 1 : hub_;
+  fan_.push_back(
+      {static_cast<std::uint8_t>(first), static_cast<std::uint8_t>(middle), static_cast<std::uint8_t>(last), -1, -1});
+  add_fan(first, middle);
+  add_fan(middle, last);
+}
+
+bool Collapse::take(const Offer& offer) {
+  if (!find_polygon(offer.v, offer.u)) return false;
+  for (std::size_t i = 0; i < polygon_.size(); ++i) {
+    const auto verdict = loose_.judge(offer.place, corner(i), corner(i + 1), kNever);
+    if (verdict.kind != TriangleError::Verdict::Kind::kKeeps) return false;
+  }
+  fan_.clear();
+  add_fan(0, star_.ring.size() - 1);
+  return repair_.merge(offer.v, star_, fan_, offer.u, offer.place);
+}
+
+Collapse::Counts Collapse::run(const std::function<bool(Patch::Id)>& is_wanted,
+                               const std::function<bool()>& is_time_up) {
+  const auto is_over = [&] { return is_time_up && is_time_up(); };
+  offers_.clear();
+  for (Patch::Id v = 0; v < patch_.node_count() && !is_over(); ++v) offer_edges_of(v, is_wanted);
+  std::sort(offers_.begin(), offers_.end(), [](const Offer& a, const Offer& b) {
+    return a.rise != b.rise ? a.rise < b.rise : a.v != b.v ? a.v < b.v : a.u < b.u;
+  });
+  Counts counts;
+  std::vector<std::uint8_t> is_stale(patch_.node_count(), 0);
+  for (const Offer& offer : offers_) {
+    if (is_over()) break;
+    if (is_stale[offer.v] != 0 || is_stale[offer.u] != 0) continue;
+    ++counts.tried;
+    if (!take(offer)) continue;
+    ++counts.done;
+    for (const Patch::Id changed : repair_.changed()) is_stale[changed] = 1;
+  }
+  return counts;
+}
+
+}  // namespace scarp
