@@ -10,8 +10,8 @@
 namespace scarp {
 
 /// `source` with the samples that Simplified::edits tells of: what the promise of a mesh with hard lines is about.
-/// `edits`: in raster order, of samples that are no voids. Cost: a window's own, and a search for its first edit in each
-/// row.
+/// `edits`: in raster order, of samples that are no voids. Cost: a window's own, and a search for its first edit in
+/// each row.
 std::shared_ptr<const SampleSource> edit_source(std::shared_ptr<const SampleSource> source,
                                                 std::vector<SampleEdit> edits);
 

@@ -13,8 +13,8 @@ namespace scarp {
 /// New vertices lie on samples where triangles are large beside them, else on halves, quarters, … 256ths of a sample,
 /// at the height of the raster, which is bilinear between samples; each on a place of its own, and for the sake of
 /// angles none nearer to another than 1/32 of a sample (a quarter of max_edge, if that is less). So refinement ends
-/// whatever is asked. Outlines are split where they run, lines and cuts within a 256th of a sample of that, at their own
-/// heights. More than fast effort then removes and moves what angles, lengths and the bound can do without.
+/// whatever is asked. Outlines are split where they run, lines and cuts within a 256th of a sample of that, at their
+/// own heights. More than fast effort then removes and moves what angles, lengths and the bound can do without.
 ///
 /// Guarantees, but for the rounding of positions: (1) no edge is longer than max_edge; (2) grade holds, as below; (3) a
 /// triangle with an angle below min_angle is counted in ShapeReport::below. Up to 20 degrees, and without corners of

@@ -306,9 +306,10 @@ Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string&
 Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional<MeshFormat> format, bool overwrite) {
   if (!format) format = find_mesh_format(path);
   if (!format) {
-    return fail(ErrorKind::kOutput, fmt::format("the name {} does not tell a mesh format: end it in .glb, .obj, .ply, "
-                                                ".stl, .tin, .2dm, .vtu, .vtp, .xml, .dxf, .gpkg or .3mf, or name the format",
-                                                path));
+    return fail(ErrorKind::kOutput,
+                fmt::format("the name {} does not tell a mesh format: end it in .glb, .obj, .ply, "
+                            ".stl, .tin, .2dm, .vtu, .vtp, .xml, .dxf, .gpkg or .3mf, or name the format",
+                            path));
   }
   auto bytes = encode_mesh(mesh, *format);
   if (!bytes) return fail(bytes.error().kind, fmt::format("cannot write {}: {}", path, bytes.error().message));

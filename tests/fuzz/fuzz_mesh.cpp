@@ -25,10 +25,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::abort();
   }
   // What was read can be written; what PLY and VTU keep, which is everything, reads back the same.
-  for (const auto format :
-       {scarp::MeshFormat::kGlb, scarp::MeshFormat::kObj, scarp::MeshFormat::kStl, scarp::MeshFormat::kTin,
-        scarp::MeshFormat::k2dm, scarp::MeshFormat::kVtp, scarp::MeshFormat::kLandXml, scarp::MeshFormat::kDxf,
-        scarp::MeshFormat::k3mf}) {
+  for (const auto format : {scarp::MeshFormat::kGlb, scarp::MeshFormat::kObj, scarp::MeshFormat::kStl,
+                            scarp::MeshFormat::kTin, scarp::MeshFormat::k2dm, scarp::MeshFormat::kVtp,
+                            scarp::MeshFormat::kLandXml, scarp::MeshFormat::kDxf, scarp::MeshFormat::k3mf}) {
     const auto bytes = scarp::encode_mesh(*mesh, format);
     if (!bytes && bytes.error().kind != scarp::ErrorKind::kOutput) std::abort();
     if (bytes && !scarp::decode_mesh(*bytes, "fuzz")) std::abort();

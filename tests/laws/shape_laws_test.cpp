@@ -104,7 +104,7 @@ double longer_side(const Frame& frame) {
 }
 
 /// Two lines of the map over the raster.
-std::vector<Line> any_lines(const Field& field) {
+std::vector<Line> any_two_lines(const Field& field) {
   std::vector<Line> lines(2);
   for (Line& line : lines) {
     line.name = "line";
@@ -162,7 +162,7 @@ RC_GTEST_PROP(shape, edges_are_never_too_long, ()) {
   options.shape.max_edge = longer_side(view.frame) * *rc::gen::element(0.3, 1.0, 2.5, 7.0);
   if (*rc::gen::arbitrary<bool>()) options.shape.min_angle = 25;
   if (*rc::gen::arbitrary<bool>()) {
-    options.breaklines.lines = any_lines(field);
+    options.breaklines.lines = any_two_lines(field);
     options.breaklines.affine = {0, 1, 0, 0, 0, 1};
   }
   const Simplified result = simplified(view, options);
@@ -184,7 +184,7 @@ RC_GTEST_PROP(shape, it_ends_whatever_is_asked, ()) {
   const Field field = testing::any_field(12);
   SimplifyOptions options = any_run();
   options.shape.min_angle = 33;
-  options.breaklines.lines = any_lines(field);
+  options.breaklines.lines = any_two_lines(field);
   options.breaklines.affine = {0, 1, 0, 0, 0, 1};
   const Simplified result = simplified(field.view(), options);
   RC_ASSERT(count_below(result.mesh, 33) <= result.shape->below);
