@@ -42,7 +42,7 @@ struct FitDepth {
 /// tenth, in 5 to 30 times its time), with an RMSE 1.10 times as large.
 inline constexpr FitDepth kHighDepth{2, {4, 1.5, false}, 3};
 /// With shapes of at least a tenth, over the 42 cases of bench/quality/efforts.csv: 0.295 of greedy's triangles, with
-/// an RMSE 1.20 times as large, in 10 to 127 times its time.
+/// an RMSE 1.20 times as large, in 8 to 128 times its time.
 inline constexpr FitDepth kMaxDepth{3, {6, 2.5, true, true, true}, 3};
 
 struct FitOptions {
