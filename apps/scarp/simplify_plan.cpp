@@ -244,7 +244,7 @@ Result<void> plan_objective(const SimplifyArguments& given, SimplifyPlan& plan) 
                 "--objective rms needs a budget, -t or -p: a max error alone decides the mesh, whatever its RMSE");
   if (plan.simplify.effort == Effort::kFast)
     return fail(ErrorKind::kUsage,
-                "--objective rms needs --effort normal or high: fast effort lowers the max error only");
+                "--objective rms needs --effort normal or more: fast effort lowers the max error only");
   return {};
 }
 

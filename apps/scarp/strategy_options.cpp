@@ -158,7 +158,7 @@ void StrategyArguments::add_to(CLI::App& verb) {
                   "there is something to gain.\nThe mesh then depends on the time")
       ->type_name("SECONDS");
   verb.add_option("--objective", objective,
-                  "What -t and -p make as small as they can with --effort\nnormal or high: the max error (max, "
+                  "What -t and -p make as small as they can with --effort\nnormal or more: the max error (max, "
                   "default) or the RMSE\n(rms)")
       ->type_name("NAME");
   const char* group = "Strategy (which samples become vertices; the promise stays the same)";
