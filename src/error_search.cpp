@@ -50,7 +50,7 @@ class ErrorSearch {
     if (auto searched = search(); !searched) return tl::unexpected(searched.error());
     // The greedy mesh may have been searched for, too.
     if (!best_.passes.empty() && best_.passes.front().name == others_.name) {
-      note(best_.passes.front());
+      add_work(best_.passes.front(), others_);
       best_.seconds_refine -= best_.passes.front().seconds;
       best_.passes.erase(best_.passes.begin());
     }
@@ -119,7 +119,7 @@ class ErrorSearch {
     const auto made = run(std::move(refine), 0.05);
     if (!made && made.error().kind == ErrorKind::kPromise) return std::log(kAim);
     if (!made) return tl::unexpected(made.error());
-    note(*made);
+    add_work(*made, others_);
     return expected_after(*made);
   }
 
@@ -176,7 +176,7 @@ class ErrorSearch {
     auto made = run(towards(error), 0.35);
     if (!made && made.error().kind != ErrorKind::kPromise) return tl::unexpected(made.error());
     const double used = made ? used_by(*made) : std::numeric_limits<double>::infinity();
-    if (made && used > 1) note(*made);
+    if (made && used > 1) add_work(*made, others_);
     if (used > 1) {
       see(exceeds_, Sight{error > 0 ? std::log(error) : std::log(greedy_error_ * kFarBelow), std::log(used)});
       return {};
@@ -189,10 +189,10 @@ class ErrorSearch {
     // Lines that follow the floor may need more than those of the error that was found to reach it.
     const bool is_larger = has_room_ && made->mesh.triangle_count() > best_.mesh.triangle_count();
     if (is_larger || (!is_at_floor_ && !is_better(*made))) {
-      note(*made);
+      add_work(*made, others_);
       return {};
     }
-    note(best_);
+    add_work(best_, others_);
     best_ = std::move(*made);
     return {};
   }
@@ -253,17 +253,6 @@ class ErrorSearch {
 
   double used_by(const Simplified& made) const {
     return budget_.used({made.mesh.vertex_count(), made.mesh.triangle_count()});
-  }
-
-  /// What a run did whose mesh is not kept.
-  void note(const Simplified& made) {
-    for (const Pass& pass : made.passes) note(pass);
-  }
-  void note(const Pass& pass) {
-    others_.samples_scanned += pass.samples_scanned;
-    others_.triangles_scanned += pass.triangles_scanned;
-    others_.insertions += pass.insertions;
-    others_.removals += pass.removals;
   }
 
   const SimplifyOptions& options_;

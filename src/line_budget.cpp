@@ -107,17 +107,17 @@ class LineErrorSearch {
     if (std::isfinite(used) && std::abs(fits_.error - here.error) > kNearFloor)
       power_ = std::clamp((here.used - fits_.used) / (fits_.error - here.error), 0.3, 20.0);
     if (!fits) {
-      if (made) note(*made);
+      if (made) add_work(*made, others_);
       exceeds_ = here;
       return {};
     }
     fits_ = here;
     is_at_floor_ = error == floor_ || reached <= floor_;
     if (!is_at_floor_ && rank(*made) >= rank(best_)) {
-      note(*made);
+      add_work(*made, others_);
       return {};
     }
-    note(best_);
+    add_work(best_, others_);
     best_ = std::move(*made);
     return {};
   }
@@ -147,16 +147,6 @@ class LineErrorSearch {
   /// The logarithm of the share.
   double used_by(const Simplified& made) const {
     return std::log(budget_.used({made.mesh.vertex_count(), made.mesh.triangle_count()}));
-  }
-
-  /// What a run did whose mesh is not kept.
-  void note(const Simplified& made) {
-    for (const Pass& pass : made.passes) {
-      others_.samples_scanned += pass.samples_scanned;
-      others_.triangles_scanned += pass.triangles_scanned;
-      others_.insertions += pass.insertions;
-      others_.removals += pass.removals;
-    }
   }
 
   const SimplifyOptions& options_;
