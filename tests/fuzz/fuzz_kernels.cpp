@@ -9,29 +9,10 @@
 #include <vector>
 
 #include "base/point.h"
+#include "bytes.h"
 #include "geom/scan_kernels.h"
 
 namespace {
-
-/// Reads bytes one after the other; zeros after the end.
-class Bytes {
- public:
-  Bytes(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
-  bool empty() const { return left_ == 0; }
-  std::uint8_t next() {
-    if (left_ == 0) return 0;
-    --left_;
-    return *data_++;
-  }
-  std::int32_t below(std::int32_t n) {
-    const std::int32_t high = next();
-    return (high << 8 | next()) % n;
-  }
-
- private:
-  const std::uint8_t* data_;
-  std::size_t left_;
-};
 
 void require(bool holds) {
   if (!holds) std::abort();
@@ -118,7 +99,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     hint = scarp::place(p.x, p.y);
   }
   std::vector<std::array<scarp::Place, 3>> triangles;
-  while (!bytes.empty() && triangles.size() < 50) {
+  while (bytes.left() > 0 && triangles.size() < 50) {
     std::array<scarp::Point, 3> p{draw_point(bytes, tile.view), draw_point(bytes, tile.view),
                                   draw_point(bytes, tile.view)};
     if (orient(p[0], p[1], p[2]) < 0) std::swap(p[1], p[2]);

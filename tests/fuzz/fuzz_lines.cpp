@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "bytes.h"
 #include "scarp/cliffs.h"
 #include "scarp/measure.h"
 #include "scarp/rivers.h"
@@ -27,22 +28,6 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 void require(bool holds) {
   if (!holds) std::abort();
 }
-
-/// Reads bytes one after the other; zeros after the end.
-class Bytes {
- public:
-  Bytes(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
-  std::uint8_t next() {
-    if (left_ == 0) return 0;
-    --left_;
-    return *data_++;
-  }
-  std::size_t left() const { return left_; }
-
- private:
-  const std::uint8_t* data_;
-  std::size_t left_;
-};
 
 /// What the first bytes ask for.
 struct Task {

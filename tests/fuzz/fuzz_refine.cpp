@@ -8,25 +8,11 @@
 #include <limits>
 #include <vector>
 
+#include "bytes.h"
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
 
 namespace {
-
-/// Reads bytes one after the other; zeros after the end.
-class Bytes {
- public:
-  Bytes(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
-  std::uint8_t next() {
-    if (left_ == 0) return 0;
-    --left_;
-    return *data_++;
-  }
-
- private:
-  const std::uint8_t* data_;
-  std::size_t left_;
-};
 
 constexpr int kMaxSide = 24;
 

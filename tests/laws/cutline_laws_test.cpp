@@ -207,6 +207,18 @@ RC_GTEST_PROP(cutlines, cover_what_lies_in_the_polygons_and_has_data_within_the_
   }
 }
 
+/// The judge's own look, which finds the bound kept and the mesh whole.
+Measurement judged(const Field& field, const SimplifyOptions& options, const Simplified& result) {
+  MeasureOptions judge;
+  judge.cutline = &options.cutline;
+  const Measurement m = *measure(field.view(), result.mesh, judge);
+  RC_ASSERT(m.max_error <= *options.max_error + 1e-9);
+  RC_ASSERT(m.uncovered == 0u);
+  RC_ASSERT(m.void_cells_covered == 0u);
+  RC_ASSERT(m.is_sound());
+  return m;
+}
+
 RC_GTEST_PROP(cutlines, keep_the_bound_in_the_eyes_of_the_judge, ()) {
   const Field field = any_field(40);
   Draughtsman draughtsman(*rc::gen::arbitrary<std::uint32_t>());
@@ -217,13 +229,7 @@ RC_GTEST_PROP(cutlines, keep_the_bound_in_the_eyes_of_the_judge, ()) {
     RC_ASSERT(result.error().kind == ErrorKind::kInput);
     return;
   }
-  MeasureOptions judge;
-  judge.cutline = &options.cutline;
-  const Measurement m = *measure(field.view(), result->mesh, judge);
-  RC_ASSERT(m.max_error <= *options.max_error + 1e-9);
-  RC_ASSERT(m.uncovered == 0u);
-  RC_ASSERT(m.void_cells_covered == 0u);
-  RC_ASSERT(m.is_sound());
+  const Measurement m = judged(field, options, *result);
   RC_ASSERT(m.samples + m.stray + m.cut_off == m.heights.valid);
   RC_ASSERT(result->measurement.samples == m.samples);
   options.threads = 3;
@@ -253,13 +259,7 @@ RC_GTEST_PROP(cutlines, hold_shapes_or_the_lines_of_walls_within_the_bound, ()) 
     RC_ASSERT(result.error().kind == ErrorKind::kInput);
     return;
   }
-  MeasureOptions judge;
-  judge.cutline = &options.cutline;
-  const Measurement m = *measure(field.view(), result->mesh, judge);
-  RC_ASSERT(m.max_error <= *options.max_error + 1e-9);
-  RC_ASSERT(m.uncovered == 0u);
-  RC_ASSERT(m.void_cells_covered == 0u);
-  RC_ASSERT(m.is_sound());
+  const Measurement m = judged(field, options, *result);
   if (!has_walls) RC_ASSERT(result->shape->longest_edge <= *options.shape.max_edge + 1e-4);
   options.threads = 3;
   const auto again = simplify(field.view(), options);
