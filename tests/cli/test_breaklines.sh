@@ -22,46 +22,6 @@ collection("ugly.geojson", [("LineString", [[10, 10], [50, 50], [10, 50], [50, 1
                             ("LineString", [[30, 10], [30, 10], [30, 90], [30, 20]], 0),
                             ("Polygon", [[[5, 5], [60, 60], [60, 5], [5, 60], [5, 5]]], 0),
                             ("LineString", [[-900, -800], [-700, -900]], 0)])
-open("walk.py", "w").write('''
-import json, sys
-vertices, edges = [], set()
-for line in open(sys.argv[1]):
-    word, *rest = line.split()[:4] or [""]
-    if word == "v":
-        vertices.append(tuple(map(float, rest)))
-    elif word == "f":
-        t = [int(v.split("/")[0]) - 1 for v in rest]
-        edges |= {frozenset((t[k], t[(k + 1) % 3])) for k in range(3)}
-walked = 0
-for feature in json.load(open(sys.argv[2]))["features"]:
-    geometry = feature["geometry"]
-    lines = geometry["coordinates"] if geometry["type"] == "Polygon" else [geometry["coordinates"]]
-    for points in lines:
-        for p, q in zip(points, points[1:]):
-            x, y = q[0] - p[0], q[1] - p[1]
-            length = (x * x + y * y) ** 0.5
-            if length == 0:
-                continue
-            on = []
-            for v, (vx, vy, vz) in enumerate(vertices):
-                along = ((vx - p[0]) * x + (vy - p[1]) * y) / length
-                beside = abs((vx - p[0]) * y - (vy - p[1]) * x) / length
-                # Beside a hard line a sample may lie nearer than the lattice tells apart, with another height.
-                hard = len(p) == 3 and abs(vz - p[2] - along / length * (q[2] - p[2])) > 0.02
-                if beside < 0.006 and -0.006 <= along <= length + 0.006 and not hard:
-                    on.append((along, v))
-            on.sort()
-            if not on:
-                assert max(p[0], q[0]) < 0, (p, q)
-                continue
-            inside = lambda c: 0 <= c[0] <= 159 and 0 <= c[1] <= 119
-            assert not inside(p) or on[0][0] < 0.006, ("no vertex at", p)
-            assert not inside(q) or on[-1][0] > length - 0.006, ("no vertex at", q)
-            for (_, a), (_, b) in zip(on, on[1:]):
-                assert frozenset((a, b)) in edges, ("no edge", vertices[a], vertices[b])
-                walked += 1
-assert walked > 0
-''')
 PYTHON
 
 for lines in soft hard ring ugly; do
@@ -71,7 +31,7 @@ for lines in soft hard ring ugly; do
         -j "$threads" --report r.json --overwrite
     done
     cmp "${lines}1.obj" "${lines}2.obj" || fail "-j 2 makes another mesh with $lines lines and $effort effort"
-    python3 walk.py "${lines}1.obj" "$lines.geojson" || fail "$lines lines are not in the mesh of $effort effort"
+    python3 "$SCARP_SOURCE/tests/cli/walk_lines.py" "${lines}1.obj" "$lines.geojson" 160 120 || fail "$lines lines are not in the mesh of $effort effort"
     holds "$(json r.json max_error) <= 12"
     [ "$(json r.json topology sound)" = true ] || fail "$lines lines and $effort effort make an unsound mesh"
     # A soft line leaves the raster as it is.

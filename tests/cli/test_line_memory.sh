@@ -16,42 +16,6 @@ def spiral(turns, z):
 collection("soft.geojson", [spiral(600, []), [[5.3, 7.1], [1290.7, 933.2]], [[-50, 512], [1400, 512]], [[300, 980], [300, 10.5]]])
 collection("hard.geojson", [spiral(300, [900])])
 collection("rivers.geojson", [[[100, 900], [400.5, 300], [900, 120.25]]])
-open("walk.py", "w").write('''
-import json, sys
-vertices, edges = [], set()
-for line in open(sys.argv[1]):
-    word, *rest = line.split()[:4] or [""]
-    if word == "v":
-        vertices.append(tuple(map(float, rest)))
-    elif word == "f":
-        t = [int(v.split("/")[0]) - 1 for v in rest]
-        edges |= {frozenset((t[k], t[(k + 1) % 3])) for k in range(3)}
-cells = {}
-for v, (x, y, z) in enumerate(vertices):
-    cells.setdefault((int(x) // 16, int(y) // 16), []).append(v)
-walked = 0
-for feature in json.load(open(sys.argv[2]))["features"]:
-    points = feature["geometry"]["coordinates"]
-    for p, q in zip(points, points[1:]):
-        x, y = q[0] - p[0], q[1] - p[1]
-        length = (x * x + y * y) ** 0.5
-        near = {(int(p[0] + x * t / 400 + dx) // 16, int(p[1] + y * t / 400 + dy) // 16)
-                for t in range(401) for dx in (-4, 4) for dy in (-4, 4)}
-        on = []
-        for v in (v for cell in near for v in cells.get(cell, [])):
-            vx, vy, vz = vertices[v]
-            along = ((vx - p[0]) * x + (vy - p[1]) * y) / length
-            beside = abs((vx - p[0]) * y - (vy - p[1]) * x) / length
-            hard = len(p) == 3 and abs(vz - p[2]) > 0.02
-            if beside < 0.006 and -0.006 <= along <= length + 0.006 and not hard:
-                on.append((along, v))
-        on.sort()
-        assert on, ("nothing on", p, q)
-        for (_, a), (_, b) in zip(on, on[1:]):
-            assert frozenset((a, b)) in edges, ("no edge", vertices[a], vertices[b])
-            walked += 1
-assert walked > 20, walked
-''')
 PYTHON
 
 small=76M # the samples alone are 5 MB, so they stay in their file, and rows of tiles are low
@@ -62,7 +26,7 @@ for lines in soft hard; do
         --memory "$small" -j "$threads" --report r.json --overwrite
     done
     cmp "${lines}1.obj" "${lines}2.obj" || fail "-j 2 makes another mesh with $lines lines and $effort effort"
-    python3 walk.py "${lines}1.obj" "$lines.geojson" || fail "$lines lines are not in the mesh of $effort effort"
+    python3 "$SCARP_SOURCE/tests/cli/walk_lines.py" "${lines}1.obj" "$lines.geojson" 1300 1000 21 || fail "$lines lines are not in the mesh of $effort effort"
     holds "$(json r.json max_error) <= 12"
     [ "$(json r.json topology sound)" = true ] || fail "$lines lines and $effort effort make an unsound mesh"
     if [ "$lines" = soft ]; then
