@@ -1,7 +1,6 @@
 // Textures and images: further values at the samples, which count as errors beside the heights or in their place.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +9,10 @@
 #include "scarp/height_field.h"
 #include "scarp/io.h"
 #include "scarp/strategy.h"
+
+namespace CLI {
+class App;
+}
 
 namespace scarp::cli {
 

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <utility>
 
+#include "report.h"
 #include "simplify_run.h"
 #include "text.h"
 

@@ -1,13 +1,16 @@
 // --cliff: walls that the mesh holds by two lines.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
+#include "json.h"
 #include "options.h"
-#include "report.h"
 #include "scarp/cliffs.h"
+
+namespace CLI {
+class App;
+}
 
 namespace scarp::cli {
 

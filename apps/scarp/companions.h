@@ -1,7 +1,6 @@
 // Rasters and scripts beside INPUT that say, sample by sample, what counts.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,6 +9,10 @@
 #include "options.h"
 #include "scarp/io.h"
 #include "scarp/simplify.h"
+
+namespace CLI {
+class App;
+}
 
 namespace scarp::cli {
 

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "line_options.h"
+#include "report.h"
 #include "text.h"
 
 namespace scarp::cli {

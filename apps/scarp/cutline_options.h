@@ -1,15 +1,18 @@
 // Polygons that the surface ends at.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "json.h"
 #include "options.h"
-#include "report.h"
 #include "scarp/cutline.h"
 #include "scarp/simplify.h"
+
+namespace CLI {
+class App;
+}
 
 namespace scarp::cli {
 

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "report.h"
 #include "scarp/edits.h"
 #include "simplify_run.h"
 #include "text.h"

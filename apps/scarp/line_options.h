@@ -1,15 +1,18 @@
 // Vector files whose lines the mesh must hold.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "json.h"
 #include "options.h"
-#include "report.h"
 #include "scarp/lines.h"
 #include "scarp/simplify.h"
+
+namespace CLI {
+class App;
+}
 
 namespace scarp::cli {
 

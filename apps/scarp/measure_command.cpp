@@ -8,6 +8,7 @@
 #include "clock.h"
 #include "measure_report.h"
 #include "progress_display.h"
+#include "report.h"
 #include "scarp/picture.h"
 #include "scarp/solid.h"
 #include "signals.h"

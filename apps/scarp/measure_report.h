@@ -8,8 +8,8 @@
 #include "channels.h"
 #include "companions.h"
 #include "cutline_options.h"
+#include "json.h"
 #include "judge.h"
-#include "report.h"
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
 

@@ -1,13 +1,16 @@
 // --memory: a raster larger than memory.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
 
 #include "options.h"
 #include "scarp/io.h"
+
+namespace CLI {
+class App;
+}
 
 namespace scarp::cli {
 

@@ -1,9 +1,12 @@
 // An option without its value, directly before another option.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace scarp::cli {
 

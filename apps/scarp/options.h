@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -14,6 +13,10 @@
 #include "scarp/io.h"
 #include "scarp/result.h"
 #include "text.h"
+
+namespace CLI {
+class App;
+}
 
 namespace scarp::cli {
 

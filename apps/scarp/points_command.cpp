@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include "clock.h"
 #include "points_report.h"
 #include "progress_display.h"
+#include "report.h"
 #include "signals.h"
 #include "text.h"
 

@@ -1,11 +1,14 @@
 // simplify and measure where the input is scattered points instead of a raster.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "scarp/points.h"
 #include "simplify_plan.h"
+
+namespace CLI {
+class App;
+}
 
 namespace scarp::cli {
 

@@ -1,6 +1,8 @@
 // The options for scattered points.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include "points_command.h"
 #include "text.h"
 

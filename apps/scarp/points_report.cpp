@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "report.h"
 #include "scarp/version.h"
 #include "text.h"
 #include "verdict.h"

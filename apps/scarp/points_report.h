@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "report.h"
+#include "json.h"
 #include "scarp/height_field.h"
 #include "scarp/points.h"
 #include "simplify_run.h"

@@ -6,14 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "json.h"
 #include "judge.h"
 #include "scarp/height_field.h"
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
 
 namespace scarp::cli {
-
-using Json = nlohmann::ordered_json;
 
 /// The value, or JSON's null.
 template <class T>

@@ -1,13 +1,16 @@
 // --ridges: lines along crests and valley beds that the mesh prefers, or holds.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
+#include "json.h"
 #include "options.h"
-#include "report.h"
 #include "scarp/ridges.h"
+
+namespace CLI {
+class App;
+}
 
 namespace scarp::cli {
 

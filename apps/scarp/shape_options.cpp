@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <optional>
 #include <tuple>
 
+#include "report.h"
 #include "simplify_run.h"
 #include "text.h"
 

@@ -1,13 +1,16 @@
 // Shapes of triangles that are asked for, and what became of them.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
+#include "json.h"
 #include "options.h"
-#include "report.h"
 #include "scarp/shape.h"
 #include "scarp/simplify.h"
+
+namespace CLI {
+class App;
+}
 
 namespace scarp::cli {
 

@@ -8,6 +8,7 @@
 
 #include "clock.h"
 #include "progress_display.h"
+#include "report.h"
 #include "signals.h"
 #include "simplify_outcome.h"
 #include "simplify_report.h"

@@ -1,6 +1,7 @@
 // The options of `scarp simplify`, as --help lists them.
-#include "simplify_plan.h"
+#include <CLI/CLI.hpp>
 
+#include "simplify_plan.h"
 namespace scarp::cli {
 
 void SimplifyArguments::add_to(CLI::App& verb) {

@@ -20,6 +20,10 @@
 #include "solid_options.h"
 #include "strategy_options.h"
 
+namespace CLI {
+class App;
+}
+
 namespace scarp::cli {
 
 enum class NodataPolicy { kHole, kFill, kBackground };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "report.h"
 #include "scarp/version.h"
 #include "text.h"
 

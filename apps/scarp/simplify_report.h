@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "report.h"
+#include "json.h"
 #include "simplify_outcome.h"
 
 namespace scarp::cli {

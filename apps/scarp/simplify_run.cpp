@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "report.h"
 #include "scarp/version.h"
 #include "signals.h"
 #include "text.h"

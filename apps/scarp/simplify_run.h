@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "report.h"
+#include "json.h"
 #include "scarp/simplify.h"
 #include "simplify_plan.h"
 #include "solid_run.h"

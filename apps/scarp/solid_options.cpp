@@ -1,5 +1,6 @@
 #include "solid_options.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -9,6 +9,10 @@
 #include "scarp/mesh.h"
 #include "scarp/solid.h"
 
+namespace CLI {
+class App;
+}
+
 namespace scarp::cli {
 
 /// A length of the print, in millimetres or, of a solid without a size, in the units of the raster.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "line_options.h"
+#include "report.h"
 #include "simplify_run.h"
 #include "text.h"
 #include "verdict.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "report.h"
+#include "json.h"
 #include "scarp/simplify.h"
 #include "scarp/solid.h"
 #include "solid_options.h"

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <chrono>
 #include <string_view>
 
+#include "report.h"
 #include "text.h"
 
 namespace scarp::cli {

@@ -1,12 +1,15 @@
 // Options that say how insertion goes about its work.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
+#include "json.h"
 #include "options.h"
-#include "report.h"
 #include "scarp/simplify.h"
+
+namespace CLI {
+class App;
+}
 
 namespace scarp::cli {
 

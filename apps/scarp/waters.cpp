@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "report.h"
 #include "simplify_run.h"
 #include "text.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "json.h"
 #include "line_options.h"
-#include "report.h"
 #include "scarp/rivers.h"
 #include "scarp/water.h"
 
