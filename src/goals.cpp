@@ -29,14 +29,15 @@ Result<void> check_goals(const SimplifyOptions& options, bool may_have_tolerance
 }
 
 Result<void> Budget::check(const MeshSize& least, const std::string& culprit, const std::string& advice) const {
-  const auto refuse = [&](std::uint64_t budget, const char* what, std::uint64_t needed) {
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} {} are too few: {} {}; allow more{}", budget, what, culprit, needed, advice));
+  const auto refuse = [&](std::uint64_t budget, const char* one, const char* many, std::uint64_t needed) {
+    return fail(ErrorKind::kUsage, fmt::format("{} {} too few: {} {}; allow more{}", budget,
+                                               budget == 1 ? std::string(one) + " is" : std::string(many) + " are",
+                                               culprit, needed, advice));
   };
   if (options_.max_vertices && *options_.max_vertices < least.vertices)
-    return refuse(*options_.max_vertices, "vertices", least.vertices);
+    return refuse(*options_.max_vertices, "vertex", "vertices", least.vertices);
   if (options_.max_triangles && *options_.max_triangles < least.triangles)
-    return refuse(*options_.max_triangles, "triangles", least.triangles);
+    return refuse(*options_.max_triangles, "triangle", "triangles", least.triangles);
   return {};
 }
 

@@ -161,9 +161,8 @@ Result<void> run_simplify_points(const CLI::App& verb, const SimplifyArguments& 
   outcome.seconds_write = seconds_since(write_start);
   outcome.seconds_total = seconds_since(start);
   if (plan->report) {
-    const std::string text = to_text(make_report(*plan, outcome, files, command_line));
-    const Result<void> reported =
-        write_file(*plan->report, std::vector<std::uint8_t>(text.begin(), text.end()), plan->overwrite);
+    const Json report = make_report(*plan, outcome, files, command_line);
+    const Result<void> reported = write_report(report, *plan->report, plan->overwrite, plan->output);
     if (!reported) return reported;
   }
   display.finish();

@@ -1,7 +1,12 @@
 #include "report.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <utility>
+
+#include "options.h"
+#include "scarp/io.h"
 
 namespace scarp::cli {
 namespace {
@@ -135,5 +140,14 @@ Json describe_channels(const std::vector<std::string>& names, const std::vector<
 Json finite_or_word(double value) { return std::isfinite(value) ? Json(value) : Json("inf"); }
 
 std::string to_text(const Json& report) { return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+Result<void> write_report(const Json& report, const std::string& path, bool overwrite, const std::string& mesh) {
+  const std::string text = to_text(report);
+  auto written = write_file(path, std::vector<std::uint8_t>(text.begin(), text.end()), overwrite);
+  if (!written)
+    written.error().message +=
+        is_stdout(mesh) ? "; the mesh itself is written" : fmt::format("; {} itself is written", mesh);
+  return written;
+}
 
 }  // namespace scarp::cli

@@ -213,12 +213,6 @@ Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyO
   return std::move(printed->simplified);
 }
 
-Result<void> write_report(const SimplifyPlan& plan, const Json& report) {
-  const std::string text = to_text(report);
-  const std::vector<std::uint8_t> bytes(text.begin(), text.end());
-  return write_file(*plan.report, bytes, plan.overwrite);
-}
-
 }  // namespace
 
 SimplifyCommand::SimplifyCommand(CLI::App& program)
@@ -339,7 +333,8 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   outcome.seconds_write = seconds_since(write_start);
   outcome.seconds_total = seconds_since(start);
   if (plan->report) {
-    const Result<void> written = write_report(*plan, make_report(*plan, outcome, *files, command_line));
+    const Json report = make_report(*plan, outcome, *files, command_line);
+    const Result<void> written = write_report(report, *plan->report, plan->overwrite, plan->output);
     if (!written) return written;
   }
   display.finish();

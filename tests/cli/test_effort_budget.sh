@@ -68,5 +68,5 @@ PYTHON
 refuses 1 "needs a budget" "$scarp" simplify "$dem" never.glb -e 20 --effort high --objective rms
 refuses 1 "needs --effort" "$scarp" simplify "$dem" never.glb -t 3000 --effort fast --objective rms
 refuses 1 "--objective" "$scarp" simplify "$dem" never.glb -t 3000 --effort high --objective least
-refuses 1 "1 triangles are too few" "$scarp" simplify "$dem" never.glb -t 1 --effort high
+refuses 1 "1 triangle is too few" "$scarp" simplify "$dem" never.glb -t 1 --effort high
 refuses 1 "--max-triangles and --mask" "$scarp" simplify "$dem" never.glb -t 3000 --effort high --mask "$dem"

@@ -150,6 +150,10 @@ if [ -w /dev/full ]; then
   [ "$code" = 2 ] || fail "a full stderr turns exit code 2 into $code"
   try bash -c '"$1" simplify "$2" full.glb -e 100 --json-progress 2> /dev/full' - "$scarp" "$dem"
   [ "$code" = 0 ] || fail "a full stderr ends a good run with $code"
+  try "$scarp" simplify "$dem" unreported.glb -e 100 --report /dev/full
+  [ "$code" = 4 ] || fail "a full disk for the report ends with $code instead of 4"
+  grep -q '/dev/full: the disk is full; unreported.glb itself is written$' "$logs/err" || fail "what is written is not told"
+  succeeds "$scarp" measure "$dem" unreported.glb --fail-above 100 -q
 fi
 try bash -c '"$1" info missing.tif 2>&-' - "$scarp"
 [ "$code" = 2 ] || fail "a closed stderr turns exit code 2 into $code"

@@ -37,7 +37,7 @@ check() {
   done
   # shellcheck disable=SC2154
   holds "$error_normal <= $error_fast"
-  refuses 1 "are too few: the lines and the outline of the valid data alone need" "$scarp" simplify "$raster" x.obj -t 1 "$@"
+  refuses 1 "1 triangle is too few: the lines and the outline of the valid data alone need" "$scarp" simplify "$raster" x.obj -t 1 "$@"
   least=$(sed 's/.* need \([0-9]*\);.*/\1/' "$logs/err")
   refuses 1 "alone need $least;" "$scarp" simplify "$raster" x.obj -t $((least - 1)) "$@"
   succeeds "$scarp" simplify "$raster" least.obj -t "$least" "$@" --report r.json --overwrite
