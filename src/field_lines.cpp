@@ -319,12 +319,12 @@ Result<FieldLines> prepare_from_source(const HeightField& field, const LineConst
 
 }  // namespace
 
-std::uint64_t line_bytes(const HeightField& field, const LineConstraints& lines) {
+std::uint64_t line_bytes(const HeightField& field, std::span<const Line> lines, const std::array<double, 6>& affine) {
   constexpr double kBytesPerVertex = 300, kBytesPerSample = 100;
-  const MapToSamples to_samples(lines.affine);
+  const MapToSamples to_samples(affine);
   const double longest = static_cast<double>(field.cols) + field.rows;
   double bytes = 0;
-  for (const Line& line : lines.lines) {
+  for (const Line& line : lines) {
     bytes += kBytesPerVertex * static_cast<double>(line.points.size());
     for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
       const SamplePlace way =

@@ -1,8 +1,10 @@
 // What breaklines and cutlines ask of a height field, made ready for the engine.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "refine/constraints.h"
@@ -38,6 +40,9 @@ Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints
 
 /// What breaklines take beside the mesh, most of it while they are prepared: 300 bytes a vertex, and 100 for each
 /// sample that they run along.
-std::uint64_t line_bytes(const HeightField& field, const LineConstraints& lines);
+std::uint64_t line_bytes(const HeightField& field, std::span<const Line> lines, const std::array<double, 6>& affine);
+inline std::uint64_t line_bytes(const HeightField& field, const LineConstraints& lines) {
+  return line_bytes(field, lines.lines, lines.affine);
+}
 
 }  // namespace scarp

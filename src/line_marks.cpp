@@ -6,21 +6,10 @@
 #include <utility>
 
 namespace scarp {
-
-LineMarks::LineMarks(const std::array<double, 6>& affine, int cols, int rows)
-    : to_samples_(affine),
-      cols_(cols),
-      rows_(rows),
-      marks_(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows), 0) {}
-
-bool LineMarks::any() const { return std::find(marks_.begin(), marks_.end(), 1) != marks_.end(); }
-
-void LineMarks::mark(int col, int row) {
-  marks_[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(col)] = 1;
-}
+namespace {
 
 /// Narrows [begin, end] to where from + t · span lies in [−1/2, size − 1/2]. False if that is nowhere.
-bool LineMarks::narrow(double from, double span, int size, double& begin, double& end) {
+bool narrow(double from, double span, int size, double& begin, double& end) {
   const double least = -0.5, most = size - 0.5;
   if (span == 0) return from >= least && from <= most;
   const double a = (least - from) / span, b = (most - from) / span;
@@ -29,7 +18,9 @@ bool LineMarks::narrow(double from, double span, int size, double& begin, double
   return begin <= end;
 }
 
-void LineMarks::add_course(const Line& line, double reach) {
+}  // namespace
+
+void LineRuns::add_course(const Line& line, double reach) {
   for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
     const SamplePlace p = place_of(line.points[k]), q = place_of(line.points[k + 1]);
     double begin = 0, end = 1;
@@ -42,12 +33,12 @@ void LineMarks::add_course(const Line& line, double reach) {
       const double col = near(p.col + at * (q.col - p.col), cols_), row = near(p.row + at * (q.row - p.row), rows_);
       const double beside = (col - p.col) * (q.row - p.row) - (row - p.row) * (q.col - p.col);
       if (std::abs(beside) <= reach * std::hypot(q.col - p.col, q.row - p.row))
-        mark(static_cast<int>(col), static_cast<int>(row));
+        runs_.add({static_cast<int>(row), static_cast<int>(col), static_cast<int>(col) + 1});
     }
   }
 }
 
-void LineMarks::add_polygons(std::span<const Line> lines) {
+void LineRuns::add_polygons(std::span<const Line> lines) {
   std::map<std::uint32_t, std::vector<const Line*>> polygons;
   for (const Line& line : lines) {
     if (line.is_ring()) polygons[line.polygon].push_back(&line);
@@ -56,26 +47,56 @@ void LineMarks::add_polygons(std::span<const Line> lines) {
 }
 
 /// Row by row, between every two crossings with the rings.
-void LineMarks::fill(const std::vector<const Line*>& rings) {
-  std::vector<std::vector<double>> crossings(static_cast<std::size_t>(rows_));
+void LineRuns::fill(const std::vector<const Line*>& rings) {
+  std::vector<std::pair<int, double>> crossings;
   for (const Line* ring : rings) {
     for (std::size_t k = 0; k + 1 < ring->points.size(); ++k) {
       SamplePlace p = place_of(ring->points[k]), q = place_of(ring->points[k + 1]);
       if (p.row > q.row) std::swap(p, q);
       // Half open, so that a vertex on a row counts once.
       const double first = std::max(std::ceil(p.row), 0.0), last = std::min(std::ceil(q.row), double{1} * rows_);
-      for (double row = first; row < last; ++row)
-        crossings[static_cast<std::size_t>(row)].push_back(p.col + (row - p.row) / (q.row - p.row) * (q.col - p.col));
+      for (double row = first; row < last; ++row) {
+        const double col = p.col + (row - p.row) / (q.row - p.row) * (q.col - p.col);
+        if (!std::isnan(col)) crossings.emplace_back(static_cast<int>(row), col);
+      }
     }
   }
-  for (int row = 0; row < rows_; ++row) {
-    std::vector<double>& at = crossings[static_cast<std::size_t>(row)];
-    std::sort(at.begin(), at.end());
-    for (std::size_t i = 0; i + 1 < at.size(); i += 2) {
-      const double first = std::max(std::ceil(at[i]), 0.0), last = std::min(at[i + 1], cols_ - 1.0);
-      for (double col = first; col <= last; ++col) mark(static_cast<int>(col), row);
+  std::sort(crossings.begin(), crossings.end());
+  for (std::size_t i = 0; i + 1 < crossings.size();) {
+    const auto [row, from] = crossings[i];
+    if (crossings[i + 1].first != row) {  // the last of an odd number: the ring is not closed
+      ++i;
+      continue;
     }
+    const double first = std::max(std::ceil(from), 0.0), last = std::min(crossings[i + 1].second, cols_ - 1.0);
+    if (first <= last) runs_.add({row, static_cast<int>(first), static_cast<int>(last) + 1});
+    i += 2;
   }
 }
+
+LineMarks::LineMarks(const std::array<double, 6>& affine, int cols, int rows)
+    : affine_(affine),
+      cols_(cols),
+      rows_(rows),
+      marks_(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows), 0) {}
+
+void LineMarks::mark(LineRuns& runs) {
+  for (const SampleRun& run : runs.runs())
+    std::fill_n(marks_.begin() + std::ptrdiff_t{run.row} * cols_ + run.begin, run.end - run.begin, std::uint8_t{1});
+}
+
+void LineMarks::add_course(const Line& line, double reach) {
+  LineRuns runs(affine_, cols_, rows_);
+  runs.add_course(line, reach);
+  mark(runs);
+}
+
+void LineMarks::add_polygons(std::span<const Line> lines) {
+  LineRuns runs(affine_, cols_, rows_);
+  runs.add_polygons(lines);
+  mark(runs);
+}
+
+bool LineMarks::any() const { return std::find(marks_.begin(), marks_.end(), 1) != marks_.end(); }
 
 }  // namespace scarp

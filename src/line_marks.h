@@ -8,14 +8,16 @@
 #include <vector>
 
 #include "grid/affine_map.h"
+#include "grid/sample_runs.h"
 #include "scarp/lines.h"
 
 namespace scarp {
 
-class LineMarks {
+/// As runs: of memory, what the lines are long.
+class LineRuns {
  public:
   /// No sample is marked. `affine`: from samples to the coordinates of the lines.
-  LineMarks(const std::array<double, 6>& affine, int cols, int rows);
+  LineRuns(const std::array<double, 6>& affine, int cols, int rows) : to_samples_(affine), cols_(cols), rows_(rows) {}
 
   /// Marks the samples nearest to a line: to points of it, a quarter of a sample apart at most. `reach`: only those no
   /// farther from it, in samples.
@@ -23,16 +25,37 @@ class LineMarks {
   /// Marks the samples that polygons hold, those of each by its rings, even-odd. Lines that are no rings hold nothing.
   void add_polygons(std::span<const Line> lines);
 
+  /// What is marked so far, in raster order, apart from each other.
+  const std::vector<SampleRun>& runs() {
+    runs_.merge();
+    return runs_.all();
+  }
+
+ private:
+  SamplePlace place_of(const std::array<double, 3>& point) const { return to_samples_.place(point[0], point[1]); }
+  void fill(const std::vector<const Line*>& rings);
+
+  MapToSamples to_samples_;
+  int cols_, rows_;
+  SampleRuns runs_;
+};
+
+/// As a flag for each sample of the raster.
+class LineMarks {
+ public:
+  /// As LineRuns.
+  LineMarks(const std::array<double, 6>& affine, int cols, int rows);
+
+  void add_course(const Line& line, double reach = 1);
+  void add_polygons(std::span<const Line> lines);
+
   bool any() const;
   bool has(std::size_t i) const { return marks_[i] != 0; }
 
  private:
-  SamplePlace place_of(const std::array<double, 3>& point) const { return to_samples_.place(point[0], point[1]); }
-  static bool narrow(double from, double span, int size, double& begin, double& end);
-  void mark(int col, int row);
-  void fill(const std::vector<const Line*>& rings);
+  void mark(LineRuns& runs);
 
-  MapToSamples to_samples_;
+  std::array<double, 6> affine_;
   int cols_, rows_;
   std::vector<std::uint8_t> marks_;
 };

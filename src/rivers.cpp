@@ -13,6 +13,7 @@
 #include "breaklines.h"
 #include "grid/affine_map.h"
 #include "grid/raster.h"
+#include "grid/sample_runs.h"
 #include "line_marks.h"
 #include "line_samples.h"
 #include "profile.h"
@@ -33,11 +34,12 @@ class Ground {
   Ground(LineSamples samples, std::span<const Lake> lakes, const std::array<double, 6>& affine)
       : samples_(std::move(samples)), to_samples_(affine) {
     if (lakes.empty()) return;
-    lakes_.emplace(affine, samples_.cols(), samples_.rows());
+    LineRuns runs(affine, samples_.cols(), samples_.rows());
     for (const Lake& lake : lakes) {
-      lakes_->add_polygons(lake.shore);
-      for (const Line& ring : lake.shore) lakes_->add_course(ring, 1.0 / 128);
+      runs.add_polygons(lake.shore);
+      for (const Line& ring : lake.shore) runs.add_course(ring, 1.0 / 128);
     }
+    lakes_.emplace(runs.runs(), samples_.rows());
   }
 
   SamplePlace place_of(const std::array<double, 3>& point) const { return to_samples_.place(point[0], point[1]); }
@@ -61,9 +63,7 @@ class Ground {
     for (const double y : {std::floor(row), std::ceil(row)}) {
       for (const double x : {std::floor(col), std::ceil(col)}) {
         const Point p{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)};
-        const std::size_t at =
-            static_cast<std::size_t>(p.y) * static_cast<std::size_t>(samples_.cols()) + static_cast<std::size_t>(p.x);
-        if (lakes_->has(at) && samples_.is_valid(p)) level = std::fmin(level, double{samples_.at(p)});
+        if (lakes_->has(p) && samples_.is_valid(p)) level = std::fmin(level, double{samples_.at(p)});
       }
     }
     return level;
@@ -71,7 +71,7 @@ class Ground {
 
   LineSamples samples_;
   MapToSamples to_samples_;
-  std::optional<LineMarks> lakes_;
+  std::optional<SampleSet> lakes_;
 };
 
 /// A line, looked at twice a sample.
@@ -198,8 +198,6 @@ Result<std::vector<River>> carve_rivers(const OwnedHeightField& field, std::span
   if (!(options.tolerance >= 0))
     return fail(ErrorKind::kUsage,
                 fmt::format("the tolerance of rivers must be at least 0, not {}", options.tolerance));
-  if (field.source != nullptr && !lakes.empty())
-    return fail(ErrorKind::kUsage, "rivers through lakes need the raster in memory as a whole");
   auto samples = samples_along(field, lines, options.affine);
   if (!samples) return tl::unexpected(samples.error());
   const Ground ground(std::move(*samples), lakes, options.affine);

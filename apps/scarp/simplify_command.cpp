@@ -89,8 +89,8 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
   outcome.lines = std::move(*lines);
   const bool fits_later = has_lines_to_fit(plan);
   const std::optional<double> max_error = fits_later ? std::nullopt : std::optional(outcome.asked.value_or(0));
-  Result<WatersFound> waters =
-      add_waters(plan.lines, progress, max_error, outcome.field, outcome.lines, outcome.companions.warnings);
+  Result<WatersFound> waters = add_waters(plan.lines, progress, max_error, plan.memory, outcome.field, outcome.lines,
+                                          outcome.companions.warnings);
   if (!waters) return tl::unexpected(std::move(waters.error()));
   outcome.waters = std::move(*waters);
   if (!fits_later) {
@@ -213,6 +213,14 @@ Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyO
   return std::move(printed->simplified);
 }
 
+/// What the library calls memory_limit has another name here.
+Error name_memory(const SimplifyArguments& given, Error error) {
+  constexpr std::string_view kLimit = "memory_limit";
+  if (error.message.starts_with(kLimit))
+    error.message.replace(0, kLimit.size(), "--memory " + shell_word(*given.memory.memory));
+  return error;
+}
+
 }  // namespace
 
 SimplifyCommand::SimplifyCommand(CLI::App& program)
@@ -232,7 +240,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   Outcome outcome;
   ProgressDisplay display(ProgressDisplay::choose(given_.json_progress, given_.quiet));
   const Result<void> has_inputs = read_inputs(*plan, given_.raster.band.has_value(), display.callback(), outcome);
-  if (!has_inputs) return has_inputs;
+  if (!has_inputs) return tl::unexpected(name_memory(given_, has_inputs.error()));
 
   const Result<void> has_place = check_place_of_channels(*plan, outcome.channels);
   if (!has_place) return has_place;
@@ -263,13 +271,10 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
     options.is_enough = content_with_interrupt;
     display.let_interrupt_finish("fit");
   }
-  if (plan->memory) options.memory_taken = bytes_taken(outcome.field, *plan->memory);
+  if (plan->memory) options.memory_taken = bytes_taken(outcome.field, *plan->memory) + outcome.waters.bytes();
   Result<Simplified> simplified = simplify_as_planned(*plan, options, outcome);
   if (!simplified) {
-    Error error = std::move(simplified.error());
-    constexpr std::string_view kLimit = "memory_limit";
-    if (error.message.starts_with(kLimit))
-      error.message.replace(0, kLimit.size(), "--memory " + shell_word(*given_.memory.memory));
+    Error error = name_memory(given_, std::move(simplified.error()));
     if (error.kind == ErrorKind::kInput && !error.message.starts_with(plan->input))
       error.message = fmt::format("{}: {}", plan->input, error.message);
     return tl::unexpected(std::move(error));

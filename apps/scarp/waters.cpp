@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "memory.h"
 #include "report.h"
 #include "simplify_run.h"
 #include "text.h"
@@ -21,10 +22,12 @@ ReadLinesOptions plan_reading(const OwnedHeightField& field, const ProgressCallb
 }
 
 Result<std::vector<Lake>> add_lakes(const LineArguments& given, const ProgressCallback& progress,
-                                    OwnedHeightField& field, const std::array<double, 6>& affine,
-                                    std::vector<std::string>& warnings) {
+                                    const std::optional<std::uint64_t>& memory, OwnedHeightField& field,
+                                    const std::array<double, 6>& affine, std::vector<std::string>& warnings) {
+  const std::uint64_t taken = memory ? bytes_taken(field, *memory) : 0;
   if (given.flats) {
-    auto flats = find_flats(field, {affine, *parse_count("--detect-flats", *given.flats, 3)});
+    auto flats = find_flats(
+        field, {affine, *parse_count("--detect-flats", *given.flats, 3), memory.value_or(0), taken, progress});
     if (flats && flats->empty()) warnings.push_back("--detect-flats finds no flat area: it changes nothing");
     return flats;
   }
@@ -33,6 +36,9 @@ Result<std::vector<Lake>> add_lakes(const LineArguments& given, const ProgressCa
   if (!polygons) return tl::unexpected(polygons.error());
   WaterOptions options;
   options.affine = affine;
+  options.memory_limit = memory.value_or(0);
+  options.memory_taken = taken;
+  options.progress = progress;
   if (given.percentile) options.percentile = *parse_non_negative("--water-percentile", *given.percentile);
   auto lakes = flatten_lakes(field, *polygons, options);
   if (lakes && lakes->empty()) warnings.push_back("--water names no lake in the raster: it changes nothing");
@@ -70,11 +76,17 @@ std::string rivers_line(const std::vector<River>& rivers) {
 
 }  // namespace
 
+std::uint64_t WatersFound::bytes() const {
+  std::uint64_t bytes = 0;
+  for (const Lake& lake : lakes) bytes += lake.bytes;
+  return bytes;
+}
+
 Result<WatersFound> add_waters(const LineArguments& given, const ProgressCallback& progress,
-                               const std::optional<double>& max_error, OwnedHeightField& field, LineConstraints& lines,
-                               std::vector<std::string>& warnings) {
+                               const std::optional<double>& max_error, const std::optional<std::uint64_t>& memory,
+                               OwnedHeightField& field, LineConstraints& lines, std::vector<std::string>& warnings) {
   WatersFound found;
-  auto lakes = add_lakes(given, progress, field, lines.affine, warnings);
+  auto lakes = add_lakes(given, progress, memory, field, lines.affine, warnings);
   if (!lakes) return tl::unexpected(lakes.error());
   found.lakes = std::move(*lakes);
   auto streams = read_streams(given, progress, field, warnings);

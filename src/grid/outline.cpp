@@ -23,6 +23,23 @@ bool has_side(unsigned corners, unsigned k) {
   return is_surface_cell(corners) && (corners >> k & 1) && (corners >> (k + 1) % 4 & 1);
 }
 
+/// Adds the sides of a surface cell that the surface ends at. `beyond`: the corners of the cells at its four sides.
+void add_cell(std::int32_t x, std::int32_t y, unsigned corners, const unsigned (&beyond)[4],
+              std::vector<DirectedEdge>& edges) {
+  const auto at = [&](unsigned k) { return Point{x + kCorner[k % 4].x, y + kCorner[k % 4].y}; };
+  for (unsigned k = 0; k < 4; ++k) {
+    // A side's ends are the same samples in both cells, so the cell beyond has the side exactly if it is surface.
+    if (has_side(corners, k) && !is_surface_cell(beyond[k])) edges.push_back({at(k), at(k + 1)});
+    if (!(corners >> k & 1)) edges.push_back({at(k + 3), at(k + 1)});  // the diagonal of a half cell
+  }
+}
+
+void sort_edges(std::vector<DirectedEdge>& edges) {
+  std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
+    return a.from == b.from ? before(a.to, b.to) : before(a.from, b.from);
+  });
+}
+
 /// valid_corners() of the cells of row y with an empty cell before the first and after the last; all empty beyond the
 /// raster.
 void fill_cell_row(const Raster& raster, std::int32_t y, std::vector<unsigned char>& cells) {
@@ -43,20 +60,71 @@ std::vector<DirectedEdge> border_edges(const Raster& raster) {
       const auto i = static_cast<std::size_t>(x) + 1;
       const unsigned corners = here[i];
       if (!is_surface_cell(corners)) continue;
-      const auto at = [&](unsigned k) { return Point{x + kCorner[k % 4].x, y + kCorner[k % 4].y}; };
-      const unsigned beyond[4] = {above[i], here[i + 1], below[i], here[i - 1]};
-      for (unsigned k = 0; k < 4; ++k) {
-        // A side's ends are the same samples in both cells, so the cell beyond has the side exactly if it is surface.
-        if (has_side(corners, k) && !is_surface_cell(beyond[k])) edges.push_back({at(k), at(k + 1)});
-        if (!(corners >> k & 1)) edges.push_back({at(k + 3), at(k + 1)});  // the diagonal of a half cell
-      }
+      add_cell(x, y, corners, {above[i], here[i + 1], below[i], here[i - 1]}, edges);
     }
     std::swap(above, here);
     std::swap(here, below);
   }
-  std::sort(edges.begin(), edges.end(), [](const DirectedEdge& a, const DirectedEdge& b) {
-    return a.from == b.from ? before(a.to, b.to) : before(a.from, b.from);
-  });
+  sort_edges(edges);
+  return edges;
+}
+
+/// A flag for each sample of a few rows: the one at hand, one above it and two below.
+class FlagRows {
+ public:
+  explicit FlagRows(std::span<const SampleRun> runs) : runs_(runs), next_row_(runs.front().row - 1) {
+    std::int32_t right = 0;
+    left_ = runs.front().begin;
+    for (const SampleRun& run : runs) {
+      left_ = std::min(left_, run.begin);
+      right = std::max(right, run.end);
+    }
+    left_ -= 2;  // the cell before the first one has a neighbour, too
+    for (auto& flags : rows_) flags.resize(static_cast<std::size_t>(right + 2 - left_));
+  }
+
+  void go_to(std::int32_t row) {
+    for (next_row_ = std::max(next_row_, row - 1); next_row_ <= row + 2; ++next_row_) {
+      std::vector<unsigned char>& flags = rows_[index(next_row_)];
+      std::fill(flags.begin(), flags.end(), 0);
+      for (; next_ < runs_.size() && runs_[next_].row == next_row_; ++next_)
+        std::fill(flags.begin() + (runs_[next_].begin - left_), flags.begin() + (runs_[next_].end - left_), 1);
+    }
+  }
+
+  /// As valid_corners().
+  unsigned corners(std::int32_t x, std::int32_t y) const {
+    const std::vector<unsigned char>&upper = rows_[index(y)], &lower = rows_[index(y + 1)];
+    const auto i = static_cast<std::size_t>(x - left_);
+    return upper[i] | static_cast<unsigned>(upper[i + 1]) << 1 | static_cast<unsigned>(lower[i + 1]) << 2 |
+           static_cast<unsigned>(lower[i]) << 3;
+  }
+
+ private:
+  static std::size_t index(std::int32_t row) { return static_cast<std::size_t>(row + 4) % 4; }
+
+  std::span<const SampleRun> runs_;
+  std::size_t next_ = 0;
+  std::int32_t left_ = 0, next_row_;
+  std::vector<unsigned char> rows_[4];
+};
+
+std::vector<DirectedEdge> border_edges(std::span<const SampleRun> runs) {
+  std::vector<DirectedEdge> edges;
+  if (runs.empty()) return edges;
+  FlagRows flags(runs);
+  for (const auto& [y, begin, end] : runs) {
+    flags.go_to(y);
+    // A cell of three samples has one in its upper row.
+    for (std::int32_t x = begin - 1; x < end; ++x) {
+      const unsigned corners = flags.corners(x, y);
+      if (!is_surface_cell(corners)) continue;
+      add_cell(x, y, corners,
+               {flags.corners(x, y - 1), flags.corners(x + 1, y), flags.corners(x, y + 1), flags.corners(x - 1, y)},
+               edges);
+    }
+  }
+  sort_edges(edges);
   return edges;
 }
 
@@ -70,22 +138,8 @@ double left_turn(Point in, Point out) {
 
 Point step(const DirectedEdge& e) { return {e.to.x - e.from.x, e.to.y - e.from.y}; }
 
-}  // namespace
-
-bool is_whole(const Raster& raster) {
-  for (std::int32_t y = 0; y < raster.rows; ++y) {
-    // Without a way out in the middle of a row, so that compilers see vectors.
-    int voids = 0;
-    for (std::int32_t x = 0; x < raster.cols; ++x) voids += std::isnan(raster.row(y)[x]) ? 1 : 0;
-    if (voids > 0) return false;
-  }
-  return true;
-}
-
-Outline trace_outline(const Raster& raster) {
-  if (raster.cols > 1 && raster.rows > 1 && is_whole(raster))
-    return {{{raster.cols - 1, 0}, {raster.cols - 1, raster.rows - 1}, {0, raster.rows - 1}, {0, 0}}};
-  const std::vector<DirectedEdge> edges = border_edges(raster);
+/// The closed polygons that these edges are. REQUIRES: sorted.
+Outline join_edges(const std::vector<DirectedEdge>& edges) {
   std::vector<bool> used(edges.size(), false);
   Outline outline;
   for (std::size_t start = 0; start < edges.size(); ++start) {
@@ -115,6 +169,26 @@ Outline trace_outline(const Raster& raster) {
   }
   return outline;
 }
+
+}  // namespace
+
+bool is_whole(const Raster& raster) {
+  for (std::int32_t y = 0; y < raster.rows; ++y) {
+    // Without a way out in the middle of a row, so that compilers see vectors.
+    int voids = 0;
+    for (std::int32_t x = 0; x < raster.cols; ++x) voids += std::isnan(raster.row(y)[x]) ? 1 : 0;
+    if (voids > 0) return false;
+  }
+  return true;
+}
+
+Outline trace_outline(const Raster& raster) {
+  if (raster.cols > 1 && raster.rows > 1 && is_whole(raster))
+    return {{{raster.cols - 1, 0}, {raster.cols - 1, raster.rows - 1}, {0, raster.rows - 1}, {0, 0}}};
+  return join_edges(border_edges(raster));
+}
+
+Outline trace_outline(std::span<const SampleRun> runs) { return join_edges(border_edges(runs)); }
 
 bool centroid_is_surface(const Raster& raster, const std::array<Point, 3>& corners) {
   // Three times the centroid, relative to the cell that holds it. A centroid on a cell's border may be asked of either

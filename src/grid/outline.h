@@ -5,9 +5,11 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "grid/raster.h"
+#include "grid/sample_runs.h"
 
 namespace scarp {
 
@@ -22,6 +24,10 @@ bool is_whole(const Raster& raster);
 /// Traces the outline. Empty if no cell is surface. Deterministic. Cost: O(samples + L log L) for an outline of L unit
 /// edges.
 Outline trace_outline(const Raster& raster);
+
+/// The same of the surface of some samples alone, as if all others were void. `runs`: in raster order, apart from each
+/// other. Cost: O(samples + L log L), and bytes in proportion to L and a row, not to the samples.
+Outline trace_outline(std::span<const SampleRun> runs);
 
 /// Which corners of the cell [x, x+1] × [y, y+1] are heights: bit k for corner k of (x,y), (x+1,y), (x+1,y+1), (x,y+1).
 inline unsigned valid_corners(const Raster& raster, std::int32_t x, std::int32_t y) {

@@ -42,4 +42,13 @@ Result<void> MemoryBudget::check_mesh(std::uint64_t work, std::uint64_t vertices
                           vertices, 100 * share, megabytes(needed)));
 }
 
+Result<void> MemoryBudget::check_part(std::uint64_t bytes, double share, const char* what, const char* advice) const {
+  if (!is_limited() || bytes <= rest()) return {};
+  const double needed = static_cast<double>(taken) + 1.25 * static_cast<double>(bytes) / std::clamp(share, 1e-6, 1.0);
+  return fail(ErrorKind::kUsage,
+              fmt::format("memory_limit is too little: {} take {}M when {:.0f} % of the raster is seen, and the whole "
+                          "would need about {}M; allow that much, or {}",
+                          what, megabytes(static_cast<double>(bytes)), 100 * share, megabytes(needed), advice));
+}
+
 }  // namespace scarp

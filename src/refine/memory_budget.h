@@ -23,6 +23,9 @@ struct MemoryBudget {
   /// Fails with kUsage if `work` and so many vertices do not fit. `share`: of the run that is done, for what would be
   /// needed.
   Result<void> check_mesh(std::uint64_t work, std::uint64_t vertices, double share) const;
+  /// Fails with kUsage if what has been found so far, in that share of the raster, does not fit. `what` it is, and what
+  /// else to do.
+  Result<void> check_part(std::uint64_t bytes, double share, const char* what, const char* advice) const;
 };
 
 }  // namespace scarp

@@ -124,5 +124,29 @@ TEST(outline, a_diagonal_staircase_becomes_one_edge) {
   EXPECT_LE(simple[0].size(), 6u);
 }
 
+/// The valid samples of a field.
+std::vector<SampleRun> runs_of(const testing::Field& field) {
+  std::vector<SampleRun> runs;
+  for (std::int32_t y = 0; y < field.rows; ++y) {
+    for (std::int32_t x = 0; x < field.cols; ++x) {
+      if (!field.raster().is_valid({x, y})) continue;
+      if (runs.empty() || runs.back().row != y || runs.back().end != x) runs.push_back({y, x, x});
+      ++runs.back().end;
+    }
+  }
+  return runs;
+}
+
+RC_GTEST_PROP(outline, of_runs_is_that_of_the_raster, ()) {
+  const auto cols = *rc::gen::inRange(1, 20), rows = *rc::gen::inRange(1, 20);
+  testing::Field field = testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), cols, rows, testing::Relief::kTies,
+                                               *rc::gen::element(0.0, 0.1, 0.5));
+  // One of the four heights: single samples, and gaps of whole rows.
+  if (*rc::gen::arbitrary<bool>()) {
+    for (float& z : field.samples) z = z == 2 ? z : std::numeric_limits<float>::quiet_NaN();
+  }
+  RC_ASSERT(trace_outline(runs_of(field)) == trace_outline(field.raster()));
+}
+
 }  // namespace
 }  // namespace scarp

@@ -1,0 +1,53 @@
+// Sets of samples, row by row: as long as their outline, however many they are.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/point.h"
+
+namespace scarp {
+
+/// Samples [begin, end) of a row.
+struct SampleRun {
+  std::int32_t row = 0, begin = 0, end = 0;
+  friend auto operator<=>(const SampleRun&, const SampleRun&) = default;  ///< raster order
+};
+
+class SampleRuns {
+ public:
+  /// REQUIRES: the run lies in the raster.
+  void add(const SampleRun& run);
+  /// Puts runs into raster order, apart from each other. Cost: O(n log n) for n runs added.
+  void merge();
+
+  /// What was added, as merge() left it.
+  const std::vector<SampleRun>& all() const { return runs_; }
+
+ private:
+  std::vector<SampleRun> runs_;
+  std::size_t merged_ = 0;  // of them, those that merge() has left
+};
+
+/// Which samples runs hold, for many questions.
+class SampleSet {
+ public:
+  /// Of a raster of so many rows. `runs`: in raster order, apart from each other.
+  SampleSet(std::vector<SampleRun> runs, std::int32_t rows);
+
+  bool has(Point p) const;
+  /// Those of a row.
+  std::span<const SampleRun> row(std::int32_t y) const {
+    return std::span(runs_).subspan(begins_[static_cast<std::size_t>(y)],
+                                    begins_[static_cast<std::size_t>(y) + 1] - begins_[static_cast<std::size_t>(y)]);
+  }
+
+ private:
+  std::vector<SampleRun> runs_;
+  std::vector<std::size_t> begins_;  // of each row's runs, and the end of the last
+};
+
+}  // namespace scarp
