@@ -1,7 +1,8 @@
-// Any lines on any small raster: breaklines hard and soft, lakes, rivers, cliffs, cutlines, shapes, with every effort.
-// The mesh keeps the bound in the judge's eyes, against the raster as the lines left it, is sound, and has each line as
-// a chain of edges; or there is an error with words. Bytes: what is asked, a height for each sample, then a vertex each
-// three, two coordinates and a height; few places and many repeats, so that lines meet, overlap and turn back.
+// Any lines on any small raster: breaklines hard and soft, lakes, rivers, cliffs, ridges, cutlines, shapes, with every
+// effort, to an error or a number of triangles. The mesh keeps its goal in the judge's eyes, against the raster as the
+// lines left it, is sound, and has each line as a chain of edges; or there is an error with words. Bytes: what is
+// asked, a height for each sample, then a vertex each three, two coordinates and a height; few places and many repeats,
+// so that lines meet, overlap and turn back.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +16,7 @@
 #include "bytes.h"
 #include "scarp/cliffs.h"
 #include "scarp/measure.h"
+#include "scarp/ridges.h"
 #include "scarp/rivers.h"
 #include "scarp/simplify.h"
 #include "scarp/water.h"
@@ -33,8 +35,10 @@ void require(bool holds) {
 struct Task {
   scarp::OwnedHeightField field;
   scarp::SimplifyOptions options;
-  double cliff = 0;
-  bool has_voids = false, are_hard = false, are_lakes = false, are_rivers = false, is_cut = false;
+  double cliff = 0, ridge = 0;
+  std::uint64_t budget = 0;
+  bool has_voids = false, are_hard = false, are_lakes = false, are_rivers = false, is_cut = false,
+       are_ridges_kept = false;
 };
 
 Task read_task(Bytes& bytes) {
@@ -61,6 +65,9 @@ Task read_task(Bytes& bytes) {
   if ((shapes & 3) == 1) task.options.shape.min_angle = shapes / 8;
   if ((shapes & 3) == 2) task.options.shape.max_edge = 0.5 + shapes / 16.0;
   if ((shapes & 7) == 3) task.options.shape.grade = 0.1 + shapes / 200.0;
+  if ((shapes & 7) == 4) task.ridge = (shapes / 64 + 1) * static_cast<double>(step);
+  task.are_ridges_kept = (shapes & 8) != 0;
+  if ((shapes & 19) == 16) task.budget = 2 + 3 * (shapes / 32U) + bytes.next();
   for (int i = 0; i < field.cols * field.rows; ++i) {
     const std::uint8_t byte = bytes.next();
     field.samples.push_back(task.has_voids && byte >= 245 ? std::numeric_limits<float>::quiet_NaN()
@@ -202,7 +209,11 @@ void judge(const Task& task, const scarp::Simplified& result) {
   require(judged.has_value());
   require(judged->is_sound());
   require(judged->uncovered == 0);
-  require(judged->max_error <= *task.options.max_error + 1e-12 * largest_height(edited));
+  if (task.budget > 0) {
+    require(result.mesh.triangle_count() <= task.budget);
+  } else {
+    require(judged->max_error <= *task.options.max_error + 1e-12 * largest_height(edited));
+  }
   require(judged->max_error == result.measurement.max_error);
   require(judged->void_cells_covered == 0);
 }
@@ -211,7 +222,7 @@ void walk(const Task& task, const scarp::Mesh& mesh) {
   if (task.has_voids || task.is_cut) return;  // lines then have pieces
   const Walk walk(mesh);
   for (const scarp::Line& line : task.options.breaklines.lines) {
-    if (scarp::is_fault(line)) continue;
+    if (scarp::is_fault(line) || scarp::is_ridge_line(line)) continue;
     for (std::size_t k = 1; k < line.points.size(); ++k) {
       const auto &from = line.points[k - 1], &to = line.points[k];
       Piece piece{{from[0], from[1]}, {to[0], to[1]}};
@@ -220,7 +231,7 @@ void walk(const Task& task, const scarp::Mesh& mesh) {
   }
 }
 
-/// Lakes and rivers are lines with heights, cliffs more lines; a cut is none.
+/// Lakes and rivers are lines with heights, cliffs and ridges more lines; a cut is none.
 bool constrain(Task& task, std::vector<scarp::Line> lines) {
   const std::array<double, 6>& affine = task.field.frame.affine;
   scarp::LineConstraints& constraints = task.options.breaklines;
@@ -256,11 +267,23 @@ bool constrain(Task& task, std::vector<scarp::Line> lines) {
       constraints.lines.push_back(river.course);
     }
   }
-  if (task.cliff <= 0) return true;
-  const auto cliffs =
-      scarp::detect_cliffs(task.field, {task.cliff, *task.options.max_error, affine, constraints.lines});
-  if (!cliffs) return false;
-  constraints.lines.insert(constraints.lines.end(), cliffs->lines.begin(), cliffs->lines.end());
+  if (task.cliff > 0) {
+    const auto cliffs =
+        scarp::detect_cliffs(task.field, {task.cliff, *task.options.max_error, affine, constraints.lines});
+    if (!cliffs) return false;
+    constraints.lines.insert(constraints.lines.end(), cliffs->lines.begin(), cliffs->lines.end());
+  }
+  if (task.ridge > 0) {
+    const auto ridges = scarp::detect_ridges(
+        task.field, {task.ridge, *task.options.max_error, affine, constraints.lines, task.are_ridges_kept, 1, {}});
+    require(ridges.has_value());
+    for (const auto* found : {&ridges->ridges, &ridges->valleys})
+      constraints.lines.insert(constraints.lines.end(), found->begin(), found->end());
+  }
+  if (task.budget > 0) {
+    task.options.max_triangles = task.budget;
+    task.options.max_error.reset();
+  }
   return true;
 }
 
