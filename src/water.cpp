@@ -292,41 +292,50 @@ Result<void> flatten_field(std::span<const LakeRun> runs, const WaterOptions& op
   return {};
 }
 
+/// Lakes and their rings.
+struct LakesFound {
+  std::vector<Lake> lakes;
+  std::vector<Rings> rings;
+};
+
+/// Those with a level, at it. All levels are told before any change: a lake's shore is the raster's, not what its
+/// neighbour has made of it.
+Result<LakesFound> find_lakes(const Shores& shores, const std::vector<Rings>& polygons) {
+  const auto samples = shores.read_samples(polygons);
+  if (!samples) return tl::unexpected(samples.error());
+  LakesFound found;
+  for (const Rings& rings : polygons) {
+    const auto level = shores.level_of(rings, *samples);
+    if (!level) continue;
+    Lake lake;
+    lake.name = rings.front().name;
+    lake.level = *level;
+    lake.shore.assign(rings.begin(), rings.end());
+    for (Line& ring : lake.shore) {
+      for (auto& point : ring.points) point[2] = lake.level;
+    }
+    found.lakes.push_back(std::move(lake));
+    found.rings.push_back(rings);
+  }
+  return found;
+}
+
 }  // namespace
 
 Result<std::vector<Lake>> flatten_lakes(OwnedHeightField& field, std::span<const Line> lines,
                                         const WaterOptions& options) {
   if (auto sound = check_options(options); !sound) return tl::unexpected(sound.error());
   const Shores shores(field, options);
+  const std::vector<Rings> polygons = shores.find_polygons(lines);
+  std::uint64_t bytes = 0;
+  for (const Rings& rings : polygons) bytes += line_bytes(field, rings, options.affine);
   const MemoryBudget memory{options.memory_limit, options.memory_taken, 0};
-  if (auto fits = memory.check_start(line_bytes(field, lines, options.affine)); !fits)
-    return tl::unexpected(fits.error());
-  // All levels before any change: a lake's shore is the raster's, not what its neighbour has made of it.
-  std::vector<Lake> lakes;
-  std::vector<Rings> found;
-  {
-    const std::vector<Rings> polygons = shores.find_polygons(lines);
-    const auto samples = shores.read_samples(polygons);
-    if (!samples) return tl::unexpected(samples.error());
-    for (const Rings& rings : polygons) {
-      const auto level = shores.level_of(rings, *samples);
-      if (!level) continue;
-      Lake lake;
-      lake.name = rings.front().name;
-      lake.level = *level;
-      lakes.push_back(std::move(lake));
-      found.push_back(rings);
-    }
-  }
-  if (auto done = flatten_field(find_runs(shores, found), options, lakes, field); !done)
+  if (auto fits = memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
+  auto found = find_lakes(shores, polygons);
+  if (!found) return tl::unexpected(found.error());
+  if (auto done = flatten_field(find_runs(shores, found->rings), options, found->lakes, field); !done)
     return tl::unexpected(done.error());
-  for (std::size_t k = 0; k < lakes.size(); ++k) {
-    for (Line ring : found[k]) {
-      for (auto& point : ring.points) point[2] = lakes[k].level;
-      lakes[k].shore.push_back(std::move(ring));
-    }
-  }
-  return lakes;
+  return std::move(found->lakes);
 }
 
 }  // namespace scarp

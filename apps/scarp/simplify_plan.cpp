@@ -412,7 +412,9 @@ Result<void> plan_memory(const SimplifyArguments& given, SimplifyPlan& plan) {
   // A solid's bottom and walls are as many vertices again.
   if (plan.base) plan.simplify.memory_per_vertex = 2 * plan.simplify.memory_per_vertex + 48;
   plan.needs_samples = find_need_of_samples(given, plan);
-  plan.read.with_range = plan.error_goal && plan.error_goal->percent_of_relief;
+  // The proof sees the range of all other rasters, but of this one with its lakes.
+  const bool is_flattened = !given.lines.water.empty();
+  plan.read.with_range = is_flattened || (plan.error_goal && plan.error_goal->percent_of_relief);
   return {};
 }
 

@@ -69,10 +69,10 @@ std::vector<DirectedEdge> border_edges(const Raster& raster) {
   return edges;
 }
 
-/// A flag for each sample of a few rows: the one at hand, one above it and two below.
-class FlagRows {
+/// Four rows of samples as bits: of each column the row above the one at hand, that one, and two below.
+class FourRows {
  public:
-  explicit FlagRows(std::span<const SampleRun> runs) : runs_(runs), next_row_(runs.front().row - 1) {
+  explicit FourRows(std::span<const SampleRun> runs) : runs_(runs), row_(runs.front().row - 3) {
     std::int32_t right = 0;
     left_ = runs.front().begin;
     for (const SampleRun& run : runs) {
@@ -80,47 +80,54 @@ class FlagRows {
       right = std::max(right, run.end);
     }
     left_ -= 2;  // the cell before the first one has a neighbour, too
-    for (auto& flags : rows_) flags.resize(static_cast<std::size_t>(right + 2 - left_));
+    columns_.resize(static_cast<std::size_t>(right + 2 - left_));
   }
 
   void go_to(std::int32_t row) {
-    for (next_row_ = std::max(next_row_, row - 1); next_row_ <= row + 2; ++next_row_) {
-      std::vector<unsigned char>& flags = rows_[index(next_row_)];
-      std::fill(flags.begin(), flags.end(), 0);
-      for (; next_ < runs_.size() && runs_[next_].row == next_row_; ++next_)
-        std::fill(flags.begin() + (runs_[next_].begin - left_), flags.begin() + (runs_[next_].end - left_), 1);
+    for (row_ = std::max(row_, row - 4); row_ < row;) {
+      ++row_;
+      for (unsigned char& column : columns_) column = static_cast<unsigned char>(column >> 1);
+      for (; next_ < runs_.size() && runs_[next_].row == row_ + 2; ++next_) {
+        for (std::int32_t x = runs_[next_].begin; x < runs_[next_].end; ++x) columns_[index(x)] |= 8;
+      }
     }
   }
 
-  /// As valid_corners().
-  unsigned corners(std::int32_t x, std::int32_t y) const {
-    const std::vector<unsigned char>&upper = rows_[index(y)], &lower = rows_[index(y + 1)];
-    const auto i = static_cast<std::size_t>(x - left_);
-    return upper[i] | static_cast<unsigned>(upper[i + 1]) << 1 | static_cast<unsigned>(lower[i + 1]) << 2 |
-           static_cast<unsigned>(lower[i]) << 3;
+  /// valid_corners() of the cell `below` rows below the row at hand, −1 … 1.
+  unsigned corners(std::int32_t x, int below) const {
+    const std::size_t i = index(x);
+    const unsigned left = static_cast<unsigned>(columns_[i]) >> (1 + below),
+                   right = static_cast<unsigned>(columns_[i + 1]) >> (1 + below);
+    return (left & 1) | (right & 1) << 1 | (right & 2) << 1 | (left & 2) << 2;
+  }
+
+  /// Whether all around a cell is surface.
+  bool is_inside(std::int32_t x) const {
+    const std::size_t i = index(x);
+    return (columns_[i - 1] & columns_[i] & columns_[i + 1] & columns_[i + 2]) == 15;
   }
 
  private:
-  static std::size_t index(std::int32_t row) { return static_cast<std::size_t>(row + 4) % 4; }
+  std::size_t index(std::int32_t x) const { return static_cast<std::size_t>(x - left_); }
 
   std::span<const SampleRun> runs_;
   std::size_t next_ = 0;
-  std::int32_t left_ = 0, next_row_;
-  std::vector<unsigned char> rows_[4];
+  std::int32_t left_ = 0, row_;
+  std::vector<unsigned char> columns_;
 };
 
 std::vector<DirectedEdge> border_edges(std::span<const SampleRun> runs) {
   std::vector<DirectedEdge> edges;
   if (runs.empty()) return edges;
-  FlagRows flags(runs);
+  FourRows rows(runs);
   for (const auto& [y, begin, end] : runs) {
-    flags.go_to(y);
+    rows.go_to(y);
     // A cell of three samples has one in its upper row.
     for (std::int32_t x = begin - 1; x < end; ++x) {
-      const unsigned corners = flags.corners(x, y);
+      if (rows.is_inside(x)) continue;
+      const unsigned corners = rows.corners(x, 0);
       if (!is_surface_cell(corners)) continue;
-      add_cell(x, y, corners,
-               {flags.corners(x, y - 1), flags.corners(x + 1, y), flags.corners(x, y + 1), flags.corners(x - 1, y)},
+      add_cell(x, y, corners, {rows.corners(x, -1), rows.corners(x + 1, 0), rows.corners(x, 1), rows.corners(x - 1, 0)},
                edges);
     }
   }

@@ -31,8 +31,8 @@ check() { # check NAME RASTER EFFORT OPTION...: runs with --memory, their report
   cmp "${name}1.obj" "${name}5.obj" || fail "-j 5 makes another mesh with $* and $effort effort"
   holds "$(json "$name.json" max_error) <= 6"
   [ "$(json "$name.json" topology sound)" = true ] || fail "$* and $effort effort make an unsound mesh"
-  for list in water rivers; do
-    [ "$(json "$name.json" "$list")" = "$(json "$name.held" "$list")" ] || fail "the report's $list is not that without --memory"
+  for part in input water rivers; do
+    [ "$(json "$name.json" "$part")" = "$(json "$name.held" "$part")" ] || fail "the report's $part is not that without --memory"
   done
 }
 
