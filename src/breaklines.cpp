@@ -349,8 +349,8 @@ std::array<double, 6> map_affine(const RasterInfo& info, int rows) {
   return {g[0] + g[1] / 2 + g[2] / 2, g[1], g[2], g[3] + g[4] / 2 + g[5] / 2, g[4], g[5]};
 }
 
-double height_between_samples(const Raster& raster, Point place) {
-  return bilinear_at(raster, raster.cols, raster.rows, place);
+double height_between_samples(const SampleView& heights, Point place) {
+  return bilinear_at(heights, heights.cols(), heights.rows(), place);
 }
 
 double surface_at(const LineSamples& samples, SamplePlace place) {

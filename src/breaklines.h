@@ -14,6 +14,7 @@
 #include "grid/raster.h"
 #include "grid/vertex_places.h"
 #include "line_samples.h"
+#include "refine/sample_rows.h"
 #include "scarp/height_field.h"
 #include "scarp/lines.h"
 #include "scarp/result.h"
@@ -79,7 +80,7 @@ Result<std::vector<Segment>> find_courses(std::span<const Line> lines, const std
                                           std::int32_t cols, std::int32_t rows);
 
 /// The surface of `heights` above, at a point in kLatticeSteps of a sample within the raster.
-double height_between_samples(const Raster& raster, Point place);
+double height_between_samples(const SampleView& heights, Point place);
 
 /// The same at the lattice place next to this one; NaN beyond the raster.
 double surface_at(const Raster& raster, SamplePlace place);

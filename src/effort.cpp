@@ -117,7 +117,6 @@ Result<void> check_shape(const HeightField& field, const SimplifyOptions& option
     return usage(fmt::format("the grade must be a finite number above 0, not {}", *shape.grade));
   if (!shape.any()) return {};
   const char* obstacle = find_lattice_obstacle(field, options);
-  if (obstacle == nullptr && field.samples == nullptr) obstacle = "needs the raster in memory as a whole";
   if (obstacle == nullptr && (has_budget(options) || !options.max_error)) obstacle = "needs a max error and no budget";
   if (obstacle != nullptr)
     return usage(fmt::format("a mesh with goals for angles and edges {}: leave out one or the other", obstacle));
@@ -193,6 +192,10 @@ Result<void> check_effort(const HeightField& field, const SimplifyOptions& optio
 bool vertices_are_free(const HeightField& field, const SimplifyOptions& options) {
   return moves_vertices(options.effort) && options.vertices != Vertices::kSamples && field.frame.is_affine() &&
          !has_norm(field);
+}
+
+bool removes_last(const HeightField& field, const SimplifyOptions& options) {
+  return options.shape.any() && shape_rule(options.shape, field.frame);
 }
 
 bool places_are_exact(const HeightField& field, const SimplifyOptions& options, std::int32_t steps) {

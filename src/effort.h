@@ -29,6 +29,9 @@ Result<void> check_effort(const HeightField& field, const SimplifyOptions& optio
 /// Whether vertices will be let free.
 bool vertices_are_free(const HeightField& field, const SimplifyOptions& options);
 
+/// Whether removal comes after refinement for shapes, which it keeps: that leaves far fewer triangles.
+bool removes_last(const HeightField& field, const SimplifyOptions& options);
+
 /// Whether places so many steps from sample to sample are held exactly by the mesh.
 bool places_are_exact(const HeightField& field, const SimplifyOptions& options, std::int32_t steps);
 

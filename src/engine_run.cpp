@@ -27,6 +27,7 @@
 #include "refine/source_judge.h"
 #include "row_fit.h"
 #include "shape_refinement.h"
+#include "source_windows.h"
 
 namespace scarp {
 
@@ -108,7 +109,10 @@ class Run {
     heights_ = std::move(tiled.heights);
     result.work = tiled.work;
     if (finishes_rows(field_, options_)) {
-      set_places({tiled.steps, tiled.steps > 1 ? std::move(heights_) : std::vector<float>(), {}}, result);
+      // Who works on the whole later has no raster to take heights of samples from.
+      if (options_.shape.any() && tiled.steps == 1) domain_->tin.scale(tiled.steps = kLatticeSteps);
+      set_places({tiled.steps, tiled.steps > 1 ? std::move(heights_) : std::vector<float>(), std::move(tiled.fixed)},
+                 result);
     } else if (field_.samples != nullptr || field_.source->is_in_memory()) {
       const Work work = release_seams(domain_->tin, criterion_.judge(), std::move(tiled.seams), options_.threads);
       result.work.samples_scanned += work.samples_scanned;
@@ -288,28 +292,30 @@ class Run {
     return {};
   }
 
-  /// Where removal keeps shapes it comes last: that leaves far fewer triangles.
   Result<ShapeWork> fit_and_shape(Simplified& result) {
-    const bool removes_last = options_.shape.any() && shape_rule(options_.shape, field_.frame);
-    if (!removes_last) {
+    const bool is_last = removes_last(field_, options_);
+    if (!is_last) {
       if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
     }
     auto shaped = add_for_shapes(result);
-    if (!shaped || !removes_last) return shaped;
+    if (!shaped || !is_last) return shaped;
     if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
     return shaped;
   }
 
   /// Vertices that the bound can do without go.
   Result<void> remove_vertices(Simplified& result) {
-    if (options_.effort == Effort::kFast || finishes_rows(field_, options_)) return {};
+    if (options_.effort == Effort::kFast || (fits_rows(field_, options_) && !options_.shape.any())) return {};
     const auto start = Clock::now();
     refinement_.reset();
     FitOptions options = fit_options(field_, options_, criterion_.aim());
     options.bounds = criterion_.aims();
     const auto norm = fit_norm(options_, raster_, criterion_);
     if (norm) options.norm = &*norm;
-    options.threads = fit_threads();
+    if (field_.samples == nullptr) read_windows(field_, memory_, options);
+    options.threads = fit_threads(window_bytes(options));
+    const std::uint64_t windows = window_bytes(options) * static_cast<unsigned>(options.threads);
+    if (auto fits = memory_.check_mesh(windows, vertices(), 1); !fits) return fits;
     Reporter reporter(options_.progress);
     if (options_.progress) {
       options.progress = [&](double share, std::uint64_t vertices) {
@@ -333,8 +339,18 @@ class Run {
     refinement_.reset();
     ShapeTask task{options_.shape, field_.frame.affine, criterion_.aim(), criterion_.aims()};
     task.all_may_go = vertices_are_free(field_, options_) || options_.effort == Effort::kNormal;
-    task.progress = [&](std::uint64_t count, double error) {
-      return !reporter_.due() || reporter_.report("shape", 0, count, error);
+    std::uint64_t rows = 0;
+    if (field_.samples == nullptr) {
+      task.field = &field_;
+      task.rows_at_once = rows_at_once(field_, memory_);
+      rows = bytes_at_once(field_, memory_);
+    }
+    const auto before = static_cast<double>(domain_->tin.vertex_count());
+    task.progress = [&](double share, std::uint64_t count, double error) -> Result<void> {
+      if (reporter_.due() && !reporter_.report("shape", 0, count, error))
+        return fail(ErrorKind::kCancelled, "cancelled while refining shapes");
+      const auto now = static_cast<double>(count);
+      return memory_.check_mesh(rows, count, now / (before + (now - before) / share));
     };
     VertexPlaces places = std::move(places_);
     auto work = refine_shapes(raster_, domain_->tin, places, task);
@@ -352,12 +368,13 @@ class Run {
     if (vertices_are_free(field_, options_) && !places_.are_samples()) result.vertices = Vertices::kFree;
   }
 
-  /// As many as the memory leaves room for.
-  int fit_threads() const {
+  /// As many as the memory leaves room for, each with a window of samples.
+  int fit_threads(std::uint64_t window) const {
     const int threads = thread_count(options_.threads);
     if (!memory_.is_limited()) return threads;
-    const std::uint64_t vertices = domain_->tin.vertex_count(), taken = kFitBytesPerVertex * vertices;
-    const std::uint64_t most = (std::max(memory_.rest(), taken) - taken) / (kFitBytesPerVertexAndThread * vertices);
+    const std::uint64_t vertices = domain_->tin.vertex_count(), taken = memory_.per_vertex * vertices;
+    const std::uint64_t most =
+        (std::max(memory_.rest(), taken) - taken) / (kFitBytesPerVertexAndThread * vertices + window);
     return static_cast<int>(std::clamp<std::uint64_t>(most, 1, static_cast<std::uint64_t>(threads)));
   }
 

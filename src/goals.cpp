@@ -6,14 +6,17 @@
 #include <cmath>
 
 #include "fit/fit.h"
+#include "shape_refinement.h"
 
 namespace scarp {
 
 MemoryBudget memory_budget(const HeightField& field, const SimplifyOptions& options) {
   constexpr std::uint64_t kMesh = 48, kProof = 145;
-  const bool is_fitted_whole = options.effort > Effort::kFast && field.samples != nullptr;
+  const bool is_fitted_whole = options.effort > Effort::kFast && (field.samples != nullptr || options.shape.any());
   const std::uint64_t fit = is_fitted_whole ? kFitBytesPerVertex + kFitBytesPerVertexAndThread : 0;
-  return {options.memory_limit, options.memory_taken, std::max({kProof, kMesh + options.memory_per_vertex, fit})};
+  const std::uint64_t shape = options.shape.any() ? kShapeBytesPerVertex : 0;
+  return {options.memory_limit, options.memory_taken,
+          std::max({kProof, kMesh + options.memory_per_vertex, fit, shape})};
 }
 
 Result<void> check_goals(const SimplifyOptions& options, bool may_have_tolerance) {

@@ -19,8 +19,12 @@ bool has_room(const HeightField& field) { return std::max(field.cols, field.rows
 
 }  // namespace
 
+bool fits_rows(const HeightField& field, const SimplifyOptions& options) {
+  return field.samples == nullptr && (options.effort != Effort::kFast || options.shape.any());
+}
+
 bool finishes_rows(const HeightField& field, const SimplifyOptions& options) {
-  return field.samples == nullptr && (options.effort != Effort::kFast || has_lines(options));
+  return fits_rows(field, options) || (field.samples == nullptr && has_lines(options));
 }
 
 void finish_rows(const HeightField& field, const SimplifyOptions& options, const ConstraintGraph* lines,
@@ -29,7 +33,11 @@ void finish_rows(const HeightField& field, const SimplifyOptions& options, const
   whole.threads = options.threads;
   whole.vertices_are_free = whole.vertices_are_free && has_room(field);
   whole.goes_on = false;
-  const bool is_fitted = options.effort != Effort::kFast;
+  if (options.shape.any()) {
+    whole.depth = {};
+    whole.vertices_are_free = false;
+  }
+  const bool is_fitted = fits_rows(field, options);
   const auto threads = static_cast<std::uint64_t>(thread_count(options.threads));
   if (is_fitted) tiles.finish_bytes_per_vertex = kFitBytesPerVertex + kFitBytesPerVertexAndThread * threads;
   std::shared_ptr<RowLines> laying;

@@ -25,7 +25,8 @@ struct RowFits {
   bool is_cut_short = false;  ///< by the time: rows that come later stay as they are
 };
 
-/// Whether rows are finished, with lines or by fitting, instead of the whole mesh.
+/// Whether rows are fitted instead of the whole mesh; and finished, with lines or by fitting.
+bool fits_rows(const HeightField& field, const SimplifyOptions& options);
 bool finishes_rows(const HeightField& field, const SimplifyOptions& options);
 
 /// Lets refine_tiled() lay lines into each row (null: none), then fit it with the effort of `options` to the threshold,

@@ -17,6 +17,7 @@
 #include "refine/lattice_judge.h"
 #include "refine/plan_metric.h"
 #include "refine/refinement.h"
+#include "refine/sample_rows.h"
 #include "refine/size_field.h"
 
 namespace scarp {
@@ -39,6 +40,21 @@ double dot_of(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[
 /// Whether the angle between u and v is less than the one whose cosine has this square (of 0 … 90 degrees).
 bool is_sharper(double dot, double squares, double cosine2) { return dot > 0 && dot * dot > cosine2 * squares; }
 
+/// Bands of which each is at work once in a sweep, with half as much of its neighbours on both sides in memory.
+struct Bands {
+  std::int32_t rows = 0, side = 1;
+
+  std::size_t count() const { return static_cast<std::size_t>((rows - 1) / side + 1); }
+  std::int32_t begin(std::size_t i) const { return static_cast<std::int32_t>(i) * side; }
+  std::size_t at(std::int32_t row) const { return static_cast<std::size_t>(row / side); }
+  /// A little above a band counts as in it, so that it need not wait for another sweep.
+  bool reaches(std::size_t i, std::int32_t row) const { return row >= begin(i) - side / 4 && row < begin(i) + side; }
+  void hold(std::size_t i, SampleRows& samples) const {
+    const std::int32_t first = std::max(begin(i) - side / 2, 0);
+    samples.hold(first, std::min(begin(i) + side + side / 2, rows) - first);
+  }
+};
+
 /// The order of work: what is too large before what is too sharp, larger excess first, shorter edges first.
 struct Bad {
   bool is_long = false;
@@ -55,13 +71,16 @@ struct Bad {
 class ShapeRefiner {
  public:
   ShapeRefiner(const Raster& raster, Triangulation& tin, const VertexPlaces& places, const ShapeTask& task)
-      : raster_(raster),
+      : bands_{raster.rows, std::max(task.rows_at_once / 2, 1)},
+        rows_(raster.samples == nullptr ? std::optional<SampleRows>(std::in_place, *task.field, 2 * bands_.side)
+                                        : std::nullopt),
+        samples_(rows_ ? SampleView(*rows_) : SampleView(raster)),
         tin_(tin),
         task_(task),
         metric_(task.affine, kLatticeSteps),
         delaunay_(metric_),
-        heights_(raster),
-        judge_(raster, heights_, task.threshold, task.bounds),
+        heights_(samples_),
+        judge_(samples_, heights_, task.threshold, task.bounds),
         fixed_(places.fixed),
         cosine2_(squares_of(task.goals.min_angle + kSlack).cosine),
         least_(kClosest * metric_.shorter_side()) {
@@ -75,10 +94,11 @@ class ShapeRefiner {
     for (Vertex v = 0; v < places.heights.size(); ++v) {
       const Point p = tin_.point(v);
       const float z = places.heights[v];
-      if (!PlaceHeights::is_sample(p) || (!std::isnan(z) && z != heights_.at(p))) heights_.set(p, z);
+      if (rows_ || !PlaceHeights::is_sample(p) || (!std::isnan(z) && z != heights_.at(p))) heights_.set(p, z);
     }
     restore_delaunay(tin_, delaunay_);
-    refinement_.emplace(judge_, tin_);
+    const auto start = rows_ ? Refinement::Start::kClean : Refinement::Start::kScan;
+    refinement_.emplace(judge_, tin_, Algorithm::kHeap, EdgeRule{}, start);
     refinement_->follow(&delaunay_);
   }
 
@@ -90,8 +110,7 @@ class ShapeRefiner {
     }
     for (std::uint64_t before = work_.insertions + 1; before != work_.insertions;) {
       before = work_.insertions;
-      for (Triangle t = 0; t < tin_.triangle_count(); ++t) enqueue(t);
-      if (auto done = work_off(); !done) return tl::unexpected(done.error());
+      if (auto done = rows_ ? sweep_bands() : sweep_all(); !done) return tl::unexpected(done.error());
     }
     for (Triangle t = 0; t < tin_.triangle_count(); ++t) work_.forced += is_sharp(t) && is_forced(t);
     work_.samples_scanned = refinement_->work().samples_scanned;
@@ -112,13 +131,42 @@ class ShapeRefiner {
   }
 
  private:
+  Result<void> sweep_all() {
+    for (Triangle t = 0; t < tin_.triangle_count(); ++t) enqueue(t);
+    return work_off();
+  }
+
+  /// The first time all triangles are scanned, then only bad ones are looked at.
+  Result<void> sweep_bands() {
+    const bool is_first = waiting_.empty();
+    waiting_.assign(bands_.count(), {});
+    for (Triangle t = 0; t < tin_.triangle_count(); ++t) {
+      if (is_first ? !tin_.is_outside(t) : find_fault(t).has_value()) waiting_[bands_.at(row_of(t))].push_back(t);
+    }
+    for (band_ = 0; band_ < bands_.count(); ++band_) {
+      const std::vector<Triangle> here = std::exchange(waiting_[band_], {});
+      if (here.empty()) continue;
+      bands_.hold(band_, *rows_);
+      for (const Triangle t : here) {
+        // Who has left the band has been changed, and scanned.
+        if (is_first && bands_.at(row_of(t)) == band_) refinement_->scan({&t, 1});
+        enqueue(t);
+      }
+      if (is_first) share_ = static_cast<double>(band_ + 1) / static_cast<double>(bands_.count());
+      if (auto done = work_off(); !done) return done;
+    }
+    share_ = 1;
+    return {};
+  }
+
   Result<void> work_off() {
     for (std::uint64_t step = 0; !refinement_->done() || !bad_.empty(); ++step) {
       if (refinement_->is_full())
         return fail(ErrorKind::kInput,
                     "the mesh would have more than 1,431 million triangles: ask for larger angles or edges");
-      if (step % 64 == 0 && task_.progress && !task_.progress(tin_.vertex_count(), refinement_->worst_error()))
-        return fail(ErrorKind::kCancelled, "cancelled while refining shapes");
+      if (step % 64 == 0 && task_.progress) {
+        if (auto on = task_.progress(share_, tin_.vertex_count(), refinement_->worst_error()); !on) return on;
+      }
       if (!refinement_->done()) {
         refinement_->insert_worst();
         note_insertion();
@@ -143,6 +191,11 @@ class ShapeRefiner {
   }
   HalfEdge shortest(Triangle t) const {
     return std::min({3 * t, 3 * t + 1, 3 * t + 2}, [&](HalfEdge a, HalfEdge b) { return square(a) < square(b); });
+  }
+  /// Of samples, in which its centre lies.
+  std::int32_t row_of(Triangle t) const {
+    const auto [a, b, c] = tin_.corners(t);
+    return static_cast<std::int32_t>((std::int64_t{a.y} + b.y + c.y) / (3 * kLatticeSteps));
   }
   Vertex opposite(HalfEdge h) const { return tin_.origin(Triangulation::previous(h)); }
 
@@ -171,7 +224,13 @@ class ShapeRefiner {
     return Bad{false, -square(shortest(t)), t, corners_of(t)};
   }
   void enqueue(Triangle t) {
-    if (const auto bad = find_fault(t)) bad_.push(*bad);
+    const auto bad = find_fault(t);
+    if (!bad) return;
+    if (!rows_ || bands_.reaches(band_, row_of(t))) {
+      bad_.push(*bad);
+    } else if (const std::size_t band = bands_.at(row_of(t)); band > band_) {
+      waiting_[band].push_back(t);
+    }
   }
 
   /// Nothing may cross it.
@@ -230,7 +289,7 @@ class ShapeRefiner {
 
   /// On the lattice and in the rectangle; on coarse steps where `radius`, in samples, is large.
   Point place_near(const Vector& from, const Vector& wanted, double radius) const {
-    const Vector far{(raster_.cols - 1.0) * kLatticeSteps, (raster_.rows - 1.0) * kLatticeSteps};
+    const Vector far{(samples_.cols() - 1.0) * kLatticeSteps, (samples_.rows() - 1.0) * kLatticeSteps};
     double share = 1;
     for (std::size_t k = 0; k < 2; ++k) {
       const double limit = wanted[k] < 0 ? 0 : far[k];
@@ -332,7 +391,7 @@ class ShapeRefiner {
       const float z = heights_.at(a);
       if (heights_.at(b) == z && heights_.at(c) == z) return z;
     }
-    return static_cast<float>(height_between_samples(raster_, p));
+    return static_cast<float>(height_between_samples(samples_, p));
   }
 
   bool insert_with_height(Point p, const Location& location) {
@@ -393,7 +452,7 @@ class ShapeRefiner {
       p = beside(on_line(line, {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)}), h);
     }
     if (!p) return false;
-    if (!PlaceHeights::is_sample(*p) || !raster_.is_valid({p->x / kLatticeSteps, p->y / kLatticeSteps})) {
+    if (!PlaceHeights::is_sample(*p) || !samples_.is_valid({p->x / kLatticeSteps, p->y / kLatticeSteps})) {
       const double za = heights_.at(a), zb = heights_.at(b);
       heights_.set(*p, static_cast<float>(za + (zb - za) * std::sqrt(metric_.square(a, *p) / square(h))));
     }
@@ -458,9 +517,15 @@ class ShapeRefiner {
     out_.resize(tin_.vertex_count());
     for (HalfEdge h = 0; h < 3 * tin_.triangle_count(); ++h) out_[tin_.origin(h)] = h;
   }
+  /// So that no band need be asked again.
+  void remember_height(Vertex v) {
+    const Point p = tin_.point(v);
+    if (PlaceHeights::is_sample(p)) heights_.set(p, heights_.at(p));
+  }
   void note_insertion() {
     ++work_.insertions;
     out_.resize(tin_.vertex_count());
+    if (rows_) remember_height(static_cast<Vertex>(tin_.vertex_count() - 1));
     for (const Triangle t : refinement_->changed()) {
       for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) out_[tin_.origin(h)] = h;
     }
@@ -472,7 +537,9 @@ class ShapeRefiner {
     for (const Triangle t : refinement_->changed()) enqueue(t);
   }
 
-  const Raster& raster_;
+  Bands bands_;
+  std::optional<SampleRows> rows_;  ///< where the samples are not in memory as a whole
+  SampleView samples_;
   Triangulation& tin_;
   const ShapeTask& task_;
   PlanMetric metric_;
@@ -484,6 +551,9 @@ class ShapeRefiner {
   std::optional<Refinement> refinement_;
   std::optional<SizeField> sizes_;
   std::priority_queue<Bad> bad_;
+  std::size_t band_ = 0;                                       ///< at work
+  double share_ = 1;                                           ///< of bands, that has been at work
+  std::vector<std::vector<Triangle>> waiting_;                 ///< by band
   std::vector<HalfEdge> out_;                                  ///< by vertex: a half-edge that begins there
   std::unordered_map<Vertex, std::pair<Point, Point>> lines_;  ///< of vertices that halve lines: where these run
   std::vector<Vertex> fallen_;

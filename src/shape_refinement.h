@@ -13,6 +13,11 @@
 // samples that break the bound are inserted, worst first, as ever. For the sake of angles none comes nearer to
 // another than 1/32 of a sample, edges are split for size only while they are longer than what is allowed, and samples
 // are finite: so it ends for any goal.
+//
+// Where the samples are not in memory as a whole, the mesh is, and bands of rows are gone through from the top down:
+// what is bad in a band is dealt with while its samples and some around are held. Triangles that this changes further
+// up or down are seen to at once as far as the bound is concerned, else in their own bands, if need be in the next
+// sweep. So there are no borders between bands, and the goals hold as they do in memory.
 #pragma once
 
 #include <array>
@@ -25,6 +30,7 @@
 #include "grid/raster.h"
 #include "grid/vertex_places.h"
 #include "scarp/frame.h"
+#include "scarp/height_field.h"
 #include "scarp/mesh.h"
 #include "scarp/result.h"
 #include "scarp/shape.h"
@@ -38,8 +44,12 @@ struct ShapeTask {
   double threshold = 0;                ///< of errors
   std::span<const float> bounds = {};  ///< of samples, as LatticeJudge has them
   bool all_may_go = false;             ///< who comes next may remove, or move, vertices that are no samples
-  /// Told the vertices there are and the worst error; false stops with kCancelled.
-  std::function<bool(std::uint64_t vertices, double error)> progress = {};
+  /// Told a share of the bands that have been gone through once, all where there are none, the vertices there are and
+  /// the worst error; what it says ends the run.
+  std::function<Result<void>(double share, std::uint64_t vertices, double error)> progress = {};
+  /// Where the raster has no samples: whose source has them, alive, and how many rows are held at a time, at least 4.
+  const HeightField* field = nullptr;
+  std::int32_t rows_at_once = 0;
 };
 
 struct ShapeWork {
@@ -49,10 +59,14 @@ struct ShapeWork {
 
 /// Makes `tin` Delaunay in the frame, but for constrained edges, and adds vertices until every sample keeps its bound
 /// and the goals hold as ShapeGoals says. `places`: of the vertices; afterwards in kLatticeSteps, those fixed that
-/// were, or that are no samples unless vertices are free. Fails with kInput for too many triangles, kCancelled.
+/// were, or that are no samples unless vertices are free. Fails with kInput for too many triangles, and as progress
+/// does; throws SourceFailure.
 /// REQUIRES: goals that were checked; sides of at most kMaxCoordinate / kLatticeSteps samples; an outline that is
 /// exact. Cost: expected O(log n) an insertion, but for scanning.
 Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexPlaces& places, const ShapeTask& task);
+
+/// Bytes a vertex that this takes at most, the mesh included.
+inline constexpr std::uint64_t kShapeBytesPerVertex = 240;
 
 /// What keeps angles and lengths of edges, as refine_shapes() has left them, while vertices are removed and moved.
 /// Nothing where only insertion can: with a grade, and where rows and columns of the frame are not at right angles.

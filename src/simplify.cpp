@@ -105,7 +105,7 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
   if (by_rows && lines != nullptr)
     passes.push_back(
         {"lines", fits.seconds_of_lines, fits.lines.samples_scanned, fits.lines.triangles_scanned, fits.lines.passes});
-  if (by_rows && options.effort != Effort::kFast) passes.push_back({"fit", fits.seconds, 0, 0, 0, fits.removed});
+  if (fits_rows(field, options)) passes.push_back({"fit", fits.seconds, 0, 0, 0, fits.removed});
   auto result = run_engine(field, raster, options, *criterion, by_rows ? nullptr : lines, std::move(*tiled));
   if (!result) return result;
   result->passes.insert(result->passes.begin(), passes.begin(), passes.end());

@@ -78,8 +78,8 @@ struct SimplifyOptions {
   std::optional<double> min_shape = std::nullopt;
   /// Angles, edge lengths and their growth, for simulations: vertices are added until they hold, then removed as far as
   /// they still do (with a grade the other way round). Fails with kUsage without a max error, together with a budget,
-  /// channels, an outline tolerance or strategies, without the samples in memory, in frames that are not affine and for
-  /// goals out of range. DEFAULT: none.
+  /// channels, an outline tolerance or strategies, in frames that are not affine and for goals out of range. DEFAULT:
+  /// none.
   ShapeGoals shape = {};
   /// Asked often, on any thread, by all efforts but kFast; once true, true for good. Then vertices are no longer
   /// removed, and the mesh so far, which keeps the promise, is the result: it depends on the time. Fails with kUsage

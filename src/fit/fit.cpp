@@ -55,11 +55,13 @@ Freedom freedom_of(const Raster& raster, const FitOptions& options) {
 }
 
 /// Lets vertices be as low and as high as samples are.
-void set_range(const Raster& raster, MoveRules& rules) {
+void set_range(const Raster& raster, const ReadWindow& read, MoveRules& rules) {
   rules.lowest = std::numeric_limits<float>::max();
   rules.highest = std::numeric_limits<float>::lowest();
+  std::vector<float> buffer(read ? static_cast<std::size_t>(raster.cols) : 0);
   for (std::int32_t y = 0; y < raster.rows; ++y) {
-    const float* const row = raster.row(y);
+    if (read) read({{0, y}, raster.cols, 1}, buffer.data(), raster.cols);
+    const float* const row = read ? buffer.data() : raster.row(y);
     for (std::int32_t x = 0; x < raster.cols; ++x) {
       // False where the sample is void.
       if (row[x] < rules.lowest) rules.lowest = row[x];
@@ -81,7 +83,7 @@ class Rounds {
         held_(fitted_.tin.vertex_count(), 0),
         scratch_(static_cast<std::size_t>(thread_count(options.threads))),
         windows_(scratch_.size()) {
-    if (rules_.freedom == Freedom::kLattice) set_range(raster, rules_);
+    if (rules_.freedom == Freedom::kLattice) set_range(raster, options.read, rules_);
   }
 
   /// Of removal. `end`: the share of the whole that is then done. False if it was told to stop, as those below.
@@ -135,11 +137,8 @@ class Rounds {
     counts_.assign(cutter.count(), {});
     const auto one = [&](std::size_t i, std::size_t worker) {
       patches[i] = cutter.cut(i, scratch_[worker], vertices[i]);
-      if (!is_time_up()) {
-        const TriangleError error =
-            windows_[worker].errors(raster_, options_.bounds, options_.norm, patches[i], options_.threshold);
-        counts_[i] = job(patches[i], vertices[i], error);
-      }
+      if (!is_time_up() && is_worked_on(patches[i]))
+        counts_[i] = job(patches[i], vertices[i], errors_of(patches[i], windows_[worker]));
       patches[i].pack();
     };
     bool goes_on = true;
@@ -159,6 +158,15 @@ class Rounds {
     fitted_.tin = std::move(joined);
     fitted_.places = std::move(places);
     return true;
+  }
+
+  bool is_worked_on(const Patch& patch) const {
+    const Patch::Window& window = patch.window();
+    return options_.most_window == 0 || std::int64_t{window.cols} * window.rows <= options_.most_window;
+  }
+  TriangleError errors_of(const Patch& patch, SampleWindow& window) const {
+    if (options_.read) return window.errors(options_.read, patch, options_.threshold);
+    return window.errors(raster_, options_.bounds, options_.norm, patch, options_.threshold);
   }
 
   void add(const FitCounts& counts) {
@@ -227,11 +235,12 @@ class Rounds {
 
 Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexPlaces places, const FitOptions& options) {
   const std::int32_t longest = std::max(raster.cols, raster.rows);
-  const bool is_cut = options.patch_side > 0 ? options.patch_side < longest : !is_small(tin);
+  const std::int32_t most = options.most_side > 0 ? std::min(options.most_side, longest) : longest;
+  const bool is_cut = most < longest || (options.patch_side > 0 ? options.patch_side < longest : !is_small(tin));
   Rounds rounds(raster, std::move(tin), std::move(places), options);
   const auto side = [&] {
     if (!is_cut) return longest;
-    return options.patch_side > 0 ? options.patch_side : patch_side(raster, rounds.tin());
+    return std::min(most, options.patch_side > 0 ? options.patch_side : patch_side(raster, rounds.tin()));
   };
   const int repairs = has_energies(options) ? options.depth.rounds : 0;
   // A round of repair takes some five times as long as removal, whose second round looks at little more than what the

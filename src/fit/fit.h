@@ -24,6 +24,7 @@
 #include "fit/fit_norm.h"
 #include "fit/repair.h"
 #include "fit/rules.h"
+#include "fit/sample_window.h"
 #include "grid/raster.h"
 #include "grid/vertex_places.h"
 #include "scarp/result.h"
@@ -67,6 +68,11 @@ struct FitOptions {
   /// Repair may put vertices between samples, on the lattice of fitting, and at heights of their own.
   bool vertices_are_free = false;
   std::int32_t patch_side = 0;  ///< in samples; 0: squares of kPatchTriangles, one for small meshes
+  std::int32_t most_side = 0;   ///< that squares have, in samples, whatever they hold; 0: any
+  /// Copies the samples of a window to `to`, voids as NaN, and may throw; asked on any thread. DEFAULT: none, the
+  /// raster has them.
+  ReadWindow read = {};
+  std::int64_t most_window = 0;  ///< samples; patches that would have more read stay as they are; 0: any
   /// Told the share that is done and the vertices that are left, on the calling thread; false stops with kCancelled.
   std::function<bool(double share, std::uint64_t vertices)> progress = {};
   /// Asked often, on any thread; once true, true for good. Then the rounds end, and what stands is the result.

@@ -54,6 +54,14 @@ class BoundRange {
 
 }  // namespace
 
+TriangleError SampleWindow::errors(const ReadWindow& read, const Patch& patch, double threshold) {
+  const Patch::Window& window = patch.window();
+  const std::int32_t stride = stride_of(window.cols);
+  samples_.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(window.rows));
+  if (window.rows > 0) read(window, samples_.data(), stride);
+  return TriangleError(Raster{samples_.data(), stride, window.rows}, Point{0, 0}, threshold);
+}
+
 TriangleError SampleWindow::errors(const Raster& raster, std::span<const float> bounds, const FitNorm* norm,
                                    const Patch& patch, double threshold) {
   const Patch::Window& window = patch.window();

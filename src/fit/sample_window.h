@@ -2,6 +2,8 @@
 // samples compete for the same lines of a cache.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,6 +16,9 @@
 
 namespace scarp {
 
+/// Copies samples of a raster that are not in memory, `stride` floats a row.
+using ReadWindow = std::function<void(const Patch::Window& window, float* to, std::ptrdiff_t stride)>;
+
 /// Keeps its memory between patches.
 class SampleWindow {
  public:
@@ -23,6 +28,8 @@ class SampleWindow {
   /// else it has bounds. `norm`: of whose fields errors are; null: of heights alone.
   TriangleError errors(const Raster& raster, std::span<const float> bounds, const FitNorm* norm, const Patch& patch,
                        double threshold);
+  /// Of heights alone, whose samples are read.
+  TriangleError errors(const ReadWindow& read, const Patch& patch, double threshold);
 
  private:
   std::vector<float> samples_, bounds_;

@@ -38,7 +38,7 @@ std::array<float, 3> LatticeJudge::heights_at(const std::array<Point, 3>& corner
 
 double LatticeJudge::bound_at(std::int32_t x, std::int32_t y) const {
   return bounds_.empty() ? threshold_
-                         : double{bounds_[static_cast<std::size_t>(y) * static_cast<std::size_t>(raster_.cols) +
+                         : double{bounds_[static_cast<std::size_t>(y) * static_cast<std::size_t>(samples_.cols()) +
                                           static_cast<std::size_t>(x)]};
 }
 
@@ -64,16 +64,16 @@ Fit LatticeJudge::fit_evenly(const std::array<Point, 3>& corners) const {
   fit.guard = plane.guard;
   scan_samples(corners, kLatticeSteps, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     fit.scanned += static_cast<std::uint64_t>(last - first + 1);
-    const float* const samples = raster_.row(y);
+    const float* const samples = samples_.samples(first, y, last - first + 1);
     const double row_height = plane.row_height(y * kLatticeSteps);
     if (last - first + 1 >= kMinVectorRow) {
       std::int32_t found = 0;
-      if (kernels.scan_row(samples + first, last - first + 1, row_height, slope, first - base, worst, found))
+      if (kernels.scan_row(samples, last - first + 1, row_height, slope, first - base, worst, found))
         at = place_of(first + found, y);
       return;
     }
     for (std::int32_t x = first; x <= last; ++x) {
-      const double error = std::abs(row_height + slope * (x - base) - double{samples[x]});
+      const double error = std::abs(row_height + slope * (x - base) - double{samples[x - first]});
       if (!(error > worst)) continue;  // void, or not the worst
       worst = error;
       at = place_of(x, y);
@@ -92,11 +92,11 @@ Fit LatticeJudge::fit_by_bounds(const std::array<Point, 3>& corners) const {
   fit.guard = plane.guard;
   scan_samples(corners, kLatticeSteps, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     fit.scanned += static_cast<std::uint64_t>(last - first + 1);
-    const float* const samples = raster_.row(y);
+    const float* const samples = samples_.samples(first, y, last - first + 1);
     const double row_height = plane.row_height(y * kLatticeSteps);
     for (std::int32_t x = first; x <= last; ++x) {
       const double offset = static_cast<double>(x * kLatticeSteps - plane.base.x);
-      const double error = std::abs(row_height + plane.slope_x * offset - double{samples[x]});
+      const double error = std::abs(row_height + plane.slope_x * offset - double{samples[x - first]});
       const double bound = bound_at(x, y);
       if (!(error >= bound - plane.guard)) continue;  // void, or within its bound for certain
       fit.max_error = std::max(fit.max_error, error);
@@ -115,8 +115,9 @@ std::optional<Candidate> LatticeJudge::find_candidate(const std::array<Point, 3>
   const auto heights = heights_at(corners);
   std::optional<Candidate> worst;
   scan_samples(corners, kLatticeSteps, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    const float* const samples = samples_.samples(first, y, last - first + 1);
     for (std::int32_t x = first; x <= last; ++x) {
-      const float sample = raster_.at({x, y});
+      const float sample = samples[x - first];
       const Point place = place_of(x, y);
       const double error = std::abs(plane.height_at(place) - double{sample}), bound = bound_at(x, y);
       if (!(error >= bound - plane.guard) || std::isinf(bound)) continue;

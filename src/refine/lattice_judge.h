@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "geom/plane.h"
-#include "grid/raster.h"
 #include "grid/vertex_places.h"
 #include "refine/judge.h"
+#include "refine/sample_rows.h"
 
 namespace scarp {
 
 /// Heights at places of the lattice: those that were given, else the sample's.
 class PlaceHeights {
  public:
-  explicit PlaceHeights(const Raster& raster) : raster_(raster), slots_(kFewest) {}
+  explicit PlaceHeights(const SampleView& samples) : samples_(samples), slots_(kFewest) {}
   void set(Point place, float height);
   static bool is_sample(Point place) { return place.x % kLatticeSteps == 0 && place.y % kLatticeSteps == 0; }
   /// REQUIRES: it was given, or is a sample's.
@@ -34,7 +34,7 @@ class PlaceHeights {
   };
   static constexpr std::size_t kFewest = 64;
 
-  float sample(Point place) const { return raster_.at({place.x / kLatticeSteps, place.y / kLatticeSteps}); }
+  float sample(Point place) const { return samples_.at({place.x / kLatticeSteps, place.y / kLatticeSteps}); }
   static std::uint64_t key(Point place) {
     return (std::uint64_t{static_cast<std::uint32_t>(place.y)} << 32 | static_cast<std::uint32_t>(place.x)) + 1;
   }
@@ -45,7 +45,7 @@ class PlaceHeights {
     return slot;
   }
 
-  Raster raster_;
+  SampleView samples_;
   std::vector<Slot> slots_;
   std::size_t taken_ = 0;
   bool has_samples_ = false;  ///< samples were given other heights
@@ -56,8 +56,8 @@ class PlaceHeights {
 class LatticeJudge final : public Judge {
  public:
   /// `heights` and the bounds stay alive.
-  LatticeJudge(const Raster& raster, const PlaceHeights& heights, double threshold, std::span<const float> bounds)
-      : raster_(raster), heights_(heights), threshold_(threshold), bounds_(bounds) {}
+  LatticeJudge(const SampleView& samples, const PlaceHeights& heights, double threshold, std::span<const float> bounds)
+      : samples_(samples), heights_(heights), threshold_(threshold), bounds_(bounds) {}
 
   Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const override;
   std::optional<Candidate> find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const override;
@@ -73,7 +73,7 @@ class LatticeJudge final : public Judge {
   double bound_at(std::int32_t x, std::int32_t y) const;
   double importance(double error, double bound) const;
 
-  Raster raster_;
+  SampleView samples_;
   const PlaceHeights& heights_;
   double threshold_;
   std::span<const float> bounds_;

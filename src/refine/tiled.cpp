@@ -153,6 +153,7 @@ class TiledRun {
     if (!status_) return tl::unexpected(status_.error());
     if (is_unsuited_) return std::optional<Tiled>();
     const bool is_whole = assembly_.is_whole();
+    if (!fixed_.empty()) fixed_.resize(assembly_.vertex_count(), 0);
     std::vector<HalfEdge> seams;
     Domain domain{assembly_.finish(seams), is_whole};
     if (!is_whole) domain.unused = count_unused(domain.tin);
@@ -160,7 +161,8 @@ class TiledRun {
       return fail(
           ErrorKind::kInput,
           "the raster has no grid cell with three valid corners, so there is no surface to simplify; check nodata");
-    return std::optional<Tiled>(Tiled{std::move(domain), std::move(seams), std::move(heights_), steps_, work_});
+    return std::optional<Tiled>(
+        Tiled{std::move(domain), std::move(seams), std::move(heights_), steps_, std::move(fixed_), work_});
   }
 
  private:
@@ -228,6 +230,7 @@ class TiledRun {
     for (Vertex v = 0; finished->places.are_samples() && v < tin.vertex_count(); ++v)
       heights.push_back(samples.at(tin.point(v)));
     keep_heights(heights);
+    keep_fixed(finished->places.fixed);
     return {};
   }
 
@@ -235,6 +238,14 @@ class TiledRun {
     if (heights.empty()) return;
     heights_.resize(assembly_.vertex_count());
     for (std::size_t k = 0; k < heights.size(); ++k) heights_[assembly_.last_vertices()[k]] = heights[k];
+  }
+
+  void keep_fixed(const std::vector<std::uint8_t>& fixed) {
+    if (fixed.empty()) return;
+    fixed_.resize(assembly_.vertex_count(), 0);
+    for (std::size_t k = 0; k < fixed.size(); ++k) {
+      if (fixed[k] != 0) fixed_[assembly_.last_vertices()[k]] = 1;
+    }
   }
 
   const TiledOptions& options_;
@@ -251,6 +262,7 @@ class TiledRun {
   Assembly assembly_;  // of tiles, or of finished rows
   Assembly row_;       // of tiles whose row is not finished
   std::vector<float> heights_;
+  std::vector<std::uint8_t> fixed_;
   std::int32_t steps_ = 1;
   Work work_;
   Result<void> status_;

@@ -65,6 +65,8 @@ struct Tiled {
   std::vector<HalfEdge> seams;  ///< edges between tiles, for release_seams()
   std::vector<float> heights;   ///< of the vertices, where rows were finished, or the field has a source for samples
   std::int32_t steps = 1;       ///< of the domain's points between two samples
+  /// Of the vertices: 1 where who finished their row fixed them; EMPTY: none is.
+  std::vector<std::uint8_t> fixed = {};
   Work work;
 };
 

@@ -3,38 +3,14 @@
 # the files keep what was asked.
 source "$(dirname "$0")/lib.sh"
 need python3
-
-cat >look.py <<'PYTHON'
-"""look.py FILE: triangles, smallest angle, shortest and longest edge of a .2dm or .obj, seen from above."""
-import math, sys
-nodes, triangles = {}, []
-for line in open(sys.argv[1]):
-    word = line.split()
-    if word and word[0] == "ND":
-        nodes[int(word[1])] = tuple(map(float, word[2:4]))
-    elif word and word[0] == "E3T":
-        triangles.append(tuple(map(int, word[2:5])))
-    elif word and word[0] == "v":
-        nodes[len(nodes) + 1] = tuple(map(float, word[1:3]))
-    elif word and word[0] == "f":
-        triangles.append(tuple(int(v.split("/")[0]) for v in word[1:4]))
-smallest, shortest, longest = 180.0, math.inf, 0.0
-for t in triangles:
-    p = [nodes[v] for v in t]
-    sides = [math.dist(p[(k + 1) % 3], p[(k + 2) % 3]) for k in range(3)]
-    shortest, longest = min(shortest, *sides), max(longest, *sides)
-    for k in range(3):
-        b, c = sides[(k + 1) % 3], sides[(k + 2) % 3]
-        smallest = min(smallest, math.degrees(math.acos(max(-1, min(1, (b * b + c * c - sides[k] ** 2) / (2 * b * c))))))
-print(len(triangles), f"{smallest:.6f} {shortest:.9g} {longest:.9g}")
-PYTHON
+shape_of=$SCARP_SOURCE/tests/cli/shape_of.py
 
 # The bundled raster as a mesh for flow solvers, in degrees as it is, with every effort and on any number of threads.
 for effort in fast normal high; do
   succeeds "$scarp" simplify "$dem" one.2dm -e 20 --min-angle 25 --effort "$effort" -j 1 --report r.json --overwrite
   succeeds "$scarp" simplify "$dem" four.2dm -e 20 --min-angle 25 --effort "$effort" -j 4 --overwrite
   cmp one.2dm four.2dm || fail "-j 4 makes another mesh with $effort effort"
-  read -r count smallest shortest longest < <(python3 look.py one.2dm)
+  read -r count smallest shortest longest < <(python3 "$shape_of" one.2dm)
   holds "$smallest >= 25"
   [ "$(json r.json shape below)" = 0 ] || fail "triangles with smaller angles are left"
   [ "$(json r.json topology sound)" = true ] || fail "$effort effort makes an unsound mesh"
@@ -55,11 +31,11 @@ PYTHON
 
 # In metres; the edges of the file are no longer than asked.
 succeeds "$scarp" simplify "$dem" short.obj -e 20 --max-edge 400
-read -r count smallest shortest longest < <(python3 look.py short.obj)
+read -r count smallest shortest longest < <(python3 "$shape_of" short.obj)
 holds "$longest <= 400"
 succeeds "$scarp" measure "$dem" short.obj --fail-above 20
 succeeds "$scarp" simplify "$dem" graded.obj -e 60 --grade 0.3 --min-angle 20 --max-edge 3000
-read -r count smallest shortest longest < <(python3 look.py graded.obj)
+read -r count smallest shortest longest < <(python3 "$shape_of" graded.obj)
 holds "$smallest >= 20"
 succeeds "$scarp" measure "$dem" graded.obj --fail-above 60
 

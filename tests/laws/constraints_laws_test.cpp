@@ -124,7 +124,7 @@ RC_GTEST_PROP(constraints, lines_and_the_bound_survive_refinement_and_fitting, (
 
 TEST(constraints, heights_of_thousands_of_places_are_found_again) {
   const std::vector<float> samples(4, 7.0F);
-  PlaceHeights heights({samples.data(), 2, 2});
+  PlaceHeights heights(Raster{samples.data(), 2, 2});
   const auto is_between = [](std::int32_t k) { return !PlaceHeights::is_sample({k % 257, k / 257}); };
   for (std::int32_t round : {0, 1}) {
     for (std::int32_t k = 0; k < 257 * 257; k += 7) {

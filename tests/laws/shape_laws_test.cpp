@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "laws/any_field.h"
+#include "laws/array_source.h"
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
 
@@ -120,9 +121,13 @@ std::vector<Line> any_two_lines(const Field& field) {
   return lines;
 }
 
-/// The mesh; the bound, soundness and what the report tells of it have been looked at.
-Simplified simplified(const HeightField& field, const SimplifyOptions& options) {
-  auto result = simplify(field, options);
+/// The mesh, of samples in memory or of a source; the bound, soundness and what the report tells of it have been looked
+/// at.
+Simplified simplified(const HeightField& field, SimplifyOptions options) {
+  const testing::ArraySource source(field);
+  const bool is_streamed = *rc::gen::arbitrary<bool>();
+  if (is_streamed) options.order = Order::kAuto;
+  auto result = simplify(is_streamed ? testing::with_source(field, source) : field, options);
   RC_ASSERT(result.has_value() || result.error().kind == ErrorKind::kInput);
   RC_PRE(result.has_value());
   const auto judged = measure(field, result->mesh);

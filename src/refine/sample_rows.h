@@ -1,0 +1,58 @@
+// Samples of which some rows at a time are in memory, for those who work through a raster from the top down and seldom
+// look beyond.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "grid/raster.h"
+#include "scarp/height_field.h"
+
+namespace scarp {
+
+/// Rows of a field with a source. For one thread.
+class SampleRows {
+ public:
+  /// Holds none yet, and at most so many later. The field stays alive.
+  SampleRows(const HeightField& field, std::int32_t most);
+
+  /// Holds `count` rows from `first` on, and no others; those that it held are not read again. Throws SourceFailure.
+  /// REQUIRES: count <= most.
+  void hold(std::int32_t first, std::int32_t count);
+
+  /// `count` samples of row y from column x on, until the next call. Of a row that is not held they are read for this
+  /// call alone. Throws SourceFailure.
+  const float* samples(std::int32_t x, std::int32_t y, std::int32_t count) const;
+
+  std::int32_t cols() const { return field_.cols; }
+  std::int32_t rows() const { return field_.rows; }
+
+ private:
+  const HeightField& field_;
+  std::int32_t first_ = 0, count_ = 0;
+  std::vector<float> held_;
+  mutable std::vector<float> apart_;
+};
+
+/// A raster, or rows that somebody holds: both stay alive.
+class SampleView {
+ public:
+  SampleView(const Raster& raster) : raster_(raster) {}  // NOLINT: either will do
+  SampleView(const SampleRows& rows) : raster_{nullptr, rows.cols(), rows.rows()}, rows_(&rows) {}  // NOLINT
+
+  std::int32_t cols() const { return raster_.cols; }
+  std::int32_t rows() const { return raster_.rows; }
+  /// As SampleRows::samples().
+  const float* samples(std::int32_t x, std::int32_t y, std::int32_t count) const {
+    return rows_ == nullptr ? raster_.row(y) + x : rows_->samples(x, y, count);
+  }
+  float at(Point p) const { return *samples(p.x, p.y, 1); }
+  bool is_valid(Point p) const { return !std::isnan(at(p)); }
+
+ private:
+  Raster raster_;
+  const SampleRows* rows_ = nullptr;
+};
+
+}  // namespace scarp

@@ -1,0 +1,47 @@
+#include "source_windows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/window.h"
+#include "refine/source_judge.h"
+
+namespace scarp {
+
+namespace {
+
+constexpr std::int32_t kMostRows = 2048, kFewestRows = 16;
+constexpr std::int64_t kLeastWindow = 256 * 256;
+constexpr int kSidesPerWindow = 2;  ///< triangles reach beyond the square that holds their centres
+
+}  // namespace
+
+std::int32_t rows_at_once(const HeightField& field, const MemoryBudget& memory) {
+  std::int32_t rows = kMostRows;
+  const auto bytes = [&] {
+    return sizeof(float) * static_cast<std::uint64_t>(field.cols) * static_cast<unsigned>(rows);
+  };
+  while (memory.is_limited() && rows > kFewestRows && bytes() > memory.rest() / 4) rows /= 2;
+  return rows;
+}
+
+std::uint64_t bytes_at_once(const HeightField& field, const MemoryBudget& memory) {
+  const std::int32_t rows = std::min(rows_at_once(field, memory), field.rows);
+  return sizeof(float) * static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(rows);
+}
+
+void read_windows(const HeightField& field, const MemoryBudget& memory, FitOptions& options) {
+  options.read = [&field](const Patch::Window& window, float* to, std::ptrdiff_t stride) {
+    const auto read = read_window(field, window.first.x, window.first.y, window.cols, window.rows, to, stride);
+    if (!read) throw SourceFailure{read.error()};
+  };
+  if (!memory.is_limited()) return;
+  options.most_window = std::max(static_cast<std::int64_t>(memory.rest() / 4 / sizeof(float)), kLeastWindow);
+  options.most_side = static_cast<std::int32_t>(std::sqrt(static_cast<double>(options.most_window))) / kSidesPerWindow;
+}
+
+std::uint64_t window_bytes(const FitOptions& options) {
+  return sizeof(float) * static_cast<std::uint64_t>(options.most_window);
+}
+
+}  // namespace scarp

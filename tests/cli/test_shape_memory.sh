@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# --min-angle, --max-edge and --grade with --memory: the samples stay in their file, the goals hold in every effort and
+# across all bands of rows, the bytes are those of any number of threads, and the memory is enough.
+source "$(dirname "$0")/lib.sh"
+need python3
+shape_of=$SCARP_SOURCE/tests/cli/shape_of.py
+
+succeeds "$scarp" generate smooth 1000 800 hills.tif --seed 3 -q
+limit=77 # of which the samples, 3.2 MB, may take 2.5
+cat >within.py <<'PYTHON'
+"""within.py MEGABYTES COMMAND...: runs it; fails where its memory was more at any moment."""
+import resource, subprocess, sys
+code = subprocess.call(sys.argv[2:])
+peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024
+sys.exit(code or (peak > 1e6 * int(sys.argv[1]) and f"{peak / 1e6:.1f} MB were taken"))
+PYTHON
+within() { python3 within.py "$@"; }
+# What a sanitizer takes is not the program's.
+bash -c 'ulimit -v 1000000; exec "$1" --version' - "$scarp" > /dev/null 2>&1 || within() { shift; "$@"; }
+
+for effort in fast normal high; do
+  succeeds within "$limit" "$scarp" simplify hills.tif one.2dm -e 12 --min-angle 25 --effort "$effort" --memory "${limit}M" -j 1 \
+    --report r.json --overwrite
+  succeeds "$scarp" simplify hills.tif four.2dm -e 12 --min-angle 25 --effort "$effort" --memory "${limit}M" -j 4 --overwrite
+  cmp one.2dm four.2dm || fail "-j 4 makes another mesh with $effort effort"
+  read -r count smallest shortest longest < <(python3 "$shape_of" one.2dm)
+  holds "$smallest >= 25"
+  [ "$(json r.json shape below)" = 0 ] || fail "triangles with smaller angles are left"
+  [ "$(json r.json topology sound)" = true ] || fail "$effort effort makes an unsound mesh"
+  succeeds "$scarp" measure hills.tif one.2dm --fail-above 12
+  succeeds "$scarp" simplify hills.tif whole.2dm -e 12 --min-angle 25 --effort "$effort" --overwrite
+  read -r whole smallest shortest longest < <(python3 "$shape_of" whole.2dm)
+  holds "$count < 1.1 * $whole"
+done
+
+# Lines are split where they run, whatever rows of tiles they cross.
+echo '{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry":
+ {"type": "LineString", "coordinates": [[5.3, 7.1], [990.7, 733.2]]}}, {"type": "Feature", "properties": {}, "geometry":
+ {"type": "LineString", "coordinates": [[-50, 512], [1100, 512]]}}]}' >lines.geojson
+for effort in fast high; do
+  succeeds within "$limit" "$scarp" simplify hills.tif lines.obj -e 12 --min-angle 20 --max-edge 60 --breaklines lines.geojson \
+    --effort "$effort" --memory "${limit}M" --report r.json --overwrite
+  read -r count smallest shortest longest < <(python3 "$shape_of" lines.obj)
+  holds "$longest <= 60"
+  [ "$(json r.json shape below)" = "$(json r.json shape forced)" ] || fail "angles are small where no lines meet"
+  [ "$(json r.json topology sound)" = true ] || fail "$effort effort makes an unsound mesh"
+  python3 "$SCARP_SOURCE/tests/cli/walk_lines.py" lines.obj lines.geojson 1000 800 40 || fail "lines are lost with $effort effort"
+  succeeds "$scarp" measure hills.tif lines.obj --fail-above 12
+done
+
+succeeds within "$limit" "$scarp" simplify hills.tif graded.obj -e 12 --grade 0.3 --max-edge 80 --effort normal --memory "${limit}M"
+read -r count smallest shortest longest < <(python3 "$shape_of" graded.obj)
+holds "$longest <= 80"
+succeeds "$scarp" measure hills.tif graded.obj --fail-above 12
+refuses 1 "--memory ${limit}M is too little: the mesh has" "$scarp" simplify hills.tif x.obj -e 12 --max-edge 3 --memory "${limit}M"

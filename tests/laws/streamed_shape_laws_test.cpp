@@ -1,0 +1,218 @@
+// Laws of shapes where samples are not in memory as a whole: bands of a few rows, windows for patches.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "laws/array_source.h"
+#include "laws/fit_meshes.h"
+#include "laws/mesh_laws.h"
+#include "refine/domain.h"
+#include "refine/freeze.h"
+#include "refine/sample_rows.h"
+#include "scarp/measure.h"
+#include "scarp/simplify.h"
+#include "shape_refinement.h"
+#include "source_windows.h"
+
+namespace scarp::streamed_shape_laws_test {
+namespace {
+
+using testing::ArraySource;
+using testing::Field;
+using testing::Relief;
+using testing::with_source;
+
+RC_GTEST_PROP(streamed_shapes, samples_are_those_of_the_raster_whether_rows_are_held_or_not, ()) {
+  const Field field = testing::any_field();
+  const ArraySource source(field.view());
+  const HeightField streamed = with_source(field.view(), source);
+  SampleRows rows(streamed, field.rows);
+  for (int k = 0; k < 5; ++k) {
+    const auto first = *rc::gen::inRange(0, field.rows);
+    rows.hold(first, *rc::gen::inRange(0, field.rows - first) + 1);
+    for (int look = 0; look < 20; ++look) {
+      const auto y = *rc::gen::inRange(0, field.rows), x = *rc::gen::inRange(0, field.cols);
+      const auto count = *rc::gen::inRange(0, field.cols - x) + 1;
+      const float* const found = rows.samples(x, y, count);
+      for (std::int32_t i = 0; i < count; ++i) {
+        const float sample = field.raster().at({x + i, y});
+        RC_ASSERT(found[i] == sample || (std::isnan(found[i]) && std::isnan(sample)));
+      }
+    }
+  }
+}
+
+/// A mesh that knows no sample but those of the outline, all places with their heights.
+struct Start {
+  Triangulation tin;
+  VertexPlaces places{kLatticeSteps, {}, {}};
+};
+
+std::optional<Start> outline_of(const Field& field) {
+  auto domain = build_domain(field.raster(), 0, grid_frame(field.rows));
+  if (!domain) return std::nullopt;
+  Start start{std::move(domain->tin)};
+  for (Vertex v = 0; v < start.tin.vertex_count(); ++v)
+    start.places.heights.push_back(field.raster().at(start.tin.point(v)));
+  start.tin.scale(kLatticeSteps);
+  return start;
+}
+
+RC_GTEST_PROP(streamed_shapes, bands_leave_no_goal_behind, ()) {
+  const auto largest = *rc::gen::element(5, 12, 40);
+  const Field field = testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(2, largest),
+                                            *rc::gen::inRange(2, largest), testing::kReliefs[*rc::gen::inRange(0, 5)],
+                                            *rc::gen::element(0.0, 0.0, 0.02, 0.1));
+  auto start = outline_of(field);
+  RC_PRE(start.has_value());
+  const ArraySource source(field.view());
+  const HeightField streamed = with_source(field.view(), source);
+  const Frame frame = grid_frame(field.rows);
+  ShapeTask task{{}, frame.affine, *rc::gen::element(0.0, 0.5, 2.0, 20.0, 2000.0)};
+  task.goals.min_angle = *rc::gen::element(0.0, 15.0, 20.0);
+  if (*rc::gen::arbitrary<bool>()) task.goals.max_edge = *rc::gen::element(0.7, 2.5, 7.0);
+  if (*rc::gen::arbitrary<bool>()) task.goals.grade = *rc::gen::element(0.1, 0.5);
+  task.field = &streamed;
+  task.rows_at_once = *rc::gen::element(4, 7, 16);
+  double share = 0;
+  task.progress = [&](double now, std::uint64_t, double) -> Result<void> {
+    RC_ASSERT(now >= share && now <= 1);
+    share = now;
+    return {};
+  };
+  const auto outside = testing::outside_area2(start->tin);
+  const auto work = refine_shapes({nullptr, field.cols, field.rows}, start->tin, start->places, task);
+  RC_ASSERT(work.has_value());
+  RC_ASSERT(testing::verify_triangulation(start->tin, (field.cols - 1) * kLatticeSteps + 1,
+                                          (field.rows - 1) * kLatticeSteps + 1, testing::Edges::kAny) == "");
+  RC_ASSERT(testing::outside_area2(start->tin) == outside);
+  const Mesh mesh = freeze(SampleHeights(streamed, {}), start->tin, start->places, frame, false);
+  const auto judged = measure(field.view(), mesh);
+  RC_ASSERT(judged.has_value());
+  RC_ASSERT(judged->max_error <= task.threshold + 1e-9);
+  RC_ASSERT(judged->uncovered == 0u);
+  RC_ASSERT(judged->is_sound());
+  const ShapeReport shape = report_shapes(mesh, task.goals, work->forced);
+  RC_ASSERT(shape.below == 0u);
+  if (task.goals.max_edge) RC_ASSERT(shape.longest_edge <= *task.goals.max_edge);
+}
+
+RC_GTEST_PROP(streamed_shapes, fitting_by_windows_is_fitting, ()) {
+  const Field field = testing::any_field();
+  const double threshold = testing::any_threshold();
+  auto tin = testing::refined(field, threshold);
+  RC_PRE(tin.has_value());
+  VertexPlaces places{kLatticeSteps, {}, {}};
+  for (Vertex v = 0; v < tin->vertex_count(); ++v) places.heights.push_back(field.raster().at(tin->point(v)));
+  tin->scale(kLatticeSteps);
+  FitOptions options;
+  options.threshold = threshold;
+  options.threads = *rc::gen::element(1, 2);
+  options.vertices_are_free = true;
+  if (*rc::gen::arbitrary<bool>()) options.depth = kHighDepth;
+  options.most_side = *rc::gen::element(0, 5, 20);
+  options.most_window = *rc::gen::element<std::int64_t>(0, 100, 1000);
+  const auto copy = [&] {
+    Triangulation::Arrays arrays;
+    for (Vertex v = 0; v < tin->vertex_count(); ++v) arrays.points.push_back(tin->point(v));
+    for (HalfEdge h = 0; h < 3 * tin->triangle_count(); ++h) {
+      arrays.corners.push_back(tin->origin(h));
+      arrays.twins.push_back(tin->twin(h));
+    }
+    for (Triangle t = 0; t < tin->triangle_count(); ++t) {
+      std::uint8_t flags = tin->is_outside(t) ? Triangulation::Arrays::kOutside : 0;
+      for (unsigned k = 0; k < 3; ++k) flags |= static_cast<std::uint8_t>(tin->is_constrained(3 * t + k) << k);
+      arrays.flags.push_back(flags);
+    }
+    return Triangulation(std::move(arrays));
+  };
+  const auto whole = fit(field.raster(), copy(), places, options);
+  const ArraySource source(field.view());
+  const HeightField streamed = with_source(field.view(), source);
+  FitOptions by_windows = options;
+  read_windows(streamed, {}, by_windows);
+  const auto read = fit({nullptr, field.cols, field.rows}, copy(), places, by_windows);
+  RC_ASSERT(whole.has_value() && read.has_value());
+  const Triangulation &a = whole->tin, &b = read->tin;
+  RC_ASSERT(a.vertex_count() == b.vertex_count() && a.triangle_count() == b.triangle_count());
+  for (Vertex v = 0; v < a.vertex_count(); ++v) RC_ASSERT(a.point(v) == b.point(v));
+  for (HalfEdge h = 0; h < 3 * a.triangle_count(); ++h) RC_ASSERT(a.origin(h) == b.origin(h) && a.twin(h) == b.twin(h));
+  RC_ASSERT(whole->counts.removed == read->counts.removed);
+}
+
+SimplifyOptions in_little_memory(Effort effort) {
+  SimplifyOptions options;
+  options.max_error = 3;
+  options.effort = effort;
+  options.memory_limit = 3'400'000;
+  options.shape.min_angle = 25;
+  options.threads = 1;
+  return options;
+}
+
+/// Waves of some hundred samples, with a void.
+Field wavy_field(std::int32_t cols, std::int32_t rows) {
+  Field field{cols, rows, {}};
+  for (std::int32_t y = 0; y < rows; ++y) {
+    for (std::int32_t x = 0; x < cols; ++x)
+      field.samples.push_back(static_cast<float>(50 * std::sin(0.05 * x) + 30 * std::cos(0.07 * y + 0.02 * x)));
+  }
+  for (std::size_t i = 0; i < 60; ++i) field.samples[field.samples.size() / 2 + i] = NAN;
+  return field;
+}
+
+TEST(streamed_shapes, take_no_more_triangles_than_in_memory_at_the_public_door) {
+  const Field field = wavy_field(500, 400);
+  const ArraySource source(field.view());
+  const HeightField streamed = with_source(field.view(), source);
+  for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
+    SimplifyOptions options = in_little_memory(effort);
+    ASSERT_LT(rows_at_once(streamed, {options.memory_limit, 0, 0}), 300);
+    const auto result = simplify(streamed, options);
+    ASSERT_TRUE(result) << result.error().message;
+    const Measurement judged = *measure(field.view(), result->mesh);
+    EXPECT_LE(judged.max_error, 3 + 1e-9);
+    EXPECT_EQ(judged.uncovered, 0u);
+    EXPECT_TRUE(judged.is_sound());
+    EXPECT_EQ(result->shape->below, result->shape->forced);
+    options.threads = 3;
+    const auto again = simplify(streamed, options);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(result->mesh.positions, again->mesh.positions);
+    EXPECT_EQ(result->mesh.triangles, again->mesh.triangles);
+    options.memory_limit = 0;
+    const auto whole = simplify(field.view(), options);
+    ASSERT_TRUE(whole) << whole.error().message;
+    EXPECT_LT(static_cast<double>(result->mesh.triangle_count()),
+              1.1 * static_cast<double>(whole->mesh.triangle_count()));
+  }
+}
+
+TEST(streamed_shapes, a_source_that_breaks_ends_the_run_with_its_sentence) {
+  const Field field = wavy_field(60, 80);
+  for (const Effort effort : {Effort::kFast, Effort::kHigh}) {
+    const ArraySource source(field.view(), 70);
+    SimplifyOptions options = in_little_memory(effort);
+    const auto result = simplify(with_source(field.view(), source), options);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().kind, ErrorKind::kInput);
+    EXPECT_NE(result.error().message.find("row 70 is broken"), std::string::npos) << result.error().message;
+  }
+}
+
+TEST(streamed_shapes, what_outgrows_the_memory_is_refused_with_what_would_do) {
+  const Field field = wavy_field(300, 300);
+  const ArraySource source(field.view());
+  SimplifyOptions options = in_little_memory(Effort::kFast);
+  options.shape.max_edge = 2;
+  const auto result = simplify(with_source(field.view(), source), options);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
+  EXPECT_NE(result.error().message.find("memory_limit is too little: the mesh has"), std::string::npos)
+      << result.error().message;
+}
+
+}  // namespace
+}  // namespace scarp::streamed_shape_laws_test
