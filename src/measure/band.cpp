@@ -72,6 +72,7 @@ Band::Band(const HeightField& field, int first, int rows, const Limits& limits, 
   heights_.assign(size + 2 * static_cast<std::size_t>(cols_), std::numeric_limits<float>::quiet_NaN());
   errors_.assign(size, std::numeric_limits<double>::quiet_NaN());
   row_void_cells_.assign(static_cast<std::size_t>(rows), 0);
+  if (limits.region != nullptr) places_ = limits.region->places(first, rows);
 }
 
 void Band::classify() {
@@ -109,7 +110,7 @@ void Band::classify() {
         if (left || right) continue;
         heights[c] = nan;
         const bool is_cut_off =
-            limits_.region != nullptr && limits_.region->place(static_cast<int>(c), row) == CutRegion::Place::kOutside;
+            limits_.region != nullptr && place(static_cast<int>(c), row) == CutRegion::Place::kOutside;
         ++(is_cut_off ? report_.cut_off : report_.stray);
       }
       for (std::size_t c = 0; has_cells && c + 1 < cols; ++c) {
@@ -135,7 +136,7 @@ void Band::cut() {
   for (int row = first_; row < end(); ++row) {
     float* heights = &heights_[height_at(0, row)];
     for (int c = 0; c < cols_; ++c) {
-      if (std::isnan(heights[c]) || limits_.region->place(c, row) != CutRegion::Place::kOutside) continue;
+      if (std::isnan(heights[c]) || place(c, row) != CutRegion::Place::kOutside) continue;
       heights[c] = std::numeric_limits<float>::quiet_NaN();
       ++report_.cut_off;
     }
@@ -164,7 +165,7 @@ bool Band::find_missing() {
     const double* error = errors(row);
     for (int c = 0; c < cols_; ++c) {
       if (!std::isnan(error[c]) || std::isnan(height[c])) continue;
-      if (limits_.region != nullptr && limits_.region->place(c, row) == CutRegion::Place::kNear) {
+      if (limits_.region != nullptr && place(c, row) == CutRegion::Place::kNear) {
         ++report_.cut_off;
         continue;
       }

@@ -135,6 +135,8 @@ class Band {
                : double{limits_.by_sample[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols_) +
                                           static_cast<std::size_t>(col)]};
   }
+  /// REQUIRES: there is a region.
+  CutRegion::Place place(int col, int row) const { return places_[at(col, row)]; }
   void classify();
   void cut();
 
@@ -146,7 +148,8 @@ class Band {
   bool has_void_cells_ = false;
   std::vector<float> heights_;
   std::vector<double> errors_;
-  std::vector<Nearest> nearest_;  // empty if nothing is missing
+  std::vector<CutRegion::Place> places_;  // empty without a region
+  std::vector<Nearest> nearest_;          // empty if nothing is missing
   std::vector<std::uint8_t> cells_, row_void_cells_, row_missing_;
   BandReport report_;
 };

@@ -8,10 +8,7 @@
 namespace scarp::judge {
 
 CutRegion::CutRegion(const Cutline& cutline, int cols, int rows)
-    : cols_(cols),
-      rows_(rows),
-      segments_(static_cast<std::size_t>(rows)),
-      places_(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows), Place::kOutside) {
+    : cols_(cols), rows_(rows), segments_(static_cast<std::size_t>(rows)) {
   const auto& a = cutline.affine;
   const double determinant = a[1] * a[5] - a[2] * a[4];
   std::map<std::uint32_t, std::vector<const Line*>> polygons;
@@ -31,10 +28,16 @@ CutRegion::CutRegion(const Cutline& cutline, int cols, int rows)
       }
     }
   }
-  for (int row = 0; row < rows; ++row) {
-    mark_inside(row);
-    mark_near(row);
+}
+
+std::vector<CutRegion::Place> CutRegion::places(int first, int rows) const {
+  std::vector<Place> places(static_cast<std::size_t>(cols_) * static_cast<std::size_t>(rows), Place::kOutside);
+  for (int row = first; row < first + rows; ++row) {
+    Place* line = &places[static_cast<std::size_t>(row - first) * static_cast<std::size_t>(cols_)];
+    mark_inside(row, line);
+    mark_near(row, line);
   }
+  return places;
 }
 
 void CutRegion::add(const Segment& segment) {
@@ -81,7 +84,7 @@ bool CutRegion::is_near(double x, double y, double distance) const {
 }
 
 /// Between every two crossings of the row with the rings of a polygon.
-void CutRegion::mark_inside(int row) {
+void CutRegion::mark_inside(int row, Place* places) const {
   const std::vector<Segment>& segments = segments_at(row);
   std::vector<double> crossings;
   for (std::size_t i = 0; i < segments.size();) {
@@ -95,12 +98,12 @@ void CutRegion::mark_inside(int row) {
     for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
       const double last = std::min(crossings[k + 1], cols_ - 1.0);
       for (double col = std::max(std::ceil(crossings[k]), 0.0); col <= last; ++col)
-        at(static_cast<int>(col), row) = Place::kInside;
+        places[static_cast<std::ptrdiff_t>(col)] = Place::kInside;
     }
   }
 }
 
-void CutRegion::mark_near(int row) {
+void CutRegion::mark_near(int row, Place* places) const {
   for (const Segment& s : segments_at(row)) {
     // The part of it that is near enough to the row.
     double begin = 0, end = 1;
@@ -115,7 +118,7 @@ void CutRegion::mark_near(int row) {
     const double x0 = s.x0 + begin * (s.x1 - s.x0), x1 = s.x0 + end * (s.x1 - s.x0);
     const double last = std::min(std::max(x0, x1) + kNear, cols_ - 1.0);
     for (double col = std::max(std::ceil(std::min(x0, x1) - kNear), 0.0); col <= last; ++col) {
-      if (distance(s, col, row) <= kNear) at(static_cast<int>(col), row) = Place::kNear;
+      if (distance(s, col, row) <= kNear) places[static_cast<std::ptrdiff_t>(col)] = Place::kNear;
     }
   }
 }

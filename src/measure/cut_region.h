@@ -15,14 +15,12 @@ class CutRegion {
  public:
   static constexpr double kNear = 1.0 / 64;  ///< in samples
 
-  /// REQUIRES: the affine map can be inverted. Cost: O(samples + segments · rows that they cross).
+  /// REQUIRES: the affine map can be inverted. Cost: O(rows + segments · rows that they cross).
   CutRegion(const Cutline& cutline, int cols, int rows);
 
   enum class Place : std::uint8_t { kOutside, kNear, kInside };
-  /// Of a sample.
-  Place place(int col, int row) const {
-    return places_[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(col)];
-  }
+  /// Of the samples of some rows, row-major. Cost: O(samples + segments in those rows).
+  std::vector<Place> places(int first, int rows) const;
   /// Whether a point of the grid lies in a polygon. REQUIRES: its row is in the field. Cost: O(segments in that row).
   bool holds(double x, double y) const;
   /// Whether a ring is no farther than `distance`, at most 2 · kNear. As holds().
@@ -37,15 +35,11 @@ class CutRegion {
   static bool crosses(const Segment& s, double x, double y);
   const std::vector<Segment>& segments_at(double y) const;
   void add(const Segment& segment);
-  void mark_inside(int row);
-  void mark_near(int row);
-  Place& at(int col, int row) {
-    return places_[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(col)];
-  }
+  void mark_inside(int row, Place* places) const;
+  void mark_near(int row, Place* places) const;
 
   int cols_, rows_;
   std::vector<std::vector<Segment>> segments_;  // by row of cells, those within 2 kNear of it; of a polygon in sequence
-  std::vector<Place> places_;
 };
 
 }  // namespace scarp::judge
