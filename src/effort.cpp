@@ -90,7 +90,7 @@ Result<void> check_lines(const HeightField& field, const SimplifyOptions& option
   if (has_lines(options) && obstacle == nullptr && has_budget(options) && has_bounds(options))
     obstacle = "has no budget where samples have bounds of their own";
   const bool is_cut = !options.cutline.rings.empty();
-  if (obstacle == nullptr && field.samples == nullptr && (lays_first(options) || is_cut))
+  if (obstacle == nullptr && field.samples == nullptr && lays_first(options))
     obstacle = "needs the raster in memory as a whole";
   const bool is_of_faults = obstacle == nullptr && has_faults(options) && options.shape.any();
   if (is_of_faults) obstacle = "has no goals for angles and edges";

@@ -264,6 +264,7 @@ class Run {
     refinement_.reset();
     auto laid = ConstrainedMesh::lay(raster_, domain_->tin, *lines_);
     if (!laid) return tl::unexpected(laid.error());
+    if (!laid->has_surface()) return fail(ErrorKind::kInput, kNothingInCutline);
     const LatticeJudge judge(raster_, laid->heights(), criterion_.aim(), criterion_.aims());
     // What refinement left and no line touches keeps the bound.
     Refinement refinement(judge, domain_->tin, Algorithm::kHeap, {},

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <span>
 #include <utility>
 
 #include "grid/affine_map.h"
-#include "grid/vertex_places.h"
+#include "grid/sample_runs.h"
+#include "grid/void_samples.h"
 #include "line_marks.h"
 
 namespace scarp {
@@ -79,44 +82,61 @@ class RingClipper {
   std::vector<RingPoint> points_, clipped_;
 };
 
-std::size_t index_of(std::int32_t col, std::int32_t row, std::int32_t cols) {
-  return static_cast<std::size_t>(row) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(col);
-}
+class SourceWithin final : public SampleSource {
+ public:
+  SourceWithin(std::shared_ptr<const SampleSource> source, std::shared_ptr<const SampleSet> within)
+      : source_(std::move(source)), within_(std::move(within)) {}
 
-/// The largest whole number that is not above a / b. REQUIRES: b > 0.
-std::int64_t floor_divide(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
-
-/// Calls visit(col, row) for the cells that an edge lies in, with some beside it, and each cell of the raster only.
-template <class Visit>
-void visit_cells(Point p, Point q, std::int32_t cols, std::int32_t rows, const Visit& visit) {
-  if (p.y > q.y) std::swap(p, q);
-  const auto cell = [](double steps, std::int32_t cells) {
-    return std::clamp(static_cast<std::int32_t>(std::floor(steps / kLatticeSteps)), 0, cells - 1);
-  };
-  const double height = q.y - p.y, slope = height > 0 ? (q.x - p.x) / height : 0;
-  for (std::int32_t row = cell(p.y, rows - 1); row <= cell(q.y, rows - 1); ++row) {
-    const double top = std::max<double>(p.y, double{kLatticeSteps} * row),
-                 bottom = std::min<double>(q.y, double{kLatticeSteps} * (row + 1.0));
-    const double from = height > 0 ? p.x + slope * (top - p.y) : p.x,
-                 to = height > 0 ? p.x + slope * (bottom - p.y) : q.x;
-    const std::int32_t last = cell(std::max(from, to), cols - 1);
-    for (std::int32_t col = cell(std::min(from, to), cols - 1); col <= last; ++col) visit(col, row);
+  Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
+    if (auto copied = source_->read(col, row, cols, rows, out, stride); !copied) return copied;
+    for (int y = 0; y < rows; ++y) void_beside(within_->row(row + y), col, col + cols, out + y * stride);
+    return {};
   }
-}
+  bool is_in_memory() const override { return source_->is_in_memory(); }
 
-/// Marks what lies within `reach` of a marked one, in a line of `count` that are `stride` apart.
-void spread(std::vector<std::uint8_t>& marks, std::size_t first, std::size_t stride, std::int32_t count,
-            std::vector<std::uint8_t>& line) {
-  line.assign(static_cast<std::size_t>(count), 0);
-  for (std::int32_t i = 0; i < count; ++i) {
-    if (marks[first + static_cast<std::size_t>(i) * stride] == 0) continue;
-    // Cell i has the samples i and i + 1; the cells beside it have one more each.
-    for (std::int32_t k = std::max(i - 1, 0); k <= std::min(i + 2, count - 1); ++k)
-      line[static_cast<std::size_t>(k)] = 1;
+ private:
+  std::shared_ptr<const SampleSource> source_;
+  std::shared_ptr<const SampleSet> within_;
+};
+
+/// Counts heights within runs and outside, row after row from the top.
+class OutsideCount {
+ public:
+  /// `samples`: of a row, as they were.
+  void add(std::span<const SampleRun> within, std::span<const float> samples) {
+    here_.assign(samples.size(), 0);
+    std::uint64_t valid = 0, kept = 0;
+    for (const float z : samples) {
+      if (std::isnan(z)) continue;
+      ++valid;
+      least_ = std::min(least_, z);
+      most_ = std::max(most_, z);
+    }
+    for (const SampleRun& run : within) {
+      for (auto col = static_cast<std::size_t>(run.begin); col < static_cast<std::size_t>(run.end); ++col)
+        kept += here_[col] = std::isnan(samples[col]) ? 0 : 1;
+    }
+    for (std::size_t col = 0; col + 1 < above_.size() && !result_.has_surface; ++col)
+      result_.has_surface = above_[col] + above_[col + 1] + here_[col] + here_[col + 1] >= 3;
+    std::swap(above_, here_);
+    result_.kept += kept;
+    result_.lost += valid - kept;
   }
-  for (std::int32_t i = 0; i < count; ++i)
-    marks[first + static_cast<std::size_t>(i) * stride] = line[static_cast<std::size_t>(i)];
-}
+  const VoidedOutside& result() const { return result_; }
+  /// The range of all heights.
+  void complete(RasterInfo& info) const {
+    info.has_range = true;
+    info.valid = result_.kept + result_.lost;
+    if (info.valid == 0) return;
+    info.min = double{least_};
+    info.max = double{most_};
+  }
+
+ private:
+  VoidedOutside result_;
+  std::vector<std::uint8_t> above_, here_;  // heights within, by column
+  float least_ = std::numeric_limits<float>::infinity(), most_ = -std::numeric_limits<float>::infinity();
+};
 
 }  // namespace
 
@@ -128,81 +148,6 @@ std::vector<Line> clip_rings(const Cutline& cutline, std::int32_t cols, std::int
     if (within.points.size() >= 4) clipped.push_back(std::move(within));
   }
   return clipped;
-}
-
-std::vector<CutSide> sides_of_samples(std::span<const std::array<Point, 2>> walls, std::int32_t cols,
-                                      std::int32_t rows) {
-  constexpr std::uint8_t kTurn = 1, kOn = 2;
-  std::vector<std::uint8_t> marks(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows), 0);
-  const auto mark_point = [&](Point p) {
-    if (p.x % kLatticeSteps == 0 && p.y % kLatticeSteps == 0)
-      marks[index_of(p.x / kLatticeSteps, p.y / kLatticeSteps, cols)] |= kOn;
-  };
-  for (auto [p, q] : walls) {
-    mark_point(p);
-    mark_point(q);
-    if (p.y > q.y || (p.y == q.y && p.x > q.x)) std::swap(p, q);
-    if (p.y == q.y) {
-      if (p.y % kLatticeSteps != 0) continue;
-      for (std::int64_t col = -floor_divide(-p.x, kLatticeSteps); col * kLatticeSteps <= q.x; ++col)
-        marks[index_of(static_cast<std::int32_t>(col), p.y / kLatticeSteps, cols)] |= kOn;
-      continue;
-    }
-    const std::int64_t dx = q.x - p.x, dy = q.y - p.y;
-    // Half open, so that a vertex on a row counts once.
-    for (std::int64_t row = -floor_divide(-p.y, kLatticeSteps); row * kLatticeSteps < q.y; ++row) {
-      const std::int64_t along = p.x * dy + (row * kLatticeSteps - p.y) * dx, step = kLatticeSteps * dy;
-      const std::int64_t before = floor_divide(along, step);
-      if (before * step == along)
-        marks[index_of(static_cast<std::int32_t>(before), static_cast<std::int32_t>(row), cols)] |= kOn;
-      if (before + 1 < cols)
-        marks[index_of(static_cast<std::int32_t>(before + 1), static_cast<std::int32_t>(row), cols)] ^= kTurn;
-    }
-  }
-  std::vector<CutSide> sides(marks.size(), CutSide::kBeyond);
-  for (std::int32_t row = 0; row < rows; ++row) {
-    bool is_within = false;
-    for (std::size_t i = index_of(0, row, cols); i < index_of(0, row + 1, cols); ++i) {
-      if ((marks[i] & kTurn) != 0) is_within = !is_within;
-      sides[i] = (marks[i] & kOn) != 0 ? CutSide::kOnWall : is_within ? CutSide::kWithin : CutSide::kBeyond;
-    }
-  }
-  return sides;
-}
-
-bool void_beyond(std::span<const std::array<Point, 2>> walls, std::span<const CutSide> sides, std::int32_t cols,
-                 std::int32_t rows, std::span<float> samples) {
-  // By cell, at the place of its first sample.
-  std::vector<std::uint8_t> marks(samples.size(), 0);
-  const auto is_held = [&](std::int32_t col, std::int32_t row) {
-    return sides[index_of(col, row, cols)] != CutSide::kBeyond;
-  };
-  for (std::int32_t row = 0; row + 1 < rows; ++row) {
-    for (std::int32_t col = 0; col + 1 < cols; ++col)
-      marks[index_of(col, row, cols)] =
-          is_held(col, row) || is_held(col + 1, row) || is_held(col, row + 1) || is_held(col + 1, row + 1);
-  }
-  for (const auto& [p, q] : walls)
-    visit_cells(p, q, cols, rows, [&](std::int32_t col, std::int32_t row) { marks[index_of(col, row, cols)] = 1; });
-  bool any = false;
-  for (std::int32_t row = 0; row + 1 < rows && !any; ++row) {
-    for (std::int32_t col = 0; col + 1 < cols && !any; ++col) {
-      if (marks[index_of(col, row, cols)] == 0) continue;
-      int valid = 0;
-      for (const std::size_t i : {index_of(col, row, cols), index_of(col + 1, row, cols), index_of(col, row + 1, cols),
-                                  index_of(col + 1, row + 1, cols)})
-        valid += std::isnan(samples[i]) ? 0 : 1;
-      any = valid >= 3;
-    }
-  }
-  std::vector<std::uint8_t> line;
-  for (std::int32_t row = 0; row < rows; ++row) spread(marks, index_of(0, row, cols), 1, cols, line);
-  for (std::int32_t col = 0; col < cols; ++col)
-    spread(marks, index_of(col, 0, cols), static_cast<std::size_t>(cols), rows, line);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (marks[i] == 0) samples[i] = std::numeric_limits<float>::quiet_NaN();
-  }
-  return any;
 }
 
 Result<std::vector<Line>> close_rings(std::vector<Line> lines) {
@@ -223,16 +168,33 @@ Result<std::vector<Line>> close_rings(std::vector<Line> lines) {
   return lines;
 }
 
-std::uint64_t void_outside(OwnedHeightField& field, const Cutline& cutline) {
-  LineMarks marks(cutline.affine, field.cols, field.rows);
-  marks.add_polygons(cutline.rings);
-  std::uint64_t lost = 0;
-  for (std::size_t i = 0; i < field.samples.size(); ++i) {
-    if (marks.has(i) || std::isnan(field.samples[i])) continue;
-    field.samples[i] = std::numeric_limits<float>::quiet_NaN();
-    ++lost;
+Result<VoidedOutside> void_outside(OwnedHeightField& field, const Cutline& cutline, const ProgressCallback& progress) {
+  LineRuns runs(cutline.affine, field.cols, field.rows);
+  runs.add_polygons(cutline.rings);
+  const auto within = std::make_shared<const SampleSet>(runs.runs(), field.rows);
+  OutsideCount count;
+  if (!field.source) {
+    for (std::int32_t row = 0; row < field.rows; ++row) {
+      float* samples = &field.samples[static_cast<std::size_t>(row) * static_cast<std::size_t>(field.cols)];
+      count.add(within->row(row), {samples, static_cast<std::size_t>(field.cols)});
+      void_beside(within->row(row), 0, field.cols, samples);
+    }
+    return count.result();
   }
-  return lost;
+  std::vector<float> samples(static_cast<std::size_t>(field.cols));
+  for (std::int32_t row = 0; row < field.rows; ++row) {
+    constexpr std::int32_t kRowsTogether = 256;
+    if (progress && row % kRowsTogether == 0 && !progress({"read", static_cast<double>(row) / field.rows, 0, 0}))
+      return fail(ErrorKind::kCancelled, "cancelled while reading");
+    if (auto read = field.source->read(0, row, field.cols, 1, samples.data(), field.cols); !read)
+      return tl::unexpected(read.error());
+    count.add(within->row(row), samples);
+  }
+  if (!field.info.has_range) count.complete(field.info);
+  field.source = std::make_shared<SourceWithin>(std::move(field.source), within);
+  VoidedOutside result = count.result();
+  result.bytes = sizeof(SampleRun) * runs.runs().size() + sizeof(std::size_t) * static_cast<std::size_t>(field.rows);
+  return result;
 }
 
 }  // namespace scarp

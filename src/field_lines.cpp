@@ -137,8 +137,8 @@ std::vector<PolygonEdge> passes_of(const Breaklines& placed, std::span<const Lin
 }
 
 /// On the border of the raster's rectangle.
-bool is_on_side(Point p, Point q, const Raster& raster) {
-  const std::int32_t right = (raster.cols - 1) * kLatticeSteps, bottom = (raster.rows - 1) * kLatticeSteps;
+bool is_on_side(Point p, Point q, std::int32_t cols, std::int32_t rows) {
+  const std::int32_t right = (cols - 1) * kLatticeSteps, bottom = (rows - 1) * kLatticeSteps;
   return (p.x == q.x && (p.x == 0 || p.x == right)) || (p.y == q.y && (p.y == 0 || p.y == bottom));
 }
 
@@ -152,8 +152,8 @@ struct KeptEdges {
 };
 
 /// Edges of breaklines in and around polygons, and the outline of the polygons' union.
-KeptEdges cut_edges(const Breaklines& placed, std::span<const Line> lines, std::size_t breaklines,
-                    const Raster& raster) {
+KeptEdges cut_edges(const Breaklines& placed, std::span<const Line> lines, std::size_t breaklines, std::int32_t cols,
+                    std::int32_t rows) {
   const std::vector<GraphEdge> edges = edges_of_lines(placed);
   std::vector<std::uint8_t> is_start(edges.size(), 0);
   for (std::size_t i = 0, line = 0; i < placed.is_held.size(); ++i) {
@@ -170,7 +170,7 @@ KeptEdges cut_edges(const Breaklines& placed, std::span<const Line> lines, std::
     const auto [a, b] = edges[i];
     const bool before = covers[i].positive > 0, after = covers[i].negative > 0;
     if (before != after) kept.outline.push_back({placed.points[a], placed.points[b]});
-    const bool is_wall = before != after && !is_on_side(placed.points[a], placed.points[b], raster);
+    const bool is_wall = before != after && !is_on_side(placed.points[a], placed.points[b], cols, rows);
     if (is_wall) kept.walls.push_back(before ? edges[i] : GraphEdge{b, a});
     if (!is_wall && !(is_breakline[i] && (before || after))) continue;
     kept.edges.push_back(edges[i]);
@@ -251,20 +251,36 @@ std::vector<SampleEdit> edit_samples(const Breaklines& placed, const Change& cha
   return edits;
 }
 
-/// Makes void what lies well beyond the cut, and tells which samples it takes away.
-Result<void> cut_samples(const Raster& raster, FieldLines& lines) {
-  if (!lines.graph.cut)
+/// The graph of what was placed: `followed` are `breaklines` of them, and rings where there is a cut.
+Result<void> take_graph(const Breaklines& placed, std::span<const Line> followed, std::size_t breaklines, bool is_cut,
+                        std::int32_t cols, std::int32_t rows, FieldLines& result) {
+  // Those that were found in the raster are no lines of the caller's.
+  std::vector<bool> is_laid(breaklines, !is_cut);
+  for (const auto& chain : placed.chains) {
+    if (chain.line < breaklines) is_laid[chain.line] = true;
+  }
+  for (std::size_t k = 0; k < breaklines; ++k) result.laid += is_laid[k] && !is_laid_first(followed[k]) ? 1 : 0;
+  if (!is_cut) result.laid -= placed.outside;
+  result.graph = graph_of(placed, is_cut ? cut_edges(placed, followed, breaklines, cols, rows) : all_edges(placed));
+  result.graph.is_laid_first = std::any_of(followed.begin(), followed.end(), is_laid_first);
+  if (!is_cut) return {};
+  if (!result.graph.cut)
     return fail(ErrorKind::kInput,
                 "the cutline lies beside the raster, or is narrower than 1/256 sample: nothing would be left");
-  SurfaceCut& cut = *lines.graph.cut;
-  cut.samples = sides_of_samples(cut.outline, raster.cols, raster.rows);
-  for (std::size_t i = 0; i < lines.samples.size(); ++i) lines.valid += std::isnan(lines.samples[i]) ? 0 : 1;
-  if (!void_beyond(cut.outline, cut.samples, raster.cols, raster.rows, lines.samples))
-    return fail(ErrorKind::kInput, "no part of the raster's surface lies in the cutline: it holds voids only");
-  std::erase_if(lines.edits, [&](const SampleEdit& edit) {
-    return cut.samples[static_cast<std::size_t>(edit.row) * static_cast<std::size_t>(raster.cols) +
-                       static_cast<std::size_t>(edit.col)] == CutSide::kBeyond;
+  SurfaceCut& cut = *result.graph.cut;
+  cut.rows = std::make_shared<CutRows>(cut.outline, cols, rows);
+  std::erase_if(result.edits, [&](const SampleEdit& edit) {
+    return cut.rows->side({edit.col, edit.row}) == CutSide::kBeyond;
   });
+  return {};
+}
+
+/// Makes void what lies well beyond the cut.
+Result<void> cut_samples(const CutRows& cut, std::int32_t cols, std::int32_t rows, FieldLines& lines) {
+  for (const float sample : lines.samples) lines.valid += std::isnan(sample) ? 0 : 1;
+  if (!cut.has_surface({lines.samples.data(), cols, rows}))
+    return fail(ErrorKind::kInput, "no part of the raster's surface lies in the cutline: it holds voids only");
+  cut.void_beyond(0, 0, cols, rows, lines.samples.data(), cols);
   return {};
 }
 
@@ -293,27 +309,35 @@ std::vector<Line> follow_all(std::size_t count, int threads, const Follow& follo
   return followed;
 }
 
-/// Of breaklines alone, in a raster that is not in memory.
-Result<FieldLines> prepare_from_source(const HeightField& field, const LineConstraints& lines, double tolerance,
-                                       int threads, std::int32_t row_side) {
-  const auto courses = find_courses(lines.lines, lines.affine, field.cols, field.rows);
+/// In a raster that is not in memory.
+Result<FieldLines> prepare_from_source(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
+                                       double tolerance, int threads, std::int32_t row_side) {
+  const bool is_cut = !cutline.rings.empty();
+  const std::array<double, 6>& affine = is_cut ? cutline.affine : lines.affine;
+  const std::vector<Line> rings = clip_rings(cutline, field.cols, field.rows);
+  auto courses = find_courses(lines.lines, affine, field.cols, field.rows);
   if (!courses) return tl::unexpected(courses.error());
+  const auto around = find_courses(rings, affine, field.cols, field.rows);
+  if (!around) return tl::unexpected(around.error());
+  courses->insert(courses->end(), around->begin(), around->end());
   auto samples = LineSamples::read(field, *courses);
   if (!samples) return tl::unexpected(samples.error());
-  const SoftLine soft(*samples, lines.affine, tolerance);
-  const std::vector<Line> followed =
-      follow_all(lines.lines.size(), threads, [&](std::size_t k) { return soft.follow(lines.lines[k]); });
+  const std::size_t breaklines = lines.lines.size();
+  const SoftLine soft(*samples, affine, tolerance);
+  const std::vector<Line> followed = follow_all(breaklines + rings.size(), threads, [&](std::size_t k) {
+    return k < breaklines ? soft.follow(lines.lines[k]) : soft.follow(rings[k - breaklines], true);
+  });
   std::vector<Segment> rigid = samples->outline_near();
   const std::int32_t width = (field.cols - 1) * kLatticeSteps;
   for (const std::int32_t row : shared_rows(field, row_side))
     rigid.push_back({{0, row * kLatticeSteps}, {width, row * kLatticeSteps}});
-  const auto placed = place_breaklines(followed, lines.affine, *samples, rigid, lines.conflict, false);
+  const auto placed = place_breaklines(followed, affine, *samples, rigid, lines.conflict, is_cut);
   if (!placed) return tl::unexpected(placed.error());
   FieldLines result;
   result.edits = edit_samples(*placed, [&](Point p, float after) { return samples->change(p, after); });
+  if (auto taken = take_graph(*placed, followed, breaklines, is_cut, field.cols, field.rows, result); !taken)
+    return tl::unexpected(taken.error());
   if (!result.edits.empty()) result.source = edit_source({std::shared_ptr<const void>(), field.source}, result.edits);
-  result.graph = graph_of(*placed, all_edges(*placed));
-  result.laid = lines.lines.size() - placed->outside;
   return result;
 }
 
@@ -335,9 +359,18 @@ std::uint64_t line_bytes(const HeightField& field, std::span<const Line> lines, 
   return static_cast<std::uint64_t>(bytes);
 }
 
+std::uint64_t copied_bytes(const HeightField& field, const LineConstraints& lines, const Cutline& cutline) {
+  const auto is_hard = [](const Line& line) {
+    return std::any_of(line.points.begin(), line.points.end(), [](const auto& p) { return !std::isnan(p[2]); });
+  };
+  const bool is_copied = !cutline.rings.empty() || std::any_of(lines.lines.begin(), lines.lines.end(), is_hard);
+  if (field.samples == nullptr || !is_copied) return 0;
+  return sizeof(float) * static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(field.rows);
+}
+
 Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
                                  double tolerance, int threads, std::int32_t row_side) {
-  if (field.samples == nullptr) return prepare_from_source(field, lines, tolerance, threads, row_side);
+  if (field.samples == nullptr) return prepare_from_source(field, lines, cutline, tolerance, threads, row_side);
   const auto cleaned = Samples::of(field);
   if (!cleaned) return tl::unexpected(cleaned.error());
   const Raster raster = cleaned->raster();
@@ -363,22 +396,11 @@ Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints
       return before;
     });
   }
-  // Those that were found in the raster are no lines of the caller's.
-  std::vector<bool> is_laid(breaklines, !is_cut);
-  for (const auto& chain : placed->chains) {
-    if (chain.line < breaklines) is_laid[chain.line] = true;
-  }
-  for (std::size_t k = 0; k < breaklines; ++k) result.laid += is_laid[k] && !is_laid_first(lines.lines[k]) ? 1 : 0;
-  const bool has_first = std::any_of(lines.lines.begin(), lines.lines.end(), is_laid_first);
-  if (!is_cut) {
-    result.laid -= placed->outside;
-    result.graph = graph_of(*placed, all_edges(*placed));
-    result.graph.is_laid_first = has_first;
-    return result;
-  }
-  result.graph = graph_of(*placed, cut_edges(*placed, followed, breaklines, raster));
-  result.graph.is_laid_first = has_first;
-  if (auto cut = cut_samples(raster, result); !cut) return tl::unexpected(cut.error());
+  if (auto taken = take_graph(*placed, followed, breaklines, is_cut, raster.cols, raster.rows, result); !taken)
+    return tl::unexpected(taken.error());
+  if (!is_cut) return result;
+  if (auto cut = cut_samples(*result.graph.cut->rows, raster.cols, raster.rows, result); !cut)
+    return tl::unexpected(cut.error());
   return result;
 }
 

@@ -20,10 +20,11 @@ struct FieldLines {
   /// The raster's, NaN where void and well beyond a cutline, with those on hard lines at the height of the line.
   /// EMPTY: as the field has them.
   std::vector<float> samples;
-  std::shared_ptr<const SampleSource> source;  ///< instead, where the field has one and samples are edited
-  std::vector<SampleEdit> edits;               ///< of these samples
-  std::uint64_t laid = 0;   ///< breaklines of which some part lies in the raster, but for those laid first
-  std::uint64_t valid = 0;  ///< samples, before the cut
+  /// Instead, where the field has one and samples are edited; nothing of it is cut.
+  std::shared_ptr<const SampleSource> source;
+  std::vector<SampleEdit> edits;  ///< of these samples
+  std::uint64_t laid = 0;         ///< breaklines of which some part lies in the raster, but for those laid first
+  std::uint64_t valid = 0;        ///< samples, before the cut; 0: not known
 
   /// `field` with these samples, which stay here.
   HeightField apply(const HeightField& field) const;
@@ -31,18 +32,21 @@ struct FieldLines {
 
 /// Soft lines, and the rings of the cutline, are given vertices of their own where they are straight for so long that
 /// the raster beside them leaves them by more than `tolerance`. Of breaklines the graph has what lies in the cutline.
-/// Fails as place_breaklines(), as the field's source, and with kInput where no surface lies in the cutline.
-/// `row_side`: where the field has a source, of the tiles that lines are cut at from row to row; what lines look at is
-/// read before. REQUIRES: the field is no larger than the lattice, and has its samples in memory or no cutline and no
+/// Fails as place_breaklines(), as the field's source, and with kInput where no surface lies in the cutline, as far as
+/// that is known. `row_side`: where the field has a source, of the tiles that lines are cut at from row to row; what
+/// lines look at is read before. REQUIRES: the field is no larger than the lattice, and has its samples in memory or no
 /// faults; tolerance >= 0; lines and cutline in the same coordinates.
 Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
                                  double tolerance, int threads, std::int32_t row_side = 0);
 
-/// What breaklines take beside the mesh, most of it while they are prepared: 300 bytes a vertex, and 100 for each
+/// What lines and rings take beside the mesh, most of it while they are prepared: 300 bytes a vertex, and 100 for each
 /// sample that they run along.
 std::uint64_t line_bytes(const HeightField& field, std::span<const Line> lines, const std::array<double, 6>& affine);
 inline std::uint64_t line_bytes(const HeightField& field, const LineConstraints& lines) {
   return line_bytes(field, lines.lines, lines.affine);
 }
+
+/// Of the samples in memory, where lines may edit them or a cutline makes some void: FieldLines::samples.
+std::uint64_t copied_bytes(const HeightField& field, const LineConstraints& lines, const Cutline& cutline);
 
 }  // namespace scarp

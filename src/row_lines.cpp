@@ -55,7 +55,7 @@ void split_border_chord(const float* samples, const BorderVertex& from, const Bo
 }  // namespace
 
 RowLines::RowLines(const ConstraintGraph& graph)
-    : graph_(graph), points_(graph.points.size()), edges_(graph.edges.size()) {
+    : graph_(graph), points_(graph.points.size()), edges_(graph.edges.size()), cut_(graph) {
   std::iota(points_.begin(), points_.end(), 0u);
   std::sort(points_.begin(), points_.end(),
             [&](std::uint32_t a, std::uint32_t b) { return before(graph_.points[a], graph_.points[b]); });
@@ -95,6 +95,7 @@ ConstraintGraph RowLines::part_of(const TileRow& row, double threshold) const {
     const auto [a, b] = graph_.edges[*edge];
     if (std::max(row_of(a), row_of(b)) <= bottom) part.edges.push_back({number_of(a), number_of(b)});
   }
+  part.cut = cut_.part_of(row.first, row.samples.rows, number_of);
   if (row.has_above) split_shared(row, true, threshold, part);
   if (row.has_below) split_shared(row, false, threshold, part);
   return part;
@@ -138,6 +139,8 @@ Result<FinishedRow> RowLines::lay(TileRow row, double threshold,
   const ConstraintGraph part = part_of(row, threshold);
   auto laid = ConstrainedMesh::lay(row.samples, row.tin, part);
   if (!laid) return tl::unexpected(laid.error());
+  has_surface_ = has_surface_ || laid->has_surface();
+  if (!has_surface_ && !row.has_below) return fail(ErrorKind::kInput, kNothingInCutline);
   const LatticeJudge judge(row.samples, laid->heights(), threshold, {});
   Refinement refinement(judge, row.tin, Algorithm::kHeap, {}, Refinement::Start::kClean);
   refinement.scan(laid->changed());

@@ -13,6 +13,7 @@
 
 #include "refine/constraints.h"
 #include "refine/tiled.h"
+#include "row_cut.h"
 #include "scarp/result.h"
 #include "scarp/strategy.h"
 
@@ -26,7 +27,8 @@ class RowLines {
   /// The row's mesh with its part of the lines as chains of constrained edges, at kLatticeSteps; samples that they put
   /// beyond `threshold` are inserted around them. Vertices on rows that are shared are the same for both that share
   /// them. Fails as ConstrainedMesh::lay(), with kInput for too many triangles and with kCancelled where `goes_on` says
-  /// no. REQUIRES: each sample lies within the threshold of the row's mesh.
+  /// no; with kInput after the last row if a cut has left nothing of any. REQUIRES: each sample lies within the
+  /// threshold of the row's mesh.
   Result<FinishedRow> lay(TileRow row, double threshold, const std::function<bool(std::uint64_t vertices)>& goes_on);
 
   const Work& work() const { return work_; }
@@ -38,6 +40,8 @@ class RowLines {
   const ConstraintGraph& graph_;
   std::vector<std::uint32_t> points_;  // of the graph, from the top down
   std::vector<std::uint32_t> edges_;   // by their upper ends
+  RowCut cut_;
+  bool has_surface_ = false;  // any row so far, behind the cut
   Work work_;
 };
 

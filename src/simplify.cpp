@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "criterion.h"
+#include "cut_source.h"
 #include "effort.h"
 #include "engine_run.h"
 #include "error_search.h"
@@ -62,7 +63,11 @@ Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const Simpli
     };
   }
   if (finishes_rows(field, options)) finish_rows(field, options, lines, criterion.aim(), fits, tiles);
-  return refine_tiled(field, tiles);
+  if (field.samples != nullptr || lines == nullptr || !lines->cut) return refine_tiled(field, tiles);
+  const CutSource near(*field.source, lines->cut->rows);
+  HeightField seen = field;
+  seen.source = &near;
+  return refine_tiled(seen, tiles);
 }
 
 /// The dominant order; greedily where that is of no use.
@@ -158,7 +163,8 @@ Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyO
     options.breaklines = std::move(*lines);
     if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
   }
-  options.memory_taken += line_bytes(field, options.breaklines);
+  options.memory_taken +=
+      line_bytes(field, options.breaklines) + line_bytes(field, options.cutline.rings, options.cutline.affine);
   if (auto fits = memory_budget(field, options).check_start(0); !fits) return tl::unexpected(fits.error());
   const double tolerance = kLineShare * *options.max_error;
   auto lines = prepare_lines(field, options.breaklines, options.cutline, tolerance, options.threads,
@@ -172,7 +178,9 @@ Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyO
   result->lines_laid = lines->laid;
   result->lines_for = *options.max_error;
   const Measurement& measured = result->measurement;
-  if (lines->valid > 0) result->cut_off = lines->valid - measured.samples - measured.uncovered - measured.stray;
+  // Where the field has a source, what lies beyond a cut is void to refinement only.
+  const std::uint64_t valid = lines->valid > 0 ? lines->valid : measured.heights.valid;
+  if (lines->graph.cut) result->cut_off = valid - measured.samples - measured.uncovered - measured.stray;
   return result;
 }
 

@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "line_options.h"
@@ -24,23 +23,6 @@ std::array<double, 2> unit_of(const RasterInfo& raster) {
   const bool has_metres = raster.cell_x_m > 0 && raster.cell_y_m > 0 && raster.cell_x > 0 && raster.cell_y > 0;
   if (!has_metres) return {1, 1};
   return {raster.cell_x_m / raster.cell_x, raster.cell_y_m / raster.cell_y};
-}
-
-/// Some cell has three heights or four, so that there is a surface.
-bool has_cell(const OwnedHeightField& field) {
-  const auto is_height = [&](int col, int row) {
-    return std::isnan(field.samples[static_cast<std::size_t>(row) * static_cast<std::size_t>(field.cols) +
-                                    static_cast<std::size_t>(col)])
-               ? 0
-               : 1;
-  };
-  for (int row = 0; row + 1 < field.rows; ++row) {
-    for (int col = 0; col + 1 < field.cols; ++col) {
-      if (is_height(col, row) + is_height(col + 1, row) + is_height(col, row + 1) + is_height(col + 1, row + 1) >= 3)
-        return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace
@@ -104,10 +86,13 @@ Result<Cut> read_cut(const CutlineArguments& given, const RasterInfo& raster, co
     cut.cutline.rings = std::move(*moved);
   }
   if (!given.mask_outside) return cut;
-  cut.masked = void_outside(field, cut.cutline);
-  cut.cutline.rings.clear();
-  const bool is_void = std::all_of(field.samples.begin(), field.samples.end(), [](float z) { return std::isnan(z); });
-  if (is_void || (cut.masked > 0 && !has_cell(field)))
+  const auto left = void_outside(field, cut.cutline, progress);
+  if (!left) return tl::unexpected(left.error());
+  cut.masked = left->lost;
+  cut.bytes = left->bytes;
+  cut.cutline.rings = {};
+  const bool is_void = left->kept == 0;
+  if (is_void || (cut.masked > 0 && !left->has_surface))
     return fail(ErrorKind::kInput,
                 fmt::format("--cutline {} --mask-outside: no {} of {} lies in the polygons{}",
                             shell_word(given.files.front()), is_void ? "height" : "cell with three heights",

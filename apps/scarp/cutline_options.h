@@ -34,6 +34,7 @@ struct Cut {
   Cutline cutline;             ///< empty where the samples outside are void
   std::uint64_t polygons = 0;  ///< of the files, before an inset
   std::uint64_t masked = 0;    ///< samples that were made void
+  std::uint64_t bytes = 0;     ///< that telling them apart takes where the samples are not in memory
 
   /// For the judge; null where everything counts.
   const Cutline* judged() const { return cutline.rings.empty() ? nullptr : &cutline; }

@@ -182,7 +182,7 @@ Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judg
 std::optional<std::string> MeasureCommand::find_need_of_samples() const {
   if (map_) return "--map";
   if (error_raster_) return "--error-raster";
-  const std::string others = companions_.canonical() + cut_.canonical() + channels_.canonical();
+  const std::string others = companions_.canonical() + channels_.canonical();
   if (others.empty()) return std::nullopt;
   return others.substr(1, others.find(' ', 1) - 1);
 }

@@ -105,6 +105,8 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
   Result<Cut> cut = read_cut(plan.cut, outcome.as_read, progress, outcome.field, outcome.companions.warnings);
   if (!cut) return tl::unexpected(std::move(cut.error()));
   outcome.cut = std::move(*cut);
+  const RasterInfo& now = outcome.field.info;
+  if (now.has_range) complete_info({now.valid, now.min, now.max}, outcome.as_read);
   outcome.heights = height_range(outcome.field);
   outcome.seconds_read = seconds_since(start);
   return {};
@@ -271,7 +273,8 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
     options.is_enough = content_with_interrupt;
     display.let_interrupt_finish("fit");
   }
-  if (plan->memory) options.memory_taken = bytes_taken(outcome.field, *plan->memory) + outcome.waters.bytes();
+  if (plan->memory)
+    options.memory_taken = bytes_taken(outcome.field, *plan->memory) + outcome.waters.bytes() + outcome.cut.bytes;
   Result<Simplified> simplified = simplify_as_planned(*plan, options, outcome);
   if (!simplified) {
     Error error = name_memory(given_, std::move(simplified.error()));

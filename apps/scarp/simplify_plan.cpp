@@ -376,7 +376,6 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
   const std::pair<const char*, bool> options[] = {
       {"--max-triangles", given.max_triangles.has_value()},
       {"--max-points", given.max_points.has_value()},
-      {"--cutline", !given.cut.files.empty()},
       {"--solid", plan.solid.has_value()},
       {"--cliff", given.cliff.height.has_value()},
       {"--ridges", given.ridges.height.has_value()},

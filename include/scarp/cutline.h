@@ -8,6 +8,7 @@
 
 #include "scarp/height_field.h"
 #include "scarp/lines.h"
+#include "scarp/progress.h"
 #include "scarp/result.h"
 
 namespace scarp {
@@ -32,9 +33,19 @@ Result<std::vector<Line>> close_rings(std::vector<Line> lines);
 Result<std::vector<Line>> inset_polygons(std::span<const Line> rings, double distance,
                                          const std::array<double, 2>& unit = {1, 1});
 
+/// What void_outside() has left.
+struct VoidedOutside {
+  std::uint64_t lost = 0;    ///< heights outside
+  std::uint64_t kept = 0;    ///< heights within
+  bool has_surface = false;  ///< some cell of the grid has three of these, or four
+  std::uint64_t bytes = 0;   ///< that the field's source takes from now on, beside what it took before
+};
+
 /// Makes all samples void that lie in no polygon: a cut along the cells of the grid, for whatever cannot be cut along
-/// the polygons themselves. Returns how many heights are lost. REQUIRES: the field has its samples in memory; the
-/// affine map can be inverted. Cost: O(samples + segments · rows that they cross).
-std::uint64_t void_outside(OwnedHeightField& field, const Cutline& cutline);
+/// the polygons themselves. Of a field that is not in memory they are void from now on wherever they are read, and it
+/// is read once, to count; then `info` has the range of the heights before, if it had none. Fails as the field's source
+/// and with kCancelled. REQUIRES: the affine map can be inverted. Cost: O(samples + segments · rows that they cross).
+Result<VoidedOutside> void_outside(OwnedHeightField& field, const Cutline& cutline,
+                                   const ProgressCallback& progress = {});
 
 }  // namespace scarp

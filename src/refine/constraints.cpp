@@ -96,9 +96,7 @@ Result<ConstrainedMesh> ConstrainedMesh::lay(const Raster& raster, Triangulation
     for (HalfEdge h = 3 * t; is_old && h < 3 * t + 3; ++h) is_old = corners[h] == tin.origin(h);
     if (!is_old) mesh.changed_.push_back(t);
   }
-  if (graph.cut) {
-    if (auto cut = cut_away(tin, raster.cols, *graph.cut, vertices); !cut) return tl::unexpected(cut.error());
-  }
+  if (graph.cut) mesh.has_surface_ = cut_away(tin, *graph.cut, vertices);
   return mesh;
 }
 

@@ -32,10 +32,12 @@ class ConstrainedMesh {
   /// Turns the points of `tin` from samples into kLatticeSteps, and makes the graph's edges chains of its edges,
   /// constrained; then what is cut away is marked outside. Points outside the domain, but for shared ones, are left out
   /// with their edges. `tin` and the raster stay alive; nobody else changes them. Fails with kInternal where an edge
-  /// crosses one that is constrained, with kInput where nothing stays. REQUIRES: sides of at most kMaxCoordinate /
-  /// kLatticeSteps samples; edges cross no constrained edge of `tin` but in points of the graph.
+  /// crosses one that is constrained. REQUIRES: sides of at most kMaxCoordinate / kLatticeSteps samples; edges cross no
+  /// constrained edge of `tin` but in points of the graph.
   static Result<ConstrainedMesh> lay(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph);
 
+  /// Whether a cut, if there is one, has left some surface.
+  bool has_surface() const { return has_surface_; }
   /// Triangles that are others than before, ascending.
   const std::vector<Triangle>& changed() const { return changed_; }
   /// Gives edges free that are but a start, and vertices that no other edge of the graph has.
@@ -53,6 +55,7 @@ class ConstrainedMesh {
   std::vector<Vertex> fixed_, starts_;  // of starts only, the latter
   std::vector<std::array<Vertex, 2>> start_edges_;
   std::vector<Triangle> changed_;
+  bool has_surface_ = true;
 };
 
 }  // namespace scarp

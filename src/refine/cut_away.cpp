@@ -12,8 +12,8 @@ namespace {
 
 class CutAway {
  public:
-  CutAway(Triangulation& tin, std::int32_t cols, const SurfaceCut& cut)
-      : tin_(tin), cols_(cols), cut_(cut), walls_(3 * tin.triangle_count(), Wall::kNo) {
+  CutAway(Triangulation& tin, const SurfaceCut& cut)
+      : tin_(tin), cut_(cut), walls_(3 * tin.triangle_count(), Wall::kNo) {
     first_.assign(tin.vertex_count(), kNone);
     for (HalfEdge h = 0; h < walls_.size(); ++h) first_[tin.origin(h)] = h;
   }
@@ -101,9 +101,7 @@ class CutAway {
     for (const Triangle t : part_) {
       for (const Point p : tin_.corners(t)) {
         if (p.x % kLatticeSteps != 0 || p.y % kLatticeSteps != 0) continue;
-        const CutSide side =
-            cut_.samples[static_cast<std::size_t>(p.y / kLatticeSteps) * static_cast<std::size_t>(cols_) +
-                         static_cast<std::size_t>(p.x / kLatticeSteps)];
+        const CutSide side = cut_.rows->side({p.x / kLatticeSteps, cut_.first + p.y / kLatticeSteps});
         if (side != CutSide::kOnWall) return side == CutSide::kWithin;
       }
     }
@@ -126,7 +124,6 @@ class CutAway {
   }
 
   Triangulation& tin_;
-  std::int32_t cols_;
   const SurfaceCut& cut_;
   std::vector<Wall> walls_;      // by half-edge
   std::vector<HalfEdge> first_;  // by vertex, one that starts there
@@ -136,13 +133,12 @@ class CutAway {
 
 }  // namespace
 
-Result<void> cut_away(Triangulation& tin, std::int32_t cols, const SurfaceCut& cut, std::span<const Vertex> vertices) {
-  CutAway away(tin, cols, cut);
+bool cut_away(Triangulation& tin, const SurfaceCut& cut, std::span<const Vertex> vertices) {
+  CutAway away(tin, cut);
   for (const auto& [a, b] : cut.walls) {
     if (vertices[a] != kNone && vertices[b] != kNone) away.add_wall(vertices[a], vertices[b]);
   }
-  if (away.run()) return {};
-  return fail(ErrorKind::kInput, "no part of the raster's surface lies in the cutline");
+  return away.run();
 }
 
 }  // namespace scarp

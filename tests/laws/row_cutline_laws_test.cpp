@@ -1,0 +1,303 @@
+// Laws of cutlines where samples come row of tiles by row of tiles: the same surface stays as in memory, within the
+// same bound.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cut_source.h"
+#include "field_lines.h"
+#include "laws/any_cutlines.h"
+#include "laws/any_field.h"
+#include "laws/any_lines.h"
+#include "laws/array_source.h"
+#include "laws/mesh_laws.h"
+#include "line_samples.h"
+#include "refine/freeze.h"
+#include "row_fit.h"
+#include "scarp/measure.h"
+
+namespace scarp::row_cutline_laws_test {
+namespace {
+
+using testing::any_field;
+using testing::ArraySource;
+using testing::Draughtsman;
+using testing::Field;
+using testing::with_source;
+
+/// A field that is read window by window, and polygons that end its surface.
+struct CutScene {
+  Field field;
+  ArraySource source{field.view()};
+  HeightField streamed = with_source(field.view(), source);
+  std::int32_t side = *rc::gen::element(8, 16, 31);
+  SimplifyOptions options;
+  Draughtsman draughtsman{*rc::gen::arbitrary<std::uint32_t>()};
+
+  explicit CutScene(std::int32_t largest) : field(any_field(largest)) {
+    options.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0, 1e6);
+    options.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh, Effort::kMax);
+    options.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
+    options.threads = *rc::gen::element(1, 2);
+  }
+  CutScene(const CutScene&) = delete;
+
+  void add_lines() {
+    options.breaklines = testing::any_lines(field);
+    options.breaklines.affine = options.cutline.affine;
+  }
+  Result<FieldLines> lines() const {
+    return prepare_lines(streamed, options.breaklines, options.cutline, *options.max_error / 2, 1, side);
+  }
+  Result<std::optional<Tiled>> refine(const FieldLines& lines) const {
+    RowFits fits;
+    TiledOptions tiles{.threshold = *options.max_error, .threads = options.threads, .tile_side = side};
+    finish_rows(streamed, options, &lines.graph, *options.max_error, fits, tiles);
+    const HeightField edited = lines.apply(streamed);
+    const CutSource near(*edited.source, lines.graph.cut->rows);
+    return refine_tiled(with_source(edited, near), tiles);
+  }
+  Mesh mesh(const Tiled& tiled) const {
+    return freeze(SampleHeights(streamed, {}), tiled.domain.tin, {tiled.steps, tiled.heights, {}}, field.view().frame,
+                  false);
+  }
+};
+
+RC_GTEST_PROP(row_cutlines, cover_what_lies_in_the_polygons_and_has_data_within_the_bound_and_nothing_else, ()) {
+  CutScene scene(40);
+  scene.options.cutline =
+      *rc::gen::arbitrary<bool>() ? scene.draughtsman.rings(scene.field) : scene.draughtsman.rectangles(scene.field);
+  if (*rc::gen::arbitrary<bool>()) scene.add_lines();
+  const auto lines = scene.lines();
+  const auto made = lines ? scene.refine(*lines) : tl::unexpected(lines.error());
+  if (!made) {
+    RC_LOG() << made.error().message;
+    RC_ASSERT(made.error().kind == ErrorKind::kInput);
+    RC_ASSERT(testing::find_wrong_cover(scene.field, scene.options.cutline, {}, scene.draughtsman) == "");
+    return;
+  }
+  const Tiled& tiled = **made;
+  const std::string unsound =
+      testing::verify_triangulation(tiled.domain.tin, (scene.field.cols - 1) * kLatticeSteps + 1,
+                                    (scene.field.rows - 1) * kLatticeSteps + 1, testing::Edges::kAny);
+  RC_ASSERT(unsound == "");
+  const Mesh mesh = scene.mesh(tiled);
+  const auto triangles = testing::triangles_of(mesh, scene.field.rows);
+  RC_ASSERT(testing::find_wrong_cover(scene.field, scene.options.cutline, triangles, scene.draughtsman) == "");
+  MeasureOptions judge;
+  judge.cutline = &scene.options.cutline;
+  const auto judged = measure(lines->apply(scene.streamed), mesh, judge);
+  RC_ASSERT(judged.has_value());
+  RC_ASSERT(judged->max_error <= *scene.options.max_error + 1e-9);
+  RC_ASSERT(judged->uncovered == 0u);
+  RC_ASSERT(judged->void_cells_covered == 0u);
+  RC_ASSERT(judged->is_sound());
+}
+
+RC_GTEST_PROP(row_cutlines, leave_exactly_the_area_of_the_polygons_that_has_data, ()) {
+  CutScene scene(30);
+  scene.options.cutline = scene.draughtsman.rectangles(scene.field);
+  const auto lines = scene.lines();
+  const auto made = lines ? scene.refine(*lines) : tl::unexpected(lines.error());
+  double area = 0;
+  if (made) {
+    for (const auto& t : testing::triangles_of(scene.mesh(**made), scene.field.rows)) area += testing::doubled_area(t);
+  } else {
+    RC_ASSERT(made.error().kind == ErrorKind::kInput);
+  }
+  RC_ASSERT(area * kLatticeSteps * kLatticeSteps ==
+            static_cast<double>(testing::doubled_area(scene.field, scene.options.cutline)));
+}
+
+RC_GTEST_PROP(row_cutlines, are_laid_alike_by_any_number_of_threads, ()) {
+  CutScene scene(40);
+  scene.options.cutline = scene.draughtsman.rings(scene.field);
+  scene.options.threads = 1;
+  const auto lines = scene.lines();
+  RC_PRE(lines.has_value());
+  const auto first = scene.refine(*lines);
+  RC_PRE(first.has_value());
+  scene.options.threads = 3;
+  const auto again = scene.refine(*lines);
+  RC_ASSERT(again.has_value());
+  const Mesh a = scene.mesh(**first), b = scene.mesh(**again);
+  RC_ASSERT(a.positions == b.positions && a.triangles == b.triangles);
+}
+
+RC_GTEST_PROP(row_cutlines, in_one_row_are_those_of_a_raster_in_memory, ()) {
+  CutScene scene(40);
+  scene.options.cutline = scene.draughtsman.rings(scene.field);
+  scene.add_lines();
+  scene.side = 4096;
+  const auto streamed = scene.lines();
+  const auto held = prepare_lines(scene.field.view(), scene.options.breaklines, scene.options.cutline,
+                                  *scene.options.max_error / 2, 1);
+  RC_ASSERT(streamed.has_value() || !held.has_value());
+  // Beside voids the outline is cut at every sample.
+  const bool is_whole =
+      std::none_of(scene.field.samples.begin(), scene.field.samples.end(), [](float z) { return std::isnan(z); });
+  RC_PRE(held.has_value() && is_whole);
+  RC_ASSERT(streamed->laid == held->laid);
+  RC_ASSERT(streamed->graph.points == held->graph.points);
+  RC_ASSERT(streamed->graph.heights == held->graph.heights);
+  RC_ASSERT(streamed->graph.edges == held->graph.edges);
+  RC_ASSERT(streamed->graph.cut->walls == held->graph.cut->walls);
+  RC_ASSERT(streamed->graph.cut->outline == held->graph.cut->outline);
+  RC_ASSERT(streamed->edits.size() == held->edits.size());
+}
+
+RC_GTEST_PROP(row_cutlines, make_windows_void_as_they_make_the_whole, ()) {
+  CutScene scene(40);
+  scene.options.cutline = scene.draughtsman.rings(scene.field);
+  const auto held = prepare_lines(scene.field.view(), {}, scene.options.cutline, 1, 1);
+  RC_PRE(held.has_value());
+  const CutSource source(scene.source, held->graph.cut->rows);
+  const std::int32_t cols = scene.field.cols, rows = scene.field.rows;
+  for (int window = 0; window < 20; ++window) {
+    const std::int32_t col = scene.draughtsman.below(cols), row = scene.draughtsman.below(rows);
+    const std::int32_t width = 1 + scene.draughtsman.below(cols - col),
+                       height = 1 + scene.draughtsman.below(rows - row);
+    const std::int32_t stride = width + 3;
+    std::vector<float> samples(static_cast<std::size_t>(stride) * static_cast<std::size_t>(height), 0.0F);
+    RC_ASSERT(source.read(col, row, width, height, samples.data(), stride).has_value());
+    for (std::int32_t y = 0; y < height; ++y) {
+      for (std::int32_t x = 0; x < width; ++x) {
+        const float here = samples[static_cast<std::size_t>(y * stride + x)];
+        const float there = held->samples[static_cast<std::size_t>((row + y) * cols + col + x)];
+        RC_ASSERT(here == there || (std::isnan(here) && std::isnan(there)));
+      }
+      for (std::int32_t x = width; x < stride && y + 1 < height; ++x)
+        RC_ASSERT(samples[static_cast<std::size_t>(y * stride + x)] == 0.0F);
+    }
+  }
+}
+
+RC_GTEST_PROP(row_cutlines, along_cells_leave_the_samples_that_they_leave_in_memory, ()) {
+  CutScene scene(40);
+  const Cutline cutline = scene.draughtsman.rings(scene.field);
+  const std::int32_t cols = scene.field.cols, rows = scene.field.rows;
+  OwnedHeightField held, streamed;
+  held.cols = streamed.cols = cols;
+  held.rows = streamed.rows = rows;
+  held.samples = scene.field.samples;
+  streamed.source = std::make_shared<ArraySource>(scene.field.view());
+  streamed.info.has_range = false;
+  const HeightRange range = height_range(held);
+  const auto kept = void_outside(held, cutline), left = void_outside(streamed, cutline);
+  RC_ASSERT(kept.has_value() && left.has_value());
+  RC_ASSERT(kept->lost == left->lost && kept->kept == left->kept && kept->has_surface == left->has_surface);
+  RC_ASSERT(kept->kept == height_range(held).valid);
+  RC_ASSERT(streamed.info.valid == range.valid && streamed.info.min == range.min && streamed.info.max == range.max);
+  const std::int32_t col = scene.draughtsman.below(cols), row = scene.draughtsman.below(rows);
+  const std::int32_t width = cols - col, height = rows - row;
+  std::vector<float> samples(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  RC_ASSERT(streamed.source->read(col, row, width, height, samples.data(), width).has_value());
+  for (std::int32_t y = 0; y < height; ++y) {
+    for (std::int32_t x = 0; x < width; ++x) {
+      const float here = samples[static_cast<std::size_t>(y * width + x)];
+      const float there = held.samples[static_cast<std::size_t>((row + y) * cols + col + x)];
+      RC_ASSERT(here == there || (std::isnan(here) && std::isnan(there)));
+    }
+  }
+}
+
+TEST(row_cutlines, say_what_the_source_says) {
+  const Field field = testing::random_field(3, 60, 50, testing::Relief::kRidges);
+  const ArraySource broken(field.view(), 30);
+  SimplifyOptions options;
+  options.max_error = 1;
+  Line ring;
+  ring.role = LineRole::kOuter;
+  ring.polygon = 0;
+  ring.points = {{5, 5, NAN}, {50, 45, NAN}, {20, 45, NAN}, {5, 5, NAN}};
+  options.cutline.rings = {ring};
+  EXPECT_EQ(simplify(with_source(field.view(), broken), options).error().message, "row 30 is broken");
+  OwnedHeightField streamed;
+  streamed.cols = field.cols;
+  streamed.rows = field.rows;
+  streamed.source = std::make_shared<ArraySource>(field.view(), 30);
+  EXPECT_EQ(void_outside(streamed, options.cutline).error().message, "row 30 is broken");
+  const auto stop = void_outside(streamed, options.cutline, [](const Progress&) { return false; });
+  EXPECT_EQ(stop.error().kind, ErrorKind::kCancelled);
+}
+
+/// By the definition: samples stay in and around cells that the outline passes or that have a corner in the polygons.
+TEST(row_cutlines, leave_two_samples_beyond_the_polygons) {
+  const Field field = testing::random_field(5, 40, 30, testing::Relief::kRidges);
+  const ArraySource source(field.view());
+  Line ring;
+  ring.role = LineRole::kOuter;
+  ring.polygon = 0;
+  ring.points = {{10.5, 8.5, NAN}, {20.5, 8.5, NAN}, {20.5, 15.5, NAN}, {10.5, 15.5, NAN}, {10.5, 8.5, NAN}};
+  const auto lines = prepare_lines(with_source(field.view(), source), {}, {{ring}}, 1, 1, 16);
+  ASSERT_TRUE(lines) << lines.error().message;
+  const CutRows& rows = *lines->graph.cut->rows;
+  EXPECT_EQ(rows.side({10, 9}), CutSide::kBeyond);
+  EXPECT_EQ(rows.side({11, 9}), CutSide::kWithin);
+  const CutSource cut(source, lines->graph.cut->rows);
+  std::vector<float> samples(40 * 30);
+  ASSERT_TRUE(cut.read(0, 0, 40, 30, samples.data(), 40));
+  for (std::int32_t row = 0; row < 30; ++row) {
+    for (std::int32_t col = 0; col < 40; ++col) {
+      const bool is_near = col >= 9 && col <= 22 && row >= 7 && row <= 17;
+      EXPECT_EQ(std::isnan(samples[static_cast<std::size_t>(40 * row + col)]), !is_near) << col << ", " << row;
+    }
+  }
+}
+
+TEST(row_cutlines, at_the_public_door_leave_the_samples_that_a_raster_in_memory_leaves) {
+  Field field{300, 700, {}};
+  for (std::int32_t y = 0; y < field.rows; ++y) {
+    for (std::int32_t x = 0; x < field.cols; ++x)
+      field.samples.push_back(static_cast<float>(50 * std::sin(0.05 * x) + 30 * std::cos(0.07 * y + 0.02 * x)));
+  }
+  const ArraySource source(field.view());
+  const HeightField streamed = with_source(field.view(), source);
+  const auto ring_of = [](LineRole role, std::uint32_t polygon, std::vector<std::array<double, 3>> points) {
+    Line ring;
+    ring.role = role;
+    ring.polygon = polygon;
+    ring.points = std::move(points);
+    ring.points.push_back(ring.points.front());
+    return ring;
+  };
+  SimplifyOptions options;
+  options.max_error = 5;
+  options.memory_limit = 2'200'000;  // rows of tiles meet at the rows 233 and 466
+  // Along a row that tiles share, and across one, with a hole.
+  options.cutline.rings = {
+      ring_of(LineRole::kOuter, 0, {{20, 150, 0}, {200, 150, 0}, {200, 233, 0}, {20, 233, 0}}),
+      ring_of(LineRole::kOuter, 1, {{30.5, 300, 0}, {290.25, 450.75, 0}, {40, 620, 0}}),
+      ring_of(LineRole::kHole, 1, {{80.3, 420, 0}, {120.1, 440.7, 0}, {100.6, 480.2, 0}}),
+  };
+  for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
+    options.effort = effort;
+    const auto made = simplify(streamed, options);
+    ASSERT_TRUE(made) << made.error().message;
+    SimplifyOptions in_memory = options;
+    in_memory.memory_limit = 0;
+    const auto held = simplify(field.view(), in_memory);
+    ASSERT_TRUE(held);
+    EXPECT_LE(made->measurement.max_error, 5 + 1e-9);
+    EXPECT_EQ(made->measurement.samples, held->measurement.samples);
+    EXPECT_EQ(made->cut_off, held->cut_off);
+    EXPECT_EQ(made->measurement.heights.valid, field.samples.size());
+  }
+  options.cutline.rings = {ring_of(LineRole::kOuter, 0, {{900, 900, 0}, {950, 900, 0}, {950, 950, 0}})};
+  EXPECT_NE(simplify(streamed, options).error().message.find("beside the raster"), std::string::npos);
+  for (std::int32_t y = 100; y < 200; ++y) {
+    for (std::int32_t x = 0; x < 300; ++x) field.samples[static_cast<std::size_t>(300 * y + x)] = NAN;
+  }
+  options.cutline.rings = {ring_of(LineRole::kOuter, 0, {{20, 110, 0}, {200, 120, 0}, {100, 180, 0}})};
+  EXPECT_NE(simplify(streamed, options).error().message.find("no part of the raster's surface"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace scarp::row_cutline_laws_test
