@@ -35,12 +35,15 @@ class RingClipper {
     const bool is_within = std::all_of(points_.begin(), points_.end(), [this](const RingPoint& p) {
       return p.at[0] >= 0 && p.at[1] >= 0 && p.at[0] <= last_[0] && p.at[1] <= last_[1];
     });
-    if (is_within) return ring;
+    Line clipped = ring;
+    if (is_within) {
+      for (auto& point : clipped.points) point[2] = std::numeric_limits<double>::quiet_NaN();
+      return clipped;
+    }
     for (const std::size_t axis : {0, 1}) {
       clip_at(axis, 0, 1);
       clip_at(axis, last_[axis], -1);
     }
-    Line clipped = ring;
     clipped.points.clear();
     for (const RingPoint& p : points_) {
       if (clipped.points.empty() || clipped.points.back() != p.on_map) clipped.points.push_back(p.on_map);

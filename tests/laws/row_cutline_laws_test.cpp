@@ -288,8 +288,20 @@ TEST(row_cutlines, at_the_public_door_leave_the_samples_that_a_raster_in_memory_
     EXPECT_LE(made->measurement.max_error, 5 + 1e-9);
     EXPECT_EQ(made->measurement.samples, held->measurement.samples);
     EXPECT_EQ(made->cut_off, held->cut_off);
+    EXPECT_TRUE(made->edits.empty() && held->edits.empty());  // whatever heights the rings have
     EXPECT_EQ(made->measurement.heights.valid, field.samples.size());
   }
+  options.shape.min_angle = 20;
+  const auto shaped = simplify(streamed, options);
+  ASSERT_TRUE(shaped) << shaped.error().message;
+  EXPECT_EQ(shaped->measurement.samples + shaped->cut_off, field.samples.size());
+  MeasureOptions judge;
+  judge.cutline = &options.cutline;
+  const Measurement m = *measure(streamed, shaped->mesh, judge);
+  EXPECT_LE(m.max_error, 5 + 1e-9);
+  EXPECT_EQ(m.uncovered, 0u);
+  EXPECT_TRUE(m.is_sound());
+  options.shape = {};
   options.cutline.rings = {ring_of(LineRole::kOuter, 0, {{900, 900, 0}, {950, 900, 0}, {950, 950, 0}})};
   EXPECT_NE(simplify(streamed, options).error().message.find("beside the raster"), std::string::npos);
   for (std::int32_t y = 100; y < 200; ++y) {
