@@ -60,10 +60,14 @@ for key in max_error rmse samples "cutline samples_outside"; do
   [ "$(json streamed.json $key)" = "$(json measured.json $key)" ] || fail "measure finds another $key in little memory"
 done
 
-# Beside breaklines, moved inwards, and nothing at all.
+# Beside breaklines, moved inwards, with flats and goals for angles, and nothing at all.
 succeeds "$scarp" simplify hills.tif lines.obj -e 12 "${cut[@]}" --breaklines line.geojson --inset 3 --memory "$small" --report lines.json
 succeeds "$scarp" measure hills.tif lines.obj "${cut[@]}" --inset 3 --fail-above 12 --memory "$small"
 holds "$(json lines.json cutline samples_outside) > $(json held.json cutline samples_outside)"
+succeeds "$scarp" simplify hills.tif shape.obj -e 12 "${cut[@]}" --min-angle 20 --memory 80M
+succeeds "$scarp" measure hills.tif shape.obj "${cut[@]}" --fail-above 12 --memory "$small"
+succeeds "$scarp" simplify hills.tif flats.obj -e 12 "${cut[@]}" --detect-flats 20 --memory 80M
+succeeds "$scarp" measure hills.tif flats.obj "${cut[@]}" --fail-above 12.5 --memory "$small"
 refuses 2 "beside the raster" "$scarp" simplify hills.tif x.obj -e 12 --memory "$small" \
   --cutline away.geojson
 
