@@ -58,7 +58,19 @@ struct RowScene {
   }
 };
 
-/// Each edge of the graph whose ends are vertices is a chain of constrained edges.
+/// Whether the middle of two points lies in the surface, or on its outline.
+bool is_on_surface(const Triangulation& tin, Point a, Point b) {
+  const auto twice = [&](Vertex v) { return Point{2 * tin.point(v).x, 2 * tin.point(v).y}; };
+  const Point middle{a.x + b.x, a.y + b.y};
+  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+    if (tin.is_outside(t)) continue;
+    const Point p = twice(tin.origin(3 * t)), q = twice(tin.origin(3 * t + 1)), r = twice(tin.origin(3 * t + 2));
+    if (orient(p, q, middle) >= 0 && orient(q, r, middle) >= 0 && orient(r, p, middle) >= 0) return true;
+  }
+  return false;
+}
+
+/// Each edge of the graph whose ends are vertices is a chain of constrained edges, as far as there is surface.
 bool holds_lines(const Tiled& tiled, const ConstraintGraph& graph) {
   const Triangulation& tin = tiled.domain.tin;
   std::map<std::pair<std::int32_t, std::int32_t>, Vertex> vertices;
@@ -78,7 +90,8 @@ bool holds_lines(const Tiled& tiled, const ConstraintGraph& graph) {
     std::sort(on.begin(), on.end());
     for (std::size_t k = 0; k + 1 < on.size(); ++k) {
       const auto [from, to] = std::pair(on[k].second, on[k + 1].second);
-      if (tin.find_edge(from, to) == kNone && tin.find_edge(to, from) == kNone) return false;
+      const bool is_edge = tin.find_edge(from, to) != kNone || tin.find_edge(to, from) != kNone;
+      if (!is_edge && is_on_surface(tin, tin.point(from), tin.point(to))) return false;
     }
   }
   return true;
