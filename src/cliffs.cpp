@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "crack_chains.h"
 #include "fault_lines.h"
 #include "line_marks.h"
+#include "refine/memory_budget.h"
 #include "refine/samples.h"
+#include "row_sweep.h"
 
 namespace scarp {
 namespace {
@@ -24,6 +25,7 @@ Line to_map(const std::vector<FaultVertex>& vertices, const std::array<double, 6
   line.polygon = kFaultLine;
   line.yields = true;
   line.name = std::move(name);
+  line.points.reserve(vertices.size());
   for (const FaultVertex& v : vertices) {
     const double col = v.at.x / double{kLatticeSteps}, row = v.at.y / double{kLatticeSteps};
     line.points.push_back({affine[0] + affine[1] * col + affine[2] * row, affine[3] + affine[4] * col + affine[5] * row,
@@ -43,31 +45,58 @@ Result<void> check_cliffs(const CliffOptions& options) {
   return {};
 }
 
+constexpr std::uint64_t kBytesPerLine = 3 * sizeof(Line);  // its place, its name, and what the list has in reserve
+constexpr const char *kWhat = "walls", *kAdvice = "a larger height of cliffs";
+
+Result<CrackChains> find_cracks(const HeightField& field, double height, const SampleSet& marks,
+                                const MemoryBudget& memory) {
+  CrackChains cracks(field.cols, field.rows, height, [&marks](Point p) { return marks.has(p); });
+  const std::uint64_t bytes = sweep_bytes(field, 1);
+  auto swept = sweep_rows(field, 1, [&](const RowStrip& strip) {
+    for (std::int32_t row = strip.begin; row < strip.end; ++row)
+      cracks.add_row(row, row > 0 ? strip.row(row - 1) : nullptr, strip.row(row),
+                     row + 1 < field.rows ? strip.row(row + 1) : nullptr);
+    return memory.check_part(bytes + CrackChains::kBytesPerCrack * cracks.count(),
+                             static_cast<double>(strip.end) / field.rows, kWhat, kAdvice);
+  });
+  if (!swept) return tl::unexpected(swept.error());
+  return cracks;
+}
+
 }  // namespace
 
 Result<Cliffs> detect_cliffs(const HeightField& field, const CliffOptions& options) {
   if (auto sound = check_cliffs(options); !sound) return tl::unexpected(sound.error());
-  const auto samples = Samples::of(field);
-  if (!samples) return tl::unexpected(samples.error());
-  const Raster raster = samples->raster();
+  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
   Cliffs cliffs;
   // Lines on a finer lattice need room.
-  if (std::max(raster.cols, raster.rows) > kMaxCoordinate / kLatticeSteps) return cliffs;
-  std::optional<LineMarks> marks;
-  if (!options.avoid.empty()) marks.emplace(options.affine, raster.cols, raster.rows);
-  for (const Line& line : options.avoid) marks->add_course(line);
-  const auto is_left_out = [&](Point p) {
-    return marks && marks->has(static_cast<std::size_t>(p.y) * static_cast<std::size_t>(raster.cols) +
-                               static_cast<std::size_t>(p.x));
-  };
-  for (const CrackChain& chain : find_crack_chains(raster, options.height, is_left_out)) {
-    for (const Fault& fault : find_faults(raster, chain, kHeightShare * options.max_error)) {
+  if (std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps) return cliffs;
+  LineRuns runs(options.affine, field.cols, field.rows);
+  for (const Line& line : options.avoid) runs.add_course(line);
+  const SampleSet marks(runs.runs(), field.rows);
+  MemoryBudget memory;
+  if (field.samples == nullptr) memory = {options.memory_limit, options.memory_taken, 0};
+  auto cracks = find_cracks(field, options.height, marks, memory);
+  if (!cracks) return tl::unexpected(cracks.error());
+  cracks->link();
+  std::uint64_t line_bytes = 0;
+  Result<void> fits;
+  cracks->visit([&](const CrackChain& chain) {
+    if (!fits) return;
+    fits = memory.check_part(
+        CrackChains::kBytesPerCrack * cracks->count() + line_bytes + kFaultBytesPerCrack * chain.cracks.size(), 1,
+        kWhat, kAdvice);
+    if (!fits) return;
+    for (const Fault& fault : find_faults(chain, kHeightShare * options.max_error)) {
       ++cliffs.faults;
       cliffs.vertices += 2 * (fault.top.size() - (fault.top.front() == fault.top.back() ? 1 : 0));
-      for (const auto& [line, side] : {std::pair{&fault.top, "top"}, std::pair{&fault.foot, "foot"}})
+      for (const auto& [line, side] : {std::pair{&fault.top, "top"}, std::pair{&fault.foot, "foot"}}) {
         cliffs.lines.push_back(to_map(*line, options.affine, fmt::format("the {} of cliff {}", side, cliffs.faults)));
+        line_bytes += kBytesPerLine + sizeof(cliffs.lines.back().points[0]) * line->size();
+      }
     }
-  }
+  });
+  if (!fits) return tl::unexpected(fits.error());
   return cliffs;
 }
 

@@ -5,18 +5,23 @@
 // cracks hang together in chains, along which all high samples lie on the left (as rasters are looked at, rows
 // downwards) and all low ones on the right. A line that crosses the cracks of a chain one after the other, each between
 // its samples, tells the two apart.
+//
+// Rows of samples are looked at once, from the top down, three at a time: rasters larger than memory have cracks too.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
-#include "grid/raster.h"
+#include "base/point.h"
 
 namespace scarp {
 
 struct Crack {
   Point high, low;                ///< samples
+  float top = 0, foot = 0;        ///< their heights
   bool is_before_saddle = false;  ///< the cell between it and the next crack of its chain is passed twice
   friend bool operator==(const Crack&, const Crack&) = default;
 };
@@ -28,9 +33,53 @@ struct CrackChain {
 
 /// All cracks between samples that differ by more than `height`, each in one chain. Chains end where a cell has one
 /// crack or three, two that contradict each other, or a void. A cell with four, a saddle, is passed twice: around the
-/// two samples that differ more. `is_left_out`: of samples, cracks of which do not count. In raster order of their
-/// first cracks, rings last. Cost: O(samples + n log n) for n cracks.
-std::vector<CrackChain> find_crack_chains(const Raster& raster, double height,
-                                          const std::function<bool(Point)>& is_left_out);
+/// two samples that differ more. Cost: O(samples + n log n) for n cracks.
+class CrackChains {
+ public:
+  /// `is_left_out`: of samples, cracks of which do not count.
+  CrackChains(std::int32_t cols, std::int32_t rows, double height, std::function<bool(Point)> is_left_out)
+      : cols_(cols), rows_(rows), height_(height), is_left_out_(std::move(is_left_out)) {}
+
+  /// Looks at a row. `above` and `below`: its neighbours, null at the top and the bottom. Voids are NaN. REQUIRES: each
+  /// row once, from the top down.
+  void add_row(std::int32_t row, const float* above, const float* here, const float* below);
+  /// REQUIRES: all rows were looked at.
+  void link();
+  /// One after the other, in raster order of their first cracks, rings last. REQUIRES: link().
+  void visit(const std::function<void(const CrackChain&)>& visit) const;
+
+  std::uint64_t count() const { return sides_.size(); }  ///< of cracks
+  static constexpr std::uint64_t kBytesPerCrack = 40;    ///< while rows are added; then less
+
+ private:
+  /// From a sample to the one on its right, or below it.
+  struct Side {
+    std::uint64_t key;  // in raster order, the side to the right before the one downwards
+    float from, to;
+  };
+  /// Sides of a cell clockwise as it is looked at, side k from corner k to corner k + 1.
+  using Cell = std::array<std::uint32_t, 4>;
+  enum Flag : std::uint8_t { kIsAheadWhole = 1, kHasPrevious = 2, kIsBeforeSaddle = 4 };
+
+  std::uint64_t key_of(Point from, bool is_down) const {
+    return 2 * (static_cast<std::uint64_t>(from.y) * static_cast<std::uint64_t>(cols_) +
+                static_cast<std::uint64_t>(from.x)) +
+           (is_down ? 1 : 0);
+  }
+  Point from_of(const Side& side) const;
+  Point cell_ahead(const Side& side) const;
+  Crack crack_of(std::uint32_t i) const;
+  std::uint32_t find(std::uint64_t key) const;
+  float corner(const Cell& cell, std::size_t k) const;
+  bool goes_out(const Cell& cell, std::size_t k) const;
+  void link(std::uint32_t i);
+
+  std::int32_t cols_, rows_;
+  double height_;
+  std::function<bool(Point)> is_left_out_;
+  std::vector<Side> sides_;  // in raster order
+  std::vector<std::uint8_t> flags_;
+  std::vector<std::uint32_t> next_;
+};
 
 }  // namespace scarp

@@ -90,8 +90,6 @@ Result<void> check_lines(const HeightField& field, const SimplifyOptions& option
   if (has_lines(options) && obstacle == nullptr && has_budget(options) && has_bounds(options))
     obstacle = "has no budget where samples have bounds of their own";
   const bool is_cut = !options.cutline.rings.empty();
-  if (obstacle == nullptr && field.samples == nullptr && lays_first(options))
-    obstacle = "needs the raster in memory as a whole";
   const bool is_of_faults = obstacle == nullptr && has_faults(options) && options.shape.any();
   if (is_of_faults) obstacle = "has no goals for angles and edges";
   if (obstacle == nullptr) return {};
@@ -151,7 +149,7 @@ bool has_budget(const SimplifyOptions& options) { return options.max_triangles |
 const char* find_obstacle(const HeightField& field, const SimplifyOptions& options) {
   if (!options.max_error) return "needs a max error";
   if (has_budget(options)) return "has no budgets";
-  if (lays_first(options)) return "lays no lines of cliffs and ridges";
+  if (lays_first(options) && field.samples != nullptr) return "lays no lines of cliffs and ridges";
   if (const char* obstacle = find_beyond_one_error(field, options)) return obstacle;
   return find_strategy(options);
 }

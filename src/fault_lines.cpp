@@ -33,7 +33,7 @@ Point scaled(Point p) { return {p.x * kLatticeSteps, p.y * kLatticeSteps}; }
 /// Fewest vertices by dynamic programming over the places that vertices may take.
 class FaultSearch {
  public:
-  FaultSearch(const Raster& raster, double tolerance) : raster_(raster), tolerance_(tolerance) {}
+  explicit FaultSearch(double tolerance) : tolerance_(tolerance) {}
 
   std::vector<Fault> search(const CrackChain& chain) {
     for (std::size_t k = 0; k < chain.cracks.size(); ++k) {
@@ -100,7 +100,7 @@ class FaultSearch {
     const std::uint32_t begin = begin_station();
     for (std::int32_t t = kPlaceStep; t < kLatticeSteps; t += kPlaceStep)
       places_.push_back({at(t - kHalfGap), at(t + kHalfGap)});
-    end_station({cracks_.size(), false, begin, 0, at(kLatticeSteps / 2), height(crack.high), height(crack.low)});
+    end_station({cracks_.size(), false, begin, 0, at(kLatticeSteps / 2), double{crack.top}, double{crack.foot}});
     cracks_.push_back(crack);
   }
 
@@ -122,10 +122,9 @@ class FaultSearch {
         places_.push_back({at(right - gap, down - gap), at(right + gap, down + gap)});
     }
     end_station({cracks_.empty() ? 0 : cracks_.size() - 1, true, begin, 0, at(kLatticeSteps / 2, kLatticeSteps / 2),
-                 (height(before.high) + height(after.high)) / 2, (height(before.low) + height(after.low)) / 2});
+                 (double{before.top} + double{after.top}) / 2, (double{before.foot} + double{after.foot}) / 2});
   }
 
-  double height(Point p) const { return double{raster_.at(p)}; }
   std::uint32_t begin_station() const { return static_cast<std::uint32_t>(places_.size()); }
   void end_station(Station station) {
     station.end = static_cast<std::uint32_t>(places_.size());
@@ -261,7 +260,6 @@ class FaultSearch {
     return faults;
   }
 
-  const Raster& raster_;
   double tolerance_;
   std::vector<Crack> cracks_;
   std::vector<Station> stations_;
@@ -275,8 +273,8 @@ class FaultSearch {
 
 }  // namespace
 
-std::vector<Fault> find_faults(const Raster& raster, const CrackChain& chain, double tolerance) {
-  return FaultSearch(raster, tolerance).search(chain);
+std::vector<Fault> find_faults(const CrackChain& chain, double tolerance) {
+  return FaultSearch(tolerance).search(chain);
 }
 
 }  // namespace scarp

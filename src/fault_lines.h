@@ -1,6 +1,7 @@
 // Two lines for a wall: one along its top, one along its foot, with few vertices.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "crack_chains.h"
@@ -24,7 +25,9 @@ struct Fault {
 /// The parts of a chain for which lines are worth their vertices, and the lines with the fewest vertices for them.
 ///
 /// Along each part the high samples of its cracks lie on the left of `top`, the low ones on the right of `foot`, none
-/// between; vertices lie on cracks.
-std::vector<Fault> find_faults(const Raster& raster, const CrackChain& chain, double tolerance);
+/// between; vertices lie on cracks. Memory: kFaultBytesPerCrack.
+std::vector<Fault> find_faults(const CrackChain& chain, double tolerance);
+
+inline constexpr std::uint64_t kFaultBytesPerCrack = 1000;
 
 }  // namespace scarp

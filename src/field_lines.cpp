@@ -14,6 +14,7 @@
 #include "profile.h"
 #include "refine/samples.h"
 #include "refine/tiled.h"
+#include "scarp/cliffs.h"
 #include "scarp/edits.h"
 
 namespace scarp {
@@ -344,7 +345,7 @@ Result<FieldLines> prepare_from_source(const HeightField& field, const LineConst
 }  // namespace
 
 std::uint64_t line_bytes(const HeightField& field, std::span<const Line> lines, const std::array<double, 6>& affine) {
-  constexpr double kBytesPerVertex = 300, kBytesPerSample = 100;
+  constexpr double kBytesPerVertex = 300, kBytesPerSample = 100, kBytesPerSampleOfWall = 50;
   const MapToSamples to_samples(affine);
   const double longest = static_cast<double>(field.cols) + field.rows;
   double bytes = 0;
@@ -353,7 +354,8 @@ std::uint64_t line_bytes(const HeightField& field, std::span<const Line> lines, 
     for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
       const SamplePlace way =
           to_samples.way(line.points[k + 1][0] - line.points[k][0], line.points[k + 1][1] - line.points[k][1]);
-      bytes += kBytesPerSample * std::fmin(std::hypot(way.col, way.row), longest);
+      bytes +=
+          (is_fault(line) ? kBytesPerSampleOfWall : kBytesPerSample) * std::fmin(std::hypot(way.col, way.row), longest);
     }
   }
   return static_cast<std::uint64_t>(bytes);

@@ -34,13 +34,13 @@ struct FieldLines {
 /// the raster beside them leaves them by more than `tolerance`. Of breaklines the graph has what lies in the cutline.
 /// Fails as place_breaklines(), as the field's source, and with kInput where no surface lies in the cutline, as far as
 /// that is known. `row_side`: where the field has a source, of the tiles that lines are cut at from row to row; what
-/// lines look at is read before. REQUIRES: the field is no larger than the lattice, and has its samples in memory or no
-/// faults; tolerance >= 0; lines and cutline in the same coordinates.
+/// lines look at is read before. REQUIRES: the field is no larger than the lattice; tolerance >= 0; lines and cutline
+/// in the same coordinates.
 Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
                                  double tolerance, int threads, std::int32_t row_side = 0);
 
 /// What lines and rings take beside the mesh, most of it while they are prepared: 300 bytes a vertex, and 100 for each
-/// sample that they run along.
+/// sample that they run along, which both lines of a wall share.
 std::uint64_t line_bytes(const HeightField& field, std::span<const Line> lines, const std::array<double, 6>& affine);
 inline std::uint64_t line_bytes(const HeightField& field, const LineConstraints& lines) {
   return line_bytes(field, lines.lines, lines.affine);

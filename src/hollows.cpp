@@ -96,12 +96,17 @@ class Profiles {
 }  // namespace
 
 std::vector<Hollow> find_hollows(const Raster& raster, double height, int threads) {
-  const auto cols = static_cast<std::size_t>(raster.cols), rows = static_cast<std::size_t>(raster.rows);
+  return find_hollows(raster, height, threads, 0, raster.rows);
+}
+
+std::vector<Hollow> find_hollows(const Raster& raster, double height, int threads, std::int32_t begin,
+                                 std::int32_t end) {
+  const auto cols = static_cast<std::size_t>(raster.cols), rows = static_cast<std::size_t>(end - begin);
   std::vector<Hollow> hollows(cols * rows, Hollow::kNone);
   const Profiles profiles(raster, height);
   parallel_for(rows, threads, [&](std::size_t row) {
     for (std::size_t col = 0; col < cols; ++col)
-      hollows[row * cols + col] = profiles.at({static_cast<std::int32_t>(col), static_cast<std::int32_t>(row)});
+      hollows[row * cols + col] = profiles.at({static_cast<std::int32_t>(col), begin + static_cast<std::int32_t>(row)});
   });
   return hollows;
 }

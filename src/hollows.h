@@ -22,5 +22,8 @@ inline constexpr std::int32_t kHollowReach = 16;  ///< how far a profile is look
 /// falls below the sample. Where the nearest sample of a side is void or beyond the raster the other side counts for
 /// both, if another profile has two. Of a level stretch of a profile the middle alone lies low, a sample or two.
 std::vector<Hollow> find_hollows(const Raster& raster, double height, int threads);
+/// The same of the rows [begin, end) alone.
+std::vector<Hollow> find_hollows(const Raster& raster, double height, int threads, std::int32_t begin,
+                                 std::int32_t end);
 
 }  // namespace scarp

@@ -70,7 +70,7 @@ void LineSamples::mark(const Segment& segment) {
       runs_.push_back({k, std::max(first, 0), std::min(last, cols() - 1) + 1, 0});
   }
   // Millions of short segments side by side mark the same again and again.
-  if (runs_.size() > 2 * heights_.size() + (1u << 16)) merge_marks();
+  if (runs_.size() > heights_.size() / 2 + (1u << 16)) merge_marks();
 }
 
 void LineSamples::merge_marks() {

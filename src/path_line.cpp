@@ -8,7 +8,6 @@
 #include <optional>
 
 #include "breaklines.h"
-#include "grid/vertex_places.h"
 
 namespace scarp {
 namespace {
@@ -18,39 +17,34 @@ constexpr std::size_t kLongestLink = 64;  // in samples of the path
 
 class Links {
  public:
-  Links(const Raster& raster, const std::vector<Point>& path, double tolerance)
-      : raster_(raster), path_(path), tolerance_(tolerance) {}
+  Links(const LineSamples& samples, const std::vector<Point>& path, double tolerance)
+      : samples_(samples), path_(path), tolerance_(tolerance) {}
 
   /// Sum of squared distances of the samples between two; nothing if a chord will not do.
   std::optional<double> cost(std::size_t first, std::size_t last) const {
     const Point a = path_[first], b = path_[last];
     const double dx = b.x - a.x, dy = b.y - a.y, length2 = dx * dx + dy * dy;
     if (length2 == 0) return std::nullopt;
-    const double from = raster_.at(a), rise = double{raster_.at(b)} - from;
+    const double from = samples_.at(a), rise = double{samples_.at(b)} - from;
     double sum = 0;
     for (std::size_t k = first + 1; k < last; ++k) {
       const double x = path_[k].x - a.x, y = path_[k].y - a.y;
       const double beside = x * dy - y * dx, share = (x * dx + y * dy) / length2;
       if (beside * beside > kCorridor * kCorridor * length2 || share < 0 || share > 1) return std::nullopt;
-      if (std::abs(from + share * rise - double{raster_.at(path_[k])}) > tolerance_) return std::nullopt;
+      if (std::abs(from + share * rise - double{samples_.at(path_[k])}) > tolerance_) return std::nullopt;
       sum += beside * beside / length2;
     }
     // As lines are looked at when they are laid.
     const double looks = std::ceil(2 * std::sqrt(length2));
     for (double i = 1; i < looks; ++i) {
-      const Point place{step_at(a.x + i / looks * dx), step_at(a.y + i / looks * dy)};
-      const double height = height_between_samples(raster_, place);
+      const double height = surface_at(samples_, {a.x + i / looks * dx, a.y + i / looks * dy});
       if (!(std::abs(from + i / looks * rise - height) <= tolerance_)) return std::nullopt;
     }
     return sum;
   }
 
  private:
-  static std::int32_t step_at(double samples) {
-    return static_cast<std::int32_t>(std::lround(samples * kLatticeSteps));
-  }
-
-  const Raster& raster_;
+  const LineSamples& samples_;
   const std::vector<Point>& path_;
   double tolerance_;
 };
@@ -63,8 +57,8 @@ struct State {
 
 }  // namespace
 
-std::vector<Point> fewest_vertices(const Raster& raster, const ValleyPath& path, double tolerance) {
-  const Links links(raster, path.samples, tolerance);
+std::vector<Point> fewest_vertices(const LineSamples& samples, const ValleyPath& path, double tolerance) {
+  const Links links(samples, path.samples, tolerance);
   std::vector<State> states(path.samples.size());
   states[0].links = 0;
   auto joint = path.joints.begin();

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "line_samples.h"
 #include "valley_paths.h"
 
 namespace scarp {
@@ -10,7 +11,7 @@ namespace scarp {
 /// The samples of a path, its ends and joints among them, that a line needs as vertices: the fewest with which each
 /// sample between two is no farther than a sample from the line's chord, nor the surface along the chord and the
 /// samples farther than `tolerance` from the heights along it. Of equally few, those that leave samples least, in
-/// squares.
-std::vector<Point> fewest_vertices(const Raster& raster, const ValleyPath& path, double tolerance);
+/// squares. Of the raster, samples within two of the path are looked at.
+std::vector<Point> fewest_vertices(const LineSamples& samples, const ValleyPath& path, double tolerance);
 
 }  // namespace scarp

@@ -5,16 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "base/caught.h"
 #include "base/parallel.h"
 #include "goals.h"
 #include "grid/vertex_places.h"
+#include "hollow_samples.h"
 #include "hollows.h"
 #include "line_marks.h"
+#include "line_samples.h"
 #include "path_line.h"
+#include "refine/memory_budget.h"
 #include "refine/samples.h"
 #include "valley_paths.h"
 
@@ -47,24 +49,41 @@ Line to_map(const std::vector<Point>& vertices, const RidgeOptions& options, std
   return line;
 }
 
+/// Samples within two of a path.
+std::vector<Segment> courses_of(const std::vector<ValleyPath>& paths) {
+  std::vector<Segment> courses;
+  for (const ValleyPath& path : paths) {
+    for (const Point p : path.samples) {
+      for (const std::int32_t y : {p.y - 1, p.y})
+        courses.push_back(
+            {{(p.x - 1) * kLatticeSteps, y * kLatticeSteps}, {(p.x + 1) * kLatticeSteps, y * kLatticeSteps}});
+    }
+  }
+  return courses;
+}
+
+std::vector<SampleRun> runs_of(const HeightField& field, const RidgeOptions& options) {
+  LineRuns runs(options.affine, field.cols, field.rows);
+  for (const Line& line : options.avoid) runs.add_course(line);
+  return runs.runs();
+}
+
 /// Detection on a raster and on the same upside down.
 class Detection {
  public:
-  Detection(const Raster& raster, const RidgeOptions& options)
-      : raster_(raster), options_(options), reporter_(options.progress) {
-    if (options.avoid.empty()) return;
-    marks_.emplace(options.affine, raster.cols, raster.rows);
-    for (const Line& line : options.avoid) marks_->add_course(line);
-  }
+  Detection(const HeightField& field, const RidgeOptions& options)
+      : field_(field),
+        options_(options),
+        reporter_(options.progress),
+        marks_(runs_of(field, options), field.rows),
+        memory_{field.samples == nullptr ? options.memory_limit : 0, options.memory_taken, 0} {}
 
   Result<Ridges> run() {
     Ridges found;
-    auto valleys = find(raster_, "valley");
+    auto valleys = find(false, "valley");
     if (!valleys) return tl::unexpected(valleys.error());
     found.valleys = std::move(*valleys);
-    std::vector<float> turned(raster_.samples, raster_.row(raster_.rows));
-    for (float& height : turned) height = -height;
-    auto ridges = find({turned.data(), raster_.cols, raster_.rows}, "ridge");
+    auto ridges = find(true, "ridge");
     if (!ridges) return tl::unexpected(ridges.error());
     found.ridges = std::move(*ridges);
     for (const auto* lines : {&found.valleys, &found.ridges}) {
@@ -74,18 +93,59 @@ class Detection {
   }
 
  private:
-  Result<std::vector<Line>> find(const Raster& raster, const char* name) {
+  Result<std::vector<Line>> find(bool is_upside_down, const char* name) {
+    return field_.samples != nullptr ? find_in_memory(is_upside_down, name) : find_in_source(is_upside_down, name);
+  }
+
+  Result<std::vector<Line>> find_in_memory(bool is_upside_down, const char* name) {
     if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
+    const auto samples = Samples::of(field_);
+    if (!samples) return tl::unexpected(samples.error());
+    Raster raster = samples->raster();
+    std::vector<float> turned;
+    if (is_upside_down) {
+      turned.assign(raster.samples, raster.row(raster.rows));
+      for (float& height : turned) height = -height;
+      raster.samples = turned.data();
+    }
     const std::vector<Hollow> hollows = find_hollows(raster, options_.height, options_.threads);
     if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
-    const std::vector<ValleyPath> paths =
-        follow_valleys(raster, hollows, [&](std::size_t i) { return marks_ && marks_->has(i); });
+    const std::vector<ValleyPath> paths = follow_valleys(raster, hollows, [&](Point p) { return marks_.has(p); });
     if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
+    return draw(paths, LineSamples(raster), name);
+  }
+
+  Result<std::vector<Line>> find_in_source(bool is_upside_down, const char* name) {
+    if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
+    HollowSamples::Question question;
+    question.height = options_.height;
+    question.is_upside_down = is_upside_down;
+    question.is_left_out = [&](Point p) { return marks_.has(p); };
+    question.threads = options_.threads;
+    const std::uint64_t rows = HollowSamples::bytes(field_);
+    question.check = [&, rows](std::uint64_t count, double share) {
+      return memory_.check_part(lines_ + rows + kBytesPerSample * count, share, "ridges and valleys",
+                                "a larger height of ridges");
+    };
+    auto hollows = HollowSamples::find(field_, question);
+    if (!hollows) return tl::unexpected(hollows.error());
+    if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
+    const std::vector<ValleyPath> paths = follow_valleys(*hollows);
+    *hollows = {};
+    if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
+    const auto samples = LineSamples::read(field_, courses_of(paths));
+    if (!samples) return tl::unexpected(samples.error());
+    // Chords along the raster and along the same upside down are alike.
+    return draw(paths, *samples, name);
+  }
+
+  std::vector<Line> draw(const std::vector<ValleyPath>& paths, const LineSamples& samples, const char* name) {
     std::vector<Line> lines(paths.size());
     parallel_for(paths.size(), options_.threads, [&](std::size_t k) {
-      lines[k] = to_map(fewest_vertices(raster, paths[k], kHeightShare * options_.max_error), options_,
+      lines[k] = to_map(fewest_vertices(samples, paths[k], kHeightShare * options_.max_error), options_,
                         fmt::format("{} {}", name, k + 1));
     });
+    for (const Line& line : lines) lines_ += 2 * sizeof(Line) + sizeof(line.points[0]) * line.points.size();
     return lines;
   }
 
@@ -95,10 +155,14 @@ class Detection {
     return fail(ErrorKind::kCancelled, "cancelled while looking for ridges");
   }
 
-  const Raster& raster_;
+  static constexpr std::uint64_t kBytesPerSample = 48;  // near hollows
+
+  const HeightField& field_;
   const RidgeOptions& options_;
   Reporter reporter_;
-  std::optional<LineMarks> marks_;
+  SampleSet marks_;
+  MemoryBudget memory_;
+  std::uint64_t lines_ = 0;  // bytes of those found
   int steps_ = 0;
 };
 
@@ -106,12 +170,10 @@ class Detection {
 
 Result<Ridges> detect_ridges(const HeightField& field, const RidgeOptions& options) try {
   if (auto sound = check_ridges(options); !sound) return tl::unexpected(sound.error());
-  const auto samples = Samples::of(field);
-  if (!samples) return tl::unexpected(samples.error());
-  const Raster raster = samples->raster();
+  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
   // Lines on a finer lattice need room.
-  if (std::max(raster.cols, raster.rows) > kMaxCoordinate / kLatticeSteps) return Ridges{};
-  return Detection(raster, options).run();
+  if (std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps) return Ridges{};
+  return Detection(field, options).run();
 } catch (...) {
   return caught(ErrorKind::kInput, "look for ridges");
 }

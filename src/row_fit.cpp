@@ -42,8 +42,13 @@ void finish_rows(const HeightField& field, const SimplifyOptions& options, const
   if (is_fitted) tiles.finish_bytes_per_vertex = kFitBytesPerVertex + kFitBytesPerVertexAndThread * threads;
   std::shared_ptr<RowLines> laying;
   if (lines != nullptr) {
-    laying = std::make_shared<RowLines>(*lines);
     if (tiles.tile_side == 0) tiles.tile_side = side_of_rows(field, options);
+    const bool may_move = options.effort == Effort::kNormal || vertices_are_free(field, options);
+    laying = std::make_shared<RowLines>(*lines, tiles.tile_side, is_fitted && may_move);
+    if (lines->is_laid_first)
+      tiles.is_made_whole = [laying](std::int32_t first, std::int32_t rows) {
+        return laying->makes_whole(first, rows);
+      };
     tiles.finish_bytes_per_vertex = std::max(tiles.finish_bytes_per_vertex, kRowLineBytesPerVertex);
   }
   tiles.finish_row = [whole, is_fitted, laying, threshold, &fits,
@@ -56,8 +61,7 @@ void finish_rows(const HeightField& field, const SimplifyOptions& options, const
     if (laying) {
       const auto start = Clock::now();
       row.tin = std::move(finished.tin);
-      auto laid =
-          laying->lay(std::move(row), threshold, [&on](std::uint64_t vertices) { return !on || on(0, vertices); });
+      auto laid = laying->lay(std::move(row), threshold);
       if (!laid) return laid;
       finished = std::move(*laid);
       fits.seconds_of_lines += seconds_since(start);

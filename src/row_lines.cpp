@@ -7,8 +7,11 @@
 
 #include "geom/exact_error.h"
 #include "grid/vertex_places.h"
+#include "refine/border_chain.h"
+#include "refine/domain.h"
 #include "refine/lattice_judge.h"
 #include "refine/refinement.h"
+#include "refine/tile_plan.h"
 
 namespace scarp {
 
@@ -20,6 +23,36 @@ struct BorderVertex {
   float height = 0;
   bool is_of_line = false;
 };
+
+/// A vertex of a line before that of the mesh at the same place, which goes.
+void sort_along(std::vector<BorderVertex>& vertices) {
+  std::sort(vertices.begin(), vertices.end(), [](const BorderVertex& a, const BorderVertex& b) {
+    return std::pair(a.x, !a.is_of_line) < std::pair(b.x, !b.is_of_line);
+  });
+  vertices.erase(std::unique(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a.x == b.x; }),
+                 vertices.end());
+}
+
+/// Those that lines have on a row of the part.
+std::vector<BorderVertex> line_vertices(const ConstraintGraph& part, std::int32_t y, const float* samples) {
+  std::vector<BorderVertex> vertices;
+  for (std::size_t i = 0; i < part.points.size(); ++i) {
+    const Point p = part.points[i];
+    if (p.y != y * kLatticeSteps) continue;
+    const bool is_sample = PlaceHeights::is_sample(p);
+    vertices.push_back({p.x, is_sample ? samples[p.x / kLatticeSteps] : part.heights[i], true});
+  }
+  return vertices;
+}
+
+/// Samples of a row become vertices for both rows that share it.
+void share_samples(std::span<const std::int32_t> cols, std::int32_t y, const float* samples, ConstraintGraph& part) {
+  for (const std::int32_t col : cols) {
+    part.points.push_back({col * kLatticeSteps, y * kLatticeSteps});
+    part.heights.push_back(samples[col]);
+    part.is_shared.push_back(1);
+  }
+}
 
 /// Appends the samples that a chord needs between two vertices: the farthest splits it, again and again.
 void split_border_chord(const float* samples, const BorderVertex& from, const BorderVertex& to, double threshold,
@@ -54,8 +87,13 @@ void split_border_chord(const float* samples, const BorderVertex& from, const Bo
 
 }  // namespace
 
-RowLines::RowLines(const ConstraintGraph& graph)
-    : graph_(graph), points_(graph.points.size()), edges_(graph.edges.size()), cut_(graph) {
+RowLines::RowLines(const ConstraintGraph& graph, std::int32_t side, bool releases_starts)
+    : graph_(graph),
+      side_(side),
+      releases_starts_(releases_starts),
+      points_(graph.points.size()),
+      edges_(graph.edges.size()),
+      cut_(graph) {
   std::iota(points_.begin(), points_.end(), 0u);
   std::sort(points_.begin(), points_.end(),
             [&](std::uint32_t a, std::uint32_t b) { return before(graph_.points[a], graph_.points[b]); });
@@ -67,8 +105,19 @@ RowLines::RowLines(const ConstraintGraph& graph)
                    [&](std::uint32_t a, std::uint32_t b) { return upper_end(a) < upper_end(b); });
 }
 
-/// In the row's own coordinates; points on shared rows are all there, with samples that split these.
-ConstraintGraph RowLines::part_of(const TileRow& row, double threshold) const {
+/// Whether lines have points on rows of samples, both included.
+bool RowLines::has_points(std::int32_t top, std::int32_t bottom) const {
+  const auto first = std::partition_point(points_.begin(), points_.end(),
+                                          [&](auto p) { return graph_.points[p].y < top * kLatticeSteps; });
+  return first != points_.end() && graph_.points[*first].y <= bottom * kLatticeSteps;
+}
+
+bool RowLines::makes_whole(std::int32_t first, std::int32_t rows) const {
+  return graph_.is_laid_first && has_points(first, first + rows - 1);
+}
+
+/// In the row's own coordinates; points on shared rows are all there.
+ConstraintGraph RowLines::part_of(const TileRow& row) const {
   const std::int32_t top = row.first * kLatticeSteps, bottom = top + (row.samples.rows - 1) * kLatticeSteps;
   ConstraintGraph part;
   std::vector<std::uint32_t> numbers;  // of points_[first + k]
@@ -93,68 +142,124 @@ ConstraintGraph RowLines::part_of(const TileRow& row, double threshold) const {
   auto edge = std::partition_point(edges_.begin(), edges_.end(), [&](auto e) { return upper_end(e) < top; });
   for (; edge != edges_.end() && upper_end(*edge) <= bottom; ++edge) {
     const auto [a, b] = graph_.edges[*edge];
-    if (std::max(row_of(a), row_of(b)) <= bottom) part.edges.push_back({number_of(a), number_of(b)});
+    if (std::max(row_of(a), row_of(b)) > bottom) continue;
+    part.edges.push_back({number_of(a), number_of(b)});
+    if (!graph_.is_start.empty()) part.is_start.push_back(graph_.is_start[*edge]);
   }
   part.cut = cut_.part_of(row.first, row.samples.rows, number_of);
-  if (row.has_above) split_shared(row, true, threshold, part);
-  if (row.has_below) split_shared(row, false, threshold, part);
   return part;
 }
 
+/// Tiles have split the others.
 void RowLines::split_shared(const TileRow& row, bool is_top, double threshold, ConstraintGraph& part) const {
   const std::int32_t y = is_top ? 0 : row.samples.rows - 1;
   const float* samples = row.samples.row(y);
-  std::vector<BorderVertex> vertices;
-  for (std::size_t i = 0; i < part.points.size(); ++i) {
-    const Point p = part.points[i];
-    if (p.y != y * kLatticeSteps) continue;
-    const bool is_sample = PlaceHeights::is_sample(p);
-    vertices.push_back({p.x, is_sample ? samples[p.x / kLatticeSteps] : part.heights[i], true});
-  }
+  std::vector<BorderVertex> vertices = line_vertices(part, y, samples);
   if (vertices.empty()) return;
   for (Vertex v = 0; v < row.tin.vertex_count(); ++v) {
     const Point p = row.tin.point(v);
     if (p.y == y) vertices.push_back({p.x * kLatticeSteps, samples[p.x], false});
   }
-  // A vertex of a line before that of the mesh at the same place.
-  std::sort(vertices.begin(), vertices.end(), [](const BorderVertex& a, const BorderVertex& b) {
-    return std::pair(a.x, !a.is_of_line) < std::pair(b.x, !b.is_of_line);
-  });
-  vertices.erase(std::unique(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a.x == b.x; }),
-                 vertices.end());
+  sort_along(vertices);
   std::vector<std::int32_t> kept;
   for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
     if (vertices[i].is_of_line || vertices[i + 1].is_of_line)
       split_border_chord(samples, vertices[i], vertices[i + 1], threshold, kept);
   }
-  for (const std::int32_t col : kept) {
-    part.points.push_back({col * kLatticeSteps, y * kLatticeSteps});
-    part.heights.push_back(samples[col]);
-    part.is_shared.push_back(1);
-  }
+  share_samples(kept, y, samples, part);
 }
 
-Result<FinishedRow> RowLines::lay(TileRow row, double threshold,
-                                  const std::function<bool(std::uint64_t vertices)>& goes_on) {
-  const ConstraintGraph part = part_of(row, threshold);
+/// The domain as its outline alone, and the shared borders with all their vertices.
+Result<void> RowLines::start(TileRow& row, double threshold, ConstraintGraph& part) const {
+  if (auto domain = build_domain(row.samples, 0, Frame{})) {
+    row.tin = std::move(domain->tin);
+  } else if (domain.error().kind == ErrorKind::kInput) {  // no cell is surface
+    for (Triangle t = 0; t < row.tin.triangle_count(); ++t) row.tin.set_outside(t, true);
+  } else {
+    return tl::unexpected(domain.error());
+  }
+  // The outline along a shared border is the other row's too only if the surface ends there.
+  for (HalfEdge h = 0; h < 3 * row.tin.triangle_count(); ++h) {
+    if (row.tin.twin(h) == kNone) row.tin.release(h);
+  }
+  if (row.has_above) {
+    if (auto top = start_border(row, true, threshold, part); !top) return top;
+  }
+  return row.has_below ? start_border(row, false, threshold, part) : Result<void>();
+}
+
+Result<void> RowLines::start_border(const TileRow& row, bool is_top, double threshold, ConstraintGraph& part) const {
+  const std::int32_t y = is_top ? 0 : row.samples.rows - 1, around = y + (row.has_above ? 1 : 0);
+  const float* samples = row.samples.row(y);
+  const HeightField field{row.around.samples, row.around.cols, row.around.rows};
+  std::vector<BorderVertex> vertices = line_vertices(part, y, samples);
+  std::vector<std::int32_t> kept;
+  if (vertices.empty()) {
+    // The row beyond may be of tiles.
+    const TilePlan plan(field.cols, field.rows, side_);
+    for (std::size_t tile = 0; tile < plan.per_row(); ++tile) {
+      const TileWindow window = plan.window(tile);
+      const auto chain = simplify_border(field, {window.col, around, window.cols - 1, false}, threshold);
+      if (!chain) return tl::unexpected(chain.error());
+      if (tile > 0) kept.push_back(window.col);
+      for (const std::int32_t step : *chain) kept.push_back(window.col + step);
+    }
+    share_samples(kept, y, samples, part);
+    return {};
+  }
+  const auto runs = find_border_runs(field, {0, around, field.cols - 1, false});
+  if (!runs) return tl::unexpected(runs.error());
+  for (const BorderRun& run : *runs) {
+    vertices.push_back({run.begin * kLatticeSteps, samples[run.begin], false});
+    if (run.begin > 0) kept.push_back(run.begin);
+  }
+  vertices.push_back({runs->back().end * kLatticeSteps, samples[runs->back().end], false});
+  sort_along(vertices);
+  auto run = runs->begin();
+  for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
+    while (run->end * kLatticeSteps <= vertices[i].x) ++run;
+    if (run->has_surface) split_border_chord(samples, vertices[i], vertices[i + 1], threshold, kept);
+  }
+  // Each point of the part once.
+  std::erase_if(kept, [&](std::int32_t col) {
+    const auto at = std::lower_bound(vertices.begin(), vertices.end(), col * kLatticeSteps,
+                                     [](const BorderVertex& v, std::int32_t x) { return v.x < x; });
+    return at != vertices.end() && at->x == col * kLatticeSteps && at->is_of_line;
+  });
+  share_samples(kept, y, samples, part);
+  return {};
+}
+
+Result<FinishedRow> RowLines::lay(TileRow row, double threshold) {
+  const bool is_whole = makes_whole(row.first, row.samples.rows);
+  ConstraintGraph part = part_of(row);
+  if (is_whole) {
+    if (auto started = start(row, threshold, part); !started) return tl::unexpected(started.error());
+  } else {
+    if (row.has_above) split_shared(row, true, threshold, part);
+    if (row.has_below) split_shared(row, false, threshold, part);
+  }
   auto laid = ConstrainedMesh::lay(row.samples, row.tin, part);
   if (!laid) return tl::unexpected(laid.error());
   has_surface_ = has_surface_ || laid->has_surface();
   if (!has_surface_ && !row.has_below) return fail(ErrorKind::kInput, kNothingInCutline);
   const LatticeJudge judge(row.samples, laid->heights(), threshold, {});
-  Refinement refinement(judge, row.tin, Algorithm::kHeap, {}, Refinement::Start::kClean);
-  refinement.scan(laid->changed());
+  Refinement refinement(judge, row.tin, Algorithm::kHeap, {},
+                        is_whole ? Refinement::Start::kScan : Refinement::Start::kClean);
+  if (!is_whole) refinement.scan(laid->changed());
   for (std::uint64_t step = 0; !refinement.done(); ++step) {
     if (refinement.is_full())
       return fail(ErrorKind::kInput, "the mesh would have more than 1,431 million triangles: allow a larger error");
-    if (step % 256 == 0 && !goes_on(row.tin.vertex_count()))
-      return fail(ErrorKind::kCancelled, "cancelled while laying lines");
+    if (step % 256 == 0) {
+      if (auto fits = row.check(row.tin.vertex_count()); !fits) return tl::unexpected(fits.error());
+    }
     refinement.insert_worst();
   }
   const Work work = refinement.work();
   work_.samples_scanned += work.samples_scanned;
   work_.triangles_scanned += work.triangles_scanned;
   work_.passes += work.passes;
+  if (releases_starts_) laid->release_starts(row.tin);
   VertexPlaces places = laid->places();
   return FinishedRow{std::move(row.tin), std::move(places)};
 }

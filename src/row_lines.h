@@ -4,10 +4,13 @@
 //     row at hand       line│           alone, so both rows know it. Where it leaves a chord of the shared border,
 //     ──────────────────────┴───────    samples on that split it, by the border's own rule; neither row adds more.
 //     rows below, not read yet
+//
+// Lines that are laid before the surface is refined, walls and ridges, would come too late behind tiles. Rows that such
+// a graph touches are made whole: lines first, then refinement of the row as one. A border that lines meet has then no
+// vertices of tiles, only those of lines and what these leave to be split; both its rows are made whole, and know that.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,23 +24,32 @@ namespace scarp {
 
 class RowLines {
  public:
-  /// `graph`: of the whole raster, its edges cut at the shared rows. Stays alive.
-  explicit RowLines(const ConstraintGraph& graph);
+  /// `graph`: of the whole raster, its edges cut at the shared rows of tiles of `side`. Stays alive. `releases_starts`:
+  /// edges that are but a start are given free when they have been laid, with their vertices; on shared rows fitting
+  /// leaves these all the same.
+  RowLines(const ConstraintGraph& graph, std::int32_t side, bool releases_starts);
 
+  /// Of rows of samples: lines are laid there before the surface is refined.
+  bool makes_whole(std::int32_t first, std::int32_t rows) const;
   /// The row's mesh with its part of the lines as chains of constrained edges, at kLatticeSteps; samples that they put
   /// beyond `threshold` are inserted around them. Vertices on rows that are shared are the same for both that share
-  /// them. Fails as ConstrainedMesh::lay(), with kInput for too many triangles and with kCancelled where `goes_on` says
-  /// no; with kInput after the last row if a cut has left nothing of any. REQUIRES: each sample lies within the
-  /// threshold of the row's mesh.
-  Result<FinishedRow> lay(TileRow row, double threshold, const std::function<bool(std::uint64_t vertices)>& goes_on);
+  /// them. Fails as ConstrainedMesh::lay(), with kInput for too many triangles and as row.check does; with kInput
+  /// after the last row if a cut has left nothing of any. REQUIRES: each
+  /// sample lies within the threshold of the row's mesh, or the row is to be made whole.
+  Result<FinishedRow> lay(TileRow row, double threshold);
 
   const Work& work() const { return work_; }
 
  private:
-  ConstraintGraph part_of(const TileRow& row, double threshold) const;
+  bool has_points(std::int32_t top, std::int32_t bottom) const;
+  ConstraintGraph part_of(const TileRow& row) const;
   void split_shared(const TileRow& row, bool is_top, double threshold, ConstraintGraph& part) const;
+  Result<void> start(TileRow& row, double threshold, ConstraintGraph& part) const;
+  Result<void> start_border(const TileRow& row, bool is_top, double threshold, ConstraintGraph& part) const;
 
   const ConstraintGraph& graph_;
+  std::int32_t side_;
+  bool releases_starts_;
   std::vector<std::uint32_t> points_;  // of the graph, from the top down
   std::vector<std::uint32_t> edges_;   // by their upper ends
   RowCut cut_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grid/raster.h"
+#include "hollow_samples.h"
 #include "hollows.h"
 
 namespace scarp {
@@ -24,6 +25,9 @@ struct ValleyPath {
 ///
 /// `is_left_out`: of samples, those that no path may use. Equal heights count in raster order.
 std::vector<ValleyPath> follow_valleys(const Raster& raster, const std::vector<Hollow>& hollows,
-                                       const std::function<bool(std::size_t)>& is_left_out);
+                                       const std::function<bool(Point)>& is_left_out);
+
+/// The same where low samples and what is near them are known. Memory: 26 bytes each of these.
+std::vector<ValleyPath> follow_valleys(const HollowSamples& samples);
 
 }  // namespace scarp

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <utility>
 
+#include "memory.h"
 #include "report.h"
 #include "simplify_run.h"
 #include "text.h"
@@ -31,13 +32,15 @@ Result<void> CliffArguments::check(bool has_error) const {
 }
 
 Result<std::optional<Cliffs>> CliffArguments::add_cliffs(const HeightField& field, double max_error,
-                                                         LineConstraints& lines) const {
+                                                         const MemoryShare& memory, LineConstraints& lines) const {
   if (!height) return std::nullopt;
   CliffOptions options;
   options.height = *parse_non_negative("--cliff", *height);
   options.max_error = max_error;
   options.affine = lines.affine;
   options.avoid = lines.lines;
+  options.memory_limit = memory.limit;
+  options.memory_taken = memory.taken;
   auto cliffs = detect_cliffs(field, options);
   if (!cliffs) return tl::unexpected(std::move(cliffs.error()));
   lines.lines.insert(lines.lines.end(), cliffs->lines.begin(), cliffs->lines.end());

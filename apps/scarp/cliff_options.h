@@ -5,6 +5,7 @@
 #include <string>
 
 #include "json.h"
+#include "memory.h"
 #include "options.h"
 #include "scarp/cliffs.h"
 
@@ -22,7 +23,8 @@ struct CliffArguments {
   Result<void> check(bool has_error) const;
   std::string canonical() const { return canonical_option("--cliff", height); }
   /// Adds the lines of walls to `lines`, around those that are there. Nothing without --cliff.
-  Result<std::optional<Cliffs>> add_cliffs(const HeightField& field, double max_error, LineConstraints& lines) const;
+  Result<std::optional<Cliffs>> add_cliffs(const HeightField& field, double max_error, const MemoryShare& memory,
+                                           LineConstraints& lines) const;
 };
 
 /// The "cliffs" object of a report; null without --cliff.

@@ -23,6 +23,11 @@ struct MemoryArguments {
   Result<std::optional<std::uint64_t>> parse() const;
 };
 
+/// Bytes that the process may take, 0 for any, and those that it has taken.
+struct MemoryShare {
+  std::uint64_t limit = 0, taken = 0;
+};
+
 /// "1G", "1.5 GiB", "800M" as bytes: k, M, G, T are powers of 1000, Ki, Mi, Gi, Ti of 1024; a B may follow.
 Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& text);
 

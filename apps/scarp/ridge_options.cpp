@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <utility>
 
+#include "memory.h"
 #include "report.h"
 #include "simplify_run.h"
 #include "text.h"
@@ -39,7 +40,7 @@ std::string RidgeArguments::canonical() const {
 }
 
 Result<std::optional<Ridges>> RidgeArguments::add_ridges(const HeightField& field, double max_error, int threads,
-                                                         const ProgressCallback& progress,
+                                                         const MemoryShare& memory, const ProgressCallback& progress,
                                                          LineConstraints& lines) const {
   if (!height) return std::nullopt;
   RidgeOptions options;
@@ -50,6 +51,8 @@ Result<std::optional<Ridges>> RidgeArguments::add_ridges(const HeightField& fiel
   options.are_kept = are_kept;
   options.threads = threads;
   options.progress = progress;
+  options.memory_limit = memory.limit;
+  options.memory_taken = memory.taken;
   auto ridges = detect_ridges(field, options);
   if (!ridges) return tl::unexpected(std::move(ridges.error()));
   for (const auto* found : {&ridges->ridges, &ridges->valleys})

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "json.h"
+#include "memory.h"
 #include "options.h"
 #include "scarp/ridges.h"
 
@@ -24,7 +25,8 @@ struct RidgeArguments {
   std::string canonical() const;
   /// Adds the lines of ridges and valleys to `lines`, away from those that are there. Nothing without --ridges.
   Result<std::optional<Ridges>> add_ridges(const HeightField& field, double max_error, int threads,
-                                           const ProgressCallback& progress, LineConstraints& lines) const;
+                                           const MemoryShare& memory, const ProgressCallback& progress,
+                                           LineConstraints& lines) const;
 };
 
 /// The "ridges" object of a report; null without --ridges.

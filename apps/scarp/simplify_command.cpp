@@ -53,6 +53,12 @@ bool has_lines_to_fit(const SimplifyPlan& plan) {
   return has_budget && (!plan.lines.rivers.empty() || plan.cliff.height || plan.ridges.height);
 }
 
+/// What the process may take, and has taken.
+MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome) {
+  if (!plan.memory) return {};
+  return {*plan.memory, bytes_taken(outcome.field, *plan.memory) + outcome.waters.bytes()};
+}
+
 /// All lines of a mesh of such an error, and the walls and ridges among them.
 struct FittedLines {
   LineConstraints lines;
@@ -63,10 +69,11 @@ Result<FittedLines> fit_lines(const SimplifyPlan& plan, const Outcome& outcome, 
   FittedLines fitted{outcome.lines, std::nullopt, std::nullopt};
   if (auto rivers = add_rivers(outcome.waters, outcome.field, max_error, fitted.lines); !rivers)
     return tl::unexpected(rivers.error());
-  auto cliffs = plan.cliff.add_cliffs(outcome.field.view(), max_error, fitted.lines);
+  auto cliffs = plan.cliff.add_cliffs(outcome.field.view(), max_error, memory_of(plan, outcome), fitted.lines);
   if (!cliffs) return tl::unexpected(cliffs.error());
   fitted.cliffs = std::move(*cliffs);
-  auto ridges = plan.ridges.add_ridges(outcome.field.view(), max_error, plan.simplify.threads, {}, fitted.lines);
+  auto ridges = plan.ridges.add_ridges(outcome.field.view(), max_error, plan.simplify.threads, memory_of(plan, outcome),
+                                       {}, fitted.lines);
   if (!ridges) return tl::unexpected(ridges.error());
   fitted.ridges = std::move(*ridges);
   return fitted;
@@ -94,11 +101,12 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
   if (!waters) return tl::unexpected(std::move(waters.error()));
   outcome.waters = std::move(*waters);
   if (!fits_later) {
-    auto cliffs = plan.cliff.add_cliffs(outcome.field.view(), outcome.asked.value_or(0), outcome.lines);
+    auto cliffs =
+        plan.cliff.add_cliffs(outcome.field.view(), outcome.asked.value_or(0), memory_of(plan, outcome), outcome.lines);
     if (!cliffs) return tl::unexpected(std::move(cliffs.error()));
     outcome.cliffs = std::move(*cliffs);
     auto ridges = plan.ridges.add_ridges(outcome.field.view(), outcome.asked.value_or(0), plan.simplify.threads,
-                                         progress, outcome.lines);
+                                         memory_of(plan, outcome), progress, outcome.lines);
     if (!ridges) return tl::unexpected(std::move(ridges.error()));
     outcome.ridges = std::move(*ridges);
   }

@@ -26,6 +26,9 @@ struct CliffOptions {
   double max_error = 0;
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of lines: map_affine()
   std::span<const Line> avoid = {};                ///< lines that no fault may cross or touch
+  /// For a field with a source: bytes that the process may take, and those that are taken, as in SimplifyOptions. Walls
+  /// that do not fit are refused with kUsage, before memory runs out. DEFAULT: no limit.
+  std::uint64_t memory_limit = 0, memory_taken = 0;
 };
 
 struct Cliffs {
@@ -50,8 +53,9 @@ inline bool is_fault(const Line& line) { return line.polygon == kFaultLine; }
 ///
 /// Of the lines through a wall those with the fewest vertices are taken, vertices on cracks between two samples or in
 /// cells where the wall turns. A part is worth it if it takes fewer than three pairs of vertices for ten cracks.
-/// Fails with kUsage for options out of range. REQUIRES: the field has its samples in memory; the affine map can be
-/// inverted. Cost: O(samples), and some 20 µs a crack; one thread.
+/// Fails with kUsage for options out of range, and as the field's source does, which is read once from the top down:
+/// the lines are those of the same samples in memory. REQUIRES: the affine map can be inverted. Memory: 40 bytes a
+/// crack, 1000 a crack of the longest wall, and the lines. Cost: O(samples), and some 20 µs a crack; one thread.
 Result<Cliffs> detect_cliffs(const HeightField& field, const CliffOptions& options);
 
 }  // namespace scarp

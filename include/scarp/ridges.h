@@ -36,6 +36,9 @@ struct RidgeOptions {
   bool are_kept = false;                           ///< the mesh holds all lines in the end, whatever the effort
   int threads = 0;                                 ///< 0: all cores; never changes the result
   ProgressCallback progress = {};                  ///< of the pass "ridges"
+  /// For a field with a source: bytes that the process may take, and those that are taken, as in SimplifyOptions.
+  /// Ridges that do not fit are refused with kUsage, before memory runs out. DEFAULT: no limit.
+  std::uint64_t memory_limit = 0, memory_taken = 0;
 };
 
 struct Ridges {
@@ -57,9 +60,11 @@ inline bool is_ridge_line(const Line& line) { return line.polygon == kRidgeLine 
 /// joins another both have a vertex. Lines of fewer than 8 samples are left out. With all samples negated ridges and
 /// valleys are exchanged, and nothing else changes. Voids end profiles: what is seen of them counts.
 ///
-/// Fails with kUsage for options out of range, with kCancelled. REQUIRES: the field has its samples in memory; the
-/// affine map can be inverted. Memory: 6 bytes a sample, and some 100 for each sample near a line. Cost: O(samples)
-/// and O(n log n) for the n samples near lines; some 0.1 to 0.3 s a million samples of land, up to 1 s of noise.
+/// Fails with kUsage for options out of range, with kCancelled, and as the field's source does, which is read four
+/// times from the top down: the lines are those of the same samples in memory. REQUIRES: the affine map can be
+/// inverted. Memory: 6 bytes a sample, and some 50 for each sample near one that lies high, or low; of a source, those
+/// 50 alone. Cost: O(samples) and O(n log n) for the n samples near lines; some 0.1 to 0.3 s a million samples of land,
+/// up to 1 s of noise.
 Result<Ridges> detect_ridges(const HeightField& field, const RidgeOptions& options);
 
 }  // namespace scarp

@@ -73,33 +73,47 @@ Result<Strip> read_strip(const HeightField& field, const BorderLine& line) {
   return strip;
 }
 
-}  // namespace
-
-Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, const BorderLine& line, double threshold) {
-  auto strip = read_strip(field, line);
-  if (!strip) return tl::unexpected(strip.error());
+std::vector<BorderRun> runs_of(const Strip& strip, std::int32_t steps) {
   const auto is_full = [](unsigned corners) { return corners == 15; };
   const auto is_empty = [](unsigned corners) { return std::popcount(corners) < 3; };
-  std::vector<std::int32_t> kept;
-  std::int32_t begin = 0;  // of the run in which the surface beside the line stays as it is
+  std::vector<BorderRun> runs;
+  std::int32_t begin = 0;
   const auto end_run = [&](std::int32_t end) {
-    const bool has_surface = !is_empty(strip->corners(0, static_cast<std::size_t>(begin))) ||
-                             !is_empty(strip->corners(1, static_cast<std::size_t>(begin)));
-    // A half cell whose missing corner lies on the line has no surface along it, and its run is one step.
-    if (has_surface && end - begin > 1) split_chord(strip->heights[1], begin, end, threshold, kept);
-    if (end < line.steps) kept.push_back(end);
+    const bool has_surface = !is_empty(strip.corners(0, static_cast<std::size_t>(begin))) ||
+                             !is_empty(strip.corners(1, static_cast<std::size_t>(begin)));
+    runs.push_back({begin, end, has_surface});
     begin = end;
   };
-  for (std::int32_t i = 1; i < line.steps; ++i) {
+  for (std::int32_t i = 1; i < steps; ++i) {
     bool is_uniform = true;
     for (std::size_t side = 0; side < 2; ++side) {
-      const unsigned before = strip->corners(side, static_cast<std::size_t>(i) - 1);
-      const unsigned after = strip->corners(side, static_cast<std::size_t>(i));
+      const unsigned before = strip.corners(side, static_cast<std::size_t>(i) - 1);
+      const unsigned after = strip.corners(side, static_cast<std::size_t>(i));
       is_uniform = is_uniform && ((is_full(before) && is_full(after)) || (is_empty(before) && is_empty(after)));
     }
     if (!is_uniform) end_run(i);
   }
-  end_run(line.steps);
+  end_run(steps);
+  return runs;
+}
+
+}  // namespace
+
+Result<std::vector<BorderRun>> find_border_runs(const HeightField& field, const BorderLine& line) {
+  const auto strip = read_strip(field, line);
+  if (!strip) return tl::unexpected(strip.error());
+  return runs_of(*strip, line.steps);
+}
+
+Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, const BorderLine& line, double threshold) {
+  const auto strip = read_strip(field, line);
+  if (!strip) return tl::unexpected(strip.error());
+  std::vector<std::int32_t> kept;
+  for (const BorderRun& run : runs_of(*strip, line.steps)) {
+    // A half cell whose missing corner lies on the line has no surface along it, and its run is one step.
+    if (run.has_surface && run.end - run.begin > 1) split_chord(strip->heights[1], run.begin, run.end, threshold, kept);
+    if (run.end < line.steps) kept.push_back(run.end);
+  }
   std::sort(kept.begin(), kept.end());
   return kept;
 }

@@ -26,4 +26,13 @@ struct BorderLine {
 /// Fails as the field's source does.
 Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, const BorderLine& line, double threshold);
 
+/// Steps of a line between which the surface beside it, on either side, stays as it is: cells of four heights, or none.
+struct BorderRun {
+  std::int32_t begin = 0, end = 0;
+  bool has_surface = false;  ///< on one side at least
+};
+
+/// The whole of a line in such runs. Fails as the field's source does.
+Result<std::vector<BorderRun>> find_border_runs(const HeightField& field, const BorderLine& line);
+
 }  // namespace scarp

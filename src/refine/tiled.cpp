@@ -147,8 +147,12 @@ class TiledRun {
     if (auto fits = options_.memory.check_start(base_bytes_); !fits) return tl::unexpected(fits.error());
     for (std::size_t first = 0; first < plan_.count() && status_ && !is_unsuited_; first += step_) {
       if (is_streamed_) status_ = load_rows(first);
-      if (status_) refine(first, step_);
-      if (status_ && !is_unsuited_ && options_.finish_row) status_ = finish_row(plan_.window(first));
+      const TileWindow window = plan_.window(first);
+      const bool is_made_whole = options_.is_made_whole && options_.is_made_whole(window.row, window.rows);
+      if (status_ && !is_made_whole) refine(first, step_);
+      if (status_ && !is_unsuited_ && options_.finish_row)
+        status_ =
+            finish_row(window, is_made_whole, static_cast<double>(first + step_) / static_cast<double>(plan_.count()));
     }
     if (!status_) return tl::unexpected(status_.error());
     if (is_unsuited_) return std::optional<Tiled>();
@@ -203,22 +207,33 @@ class TiledRun {
     }
     const double share = static_cast<double>(tile + 1) / static_cast<double>(plan_.count());
     const std::uint64_t vertices = assembly_.vertex_count() + row_.vertex_count();
-    if (status_ = options_.memory.check_mesh(base_bytes_ + finish_bytes(), vertices, share); !status_) return false;
+    if (status_ = options_.memory.check_mesh(base_bytes_ + finish_bytes(row_.vertex_count()), vertices, share);
+        !status_)
+      return false;
     if (options_.progress && !options_.progress(share, vertices))
       status_ = fail(ErrorKind::kCancelled, "cancelled while refining");
     return status_.has_value();
   }
 
-  /// Beyond those of the row's vertices as such.
-  std::uint64_t finish_bytes() const {
+  /// Beyond those of so many vertices of the row as such.
+  std::uint64_t finish_bytes(std::uint64_t vertices) const {
     const std::uint64_t whole = options_.finish_bytes_per_vertex, mesh = options_.memory.per_vertex;
-    return (std::max(whole, mesh) - mesh) * row_.vertex_count();
+    return (std::max(whole, mesh) - mesh) * vertices;
   }
 
-  Result<void> finish_row(const TileWindow& window) {
+  /// `share`: of the tiles, when it is done.
+  Result<void> finish_row(const TileWindow& window, bool is_made_whole, double share) {
     const Raster samples = band_.raster(window.row, window.rows);
+    const bool has_above = window.row > 0, has_below = window.row + window.rows < field_.rows;
     std::vector<HalfEdge> seams;
-    TileRow row{samples, window.row, row_.finish(seams), window.row > 0, window.row + window.rows < field_.rows};
+    TileRow row{samples,   window.row, is_made_whole ? Triangulation(samples.cols, samples.rows) : row_.finish(seams),
+                has_above, has_below,  band_.raster(window.row - has_above, window.rows + has_above + has_below)};
+    row.check = [this, share](std::uint64_t vertices) -> Result<void> {
+      const std::uint64_t all = assembly_.vertex_count() + vertices;
+      if (options_.progress && !options_.progress(share, all))
+        return fail(ErrorKind::kCancelled, "cancelled while refining");
+      return options_.memory.check_mesh(base_bytes_ + finish_bytes(vertices), all, share);
+    };
     row_ = Assembly(plan_.per_row());
     const auto finished = options_.finish_row(std::move(row));
     if (!finished) return tl::unexpected(finished.error());

@@ -34,9 +34,12 @@ namespace scarp {
 /// The mesh of a row of tiles, and its samples.
 struct TileRow {
   Raster samples;
-  std::int32_t first = 0;  ///< of its rows of samples, in the raster
-  Triangulation tin;
+  std::int32_t first = 0;                     ///< of its rows of samples, in the raster
+  Triangulation tin;                          ///< of rows that are made whole: the rectangle as two triangles
   bool has_above = false, has_below = false;  ///< neighbours, which have the vertices on their shared border too
+  Raster around;                              ///< `samples`, and a row more on each side where there is a neighbour
+  /// Of a mesh that grows to so many vertices: fails where memory does not hold it, and with kCancelled.
+  std::function<Result<void>(std::uint64_t vertices)> check = {};
 };
 
 struct FinishedRow {
@@ -55,6 +58,9 @@ struct TiledOptions {
   /// Called on the calling thread for one row after the other; what it says is final: release_seams() has no place
   /// behind it. EMPTY: rows stay as they are.
   std::function<Result<FinishedRow>(TileRow row)> finish_row = {};
+  /// Of rows of samples, so many from the first on: whether finish_row makes their mesh from nothing. Tiles are not
+  /// refined there. EMPTY: of none.
+  std::function<bool(std::int32_t first, std::int32_t rows)> is_made_whole = {};
   std::uint64_t finish_bytes_per_vertex = 0;  ///< that it takes, of the row's, the row's mesh included
   /// Told the share of tiles that are done and the vertices so far, on the calling thread; false stops with kCancelled.
   std::function<bool(double share, std::uint64_t vertices)> progress = {};

@@ -83,7 +83,9 @@ bool Triangulation::constrain(Vertex a, Vertex b) {
 }
 
 void Triangulation::release(HalfEdge h) {
-  for (const HalfEdge side : {h, twins_[h]}) flags_[side / 3] &= static_cast<std::uint8_t>(~(1u << side % 3));
+  for (const HalfEdge side : {h, twins_[h]}) {
+    if (side != kNone) flags_[side / 3] &= static_cast<std::uint8_t>(~(1u << side % 3));
+  }
 }
 
 void Triangulation::force_edge(Vertex a, Vertex b, const std::vector<HalfEdge>& crossed) {

@@ -107,7 +107,7 @@ class Triangulation {
   /// chain. Returns false, without change, if it would cross a constrained edge. REQUIRES: a != b.
   bool constrain(Vertex a, Vertex b);
 
-  /// Takes the constraint off an edge, on both sides. REQUIRES: it is no side of the rectangle.
+  /// Takes the constraint off an edge, on both sides.
   void release(HalfEdge h);
 
   /// A triangle at the vertex that was inserted last: a good hint for locate().

@@ -8,6 +8,7 @@
 
 #include "crack_chains.h"
 #include "fault_lines.h"
+#include "laws/array_source.h"
 #include "laws/fields.h"
 #include "scarp/cliffs.h"
 #include "scarp/simplify.h"
@@ -100,6 +101,17 @@ void check_sides(const Raster& raster, double height, const std::vector<Piece>& 
   }
 }
 
+std::vector<CrackChain> chains_of(const Raster& raster, double height) {
+  CrackChains cracks(raster.cols, raster.rows, height, [](Point) { return false; });
+  for (std::int32_t row = 0; row < raster.rows; ++row)
+    cracks.add_row(row, row > 0 ? raster.row(row - 1) : nullptr, raster.row(row),
+                   row + 1 < raster.rows ? raster.row(row + 1) : nullptr);
+  cracks.link();
+  std::vector<CrackChain> chains;
+  cracks.visit([&](const CrackChain& chain) { chains.push_back(chain); });
+  return chains;
+}
+
 RC_GTEST_PROP(CliffLaws, LinesRunBetweenHighAndLowSamplesAndDoNotMeet, ()) {
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
   const Field field =
@@ -107,8 +119,8 @@ RC_GTEST_PROP(CliffLaws, LinesRunBetweenHighAndLowSamplesAndDoNotMeet, ()) {
   const Raster raster = field.raster();
   const double height = seed % 4 == 1 ? 1.5 : 4;
   std::vector<Piece> others;
-  for (const CrackChain& chain : find_crack_chains(raster, height, [](Point) { return false; })) {
-    for (const Fault& fault : find_faults(raster, chain, 1)) {
+  for (const CrackChain& chain : chains_of(raster, height)) {
+    for (const Fault& fault : find_faults(chain, 1)) {
       RC_ASSERT(fault.top.size() == fault.foot.size());
       RC_ASSERT(fault.top.size() >= 2u);
       std::vector<Piece> top = pieces_of(fault.top), foot = pieces_of(fault.foot);
@@ -145,11 +157,55 @@ RC_GTEST_PROP(CliffLaws, ChainsHoldEachCrackOnce, ()) {
       }
     }
   }
-  for (const CrackChain& chain : find_crack_chains(raster, 4, [](Point) { return false; })) {
+  for (const CrackChain& chain : chains_of(raster, 4)) {
     cracks += chain.cracks.size();
     for (const Crack& crack : chain.cracks) RC_ASSERT(double{raster.at(crack.high)} - double{raster.at(crack.low)} > 4);
   }
   RC_ASSERT(cracks == steps);
+}
+
+RC_GTEST_PROP(CliffLaws, OfASourceAreThoseOfTheSameSamplesInMemory, ()) {
+  const auto seed = *rc::gen::arbitrary<std::uint32_t>();
+  // More rows than are read at once.
+  Field field = random_city(seed);
+  while (field.rows < 150) {
+    const Field more = random_city(seed + static_cast<std::uint32_t>(field.rows));
+    for (std::int32_t y = 0; y < more.rows; ++y) {
+      for (std::int32_t x = 0; x < field.cols; ++x) field.samples.push_back(more.raster().at({x % more.cols, y}));
+    }
+    field.rows += more.rows;
+  }
+  Line line;
+  line.points = {{-2, 1.0 * (seed % 150), NAN}, {1.0 * field.cols, 40, NAN}, {3, 160, NAN}};
+  CliffOptions options{4, 0.25 * (seed % 5)};
+  if (seed % 2 == 0) options.avoid = {&line, 1};
+  const testing::ArraySource source(field.view());
+  const auto held = detect_cliffs(field.view(), options),
+             streamed = detect_cliffs(testing::with_source(field.view(), source), options);
+  RC_ASSERT(held.has_value());
+  RC_ASSERT(streamed.has_value());
+  RC_ASSERT(streamed->faults == held->faults);
+  RC_ASSERT(streamed->vertices == held->vertices);
+  RC_ASSERT(streamed->lines.size() == held->lines.size());
+  for (std::size_t k = 0; k < held->lines.size(); ++k) {
+    RC_ASSERT(streamed->lines[k].points == held->lines[k].points);
+    RC_ASSERT(streamed->lines[k].name == held->lines[k].name);
+  }
+}
+
+TEST(Cliffs, TellWhatTheSourceSaysAndWhatMemoryTheyNeed) {
+  const Field field = city(3, 200, 9, 0);
+  const testing::ArraySource broken(field.view(), 130), source(field.view());
+  EXPECT_EQ(detect_cliffs(testing::with_source(field.view(), broken), {4, 1}).error().message, "row 130 is broken");
+  CliffOptions options{4, 1};
+  options.memory_limit = 1'000'000;
+  options.memory_taken = 950'000;
+  const auto refused = detect_cliffs(testing::with_source(field.view(), source), options);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::kUsage);
+  EXPECT_NE(refused.error().message.find("memory_limit is too little: walls take 1M"), std::string::npos);
+  options.memory_taken = 0;
+  EXPECT_TRUE(detect_cliffs(testing::with_source(field.view(), source), options));
 }
 
 Result<Simplified> with_cliffs(const Field& field, double height, SimplifyOptions options) {

@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "laws/array_source.h"
 #include "laws/fields.h"
 #include "scarp/ridges.h"
 #include "scarp/simplify.h"
@@ -161,6 +162,44 @@ RC_GTEST_PROP(RidgeLaws, LinesRunOverValidSamplesAndSetNoHeights, ()) {
       }
     }
   }
+}
+
+RC_GTEST_PROP(RidgeLaws, OfASourceAreThoseOfTheSameSamplesInMemory, ()) {
+  const auto seed = *rc::gen::arbitrary<std::uint32_t>();
+  // More rows than are read at once.
+  const Field field = testing::random_field(seed, 20 + static_cast<std::int32_t>(seed % 30), 150,
+                                            testing::kReliefs[seed % 5], seed % 2 == 0 ? 0.02 : 0);
+  Line line;
+  line.points = {{-2, 1.0 * (seed % 150), NAN}, {1.0 * field.cols, 40, NAN}, {3, 160, NAN}};
+  RidgeOptions options;
+  options.height = *rc::gen::element(0.5, 2.0, 8.0);
+  options.max_error = *rc::gen::element(0.0, 1.0, 5.0);
+  options.threads = *rc::gen::element(1, 2);
+  if (seed % 3 == 0) options.avoid = {&line, 1};
+  const testing::ArraySource source(field.view());
+  const auto held = detect_ridges(field.view(), options),
+             streamed = detect_ridges(testing::with_source(field.view(), source), options);
+  RC_ASSERT(held.has_value());
+  RC_ASSERT(streamed.has_value());
+  RC_ASSERT(streamed->vertices == held->vertices);
+  RC_ASSERT(places_of(streamed->ridges) == places_of(held->ridges));
+  RC_ASSERT(places_of(streamed->valleys) == places_of(held->valleys));
+}
+
+TEST(Ridges, TellWhatTheSourceSaysAndWhatMemoryTheyNeed) {
+  const Field field = testing::random_field(3, 100, 200, testing::Relief::kRidges);
+  const testing::ArraySource broken(field.view(), 130), source(field.view());
+  EXPECT_EQ(detect_ridges(testing::with_source(field.view(), broken), {1, 1}).error().message, "row 130 is broken");
+  RidgeOptions options{1, 1};
+  options.memory_limit = 1'000'000;
+  options.memory_taken = 900'000;
+  const auto refused = detect_ridges(testing::with_source(field.view(), source), options);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::kUsage);
+  EXPECT_NE(refused.error().message.find("memory_limit is too little: ridges and valleys take"), std::string::npos);
+  options.memory_taken = 0;
+  options.memory_limit = 4'000'000;
+  EXPECT_TRUE(detect_ridges(testing::with_source(field.view(), source), options));
 }
 
 Result<Simplified> with_ridges(const Field& field, bool are_kept, SimplifyOptions options) {

@@ -19,8 +19,10 @@
 #include "refine/domain.h"
 #include "refine/freeze.h"
 #include "row_fit.h"
+#include "scarp/cliffs.h"
 #include "scarp/edits.h"
 #include "scarp/measure.h"
+#include "scarp/ridges.h"
 
 namespace scarp {
 namespace {
@@ -45,8 +47,20 @@ struct RowScene {
     options.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
     options.breaklines = any_lines(field);
     options.threads = *rc::gen::element(1, 2);
+    if (*rc::gen::arbitrary<bool>()) add_first_lines();
   }
   RowScene(const RowScene&) = delete;
+  /// Lines that are laid before the surface is refined.
+  void add_first_lines() {
+    auto& lines = options.breaklines.lines;
+    for (Line& line : lines) {
+      if (std::isnan(line.points[0][2])) line.polygon = *rc::gen::element(kNoPolygon, kRidgeLine, kKeptRidgeLine);
+    }
+    const auto cliffs = detect_cliffs(streamed, {*rc::gen::element(0.7, 3.0), *options.max_error,
+                                                 options.breaklines.affine, options.breaklines.lines});
+    RC_ASSERT(cliffs.has_value());
+    lines.insert(lines.end(), cliffs->lines.begin(), cliffs->lines.end());
+  }
   Result<FieldLines> lines() const {
     return prepare_lines(streamed, options.breaklines, {}, *options.max_error / 2, 1, side);
   }
@@ -70,12 +84,18 @@ bool is_on_surface(const Triangulation& tin, Point a, Point b) {
   return false;
 }
 
-/// Each edge of the graph whose ends are vertices is a chain of constrained edges, as far as there is surface.
-bool holds_lines(const Tiled& tiled, const ConstraintGraph& graph) {
+/// Each edge of the graph whose ends are vertices of the domain is a chain of edges as far as there is surface, but for
+/// those that need not stay.
+bool holds_lines(const Tiled& tiled, const ConstraintGraph& graph, bool with_starts) {
   const Triangulation& tin = tiled.domain.tin;
   std::map<std::pair<std::int32_t, std::int32_t>, Vertex> vertices;
-  for (Vertex v = 0; v < tin.vertex_count(); ++v) vertices[{tin.point(v).x, tin.point(v).y}] = v;
-  for (const auto& [a, b] : graph.edges) {
+  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    const Vertex v = tin.origin(h);
+    if (!tin.is_outside(h / 3)) vertices[{tin.point(v).x, tin.point(v).y}] = v;
+  }
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    if (!with_starts && !graph.is_start.empty() && graph.is_start[i] != 0) continue;
+    const auto& [a, b] = graph.edges[i];
     const Point p = graph.points[a], q = graph.points[b];
     if (!vertices.contains({p.x, p.y}) || !vertices.contains({q.x, q.y})) continue;
     const auto along = [&](Point at) {
@@ -112,7 +132,7 @@ RC_GTEST_PROP(row_lines, are_chains_of_edges_and_the_bound_holds_against_the_edi
       testing::verify_triangulation(tin, (scene.field.cols - 1) * kLatticeSteps + 1,
                                     (scene.field.rows - 1) * kLatticeSteps + 1, testing::Edges::kAny);
   RC_ASSERT(unsound == "");
-  RC_ASSERT(holds_lines(tiled, lines->graph));
+  RC_ASSERT(holds_lines(tiled, lines->graph, scene.options.effort == Effort::kFast));
   const HeightField edited = lines->apply(scene.streamed);
   const auto judged = measure(edited, freeze(SampleHeights(edited, {}), tin, {tiled.steps, tiled.heights, {}},
                                              scene.field.view().frame, false));
@@ -157,6 +177,8 @@ RC_GTEST_PROP(row_lines, in_one_row_are_those_of_a_raster_in_memory, ()) {
   RC_ASSERT(streamed->graph.points == held->graph.points);
   RC_ASSERT(streamed->graph.heights == held->graph.heights);
   RC_ASSERT(streamed->graph.edges == held->graph.edges);
+  RC_ASSERT(streamed->graph.is_start == held->graph.is_start);
+  RC_ASSERT(streamed->graph.is_laid_first == held->graph.is_laid_first);
   RC_ASSERT(streamed->edits.size() == held->edits.size());
   for (std::size_t k = 0; k < held->edits.size(); ++k) {
     const SampleEdit &a = held->edits[k], &b = streamed->edits[k];
