@@ -17,10 +17,15 @@ namespace {
 /// Every row's vertices on the same lattice, whatever the row's own extent.
 bool has_room(const HeightField& field) { return std::max(field.cols, field.rows) <= kMaxCoordinate / kLatticeSteps; }
 
+/// Goals of shapes want rows rid of what the lines between tiles cost, whatever the effort.
+bool is_more_than_refined(const SimplifyOptions& options) {
+  return options.effort != Effort::kFast || options.shape.any();
+}
+
 }  // namespace
 
 bool fits_rows(const HeightField& field, const SimplifyOptions& options) {
-  return field.samples == nullptr && (options.effort != Effort::kFast || options.shape.any());
+  return field.samples == nullptr && is_more_than_refined(options);
 }
 
 bool finishes_rows(const HeightField& field, const SimplifyOptions& options) {
@@ -37,7 +42,7 @@ void finish_rows(const HeightField& field, const SimplifyOptions& options, const
     whole.depth = {};
     whole.vertices_are_free = false;
   }
-  const bool is_fitted = fits_rows(field, options);
+  const bool is_fitted = is_more_than_refined(options);
   const auto threads = static_cast<std::uint64_t>(thread_count(options.threads));
   if (is_fitted) tiles.finish_bytes_per_vertex = kFitBytesPerVertex + kFitBytesPerVertexAndThread * threads;
   std::shared_ptr<RowLines> laying;

@@ -215,6 +215,12 @@ TEST(row_lines, at_the_public_door_change_the_samples_that_hard_lines_pass) {
     EXPECT_EQ(seen.max_error, made->measurement.max_error);
     EXPECT_GT(measure(field.view(), made->mesh)->max_error, 100);
   }
+  options.effort = Effort::kFast;
+  options.shape.max_edge = 40;
+  const auto shaped = simplify(streamed, options);
+  ASSERT_TRUE(shaped) << shaped.error().message;
+  EXPECT_LE(shaped->shape->longest_edge, 40);
+  EXPECT_LE(shaped->measurement.max_error, 5 + 1e-9);
 }
 
 TEST(row_lines, tell_what_the_source_says) {
