@@ -449,7 +449,7 @@ class ShapeRefiner {
       for (const Vertex v : {from, to}) {
         if (const auto bent = lines_.find(v); bent != lines_.end()) line = bent->second;
       }
-      p = beside(on_line(line, {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)}), h);
+      p = beside_line(line, h, share, is_too_long ? 0.25 : 0);
     }
     if (!p) return false;
     if (!PlaceHeights::is_sample(*p) || !samples_.is_valid({p->x / kLatticeSteps, p->y / kLatticeSteps})) {
@@ -461,6 +461,18 @@ class ShapeRefiner {
     refinement_->insert_at(*p, {Location::Kind::kOnEdge, std::min(h, g)});
     note_insertion();
     return true;
+  }
+
+  /// The place beside() a line, of which an edge is part. Vertices that lie next to the line leave few places: what is
+  /// nearest to the share that is wanted, and at most `leeway` from it.
+  std::optional<Point> beside_line(const std::pair<Point, Point>& line, HalfEdge h, double share, double leeway) const {
+    constexpr int kTries = 512;
+    const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h)));
+    for (int k = 0; k < (leeway > 0 ? kTries : 1); ++k) {
+      const double at = share + (k % 2 == 0 ? 1 : -1) * leeway * ((k + 1) / 2) * 2 / kTries;
+      if (const auto p = beside(on_line(line, {a.x + at * (b.x - a.x), a.y + at * (b.y - a.y)}), h)) return p;
+    }
+    return std::nullopt;
   }
 
   /// A half; from an acute corner so much that the length from there is a power of two.

@@ -80,6 +80,14 @@ assert wet > 50, wet
 PYTHON
 done
 
+# Samples that lie next to a long shore leave it few places to be split at.
+succeeds "$scarp" generate smooth 1200 60 flat.tif --seed 1 -q
+echo '{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry": {"type": "Polygon",
+ "coordinates": [[[57.7, 15.8], [1172.1, 9.4], [1137.5, 38.7], [41.8, 43.6], [57.7, 15.8]]]}}]}' >long.geojson
+succeeds "$scarp" simplify flat.tif long.obj -e 10 --max-edge 60 --water long.geojson --effort fast
+read -r count smallest shortest longest < <(python3 "$shape_of" long.obj)
+holds "$longest <= 60"
+
 # What cannot be is refused, by name.
 refuses 1 "--min-angle" "$scarp" simplify hills.tif x.obj -e 10 --min-angle 40
 refuses 1 "--min-angle" "$scarp" simplify hills.tif x.obj -e 10 --min-angle some
