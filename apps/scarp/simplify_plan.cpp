@@ -376,7 +376,6 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
   const std::pair<const char*, bool> options[] = {
       {"--max-triangles", given.max_triangles.has_value()},
       {"--max-points", given.max_points.has_value()},
-      {"--solid", plan.solid.has_value()},
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
       {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
       {"--normals", plan.simplify.normals},
@@ -405,8 +404,10 @@ Result<void> plan_memory(const SimplifyArguments& given, SimplifyPlan& plan) {
   }
   plan.simplify.memory_limit = *plan.memory;
   plan.simplify.memory_per_vertex = plan.format.bytes_per_vertex();
-  // A solid's bottom and walls are as many vertices again.
-  if (plan.base) plan.simplify.memory_per_vertex = 2 * plan.simplify.memory_per_vertex + 48;
+  // A solid's bottom and walls are as many vertices again; a print is judged beside its mesh.
+  constexpr std::uint64_t kMeshBytes = 48;
+  if (plan.base) plan.simplify.memory_per_vertex = 2 * plan.simplify.memory_per_vertex + kMeshBytes;
+  if (plan.solid) plan.simplify.memory_per_vertex += 4 * kMeshBytes;
   plan.needs_samples = find_need_of_samples(given, plan);
   // The proof sees the range of all other rasters, but of this one with its lakes.
   const bool is_flattened = !given.lines.water.empty();

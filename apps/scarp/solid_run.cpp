@@ -34,18 +34,31 @@ std::array<double, 2> cell_of(const Frame& frame) {
   return {std::hypot(frame.affine[1], frame.affine[4]), std::hypot(frame.affine[2], frame.affine[5])};
 }
 
-/// The longest side of what has heights, in the frame.
-double longest_side(const HeightField& field) {
+/// The longest side of what has heights, in the frame. Reads a field that is not in memory once, some rows at a time.
+Result<double> longest_side(const HeightField& field) {
   int left = field.cols, right = -1, top = field.rows, bottom = -1;
-  for (int row = 0; row < field.rows; ++row) {
-    for (int col = 0; col < field.cols; ++col) {
-      const float z = field.samples[static_cast<std::size_t>(row) * static_cast<std::size_t>(field.cols) +
-                                    static_cast<std::size_t>(col)];
-      if (!std::isfinite(z)) continue;
-      left = std::min(left, col);
-      right = std::max(right, col);
-      top = std::min(top, row);
-      bottom = std::max(bottom, row);
+  constexpr int kSamplesTogether = 1 << 18;
+  const int together = std::clamp(kSamplesTogether / field.cols, 1, field.rows);
+  const auto cols = static_cast<std::size_t>(field.cols);
+  std::vector<float> read;
+  for (int first = 0; first < field.rows; first += together) {
+    const int count = std::min(together, field.rows - first);
+    const float* samples = field.samples + static_cast<std::size_t>(first) * cols;
+    if (field.source != nullptr) {
+      read.resize(static_cast<std::size_t>(count) * cols);
+      if (auto has = field.source->read(0, first, field.cols, count, read.data(), field.cols); !has)
+        return tl::unexpected(has.error());
+      samples = read.data();
+    }
+    for (int row = first; row < first + count; ++row) {
+      for (int col = 0; col < field.cols; ++col) {
+        if (!std::isfinite(samples[static_cast<std::size_t>(row - first) * cols + static_cast<std::size_t>(col)]))
+          continue;
+        left = std::min(left, col);
+        right = std::max(right, col);
+        top = std::min(top, row);
+        bottom = std::max(bottom, row);
+      }
     }
   }
   const auto a = field.frame.apply_affine(left, top), b = field.frame.apply_affine(right, bottom),
@@ -97,8 +110,9 @@ Result<std::optional<SheetPlan>> plan_sheets(const SolidPlan& plan, const Height
   options.dovetail = plan.dovetail;
   options.cell = cell_of(field.frame);
   if (plan.gap) {
-    const double longest = longest_side(field);
-    for (double& side : options.cell) side *= plan.size ? *plan.size / longest : 1;
+    const Result<double> longest = longest_side(field);
+    if (!longest) return tl::unexpected(longest.error());
+    for (double& side : options.cell) side *= plan.size ? *plan.size / *longest : 1;
     options.gap = plan.gap->value;
   }
   Result<SheetPlan> sheets = SheetPlan::make(field.cols, field.rows, options);
@@ -135,6 +149,7 @@ Result<Print> make_print(const SolidPlan& plan, const HeightField& field, const 
   if (!judged) return tl::unexpected(judged.error());
   print.max_error = judged->max_error;
   print.uncovered = judged->uncovered;
+  print.heights = judged->heights;
   if (judged->uncovered > 0 && !plan.gap) {
     return fail(ErrorKind::kPromise, fmt::format("the solid leaves out {}, the first at column {}, row {}: it is too "
                                                  "small for float32 to tell samples apart",
@@ -168,7 +183,7 @@ Result<PrintedTerrain> simplify_for_print(const SolidPlan& plan, OwnedHeightFiel
         make_print(plan, field, *sheets ? &**sheets : nullptr, simplified->mesh, cutline, options.threads);
     if (!print) return tl::unexpected(std::move(print.error()));
     const double excess =
-        asked ? print->max_error + field.sample_rounding - *asked - judging_allowance(*asked, height_range(field)) : 0;
+        asked ? print->max_error + field.sample_rounding - *asked - judging_allowance(*asked, print->heights) : 0;
     const bool has_budget_ended =
         simplified->stop == StopReason::kMaxTriangles || simplified->stop == StopReason::kMaxVertices;
     if (!(excess > 0) || has_budget_ended) {

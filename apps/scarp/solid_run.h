@@ -25,12 +25,13 @@ struct Print {
   int empty_sheets = 0;
   double max_error = 0;         ///< of the tops as they are written, against the samples, in z units
   std::uint64_t uncovered = 0;  ///< samples in gaps
+  HeightRange heights;          ///< of the samples
   std::uint64_t vertices() const;
   std::uint64_t triangles() const;
 };
 
 /// The sheets of --split; nothing if the print is whole. Fails with kUsage in frames that are not affine, and as
-/// SheetPlan. REQUIRES: the samples are in memory.
+/// SheetPlan.
 Result<std::optional<SheetPlan>> plan_sheets(const SolidPlan& plan, const HeightField& field);
 
 /// Places, cuts and closes the terrain, of which the cuts are edges, and judges the tops against the samples, those

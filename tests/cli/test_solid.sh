@@ -94,6 +94,24 @@ holds "$(json gap.json solid uncovered) > 0"
 holds "$(json judged.json uncovered) == $(json gap.json solid uncovered) && $(json judged.json max_error) <= 20"
 holds "$(json judged.json topology overlaps) + $(json judged.json topology non_manifold_edges) == 0"
 
+# The same where the samples stay in their file, whole and in sheets.
+succeeds "$scarp" generate fractal 1300 1000 wide.tif --seed 2 -q
+for split in "" "--split 2x2,joint=dovetail,gap=0.3mm"; do
+  # shellcheck disable=SC2086
+  succeeds "$scarp" simplify wide.tif small.3mf -e 40 --solid size=120mm $split --memory 80M -j 1 --report small.json --overwrite
+  # shellcheck disable=SC2086
+  succeeds "$scarp" simplify wide.tif two.3mf -e 40 --solid size=120mm $split --memory 80M -j 2 --overwrite
+  cmp small.3mf two.3mf || fail "-j 2 makes another print"
+  # shellcheck disable=SC2086
+  succeeds "$scarp" simplify wide.tif held.3mf -e 40 --solid size=120mm $split --report held.json --overwrite
+  holds "$(json small.json solid max_error) <= 40"
+  [ "$(json small.json solid uncovered)" = "$(json held.json solid uncovered)" ] || fail "other samples lie in gaps than in memory"
+  [ "$(json small.json solid scale)" = "$(json held.json solid scale)" ] || fail "another size than in memory"
+  sheets=1
+  [ -z "$split" ] || sheets=4
+  lib3mf_likes small.3mf $sheets "$(json small.json solid triangles)"
+done
+
 # Refusals.
 refuses 1 "no key bse: choose base, thickness, size, exaggerate or walls" "$scarp" simplify "$dem" x.stl -e 20 --solid bse=1
 refuses 1 "base=300 is not below the lowest vertex, which is at 2" "$scarp" simplify "$dem" x.stl -e 20 --solid base=300
