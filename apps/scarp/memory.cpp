@@ -31,8 +31,10 @@ std::optional<double> find_unit(std::string unit) {
   return std::pow(unit.size() > 1 ? 1024.0 : 1000.0, static_cast<double>(power + 1));
 }
 
-/// What the samples may take of the limit.
-std::uint64_t samples_share(std::uint64_t limit) { return limit > kProgramBytes ? (limit - kProgramBytes) / 2 : 0; }
+/// What the samples may take of the limit beside others.
+std::uint64_t samples_share(std::uint64_t limit, std::uint64_t others) {
+  return limit > kProgramBytes + others ? (limit - kProgramBytes - others) / 2 : 0;
+}
 
 }  // namespace
 
@@ -75,9 +77,9 @@ Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& te
 }
 
 Result<OwnedHeightField> read_within(const std::string& path, ReadOptions options,
-                                     const std::optional<std::uint64_t>& limit) {
+                                     const std::optional<std::uint64_t>& limit, std::uint64_t others) {
   if (!limit) return read_height_field(path, options);
-  options.memory_limit = std::max<std::uint64_t>(samples_share(*limit), 1);  // 0 would be no limit
+  options.memory_limit = std::max<std::uint64_t>(samples_share(*limit, others), 1);  // 0 would be no limit
   return open_height_field(path, options);
 }
 
@@ -85,17 +87,17 @@ std::uint64_t bytes_taken(const OwnedHeightField& field, std::uint64_t limit) {
   const std::uint64_t samples = static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(field.rows);
   if (!field.source) return kCodeBytes + kBytesPerSample * samples;
   if (field.source->is_in_memory()) return kCodeBytes + kBytesPerSample / 2 * samples;
-  return kCodeBytes + kCacheBytes + samples_share(limit);
+  return kCodeBytes + kCacheBytes + samples_share(limit, 0);
 }
 
-Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option) {
+Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option, std::uint64_t others) {
   if (!field.source) return {};
   const double bytes = static_cast<double>(kBytesPerSample) * field.cols * field.rows;
   return fail(ErrorKind::kUsage,
               fmt::format("{} needs all samples in memory at once, and {} x {} samples are more than --memory leaves "
                           "for them: leave {} out, or allow {}M",
                           option, field.cols, field.rows, option,
-                          std::ceil((2 * bytes + static_cast<double>(kProgramBytes)) / 1e6) + 1));
+                          std::ceil((2 * bytes + static_cast<double>(kProgramBytes + others)) / 1e6) + 1));
 }
 
 void complete_info(const HeightRange& judged, RasterInfo& info) {

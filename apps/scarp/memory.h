@@ -31,17 +31,21 @@ struct MemoryShare {
 /// "1G", "1.5 GiB", "800M" as bytes: k, M, G, T are powers of 1000, Ki, Mi, Gi, Ti of 1024; a B may follow.
 Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& text);
 
+/// What GDAL loads to read a file of lines or polygons.
+inline constexpr std::uint64_t kVectorBytes = 6'000'000;
+
 /// read_height_field(), or, with a limit, open_height_field(): one half of what the program itself leaves of it is for
-/// the samples or their file's cache.
+/// the samples or their file's cache. `others`: bytes that something else will
+/// need, which the samples leave.
 Result<OwnedHeightField> read_within(const std::string& path, ReadOptions options,
-                                     const std::optional<std::uint64_t>& limit);
+                                     const std::optional<std::uint64_t>& limit, std::uint64_t others = 0);
 
 /// What of `limit` a run on a field that was read within it has not for itself: the program, and the samples or the
-/// cache of their file.
+/// cache of their file, with what others have of it.
 std::uint64_t bytes_taken(const OwnedHeightField& field, std::uint64_t limit);
 
 /// Fails with kUsage if the field's samples are not in memory as one array, which `option` needs; says what would do.
-Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option);
+Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option, std::uint64_t others = 0);
 
 /// Gives a raster that was not read before the range that the judge has found.
 void complete_info(const HeightRange& judged, RasterInfo& info);

@@ -20,11 +20,18 @@ namespace {
 
 constexpr const char* kBroken = "the mesh does not keep its promise and was not written; this is a bug in Scarp: ";
 
+/// Of files beside the raster's.
+std::uint64_t vector_bytes(const SimplifyPlan& plan) {
+  const bool has_none =
+      plan.lines.breaklines.empty() && plan.lines.water.empty() && plan.lines.rivers.empty() && plan.cut.files.empty();
+  return has_none ? 0 : kVectorBytes;
+}
+
 Result<void> read_heights(const SimplifyPlan& plan, const ReadOptions& options, Outcome& outcome) {
-  Result<OwnedHeightField> field = read_within(plan.input, options, plan.memory);
+  Result<OwnedHeightField> field = read_within(plan.input, options, plan.memory, vector_bytes(plan));
   if (!field) return tl::unexpected(std::move(field.error()));
   if (plan.needs_samples) {
-    if (auto in_memory = check_in_memory(*field, *plan.needs_samples); !in_memory) return in_memory;
+    if (auto in_memory = check_in_memory(*field, *plan.needs_samples, vector_bytes(plan)); !in_memory) return in_memory;
   }
   outcome.field = std::move(*field);
   outcome.as_read = outcome.field.info;
@@ -281,8 +288,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
     options.is_enough = content_with_interrupt;
     display.let_interrupt_finish("fit");
   }
-  if (plan->memory)
-    options.memory_taken = bytes_taken(outcome.field, *plan->memory) + outcome.waters.bytes() + outcome.cut.bytes;
+  if (plan->memory) options.memory_taken = memory_of(*plan, outcome).taken + outcome.cut.bytes;
   Result<Simplified> simplified = simplify_as_planned(*plan, options, outcome);
   if (!simplified) {
     Error error = name_memory(given_, std::move(simplified.error()));
