@@ -9,19 +9,16 @@
 
 #include "base/caught.h"
 #include "grid/affine_map.h"
+#include "grid/line_places.h"
 #include "scarp/cliffs.h"
 #include "scarp/ridges.h"
 
 namespace scarp {
 namespace {
 
-/// Farther away doubles do not tell a step of the lattice, so nobody knows where a line enters the raster.
-constexpr double kFarthestSample = 0x1p41;
-
 /// A vertex of a line in samples, not rounded.
 struct Vertex {
   double col = 0, row = 0, z = 0;
-  bool can_be_placed() const { return std::abs(col) <= kFarthestSample && std::abs(row) <= kFarthestSample; }
 };
 
 Vertex between(const Vertex& a, const Vertex& b, double at) {
@@ -256,12 +253,11 @@ Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<do
   std::vector<Vertex> vertices;
   for (std::uint32_t k = 0; k < lines.size(); ++k) {
     vertices.clear();
+    if (auto placed = check_line_places(lines[k].name, lines[k].points, affine); !placed)
+      return tl::unexpected(placed.error());
     for (const auto& point : lines[k].points) {
       const SamplePlace at = to_samples.place(point[0], point[1]);
       vertices.push_back({at.col, at.row, point[2]});
-      if (!vertices.back().can_be_placed())
-        return fail(ErrorKind::kInput, fmt::format("{} has a vertex at {:.9g}, {:.9g}, too far away to be placed",
-                                                   lines[k].name, point[0], point[1]));
       if (std::abs(point[2]) > double{std::numeric_limits<float>::max()})
         return fail(ErrorKind::kInput,
                     fmt::format("{} has the height {:.9g}, which is none: heights are float32, of at "

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "grid/affine_map.h"
+#include "grid/line_places.h"
 #include "grid/sample_runs.h"
 #include "grid/void_samples.h"
 #include "line_marks.h"
@@ -172,6 +173,10 @@ Result<std::vector<Line>> close_rings(std::vector<Line> lines) {
 }
 
 Result<VoidedOutside> void_outside(OwnedHeightField& field, const Cutline& cutline, const ProgressCallback& progress) {
+  for (const Line& ring : cutline.rings) {
+    if (auto placed = check_line_places(ring.name, ring.points, cutline.affine); !placed)
+      return tl::unexpected(placed.error());
+  }
   LineRuns runs(cutline.affine, field.cols, field.rows);
   runs.add_polygons(cutline.rings);
   const auto within = std::make_shared<const SampleSet>(runs.runs(), field.rows);

@@ -11,6 +11,7 @@
 #include "field_cut.h"
 #include "geom/polygon_cover.h"
 #include "grid/affine_map.h"
+#include "grid/line_places.h"
 #include "profile.h"
 #include "refine/samples.h"
 #include "refine/tiled.h"
@@ -372,6 +373,10 @@ std::uint64_t copied_bytes(const HeightField& field, const LineConstraints& line
 
 Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
                                  double tolerance, int threads, std::int32_t row_side) {
+  for (const Line& ring : cutline.rings) {
+    if (auto placed = check_line_places(ring.name, ring.points, cutline.affine); !placed)
+      return tl::unexpected(placed.error());
+  }
   if (field.samples == nullptr) return prepare_from_source(field, lines, cutline, tolerance, threads, row_side);
   const auto cleaned = Samples::of(field);
   if (!cleaned) return tl::unexpected(cleaned.error());

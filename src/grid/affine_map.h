@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 namespace scarp {
 
@@ -9,6 +10,12 @@ namespace scarp {
 struct SamplePlace {
   double col = 0, row = 0;
 };
+
+/// Farther away doubles do not tell a step of the lattice, so nobody knows where a line enters the raster.
+inline constexpr double kFarthestSample = 0x1p41;
+inline bool can_be_placed(const SamplePlace& at) {
+  return std::abs(at.col) <= kFarthestSample && std::abs(at.row) <= kFarthestSample;
+}
 
 class MapToSamples {
  public:

@@ -12,6 +12,7 @@
 
 #include "base/caught.h"
 #include "base/parallel.h"
+#include "grid/line_places.h"
 #include "measure/band.h"
 #include "measure/check_mesh.h"
 #include "measure/cut_region.h"
@@ -51,6 +52,10 @@ Result<void> check_input(const HeightField& field, const Mesh& mesh, const Measu
         fmt::format("vertex {} of the mesh lies more than 1e100 cells from the height field; only nearer ones can "
                     "be judged",
                     v));
+  }
+  for (const Line& ring :
+       options.cutline != nullptr ? std::span<const Line>(options.cutline->rings) : std::span<const Line>()) {
+    if (auto placed = check_line_places(ring.name, ring.points, options.cutline->affine); !placed) return placed;
   }
   if (!(options.coverage_tolerance >= 0) || !std::isfinite(options.coverage_tolerance)) {
     return fail(ErrorKind::kUsage, "coverage_tolerance must be zero or a positive number of samples");

@@ -168,6 +168,13 @@ for effort in fast high; do
   succeeds "$scarp" measure "$dem" walls.ply --cutline star.geojson --fail-above 5
 done
 
+# Nobody knows where rings from so far away enter the raster.
+echo '{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry":
+ {"type": "Polygon", "coordinates": [[[1, 1], [1e17, 5], [-1e17, 1e17], [1, 1]]]}}]}' >far.geojson
+refuses 2 "feature 0 has a vertex at 1e+17, 5, too far away to be placed" "$scarp" simplify "$dem" x.glb -e 20 --cutline far.geojson
+refuses 2 "too far away to be placed" "$scarp" simplify "$dem" x.glb -e 20 --cutline far.geojson --mask-outside
+refuses 2 "too far away to be placed" "$scarp" measure "$dem" one.glb --cutline far.geojson
+
 refuses 1 "--inset" "$scarp" simplify "$dem" x.glb -e 20 --inset 5
 refuses 1 "--inset" "$scarp" simplify "$dem" x.glb -e 20 --cutline star.geojson --inset wide
 refuses 1 "--mask-outside" "$scarp" measure "$dem" one.glb --mask-outside
