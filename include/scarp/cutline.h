@@ -16,7 +16,8 @@ namespace scarp {
 /// What lies in one of the polygons, or on its rings, stays. Within a polygon rings count even-odd: holes, rings that
 /// cross themselves and bow-ties need nothing special, and parts that are passed twice are outside.
 struct Cutline {
-  /// Of polygons, as read_lines() and close_rings() give them; their heights are not looked at. EMPTY: no cut.
+  /// Of polygons, as read_lines() and close_rings() give them; their heights are not looked at. EMPTY: no cut. Who
+  /// takes a cutline fails with kInput for a vertex more than 2^41 samples away, named.
   std::vector<Line> rings;
   /// From samples to the coordinates of the rings, as Frame::affine; map_affine() tells it. DEFAULT: columns and rows.
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
