@@ -30,6 +30,8 @@ struct MeasureOptions {
   /// Empty, or cols·rows bounds, one a sample (+infinity: none): `Measurement::over_tolerance` counts the samples whose
   /// error is above theirs, and they are offenders. Borrowed. DEFAULT: empty.
   std::span<const float> tolerance = {};
+  /// The same, read in windows, in place of the above. Borrowed. DEFAULT: none.
+  const SampleSource* tolerance_source = nullptr;
   /// Where the mesh was cut: samples in a polygon, farther than 1/64 sample from its rings, are to be covered; nearer
   /// ones, on either side, are judged where they are covered; others are not. Edges along the rings are no gaps. The
   /// rings are taken as they are, not as the mesh rounded them. Borrowed. DEFAULT: null, the whole domain.

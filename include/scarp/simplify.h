@@ -46,6 +46,9 @@ struct SimplifyOptions {
   /// max_error if that is given; |error| / tolerance is ranked. A goal of its own. Not together with a mask. Borrowed.
   /// DEFAULT: empty.
   std::span<const float> tolerance = {};
+  /// The same where the field has a source, read in windows as its samples are (no NaN): there the above fails with
+  /// kUsage, as this does beside samples in memory. Borrowed. DEFAULT: none.
+  const SampleSource* tolerance_source = nullptr;
   /// Breaklines. A hard line keeps its heights, a soft one follows the raster. Where a hard line passes through a
   /// sample that has another height, the sample is given the line's, and what is promised holds for the samples as they
   /// are then (Simplified::edits). Fails with kUsage without a max error or a budget, together with channels, an
