@@ -9,6 +9,7 @@
 
 #include "laws/any_field.h"
 #include "laws/fields.h"
+#include "laws/sanitized.h"
 #include "scarp/io.h"
 #include "scarp/simplify.h"
 
@@ -58,8 +59,8 @@ RC_GTEST_PROP(effort, keeps_the_promise_in_the_eyes_of_the_judge, ()) {
 }
 
 TEST(effort, errors_that_equal_the_bound_are_kept_by_free_vertices_far_from_the_origin) {
-  for (std::uint32_t seed = 0; seed < 40; ++seed) {
-    const Field field = testing::random_field(seed, 30, 25, Relief::kTies);
+  for (int seed = 0; seed < testing::fewer(40); ++seed) {
+    const Field field = testing::random_field(static_cast<std::uint32_t>(seed), 30, 25, Relief::kTies);
     const HeightField view = odd_cells(field);
     auto options = with_effort(1, seed % 2 == 0 ? Effort::kHigh : Effort::kMax);
     options.float32_positions = false;
@@ -97,7 +98,7 @@ RC_GTEST_PROP(effort, vertices_on_samples_have_the_heights_of_samples, ()) {
 }
 
 TEST(effort, each_level_takes_fewer_triangles) {
-  const Field field = testing::random_field(21, 300, 200, Relief::kRidges, 0.02);
+  const Field field = testing::random_field(21, testing::fewer(300), testing::fewer(200), Relief::kRidges, 0.02);
   std::size_t before = SIZE_MAX;
   for (const auto& [effort, vertices] : {std::pair{Effort::kFast, Vertices::kSamples},
                                          {Effort::kNormal, Vertices::kSamples},
@@ -114,7 +115,7 @@ TEST(effort, each_level_takes_fewer_triangles) {
 }
 
 TEST(effort, rounded_positions_of_free_vertices_keep_the_promise_or_stay_on_samples) {
-  const Field field = testing::random_field(22, 300, 200, Relief::kRidges, 0.02);
+  const Field field = testing::random_field(22, testing::fewer(300), testing::fewer(200), Relief::kRidges, 0.02);
   const HeightField view = odd_cells(field);
   for (const double goal : {1e-3, 0.05, 1.0, 10.0}) {
     const auto result = simplify(view, with_effort(goal, Effort::kHigh));
@@ -163,7 +164,7 @@ TEST(effort, free_vertices_survive_every_format) {
 }
 
 TEST(effort, threads_change_nothing) {
-  const Field field = testing::random_field(24, 400, 300, Relief::kRidges, 0.02);
+  const Field field = testing::random_field(24, testing::fewer(400), testing::fewer(300), Relief::kRidges, 0.02);
   std::optional<Mesh> first;
   for (const int threads : {1, 2, 5}) {
     auto options = with_effort(1, Effort::kHigh);

@@ -18,4 +18,7 @@ inline constexpr bool kIsSanitized = true;
 inline constexpr bool kIsSanitized = false;
 #endif
 
+/// So many rows, columns, cases; a share of them in sanitized builds.
+constexpr int fewer(int count, int share = 2) { return kIsSanitized ? count / share : count; }
+
 }  // namespace scarp::testing
