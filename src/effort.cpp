@@ -53,7 +53,6 @@ const char* find_fit_obstacle(const HeightField& field, const SimplifyOptions& o
   if (has_bounds(options) && has_budget(options)) return "has no budget where samples have bounds of their own";
   if (!options.max_error && options.tolerance.empty() && !has_budget(options)) return "needs a max error or a budget";
   if (options.edges.data_dependent) return "chooses edges itself";
-  if (field.samples == nullptr && has_budget(options)) return "needs the raster in memory as a whole for a budget";
   return nullptr;
 }
 
@@ -85,8 +84,6 @@ Result<void> check_lines(const HeightField& field, const SimplifyOptions& option
   const char* obstacle = has_lines(options) ? find_lattice_obstacle(field, options) : nullptr;
   if (has_lines(options) && obstacle == nullptr && !has_budget(options) && !options.max_error)
     obstacle = "needs a max error or a budget";
-  if (has_lines(options) && obstacle == nullptr && has_budget(options) && field.samples == nullptr)
-    obstacle = "needs the raster in memory as a whole for a budget";
   if (has_lines(options) && obstacle == nullptr && has_budget(options) && has_bounds(options))
     obstacle = "has no budget where samples have bounds of their own";
   const bool is_cut = !options.cutline.rings.empty();

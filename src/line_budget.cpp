@@ -7,7 +7,9 @@
 #include <tuple>
 #include <utility>
 
+#include "effort.h"
 #include "goals.h"
+#include "refine/sample_rows.h"
 #include "search_progress.h"
 
 namespace scarp {
@@ -51,8 +53,9 @@ class LineErrorSearch {
     auto least = run(most, 0.1);
     if (!least) return tl::unexpected(least.error());
     const MeshSize size{least->mesh.vertex_count(), least->mesh.triangle_count()};
-    if (auto fits = budget_.check(size, "the lines and the outline of the valid data alone need", ""); !fits)
-      return fits;
+    const char* culprit = has_lines(options_) ? "the lines and the outline of the valid data alone need"
+                                              : "the outline of the valid data and its rows of tiles alone need";
+    if (auto fits = budget_.check(size, culprit, ""); !fits) return fits;
     best_ = std::move(*least);
     is_at_floor_ = best_.measurement.max_error <= floor_;
     least_error_ = std::log(std::max(best_.measurement.max_error, std::numeric_limits<double>::min()));
@@ -164,6 +167,26 @@ class LineErrorSearch {
   Pass others_{"search"};
 };
 
+/// Throws SourceFailure.
+HeightRange read_range(const HeightField& field) {
+  constexpr int kRows = 16;
+  HeightRange range;
+  SampleRows rows(field, kRows);
+  for (int row = 0; row < field.rows; row += kRows) {
+    const int count = std::min(kRows, field.rows - row);
+    rows.hold(row, count);
+    HeightField band = field;
+    band.samples = rows.samples(0, row, field.cols);
+    band.rows = count;
+    const HeightRange here = height_range(band);
+    if (here.valid == 0) continue;
+    range.min = range.valid == 0 ? here.min : std::min(range.min, here.min);
+    range.max = range.valid == 0 ? here.max : std::max(range.max, here.max);
+    range.valid += here.valid;
+  }
+  return range;
+}
+
 }  // namespace
 
 Result<Simplified> search_line_error(const SimplifyOptions& options, double most, const RunOnce& run) {
@@ -171,7 +194,7 @@ Result<Simplified> search_line_error(const SimplifyOptions& options, double most
 }
 
 double largest_line_error(const HeightField& field, const SimplifyOptions& options) {
-  const HeightRange samples = height_range(field);
+  const HeightRange samples = field.samples != nullptr ? height_range(field) : read_range(field);
   double low = samples.min, high = samples.max;
   for (const Line& line : options.breaklines.lines) {
     for (const auto& point : line.points) {

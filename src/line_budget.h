@@ -1,7 +1,8 @@
-// Budgets of meshes with lines, by fast effort.
+// Budgets of meshes with lines, and of meshes that are made row by row, by fast effort.
 //
 // Insertion that stops at a budget does not know how closely lines are to follow the raster: that depends on the max
-// error of the mesh to come. So the error is searched for whose mesh just fits:
+// error of the mesh to come. Nor can rows of tiles know what others will take. So the error is searched for whose mesh
+// just fits:
 //
 //   the lines alone, with the outline   ── the least mesh there is; what is below it is refused
 //   runs with errors far apart          ── triangles grow about as a power of the error
@@ -27,7 +28,7 @@ Result<Simplified> search_line_error(const SimplifyOptions& options, double most
 
 inline constexpr int kMostLineRuns = 20;
 
-/// Twice the range of the samples and of the heights of breaklines.
+/// Twice the range of the samples and of the heights of breaklines. Reads a source once; throws SourceFailure.
 double largest_line_error(const HeightField& field, const SimplifyOptions& options);
 
 }  // namespace scarp

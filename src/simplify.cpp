@@ -184,15 +184,25 @@ Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyO
   return result;
 }
 
-/// With the budgets there are.
-Result<Simplified> simplify_lines_within(const HeightField& field, const SimplifyOptions& options) {
-  if (!has_budget(options)) return simplify_with_lines(field, options);
+/// With the budgets there are, where insertion does not stop at them: lines are what they are for one error, and rows
+/// of tiles are refined one after the other.
+Result<Simplified> simplify_within(const HeightField& field, const SimplifyOptions& options) {
+  constexpr double kNearlyFull = 0.97;
+  const auto run_once = [&](const SimplifyOptions& once) {
+    return has_lines(once) ? simplify_with_lines(field, once) : simplify_once(field, once, nullptr);
+  };
+  if (!has_budget(options)) return run_once(options);
   bool has_mesh = false;
-  // Lines are what they are for each error anew: slivers of a cutline may vanish at one and not at another. What was
-  // possible once goes on.
+  std::optional<Error> no_room;
   const RunOnce towards_error = [&](const SimplifyOptions& once) {
-    auto made = simplify_with_lines(field, once);
+    auto made = run_once(once);
+    // Slivers of a cutline may vanish at one error and not at another. What was possible once goes on.
     if (!made && has_mesh && made.error().kind == ErrorKind::kInput) made.error().kind = ErrorKind::kPromise;
+    // A mesh that takes too much memory may be one that exceeds the budget, too.
+    if (!made && has_mesh && made.error().kind == ErrorKind::kUsage) {
+      no_room = made.error();
+      made.error().kind = ErrorKind::kPromise;
+    }
     has_mesh = has_mesh || made.has_value();
     return made;
   };
@@ -200,7 +210,11 @@ Result<Simplified> simplify_lines_within(const HeightField& field, const Simplif
   const RunOnce run = [&](const SimplifyOptions& once) {
     return has_budget(once) ? search_line_error(once, most, towards_error) : towards_error(once);
   };
-  return options.effort == Effort::kFast ? run(options) : search_error(options, run);
+  auto made = options.effort == Effort::kFast ? run(options) : search_error(options, run);
+  if (!made || !no_room || made->stop == StopReason::kMaxError || made->stop == StopReason::kExact) return made;
+  const double used = Budget(options).used({made->mesh.vertex_count(), made->mesh.triangle_count()});
+  if (used < kNearlyFull) return tl::unexpected(*no_room);
+  return made;
 }
 
 }  // namespace
@@ -210,7 +224,7 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& ask
   options.effort = choose_effort(field, asked);
   if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
   if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
-  if (has_lines(options)) return simplify_lines_within(field, options);
+  if (has_lines(options) || (field.samples == nullptr && has_budget(options))) return simplify_within(field, options);
   if (options.effort == Effort::kFast || !has_budget(options)) return simplify_once(field, options, nullptr);
   const auto run = [&](const SimplifyOptions& once) { return simplify_once(field, once, nullptr); };
   if (!has_norm(field)) return search_error(options, run);

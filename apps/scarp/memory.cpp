@@ -1,6 +1,7 @@
 #include "memory.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -29,6 +30,15 @@ std::optional<double> find_unit(std::string unit) {
   const std::size_t power = std::string_view("kmgt").find(unit[0]);
   if (power == std::string_view::npos || (unit.size() > 1 && unit.substr(1) != "i")) return std::nullopt;
   return std::pow(unit.size() > 1 ? 1024.0 : 1000.0, static_cast<double>(power + 1));
+}
+
+/// Large blocks go back to the system as soon as they are free: glibc would keep more and more of them, and a budget's
+/// search, run after run, would pass the limit.
+void give_back_early() {
+#ifdef M_MMAP_THRESHOLD
+  constexpr int kLarge = 1 << 18;
+  mallopt(M_MMAP_THRESHOLD, kLarge);
+#endif
 }
 
 /// What the samples may take of the limit beside others.
@@ -79,6 +89,7 @@ Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& te
 Result<OwnedHeightField> read_within(const std::string& path, ReadOptions options,
                                      const std::optional<std::uint64_t>& limit, std::uint64_t others) {
   if (!limit) return read_height_field(path, options);
+  give_back_early();
   options.memory_limit = std::max<std::uint64_t>(samples_share(*limit, others), 1);  // 0 would be no limit
   return open_height_field(path, options);
 }

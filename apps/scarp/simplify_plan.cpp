@@ -374,8 +374,6 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
 /// The first option that was given and cannot do with a few samples at a time; nothing if there is none.
 std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, const SimplifyPlan& plan) {
   const std::pair<const char*, bool> options[] = {
-      {"--max-triangles", given.max_triangles.has_value()},
-      {"--max-points", given.max_points.has_value()},
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
       {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
       {"--normals", plan.simplify.normals},

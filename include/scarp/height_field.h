@@ -54,7 +54,7 @@ struct HeightField {
   /// |error₁|, …). DEFAULT: none.
   std::vector<Channel> channels = {};
   double height_scale = 1;  ///< weight of the height error in that norm, at least 0. DEFAULT: 1.
-  /// Where `samples` is null: who is asked for them, borrowed. simplify() towards an error goal and measure() take it;
+  /// Where `samples` is null: who is asked for them, borrowed. simplify() on heights alone and measure() take it;
   /// what else needs the samples as one array fails with kUsage. DEFAULT: none.
   const SampleSource* source = nullptr;
 };

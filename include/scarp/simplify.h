@@ -69,8 +69,8 @@ struct SimplifyOptions {
   /// kDominant fails with kUsage together with a budget, a mask, tolerances, a script, channels, an importance, an
   /// algorithm, batches, data-dependent edges or an outline tolerance; kAuto then is kGreedy. DEFAULT: kAuto.
   Order order = Order::kAuto;
-  /// All but kFast fail with kUsage together with a script that inserts, data-dependent edges, or with a budget without
-  /// samples in memory or beside a mask, tolerances or a script. DEFAULT: kAuto.
+  /// All but kFast fail with kUsage together with a script that inserts, data-dependent edges, or with a budget beside a
+  /// mask, tolerances or a script. DEFAULT: kAuto.
   Effort effort = Effort::kAuto;
   /// kFree fails with kUsage below kHigh, with channels and in frames that are not affine. DEFAULT: kAuto.
   Vertices vertices = Vertices::kAuto;
@@ -194,7 +194,7 @@ struct Simplified {
 /// % of them, 97 % where that takes long, mostly in two or three runs of that effort after a greedy one; less where
 /// triangles jump because many samples share an error. What the objective names is never larger than in the greedy mesh
 /// for the same budgets. A max_error that fits is a goal of its own, and so is 0 where all samples fit (kExact). With
-/// lines fast effort, too, searches for the max error: the mesh is that of this error, and lines follow it.
+/// lines, and where the field has a source, so does fast effort: the mesh is that of an error, which lines follow.
 ///
 /// Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex and some
 /// 20 MB. In the dominant order it is 4.6 bytes a sample plus 72 a vertex until the mesh is frozen, and a tile's

@@ -40,8 +40,6 @@ succeeds "$scarp" simplify hills.tif rivers.obj -e 12 --rivers rivers.geojson --
 holds "$(json r.json rivers 0 source) > $(json r.json rivers 0 mouth)"
 holds "$(json r.json max_error) <= 12"
 
-# What needs all samples says so.
-refuses 1 "needs all samples in memory at once" "$scarp" simplify hills.tif x.obj -e 12 --memory "$small" -t 500
 # Lines count: 300 bytes a vertex.
 python3 -c "
 import json

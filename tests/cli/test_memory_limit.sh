@@ -29,7 +29,7 @@ done
 refuses 1 '--map needs all samples' "$scarp" measure "$dem" hills.glb --memory $small --map m.png
 refuses 1 '--error-raster needs all samples' "$scarp" measure "$dem" hills.glb --memory $small --error-raster e.tif
 refuses 1 '--script needs all samples' "$scarp" measure "$dem" hills.glb --memory $small --script /dev/null
-for option in "-t 100" "-p 100" "--preview p.png" "--render r.png" "--error-raster e.tif" "--nodata-policy fill" \
+for option in "--preview p.png" "--render r.png" "--error-raster e.tif" "--nodata-policy fill" \
   "--normals" "--edges data" "--outline-tolerance 1" "--mask $dem" "--script /dev/null" "--texture $dem"; do
   # shellcheck disable=SC2086
   refuses 1 'needs all samples in memory at once' "$scarp" simplify "$dem" o.glb -e 5 --memory $small $option

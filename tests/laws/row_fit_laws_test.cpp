@@ -164,16 +164,5 @@ TEST(rows, are_cancelled_while_they_are_fitted) {
   EXPECT_EQ(cancelled.error().kind, ErrorKind::kCancelled);
 }
 
-TEST(rows, budgets_with_effort_need_the_samples_in_memory) {
-  const Field field = testing::random_field(31, 60, 50, Relief::kRidges);
-  const ArraySource source(field.view());
-  SimplifyOptions options;
-  options.max_triangles = 100;
-  options.effort = Effort::kNormal;
-  const auto refused = simplify(with_source(field.view(), source), options);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().kind, ErrorKind::kUsage);
-}
-
 }  // namespace
 }  // namespace scarp::row_fit_laws_test

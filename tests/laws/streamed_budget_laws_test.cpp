@@ -1,0 +1,135 @@
+// Laws of budgets where samples come row of tiles by row of tiles: an error is searched for, so what fits is kept to.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "laws/array_source.h"
+#include "laws/fields.h"
+#include "scarp/measure.h"
+#include "scarp/simplify.h"
+
+namespace scarp::streamed_budget_laws_test {
+namespace {
+
+using testing::ArraySource;
+using testing::Field;
+using testing::Relief;
+using testing::with_source;
+
+SimplifyOptions any_budget() {
+  SimplifyOptions options;
+  const auto budget = *rc::gen::inRange<std::uint64_t>(1, 600);
+  if (*rc::gen::arbitrary<bool>()) options.max_vertices = budget;
+  if (!options.max_vertices || *rc::gen::arbitrary<bool>()) options.max_triangles = 2 * budget;
+  if (*rc::gen::element(false, false, true)) options.max_error = *rc::gen::element(0.0, 0.7, 5.0);
+  options.effort = *rc::gen::element(Effort::kFast, Effort::kFast, Effort::kNormal, Effort::kHigh);
+  return options;
+}
+
+bool is_within(const Simplified& made, const SimplifyOptions& options) {
+  return made.mesh.vertex_count() <= options.max_vertices.value_or(made.mesh.vertex_count()) &&
+         made.mesh.triangle_count() <= options.max_triangles.value_or(made.mesh.triangle_count());
+}
+
+RC_GTEST_PROP(streamed_budgets, are_kept_by_sound_meshes_whatever_the_threads, ()) {
+  const Field field = testing::random_field(
+      *rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(2, 60), *rc::gen::inRange(2, 60),
+      testing::kReliefs[static_cast<std::size_t>(*rc::gen::inRange(0, 5))], *rc::gen::element(0.0, 0.0, 0.05, 0.4));
+  const ArraySource source(field.view());
+  const HeightField streamed = with_source(field.view(), source);
+  SimplifyOptions options = any_budget();
+  options.threads = 1;
+  const auto made = simplify(streamed, options);
+  options.threads = 3;
+  const auto again = simplify(streamed, options);
+  RC_ASSERT(made.has_value() == again.has_value());
+  if (!made) {
+    RC_ASSERT(made.error().message == again.error().message);
+    RC_ASSERT(made.error().kind == ErrorKind::kInput || made.error().kind == ErrorKind::kUsage);
+    return;
+  }
+  RC_ASSERT(made->mesh.positions == again->mesh.positions);
+  RC_ASSERT(made->mesh.triangles == again->mesh.triangles);
+  RC_ASSERT(is_within(*made, options));
+  const Measurement seen = *measure(field.view(), made->mesh);
+  RC_ASSERT(seen.is_sound());
+  RC_ASSERT(seen.uncovered == 0u);
+  RC_ASSERT(seen.max_error == made->measurement.max_error);
+  if (made->stop == StopReason::kMaxError) RC_ASSERT(seen.max_error <= *options.max_error + 1e-9);
+  if (made->stop == StopReason::kExact) RC_ASSERT(seen.max_error <= 1e-9);
+}
+
+/// Hills and waves, whose triangles grow smoothly as the error falls.
+Field waves() {
+  Field field{300, 240, {}};
+  for (int y = 0; y < field.rows; ++y) {
+    for (int x = 0; x < field.cols; ++x)
+      field.samples.push_back(static_cast<float>(40 * std::sin(0.05 * x) * std::cos(0.07 * y) +
+                                                 10 * std::sin(0.2 * x + 0.13 * y) +
+                                                 3 * std::sin(0.9 * x) * std::cos(0.8 * y)));
+  }
+  return field;
+}
+
+TEST(streamed_budgets, are_used_in_low_rows_of_tiles_with_about_the_error_of_samples_in_memory) {
+  const Field field = waves();
+  const ArraySource source(field.view());
+  const HeightField streamed = with_source(field.view(), source);
+  for (const Effort effort : {Effort::kFast, Effort::kNormal}) {
+    SimplifyOptions options;
+    options.max_triangles = 4000;
+    options.effort = effort;
+    const auto whole = simplify(field.view(), options);
+    ASSERT_TRUE(whole) << whole.error().message;
+    options.memory_limit = 2'500'000;
+    const auto made = simplify(streamed, options);
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_LE(made->mesh.triangle_count(), 4000u);
+    EXPECT_GE(made->mesh.triangle_count(), 4000u * 97 / 100);
+    EXPECT_EQ(made->stop, StopReason::kMaxTriangles);
+    EXPECT_EQ(made->passes.front().name, "search");
+    EXPECT_LE(made->measurement.max_error, 1.25 * whole->measurement.max_error);
+  }
+}
+
+TEST(streamed_budgets, that_memory_has_no_room_for_are_refused_for_that) {
+  const Field field = testing::random_field(7, 300, 240, Relief::kRidges);
+  const ArraySource source(field.view());
+  SimplifyOptions options;
+  options.max_triangles = 100'000;
+  options.effort = Effort::kFast;
+  options.memory_limit = 2'500'000;
+  const auto made = simplify(with_source(field.view(), source), options);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().kind, ErrorKind::kUsage);
+  EXPECT_EQ(made.error().message.rfind("memory_limit is too little", 0), 0u) << made.error().message;
+}
+
+TEST(streamed_budgets, that_are_too_small_are_refused_with_the_least_that_would_do) {
+  const Field field = waves();
+  const ArraySource source(field.view());
+  SimplifyOptions options;
+  options.max_triangles = 1;
+  const auto made = simplify(with_source(field.view(), source), options);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().message,
+            "1 triangle is too few: the outline of the valid data and its rows of tiles alone need 2; "
+            "allow more");
+}
+
+TEST(streamed_budgets, end_with_what_the_source_says_where_it_breaks) {
+  const Field field = waves();
+  const ArraySource source(field.view(), 200);
+  SimplifyOptions options;
+  options.max_triangles = 100;
+  const auto made = simplify(with_source(field.view(), source), options);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().kind, ErrorKind::kInput);
+  EXPECT_EQ(made.error().message, "row 200 is broken");
+}
+
+}  // namespace
+}  // namespace scarp::streamed_budget_laws_test
