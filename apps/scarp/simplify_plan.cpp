@@ -387,9 +387,9 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
   for (const auto& [name, is_given] : options) {
     if (is_given) return name;
   }
+  if (const char* need = given.companions.find_need_of_samples()) return need;
   // " --name value --name value": the first of these will do.
-  const std::string others =
-      given.companions.canonical() + given.channels.canonical() + given.strategy.canonical_refinement();
+  const std::string others = given.channels.canonical() + given.strategy.canonical_refinement();
   if (others.empty()) return std::nullopt;
   return others.substr(1, others.find(' ', 1) - 1);
 }
