@@ -17,14 +17,6 @@ namespace {
 
 constexpr float kUnbounded = std::numeric_limits<float>::infinity();
 
-/// The largest float that is at most `value`.
-float round_down(double value) {
-  if (value >= std::numeric_limits<float>::max())
-    return std::isinf(value) ? kUnbounded : std::numeric_limits<float>::max();
-  const auto rounded = static_cast<float>(value);
-  return rounded > value ? std::nextafter(rounded, 0.0f) : rounded;
-}
-
 /// The largest double that times `weight` is at most `value`, as real numbers, or the one below it.
 double divide_down(double value, double weight) {
   const double quotient = value / weight;
@@ -34,16 +26,7 @@ double divide_down(double value, double weight) {
 
 tl::unexpected<Error> usage(std::string message) { return fail(ErrorKind::kUsage, std::move(message)); }
 
-Error at_sample(ErrorKind kind, const char* what, std::size_t index, std::int32_t cols, const std::string& rest) {
-  const auto width = static_cast<std::size_t>(cols);
-  return {kind, fmt::format("{} at sample ({}, {}) {}", what, index % width, index / width, rest)};
-}
-
 }  // namespace
-
-double tightened(double goal, double reserve) {
-  return reserve > 0 ? std::max(0.0, std::nextafter(goal - reserve, 0.0)) : goal;
-}
 
 Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOptions& options, const Raster& raster,
                                   double aim) {
@@ -59,7 +42,7 @@ Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOption
   if (auto set = criterion.set_bounds(); !set) return tl::unexpected(set.error());
   criterion.set_factors();
   if (aim < 1) {
-    for (const float of : criterion.bounds_) criterion.aims_.push_back(std::isinf(of) ? of : round_down(aim * of));
+    for (const float of : criterion.bounds_) criterion.aims_.push_back(criterion.rule().aim_at(of));
   }
   const Importance& importance = options.importance;
   criterion.importance_is_error_ = importance.global && importance.feature == Importance::Feature::kNoFeature;
@@ -70,12 +53,13 @@ Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOption
     if (field.samples != nullptr) {
       criterion.judge_ = std::make_unique<HeightJudge>(raster, bound);
     } else {
-      criterion.judge_ = std::make_unique<SourceJudge>(field, bound);
+      criterion.judge_ = std::make_unique<SourceJudge>(field, bound, criterion.source_bounds());
     }
   } else {
     Judging judging{raster, criterion.judged_fields(), options.norm, bound};
     if (!criterion.bounds_.empty()) judging.bounds = criterion.aims().data();
     if (!criterion.factors_.empty()) judging.factors = criterion.factors_.data();
+    judging.per_bound = !options.tolerance.empty() && criterion.factors_.empty();
     judging.by_error = importance.global;
     if (criterion.importance_is_error_) judging.goal = options.tolerance.empty() ? bound : 1;
     criterion.judge_ = std::make_unique<SampleJudge>(std::move(judging));
@@ -83,7 +67,14 @@ Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOption
   return criterion;
 }
 
+Point Criterion::place(std::size_t index) const {
+  const auto cols = static_cast<std::size_t>(raster_.cols);
+  return {static_cast<std::int32_t>(index % cols), static_cast<std::int32_t>(index / cols)};
+}
+
 Result<void> Criterion::check_weights() const {
+  if (options_->tolerance_source != nullptr && field_->samples != nullptr)
+    return usage("tolerances are read in windows where samples are: beside samples in memory give them as an array");
   const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
   if (!options_->mask.empty() && !options_->tolerance.empty())
     return usage("a mask and tolerances contradict each other: give one of them");
@@ -95,9 +86,8 @@ Result<void> Criterion::check_weights() const {
     const auto bad =
         std::find_if(values.begin(), values.end(), [&](float v) { return !(v >= 0) || (is_mask && v == kUnbounded); });
     if (bad != values.end())
-      return tl::unexpected(
-          at_sample(ErrorKind::kUsage, name, static_cast<std::size_t>(bad - values.begin()), raster_.cols,
-                    fmt::format("is {}: it must be at least 0{}", *bad, is_mask ? ", and finite" : "")));
+      return tl::unexpected(refuse_value(name, place(static_cast<std::size_t>(bad - values.begin())), *bad,
+                                         is_mask ? ", and finite" : ""));
   }
   for (const ScriptStep& step : options_->script) {
     if (step.col < 0 || step.row < 0 || step.col >= raster_.cols || step.row >= raster_.rows)
@@ -136,9 +126,11 @@ Result<void> Criterion::check_channels() const {
       return usage(fmt::format("the weight of channel {} must be at least 0, not {}", k + 1, channel.scale));
     for (std::size_t i = 0; i < samples; ++i) {
       if (!std::isnan(raster_.samples[i]) && !std::isfinite(channel.samples[i]))
-        return tl::unexpected(at_sample(ErrorKind::kInput, fmt::format("channel {}", k + 1).c_str(), i, raster_.cols,
-                                        "has no value though the height has one: fill the channel there, or make the "
-                                        "height void too"));
+        return fail(
+            ErrorKind::kInput,
+            fmt::format("channel {} at sample ({}, {}) has no value though the height has one: fill the channel "
+                        "there, or make the height void too",
+                        k + 1, place(i).x, place(i).y));
     }
   }
   if (judged_fields().empty()) return usage("every weight is 0: nothing is left to be judged");
@@ -157,9 +149,11 @@ std::vector<JudgedField> Criterion::judged_fields() const {
 Result<void> Criterion::set_bounds() {
   const auto ignores = [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; };
   const bool has_ignored = std::any_of(options_->script.begin(), options_->script.end(), ignores);
+  if (options_->tolerance_source != nullptr)
+    source_bounds_ =
+        std::make_unique<SourceBounds>(*options_->tolerance_source, options_->max_error.value_or(HUGE_VAL), rule());
   if (options_->mask.empty() && options_->tolerance.empty() && !has_ignored) return {};
   const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
-  const double reserve = field_->sample_rounding;
   bounds_.resize(samples);
   for (std::size_t i = 0; i < samples; ++i) {
     double asked = options_->max_error.value_or(options_->tolerance.empty() ? 0 : HUGE_VAL);
@@ -168,13 +162,9 @@ Result<void> Criterion::set_bounds() {
       const double weight = options_->mask[i];
       asked = weight > 0 ? divide_down(asked, weight) : HUGE_VAL;
     }
-    if (has_error_goal() && asked < reserve && !std::isnan(raster_.samples[i]))
-      return tl::unexpected(at_sample(ErrorKind::kPromise, "the bound", i, raster_.cols,
-                                      fmt::format("is {}, but the raster's values do not fit float32 and are rounded "
-                                                  "by up to {}; allow at least that much",
-                                                  asked, reserve)));
-    const double bound = std::isinf(asked) ? asked : tightened(asked, reserve);
-    bounds_[i] = round_down(bound);
+    if (has_error_goal() && asked < rule().reserve && !std::isnan(raster_.samples[i]))
+      return tl::unexpected(rule().refuse(place(i), asked));
+    bounds_[i] = rule().bound(asked);
   }
   for (const ScriptStep& step : options_->script) {
     if (ignores(step))
@@ -189,12 +179,10 @@ void Criterion::set_factors() {
   const bool has_feature = options_->importance.feature != Importance::Feature::kNoFeature;
   if (has_feature) factors_ = measure_feature(raster_, options_->importance);
   const bool has_tolerance = !options_->tolerance.empty();
-  if (options_->mask.empty() && !has_tolerance) return;
+  if (options_->mask.empty() && !(has_tolerance && has_feature)) return;
   factors_.resize(bounds_.size(), 1);
-  // A tolerance of 0 outranks every other; factors stay finite, so that errors still count.
-  constexpr float kMost = 1e30f;
   for (std::size_t i = 0; i < factors_.size(); ++i)
-    factors_[i] = std::min(factors_[i] * (has_tolerance ? std::min(1 / bounds_[i], kMost) : options_->mask[i]), kMost);
+    factors_[i] = std::min(factors_[i] * (has_tolerance ? per_bound(bounds_[i]) : options_->mask[i]), kMostFactor);
 }
 
 std::vector<Point> Criterion::ranking() const {

@@ -7,17 +7,17 @@
 #include <span>
 #include <vector>
 
+#include "refine/bound_rule.h"
 #include "refine/judge.h"
 #include "refine/sample_judge.h"
+#include "refine/source_bounds.h"
 #include "scarp/height_field.h"
 #include "scarp/simplify.h"
 
 namespace scarp {
 
-/// goal − reserve, rounded down, at least 0.
-double tightened(double goal, double reserve);
-
-/// Owns the arrays that the engine's judge reads: at most 12 bytes a sample, none for plain heights.
+/// Owns the arrays that the engine's judge reads: at most 12 bytes a sample, none for plain heights and bounds that are
+/// read in windows.
 class Criterion {
  public:
   /// Checks mask, tolerance, channels and importance against the raster. Fails with kUsage, kInput (a channel without
@@ -33,16 +33,21 @@ class Criterion {
   double aim() const { return aim_ * bound_.value_or(0); }
   /// Bounds of the samples; empty where bound() holds for all.
   std::span<const float> bounds() const { return bounds_; }
+  /// Where they are read in windows; null: the above say all.
+  const SourceBounds* source_bounds() const { return source_bounds_.get(); }
   /// Those that the judge holds to.
   std::span<const float> aims() const { return aims_.empty() ? bounds_ : aims_; }
   /// The engine's importance is an error that grows and shrinks with what is promised.
   bool importance_is_error() const { return importance_is_error_; }
   /// Order of insertion for one pass, without the samples that have no bound; empty otherwise.
   std::vector<Point> ranking() const;
+  /// Samples without a bound; those of source_bounds() the proof counts.
   std::uint64_t ignored() const { return ignored_; }
   /// The fields whose errors count.
   std::vector<JudgedField> judged_fields() const;
-  bool has_error_goal() const { return bound_.has_value() || !options_->tolerance.empty(); }
+  bool has_error_goal() const {
+    return bound_.has_value() || !options_->tolerance.empty() || options_->tolerance_source != nullptr;
+  }
 
  private:
   Result<void> check_weights() const;
@@ -50,6 +55,8 @@ class Criterion {
   Result<void> check_channels() const;
   Result<void> set_bounds();
   void set_factors();
+  BoundRule rule() const { return {field_->sample_rounding, aim_}; }
+  Point place(std::size_t index) const;
 
   const HeightField* field_ = nullptr;
   const SimplifyOptions* options_ = nullptr;
@@ -57,6 +64,7 @@ class Criterion {
   std::optional<double> bound_;
   double aim_ = 1;
   std::vector<float> bounds_, aims_, factors_;
+  std::unique_ptr<SourceBounds> source_bounds_;
   std::uint64_t ignored_ = 0;
   bool importance_is_error_ = true;
   std::unique_ptr<Judge> judge_;

@@ -16,9 +16,13 @@ namespace scarp {
 
 namespace {
 
+bool has_tolerances(const SimplifyOptions& options) {
+  return !options.tolerance.empty() || options.tolerance_source != nullptr;
+}
+
 /// Whether samples have bounds of their own.
 bool has_bounds(const SimplifyOptions& options) {
-  return !options.mask.empty() || !options.tolerance.empty() || !options.script.empty();
+  return !options.mask.empty() || has_tolerances(options) || !options.script.empty();
 }
 
 bool inserts(const ScriptStep& step) { return step.action == ScriptStep::Action::kInsert; }
@@ -51,7 +55,7 @@ const char* find_fit_obstacle(const HeightField& field, const SimplifyOptions& o
   if (std::any_of(options.script.begin(), options.script.end(), inserts))
     return "takes vertices away, also those that a script inserts";
   if (has_bounds(options) && has_budget(options)) return "has no budget where samples have bounds of their own";
-  if (!options.max_error && options.tolerance.empty() && !has_budget(options)) return "needs a max error or a budget";
+  if (!options.max_error && !has_tolerances(options) && !has_budget(options)) return "needs a max error or a budget";
   if (options.edges.data_dependent) return "chooses edges itself";
   return nullptr;
 }
@@ -113,6 +117,8 @@ Result<void> check_shape(const HeightField& field, const SimplifyOptions& option
   if (!shape.any()) return {};
   const char* obstacle = find_lattice_obstacle(field, options);
   if (obstacle == nullptr && (has_budget(options) || !options.max_error)) obstacle = "needs a max error and no budget";
+  if (obstacle == nullptr && options.tolerance_source != nullptr)
+    obstacle = "has no tolerances where the raster is not in memory as a whole";
   if (obstacle != nullptr)
     return usage(fmt::format("a mesh with goals for angles and edges {}: leave out one or the other", obstacle));
   if (std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps)
@@ -144,7 +150,7 @@ bool lays_first(const SimplifyOptions& options) {
 bool has_budget(const SimplifyOptions& options) { return options.max_triangles || options.max_vertices; }
 
 const char* find_obstacle(const HeightField& field, const SimplifyOptions& options) {
-  if (!options.max_error) return "needs a max error";
+  if (!options.max_error && options.tolerance_source == nullptr) return "needs a max error";
   if (has_budget(options)) return "has no budgets";
   if (lays_first(options) && field.samples != nullptr) return "lays no lines of cliffs and ridges";
   if (const char* obstacle = find_beyond_one_error(field, options)) return obstacle;
@@ -175,6 +181,8 @@ Result<void> check_effort(const HeightField& field, const SimplifyOptions& optio
   } else if (const char* obstacle = find_fit_obstacle(field, options)) {
     return usage(fmt::format("more than fast effort {}: leave that out, or take fast effort", obstacle));
   }
+  if (options.tolerance_source != nullptr && has_budget(options))
+    return usage("a budget beside tolerances needs the raster in memory as a whole: leave out one or the other");
   if (auto sound = check_lines(field, options); !sound) return sound;
   if (auto sound = check_shape(field, options); !sound) return sound;
   if (options.vertices != Vertices::kFree || vertices_are_free(field, options)) return {};

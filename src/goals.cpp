@@ -20,7 +20,7 @@ MemoryBudget memory_budget(const HeightField& field, const SimplifyOptions& opti
 }
 
 Result<void> check_goals(const SimplifyOptions& options, bool may_have_tolerance) {
-  const bool has_tolerance = may_have_tolerance && !options.tolerance.empty();
+  const bool has_tolerance = may_have_tolerance && (!options.tolerance.empty() || options.tolerance_source != nullptr);
   if (!options.max_error && !options.max_triangles && !options.max_vertices && !has_tolerance)
     return fail(ErrorKind::kUsage,
                 fmt::format("no goal given: set max_error, max_triangles{} max_vertices{}",

@@ -74,29 +74,4 @@ void LineRuns::fill(const std::vector<const Line*>& rings) {
   }
 }
 
-LineMarks::LineMarks(const std::array<double, 6>& affine, int cols, int rows)
-    : affine_(affine),
-      cols_(cols),
-      rows_(rows),
-      marks_(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows), 0) {}
-
-void LineMarks::mark(LineRuns& runs) {
-  for (const SampleRun& run : runs.runs())
-    std::fill_n(marks_.begin() + std::ptrdiff_t{run.row} * cols_ + run.begin, run.end - run.begin, std::uint8_t{1});
-}
-
-void LineMarks::add_course(const Line& line, double reach) {
-  LineRuns runs(affine_, cols_, rows_);
-  runs.add_course(line, reach);
-  mark(runs);
-}
-
-void LineMarks::add_polygons(std::span<const Line> lines) {
-  LineRuns runs(affine_, cols_, rows_);
-  runs.add_polygons(lines);
-  mark(runs);
-}
-
-bool LineMarks::any() const { return std::find(marks_.begin(), marks_.end(), 1) != marks_.end(); }
-
 }  // namespace scarp

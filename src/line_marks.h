@@ -2,8 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -38,26 +36,6 @@ class LineRuns {
   MapToSamples to_samples_;
   int cols_, rows_;
   SampleRuns runs_;
-};
-
-/// As a flag for each sample of the raster.
-class LineMarks {
- public:
-  /// As LineRuns.
-  LineMarks(const std::array<double, 6>& affine, int cols, int rows);
-
-  void add_course(const Line& line, double reach = 1);
-  void add_polygons(std::span<const Line> lines);
-
-  bool any() const;
-  bool has(std::size_t i) const { return marks_[i] != 0; }
-
- private:
-  void mark(LineRuns& runs);
-
-  std::array<double, 6> affine_;
-  int cols_, rows_;
-  std::vector<std::uint8_t> marks_;
 };
 
 }  // namespace scarp

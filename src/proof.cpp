@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
 
 #include "base/parallel.h"
 #include "goals.h"
+#include "grid/window.h"
 #include "measure/band.h"
 
 namespace scarp {
@@ -34,23 +38,14 @@ class Tally {
       }
     };
   }
-  std::size_t size() const { return totals_.size(); }
   /// NaN where the sample is void or uncovered.
-  double norm_at(std::size_t i) const { return double{totals_[i]}; }
-  Offender offender(std::size_t i) const {
-    return {static_cast<std::int32_t>(i % cols_), static_cast<std::int32_t>(i / cols_), norm_at(i)};
-  }
+  std::span<const float> row(std::size_t y) const { return std::span(totals_).subspan(y * cols_, cols_); }
 
  private:
   std::size_t cols_;
   Norm norm_;
   std::vector<float> totals_;
 };
-
-double weighted(const SimplifyOptions& options, std::size_t i, double error) {
-  if (!options.mask.empty()) return options.mask[i] * error;
-  return error == 0 ? 0 : error / options.tolerance[i];
-}
 
 /// The mesh with a channel's values as its heights.
 Mesh raise_channel(const Mesh& mesh, int channel) {
@@ -102,52 +97,143 @@ double largest_height(const Mesh& mesh) {
 /// The judge's double arithmetic rounds by this share of the largest height and the bound.
 constexpr double kArithmetic = 1e-12;
 
-/// Sums up the tally: weighted errors, the largest norm, who breaks a bound. The rows' errors and each step of their
-/// norm are rounded to float32, so what lies that near a bound is doubtful: where mending is possible it is taken for
-/// broken, else for kept.
-void judge_samples(const SimplifyOptions& options, const Criterion& criterion, bool exact, const Tally& tally,
-                   Simplified& result, Proof& proof) {
-  const double rounding = 0x1p-24 * (4 + static_cast<double>(result.channel_measurements.size()));
-  const bool has_weights = !options.mask.empty() || !options.tolerance.empty();
-  const double arithmetic = exact ? kArithmetic * largest_height(result.mesh) : 0;
-  double squares = 0, combined_squares = 0;
-  std::uint64_t count = 0;
-  result.combined_max_error = result.weighted_max_error = 0;
-  for (std::size_t i = 0; i < tally.size(); ++i) {
-    const double error = tally.norm_at(i);
-    if (std::isnan(error)) continue;
-    result.combined_max_error = std::max(result.combined_max_error, error);
-    combined_squares += error * error;
-    ++count;
-    if (has_weights) {
-      const double value = weighted(options, i, error);
-      result.weighted_max_error = std::max(result.weighted_max_error, value);
-      squares += value * value;
-    }
-    if (result.stop != StopReason::kMaxError) continue;
-    const double bound = criterion.bounds().empty() ? *criterion.bound() : double{criterion.bounds()[i]};
-    const double doubt = rounding * (exact ? error : -error) + arithmetic;
-    if (error <= bound + doubt) continue;
-    proof.offenders.push_back(tally.offender(i));
-    if (proof.broken.empty())
-      proof.broken = fmt::format("the bound {} cannot be kept: at sample ({}, {}) the mesh is off by {}", bound,
-                                 proof.offenders.back().col, proof.offenders.back().row, error);
+/// What was asked for at the samples of a row; empty: nothing by sample.
+struct AskedOfRow {
+  std::span<const float> mask, tolerance, bounds;
+
+  double weigh(std::size_t x, double error) const {
+    if (!mask.empty()) return mask[x] * error;
+    return error == 0 ? 0 : error / tolerance[x];
   }
-  const auto samples = static_cast<double>(std::max<std::uint64_t>(count, 1));
-  result.weighted_rmse = std::sqrt(squares / samples);
-  result.combined_rmse = std::sqrt(combined_squares / samples);
+};
+
+/// Sums up norms of errors, row by row: weighted errors, the largest norm, who breaks a bound. The rows' errors and
+/// each step of their norm are rounded to float32, so what lies that near a bound is doubtful: where mending is
+/// possible it is taken for broken, else for kept.
+class SampleVerdict {
+ public:
+  /// `fields`: whose errors are in the norms.
+  SampleVerdict(const Criterion& criterion, bool exact, std::size_t fields, Simplified& result, Proof& proof)
+      : bound_(criterion.bound()),
+        doubt_((exact ? 1 : -1) * 0x1p-24 * (3 + static_cast<double>(fields))),
+        arithmetic_(exact ? kArithmetic * largest_height(result.mesh) : 0),
+        result_(result),
+        proof_(proof) {
+    result_.combined_max_error = result_.weighted_max_error = 0;
+  }
+
+  void add(int row, std::span<const float> norms, const AskedOfRow& asked) {
+    const bool has_weights = !asked.mask.empty() || !asked.tolerance.empty();
+    for (std::size_t x = 0; x < norms.size(); ++x) {
+      const double error = norms[x];
+      if (std::isnan(error)) continue;
+      result_.combined_max_error = std::max(result_.combined_max_error, error);
+      combined_squares_ += error * error;
+      ++count_;
+      if (has_weights) {
+        const double value = asked.weigh(x, error);
+        result_.weighted_max_error = std::max(result_.weighted_max_error, value);
+        squares_ += value * value;
+      }
+      if (result_.stop != StopReason::kMaxError) continue;
+      const double bound = asked.bounds.empty() ? *bound_ : double{asked.bounds[x]};
+      if (error <= bound + (doubt_ * error + arithmetic_)) continue;
+      proof_.offenders.push_back({static_cast<std::int32_t>(x), row, error});
+      if (proof_.broken.empty())
+        proof_.broken =
+            fmt::format("the bound {} cannot be kept: at sample ({}, {}) the mesh is off by {}", bound, x, row, error);
+    }
+  }
+
+  void finish() {
+    const auto samples = static_cast<double>(std::max<std::uint64_t>(count_, 1));
+    result_.weighted_rmse = std::sqrt(squares_ / samples);
+    result_.combined_rmse = std::sqrt(combined_squares_ / samples);
+  }
+
+ private:
+  std::optional<double> bound_;
+  double doubt_, arithmetic_;
+  Simplified& result_;
+  Proof& proof_;
+  double squares_ = 0, combined_squares_ = 0;
+  std::uint64_t count_ = 0;
+};
+
+/// Of all that was tallied.
+void judge_samples(const SimplifyOptions& options, const Criterion& criterion, const HeightField& field,
+                   const Tally& tally, SampleVerdict& verdict) {
+  const auto cols = static_cast<std::size_t>(field.cols);
+  for (std::size_t y = 0; y < static_cast<std::size_t>(field.rows); ++y) {
+    const auto of_row = [&](std::span<const float> all) { return all.empty() ? all : all.subspan(y * cols, cols); };
+    verdict.add(static_cast<int>(y), tally.row(y),
+                {of_row(options.mask), of_row(options.tolerance), of_row(criterion.bounds())});
+  }
+  verdict.finish();
 }
 
+/// Judges rows as they come by bounds that are read with them.
+class WindowedVerdict {
+ public:
+  WindowedVerdict(const HeightField& field, const SourceBounds& bounds, SampleVerdict verdict)
+      : field_(field),
+        bounds_(bounds),
+        verdict_(std::move(verdict)),
+        tolerances_(static_cast<std::size_t>(field.cols)),
+        promised_(tolerances_.size()),
+        norms_(tolerances_.size()) {}
+
+  /// For MeasureOptions::on_row.
+  void add(int row, std::span<const float> errors) {
+    if (!status_) return;
+    if (status_ = bounds_.read_row(row, tolerances_, promised_); !status_) return;
+    std::transform(errors.begin(), errors.end(), norms_.begin(), [](float error) { return std::abs(error); });
+    verdict_.add(row, norms_, {{}, tolerances_, promised_});
+    count_ignored(row);
+  }
+  /// The valid samples without a bound. Fails as what was read did.
+  Result<std::uint64_t> finish() {
+    if (!status_) return tl::unexpected(status_.error());
+    verdict_.finish();
+    return ignored_;
+  }
+
+ private:
+  /// Samples outside the mesh may be valid, too.
+  void count_ignored(int row) {
+    bool is_in_doubt = false;
+    std::uint64_t covered = 0;
+    for (std::size_t x = 0; x < norms_.size(); ++x) {
+      if (!std::isinf(promised_[x])) continue;
+      is_in_doubt = is_in_doubt || std::isnan(norms_[x]);
+      ++covered;
+    }
+    if (is_in_doubt) {
+      status_ = read_window(field_, 0, row, field_.cols, 1, norms_.data(), field_.cols);
+      covered = 0;
+      for (std::size_t x = 0; x < norms_.size(); ++x) covered += std::isinf(promised_[x]) && !std::isnan(norms_[x]);
+    }
+    ignored_ += covered;
+  }
+
+  const HeightField& field_;
+  const SourceBounds& bounds_;
+  SampleVerdict verdict_;
+  std::vector<float> tolerances_, promised_, norms_;
+  std::uint64_t ignored_ = 0;
+  Result<void> status_;
+};
+
 /// Of the band that a thread judges.
-std::uint64_t band_bytes(const HeightField& field) {
-  constexpr std::uint64_t kPerSample = 16;
-  return kPerSample * static_cast<std::uint64_t>(field.cols) *
-         static_cast<unsigned>(judge::Band::rows_per_band(field.cols));
+std::uint64_t band_bytes(const HeightField& field, const SimplifyOptions& options) {
+  constexpr std::uint64_t kPerSample = 16, kOfReports = 8;
+  return (kPerSample + (options.tolerance_source != nullptr ? kOfReports : 0)) *
+         static_cast<std::uint64_t>(field.cols) * static_cast<unsigned>(judge::Band::rows_per_band(field.cols));
 }
 
 /// As many as the memory holds bands at work.
 int threads_within(const HeightField& field, const SimplifyOptions& options) {
-  return memory_budget(field, options).threads_within(band_bytes(field), thread_count(options.threads));
+  return memory_budget(field, options).threads_within(band_bytes(field, options), thread_count(options.threads));
 }
 
 std::string describe_breach(const Measurement& m, const SimplifyOptions& options) {
@@ -159,30 +245,45 @@ std::string describe_breach(const Measurement& m, const SimplifyOptions& options
 }  // namespace
 
 std::uint64_t proof_bytes(const HeightField& field, const SimplifyOptions& options) {
-  return static_cast<std::uint64_t>(threads_within(field, options)) * band_bytes(field);
+  return static_cast<std::uint64_t>(threads_within(field, options)) * band_bytes(field, options);
 }
 
 Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, const Criterion& criterion, bool exact,
                     Simplified& result) {
-  const bool by_sample = !criterion.bounds().empty() || !field.channels.empty() || field.height_scale != 1;
+  const SourceBounds* windowed = criterion.source_bounds();
+  const bool is_tallied = !criterion.bounds().empty() || !field.channels.empty() || field.height_scale != 1;
+  const bool by_sample = is_tallied || windowed != nullptr;
   MeasureOptions judge;
   judge.topology = !exact;
   if (!options.cutline.rings.empty()) judge.cutline = &options.cutline;
   judge.threads = threads_within(field, options);
   judge.progress = options.progress;
   if (result.stop == StopReason::kMaxError) judge.collect_above = by_sample ? HUGE_VAL : *criterion.bound();
+  Proof proof;
   std::optional<Tally> tally;
-  if (by_sample) judge.on_row = tally.emplace(field, options.norm).adder(field.height_scale);
+  std::optional<WindowedVerdict> rows;
+  if (is_tallied) judge.on_row = tally.emplace(field, options.norm).adder(field.height_scale);
+  if (windowed != nullptr) {
+    rows.emplace(field, *windowed, SampleVerdict(criterion, exact, 1, result, proof));
+    judge.on_row = [&rows](int row, std::span<const float> errors) { rows->add(row, errors); };
+  }
   auto measured = measure(field, result.mesh, judge);
   if (!measured) return tl::unexpected(measured.error());
   result.measurement = std::move(*measured);
   const Measurement& m = result.measurement;
 
-  Proof proof;
-  proof.offenders = m.offenders;
-  if (by_sample) {
+  proof.offenders.insert(proof.offenders.begin(), m.offenders.begin(), m.offenders.end());
+  if (is_tallied) {
     if (auto done = measure_channels(field, options, *tally, result); !done) return tl::unexpected(done.error());
-    judge_samples(options, criterion, exact, *tally, result, proof);
+    SampleVerdict verdict(criterion, exact, 1 + result.channel_measurements.size(), result, proof);
+    judge_samples(options, criterion, field, *tally, verdict);
+  }
+  if (rows) {
+    const auto ignored = rows->finish();
+    if (!ignored) return tl::unexpected(ignored.error());
+    result.ignored = *ignored;
+  }
+  if (by_sample) {
     if (m.uncovered > 0 && result.stop == StopReason::kMaxError) proof.broken = describe_breach(m, options);
   } else if (result.stop == StopReason::kMaxError) {
     // The judge's own double arithmetic rounds: the exact proof is the engine's, this is the independent check of it.

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "geom/exact_error.h"
 #include "grid/vertex_places.h"
-#include "refine/border_chain.h"
-#include "refine/domain.h"
 #include "refine/lattice_judge.h"
 #include "refine/refinement.h"
 #include "refine/tile_plan.h"
+#include "row_refinement.h"
 
 namespace scarp {
 
@@ -55,7 +55,7 @@ void share_samples(std::span<const std::int32_t> cols, std::int32_t y, const flo
 }
 
 /// Appends the samples that a chord needs between two vertices: the farthest splits it, again and again.
-void split_border_chord(const float* samples, const BorderVertex& from, const BorderVertex& to, double threshold,
+void split_border_chord(const float* samples, const BorderVertex& from, const BorderVertex& to, const LineBound& bound,
                         std::vector<std::int32_t>& kept) {
   std::vector<std::pair<BorderVertex, BorderVertex>> chords{{from, to}};
   while (!chords.empty()) {
@@ -63,18 +63,20 @@ void split_border_chord(const float* samples, const BorderVertex& from, const Bo
     chords.pop_back();
     if (std::isnan(a.height) || std::isnan(b.height)) continue;
     const double rise = double{b.height} - a.height, steps = b.x - a.x;
-    const double guard = 0x1p-50 * (std::abs(double{a.height}) + std::abs(rise) + threshold);
+    const double guard_of_chord = 0x1p-50 * (std::abs(double{a.height}) + std::abs(rise));
     double worst = -1;
     std::int32_t split = -1;
     for (std::int32_t col = a.x / kLatticeSteps + 1; col * kLatticeSteps < b.x; ++col) {
       const float height = samples[col];
       if (std::isnan(height)) continue;
       const double error = std::abs(a.height + rise * ((col * kLatticeSteps - a.x) / steps) - double{height});
-      if (error <= worst || error < threshold - guard) continue;
+      const double threshold = bound.at(col), rank = bound.rank(error, threshold);
+      const double guard = guard_of_chord + 0x1p-50 * threshold;
+      if (!(rank > worst) || error < threshold - guard || std::isinf(threshold)) continue;
       if (error <= threshold + guard &&
           !exceeds_exactly_between(a.height, b.height, col * kLatticeSteps - a.x, b.x - a.x, height, threshold))
         continue;
-      worst = error;
+      worst = rank;
       split = col;
     }
     if (split < 0) continue;
@@ -150,12 +152,12 @@ ConstraintGraph RowLines::part_of(const TileRow& row) const {
   return part;
 }
 
-/// Tiles have split the others.
-void RowLines::split_shared(const TileRow& row, bool is_top, double threshold, ConstraintGraph& part) const {
+/// Tiles have split the others, to the threshold.
+void RowLines::split_shared(const TileRow& row, bool is_top, const Bounds& bounds, ConstraintGraph& part) const {
   const std::int32_t y = is_top ? 0 : row.samples.rows - 1;
   const float* samples = row.samples.row(y);
   std::vector<BorderVertex> vertices = line_vertices(part, y, samples);
-  if (vertices.empty()) return;
+  if (vertices.empty() && bounds.own.empty()) return;
   for (Vertex v = 0; v < row.tin.vertex_count(); ++v) {
     const Point p = row.tin.point(v);
     if (p.y == y) vertices.push_back({p.x * kLatticeSteps, samples[p.x], false});
@@ -163,32 +165,23 @@ void RowLines::split_shared(const TileRow& row, bool is_top, double threshold, C
   sort_along(vertices);
   std::vector<std::int32_t> kept;
   for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
-    if (vertices[i].is_of_line || vertices[i + 1].is_of_line)
-      split_border_chord(samples, vertices[i], vertices[i + 1], threshold, kept);
+    if (!bounds.own.empty() || vertices[i].is_of_line || vertices[i + 1].is_of_line)
+      split_border_chord(samples, vertices[i], vertices[i + 1], bounds.of(row, y), kept);
   }
   share_samples(kept, y, samples, part);
 }
 
-/// The domain as its outline alone, and the shared borders with all their vertices.
-Result<void> RowLines::start(TileRow& row, double threshold, ConstraintGraph& part) const {
-  if (auto domain = build_domain(row.samples, 0, Frame{})) {
-    row.tin = std::move(domain->tin);
-  } else if (domain.error().kind == ErrorKind::kInput) {  // no cell is surface
-    for (Triangle t = 0; t < row.tin.triangle_count(); ++t) row.tin.set_outside(t, true);
-  } else {
-    return tl::unexpected(domain.error());
-  }
-  // The outline along a shared border is the other row's too only if the surface ends there.
-  for (HalfEdge h = 0; h < 3 * row.tin.triangle_count(); ++h) {
-    if (row.tin.twin(h) == kNone) row.tin.release(h);
-  }
+/// The domain, and the shared borders with all their vertices.
+Result<void> RowLines::start(TileRow& row, const Bounds& bounds, ConstraintGraph& part) const {
+  if (auto started = start_row(row); !started) return started;
   if (row.has_above) {
-    if (auto top = start_border(row, true, threshold, part); !top) return top;
+    if (auto top = start_border(row, true, bounds, part); !top) return top;
   }
-  return row.has_below ? start_border(row, false, threshold, part) : Result<void>();
+  return row.has_below ? start_border(row, false, bounds, part) : Result<void>();
 }
 
-Result<void> RowLines::start_border(const TileRow& row, bool is_top, double threshold, ConstraintGraph& part) const {
+Result<void> RowLines::start_border(const TileRow& row, bool is_top, const Bounds& bounds,
+                                    ConstraintGraph& part) const {
   const std::int32_t y = is_top ? 0 : row.samples.rows - 1, around = y + (row.has_above ? 1 : 0);
   const float* samples = row.samples.row(y);
   const HeightField field{row.around.samples, row.around.cols, row.around.rows};
@@ -199,10 +192,17 @@ Result<void> RowLines::start_border(const TileRow& row, bool is_top, double thre
     const TilePlan plan(field.cols, field.rows, side_);
     for (std::size_t tile = 0; tile < plan.per_row(); ++tile) {
       const TileWindow window = plan.window(tile);
-      const auto chain = simplify_border(field, {window.col, around, window.cols - 1, false}, threshold);
+      const auto chain = simplify_border(field, {window.col, around, window.cols - 1, false}, bounds.threshold);
       if (!chain) return tl::unexpected(chain.error());
       if (tile > 0) kept.push_back(window.col);
       for (const std::int32_t step : *chain) kept.push_back(window.col + step);
+    }
+    if (!bounds.own.empty()) {
+      vertices = {{0, samples[0], false}, {(field.cols - 1) * kLatticeSteps, samples[field.cols - 1], false}};
+      for (const std::int32_t col : kept) vertices.push_back({col * kLatticeSteps, samples[col], false});
+      sort_along(vertices);
+      for (std::size_t i = 0; i + 1 < vertices.size(); ++i)
+        split_border_chord(samples, vertices[i], vertices[i + 1], bounds.of(row, y), kept);
     }
     share_samples(kept, y, samples, part);
     return {};
@@ -218,7 +218,7 @@ Result<void> RowLines::start_border(const TileRow& row, bool is_top, double thre
   auto run = runs->begin();
   for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
     while (run->end * kLatticeSteps <= vertices[i].x) ++run;
-    if (run->has_surface) split_border_chord(samples, vertices[i], vertices[i + 1], threshold, kept);
+    if (run->has_surface) split_border_chord(samples, vertices[i], vertices[i + 1], bounds.of(row, y), kept);
   }
   // Each point of the part once.
   std::erase_if(kept, [&](std::int32_t col) {
@@ -230,35 +230,31 @@ Result<void> RowLines::start_border(const TileRow& row, bool is_top, double thre
   return {};
 }
 
-Result<FinishedRow> RowLines::lay(TileRow row, double threshold) {
+Result<FinishedRow> RowLines::lay(TileRow row, double threshold, std::span<float> own) {
+  const Bounds bounds{threshold, own};
   const bool is_whole = makes_whole(row.first, row.samples.rows);
   ConstraintGraph part = part_of(row);
   if (is_whole) {
-    if (auto started = start(row, threshold, part); !started) return tl::unexpected(started.error());
+    if (auto started = start(row, bounds, part); !started) return tl::unexpected(started.error());
   } else {
-    if (row.has_above) split_shared(row, true, threshold, part);
-    if (row.has_below) split_shared(row, false, threshold, part);
+    if (row.has_above) split_shared(row, true, bounds, part);
+    if (row.has_below) split_shared(row, false, bounds, part);
+  }
+  for (const bool is_top : {true, false}) {
+    if (own.empty() || !(is_top ? row.has_above : row.has_below)) continue;
+    const std::span<float> shared = along(own, row, is_top ? 0 : row.samples.rows - 1);
+    std::fill(shared.begin(), shared.end(), std::numeric_limits<float>::infinity());
   }
   auto laid = ConstrainedMesh::lay(row.samples, row.tin, part);
   if (!laid) return tl::unexpected(laid.error());
   has_surface_ = has_surface_ || laid->has_surface();
   if (!has_surface_ && !row.has_below) return fail(ErrorKind::kInput, kNothingInCutline);
-  const LatticeJudge judge(row.samples, laid->heights(), threshold, {});
+  const LatticeJudge judge(row.samples, laid->heights(), threshold, own);
+  const bool is_clean = !is_whole && own.empty();
   Refinement refinement(judge, row.tin, Algorithm::kHeap, {},
-                        is_whole ? Refinement::Start::kScan : Refinement::Start::kClean);
-  if (!is_whole) refinement.scan(laid->changed());
-  for (std::uint64_t step = 0; !refinement.done(); ++step) {
-    if (refinement.is_full())
-      return fail(ErrorKind::kInput, "the mesh would have more than 1,431 million triangles: allow a larger error");
-    if (step % 256 == 0) {
-      if (auto fits = row.check(row.tin.vertex_count()); !fits) return tl::unexpected(fits.error());
-    }
-    refinement.insert_worst();
-  }
-  const Work work = refinement.work();
-  work_.samples_scanned += work.samples_scanned;
-  work_.triangles_scanned += work.triangles_scanned;
-  work_.passes += work.passes;
+                        is_clean ? Refinement::Start::kClean : Refinement::Start::kScan);
+  if (is_clean) refinement.scan(laid->changed());
+  if (auto refined = refine_row(row, refinement, work_); !refined) return tl::unexpected(refined.error());
   if (releases_starts_) laid->release_starts(row.tin);
   VertexPlaces places = laid->places();
   return FinishedRow{std::move(row.tin), std::move(places)};

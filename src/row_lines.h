@@ -14,8 +14,10 @@
 #include <span>
 #include <vector>
 
+#include "refine/border_chain.h"
 #include "refine/constraints.h"
 #include "refine/tiled.h"
+#include "row_bounds.h"
 #include "row_cut.h"
 #include "scarp/result.h"
 #include "scarp/strategy.h"
@@ -32,20 +34,29 @@ class RowLines {
   /// Of rows of samples: lines are laid there before the surface is refined.
   bool makes_whole(std::int32_t first, std::int32_t rows) const;
   /// The row's mesh with its part of the lines as chains of constrained edges, at kLatticeSteps; samples that they put
-  /// beyond `threshold` are inserted around them. Vertices on rows that are shared are the same for both that share
+  /// beyond their bounds are inserted around them. Vertices on rows that are shared are the same for both that share
   /// them. Fails as ConstrainedMesh::lay(), with kInput for too many triangles and as row.check does; with kInput
-  /// after the last row if a cut has left nothing of any. REQUIRES: each
-  /// sample lies within the threshold of the row's mesh, or the row is to be made whole.
-  Result<FinishedRow> lay(TileRow row, double threshold);
+  /// after the last row if a cut has left nothing of any. `bounds`: of the row's samples, none above the threshold,
+  /// and none afterwards for those on shared rows, whose edges are for good then; empty: it holds for all. REQUIRES:
+  /// each sample lies within the threshold of the row's mesh, or the row is to be made whole.
+  Result<FinishedRow> lay(TileRow row, double threshold, std::span<float> bounds = {});
 
   const Work& work() const { return work_; }
 
  private:
   bool has_points(std::int32_t top, std::int32_t bottom) const;
   ConstraintGraph part_of(const TileRow& row) const;
-  void split_shared(const TileRow& row, bool is_top, double threshold, ConstraintGraph& part) const;
-  Result<void> start(TileRow& row, double threshold, ConstraintGraph& part) const;
-  Result<void> start_border(const TileRow& row, bool is_top, double threshold, ConstraintGraph& part) const;
+  /// What is asked of a row.
+  struct Bounds {
+    double threshold = 0;
+    std::span<float> own;  // by sample; empty: the threshold holds for all
+    LineBound of(const TileRow& row, std::int32_t y) const {
+      return own.empty() ? LineBound(threshold) : LineBound(along(own, row, y));
+    }
+  };
+  void split_shared(const TileRow& row, bool is_top, const Bounds& bounds, ConstraintGraph& part) const;
+  Result<void> start(TileRow& row, const Bounds& bounds, ConstraintGraph& part) const;
+  Result<void> start_border(const TileRow& row, bool is_top, const Bounds& bounds, ConstraintGraph& part) const;
 
   const ConstraintGraph& graph_;
   std::int32_t side_;
@@ -56,8 +67,5 @@ class RowLines {
   bool has_surface_ = false;  // any row so far, behind the cut
   Work work_;
 };
-
-/// Bytes a vertex of a row that lay() takes beside its mesh.
-inline constexpr std::uint64_t kRowLineBytesPerVertex = 160;
 
 }  // namespace scarp

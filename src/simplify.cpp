@@ -22,6 +22,7 @@
 #include "proof.h"
 #include "refine/samples.h"
 #include "refine/source_judge.h"
+#include "refine/tile_worker.h"
 #include "refine/tiled.h"
 #include "row_fit.h"
 
@@ -51,7 +52,7 @@ Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions
 Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const SimplifyOptions& options,
                                           const Criterion& criterion, const ConstraintGraph* lines, RowFits& fits) {
   TiledOptions tiles;
-  tiles.threshold = criterion.judge().goal();
+  tiles.threshold = criterion.aim();
   tiles.threads = options.threads;
   tiles.memory = memory_budget(field, options);
   tiles.may_decline = options.order == Order::kAuto && field.samples != nullptr;
@@ -62,7 +63,8 @@ Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const Simpli
       return !reporter.due() || reporter.report("refine", share, vertices, 0);
     };
   }
-  if (finishes_rows(field, options)) finish_rows(field, options, lines, criterion.aim(), fits, tiles);
+  if (finishes_rows(field, options))
+    finish_rows(field, options, lines, criterion.aim(), fits, tiles, criterion.source_bounds());
   if (field.samples != nullptr || lines == nullptr || !lines->cut) return refine_tiled(field, tiles);
   const CutSource near(*field.source, lines->cut->rows);
   HeightField seen = field;
@@ -102,14 +104,18 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
   const Domain& domain = (*tiled)->domain;
   if (auto has_room = memory.check_mesh(bytes, domain.tin.vertex_count() - domain.unused, 1); !has_room)
     return tl::unexpected(has_room.error());
-  const Work& work = (*tiled)->work;
+  const Work work = (*tiled)->work;
+  add((*tiled)->work, fits.bounds);
   const double seconds = seconds_since(start);
-  std::vector<Pass> passes{{"tiles", seconds - fits.seconds - fits.seconds_of_lines, work.samples_scanned,
-                            work.triangles_scanned, work.passes}};
+  std::vector<Pass> passes{{"tiles", seconds - fits.seconds - fits.seconds_of_lines - fits.seconds_of_bounds,
+                            work.samples_scanned, work.triangles_scanned, work.passes}};
   const bool by_rows = finishes_rows(field, options);
   if (by_rows && lines != nullptr)
     passes.push_back(
         {"lines", fits.seconds_of_lines, fits.lines.samples_scanned, fits.lines.triangles_scanned, fits.lines.passes});
+  if (fits.seconds_of_bounds > 0)
+    passes.push_back({"refine", fits.seconds_of_bounds, fits.bounds.samples_scanned, fits.bounds.triangles_scanned,
+                      fits.bounds.passes});
   if (fits_rows(field, options)) passes.push_back({"fit", fits.seconds, 0, 0, 0, fits.removed});
   auto result = run_engine(field, raster, options, *criterion, by_rows ? nullptr : lines, std::move(*tiled));
   if (!result) return result;

@@ -30,7 +30,7 @@ Result<void> check_options(const SimplifyOptions& options) {
   const std::pair<bool, const char*> refused[] = {
       {options.outline_tolerance != 0, "outline_tolerance"},
       {!options.mask.empty(), "mask"},
-      {!options.tolerance.empty(), "tolerance"},
+      {!options.tolerance.empty() || options.tolerance_source != nullptr, "tolerance"},
       {!options.script.empty(), "script"},
       {!(options.importance == Importance{}), "importance"},
       {options.algorithm != Algorithm::kHeap, "algorithm"},

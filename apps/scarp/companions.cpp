@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "memory.h"
 #include "scarp/regions.h"
 #include "text.h"
 
@@ -33,9 +34,7 @@ Result<OwnedHeightField> read_values(const char* option, const std::string& path
   const auto negative = std::find_if(values->samples.begin(), values->samples.end(), [](float v) { return v < 0; });
   if (negative != values->samples.end()) {
     const std::ptrdiff_t at = negative - values->samples.begin();
-    return fail(ErrorKind::kInput,
-                fmt::format("{} {}: the value {} at column {}, row {} is negative: it must be at least 0", option, path,
-                            *negative, at % cols, at / cols));
+    return refuse_negative(option, path, *negative, at % cols, at / cols);
   }
   return values;
 }
@@ -58,13 +57,7 @@ Result<std::vector<float>> make_mask(OwnedHeightField values) {
 
 std::vector<float> make_tolerance(OwnedHeightField values) {
   const bool is_rounded = values.sample_rounding > 0;
-  for (float& bound : values.samples) {
-    if (std::isnan(bound)) {
-      bound = std::numeric_limits<float>::infinity();
-    } else if (is_rounded) {
-      bound = std::nextafter(bound, 0.0F);  // not above the value in the file
-    }
-  }
+  for (float& bound : values.samples) bound = bound_of_value(bound, is_rounded);
   return std::move(values.samples);
 }
 
@@ -98,9 +91,9 @@ Result<RegionFile> parse_region(const std::string& text) {
   return RegionFile{text.substr(0, at), *tolerance};
 }
 
-/// Lowers the tolerances in and around the regions.
-Result<void> read_regions(const CompanionArguments& given, const RasterInfo& raster, int cols, int rows,
-                          std::optional<double> bound, const ProgressCallback& progress, Companions& companions) {
+/// In the order of CompanionArguments::roi.
+Result<std::vector<Region>> read_regions(const CompanionArguments& given, const RasterInfo& raster,
+                                         const ProgressCallback& progress, Companions& companions) {
   ReadLinesOptions options;
   options.crs = raster.crs;
   options.ignore_z = true;
@@ -114,25 +107,78 @@ Result<void> read_regions(const CompanionArguments& given, const RasterInfo& ras
     companions.warnings.insert(companions.warnings.end(), set->warnings.begin(), set->warnings.end());
     regions.push_back({std::move(set->lines), file->tolerance});
   }
-  RegionGrid grid{cols, rows, map_affine(raster, rows)};
+  return regions;
+}
+
+RegionGrid grid_of(const CompanionArguments& given, const RasterInfo& raster, const OwnedHeightField& field,
+                   std::optional<double> bound) {
+  RegionGrid grid{field.cols, field.rows, map_affine(raster, field.rows)};
   const bool has_metres = raster.cell_x_m > 0 && raster.cell_y_m > 0;
   grid.cell_x = has_metres ? raster.cell_x_m : raster.cell_x;
   grid.cell_y = has_metres ? raster.cell_y_m : raster.cell_y;
   grid.beyond = bound;
   if (given.falloff) grid.falloff = *parse_non_negative("--falloff", *given.falloff);
-  std::vector<bool> found;
-  const std::vector<float> bounds = region_tolerances(regions, grid, &found);
+  return grid;
+}
+
+void warn_of_missing(const CompanionArguments& given, const std::vector<bool>& found, Companions& companions) {
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (!found[k])
       companions.warnings.push_back(fmt::format("--roi {} lies beside the raster: it changes nothing", given.roi[k]));
   }
+}
+
+/// Lowers the tolerances in and around the regions.
+Result<void> add_regions(const CompanionArguments& given, const RasterInfo& raster, const OwnedHeightField& field,
+                         std::optional<double> bound, const ProgressCallback& progress, Companions& companions) {
+  const auto regions = read_regions(given, raster, progress, companions);
+  if (!regions) return tl::unexpected(regions.error());
+  std::vector<bool> found;
+  std::vector<float> bounds = region_tolerances(*regions, grid_of(given, raster, field, bound), &found);
+  warn_of_missing(given, found, companions);
   if (companions.tolerance.empty()) {
-    companions.tolerance = bounds;
+    companions.tolerance = std::move(bounds);
   } else {
     std::transform(bounds.begin(), bounds.end(), companions.tolerance.begin(), companions.tolerance.begin(),
                    [](float a, float b) { return std::min(a, b); });
   }
   return {};
+}
+
+/// The regions' bounds and what making them takes.
+Result<BoundsInWindows> make_regions(const CompanionArguments& given, const RasterInfo& raster,
+                                     const OwnedHeightField& field, std::optional<double> bound,
+                                     const CompanionRun& run, Companions& companions) {
+  const auto regions = read_regions(given, raster, run.progress, companions);
+  if (!regions) return tl::unexpected(regions.error());
+  std::uint64_t vertices = 0;
+  for (const Region& region : *regions) {
+    for (const Line& line : region.lines) vertices += line.points.size();
+  }
+  constexpr std::uint64_t kBytesPerVertex = 100;
+  if (auto fits = check_room(field, run.memory, kBytesPerVertex * vertices, "--roi"); !fits)
+    return tl::unexpected(fits.error());
+  RegionBounds bounds = make_region_bounds(*regions, grid_of(given, raster, field, bound), run.threads);
+  warn_of_missing(given, bounds.found, companions);
+  return BoundsInWindows{std::move(bounds.source), bounds.bytes, !bound};
+}
+
+/// The bounds of heights that are not in memory.
+Result<void> read_in_windows(const CompanionArguments& given, const RasterInfo& raster, const OwnedHeightField& field,
+                             std::optional<double> bound, const CompanionRun& run, Companions& companions) {
+  BoundsInWindows& bounds = companions.in_windows;
+  if (given.tolerance) {
+    auto opened =
+        open_tolerances("--tolerance", *given.tolerance, raster, field, run.memory, run.progress, companions.warnings);
+    if (!opened) return tl::unexpected(std::move(opened.error()));
+    bounds = std::move(*opened);
+  }
+  if (!given.roi.empty()) {
+    auto regions = make_regions(given, raster, field, bound, run, companions);
+    if (!regions) return tl::unexpected(std::move(regions.error()));
+    bounds = bounds.source ? least_of(*regions, bounds) : std::move(*regions);
+  }
+  return check_room(field, run.memory, bounds.bytes, given.find_tolerance());
 }
 
 }  // namespace
@@ -217,15 +263,13 @@ bool Companions::ignores_samples() const {
                      [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; });
 }
 
-double Companions::weigh(std::size_t sample, double error) const {
-  if (!mask.empty()) return static_cast<double>(mask[sample]) * error;
-  if (tolerance.empty() || error == 0) return error;
-  return error / static_cast<double>(tolerance[sample]);
-}
-
 Exceptions find_exceptions(const HeightField& heights, const Companions& companions, bool has_max_error) {
   Exceptions found;
   if (!companions.has_weights() && !companions.ignores_samples()) return found;
+  if (companions.in_windows.source) {
+    if (companions.in_windows.may_lack && !has_max_error) found.source = limits_of(companions.in_windows.source);
+    return found;
+  }
   constexpr float kNone = std::numeric_limits<float>::infinity();
   const auto cols = static_cast<std::size_t>(heights.cols);
   found.limits.resize(cols * static_cast<std::size_t>(heights.rows), 0);
@@ -246,9 +290,17 @@ Exceptions find_exceptions(const HeightField& heights, const Companions& compani
   return found;
 }
 
-Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster, int cols, int rows,
-                                   std::optional<double> bound, const ProgressCallback& progress) {
+Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster,
+                                   const OwnedHeightField& field, std::optional<double> bound,
+                                   const CompanionRun& run) {
   Companions companions;
+  const int cols = field.cols, rows = field.rows;
+  const ProgressCallback& progress = run.progress;
+  const bool is_in_windows = field.source && given.find_tolerance() != nullptr;
+  if (is_in_windows) {
+    const Result<void> read = read_in_windows(given, raster, field, bound, run, companions);
+    if (!read) return tl::unexpected(read.error());
+  }
   if (given.mask) {
     Result<OwnedHeightField> values = read_values("--mask", *given.mask, raster, cols, rows, progress);
     if (!values) return tl::unexpected(std::move(values.error()));
@@ -257,14 +309,14 @@ Result<Companions> read_companions(const CompanionArguments& given, const Raster
     if (!mask) return tl::unexpected(std::move(mask.error()));
     companions.mask = std::move(*mask);
   }
-  if (given.tolerance) {
+  if (given.tolerance && !is_in_windows) {
     Result<OwnedHeightField> values = read_values("--tolerance", *given.tolerance, raster, cols, rows, progress);
     if (!values) return tl::unexpected(std::move(values.error()));
     companions.warnings.insert(companions.warnings.end(), values->info.warnings.begin(), values->info.warnings.end());
     companions.tolerance = make_tolerance(std::move(*values));
   }
-  if (!given.roi.empty()) {
-    const Result<void> read = read_regions(given, raster, cols, rows, bound, progress, companions);
+  if (!given.roi.empty() && !is_in_windows) {
+    const Result<void> read = add_regions(given, raster, field, bound, progress, companions);
     if (!read) return tl::unexpected(read.error());
   }
   if (given.script) {

@@ -66,6 +66,62 @@ class ChannelJudge {
   std::vector<float> samples_;
 };
 
+/// What the judge's own arithmetic may have rounded.
+double rounding_of(const HeightRange& range, double magnitude) {
+  return 1e-12 * (std::max(std::abs(range.min), std::abs(range.max)) + magnitude);
+}
+
+/// Weighs rows as they are judged, by tolerances that are read along with them.
+class RowWeigher {
+ public:
+  RowWeigher(const HeightField& heights, const SampleSource& tolerances, double allowance)
+      : cols_(heights.cols),
+        rows_(heights.rows),
+        tolerances_(tolerances),
+        weigher_(1, heights.sample_rounding, allowance) {}
+
+  void add(int row, std::span<const float> errors) {
+    if (!read_) return;
+    const auto size = static_cast<std::size_t>(cols_);
+    if (row >= end_) {
+      constexpr int kSamples = 1 << 18;
+      const int count = std::min(std::max(1, kSamples / cols_), rows_ - row);
+      held_.resize(static_cast<std::size_t>(count) * size);
+      read_ = tolerances_.read(0, row, cols_, count, held_.data(), cols_);
+      if (!read_) return;
+      first_ = row;
+      end_ = row + count;
+    }
+    const std::size_t at = static_cast<std::size_t>(row - first_) * size;
+    weigher_.add(row, {.errors = errors, .tolerance = std::span<const float>(held_).subspan(at, size)});
+  }
+  Result<WeighedErrors> finish() const {
+    if (!read_) return tl::unexpected(read_.error());
+    return weigher_.finish();
+  }
+
+ private:
+  int cols_, rows_;
+  const SampleSource& tolerances_;
+  ErrorWeigher weigher_;
+  std::vector<float> held_;  // rows [first_, end_)
+  int first_ = 0, end_ = 0;
+  Result<void> read_;
+};
+
+/// Measures and weighs in one. Fails as the sources do.
+Result<Measurement> weigh_rows(const HeightField& heights, const Mesh& mesh, const SampleSource& tolerances,
+                               double allowance, MeasureOptions options, std::optional<WeighedErrors>& weighed) {
+  RowWeigher rows(heights, tolerances, allowance);
+  options.on_row = [&](int row, std::span<const float> errors) { rows.add(row, errors); };
+  Result<Measurement> measured = measure(heights, mesh, options);
+  if (!measured) return measured;
+  Result<WeighedErrors> found = rows.finish();
+  if (!found) return tl::unexpected(std::move(found.error()));
+  weighed = *found;
+  return measured;
+}
+
 }  // namespace
 
 Result<Judgement> judge(const HeightField& heights, const Mesh& mesh, const Channels& channels, Norm norm,
@@ -81,7 +137,11 @@ Result<Judgement> judge(const HeightField& heights, const Mesh& mesh, const Chan
   options.progress = request.progress;
   options.topology = request.topology;
   options.cutline = request.cutline;
-  if (request.exceptions) options.tolerance = request.exceptions->limits;
+  if (request.exceptions) {
+    options.tolerance = request.exceptions->limits;
+    options.tolerance_source = request.exceptions->source.get();
+  }
+  const bool has_exceptions = !options.tolerance.empty() || options.tolerance_source != nullptr;
   const auto keep_errors = [&](int row, std::span<const float> errors) {
     const std::size_t start = static_cast<std::size_t>(row) * cols;
     std::copy(errors.begin(), errors.end(), judgement.height_errors.begin() + static_cast<std::ptrdiff_t>(start));
@@ -89,19 +149,26 @@ Result<Judgement> judge(const HeightField& heights, const Mesh& mesh, const Chan
     add_to_norms(std::span(judgement.norms).subspan(start, cols), errors, channels.height_scale, norm);
   };
   if (request.keep_errors) options.on_row = keep_errors;
-  Result<Measurement> measured = measure(heights, mesh, options);
+  Result<Measurement> measured = request.weigh_by == nullptr
+                                     ? measure(heights, mesh, options)
+                                     : weigh_rows(heights, mesh, *request.weigh_by, 0, options, judgement.weighed);
   if (!measured) return tl::unexpected(std::move(measured.error()));
   judgement.heights = std::move(*measured);
   if (judgement.heights.uncovered > 0) {
     const auto& at = judgement.heights.uncovered_at;
     judgement.uncovered_sample = fmt::format("the first at column {}, row {}", at[0], at[1]);
   }
-  judgement.bounded = options.tolerance.empty()
-                          ? LargestError{judgement.heights.max_error, judgement.heights.max_error_at}
-                          : find_largest(std::exchange(judgement.heights.offenders, {}));
+  judgement.bounded = has_exceptions ? find_largest(std::exchange(judgement.heights.offenders, {}))
+                                     : LargestError{judgement.heights.max_error, judgement.heights.max_error_at};
 
   options.topology = false;
   options.tolerance = {};
+  options.tolerance_source = nullptr;
+  if (judgement.weighed && judgement.weighed->over > 0) {
+    const auto again = weigh_rows(heights, mesh, *request.weigh_by, rounding_of(judgement.heights.heights, 0), options,
+                                  judgement.weighed);
+    if (!again) return tl::unexpected(again.error());
+  }
   ChannelJudge channel_judge(heights, mesh);
   for (std::size_t k = 0; k < channels.count(); ++k) {
     options.on_row = [&, k](int row, std::span<const float> errors) {
@@ -152,30 +219,19 @@ Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::s
 
 WeighedErrors weigh_errors(const Judgement& judgement, const HeightField& heights, const Channels& channels,
                            const Companions& companions, const Exceptions& exceptions, double bound) {
-  WeighedErrors weighed;
-  const double reserve = heights.sample_rounding * (channels.empty() ? 1 : channels.height_scale);
-  const HeightRange range = height_range(heights);
-  const double allowance = 1e-12 * (std::max(std::abs(range.min), std::abs(range.max)) + channels.magnitude);
-  const double limit = bound * (1 + std::ldexp(1.0, -23));
-  double sum_of_squares = 0;
-  std::uint64_t judged = 0;
-  for (std::size_t k = 0; k < judgement.height_errors.size(); ++k) {
-    if (std::isnan(judgement.height_errors[k])) continue;
-    ++judged;
-    const double error =
-        judgement.norms.empty() ? std::abs(static_cast<double>(judgement.height_errors[k])) : judgement.norms[k];
-    const double value = companions.weigh(k, error);
-    sum_of_squares += value * value;
-    const LargestError here{value,
-                            {static_cast<std::int32_t>(k % static_cast<std::size_t>(heights.cols)),
-                             static_cast<std::int32_t>(k / static_cast<std::size_t>(heights.cols))}};
-    if (value > weighed.largest.value) weighed.largest = here;
-    if (exceptions.has(k)) continue;
-    if (value > weighed.bounded.value) weighed.bounded = here;
-    if (companions.weigh(k, std::max(0.0, error + reserve - allowance)) > limit) ++weighed.over;
+  ErrorWeigher weigher(bound, heights.sample_rounding * (channels.empty() ? 1 : channels.height_scale),
+                       rounding_of(height_range(heights), channels.magnitude));
+  const auto cols = static_cast<std::size_t>(heights.cols);
+  for (int row = 0; row < heights.rows; ++row) {
+    const auto row_of = [&](const auto& values) {
+      using Value = typename std::decay_t<decltype(values)>::value_type;
+      return values.empty() ? std::span<const Value>()
+                            : std::span<const Value>(values).subspan(static_cast<std::size_t>(row) * cols, cols);
+    };
+    weigher.add(row, {row_of(judgement.height_errors), row_of(judgement.norms), row_of(companions.mask),
+                      row_of(companions.tolerance), row_of(exceptions.limits)});
   }
-  if (judged > 0) weighed.rmse = std::sqrt(sum_of_squares / static_cast<double>(judged));
-  return weighed;
+  return weigher.finish();
 }
 
 }  // namespace scarp::cli

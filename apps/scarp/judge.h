@@ -1,12 +1,13 @@
 // Judging a mesh with everything that counts: heights, channels, masks and tolerances.
 #pragma once
 
-#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "channels.h"
 #include "companions.h"
+#include "error_weigher.h"
 #include "scarp/cutline.h"
 #include "scarp/height_field.h"
 #include "scarp/measure.h"
@@ -14,26 +15,24 @@
 
 namespace scarp::cli {
 
-/// The largest of some errors, without sign, and its sample (col, row): none, (−1, −1), if all are 0.
-struct LargestError {
-  double value = 0;
-  std::array<std::int32_t, 2> at{-1, -1};
-};
-
 struct Judgement {
   Measurement heights;
-  std::vector<Measurement> channels;  ///< without topology
-  std::vector<float> height_errors;   ///< signed, NaN where void or uncovered; if they were to be kept
-  std::vector<double> norms;          ///< of all errors of a sample; with channels, if they were to be kept
-  LargestError bounded;               ///< of heights, over covered samples that are no JudgeOptions::exceptions
-  std::string uncovered_sample;       ///< "the first at column 3, row 7"; empty if there is none
+  std::vector<Measurement> channels;     ///< without topology
+  std::vector<float> height_errors;      ///< signed, NaN where void or uncovered; if they were to be kept
+  std::vector<double> norms;             ///< of all errors of a sample; with channels, if they were to be kept
+  LargestError bounded;                  ///< of heights, over covered samples that are no JudgeOptions::exceptions
+  std::optional<WeighedErrors> weighed;  ///< by JudgeOptions::weigh_by
+  std::string uncovered_sample;          ///< "the first at column 3, row 7"; empty if there is none
 };
 
 struct JudgeOptions {
   bool keep_errors = false;
   bool topology = true;
   const Exceptions* exceptions = nullptr;  ///< null or empty: none
-  const Cutline* cutline = nullptr;        ///< as MeasureOptions::cutline
+  /// Tolerances by which errors are weighed as they are found. Where some are above theirs they are judged twice, since
+  /// the range of the heights decides how much is rounding. Null: none.
+  const SampleSource* weigh_by = nullptr;
+  const Cutline* cutline = nullptr;  ///< as MeasureOptions::cutline
   int threads = 0;
   ProgressCallback progress = {};
 };
@@ -49,14 +48,6 @@ std::vector<float> take_error_raster(Judgement judgement, ErrorsOf of);
 /// Fills mesh.channels from its 8-bit colours where the file holds nothing else, and checks their number. `path` is
 /// the mesh's, for the sentence.
 Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::string& path);
-
-/// What a bound is compared with: heights' errors or norms, under a mask or tolerances.
-struct WeighedErrors {
-  LargestError largest;    ///< of all judged samples, without their rounding
-  LargestError bounded;    ///< of those with a bound
-  double rmse = 0;         ///< over all judged samples
-  std::uint64_t over = 0;  ///< samples above `bound`, their rounding counted; not those without a bound
-};
 
 /// REQUIRES: the errors were kept. A sample is above `bound` by more than the rounding of the judge: 1e-12 of the
 /// largest value, and 2^-23 of the bound, since the judge hands out errors as float32.

@@ -145,8 +145,12 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
     const Result<void> restored = restore_channels(judged.mesh, judged.channels, mesh_);
     if (!restored) return restored;
   }
-  Result<Companions> companions = read_companions(companions_, judged.field.info, judged.field.cols, judged.field.rows,
-                                                  judged.fail_above, progress);
+  const Result<std::optional<std::uint64_t>> limit = memory_.parse();
+  if (!limit) return tl::unexpected(limit.error());
+  const Result<int> threads = parse_threads(threads_);
+  if (!threads) return tl::unexpected(threads.error());
+  Result<Companions> companions = read_companions(companions_, judged.field.info, judged.field, judged.fail_above,
+                                                  {progress, limit->value_or(0), *threads});
   if (!companions) return tl::unexpected(std::move(companions.error()));
   judged.companions = std::move(*companions);
   Result<Cut> cut = read_cut(cut_, judged.field.info, progress, judged.field, judged.companions.warnings);
@@ -167,7 +171,7 @@ Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judg
   }
   const Result<std::optional<std::uint64_t>> limit = memory_.parse();
   if (!limit) return tl::unexpected(limit.error());
-  const std::uint64_t others = cut_.files.empty() ? 0 : kVectorBytes;
+  const std::uint64_t others = cut_.files.empty() && companions_.roi.empty() ? 0 : kVectorBytes;
   Result<OwnedHeightField> field = read_within(raster_.path, options, *limit, others);
   if (!field) return tl::unexpected(std::move(field.error()));
   if (const std::optional<std::string> need = find_need_of_samples()) {
@@ -183,7 +187,8 @@ Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judg
 std::optional<std::string> MeasureCommand::find_need_of_samples() const {
   if (map_) return "--map";
   if (error_raster_) return "--error-raster";
-  const std::string others = companions_.canonical() + channels_.canonical();
+  if (const char* need = companions_.find_need_of_samples()) return need;
+  const std::string others = channels_.canonical();
   if (others.empty()) return std::nullopt;
   return others.substr(1, others.find(' ', 1) - 1);
 }
@@ -227,10 +232,18 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
 
   const Clock::time_point measure_start = Clock::now();
   judged.exceptions = find_exceptions(judged.field, judged.companions, judged.fail_above.has_value());
+  if (judged.exceptions.source) {
+    const Result<std::uint64_t> count = count_unbounded(judged.field, *judged.companions.in_windows.source);
+    if (!count) return tl::unexpected(count.error());
+    judged.exceptions.count = *count;
+    if (*count == 0) judged.exceptions.source = nullptr;
+  }
   JudgeOptions options;
   options.exceptions = &judged.exceptions;
+  options.weigh_by = judged.companions.in_windows.source.get();
   options.cutline = judged.cut.judged();
-  options.keep_errors = map_ || error_raster_ || judged.companions.has_weights() || !judged.channels.empty();
+  const bool weighs_later = judged.companions.has_weights() && options.weigh_by == nullptr;
+  options.keep_errors = map_ || error_raster_ || weighs_later || !judged.channels.empty();
   options.threads = *threads;
   options.progress = display.callback();
   Result<Judgement> judgement = judge(judged.field, judged.mesh, judged.channels, judged.plan.norm, options);

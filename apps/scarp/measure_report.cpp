@@ -22,7 +22,7 @@ std::string describe_place(const std::array<std::int32_t, 2>& at) {
 /// Why the mesh fails by what its errors weigh; nothing if it does not.
 std::optional<std::string> find_excess(const Judged& judged) {
   const double rounding = judged.field.sample_rounding;
-  if (judged.weighted && !judged.companions.tolerance.empty() && judged.weighted->over > 0) {
+  if (judged.weighted && judged.companions.has_tolerance() && judged.weighted->over > 0) {
     return fmt::format(
         "{} above {} tolerance, the worst {:.10g} times {}{}",
         judged.weighted->over == 1 ? "1 sample is" : format_count(judged.weighted->over) + " samples are",
@@ -89,7 +89,7 @@ std::string describe_weighed(const Judged& judged) {
 
 std::string describe_pass(const Judged& judged) {
   std::string kept;
-  if (!judged.companions.tolerance.empty()) kept = "every sample is within its tolerance";
+  if (judged.companions.has_tolerance()) kept = "every sample is within its tolerance";
   if (judged.fail_above) {
     const bool has_mask = !judged.companions.mask.empty();
     const double error = has_mask          ? judged.weighted->bounded.value
@@ -114,8 +114,10 @@ void decide(Judged& judged) {
   }
   if (judged.companions.has_weights()) {
     const bool has_mask = !judged.companions.mask.empty();
-    judged.weighted = weigh_errors(judged.judgement, judged.field, judged.channels, judged.companions,
-                                   judged.exceptions, has_mask ? bound : 1);
+    judged.weighted = judged.judgement.weighed
+                          ? judged.judgement.weighed
+                          : weigh_errors(judged.judgement, judged.field, judged.channels, judged.companions,
+                                         judged.exceptions, has_mask ? bound : 1);
   }
   if (!judged.has_verdict()) return;
   judged.broken = find_excess(judged);
@@ -144,7 +146,7 @@ Json make_report(const Judged& judged, const std::string& mesh_path, const Cutli
   if (judged.weighted) {
     report["weighted_max_error"] = finite_or_word(judged.weighted->largest.value);
     report["weighted_rmse"] = finite_or_word(judged.weighted->rmse);
-    if (!judged.companions.tolerance.empty()) report["over_tolerance"] = judged.weighted->over;
+    if (judged.companions.has_tolerance()) report["over_tolerance"] = judged.weighted->over;
   }
   if (judged.weighted || !judged.companions.script.empty()) report["ignored"] = judged.exceptions.count;
   if (judged.exceptions.count > 0) add_bounded(report, judged.bounded());

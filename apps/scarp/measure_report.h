@@ -34,7 +34,7 @@ struct Judged {
 
   /// Of the samples with a bound: the heights' error; of an image, the norm.
   LargestError bounded() const { return plan.image ? combined->bounded : judgement.bounded; }
-  bool has_verdict() const { return fail_above || !companions.tolerance.empty(); }
+  bool has_verdict() const { return fail_above || companions.has_tolerance(); }
 };
 
 /// Weighs the errors and sets `broken`.

@@ -46,6 +46,9 @@ std::uint64_t samples_share(std::uint64_t limit, std::uint64_t others) {
   return limit > kProgramBytes + others ? (limit - kProgramBytes - others) / 2 : 0;
 }
 
+/// Rounded up.
+std::uint64_t megabytes(std::uint64_t bytes) { return (bytes + 999'999) / 1'000'000; }
+
 }  // namespace
 
 void MemoryArguments::add_to(CLI::App& verb, const std::string& help) {
@@ -99,6 +102,28 @@ std::uint64_t bytes_taken(const OwnedHeightField& field, std::uint64_t limit) {
   if (!field.source) return kCodeBytes + kBytesPerSample * samples;
   if (field.source->is_in_memory()) return kCodeBytes + kBytesPerSample / 2 * samples;
   return kCodeBytes + kCacheBytes + samples_share(limit, 0);
+}
+
+Result<OwnedHeightField> read_beside(const std::string& path, ReadOptions options, std::uint64_t limit) {
+  options.memory_limit = std::max<std::uint64_t>(samples_share(limit, 0) / 2, 1);
+  return open_height_field(path, options);
+}
+
+std::uint64_t bytes_beside(const OwnedHeightField& other, const OwnedHeightField& field, std::uint64_t limit) {
+  const std::uint64_t samples = static_cast<std::uint64_t>(other.cols) * static_cast<std::uint64_t>(other.rows);
+  if (!other.source) return kBytesPerSample * samples;
+  if (other.source->is_in_memory()) return kBytesPerSample / 2 * samples;
+  const bool has_cache = field.source && !field.source->is_in_memory();
+  return has_cache ? 0 : kCacheBytes + samples_share(limit, 0) / 2;
+}
+
+Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std::uint64_t bytes, const char* options) {
+  const std::uint64_t taken = bytes_taken(field, limit);
+  if (taken + bytes <= limit) return {};
+  const bool has_cache = field.source && !field.source->is_in_memory();  // of half of what the program leaves
+  const std::uint64_t needed = has_cache ? kProgramBytes + 2 * bytes : taken + bytes;
+  return fail(ErrorKind::kUsage, fmt::format("--memory is too little: {} takes {}M; allow {}M and what the mesh needs",
+                                             options, megabytes(bytes), megabytes(needed)));
 }
 
 Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option, std::uint64_t others) {

@@ -44,6 +44,15 @@ Result<OwnedHeightField> read_within(const std::string& path, ReadOptions option
 /// cache of their file, with what others have of it.
 std::uint64_t bytes_taken(const OwnedHeightField& field, std::uint64_t limit);
 
+/// Opens another raster on the same grid, where the field was read within the limit and has a source. What it has in
+/// memory is a quarter of what the program leaves at most; one that stays in its file shares the cache.
+Result<OwnedHeightField> read_beside(const std::string& path, ReadOptions options, std::uint64_t limit);
+/// What it takes beside bytes_taken().
+std::uint64_t bytes_beside(const OwnedHeightField& other, const OwnedHeightField& field, std::uint64_t limit);
+
+/// Fails with kUsage if the limit has no room for so many bytes more of what `options` name.
+Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std::uint64_t bytes, const char* options);
+
 /// Fails with kUsage if the field's samples are not in memory as one array, which `option` needs; says what would do.
 Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option, std::uint64_t others = 0);
 

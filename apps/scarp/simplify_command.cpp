@@ -22,8 +22,8 @@ constexpr const char* kBroken = "the mesh does not keep its promise and was not 
 
 /// Of files beside the raster's.
 std::uint64_t vector_bytes(const SimplifyPlan& plan) {
-  const bool has_none =
-      plan.lines.breaklines.empty() && plan.lines.water.empty() && plan.lines.rivers.empty() && plan.cut.files.empty();
+  const bool has_none = plan.lines.breaklines.empty() && plan.lines.water.empty() && plan.lines.rivers.empty() &&
+                        plan.cut.files.empty() && plan.companions.roi.empty();
   return has_none ? 0 : kVectorBytes;
 }
 
@@ -63,7 +63,8 @@ bool has_lines_to_fit(const SimplifyPlan& plan) {
 /// What the process may take, and has taken.
 MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome) {
   if (!plan.memory) return {};
-  return {*plan.memory, bytes_taken(outcome.field, *plan.memory) + outcome.waters.bytes()};
+  return {*plan.memory,
+          bytes_taken(outcome.field, *plan.memory) + outcome.waters.bytes() + outcome.companions.in_windows.bytes};
 }
 
 /// All lines of a mesh of such an error, and the walls and ridges among them.
@@ -93,8 +94,8 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
   const Result<void> read =
       plan.channels.image ? read_colors(plan, options, one_band, outcome) : read_heights(plan, options, outcome);
   if (!read) return read;
-  Result<Companions> companions = read_companions(plan.companions, outcome.as_read, outcome.field.cols,
-                                                  outcome.field.rows, outcome.asked, progress);
+  Result<Companions> companions = read_companions(plan.companions, outcome.as_read, outcome.field, outcome.asked,
+                                                  {progress, plan.memory.value_or(0), plan.simplify.threads});
   if (!companions) return tl::unexpected(std::move(companions.error()));
   outcome.companions = std::move(*companions);
   Result<LineConstraints> lines =
@@ -103,8 +104,8 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
   outcome.lines = std::move(*lines);
   const bool fits_later = has_lines_to_fit(plan);
   const std::optional<double> max_error = fits_later ? std::nullopt : std::optional(outcome.asked.value_or(0));
-  Result<WatersFound> waters = add_waters(plan.lines, progress, max_error, plan.memory, outcome.field, outcome.lines,
-                                          outcome.companions.warnings);
+  Result<WatersFound> waters = add_waters(plan.lines, progress, max_error, memory_of(plan, outcome), outcome.field,
+                                          outcome.lines, outcome.companions.warnings);
   if (!waters) return tl::unexpected(std::move(waters.error()));
   outcome.waters = std::move(*waters);
   if (!fits_later) {
@@ -180,7 +181,7 @@ Result<void> check_promise(const Outcome& outcome) {
   const Simplified& simplified = outcome.simplified;
   const Measurement& measured = simplified.measurement;
   const GoalError goal = find_goal_error(outcome);
-  const bool has_tolerance = !outcome.companions.tolerance.empty();
+  const bool has_tolerance = outcome.companions.has_tolerance();
   const bool has_budget_ended =
       simplified.stop == StopReason::kMaxTriangles || simplified.stop == StopReason::kMaxVertices;
   const std::optional<double> asked = has_tolerance ? 1 : outcome.asked;
@@ -273,6 +274,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   options.max_error = outcome.asked;
   options.mask = outcome.companions.mask;
   options.tolerance = outcome.companions.tolerance;
+  options.tolerance_source = outcome.companions.in_windows.source.get();
   options.script = outcome.companions.script;
   options.breaklines = outcome.lines;
   options.cutline = outcome.cut.cutline;
@@ -292,7 +294,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   Result<Simplified> simplified = simplify_as_planned(*plan, options, outcome);
   if (!simplified) {
     Error error = name_memory(given_, std::move(simplified.error()));
-    if (error.kind == ErrorKind::kInput && !error.message.starts_with(plan->input))
+    if (error.kind == ErrorKind::kInput && !error.message.starts_with(plan->input) && !error.message.starts_with("--"))
       error.message = fmt::format("{}: {}", plan->input, error.message);
     return tl::unexpected(std::move(error));
   }

@@ -28,7 +28,7 @@ void add_metadata(const SimplifyPlan& plan, Outcome& outcome) {
   if (!plan.channels.image) error["rmse"] = measured.rmse;
   error["samples"] = measured.samples;
   if (!outcome.channels.empty()) error["combined_max_error"] = outcome.simplified.combined_max_error;
-  if (!outcome.companions.mask.empty() || !outcome.companions.tolerance.empty()) {
+  if (outcome.companions.has_weights()) {
     error["weighted_max_error"] = outcome.simplified.weighted_max_error;
   }
   if (outcome.simplified.ignored > 0) error["ignored"] = outcome.simplified.ignored;

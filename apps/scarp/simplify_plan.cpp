@@ -373,7 +373,10 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
 
 /// The first option that was given and cannot do with a few samples at a time; nothing if there is none.
 std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, const SimplifyPlan& plan) {
+  const bool has_bounds = find_bounds(given) != nullptr;
   const std::pair<const char*, bool> options[] = {
+      {"--max-triangles", has_bounds && given.max_triangles},
+      {"--max-points", has_bounds && given.max_points},
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
       {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
       {"--normals", plan.simplify.normals},
@@ -385,9 +388,9 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
   for (const auto& [name, is_given] : options) {
     if (is_given) return name;
   }
+  if (const char* need = given.companions.find_need_of_samples()) return need;
   // " --name value --name value": the first of these will do.
-  const std::string others =
-      given.companions.canonical() + given.channels.canonical() + given.strategy.canonical_refinement();
+  const std::string others = given.channels.canonical() + given.strategy.canonical_refinement();
   if (others.empty()) return std::nullopt;
   return others.substr(1, others.find(' ', 1) - 1);
 }

@@ -97,8 +97,7 @@ std::string describe_ending(const SimplifyPlan& plan, const Outcome& outcome) {
   EndError error{.text = fmt::format("{} {}{}", goal.name, format_number(goal.value),
                                      outcome.bounded_goal ? " of the bounded samples" : "")};
   error.is_exact = goal.value == 0 && outcome.simplified.ignored == 0 && outcome.field.sample_rounding == 0;
-  const bool keeps_tolerances =
-      outcome.simplified.stop == StopReason::kMaxError && !outcome.companions.tolerance.empty();
+  const bool keeps_tolerances = outcome.simplified.stop == StopReason::kMaxError && outcome.companions.has_tolerance();
   return fmt::format("{}, {}\n",
                      keeps_tolerances ? "Kept every tolerance: " + error.text : describe_end(plan, outcome, error),
                      numbers);
@@ -111,7 +110,7 @@ GoalError find_goal_error(const Outcome& outcome) {
   const auto goal = [&](double of_all, const char* name, bool is_rounded) {
     return GoalError{outcome.bounded_goal.value_or(of_all), name, is_rounded};
   };
-  if (!outcome.companions.tolerance.empty()) {
+  if (outcome.companions.has_tolerance()) {
     return goal(simplified.weighted_max_error, "largest error / tolerance", true);
   }
   if (!outcome.companions.mask.empty()) return goal(simplified.weighted_max_error, "weighted max error", true);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "memory.h"
 #include "report.h"
 #include "simplify_run.h"
 #include "text.h"
@@ -22,12 +21,11 @@ ReadLinesOptions plan_reading(const OwnedHeightField& field, const ProgressCallb
 }
 
 Result<std::vector<Lake>> add_lakes(const LineArguments& given, const ProgressCallback& progress,
-                                    const std::optional<std::uint64_t>& memory, OwnedHeightField& field,
+                                    const MemoryShare& memory, OwnedHeightField& field,
                                     const std::array<double, 6>& affine, std::vector<std::string>& warnings) {
-  const std::uint64_t taken = memory ? bytes_taken(field, *memory) : 0;
   if (given.flats) {
     auto flats = find_flats(
-        field, {affine, *parse_count("--detect-flats", *given.flats, 3), memory.value_or(0), taken, progress});
+        field, {affine, *parse_count("--detect-flats", *given.flats, 3), memory.limit, memory.taken, progress});
     if (flats && flats->empty()) warnings.push_back("--detect-flats finds no flat area: it changes nothing");
     return flats;
   }
@@ -36,8 +34,8 @@ Result<std::vector<Lake>> add_lakes(const LineArguments& given, const ProgressCa
   if (!polygons) return tl::unexpected(polygons.error());
   WaterOptions options;
   options.affine = affine;
-  options.memory_limit = memory.value_or(0);
-  options.memory_taken = taken;
+  options.memory_limit = memory.limit;
+  options.memory_taken = memory.taken;
   options.progress = progress;
   if (given.percentile) options.percentile = *parse_non_negative("--water-percentile", *given.percentile);
   auto lakes = flatten_lakes(field, *polygons, options);
@@ -83,7 +81,7 @@ std::uint64_t WatersFound::bytes() const {
 }
 
 Result<WatersFound> add_waters(const LineArguments& given, const ProgressCallback& progress,
-                               const std::optional<double>& max_error, const std::optional<std::uint64_t>& memory,
+                               const std::optional<double>& max_error, const MemoryShare& memory,
                                OwnedHeightField& field, LineConstraints& lines, std::vector<std::string>& warnings) {
   WatersFound found;
   auto lakes = add_lakes(given, progress, memory, field, lines.affine, warnings);

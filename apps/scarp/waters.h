@@ -8,6 +8,7 @@
 
 #include "json.h"
 #include "line_options.h"
+#include "memory.h"
 #include "scarp/rivers.h"
 #include "scarp/water.h"
 
@@ -24,9 +25,9 @@ struct WatersFound {
 
 /// Makes the lakes of --water flat, or finds those of --detect-flats, lets --rivers flow, and makes shores and courses
 /// `lines` of the mesh. `max_error`: what rivers may lie beside the lowest of what is upstream, twice; nothing: it is
-/// not known yet, and add_rivers() is to make courses lines. `memory`: the limit, as simplify() has it.
+/// not known yet, and add_rivers() is to make courses lines. `memory`: without that of the waters.
 Result<WatersFound> add_waters(const LineArguments& given, const ProgressCallback& progress,
-                               const std::optional<double>& max_error, const std::optional<std::uint64_t>& memory,
+                               const std::optional<double>& max_error, const MemoryShare& memory,
                                OwnedHeightField& field, LineConstraints& lines, std::vector<std::string>& warnings);
 
 /// Makes the courses of rivers, as a mesh of so large an error needs them, lines of it.

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "scarp/height_field.h"
 #include "scarp/lines.h"
 
 namespace scarp {
@@ -32,8 +35,20 @@ struct RegionGrid {
 /// those between samples (exact, Euclidean). Bounds are rounded to float32 downwards. `found`: by region, whether any
 /// part of it lies in the raster; may be null.
 /// REQUIRES: cols, rows, cell_x, cell_y > 0; falloff >= 0; the affine map can be inverted.
-/// Cost: O(samples + segments · rows that they cross) a region.
+/// Cost: O(samples + segments · rows that they cross) a region; beside the bounds, what RegionBounds takes.
 std::vector<float> region_tolerances(std::span<const Region> regions, const RegionGrid& grid,
                                      std::vector<bool>* found = nullptr);
+
+/// The same bounds, to the last bit, made where they are read.
+struct RegionBounds {
+  /// For SimplifyOptions and MeasureOptions::tolerance_source; never fails. Cost of a window: O(samples), and, where
+  /// falloff > 0, no less than rows of a thousand samples, or six times as wide as the falloff, a region near it.
+  std::shared_ptr<const SampleSource> source;
+  std::vector<bool> found;  ///< by region, whether any part of it lies in the raster
+  /// Of memory: 8 a region and column, and for each sample on its outline; and what each of `threads` needs to read.
+  std::uint64_t bytes = 0;
+};
+/// `threads`: as SimplifyOptions::threads. The regions are not needed any more then. REQUIRES: as region_tolerances().
+RegionBounds make_region_bounds(std::span<const Region> regions, const RegionGrid& grid, int threads = 1);
 
 }  // namespace scarp

@@ -54,6 +54,11 @@ Result<Band> Band::read(const HeightField& field, int first, int rows, const Lim
   float* samples = &band.heights_[band.height_at(0, top)];
   if (auto read = read_window(field, 0, top, field.cols, bottom - top, samples, field.cols); !read)
     return tl::unexpected(std::move(read.error()));
+  if (limits.source != nullptr) {
+    band.tolerances_.resize(band.errors_.size());
+    auto read = limits.source->read(0, first, field.cols, rows, band.tolerances_.data(), field.cols);
+    if (!read) return tl::unexpected(std::move(read.error()));
+  }
   band.report_.heights = find_range({band.heights(first), band.errors_.size()});
   band.classify();
   if (limits.region != nullptr) band.cut();
@@ -66,7 +71,7 @@ Band::Band(const HeightField& field, int first, int rows, const Limits& limits, 
       rows_(rows),
       has_row_below_(first + rows < field.rows),
       limits_(limits),
-      least_limit_(limits.by_sample.empty() ? limits.everywhere : -HUGE_VAL),
+      least_limit_(limits.by_sample.empty() && limits.source == nullptr ? limits.everywhere : -HUGE_VAL),
       guard_(guard) {
   const std::size_t size = static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols_);
   heights_.assign(size + 2 * static_cast<std::size_t>(cols_), std::numeric_limits<float>::quiet_NaN());
@@ -192,7 +197,7 @@ BandReport Band::finish(Histogram& histogram, Keep keep) {
   for (int row = first_; row < end(); ++row) {
     const double* error = errors(row);
     report_.rows.push_back(sum_row({error, cols}, histogram));
-    for (int c = 0; !limits_.by_sample.empty() && c < cols_; ++c) {
+    for (int c = 0; has_tolerances() && c < cols_; ++c) {
       if (std::abs(error[c]) > tolerance(c, row)) ++report_.over_tolerance;
     }
     for (int c = 0; !nearest_.empty() && c < cols_; ++c) {

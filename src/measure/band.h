@@ -49,7 +49,8 @@ struct BandReport {
 /// Which errors make a sample an offender.
 struct Limits {
   double everywhere = HUGE_VAL;
-  std::span<const float> by_sample = {};  ///< of the whole field; empty: none
+  std::span<const float> by_sample = {};  ///< of the whole field; empty: none, or those of `source`
+  const SampleSource* source = nullptr;   ///< who is asked for those of a band
   bool with_uncovered = false;            ///< so are samples that no triangle covers
   const CutRegion* region = nullptr;      ///< what samples outside say does not count; null: there is none
 };
@@ -63,7 +64,7 @@ class Band {
   static int rows_per_band(int cols) { return cols <= 4096 ? 32 : std::max(8, 32 * 4096 / cols); }
 
   /// Reads the rows, with every sample that need not be covered (void, stray or cut off) as NaN, and finds the cells
-  /// that must not be covered. Fails as the field's source does.
+  /// that must not be covered. Fails as the field's source and that of limits do.
   static Result<Band> read(const HeightField& field, int first, int rows, const Limits& limits, double guard);
 
   int first() const { return first_; }
@@ -130,11 +131,13 @@ class Band {
     return is_between(limits_.everywhere) || is_between(tolerance(col, row));
   }
   double tolerance(int col, int row) const {
+    if (!tolerances_.empty()) return tolerances_[at(col, row)];
     return limits_.by_sample.empty()
                ? HUGE_VAL
                : double{limits_.by_sample[static_cast<std::size_t>(row) * static_cast<std::size_t>(cols_) +
                                           static_cast<std::size_t>(col)]};
   }
+  bool has_tolerances() const { return !limits_.by_sample.empty() || !tolerances_.empty(); }
   /// REQUIRES: there is a region.
   CutRegion::Place place(int col, int row) const { return places_[at(col, row)]; }
   void classify();
@@ -147,6 +150,7 @@ class Band {
   double guard_ = 0, largest_ = 0;
   bool has_void_cells_ = false;
   std::vector<float> heights_;
+  std::vector<float> tolerances_;  // empty unless there is a source of them
   std::vector<double> errors_;
   std::vector<CutRegion::Place> places_;  // empty without a region
   std::vector<Nearest> nearest_;          // empty if nothing is missing

@@ -60,6 +60,8 @@ Result<void> check_input(const HeightField& field, const Mesh& mesh, const Measu
   if (!(options.coverage_tolerance >= 0) || !std::isfinite(options.coverage_tolerance)) {
     return fail(ErrorKind::kUsage, "coverage_tolerance must be zero or a positive number of samples");
   }
+  if (!options.tolerance.empty() && options.tolerance_source != nullptr)
+    return fail(ErrorKind::kUsage, "tolerances are given as an array and as a source; give one of them");
   const std::size_t samples = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
   if (!options.tolerance.empty() && options.tolerance.size() != samples) {
     return fail(ErrorKind::kUsage, fmt::format("the tolerance has {} values for {} samples; give one for each",
@@ -180,8 +182,9 @@ double error_guard(const Mesh& mesh) {
 Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const judge::Scanner& scanner,
                            const judge::CutRegion* region, const MeasureOptions& options, judge::Keep keep,
                            ProgressGate& gate, Measurement& result) {
-  const judge::Limits limits{options.collect_above.value_or(HUGE_VAL), options.tolerance,
-                             options.collect_above.has_value() || !options.tolerance.empty(), region};
+  const bool by_sample = !options.tolerance.empty() || options.tolerance_source != nullptr;
+  const judge::Limits limits{options.collect_above.value_or(HUGE_VAL), options.tolerance, options.tolerance_source,
+                             options.collect_above.has_value() || by_sample, region};
   const double guard = error_guard(mesh);
   const int height = Band::rows_per_band(field.cols);
   const int bands = (field.rows - 1) / height + 1;

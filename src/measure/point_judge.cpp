@@ -30,7 +30,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 Result<void> check_options(const MeasureOptions& options) {
   if (!(options.coverage_tolerance >= 0) || !std::isfinite(options.coverage_tolerance))
     return fail(ErrorKind::kUsage, "coverage_tolerance must be zero or a positive number of mean point distances");
-  if (!options.tolerance.empty())
+  if (!options.tolerance.empty() || options.tolerance_source != nullptr)
     return fail(ErrorKind::kUsage,
                 "scattered points have no tolerances of their own: leave MeasureOptions::tolerance out");
   return {};

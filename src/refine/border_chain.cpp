@@ -14,7 +14,7 @@ namespace scarp {
 namespace {
 
 /// Keeps what the chord from `first` to `last` needs. REQUIRES: heights on [first, last] are no voids.
-void split_chord(const std::vector<float>& heights, std::int32_t first, std::int32_t last, double threshold,
+void split_chord(const std::vector<float>& heights, std::int32_t first, std::int32_t last, const LineBound& bound,
                  std::vector<std::int32_t>& kept) {
   std::vector<std::pair<std::int32_t, std::int32_t>> chords{{first, last}};
   const auto at = [&](std::int32_t i) { return heights[static_cast<std::size_t>(i)]; };
@@ -23,15 +23,16 @@ void split_chord(const std::vector<float>& heights, std::int32_t first, std::int
     chords.pop_back();
     const double from = at(a), rise = double{at(b)} - from, steps = b - a;
     // Five roundings, each of at most the size of the numbers that go in.
-    const double guard = 0x1p-50 * (std::abs(from) + std::abs(rise) + threshold);
+    const double guard_of_chord = 0x1p-50 * (std::abs(from) + std::abs(rise));
     double worst = -1;
     std::int32_t split = 0;
     for (std::int32_t i = a + 1; i < b; ++i) {
-      const double error = std::abs(from + rise * ((i - a) / steps) - double{at(i)});
-      if (error <= worst || error < threshold - guard) continue;
+      const double error = std::abs(from + rise * ((i - a) / steps) - double{at(i)}), threshold = bound.at(i);
+      const double guard = guard_of_chord + 0x1p-50 * threshold, rank = bound.rank(error, threshold);
+      if (!(rank > worst) || error < threshold - guard || std::isinf(threshold)) continue;
       if (error <= threshold + guard && !exceeds_exactly_between(at(a), at(b), i - a, b - a, at(i), threshold))
         continue;
-      worst = error;
+      worst = rank;
       split = i;
     }
     if (split == 0) continue;
@@ -105,17 +106,36 @@ Result<std::vector<BorderRun>> find_border_runs(const HeightField& field, const 
   return runs_of(*strip, line.steps);
 }
 
-Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, const BorderLine& line, double threshold) {
+Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, const BorderLine& line,
+                                                  const LineBound& bound) {
   const auto strip = read_strip(field, line);
   if (!strip) return tl::unexpected(strip.error());
   std::vector<std::int32_t> kept;
   for (const BorderRun& run : runs_of(*strip, line.steps)) {
     // A half cell whose missing corner lies on the line has no surface along it, and its run is one step.
-    if (run.has_surface && run.end - run.begin > 1) split_chord(strip->heights[1], run.begin, run.end, threshold, kept);
+    if (run.has_surface && run.end - run.begin > 1) split_chord(strip->heights[1], run.begin, run.end, bound, kept);
     if (run.end < line.steps) kept.push_back(run.end);
   }
   std::sort(kept.begin(), kept.end());
   return kept;
+}
+
+Result<std::vector<std::int32_t>> split_border(const HeightField& field, const BorderLine& line,
+                                               std::span<const std::int32_t> kept, const LineBound& bound) {
+  const auto strip = read_strip(field, line);
+  if (!strip) return tl::unexpected(strip.error());
+  std::vector<std::int32_t> more;
+  auto end = kept.begin();
+  for (const BorderRun& run : runs_of(*strip, line.steps)) {
+    for (std::int32_t from = run.begin; from < run.end;) {
+      while (end != kept.end() && *end <= from) ++end;
+      const std::int32_t to = end == kept.end() ? run.end : std::min(*end, run.end);
+      if (run.has_surface && to - from > 1) split_chord(strip->heights[1], from, to, bound, more);
+      from = to;
+    }
+  }
+  std::sort(more.begin(), more.end());
+  return more;
 }
 
 }  // namespace scarp

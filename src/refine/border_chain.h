@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "scarp/height_field.h"
@@ -18,13 +19,30 @@ struct BorderLine {
   bool is_vertical = false;
 };
 
+/// What samples of a line may be off by.
+struct LineBound {
+  LineBound(double same) : of_all(same) {}                     // NOLINT: either will do
+  LineBound(std::span<const float> by_step) : own(by_step) {}  // NOLINT
+  double of_all = 0;
+  std::span<const float> own;  ///< by step, from 0 on, +infinity for none; EMPTY: one for all
+
+  double at(std::int32_t step) const { return own.empty() ? of_all : double{own[static_cast<std::size_t>(step)]}; }
+  /// Which of two samples that break their bounds is farther.
+  double rank(double error, double bound) const { return own.empty() ? error : error / bound; }
+};
+
 /// Steps, ascending and strictly between 0 and line.steps, that become vertices, such that every sample of the line
-/// that belongs to the surface on either side lies within `threshold`, as a real number, of the chain that they make:
+/// that belongs to the surface on either side lies within its bound, as a real number, of the chain that they make:
 /// the farthest sample of a chord splits it (first among equals), again and again. Where the surface beside the line
 /// changes (a cell with a void sample), the sample is kept too, so that every corner of an outline on the line is a
 /// vertex. A line inside the raster; its field may have voids. Cost: O(steps · log steps), expected.
 /// Fails as the field's source does.
-Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, const BorderLine& line, double threshold);
+Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, const BorderLine& line,
+                                                  const LineBound& bound);
+
+/// Those that are missing where `kept`, ascending, are vertices for a larger bound, as the above made them.
+Result<std::vector<std::int32_t>> split_border(const HeightField& field, const BorderLine& line,
+                                               std::span<const std::int32_t> kept, const LineBound& bound);
 
 /// Steps of a line between which the surface beside it, on either side, stays as it is: cells of four heights, or none.
 struct BorderRun {

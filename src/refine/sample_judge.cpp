@@ -55,6 +55,14 @@ struct SampleJudge::Surface {
   const Plane& plane(std::size_t k) const { return k < kFew ? few[k] : more[k - kFew]; }
 };
 
+Judging judging_by_bounds(const Raster& raster, std::span<const float> bounds) {
+  Judging judging{raster, {{raster.samples, 1}}};
+  judging.bounds = bounds.data();
+  judging.per_bound = true;
+  judging.goal = 1;
+  return judging;
+}
+
 SampleJudge::SampleJudge(Judging judging) : judging_(std::move(judging)) {}
 
 std::array<float, 3> SampleJudge::values_at(const JudgedField& field, const std::array<Point, 3>& corners) const {
@@ -104,6 +112,7 @@ double SampleJudge::combine(const Surface& surface, Point p) const {
 }
 
 double SampleJudge::weighted(double error, std::size_t index) const {
+  if (judging_.per_bound) return error * double{per_bound(judging_.bounds[index])};
   return judging_.factors != nullptr && judging_.by_error ? error * double{judging_.factors[index]} : error;
 }
 

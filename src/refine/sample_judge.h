@@ -1,6 +1,7 @@
 // The general judge: errors of heights and channels combined, a bound and a factor of importance for each sample.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,11 @@ struct JudgedField {
   double scale = 1;  ///< above 0
 };
 
+/// Factors stay finite, so that errors still count.
+inline constexpr float kMostFactor = 1e30f;
+/// The factor of a sample whose error counts by its bound: a bound of 0 outranks every other.
+inline float per_bound(float bound) { return std::min(1 / bound, kMostFactor); }
+
 /// Borrows everything.
 struct Judging {
   Raster heights;                   ///< says which samples count
@@ -25,9 +31,13 @@ struct Judging {
   double threshold = 0;            ///< bound of the combined error, where `bounds` is null
   const float* bounds = nullptr;   ///< bound of each sample, +infinity for none
   const float* factors = nullptr;  ///< importance = error · factor; null: the error
+  bool per_bound = false;          ///< importance = error · per_bound(bound); without `factors`
   bool by_error = true;            ///< false: importance = factor
   double goal = 0;                 ///< see Judge::goal()
 };
+
+/// Of heights alone, each with a bound of its own, ranked by the error over it.
+Judging judging_by_bounds(const Raster& raster, std::span<const float> bounds);
 
 /// With one field of scale 1 bounds are decided exactly. A norm of several is decided within its rounding on the safe
 /// side, exactly only at bound 0: a sample may be inserted whose norm equals its bound, none is left that exceeds it.

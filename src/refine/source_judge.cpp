@@ -2,31 +2,44 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <memory>
 #include <vector>
 
 #include "grid/window.h"
 #include "refine/height_judge.h"
+#include "refine/sample_judge.h"
 
 namespace scarp {
 
 namespace {
 
-/// The samples around some points, and the points as the window counts them.
+void or_throw(const Result<void>& read) {
+  if (!read) throw SourceFailure{read.error()};
+}
+
+/// The samples around some points, their bounds, and the points as the window counts them.
 class Window {
  public:
-  Window(const HeightField& field, std::initializer_list<Point> points) : first_(*points.begin()) {
+  Window(const HeightField& field, double threshold, const SourceBounds* bounds, std::initializer_list<Point> points)
+      : first_(*points.begin()) {
     Point last = first_;
     for (const Point p : points) {
       first_ = {std::min(first_.x, p.x), std::min(first_.y, p.y)};
       last = {std::max(last.x, p.x), std::max(last.y, p.y)};
     }
-    cols_ = last.x - first_.x + 1;
-    rows_ = last.y - first_.y + 1;
-    samples_.resize(static_cast<std::size_t>(cols_) * static_cast<std::size_t>(rows_));
-    if (auto read = read_window(field, first_.x, first_.y, cols_, rows_, samples_.data(), cols_); !read)
-      throw SourceFailure{read.error()};
+    const std::int32_t cols = last.x - first_.x + 1, rows = last.y - first_.y + 1;
+    samples_.resize(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows));
+    or_throw(read_window(field, first_.x, first_.y, cols, rows, samples_.data(), cols));
+    const Raster raster{samples_.data(), cols, rows};
+    if (bounds == nullptr) {
+      judge_ = std::make_unique<HeightJudge>(raster, threshold);
+      return;
+    }
+    bounds_.resize(samples_.size());
+    or_throw(bounds->read_aims(first_, cols, rows, nullptr, bounds_.data()));
+    judge_ = std::make_unique<SampleJudge>(judging_by_bounds(raster, bounds_));
   }
-  Raster raster() const { return {samples_.data(), cols_, rows_}; }
+  const Judge& judge() const { return *judge_; }
   Point inside(Point p) const { return {p.x - first_.x, p.y - first_.y}; }
   std::array<Point, 3> inside(const std::array<Point, 3>& p) const {
     return {inside(p[0]), inside(p[1]), inside(p[2])};
@@ -38,35 +51,35 @@ class Window {
 
  private:
   Point first_;
-  std::int32_t cols_ = 0, rows_ = 0;
-  std::vector<float> samples_;
+  std::vector<float> samples_, bounds_;
+  std::unique_ptr<Judge> judge_;
 };
 
 }  // namespace
 
 Fit SourceJudge::fit(const std::array<Point, 3>& corners, const FitQuestion& question) const {
-  const Window window(field_, {corners[0], corners[1], corners[2]});
-  Fit fit = HeightJudge(window.raster(), threshold_).fit(window.inside(corners), question);
+  const Window window(field_, threshold_, bounds_, {corners[0], corners[1], corners[2]});
+  Fit fit = window.judge().fit(window.inside(corners), question);
   fit.worst = window.outside(fit.worst);
   return fit;
 }
 
 std::optional<Candidate> SourceJudge::find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const {
-  const Window window(field_, {corners[0], corners[1], corners[2]});
+  const Window window(field_, threshold_, bounds_, {corners[0], corners[1], corners[2]});
   Fit inside = fit;
   inside.worst.at = window.inside(fit.worst.at);
-  const auto found = HeightJudge(window.raster(), threshold_).find_candidate(window.inside(corners), inside);
+  const auto found = window.judge().find_candidate(window.inside(corners), inside);
   return found ? std::optional(window.outside(*found)) : std::nullopt;
 }
 
 double SourceJudge::squares_between(Point a, Point b) const {
-  const Window window(field_, {a, b});
-  return HeightJudge(window.raster(), threshold_).squares_between(window.inside(a), window.inside(b));
+  const Window window(field_, threshold_, bounds_, {a, b});
+  return window.judge().squares_between(window.inside(a), window.inside(b));
 }
 
 double SourceJudge::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {
-  const Window window(field_, {a[0], a[1], a[2], b[0], b[1], b[2]});
-  return HeightJudge(window.raster(), threshold_).bend(window.inside(a), window.inside(b));
+  const Window window(field_, threshold_, bounds_, {a[0], a[1], a[2], b[0], b[1], b[2]});
+  return window.judge().bend(window.inside(a), window.inside(b));
 }
 
 }  // namespace scarp

@@ -109,6 +109,11 @@ bool goes_by_rows(const HeightField& field, const TiledOptions& options) {
   return is_in_file(field) || options.finish_row != nullptr;
 }
 
+/// Of a row of tiles that is read: its samples, and where it is finished a copy and what else that takes.
+std::uint64_t bytes_per_sample(const TiledOptions& options) {
+  return options.finish_row ? 2 * sizeof(float) + options.finish_bytes_per_sample : sizeof(float);
+}
+
 /// Of the samples of the highest row of tiles, where they are read by rows.
 std::uint64_t row_bytes(const HeightField& field, const TilePlan& plan) {
   std::int32_t rows = 0;
@@ -139,7 +144,7 @@ class TiledRun {
         assembly_(options.finish_row ? 1 : plan.per_row()),
         row_(plan.per_row()) {
     // Who finishes a row may copy its samples.
-    if (is_streamed_) base_bytes_ += (options.finish_row ? 2 : 1) * row_bytes(field, plan);
+    if (is_streamed_) base_bytes_ += row_bytes(field, plan) / sizeof(float) * bytes_per_sample(options);
     base_bytes_ += std::min<std::uint64_t>(workers_.size(), step_) * worker_bytes(plan);
   }
 
@@ -286,12 +291,15 @@ class TiledRun {
 
 }  // namespace
 
-/// Rows fit a quarter of the memory. What finishes them pays for each line between two of them.
+/// Rows fit a quarter of the memory, half with what finishes them. That pays for each line between two of them.
 std::int32_t streamed_side(const HeightField& field, const TiledOptions& options) {
   const MemoryBudget& memory = options.memory;
   std::int32_t side = options.finish_row ? 1024 : 512;
-  const auto bytes = [&] { return 4ull * static_cast<std::uint64_t>(field.cols) * static_cast<unsigned>(side); };
-  while (memory.is_limited() && side > 64 && bytes() > memory.rest() / 4) side /= 2;
+  const std::uint64_t parts = options.finish_row ? 2 : 4;
+  const auto bytes = [&] {
+    return bytes_per_sample(options) * static_cast<std::uint64_t>(field.cols) * static_cast<unsigned>(side);
+  };
+  while (memory.is_limited() && side > 64 && bytes() > memory.rest() / parts) side /= 2;
   return side;
 }
 

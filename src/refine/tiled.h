@@ -62,6 +62,7 @@ struct TiledOptions {
   /// refined there. EMPTY: of none.
   std::function<bool(std::int32_t first, std::int32_t rows)> is_made_whole = {};
   std::uint64_t finish_bytes_per_vertex = 0;  ///< that it takes, of the row's, the row's mesh included
+  std::uint64_t finish_bytes_per_sample = 0;  ///< that it takes beside a copy of the row's samples
   /// Told the share of tiles that are done and the vertices so far, on the calling thread; false stops with kCancelled.
   std::function<bool(double share, std::uint64_t vertices)> progress = {};
 };

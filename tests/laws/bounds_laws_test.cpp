@@ -10,6 +10,7 @@
 
 #include "fit/fit.h"
 #include "geom/exact_error.h"
+#include "laws/array_bounds.h"
 #include "laws/fit_meshes.h"
 #include "laws/mesh_laws.h"
 #include "laws/tile_meshes.h"
@@ -24,26 +25,10 @@ using testing::any_depth;
 using testing::any_field;
 using testing::Field;
 using testing::is_same;
+using testing::kNoBound;
 using testing::Relief;
 
-constexpr float kNoBound = std::numeric_limits<float>::infinity();
-
-/// Blocks of one bound each, and samples strewn among them.
-std::vector<float> any_bounds(const Field& field) {
-  std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
-  const int side = *rc::gen::element(1, 4, 9, 100);
-  const auto base = *rc::gen::element(0.02f, 0.5f, 2.0f, 7.3f);
-  const float levels[] = {base, base, 1000 * base, base / 1000, 30 * base, kNoBound, 0};
-  std::vector<float> blocks(10000), bounds;
-  for (float& bound : blocks) bound = levels[random() % 7];
-  for (int y = 0; y < field.rows; ++y) {
-    for (int x = 0; x < field.cols; ++x) {
-      const auto block = static_cast<std::size_t>(y / side * 83 + x / side) % blocks.size();
-      bounds.push_back(random() % 16 == 0 ? levels[random() % 7] : blocks[block]);
-    }
-  }
-  return bounds;
-}
+std::vector<float> any_bounds(const Field& field) { return testing::any_bounds(field.cols, field.rows); }
 
 /// The greedy mesh; nothing if the field has no surface.
 std::optional<Triangulation> refined(const Field& field, const std::vector<float>& bounds) {

@@ -123,15 +123,17 @@ class SlowWater {
   explicit SlowWater(const Field& field) : field_(field), is_water_(field.samples.size(), false) {}
 
   void add(Lake& lake) {
-    LineMarks marks(grid_frame(field_.rows).affine, field_.cols, field_.rows);
-    marks.add_polygons(lake.shore);
-    for (const Line& ring : lake.shore) marks.add_course(ring, 1.0 / 128);
+    LineRuns runs(grid_frame(field_.rows).affine, field_.cols, field_.rows);
+    runs.add_polygons(lake.shore);
+    for (const Line& ring : lake.shore) runs.add_course(ring, 1.0 / 128);
+    const SampleSet marks(runs.runs(), field_.rows);
     lake.samples = lake.raised = 0;
     lake.largest_change = 0;
-    for (std::size_t i = 0; i < is_water_.size(); ++i) {
-      if (!marks.has(i)) continue;
-      is_water_[i] = true;
-      lake.samples += put(i, static_cast<float>(lake.level), lake);
+    for (const SampleRun& run : runs.runs()) {
+      for (std::int32_t x = run.begin; x < run.end; ++x) {
+        is_water_[index(x, run.row)] = true;
+        lake.samples += put(index(x, run.row), static_cast<float>(lake.level), lake);
+      }
     }
     const auto rim = static_cast<float>(lake.level + 0.75);
     for (std::int32_t y = 0; y < field_.rows; ++y) {
@@ -145,10 +147,10 @@ class SlowWater {
 
  private:
   std::size_t index(std::int32_t x, std::int32_t y) const { return static_cast<std::size_t>(y * field_.cols + x); }
-  bool is_beside(const LineMarks& marks, std::int32_t col, std::int32_t row) const {
+  bool is_beside(const SampleSet& marks, std::int32_t col, std::int32_t row) const {
     for (std::int32_t y = std::max(row - 1, 0); y <= std::min(row + 1, field_.rows - 1); ++y) {
       for (std::int32_t x = std::max(col - 1, 0); x <= std::min(col + 1, field_.cols - 1); ++x) {
-        if (marks.has(index(x, y))) return true;
+        if (marks.has({x, y})) return true;
       }
     }
     return false;

@@ -84,5 +84,50 @@ TEST(regions, without_a_bound_beyond_leave_samples_without) {
   EXPECT_LE(double{bounds[6]}, 0.1) << "rounded downwards";
 }
 
+TEST(regions, are_the_same_bits_in_windows_as_in_one_array) {
+  std::mt19937 random(11);
+  const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  const auto share = [&] { return static_cast<double>(random()) / 0x1p32; };
+  for (int trial = 0; trial < 30; ++trial) {
+    // Wider than a stretch of a row, now and then.
+    RegionGrid grid{trial % 5 == 0 ? 3100 : 2 + below(90), 2 + below(50)};
+    grid.cell_x = 0.3 + 3 * share();
+    grid.cell_y = 0.3 + 3 * share();
+    grid.falloff = trial % 4 == 0 ? 0 : 40 * share();
+    if (trial % 5 == 0) grid.falloff *= 20;
+    if (grid.falloff > 0 || trial % 8 == 0) grid.beyond = 5 * share();
+    std::vector<Region> regions(static_cast<std::size_t>(below(4)));
+    for (Region& region : regions) {
+      region.tolerance = 2 * share();
+      for (int k = below(3); k >= 0; --k) {
+        std::vector<std::array<double, 3>> points;
+        for (int i = 2 + below(4); i > 0; --i)
+          points.push_back({1.2 * grid.cols * (share() - 0.1), 1.2 * grid.rows * (share() - 0.1), 0});
+        if (below(2) == 0) {
+          region.lines.push_back(ring(std::move(points), LineRole::kOuter, static_cast<std::uint32_t>(k)));
+        } else {
+          region.lines.emplace_back().points = std::move(points);
+        }
+      }
+    }
+    std::vector<bool> found;
+    const auto whole = region_tolerances(regions, grid, &found);
+    const RegionBounds bounds = make_region_bounds(regions, grid);
+    EXPECT_EQ(bounds.found, found);
+    for (int look = 0; look < 20; ++look) {
+      const int col = below(grid.cols), row = below(grid.rows);
+      const int cols = 1 + below(grid.cols - col), rows = 1 + below(grid.rows - row), stride = cols + below(3);
+      std::vector<float> window(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows), -1.0f);
+      ASSERT_TRUE(bounds.source->read(col, row, cols, rows, window.data(), stride).has_value());
+      for (int y = 0; y < rows; ++y) {
+        for (int x = 0; x < stride; ++x) {
+          const float wanted = x < cols ? whole[static_cast<std::size_t>((row + y) * grid.cols + col + x)] : -1.0f;
+          ASSERT_EQ(window[static_cast<std::size_t>(y * stride + x)], wanted) << trial << ": " << x << ", " << y;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace scarp

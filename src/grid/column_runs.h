@@ -1,0 +1,55 @@
+// Sets of samples, column by column: how far above or below the next one is.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "grid/sample_runs.h"
+
+namespace scarp {
+
+class ColumnRuns {
+ public:
+  /// Rows [begin, end) of a column.
+  struct Run {
+    std::int32_t begin = 0, end = 0;
+  };
+
+  /// `runs`: in raster order, apart from each other, within so many columns. Cost: O(runs + columns + runs made), which
+  /// are as many as the set's outline is long.
+  ColumnRuns(std::span<const SampleRun> runs, std::int32_t cols);
+
+  /// Those of a column, downwards, apart from each other.
+  std::span<const Run> column(std::int32_t x) const {
+    const auto i = static_cast<std::size_t>(x);
+    return std::span(runs_).subspan(begins_[i], begins_[i + 1] - begins_[i]);
+  }
+  std::uint64_t bytes() const { return runs_.capacity() * sizeof(Run) + begins_.capacity() * sizeof(std::size_t); }
+
+ private:
+  std::vector<Run> runs_;
+  std::vector<std::size_t> begins_;  // of each column's runs, and the end of the last
+};
+
+/// Goes down a column of a set, row after row.
+class ColumnWalk {
+ public:
+  /// The walk begins at `row`.
+  ColumnWalk(std::span<const ColumnRuns::Run> column, std::int32_t row);
+
+  /// Steps from `row`, which is not above that of the call before, to the nearest sample of the set; −1: it has none.
+  std::int32_t steps_from(std::int32_t row) {
+    while (next_ != end_ && next_->end <= row) ++next_;
+    const std::int32_t below = next_ == end_ ? -1 : next_->begin > row ? next_->begin - row : 0;
+    if (below == 0 || next_ == first_) return below;
+    const std::int32_t above = row - (next_ - 1)->end + 1;
+    return below < 0 || above < below ? above : below;
+  }
+
+ private:
+  const ColumnRuns::Run *first_, *end_, *next_;  // next_: the first that does not end above the row
+};
+
+}  // namespace scarp

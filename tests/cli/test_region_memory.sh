@@ -1,0 +1,90 @@
+#!/usr/bin/env bash
+# --tolerance, --roi and --falloff with --memory: bounds are read in windows beside heights that stay in their file, the
+# same ones as in memory; the bytes are those of any number of threads, the memory is enough, and what bounds take counts.
+source "$(dirname "$0")/lib.sh"
+need python3 gdal_translate
+
+succeeds "$scarp" generate smooth 500 600 smooth.tif --seed 3 --range 300 -q
+# Voids in bands along contours, among heights and among tolerances.
+gdal_translate -q -ot Int16 -a_nodata 255 smooth.tif whole.tif
+gdal_translate -q -ot Float32 whole.tif hills.tif
+succeeds "$scarp" generate smooth 500 600 other.tif --seed 8 --range 300 -q
+gdal_translate -q -ot Byte -scale 0 300 4 60 -a_nodata 40 other.tif accuracy.tif
+gdal_translate -q -ot Float32 -scale 0 300 -1 60 other.tif broken.tif
+gdal_translate -q -srcwin 0 0 400 600 accuracy.tif narrow.tif
+python3 - <<'PYTHON'
+import json
+def layer(name, kind, geometries):
+    json.dump({"type": "FeatureCollection", "features": [
+        {"type": "Feature", "properties": {}, "geometry": {"type": kind, "coordinates": g}} for g in geometries]}, open(name, "w"))
+site = [[[110.3, 120.2], [290.7, 110.4], [270.2, 510.1], [140.6, 495.5], [110.3, 120.2]],
+        [[170.4, 280.3], [210.2, 290.6], [190.8, 350.9], [170.4, 280.3]]]
+layer("site.geojson", "Polygon", [site, [[[350, 210], [600, 250], [420, 420], [350, 210]]]])
+layer("road.geojson", "LineString", [[[-20.3, 560.2], [320.6, 350.4], [490.8, 20.3]]])
+layer("long.geojson", "LineString", [[[i % 500, i // 500] for i in range(90000)]])
+PYTHON
+cat >within.py <<'PYTHON'
+"""within.py MEGABYTES COMMAND...: runs it; fails where its memory was more at any moment."""
+import resource, subprocess, sys
+code = subprocess.call(sys.argv[2:])
+peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024
+sys.exit(code or (peak > 1e6 * int(sys.argv[1]) and f"{peak / 1e6:.1f} MB were taken"))
+PYTHON
+within() { python3 within.py "$@"; }
+# What a sanitizer takes is not the program's.
+bash -c 'ulimit -v 1000000; exec "$1" --version' - "$scarp" > /dev/null 2>&1 || within() { shift; "$@"; }
+
+small=74 # of which the samples, 1.2 MB, may take 1, so they stay in their file, and rows of tiles are low
+sites=(--roi site.geojson=2 --roi road.geojson=5 --falloff 90)
+same() { # same A B KEY...: the reports agree
+  python3 -I -S - "$@" <<'PYTHON' || fail "the figures are not those in memory"
+import json, sys
+a, b = (json.load(open(path)) for path in sys.argv[1:3])
+for key in sys.argv[3:]: assert a[key] == b[key], (key, a[key], b[key])
+PYTHON
+}
+check() { # check EFFORT BOUND OPTION...: a mesh in little memory, judged in little memory and in much
+  local effort=$1 bound=() judge=()
+  [ "$2" = none ] || bound=(-e "$2") judge=(--fail-above "$2")
+  shift 2
+  succeeds within "$small" "$scarp" simplify hills.tif one.obj "${bound[@]}" "$@" --effort "$effort" --memory "${small}M" -j 1 \
+    --report one.json --overwrite
+  succeeds "$scarp" simplify hills.tif two.obj "${bound[@]}" "$@" --effort "$effort" --memory "${small}M" -j 2 --overwrite
+  cmp one.obj two.obj || fail "-j 2 makes another mesh with $* and $effort effort"
+  succeeds within "$small" "$scarp" measure hills.tif one.obj "${judge[@]}" "$@" --memory "${small}M" --json
+  cp "$logs/out" little.json
+  succeeds "$scarp" measure hills.tif one.obj "${judge[@]}" "$@" --json
+  cp "$logs/out" much.json
+  [ "$(json little.json over_tolerance)" = 0 ] || fail "samples are above their tolerance"
+  same little.json much.json weighted_max_error weighted_rmse ignored over_tolerance max_error rmse topology passed
+  same one.json much.json weighted_max_error ignored max_error samples uncovered
+  [ "$(json much.json topology sound)" = true ] || fail "the mesh is not sound"
+  succeeds "$scarp" simplify hills.tif whole.obj "${bound[@]}" "$@" --effort "$effort" --report whole.json --overwrite
+  same one.json whole.json ignored
+  holds "$(json one.json triangles) < 1.1 * $(json whole.json triangles)"
+}
+check fast 40 "${sites[@]}"
+check high 40 "${sites[@]}" --tolerance accuracy.tif
+check normal none --tolerance accuracy.tif
+same little.json much.json bounded_max_error bounded_max_error_at
+same one.json much.json bounded_max_error
+check fast none --roi site.geojson=2 --roi road.geojson=5
+same little.json much.json bounded_max_error bounded_max_error_at
+
+# A mesh that keeps no regions is found out, by as many samples.
+succeeds "$scarp" simplify hills.tif coarse.obj -e 40 -q
+for memory in "--memory ${small}M" ""; do
+  try "$scarp" measure hills.tif coarse.obj "${sites[@]}" --fail-above 40 --json $memory
+  [ "$code" = 3 ] || fail "a mesh without regions keeps their bounds"
+  cp "$logs/out" "coarse${#memory}.json"
+done
+same coarse0.json coarse12.json over_tolerance weighted_max_error weighted_rmse
+holds "$(json coarse0.json over_tolerance) > 1000"
+
+# What cannot be is refused before the work.
+refuses 2 "--tolerance broken.tif: the value -" "$scarp" simplify hills.tif x.obj --tolerance broken.tif --memory "${small}M"
+refuses 2 "gdal_translate" "$scarp" simplify hills.tif x.obj --tolerance narrow.tif --memory "${small}M"
+refuses 1 "--mask needs all samples in memory" "$scarp" simplify hills.tif x.obj -e 40 --mask accuracy.tif --memory "${small}M"
+for verb in "simplify hills.tif x.obj -e 40" "measure hills.tif coarse.obj --fail-above 40"; do
+  refuses 1 "--memory is too little: --roi takes 9M; allow 90M" "$scarp" $verb --roi long.geojson=2 --memory "${small}M"
+done
