@@ -320,6 +320,9 @@ double bilinear_at(const Heights& raster, std::int32_t cols, std::int32_t rows, 
   const std::array<double, 4> weights{(1 - right) * (1 - down), right * (1 - down), right * down, (1 - right) * down};
   std::array<double, 4> heights{raster.at({col, row}), raster.at({col + 1, row}), raster.at({col + 1, row + 1}),
                                 raster.at({col, row + 1})};
+  double whole = 0;
+  for (std::size_t k = 0; k < 4; ++k) whole += weights[k] * heights[k];
+  if (!std::isnan(whole)) return whole;  // without voids the weights, which are exact, add up to 1
   const auto voids = std::count_if(heights.begin(), heights.end(), [](double z) { return std::isnan(z); });
   if (voids == 1) {
     const auto k = static_cast<std::size_t>(

@@ -269,7 +269,7 @@ class Run {
     // What refinement left and no line touches keeps the bound.
     Refinement refinement(judge, domain_->tin, Algorithm::kHeap, {},
                           lays_first() ? Refinement::Start::kScan : Refinement::Start::kClean);
-    if (!lays_first()) refinement.scan(laid->changed());
+    if (!lays_first()) refinement.scan(laid->changed(), options_.threads);
     const double first_error = refinement.worst_error();
     for (std::uint64_t step = 0; !refinement.done(); ++step) {
       if (refinement.is_full()) return fail(ErrorKind::kInput, kTooManyTriangles);

@@ -34,11 +34,12 @@ class SoftLine {
   Line follow(const Line& line, bool is_cut = false) const {
     Line result = line;
     result.points.clear();
+    std::vector<double> heights;
     for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
       result.points.push_back(line.points[k]);
       if (is_cut && is_along_side(line.points[k], line.points[k + 1])) continue;
       if (std::isnan(line.points[k][2]) || std::isnan(line.points[k + 1][2]))
-        add_between(line.points[k], line.points[k + 1], is_cut, result.points);
+        add_between(line.points[k], line.points[k + 1], is_cut, heights, result.points);
     }
     result.points.push_back(line.points.back());
     return result;
@@ -83,15 +84,16 @@ class SoftLine {
     return surface_at(samples_, {col, row});
   }
 
-  /// Bends where the surface asks for it. Two looks a sample.
-  void add_between(const Place& from, const Place& to, bool is_cut, std::vector<Place>& points) const {
+  /// Bends where the surface asks for it. Two looks a sample, whose heights are left in `heights`.
+  void add_between(const Place& from, const Place& to, bool is_cut, std::vector<double>& heights,
+                   std::vector<Place>& points) const {
     const SamplePlace way = to_samples_.way(to[0] - from[0], to[1] - from[1]);
     const double length = std::hypot(way.col, way.row);
     constexpr double kMostLooks = 1 << 20;
     const auto looks =
         static_cast<std::size_t>(std::min(std::ceil(static_cast<double>(kLooksASample) * length), kMostLooks));
     if (looks < 2) return;
-    std::vector<double> heights;
+    heights.clear();
     for (std::size_t i = 0; i <= looks; ++i)
       heights.push_back(height_at(between(from, to, static_cast<double>(i) / static_cast<double>(looks))));
     for (const std::size_t i : find_bends(heights, tolerance_, is_cut ? kLooksASample : 1)) {

@@ -32,7 +32,7 @@ std::size_t find_split(const std::vector<double>& heights, double tolerance, std
 
 std::vector<std::size_t> find_bends(const std::vector<double>& heights, double tolerance, std::size_t gap) {
   std::vector<std::size_t> bends;
-  if (heights.size() < 3) return bends;
+  if (heights.size() < 3 || find_split(heights, tolerance, gap, 0, heights.size() - 1) == 0) return bends;
   std::vector<std::pair<std::size_t, std::size_t>> open{{0, heights.size() - 1}};
   while (!open.empty()) {
     const auto [first, last] = open.back();

@@ -10,15 +10,16 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel.h"
 #include "criterion.h"
 #include "cut_source.h"
 #include "effort.h"
 #include "engine_run.h"
 #include "error_search.h"
-#include "field_lines.h"
 #include "goals.h"
 #include "grid/raster.h"
 #include "line_budget.h"
+#include "line_work.h"
 #include "proof.h"
 #include "refine/samples.h"
 #include "refine/source_judge.h"
@@ -45,9 +46,10 @@ Result<void> check_options(const HeightField& field, const SimplifyOptions& opti
   return {};
 }
 
-/// Without a search for the error of a budget. `lines`: to be laid; null: none.
-Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options,
-                                 const ConstraintGraph* lines);
+/// Without a search for the error of a budget. `lines`: to be laid, prepared or such as may wait; null: none.
+Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options, LineWork* lines);
+
+const ConstraintGraph* graph_of(const LineWork* lines) { return lines != nullptr ? &lines->graph() : nullptr; }
 
 Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const SimplifyOptions& options,
                                           const Criterion& criterion, const ConstraintGraph* lines, RowFits& fits) {
@@ -72,9 +74,21 @@ Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const Simpli
   return refine_tiled(seen, tiles);
 }
 
+/// And prepares lines that have waited for this.
+Result<std::optional<Tiled>> refine_beside_lines(const HeightField& field, const SimplifyOptions& options,
+                                                 const Criterion& criterion, LineWork* lines, RowFits& fits) {
+  if (lines == nullptr || lines->is_prepared()) return refine_tiles(field, options, criterion, graph_of(lines), fits);
+  Result<void> prepared;
+  Result<std::optional<Tiled>> tiled;
+  run_beside(
+      options.threads, [&] { prepared = lines->prepare(); },
+      [&] { tiled = refine_tiles(field, options, criterion, nullptr, fits); });
+  if (!prepared) return tl::unexpected(prepared.error());
+  return tiled;
+}
+
 /// The dominant order; greedily where that is of no use.
-Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOptions& options,
-                                  const ConstraintGraph* lines) {
+Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOptions& options, LineWork* lines) {
   // The engine reads voids as such; what else looks at samples beyond the mesh's own needs them cleaned.
   Raster raster{field.samples, field.cols, field.rows};
   std::optional<Samples> samples;
@@ -91,7 +105,7 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
   if (auto fits = memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
   const auto start = Clock::now();
   RowFits fits;
-  auto tiled = refine_tiles(field, options, *criterion, lines, fits);
+  auto tiled = refine_beside_lines(field, options, *criterion, lines, fits);
   if (!tiled) return tl::unexpected(tiled.error());
   if (!*tiled) {
     if (field.samples == nullptr)
@@ -117,7 +131,7 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
     passes.push_back({"refine", fits.seconds_of_bounds, fits.bounds.samples_scanned, fits.bounds.triangles_scanned,
                       fits.bounds.passes});
   if (fits_rows(field, options)) passes.push_back({"fit", fits.seconds, 0, 0, 0, fits.removed});
-  auto result = run_engine(field, raster, options, *criterion, by_rows ? nullptr : lines, std::move(*tiled));
+  auto result = run_engine(field, raster, options, *criterion, by_rows ? nullptr : graph_of(lines), std::move(*tiled));
   if (!result) return result;
   result->passes.insert(result->passes.begin(), passes.begin(), passes.end());
   result->seconds_refine += seconds;
@@ -125,17 +139,18 @@ Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOption
   return result;
 }
 
-Result<Simplified> simplify_greedily(const HeightField& field, const SimplifyOptions& options,
-                                     const ConstraintGraph* lines) {
+Result<Simplified> simplify_greedily(const HeightField& field, const SimplifyOptions& options, LineWork* lines) {
+  if (lines != nullptr) {
+    if (auto prepared = lines->prepare(); !prepared) return tl::unexpected(prepared.error());
+  }
   auto samples = Samples::of(field);
   if (!samples) return tl::unexpected(samples.error());
   const auto criterion = Criterion::make(field, options, samples->raster(), aim_of(field, options));
   if (!criterion) return tl::unexpected(criterion.error());
-  return run_engine(field, samples->raster(), options, *criterion, lines, std::nullopt);
+  return run_engine(field, samples->raster(), options, *criterion, graph_of(lines), std::nullopt);
 }
 
-Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options,
-                                 const ConstraintGraph* lines) {
+Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options, LineWork* lines) {
   if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
   const char* obstacle = options.order == Order::kGreedy ? "is not the greedy one" : find_obstacle(field, options);
@@ -172,14 +187,15 @@ Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyO
   options.memory_taken +=
       line_bytes(field, options.breaklines) + line_bytes(field, options.cutline.rings, options.cutline.affine);
   if (auto fits = memory_budget(field, options).check_start(0); !fits) return tl::unexpected(fits.error());
-  const double tolerance = kLineShare * *options.max_error;
-  auto lines = prepare_lines(field, options.breaklines, options.cutline, tolerance, options.threads,
-                             field.samples != nullptr ? 0 : side_of_rows(field, options));
-  if (!lines) return tl::unexpected(lines.error());
+  LineWork work(field, options, kLineShare * *options.max_error);
   const double seconds = seconds_since(start);
-  auto result = simplify_once(lines->apply(field), options, &lines->graph);
+  if (!work.may_wait()) {
+    if (auto prepared = work.prepare(); !prepared) return tl::unexpected(prepared.error());
+  }
+  auto result = simplify_once(work.field(), options, &work);
   if (!result) return result;
-  result->passes.insert(result->passes.begin(), Pass{"arrange", seconds});
+  FieldLines* const lines = &work.lines();
+  result->passes.insert(result->passes.begin(), Pass{"arrange", seconds + work.seconds()});
   result->edits = std::move(lines->edits);
   result->lines_laid = lines->laid;
   result->lines_for = *options.max_error;

@@ -96,6 +96,25 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   failure.rethrow();
 }
 
+void run_beside(int threads, const std::function<void()>& beside, const std::function<void()>& rest) {
+  FirstFailure failure(2);
+  const auto run = [&](std::size_t i, const std::function<void()>& task) {
+    if (failure.is_needless(i)) return;
+    try {
+      task();
+    } catch (...) {
+      failure.keep(i, std::current_exception());
+    }
+  };
+  {
+    Pool pool(1);
+    const auto first = [&] { run(0, beside); };
+    if (thread_count(threads) == 1 || !pool.start(first)) first();
+    run(1, rest);
+  }
+  failure.rethrow();
+}
+
 namespace {
 
 /// Which tasks have started, ended and been committed.

@@ -23,6 +23,11 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
 void parallel_in_order(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& task,
                        const std::function<bool(std::size_t)>& commit);
 
+/// Calls beside() on a thread of its own while the calling thread calls rest(); returns when both have ended. With one
+/// thread (or where the machine gives no more) beside() comes first. Neither reads what the other writes. Exceptions:
+/// as parallel_for(), beside() being of the lower index.
+void run_beside(int threads, const std::function<void()>& beside, const std::function<void()>& rest);
+
 /// A value that threads use one after the other.
 template <class T>
 class Shared {

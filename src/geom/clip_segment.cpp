@@ -42,6 +42,11 @@ bool narrow(std::int64_t from, std::int64_t span, std::int64_t most, Ratio& begi
 
 bool clip_segment(const Segment& segment, std::int32_t width, std::int32_t height, ClippedSegment& clipped) {
   const auto [from, to] = segment;
+  const auto is_within = [&](Point p) { return p.x >= 0 && p.x <= width && p.y >= 0 && p.y <= height; };
+  if (is_within(from) && is_within(to)) {
+    clipped = {segment, 0, 1};
+    return from != to;
+  }
   Ratio begin{0, 1}, end{1, 1};
   if (!narrow(from.x, std::int64_t{to.x} - from.x, width, begin, end) ||
       !narrow(from.y, std::int64_t{to.y} - from.y, height, begin, end))

@@ -69,6 +69,7 @@ Result<ConstrainedMesh> ConstrainedMesh::lay(const Raster& raster, Triangulation
   tin.scale(kLatticeSteps);
   std::vector<Vertex> vertices(graph.points.size(), kNone);
   const std::vector<bool> is_held = held_points(graph);
+  mesh.heights_.reserve(graph.points.size());
   for (const std::uint32_t i : nearby_order(graph.points)) {
     const Point p = graph.points[i];
     const auto location = tin.locate(p, tin.last_touched());

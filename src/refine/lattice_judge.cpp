@@ -1,5 +1,6 @@
 #include "refine/lattice_judge.h"
 
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -25,8 +26,12 @@ void PlaceHeights::set(Point place, float height) {
   if (slot.key == 0) ++taken_;
   slot = {key(place), height};
   has_samples_ = has_samples_ || is_sample(place);
-  if (2 * taken_ <= slots_.size()) return;
-  const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(2 * slots_.size()));
+  reserve(taken_);
+}
+
+void PlaceHeights::reserve(std::size_t count) {
+  if (2 * count <= slots_.size()) return;
+  const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(std::bit_ceil(2 * count)));
   for (const Slot& moved : old) {
     if (moved.key != 0) slots_[find(moved.key)] = moved;
   }

@@ -18,6 +18,8 @@ class PlaceHeights {
  public:
   explicit PlaceHeights(const SampleView& samples) : samples_(samples), slots_(kFewest) {}
   void set(Point place, float height);
+  /// Makes room for so many, so that set() need not move others.
+  void reserve(std::size_t count);
   static bool is_sample(Point place) { return place.x % kLatticeSteps == 0 && place.y % kLatticeSteps == 0; }
   /// REQUIRES: it was given, or is a sample's.
   float at(Point place) const {

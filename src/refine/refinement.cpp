@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/parallel.h"
+
 namespace scarp {
 
 Refinement::Refinement(const Judge& judge, Triangulation& tin, Algorithm algorithm, const EdgeRule& edges, Start start)
@@ -20,22 +22,53 @@ Refinement::Refinement(const Judge& judge, Triangulation& tin, Algorithm algorit
   }
 }
 
-void Refinement::rescan(Triangle t) {
-  std::optional<Candidate> candidate;
-  if (!tin_.is_outside(t)) {
-    if (rule_) {
-      candidate = judge_.find_candidate(tin_.corners(t), rule_->fit_of(tin_, t));
-    } else {
-      const Fit fit = judge_.fit(tin_.corners(t), {});
-      samples_ += fit.scanned;
-      ++triangles_;
-      candidate = judge_.find_candidate(tin_.corners(t), fit);
-    }
-  }
+Refinement::Look Refinement::look_at(Triangle t) const {
+  const Fit fit = judge_.fit(tin_.corners(t), {});
+  return {judge_.find_candidate(tin_.corners(t), fit), fit.scanned};
+}
+
+void Refinement::take(Triangle t, const std::optional<Candidate>& candidate) {
   if (candidate) {
     candidates_->set(t, *candidate);
   } else {
     candidates_->remove(t);
+  }
+}
+
+void Refinement::rescan(Triangle t) {
+  if (tin_.is_outside(t)) return take(t, std::nullopt);
+  if (rule_) return take(t, judge_.find_candidate(tin_.corners(t), rule_->fit_of(tin_, t)));
+  const Look look = look_at(t);
+  samples_ += look.samples;
+  ++triangles_;
+  take(t, look.candidate);
+}
+
+void Refinement::scan(std::span<const Triangle> triangles, int threads) {
+  struct Found {
+    Triangle triangle;
+    Candidate candidate;
+  };
+  struct Part {
+    std::vector<Found> found;
+    std::uint64_t samples = 0, triangles = 0;
+  };
+  constexpr std::size_t kTogether = 4096;
+  std::vector<Part> parts((triangles.size() + kTogether - 1) / kTogether);
+  parallel_for(parts.size(), threads, [&](std::size_t i) {
+    Part& part = parts[i];
+    for (const Triangle t : triangles.subspan(i * kTogether, std::min(kTogether, triangles.size() - i * kTogether))) {
+      if (tin_.is_outside(t)) continue;
+      const Look look = look_at(t);
+      part.samples += look.samples;
+      ++part.triangles;
+      if (look.candidate) part.found.push_back({t, *look.candidate});
+    }
+  });
+  for (const Part& part : parts) {
+    samples_ += part.samples;
+    triangles_ += part.triangles;
+    for (const Found& found : part.found) candidates_->set(found.triangle, found.candidate);
   }
 }
 

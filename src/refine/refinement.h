@@ -70,16 +70,22 @@ class Refinement {
   bool has_changed(Triangle t) const { return t < changed_.size() && changed_[t] != 0; }
   std::uint32_t gain_near(Point p, Triangle hint) const { return gain(tin_.locate(p, hint)); }
   void rescan_changed();
-  /// Scans triangles, for which nobody else has answered.
-  void scan(std::span<const Triangle> triangles) {
-    for (const Triangle t : triangles) rescan(t);
-  }
+  /// Scans triangles, for which nobody else has answered, each once. REQUIRES: on several threads, a judge that they
+  /// may ask at the same time, and no EdgeRule.
+  void scan(std::span<const Triangle> triangles, int threads = 1);
 
   std::uint64_t triangle_count() const { return inside_; }
   Work work() const;
 
  private:
   void add(Point p, Triangulation::Location location);
+  /// What a scan of a triangle finds.
+  struct Look {
+    std::optional<Candidate> candidate;
+    std::uint64_t samples = 0;
+  };
+  Look look_at(Triangle t) const;
+  void take(Triangle t, const std::optional<Candidate>& candidate);
   void rescan(Triangle t);
   void rescan_all();
   std::uint32_t gain(const Triangulation::Location& location) const;

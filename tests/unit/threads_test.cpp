@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <future>
+#include <limits>
 #include <new>
 #include <numeric>
 #include <stdexcept>
@@ -182,6 +183,34 @@ TEST(Threads, ACommitThatThrowsEndsTheLoop) {
   }
 }
 
+TEST(Threads, WhatRunsBesideHasEndedWithTheRest) {
+  for (const int threads : {1, 2, 8}) {
+    const std::thread::id caller = std::this_thread::get_id();
+    int beside = 0, rest = 0;
+    run_beside(
+        threads, [&] { beside = 1; }, [&] { rest = std::this_thread::get_id() == caller ? 1 : 2; });
+    EXPECT_EQ(beside, 1) << threads << " threads";
+    EXPECT_EQ(rest, 1) << threads << " threads: the caller's own";
+  }
+}
+
+TEST(Threads, WhatIsThrownBesideComesThroughFirst) {
+  for (const int threads : {1, 2}) {
+    const auto thrown = [&](bool beside_too) {
+      try {
+        run_beside(
+            threads, [&] { beside_too ? throw std::runtime_error("beside") : void(); },
+            [] { throw std::runtime_error("rest"); });
+      } catch (const std::runtime_error& error) {
+        return std::string(error.what());
+      }
+      return std::string();
+    };
+    EXPECT_EQ(thrown(true), "beside") << threads << " threads";
+    EXPECT_EQ(thrown(false), "rest") << threads << " threads";
+  }
+}
+
 TEST(Threads, NeverChangeATiledMesh) {
   const OwnedHeightField field = make_waves(300, 200);
   const auto one = refine_tiled(field, {.threshold = 0.5, .threads = 1, .tile_side = 32});
@@ -257,6 +286,38 @@ TEST(Threads, NeverChangeTheMesh) {
   ASSERT_TRUE(one && many);
   EXPECT_EQ(one->mesh.positions, many->mesh.positions);
   EXPECT_EQ(one->mesh.triangles, many->mesh.triangles);
+}
+
+/// So many that what they change is scanned in several parts.
+LineConstraints make_soft_lines(int cols, int rows) {
+  LineConstraints lines;
+  for (int k = 0; k < 60; ++k) {
+    Line line;
+    for (int i = 0; i <= 50; ++i)
+      line.points.push_back({10 + i * (cols - 20) / 50.0, 5 + k * (rows - 10) / 60.0 + std::sin(0.7 * i + k),
+                             std::numeric_limits<double>::quiet_NaN()});
+    lines.lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+TEST(Threads, NeverChangeAMeshWithLines) {
+  const OwnedHeightField field = make_waves(300, 200);
+  for (const Effort effort : {Effort::kFast, Effort::kNormal}) {
+    SimplifyOptions options;
+    options.max_error = 0.5;
+    options.effort = effort;
+    options.breaklines = make_soft_lines(300, 200);
+    options.threads = 1;
+    const Result<Simplified> one = simplify(field, options);
+    options.threads = 4;
+    const Result<Simplified> many = simplify(field, options);
+    ASSERT_TRUE(one && many);
+    EXPECT_EQ(one->mesh.positions, many->mesh.positions);
+    EXPECT_EQ(one->mesh.triangles, many->mesh.triangles);
+    EXPECT_EQ(one->lines_laid, 60u);
+    EXPECT_EQ(many->lines_laid, 60u);
+  }
 }
 
 TEST(Threads, CallersMayUseTheLibraryFromTheirOwn) {

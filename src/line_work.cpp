@@ -1,0 +1,42 @@
+#include "line_work.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel.h"
+#include "breaklines.h"
+#include "goals.h"
+#include "grid/line_places.h"
+#include "row_fit.h"
+
+namespace scarp {
+
+LineWork::LineWork(const HeightField& field, const SimplifyOptions& options, double tolerance)
+    : field_(field), options_(options), tolerance_(tolerance) {}
+
+bool LineWork::may_wait() const {
+  const LineConstraints& given = options_.breaklines;
+  if (thread_count(options_.threads) == 1) return false;
+  const bool is_too_large = std::max(field_.cols, field_.rows) > kMaxCoordinate / kLatticeSteps;
+  if (field_.samples == nullptr || is_too_large || !options_.cutline.rings.empty()) return false;
+  return std::all_of(given.lines.begin(), given.lines.end(), [&](const Line& line) {
+    const bool is_soft =
+        std::all_of(line.points.begin(), line.points.end(), [](const auto& p) { return std::isnan(p[2]); });
+    return is_soft && !is_laid_first(line) && check_line_places(line.name, line.points, given.affine);
+  });
+}
+
+Result<void> LineWork::prepare() {
+  if (is_prepared_) return {};
+  const auto start = Clock::now();
+  const std::int32_t row_side = field_.samples != nullptr ? 0 : side_of_rows(field_, options_);
+  auto lines = prepare_lines(field_, options_.breaklines, options_.cutline, tolerance_, options_.threads, row_side);
+  if (!lines) return tl::unexpected(lines.error());
+  lines_ = std::move(*lines);
+  is_prepared_ = true;
+  seconds_ = seconds_since(start);
+  return {};
+}
+
+}  // namespace scarp
