@@ -117,8 +117,6 @@ Result<void> check_shape(const HeightField& field, const SimplifyOptions& option
   if (!shape.any()) return {};
   const char* obstacle = find_lattice_obstacle(field, options);
   if (obstacle == nullptr && (has_budget(options) || !options.max_error)) obstacle = "needs a max error and no budget";
-  if (obstacle == nullptr && options.tolerance_source != nullptr)
-    obstacle = "has no tolerances where the raster is not in memory as a whole";
   if (obstacle != nullptr)
     return usage(fmt::format("a mesh with goals for angles and edges {}: leave out one or the other", obstacle));
   if (std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps)
