@@ -35,11 +35,9 @@ Result<void> SourceBounds::read(Point first, std::int32_t cols, std::int32_t row
   return {};
 }
 
-Result<void> SourceBounds::read_row(std::int32_t row, std::span<float> tolerances, std::span<float> bounds) const {
-  const auto cols = static_cast<std::int32_t>(tolerances.size());
-  if (auto read = tolerances_.read(0, row, cols, 1, tolerances.data(), cols); !read) return read;
-  std::transform(tolerances.begin(), tolerances.end(), bounds.begin(), [this](float asked) { return bound(asked); });
-  return {};
+Result<void> SourceBounds::read_tolerances(std::int32_t first, std::int32_t rows, std::int32_t cols,
+                                           float* tolerances) const {
+  return tolerances_.read(0, first, cols, rows, tolerances, cols);
 }
 
 }  // namespace scarp

