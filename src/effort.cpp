@@ -51,7 +51,7 @@ const char* find_strategy(const SimplifyOptions& options) {
 }
 
 /// What keeps a run from removing vertices; null if nothing does.
-const char* find_fit_obstacle(const HeightField& field, const SimplifyOptions& options) {
+const char* find_fit_obstacle(const SimplifyOptions& options) {
   if (std::any_of(options.script.begin(), options.script.end(), inserts))
     return "takes vertices away, also those that a script inserts";
   if (has_bounds(options) && has_budget(options)) return "has no budget where samples have bounds of their own";
@@ -117,8 +117,6 @@ Result<void> check_shape(const HeightField& field, const SimplifyOptions& option
   if (!shape.any()) return {};
   const char* obstacle = find_lattice_obstacle(field, options);
   if (obstacle == nullptr && (has_budget(options) || !options.max_error)) obstacle = "needs a max error and no budget";
-  if (obstacle == nullptr && options.tolerance_source != nullptr)
-    obstacle = "has no tolerances where the raster is not in memory as a whole";
   if (obstacle != nullptr)
     return usage(fmt::format("a mesh with goals for angles and edges {}: leave out one or the other", obstacle));
   if (std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps)
@@ -157,13 +155,13 @@ const char* find_obstacle(const HeightField& field, const SimplifyOptions& optio
   return find_strategy(options);
 }
 
-Effort choose_effort(const HeightField& field, const SimplifyOptions& options) {
+Effort choose_effort(const SimplifyOptions& options) {
   if (options.effort != Effort::kAuto) return options.effort;
   // Strategies are asked for to see what they do, so removal stays away from them, and from bounds of samples, which
   // insertion spends where they are small.
   const bool is_default = options.order != Order::kGreedy && options.memory_limit == 0 && options.best_of_budget &&
                           !has_bounds(options) && find_strategy(options) == nullptr &&
-                          find_fit_obstacle(field, options) == nullptr;
+                          find_fit_obstacle(options) == nullptr;
   return is_default ? Effort::kNormal : Effort::kFast;
 }
 
@@ -178,7 +176,7 @@ Result<void> check_effort(const HeightField& field, const SimplifyOptions& optio
   if (options.effort == Effort::kFast) {
     if (const char* need = find_need_of_effort(options))
       return usage(fmt::format("{} needs normal effort or more: fast effort is refinement alone", need));
-  } else if (const char* obstacle = find_fit_obstacle(field, options)) {
+  } else if (const char* obstacle = find_fit_obstacle(options)) {
     return usage(fmt::format("more than fast effort {}: leave that out, or take fast effort", obstacle));
   }
   if (options.tolerance_source != nullptr && has_budget(options))

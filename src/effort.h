@@ -20,7 +20,7 @@ bool lays_first(const SimplifyOptions& options);  ///< faults, ridges or valleys
 const char* find_obstacle(const HeightField& field, const SimplifyOptions& options);
 
 /// The effort that is made: that which was asked for, or what Effort::kAuto stands for.
-Effort choose_effort(const HeightField& field, const SimplifyOptions& options);
+Effort choose_effort(const SimplifyOptions& options);
 
 /// Fails with kUsage where effort, objective, vertices or shape contradict each other or the rest. REQUIRES:
 /// options.effort is chosen.

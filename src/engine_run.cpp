@@ -313,7 +313,7 @@ class Run {
     options.bounds = criterion_.aims();
     const auto norm = fit_norm(options_, raster_, criterion_);
     if (norm) options.norm = &*norm;
-    if (field_.samples == nullptr) read_windows(field_, memory_, options);
+    if (field_.samples == nullptr) read_windows(field_, memory_, options, criterion_.source_bounds());
     options.threads = fit_threads(window_bytes(options));
     const std::uint64_t windows = window_bytes(options) * static_cast<unsigned>(options.threads);
     if (auto fits = memory_.check_mesh(windows, vertices(), 1); !fits) return fits;
@@ -343,8 +343,9 @@ class Run {
     std::uint64_t rows = 0;
     if (field_.samples == nullptr) {
       task.field = &field_;
-      task.rows_at_once = rows_at_once(field_, memory_);
-      rows = bytes_at_once(field_, memory_);
+      task.source_bounds = criterion_.source_bounds();
+      task.rows_at_once = rows_at_once(field_, memory_, task.source_bounds);
+      rows = bytes_at_once(field_, memory_, task.source_bounds);
     }
     const auto before = static_cast<double>(domain_->tin.vertex_count());
     task.progress = [&](double share, std::uint64_t count, double error) -> Result<void> {

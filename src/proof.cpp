@@ -172,23 +172,30 @@ void judge_samples(const SimplifyOptions& options, const Criterion& criterion, c
   verdict.finish();
 }
 
-/// Judges rows as they come by bounds that are read with them.
+/// Judges rows as they come by bounds that are read with them, some rows at a time.
 class WindowedVerdict {
  public:
   WindowedVerdict(const HeightField& field, const SourceBounds& bounds, SampleVerdict verdict)
       : field_(field),
         bounds_(bounds),
         verdict_(std::move(verdict)),
-        tolerances_(static_cast<std::size_t>(field.cols)),
-        promised_(tolerances_.size()),
-        norms_(tolerances_.size()) {}
+        promised_(static_cast<std::size_t>(field.cols)),
+        norms_(promised_.size()) {}
+
+  /// Samples whose tolerances are held.
+  static std::uint64_t most_held(const HeightField& field) {
+    return static_cast<std::uint64_t>(field.cols) * static_cast<unsigned>(rows_at_once(field));
+  }
 
   /// For MeasureOptions::on_row.
   void add(int row, std::span<const float> errors) {
-    if (!status_) return;
-    if (status_ = bounds_.read_row(row, tolerances_, promised_); !status_) return;
+    if (!status_ || !hold(row)) return;
+    const auto tolerances = std::span<const float>(held_).subspan(
+        static_cast<std::size_t>(row - first_) * promised_.size(), promised_.size());
+    std::transform(tolerances.begin(), tolerances.end(), promised_.begin(),
+                   [this](float asked) { return bounds_.bound(asked); });
     std::transform(errors.begin(), errors.end(), norms_.begin(), [](float error) { return std::abs(error); });
-    verdict_.add(row, norms_, {{}, tolerances_, promised_});
+    verdict_.add(row, norms_, {{}, tolerances, promised_});
     count_ignored(row);
   }
   /// The valid samples without a bound. Fails as what was read did.
@@ -199,6 +206,21 @@ class WindowedVerdict {
   }
 
  private:
+  static int rows_at_once(const HeightField& field) {
+    constexpr int kSamples = 1 << 18;
+    return std::clamp(kSamples / field.cols, 1, field.rows);
+  }
+
+  bool hold(int row) {
+    const int count = std::min(rows_at_once(field_), field_.rows - row);
+    if (row < end_) return true;
+    held_.resize(static_cast<std::size_t>(count) * promised_.size());
+    status_ = bounds_.read_tolerances(row, count, field_.cols, held_.data());
+    first_ = row;
+    end_ = row + count;
+    return status_.has_value();
+  }
+
   /// Samples outside the mesh may be valid, too.
   void count_ignored(int row) {
     bool is_in_doubt = false;
@@ -219,7 +241,8 @@ class WindowedVerdict {
   const HeightField& field_;
   const SourceBounds& bounds_;
   SampleVerdict verdict_;
-  std::vector<float> tolerances_, promised_, norms_;
+  std::vector<float> held_, promised_, norms_;  // the first of rows [first_, end_)
+  int first_ = 0, end_ = 0;
   std::uint64_t ignored_ = 0;
   Result<void> status_;
 };
@@ -245,7 +268,8 @@ std::string describe_breach(const Measurement& m, const SimplifyOptions& options
 }  // namespace
 
 std::uint64_t proof_bytes(const HeightField& field, const SimplifyOptions& options) {
-  return static_cast<std::uint64_t>(threads_within(field, options)) * band_bytes(field, options);
+  const std::uint64_t held = options.tolerance_source != nullptr ? WindowedVerdict::most_held(field) : 0;
+  return static_cast<std::uint64_t>(threads_within(field, options)) * band_bytes(field, options) + held * sizeof(float);
 }
 
 Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, const Criterion& criterion, bool exact,

@@ -30,7 +30,7 @@ std::vector<std::int32_t> vertices_along(const TileRow& row, std::int32_t y) {
 Result<void> RowBounds::load(const TileRow& row) {
   const Raster& samples = row.samples;
   aims_.resize(static_cast<std::size_t>(samples.cols) * static_cast<std::size_t>(samples.rows));
-  return bounds_.read_aims({0, row.first}, samples.cols, samples.rows, samples.samples, aims_.data());
+  return bounds_.read_aims(row.first, samples, aims_.data());
 }
 
 Result<void> RowBounds::split_shared(TileRow& row, bool is_top) {

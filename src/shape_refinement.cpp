@@ -19,6 +19,7 @@
 #include "refine/refinement.h"
 #include "refine/sample_rows.h"
 #include "refine/size_field.h"
+#include "sample_bands.h"
 
 namespace scarp {
 
@@ -40,20 +41,11 @@ double dot_of(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[
 /// Whether the angle between u and v is less than the one whose cosine has this square (of 0 … 90 degrees).
 bool is_sharper(double dot, double squares, double cosine2) { return dot > 0 && dot * dot > cosine2 * squares; }
 
-/// Bands of which each is at work once in a sweep, with half as much of its neighbours on both sides in memory.
-struct Bands {
-  std::int32_t rows = 0, side = 1;
-
-  std::size_t count() const { return static_cast<std::size_t>((rows - 1) / side + 1); }
-  std::int32_t begin(std::size_t i) const { return static_cast<std::int32_t>(i) * side; }
-  std::size_t at(std::int32_t row) const { return static_cast<std::size_t>(row / side); }
-  /// A little above a band counts as in it, so that it need not wait for another sweep.
-  bool reaches(std::size_t i, std::int32_t row) const { return row >= begin(i) - side / 4 && row < begin(i) + side; }
-  void hold(std::size_t i, SampleRows& samples) const {
-    const std::int32_t first = std::max(begin(i) - side / 2, 0);
-    samples.hold(first, std::min(begin(i) + side + side / 2, rows) - first);
-  }
-};
+SampleRows::Read aims_of(const SourceBounds& bounds) {
+  return [&bounds](Point first, std::int32_t cols, std::int32_t rows, float* out) {
+    return bounds.read_aims(first, cols, rows, out, cols);
+  };
+}
 
 /// The order of work: what is too large before what is too sharp, larger excess first, shorter edges first.
 struct Bad {
@@ -74,13 +66,18 @@ class ShapeRefiner {
       : bands_{raster.rows, std::max(task.rows_at_once / 2, 1)},
         rows_(raster.samples == nullptr ? std::optional<SampleRows>(std::in_place, *task.field, 2 * bands_.side)
                                         : std::nullopt),
+        bound_rows_(task.source_bounds != nullptr
+                        ? std::optional<SampleRows>(std::in_place, raster.cols, raster.rows,
+                                                    aims_of(*task.source_bounds), 2 * bands_.side)
+                        : std::nullopt),
         samples_(rows_ ? SampleView(*rows_) : SampleView(raster)),
         tin_(tin),
         task_(task),
         metric_(task.affine, kLatticeSteps),
         delaunay_(metric_),
         heights_(samples_),
-        judge_(samples_, heights_, task.threshold, task.bounds),
+        judge_(bound_rows_ ? LatticeJudge(samples_, heights_, *bound_rows_)
+                           : LatticeJudge(samples_, heights_, task.threshold, task.bounds)),
         fixed_(places.fixed),
         cosine2_(squares_of(task.goals.min_angle + kSlack).cosine),
         least_(kClosest * metric_.shorter_side()) {
@@ -147,6 +144,7 @@ class ShapeRefiner {
       const std::vector<Triangle> here = std::exchange(waiting_[band_], {});
       if (here.empty()) continue;
       bands_.hold(band_, *rows_);
+      if (bound_rows_) bands_.hold(band_, *bound_rows_);
       for (const Triangle t : here) {
         // Who has left the band has been changed, and scanned.
         if (is_first && bands_.at(row_of(t)) == band_) refinement_->scan({&t, 1});
@@ -549,8 +547,9 @@ class ShapeRefiner {
     for (const Triangle t : refinement_->changed()) enqueue(t);
   }
 
-  Bands bands_;
+  SampleBands bands_;
   std::optional<SampleRows> rows_;  ///< where the samples are not in memory as a whole
+  std::optional<SampleRows> bound_rows_;
   SampleView samples_;
   Triangulation& tin_;
   const ShapeTask& task_;

@@ -29,6 +29,7 @@
 #include "fit/rules.h"
 #include "grid/raster.h"
 #include "grid/vertex_places.h"
+#include "refine/source_bounds.h"
 #include "scarp/frame.h"
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
@@ -48,7 +49,9 @@ struct ShapeTask {
   /// the worst error; what it says ends the run.
   std::function<Result<void>(double share, std::uint64_t vertices, double error)> progress = {};
   /// Where the raster has no samples: whose source has them, alive, and how many rows are held at a time, at least 4.
+  /// Then bounds of samples come from windows, too; null: the threshold holds for all.
   const HeightField* field = nullptr;
+  const SourceBounds* source_bounds = nullptr;
   std::int32_t rows_at_once = 0;
 };
 

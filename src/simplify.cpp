@@ -243,7 +243,7 @@ Result<Simplified> simplify_within(const HeightField& field, const SimplifyOptio
 
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& asked) try {
   SimplifyOptions options = asked;
-  options.effort = choose_effort(field, asked);
+  options.effort = choose_effort(asked);
   if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
   if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
   if (has_lines(options) || (field.samples == nullptr && has_budget(options))) return simplify_within(field, options);

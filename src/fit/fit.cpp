@@ -45,6 +45,7 @@ void spread(const Patch& patch, std::vector<std::uint8_t>& marks) {
 /// Whether errors have energies somewhere.
 bool has_energies(const FitOptions& options) {
   const auto has = [](double bound) { return bound > 0x1p-60 && bound < 0x1p60; };
+  if (options.read_bounds) return true;
   return options.bounds.empty() ? has(options.threshold)
                                 : std::any_of(options.bounds.begin(), options.bounds.end(), has);
 }
@@ -165,7 +166,7 @@ class Rounds {
     return options_.most_window == 0 || std::int64_t{window.cols} * window.rows <= options_.most_window;
   }
   TriangleError errors_of(const Patch& patch, SampleWindow& window) const {
-    if (options_.read) return window.errors(options_.read, patch, options_.threshold);
+    if (options_.read) return window.errors(options_.read, options_.read_bounds, patch, options_.threshold);
     return window.errors(raster_, options_.bounds, options_.norm, patch, options_.threshold);
   }
 

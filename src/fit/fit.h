@@ -72,6 +72,8 @@ struct FitOptions {
   /// Copies the samples of a window to `to`, voids as NaN, and may throw; asked on any thread. DEFAULT: none, the
   /// raster has them.
   ReadWindow read = {};
+  /// The same of their bounds, in place of `bounds`. DEFAULT: none, the threshold or `bounds` hold.
+  ReadWindow read_bounds = {};
   std::int64_t most_window = 0;  ///< samples; patches that would have more read stay as they are; 0: any
   /// Told the share that is done and the vertices that are left, on the calling thread; false stops with kCancelled.
   std::function<bool(double share, std::uint64_t vertices)> progress = {};

@@ -54,12 +54,19 @@ class BoundRange {
 
 }  // namespace
 
-TriangleError SampleWindow::errors(const ReadWindow& read, const Patch& patch, double threshold) {
+TriangleError SampleWindow::errors(const ReadWindow& read, const ReadWindow& read_bounds, const Patch& patch,
+                                   double threshold) {
   const Patch::Window& window = patch.window();
   const std::int32_t stride = stride_of(window.cols);
   samples_.resize(static_cast<std::size_t>(stride) * static_cast<std::size_t>(window.rows));
   if (window.rows > 0) read(window, samples_.data(), stride);
-  return TriangleError(Raster{samples_.data(), stride, window.rows}, Point{0, 0}, threshold);
+  const Raster samples{samples_.data(), stride, window.rows};
+  if (!read_bounds) return TriangleError(samples, Point{0, 0}, threshold);
+  bounds_.resize(samples_.size());
+  if (window.rows > 0) read_bounds(window, bounds_.data(), stride);
+  const BoundRange range(samples, {bounds_.data(), stride, window.rows}, {{0, 0}, window.cols, window.rows});
+  if (range.is_one()) return TriangleError(samples, Point{0, 0}, range.least());
+  return TriangleError(samples, Point{0, 0}, SampleBounds{bounds_.data(), range.unit()});
 }
 
 TriangleError SampleWindow::errors(const Raster& raster, std::span<const float> bounds, const FitNorm* norm,

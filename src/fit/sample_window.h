@@ -28,8 +28,8 @@ class SampleWindow {
   /// else it has bounds. `norm`: of whose fields errors are; null: of heights alone.
   TriangleError errors(const Raster& raster, std::span<const float> bounds, const FitNorm* norm, const Patch& patch,
                        double threshold);
-  /// Of heights alone, whose samples are read.
-  TriangleError errors(const ReadWindow& read, const Patch& patch, double threshold);
+  /// Of heights alone, whose samples are read, and their bounds if they have some of their own.
+  TriangleError errors(const ReadWindow& read, const ReadWindow& read_bounds, const Patch& patch, double threshold);
 
  private:
   std::vector<float> samples_, bounds_;

@@ -41,19 +41,13 @@ std::array<float, 3> LatticeJudge::heights_at(const std::array<Point, 3>& corner
   return {heights_.at(corners[0]), heights_.at(corners[1]), heights_.at(corners[2])};
 }
 
-double LatticeJudge::bound_at(std::int32_t x, std::int32_t y) const {
-  return bounds_.empty() ? threshold_
-                         : double{bounds_[static_cast<std::size_t>(y) * static_cast<std::size_t>(samples_.cols()) +
-                                          static_cast<std::size_t>(x)]};
-}
-
 double LatticeJudge::importance(double error, double bound) const {
-  if (bounds_.empty()) return error;
+  if (!bounds_) return error;
   return error == 0 ? 0 : error / bound;
 }
 
 Fit LatticeJudge::fit(const std::array<Point, 3>& corners, const FitQuestion&) const {
-  return bounds_.empty() ? fit_evenly(corners) : fit_by_bounds(corners);
+  return bounds_ ? fit_by_bounds(corners) : fit_evenly(corners);
 }
 
 /// The largest error, where it may exceed the threshold.
@@ -98,11 +92,12 @@ Fit LatticeJudge::fit_by_bounds(const std::array<Point, 3>& corners) const {
   scan_samples(corners, kLatticeSteps, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     fit.scanned += static_cast<std::uint64_t>(last - first + 1);
     const float* const samples = samples_.samples(first, y, last - first + 1);
+    const float* const bounds = bounds_->samples(first, y, last - first + 1);
     const double row_height = plane.row_height(y * kLatticeSteps);
     for (std::int32_t x = first; x <= last; ++x) {
       const double offset = static_cast<double>(x * kLatticeSteps - plane.base.x);
       const double error = std::abs(row_height + plane.slope_x * offset - double{samples[x - first]});
-      const double bound = bound_at(x, y);
+      const double bound = bounds[x - first];
       if (!(error >= bound - plane.guard)) continue;  // void, or within its bound for certain
       fit.max_error = std::max(fit.max_error, error);
       fit.unsettled = true;
@@ -115,16 +110,18 @@ Fit LatticeJudge::fit_by_bounds(const std::array<Point, 3>& corners) const {
 
 std::optional<Candidate> LatticeJudge::find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const {
   if (!fit.unsettled) return std::nullopt;
-  if (bounds_.empty() && fit.worst.error > threshold_ + fit.guard) return fit.worst;
+  if (!bounds_ && fit.worst.error > threshold_ + fit.guard) return fit.worst;
   const Plane plane = plane_of(corners);
   const auto heights = heights_at(corners);
   std::optional<Candidate> worst;
   scan_samples(corners, kLatticeSteps, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     const float* const samples = samples_.samples(first, y, last - first + 1);
+    const float* const bounds = bounds_ ? bounds_->samples(first, y, last - first + 1) : nullptr;
     for (std::int32_t x = first; x <= last; ++x) {
       const float sample = samples[x - first];
       const Point place = place_of(x, y);
-      const double error = std::abs(plane.height_at(place) - double{sample}), bound = bound_at(x, y);
+      const double error = std::abs(plane.height_at(place) - double{sample});
+      const double bound = bounds != nullptr ? double{bounds[x - first]} : threshold_;
       if (!(error >= bound - plane.guard) || std::isinf(bound)) continue;
       const double share = importance(error, bound);
       if (worst && share <= worst->error) continue;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -59,11 +60,16 @@ class LatticeJudge final : public Judge {
  public:
   /// `heights` and the bounds stay alive.
   LatticeJudge(const SampleView& samples, const PlaceHeights& heights, double threshold, std::span<const float> bounds)
-      : samples_(samples), heights_(heights), threshold_(threshold), bounds_(bounds) {}
+      : samples_(samples), heights_(heights), threshold_(threshold) {
+    if (!bounds.empty()) bounds_ = SampleView(Raster{bounds.data(), samples.cols(), samples.rows()});
+  }
+  /// With bounds of which somebody holds rows.
+  LatticeJudge(const SampleView& samples, const PlaceHeights& heights, const SampleRows& bounds)
+      : samples_(samples), heights_(heights), bounds_(bounds) {}
 
   Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const override;
   std::optional<Candidate> find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const override;
-  double goal() const override { return bounds_.empty() ? threshold_ : 1; }
+  double goal() const override { return bounds_ ? 1 : threshold_; }
   double squares_between(Point a, Point b) const override;
   double bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const override;
 
@@ -72,13 +78,12 @@ class LatticeJudge final : public Judge {
   Fit fit_by_bounds(const std::array<Point, 3>& corners) const;
   std::array<float, 3> heights_at(const std::array<Point, 3>& corners) const;
   Plane plane_of(const std::array<Point, 3>& corners) const { return Plane::through(corners, heights_at(corners)); }
-  double bound_at(std::int32_t x, std::int32_t y) const;
   double importance(double error, double bound) const;
 
   SampleView samples_;
   const PlaceHeights& heights_;
-  double threshold_;
-  std::span<const float> bounds_;
+  double threshold_ = 0;
+  std::optional<SampleView> bounds_;
 };
 
 }  // namespace scarp

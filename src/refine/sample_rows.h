@@ -1,21 +1,27 @@
-// Samples of which some rows at a time are in memory, for those who work through a raster from the top down and seldom
-// look beyond.
+// Samples, or what else there is for each of them, of which some rows at a time are in memory, for those who work
+// through a raster from the top down and seldom look beyond.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
+#include "base/point.h"
 #include "grid/raster.h"
 #include "scarp/height_field.h"
+#include "scarp/result.h"
 
 namespace scarp {
 
-/// Rows of a field with a source. For one thread.
+/// Rows of a field with a source, or of who is asked in its place. For one thread.
 class SampleRows {
  public:
+  /// Reads a window, row-major.
+  using Read = std::function<Result<void>(Point first, std::int32_t cols, std::int32_t rows, float* out)>;
   /// Holds none yet, and at most so many later. The field stays alive.
   SampleRows(const HeightField& field, std::int32_t most);
+  SampleRows(std::int32_t cols, std::int32_t rows, Read read, std::int32_t most);
 
   /// Holds `count` rows from `first` on, and no others; those that it held are not read again. Throws SourceFailure.
   /// REQUIRES: count <= most.
@@ -25,11 +31,12 @@ class SampleRows {
   /// call alone. Throws SourceFailure.
   const float* samples(std::int32_t x, std::int32_t y, std::int32_t count) const;
 
-  std::int32_t cols() const { return field_.cols; }
-  std::int32_t rows() const { return field_.rows; }
+  std::int32_t cols() const { return cols_; }
+  std::int32_t rows() const { return rows_; }
 
  private:
-  const HeightField& field_;
+  std::int32_t cols_, rows_;
+  Read read_;
   std::int32_t first_ = 0, count_ = 0;
   std::vector<float> held_;
   mutable std::vector<float> apart_;

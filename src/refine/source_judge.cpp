@@ -36,7 +36,7 @@ class Window {
       return;
     }
     bounds_.resize(samples_.size());
-    or_throw(bounds->read_aims(first_, cols, rows, nullptr, bounds_.data()));
+    or_throw(bounds->read_aims(first_, cols, rows, bounds_.data(), cols));
     judge_ = std::make_unique<SampleJudge>(judging_by_bounds(raster, bounds_));
   }
   const Judge& judge() const { return *judge_; }

@@ -71,6 +71,12 @@ same one.json much.json bounded_max_error
 check fast none --roi site.geojson=2 --roi road.geojson=5
 same little.json much.json bounded_max_error bounded_max_error_at
 
+# Beside goals of shapes.
+succeeds within "$small" "$scarp" simplify hills.tif shaped.obj -e 40 "${sites[@]}" --min-angle 20 --effort normal --memory "${small}M" \
+  --report shaped.json
+[ "$(json shaped.json shape below)" = 0 ] || fail "triangles with smaller angles are left"
+succeeds "$scarp" measure hills.tif shaped.obj "${sites[@]}" --fail-above 40
+
 # A mesh that keeps no regions is found out, by as many samples.
 succeeds "$scarp" simplify hills.tif coarse.obj -e 40 -q
 for memory in "--memory ${small}M" ""; do

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "laws/array_bounds.h"
 #include "laws/array_source.h"
 #include "laws/fit_meshes.h"
 #include "laws/mesh_laws.h"
@@ -19,8 +20,10 @@
 namespace scarp::streamed_shape_laws_test {
 namespace {
 
+using testing::ArrayBounds;
 using testing::ArraySource;
 using testing::Field;
+using testing::kNoBound;
 using testing::Relief;
 using testing::with_source;
 
@@ -76,6 +79,14 @@ RC_GTEST_PROP(streamed_shapes, bands_leave_no_goal_behind, ()) {
   if (*rc::gen::arbitrary<bool>()) task.goals.grade = *rc::gen::element(0.1, 0.5);
   task.field = &streamed;
   task.rows_at_once = *rc::gen::element(4, 7, 16);
+  std::vector<float> bounds = testing::any_bounds(field.cols, field.rows);
+  const ArrayBounds tolerances(bounds, field.cols);
+  const SourceBounds by_sample(tolerances, task.threshold, {});
+  if (*rc::gen::arbitrary<bool>()) {
+    task.source_bounds = &by_sample;
+  } else {
+    bounds.assign(bounds.size(), kNoBound);
+  }
   double share = 0;
   task.progress = [&](double now, std::uint64_t, double) -> Result<void> {
     RC_ASSERT(now >= share && now <= 1);
@@ -89,8 +100,12 @@ RC_GTEST_PROP(streamed_shapes, bands_leave_no_goal_behind, ()) {
                                           (field.rows - 1) * kLatticeSteps + 1, testing::Edges::kAny) == "");
   RC_ASSERT(testing::outside_area2(start->tin) == outside);
   const Mesh mesh = freeze(SampleHeights(streamed, {}), start->tin, start->places, frame, false);
-  const auto judged = measure(field.view(), mesh);
+  for (float& bound : bounds) bound = bound * 1.000001f + 1e-6f;
+  MeasureOptions judge;
+  judge.tolerance = bounds;
+  const auto judged = measure(field.view(), mesh, judge);
   RC_ASSERT(judged.has_value());
+  RC_ASSERT(judged->over_tolerance == 0u);
   RC_ASSERT(judged->max_error <= task.threshold + 1e-9);
   RC_ASSERT(judged->uncovered == 0u);
   RC_ASSERT(judged->is_sound());
@@ -128,11 +143,20 @@ RC_GTEST_PROP(streamed_shapes, fitting_by_windows_is_fitting, ()) {
     }
     return Triangulation(std::move(arrays));
   };
+  std::vector<float> bounds;
+  if (*rc::gen::arbitrary<bool>()) {
+    bounds = testing::any_bounds(field.cols, field.rows);
+    for (float& bound : bounds) bound = std::max(bound, std::nextafter(static_cast<float>(threshold), kNoBound));
+  }
+  options.bounds = bounds;
   const auto whole = fit(field.raster(), copy(), places, options);
   const ArraySource source(field.view());
   const HeightField streamed = with_source(field.view(), source);
   FitOptions by_windows = options;
-  read_windows(streamed, {}, by_windows);
+  by_windows.bounds = {};
+  const ArrayBounds tolerances(bounds, field.cols);
+  const SourceBounds by_sample(tolerances, HUGE_VAL, {});
+  read_windows(streamed, {}, by_windows, bounds.empty() ? nullptr : &by_sample);
   const auto read = fit({nullptr, field.cols, field.rows}, copy(), places, by_windows);
   RC_ASSERT(whole.has_value() && read.has_value());
   const Triangulation &a = whole->tin, &b = read->tin;
