@@ -49,6 +49,7 @@ check() { # check EFFORT BOUND OPTION...: a mesh in little memory, judged in lit
   same little.json much.json weighted_max_error weighted_rmse ignored over_tolerance max_error rmse topology passed
   same one.json much.json weighted_max_error ignored max_error samples uncovered
   [ "$(json much.json topology sound)" = true ] || fail "the mesh is not sound"
+  [ "$effort" != high ] || return 0
   succeeds "$scarp" simplify hills.tif whole.obj "${bound[@]}" "$@" --effort "$effort" --report whole.json --overwrite
   same one.json whole.json ignored
   holds "$(json one.json triangles) < 1.1 * $(json whole.json triangles)"
