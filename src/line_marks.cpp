@@ -8,6 +8,8 @@
 namespace scarp {
 namespace {
 
+constexpr std::size_t kMostCrossings = std::size_t{1} << 20;
+
 /// Narrows [begin, end] to where from + t · span lies in [−1/2, size − 1/2]. False if that is nowhere.
 bool narrow(double from, double span, int size, double& begin, double& end) {
   const double least = -0.5, most = size - 0.5;
@@ -43,18 +45,25 @@ void LineRuns::add_polygons(std::span<const Line> lines) {
   for (const Line& line : lines) {
     if (line.is_ring()) polygons[line.polygon].push_back(&line);
   }
-  for (const auto& [polygon, rings] : polygons) fill(rings);
+  for (const auto& [polygon, rings] : polygons) fill(rings, 0, rows_);
 }
 
-/// Row by row, between every two crossings with the rings.
-void LineRuns::fill(const std::vector<const Line*>& rings) {
+/// Row by row, between every two crossings with the rings. Those of wild rings take many times the memory of their
+/// vertices: half of the rows at a time, then.
+void LineRuns::fill(const std::vector<const Line*>& rings, int begin, int end) {
   std::vector<std::pair<int, double>> crossings;
   for (const Line* ring : rings) {
     for (std::size_t k = 0; k + 1 < ring->points.size(); ++k) {
+      if (crossings.size() > kMostCrossings && end - begin > 1) {
+        crossings = {};
+        fill(rings, begin, begin + (end - begin) / 2);
+        return fill(rings, begin + (end - begin) / 2, end);
+      }
       SamplePlace p = place_of(ring->points[k]), q = place_of(ring->points[k + 1]);
       if (p.row > q.row) std::swap(p, q);
       // Half open, so that a vertex on a row counts once.
-      const double first = std::max(std::ceil(p.row), 0.0), last = std::min(std::ceil(q.row), double{1} * rows_);
+      const double first = std::max(std::ceil(p.row), double{1} * begin),
+                   last = std::min(std::ceil(q.row), double{1} * end);
       for (double row = first; row < last; ++row) {
         const double col = p.col + (row - p.row) / (q.row - p.row) * (q.col - p.col);
         if (!std::isnan(col)) crossings.emplace_back(static_cast<int>(row), col);
