@@ -287,7 +287,7 @@ class Run {
     }
     const bool may_move = options_.effort == Effort::kNormal || vertices_are_free(field_, options_);
     if (options_.effort != Effort::kFast && may_move) laid->release_starts(domain_->tin);
-    places_ = laid->places();
+    places_ = laid->places(options_.threads);
     if (lays_first()) result.work = refinement.work();
     record(result, "lines", start, refinement.work());
     return {};

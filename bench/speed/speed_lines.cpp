@@ -1,22 +1,28 @@
 // Times the arrangement of lines: seconds of one core for several kinds of lines, and of reading them from a file.
 //
 //   speed_lines            a Markdown table, on a raster of 3601 × 3601 samples
-//   speed_lines --meshes   what lines add to the time of a mesh: 100,000 vertices on 10 million samples
+//   speed_lines --meshes [PROJECT]
+//                          what 100,000 vertices of lines add to the time of a mesh of 10 million samples, read and
+//                          written: of a synthetic terrain, and of a real one where its raster is there
 //   speed_lines FILE...    reads each file, file.gpkg:layer, as it is
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <optional>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "../quality/files.h"
 #include "geom/arrangement.h"
 #include "scarp/scarp.h"
 
@@ -111,71 +117,122 @@ scarp::LineConstraints soft_lines(const scarp::Polylines& lines, int size) {
   return constraints;
 }
 
-/// Of simplify() and write_mesh(), the least of five runs; false if they fail.
-bool time_mesh(const scarp::OwnedHeightField& field, const scarp::SimplifyOptions& options, double& least,
-               scarp::Simplified& mesh) {
+struct Kind {
+  const char* name;
+  scarp::LineConstraints lines;
+};
+
+struct Times {
+  double cpu = 1e9, wall = 1e9;  ///< seconds of all cores together, and by the clock
+};
+
+/// Of what the program does: reading the raster, simplify(), writing the mesh. Nothing if that fails.
+std::optional<Times> time_mesh(const std::string& raster, const scarp::SimplifyOptions& options,
+                               scarp::Simplified& mesh) {
+  using Clock = std::chrono::steady_clock;
   const std::string path = (std::filesystem::temp_directory_path() / "speed_lines.glb").string();
-  least = 1e9;
-  for (int run = 0; run < 5; ++run) {
-    const double start = seconds();
-    auto made = scarp::simplify(field.view(), options);
-    const bool is_written = made && scarp::write_mesh(made->mesh, path).has_value();
-    const double time = seconds() - start;
-    std::filesystem::remove(path);
-    if (!is_written) return false;
-    if (time >= least) continue;
-    least = time;
-    mesh = std::move(*made);
-  }
-  return true;
+  const double start = seconds();
+  const auto clock_start = Clock::now();
+  const auto field = scarp::read_height_field(raster);
+  if (!field) return std::nullopt;
+  auto made = scarp::simplify(field->view(), options);
+  const bool is_written = made && scarp::write_mesh(made->mesh, path).has_value();
+  const Times times{seconds() - start, std::chrono::duration<double>(Clock::now() - clock_start).count()};
+  std::filesystem::remove(path);
+  if (!is_written) return std::nullopt;
+  mesh = std::move(*made);
+  return times;
 }
 
-/// One row of the table for each kind of lines; seconds of all cores together.
-bool time_meshes(const scarp::OwnedHeightField& field,
-                 const std::vector<std::pair<const char*, scarp::LineConstraints>>& kinds, const char* name,
+/// One row of the table for each kind of lines, the first of which is none; the least of five runs, by turns.
+bool time_meshes(const char* terrain, const std::string& raster, std::vector<Kind>& kinds, const char* effort,
                  scarp::SimplifyOptions options) {
-  double alone = 0;
-  for (const auto& [lines, constraints] : kinds) {
-    options.breaklines = constraints;
-    double time = 0;
-    scarp::Simplified mesh;
-    if (!time_mesh(field, options, time, mesh)) return false;
-    if (constraints.lines.empty()) alone = time;
+  constexpr int kRuns = 5;
+  std::vector<Times> least(kinds.size());
+  std::vector<scarp::Simplified> meshes(kinds.size());
+  for (int run = 0; run < kRuns; ++run) {
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      options.breaklines = kinds[k].lines;
+      const auto times = time_mesh(raster, options, meshes[k]);
+      if (!times) return false;
+      least[k] = {std::min(least[k].cpu, times->cpu), std::min(least[k].wall, times->wall)};
+    }
+  }
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
     double arrange = 0, lay = 0;
-    for (const scarp::Pass& pass : mesh.passes) {
+    for (const scarp::Pass& pass : meshes[k].passes) {
       if (pass.name == "arrange") arrange += pass.seconds;
       if (pass.name == "lines") lay += pass.seconds;
     }
-    std::printf("| %s | %g | %s | %zu | %.2f | %.2f | %.2f | %.2f |\n", name, *options.max_error, lines,
-                mesh.mesh.triangle_count(), time, time / alone, arrange, lay);
-    std::fflush(stdout);
+    std::printf("| %s | %s | %g | %s | %zu | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n", terrain, effort,
+                *options.max_error, kinds[k].name, meshes[k].mesh.triangle_count(), least[k].cpu,
+                least[k].cpu / least[0].cpu, least[k].wall, least[k].wall / least[0].wall, arrange, lay);
   }
+  std::fflush(stdout);
   return true;
 }
 
-/// From bounds that leave far fewer triangles than the lines ask for, to one that leaves several times as many.
-int time_meshes() {
-  constexpr int kSide = 3163;
-  const auto field = scarp::generate_field(scarp::FieldStyle::kFractal, kSide, kSide);
-  if (!field) return 1;
-  const std::vector<std::pair<const char*, scarp::LineConstraints>> kinds{
-      {"none", {}},
-      {"1,000 walks", soft_lines(Drawing().walks(1000), kSide)},
-      {"1,000 circles", soft_lines(Drawing().circles(1000), kSide)},
-  };
-  std::printf(
-      "| effort | max error | lines | triangles | s | to none | arrange | lines "
-      "|\n|---|---|---|---|---|---|---|---|\n");
+/// A raster as a file of its own.
+bool write_raster(const scarp::OwnedHeightField& field, const std::string& path) {
+  const auto bytes = scarp::encode_raster({field.samples, field.cols, field.rows}, scarp::RasterFormat::kGeoTiff);
+  if (!bytes) return false;
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
+  file.close();
+  return !file.fail();
+}
+
+/// The window of a raster in the grid's frame.
+scarp::OwnedHeightField crop(const scarp::OwnedHeightField& whole, int col, int row, int side) {
+  scarp::OwnedHeightField window;
+  window.cols = window.rows = side;
+  window.frame = scarp::grid_frame(side);
+  for (int y = row; y < row + side; ++y) {
+    const auto first = whole.samples.begin() + static_cast<std::ptrdiff_t>(y) * whole.cols + col;
+    window.samples.insert(window.samples.end(), first, first + side);
+  }
+  return window;
+}
+
+/// On one terrain, for bounds that leave fewer triangles than the lines ask for up to such as leave several times as
+/// many.
+bool time_terrain(const char* terrain, const scarp::OwnedHeightField& field, const std::vector<double>& errors) {
+  std::vector<Kind> kinds{{"none", {}},
+                          {"1,000 walks", soft_lines(Drawing().walks(1000), field.cols)},
+                          {"1,000 circles", soft_lines(Drawing().circles(1000), field.cols)}};
+  const std::string raster = (std::filesystem::temp_directory_path() / "speed_lines.tif").string();
+  bool is_timed = write_raster(field, raster);
   for (const auto& [name, effort] :
        {std::pair{"fast", scarp::Effort::kFast}, std::pair{"normal", scarp::Effort::kNormal}}) {
-    for (const double error : {10.0, 5.0, 2.5}) {
+    for (const double error : errors) {
       scarp::SimplifyOptions options;
       options.max_error = error;
       options.effort = effort;
-      if (!time_meshes(*field, kinds, name, std::move(options))) return 1;
+      is_timed = is_timed && time_meshes(terrain, raster, kinds, name, std::move(options));
     }
   }
-  return 0;
+  std::filesystem::remove(raster);
+  return is_timed;
+}
+
+/// 10 million samples each.
+int time_meshes(const std::string& project) {
+  constexpr int kSide = 3163;
+  std::printf(
+      "| terrain | effort | max error | lines | triangles | CPU s | to none | s | to none | arrange | lines "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+  const auto fractal = scarp::generate_field(scarp::FieldStyle::kFractal, kSide, kSide);
+  if (!fractal || !time_terrain("fractal", *fractal, {10, 5, 2.5})) return 1;
+  const char* kName = "srtm3_sierra_nevada_basin_range.tif";
+  const auto path = bench::find_raster(project, kName);
+  if (!path) {
+    std::printf("%s: skipped, it is not there\n", kName);
+    return 0;
+  }
+  const auto sierra = scarp::read_height_field(*path);
+  constexpr int kCol = 3800, kRow = 800;
+  if (!sierra || sierra->cols < kCol + kSide || sierra->rows < kRow + kSide) return 1;
+  return time_terrain("Sierra Nevada", crop(*sierra, kCol, kRow, kSide), {40, 20, 10}) ? 0 : 1;
 }
 
 int time_reading(const char* path) {
@@ -194,7 +251,7 @@ int time_reading(const char* path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc > 1 && std::string(argv[1]) == "--meshes") return time_meshes();
+  if (argc > 1 && std::string(argv[1]) == "--meshes") return time_meshes(argc > 2 ? argv[2] : ".");
   int status = EXIT_SUCCESS;
   for (int k = 1; k < argc; ++k) status |= time_reading(argv[k]);
   if (argc > 1) return status;

@@ -1,6 +1,7 @@
 // Triangles by their worst sample: the queue of Algorithm III and the list of Algorithms I and II.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -49,11 +50,12 @@ class CandidateQueue final : public CandidateStore {
   Candidate candidate(std::uint32_t id) const override { return {errors_[id], points_[id]}; }
 
   void grow(std::size_t count) override {
-    while (slots_.size() < count) {
-      slots_.push_back(kNotQueued);
-      errors_.push_back(0);
-      points_.push_back({});
-    }
+    const std::size_t known = slots_.size();
+    if (count <= known) return;
+    slots_.resize(count);
+    std::fill(slots_.begin() + known, slots_.end(), kNotQueued);
+    errors_.resize(count);  // written when they are queued
+    points_.resize(count);
   }
 
   /// A triangle that is queued is re-keyed where it stands.

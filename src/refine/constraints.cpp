@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/curve.h"
+#include "base/parallel.h"
 #include "base/radix_sort.h"
 
 namespace scarp {
@@ -47,6 +48,13 @@ std::vector<Vertex> corners_of(const Triangulation& tin) {
   return corners;
 }
 
+/// Makes a triangle at a vertex the one that was touched last: who asks for its edges need not look for it.
+void touch(Triangulation& tin, Vertex v, Triangle hint) {
+  const HalfEdge last = 3 * tin.last_touched();
+  if (tin.origin(last) == v || tin.origin(last + 1) == v || tin.origin(last + 2) == v) return;
+  tin.insert(tin.point(v), tin.locate(tin.point(v), hint));
+}
+
 bool is_start(const ConstraintGraph& graph, std::size_t edge) {
   return !graph.is_start.empty() && graph.is_start[edge] != 0;
 }
@@ -70,13 +78,17 @@ Result<ConstrainedMesh> ConstrainedMesh::lay(const Raster& raster, Triangulation
   std::vector<Vertex> vertices(graph.points.size(), kNone);
   const std::vector<bool> is_held = held_points(graph);
   mesh.heights_.reserve(graph.points.size());
+  for (std::size_t i = 0; i < graph.points.size(); ++i) {
+    if (!PlaceHeights::is_sample(graph.points[i])) mesh.heights_.set(graph.points[i], graph.heights[i]);
+  }
+  std::vector<Triangle> near(graph.points.size(), 0);
   for (const std::uint32_t i : nearby_order(graph.points)) {
     const Point p = graph.points[i];
     const auto location = tin.locate(p, tin.last_touched());
     const bool is_shared = !graph.is_shared.empty() && graph.is_shared[i] != 0;
     if (!is_shared && !is_in_domain(tin, location)) continue;
-    if (!PlaceHeights::is_sample(p)) mesh.heights_.set(p, graph.heights[i]);
     vertices[i] = tin.insert(p, location);
+    near[i] = tin.last_touched();
     (is_held[i] ? mesh.fixed_ : mesh.starts_).push_back(vertices[i]);
   }
   std::vector<Point> begins;
@@ -86,6 +98,7 @@ Result<ConstrainedMesh> ConstrainedMesh::lay(const Raster& raster, Triangulation
     const auto& [a, b] = graph.edges[i];
     if (vertices[a] == kNone || vertices[b] == kNone) continue;
     if (is_start(graph, i)) mesh.start_edges_.push_back({vertices[a], vertices[b]});
+    touch(tin, vertices[a], near[a]);
     if (tin.constrain(vertices[a], vertices[b])) continue;
     const Point p = graph.points[a], q = graph.points[b];
     return fail(
@@ -110,10 +123,15 @@ void ConstrainedMesh::release_starts(Triangulation& tin) {
   starts_.clear();
 }
 
-VertexPlaces ConstrainedMesh::places() const {
+VertexPlaces ConstrainedMesh::places(int threads) const {
   VertexPlaces places{kLatticeSteps, {}, {}};
-  places.heights.reserve(tin_->vertex_count());
-  for (Vertex v = 0; v < tin_->vertex_count(); ++v) places.heights.push_back(heights_.at(tin_->point(v)));
+  places.heights.resize(tin_->vertex_count());
+  constexpr std::size_t kTogether = 1 << 15;
+  parallel_for((places.heights.size() + kTogether - 1) / kTogether, threads, [&](std::size_t part) {
+    const std::size_t end = std::min((part + 1) * kTogether, places.heights.size());
+    for (std::size_t v = part * kTogether; v < end; ++v)
+      places.heights[v] = heights_.at(tin_->point(static_cast<Vertex>(v)));
+  });
   places.fixed.assign(tin_->vertex_count(), 0);
   for (const Vertex v : fixed_) places.fixed[v] = 1;
   for (const Vertex v : starts_) places.fixed[v] = 1;

@@ -44,8 +44,9 @@ class ConstrainedMesh {
   void release_starts(Triangulation& tin);
 
   const PlaceHeights& heights() const { return heights_; }
-  /// Of all vertices that `tin` has by now: heights, and which of them belong to the graph and are not released.
-  VertexPlaces places() const;
+  /// Of all vertices that `tin` has by now: heights, and which of them belong to the graph and are not released. With
+  /// several threads the samples are those of a raster, not of rows.
+  VertexPlaces places(int threads = 1) const;
 
  private:
   ConstrainedMesh(const Raster& raster, const Triangulation& tin) : tin_(&tin), heights_(raster) {}
