@@ -284,6 +284,8 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   Result<Simplified> simplified = simplify_as_planned(*plan, options, outcome);
   if (!simplified) {
     Error error = name_memory(given_.memory, outcome.field, std::move(simplified.error()));
+    if (plan->error_goal)
+      error = name_goal(*plan->error_goal, outcome.as_read.max - outcome.as_read.min, std::move(error));
     if (error.kind == ErrorKind::kInput && !error.message.starts_with(plan->input))
       error.message = fmt::format("{}: {}", plan->input, error.message);
     return tl::unexpected(std::move(error));
