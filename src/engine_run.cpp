@@ -26,6 +26,7 @@
 #include "refine/settle_edges.h"
 #include "refine/source_judge.h"
 #include "row_fit.h"
+#include "shape_need.h"
 #include "shape_refinement.h"
 #include "source_windows.h"
 
@@ -354,6 +355,7 @@ class Run {
       const auto now = static_cast<double>(count);
       return memory_.check_mesh(rows, count, now / (before + (now - before) / share));
     };
+    task.foresee = [&](double triangles) { return check_need(triangles, memory_, rows); };
     VertexPlaces places = std::move(places_);
     auto work = refine_shapes(raster_, domain_->tin, places, task);
     if (!work) return work;

@@ -1,14 +1,11 @@
 #include "shape_refinement.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
-#include <queue>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -20,6 +17,8 @@
 #include "refine/sample_rows.h"
 #include "refine/size_field.h"
 #include "sample_bands.h"
+#include "shape_faults.h"
+#include "shape_need.h"
 
 namespace scarp {
 
@@ -31,7 +30,6 @@ using Location = Triangulation::Location;
 constexpr double kSlack = 1e-3;          ///< degrees, and share of lengths, that rounding of positions may take
 constexpr double kClosest = 1.0 / 32;    ///< of a sample: vertices for the sake of angles
 constexpr double kFinestSize = 0.5;      ///< of a sample: sizes that grade reckons with
-constexpr double kGradeFactor = 2;       ///< edges over sizes
 constexpr double kSnapShare = 1.0 / 12;  ///< steps of places over the distance to the nearest vertices
 constexpr double kAcute = 0.5;  ///< cos² of 45 degrees: corners between walls below that are acute, those of voids not
 
@@ -46,19 +44,6 @@ SampleRows::Read aims_of(const SourceBounds& bounds) {
     return bounds.read_aims(first, cols, rows, out, cols);
   };
 }
-
-/// The order of work: what is too large before what is too sharp, larger excess first, shorter edges first.
-struct Bad {
-  bool is_long = false;
-  double key = 0;  ///< larger first
-  Triangle triangle = 0;
-  std::array<Vertex, 3> corners{};
-
-  friend bool operator<(const Bad& a, const Bad& b) {
-    if (a.is_long != b.is_long) return b.is_long;
-    return a.key != b.key ? a.key < b.key : a.triangle > b.triangle;
-  }
-};
 
 class ShapeRefiner {
  public:
@@ -105,6 +90,9 @@ class ShapeRefiner {
       sizes_.emplace(tin_, metric_, *task_.goals.grade, kFinestSize * metric_.longer_side());
       sizes_->measure_all(out_);
     }
+    if (const double least = least_triangles(tin_, metric_, task_.goals, sizes_ ? &*sizes_ : nullptr); task_.foresee) {
+      if (auto fits = task_.foresee(least); !fits) return tl::unexpected(fits.error());
+    }
     for (std::uint64_t before = work_.insertions + 1; before != work_.insertions;) {
       before = work_.insertions;
       if (auto done = rows_ ? sweep_bands() : sweep_all(); !done) return tl::unexpected(done.error());
@@ -138,10 +126,10 @@ class ShapeRefiner {
     const bool is_first = waiting_.empty();
     waiting_.assign(bands_.count(), {});
     for (Triangle t = 0; t < tin_.triangle_count(); ++t) {
-      if (is_first ? !tin_.is_outside(t) : find_fault(t).has_value()) waiting_[bands_.at(row_of(t))].push_back(t);
+      if (is_first ? !tin_.is_outside(t) : find_fault(t).has_value()) waiting_[bands_.at(row_of(t))].push(t);
     }
     for (band_ = 0; band_ < bands_.count(); ++band_) {
-      const std::vector<Triangle> here = std::exchange(waiting_[band_], {});
+      const std::vector<Triangle> here = waiting_[band_].take();
       if (here.empty()) continue;
       bands_.hold(band_, *rows_);
       if (bound_rows_) bands_.hold(band_, *bound_rows_);
@@ -170,8 +158,7 @@ class ShapeRefiner {
         note_insertion();
         continue;
       }
-      const Bad bad = bad_.top();
-      bad_.pop();
+      const ShapeFault bad = bad_.pop();
       if (corners_of(bad.triangle) != bad.corners || !find_fault(bad.triangle)) continue;
       const bool helped = bad.is_long ? shorten(bad.triangle) : blunt(bad.triangle);
       if (helped && corners_of(bad.triangle) == bad.corners) enqueue(bad.triangle);
@@ -214,20 +201,22 @@ class ShapeRefiner {
                                   tin_.point(tin_.origin(Triangulation::next(h)))),
                       square(Triangulation::next(h)) * square(Triangulation::previous(h)), cosine2_);
   }
-  std::optional<Bad> find_fault(Triangle t) const {
+  std::optional<ShapeFault> find_fault(Triangle t) const {
     if (tin_.is_outside(t)) return std::nullopt;
     const double most = std::max({excess(3 * t), excess(3 * t + 1), excess(3 * t + 2)});
-    if (most > 1) return Bad{true, most, t, corners_of(t)};
+    if (most > 1) return ShapeFault{true, most, t, corners_of(t)};
     if (!is_sharp(t) || is_forced(t)) return std::nullopt;
-    return Bad{false, -square(shortest(t)), t, corners_of(t)};
+    return ShapeFault{false, -square(shortest(t)), t, corners_of(t)};
   }
   void enqueue(Triangle t) {
     const auto bad = find_fault(t);
     if (!bad) return;
     if (!rows_ || bands_.reaches(band_, row_of(t))) {
       bad_.push(*bad);
+      if (bad_.size() > 2 * tin_.triangle_count())
+        bad_.clean([this](const ShapeFault& fault) { return corners_of(fault.triangle) == fault.corners; });
     } else if (const std::size_t band = bands_.at(row_of(t)); band > band_) {
-      waiting_[band].push_back(t);
+      waiting_[band].push(t);
     }
   }
 
@@ -561,10 +550,10 @@ class ShapeRefiner {
   double cosine2_, least_, longest2_ = std::numeric_limits<double>::infinity(), off_centre_ = 0;
   std::optional<Refinement> refinement_;
   std::optional<SizeField> sizes_;
-  std::priority_queue<Bad> bad_;
+  ShapeFaults bad_;
   std::size_t band_ = 0;                                       ///< at work
   double share_ = 1;                                           ///< of bands, that has been at work
-  std::vector<std::vector<Triangle>> waiting_;                 ///< by band
+  std::vector<WaitingTriangles> waiting_;                      ///< by band
   std::vector<HalfEdge> out_;                                  ///< by vertex: a half-edge that begins there
   std::unordered_map<Vertex, std::pair<Point, Point>> lines_;  ///< of vertices that halve lines: where these run
   std::vector<Vertex> fallen_;

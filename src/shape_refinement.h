@@ -48,6 +48,8 @@ struct ShapeTask {
   /// Told a share of the bands that have been gone through once, all where there are none, the vertices there are and
   /// the worst error; what it says ends the run.
   std::function<Result<void>(double share, std::uint64_t vertices, double error)> progress = {};
+  /// Told once, before all, how many triangles there will be at least; what it says ends the run.
+  std::function<Result<void>(double triangles)> foresee = {};
   /// Where the raster has no samples: whose source has them, alive, and how many rows are held at a time, at least 4.
   /// Then bounds of samples come from windows, too; null: the threshold holds for all.
   const HeightField* field = nullptr;
@@ -63,7 +65,7 @@ struct ShapeWork {
 /// Makes `tin` Delaunay in the frame, but for constrained edges, and adds vertices until every sample keeps its bound
 /// and the goals hold as ShapeGoals says. `places`: of the vertices; afterwards in kLatticeSteps, those fixed that
 /// were, or that are no samples unless vertices are free. Fails with kInput for too many triangles, and as progress
-/// does; throws SourceFailure.
+/// and foresee do; throws SourceFailure.
 /// REQUIRES: goals that were checked; sides of at most kMaxCoordinate / kLatticeSteps samples; an outline that is
 /// exact. Cost: expected O(log n) an insertion, but for scanning.
 Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexPlaces& places, const ShapeTask& task);

@@ -49,6 +49,12 @@ std::uint64_t samples_share(std::uint64_t limit, std::uint64_t others) {
 /// Rounded up.
 std::uint64_t megabytes(std::uint64_t bytes) { return (bytes + 999'999) / 1'000'000; }
 
+/// What a run with all samples in memory needs at least.
+double megabytes_in_memory(const OwnedHeightField& field, std::uint64_t others) {
+  const double bytes = static_cast<double>(kBytesPerSample) * field.cols * field.rows;
+  return std::ceil((2 * bytes + static_cast<double>(kProgramBytes + others)) / 1e6) + 1;
+}
+
 }  // namespace
 
 void MemoryArguments::add_to(CLI::App& verb, const std::string& help) {
@@ -128,12 +134,21 @@ Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std:
 
 Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option, std::uint64_t others) {
   if (!field.source) return {};
-  const double bytes = static_cast<double>(kBytesPerSample) * field.cols * field.rows;
   return fail(ErrorKind::kUsage,
               fmt::format("{} needs all samples in memory at once, and {} x {} samples are more than --memory leaves "
                           "for them: leave {} out, or allow {}M",
-                          option, field.cols, field.rows, option,
-                          std::ceil((2 * bytes + static_cast<double>(kProgramBytes + others)) / 1e6) + 1));
+                          option, field.cols, field.rows, option, megabytes_in_memory(field, others)));
+}
+
+Error name_memory(const MemoryArguments& given, const OwnedHeightField& field, Error error) {
+  constexpr std::string_view kLimit = "memory_limit", kWhole = "read the raster as a whole";
+  if (!given.memory) return error;
+  if (error.message.starts_with(kLimit))
+    error.message.replace(0, kLimit.size(), "--memory " + shell_word(*given.memory));
+  if (const std::size_t at = error.message.find(kWhole); at != std::string::npos)
+    error.message.replace(at, kWhole.size(),
+                          fmt::format("leave --memory out, or allow {}M", megabytes_in_memory(field, 0)));
+  return error;
 }
 
 void complete_info(const HeightRange& judged, RasterInfo& info) {

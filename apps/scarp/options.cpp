@@ -93,6 +93,14 @@ Result<ErrorGoal> parse_error_goal(std::string_view option, const std::string& t
   return goal;
 }
 
+Error name_goal(const ErrorGoal& goal, double relief, Error error) {
+  const std::string absolute = fmt::format("a max error of {}", goal.absolute(relief));
+  if (goal.percent_of_relief && error.message.starts_with(absolute + " "))
+    error.message.replace(0, absolute.size(),
+                          fmt::format("-e {}% of a relief of {:.10g}, {},", goal.value, relief, absolute));
+  return error;
+}
+
 void RasterArguments::add_to(CLI::App& verb, const std::string& crs_help) {
   verb.add_option("--band", band, "Band to read, counted from 1 (default 1)")->type_name("N")->group("Input");
   verb.add_option("--nodata", nodata,

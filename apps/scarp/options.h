@@ -71,6 +71,8 @@ struct ErrorGoal {
   double absolute(double relief) const { return percent_of_relief ? value / 100 * relief : value; }
 };
 Result<ErrorGoal> parse_error_goal(std::string_view option, const std::string& text);
+/// What the library says of a max error, with the share of the relief that was asked for.
+Error name_goal(const ErrorGoal& goal, double relief, Error error);
 
 /// The options of every verb that reads a raster.
 struct RasterArguments {

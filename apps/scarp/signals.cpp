@@ -48,6 +48,19 @@ void install_signal_handlers() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
+// Libraries that are loaded take a while to make themselves ready, all before main(): where the system has a place for
+// what comes first of all, that is where this goes. Sanitizers are not ready there themselves.
+#if defined(__has_feature)
+#define SCARP_HAS_FEATURE(name) __has_feature(name)
+#else
+#define SCARP_HAS_FEATURE(name) 0
+#endif
+#if defined(__ELF__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
+    !SCARP_HAS_FEATURE(address_sanitizer) && !SCARP_HAS_FEATURE(thread_sanitizer) &&                             \
+    !SCARP_HAS_FEATURE(memory_sanitizer)
+[[gnu::used, gnu::section(".preinit_array")]] static void (*const g_first_of_all)() = install_signal_handlers;
+#endif
+
 bool interrupted() { return g_signals > (g_is_content ? 1 : 0); }
 
 bool content_with_interrupt() {

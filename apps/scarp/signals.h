@@ -6,7 +6,8 @@ namespace scarp::cli {
 /// SIGINT, SIGTERM and SIGHUP (unless nohup has it ignored): the first asks the running call to stop (see
 /// interrupted()), the second removes the temporary file that is being written and ends the program at once, as SIGQUIT
 /// always does. SIGPIPE and SIGXFSZ are ignored, so that a closed pipe and
-/// a full file become errors of the write that met them. Call once, first thing in main().
+/// a full file become errors of the write that met them. Call first thing in main(); with glibc it has been called
+/// before, as the first of all code once libraries are loaded.
 void install_signal_handlers();
 
 /// True once SIGINT, SIGTERM or SIGHUP has arrived, but for one that content_with_interrupt() took.

@@ -231,14 +231,6 @@ Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyO
   return std::move(printed->simplified);
 }
 
-/// What the library calls memory_limit has another name here.
-Error name_memory(const SimplifyArguments& given, Error error) {
-  constexpr std::string_view kLimit = "memory_limit";
-  if (error.message.starts_with(kLimit))
-    error.message.replace(0, kLimit.size(), "--memory " + shell_word(*given.memory.memory));
-  return error;
-}
-
 }  // namespace
 
 SimplifyCommand::SimplifyCommand(CLI::App& program)
@@ -258,7 +250,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   Outcome outcome;
   ProgressDisplay display(ProgressDisplay::choose(given_.json_progress, given_.quiet));
   const Result<void> has_inputs = read_inputs(*plan, given_.raster.band.has_value(), display.callback(), outcome);
-  if (!has_inputs) return tl::unexpected(name_memory(given_, has_inputs.error()));
+  if (!has_inputs) return tl::unexpected(name_memory(given_.memory, outcome.field, has_inputs.error()));
 
   const Result<void> has_place = check_place_of_channels(*plan, outcome.channels);
   if (!has_place) return has_place;
@@ -293,7 +285,9 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   if (plan->memory) options.memory_taken = memory_of(*plan, outcome).taken + outcome.cut.bytes;
   Result<Simplified> simplified = simplify_as_planned(*plan, options, outcome);
   if (!simplified) {
-    Error error = name_memory(given_, std::move(simplified.error()));
+    Error error = name_memory(given_.memory, outcome.field, std::move(simplified.error()));
+    if (plan->error_goal)
+      error = name_goal(*plan->error_goal, outcome.as_read.max - outcome.as_read.min, std::move(error));
     if (error.kind == ErrorKind::kInput && !error.message.starts_with(plan->input) && !error.message.starts_with("--"))
       error.message = fmt::format("{}: {}", plan->input, error.message);
     return tl::unexpected(std::move(error));

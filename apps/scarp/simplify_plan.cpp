@@ -384,6 +384,8 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
       {"--render", given.render.has_value()},
       {"--error-raster", given.error_raster.has_value()},
       {"--of dem", plan.format.kind == OutputKind::kDem},
+      {"--algorithm", given.strategy.algorithm.has_value()},
+      {"--order greedy", plan.simplify.order == Order::kGreedy},
   };
   for (const auto& [name, is_given] : options) {
     if (is_given) return name;

@@ -78,11 +78,11 @@ struct ReadLinesOptions {
 ///
 /// Multilines, multipolygons and collections become their parts; arcs become chords of 4 degrees at most. x and y are
 /// transformed vertex by vertex from the layer's CRS: what runs between two vertices is straight in the wanted one.
-/// Heights stay as they are. A layer without CRS is taken to be in the wanted one, which a warning says. Points,
-/// features without geometry, and lines and rings of no extent are left out and counted in a warning.
+/// Heights stay; NaN among others on a line lies between these. A layer without CRS is taken to be in the wanted one.
+/// Points, features without geometry, and lines and rings of no extent are left out and counted. Warnings tell it all.
 ///
 /// Fails in one sentence that names file, layer and feature: kInput for a missing file or layer, none or several layers
-/// to choose from (they are named), no lines in the layer, a coordinate that is not finite (a z that is NaN is soft), a
+/// to choose from (they are named), no lines in the layer, a coordinate that is not finite (z may be NaN: unknown), a
 /// vertex that has no place in the wanted CRS, a missing attribute, or one that is no finite number; kUsage for a
 /// wanted CRS that GDAL does not know; kCancelled. Cost: a few tenths of a second for a million vertices of a
 /// GeoPackage, a second with a transformation (bench/speed/speed_lines.cpp).

@@ -11,8 +11,8 @@ double SizeField::length(Vertex v, Vertex w) const { return std::sqrt(metric_.sq
 void SizeField::lower(Vertex v, double size) {
   if (!(size < sizes_[v])) return;
   sizes_[v] = size;
-  if (waits_[v] != 0) return;
-  waits_[v] = 1;
+  if ((states_[v] & kWaits) != 0) return;
+  states_[v] |= kWaits;
   queue_.push_back(v);
 }
 
@@ -28,30 +28,34 @@ void SizeField::take_lengths(Triangle t) {
 
 // The least fixed point, whatever the order: first in, first out keeps detours few.
 void SizeField::spread(const std::vector<HalfEdge>& out, std::vector<Vertex>* fallen) {
-  for (std::size_t k = 0; k < queue_.size(); ++k) {
-    const Vertex v = queue_[k];
-    waits_[v] = 0;
-    if (fallen != nullptr) fallen->push_back(v);
-    visit_around(tin_, out[v], [&](HalfEdge h) {
-      if (tin_.is_outside(h / 3)) return;
-      for (const Vertex w : {tin_.origin(Triangulation::next(h)), tin_.origin(Triangulation::previous(h))})
-        lower(w, sizes_[v] + grade_ * length(v, w));
-    });
+  while (!queue_.empty()) {
+    wave_.swap(queue_);
+    for (const Vertex v : wave_) {
+      if (fallen != nullptr && (states_[v] & kFell) == 0) fallen->push_back(v);
+      states_[v] = kFell;
+      visit_around(tin_, out[v], [&](HalfEdge h) {
+        if (tin_.is_outside(h / 3)) return;
+        for (const Vertex w : {tin_.origin(Triangulation::next(h)), tin_.origin(Triangulation::previous(h))})
+          lower(w, sizes_[v] + grade_ * length(v, w));
+      });
+    }
+    wave_.clear();
   }
-  queue_.clear();
 }
 
 void SizeField::measure_all(const std::vector<HalfEdge>& out) {
   sizes_.assign(tin_.vertex_count(), std::numeric_limits<double>::infinity());
-  waits_.assign(tin_.vertex_count(), 0);
+  states_.assign(tin_.vertex_count(), 0);
   for (Triangle t = 0; t < tin_.triangle_count(); ++t) take_lengths(t);
   spread(out, nullptr);
+  std::fill(states_.begin(), states_.end(), std::uint8_t{0});
 }
 
 void SizeField::update(const std::vector<Triangle>& changed, const std::vector<HalfEdge>& out,
                        std::vector<Vertex>& fallen) {
   sizes_.resize(tin_.vertex_count(), std::numeric_limits<double>::infinity());
-  waits_.resize(tin_.vertex_count(), 0);
+  states_.resize(tin_.vertex_count(), 0);
+  const std::size_t before = fallen.size();
   for (const Triangle t : changed) take_lengths(t);
   // New edges are new ways: vertices that know of small sizes tell the others, whether theirs fell or not.
   for (const Triangle t : changed) {
@@ -64,6 +68,7 @@ void SizeField::update(const std::vector<Triangle>& changed, const std::vector<H
     }
   }
   spread(out, &fallen);
+  for (std::size_t k = before; k < fallen.size(); ++k) states_[fallen[k]] = 0;
 }
 
 }  // namespace scarp

@@ -20,12 +20,15 @@ class SizeField {
 
   /// Of all vertices. `out`: for each one a half-edge that begins there.
   void measure_all(const std::vector<HalfEdge>& out);
-  /// After an insertion; `changed`: the triangles around the new vertex. Appends the vertices whose sizes fell.
+  /// After an insertion; `changed`: the triangles around the new vertex. Appends the vertices whose sizes fell, each
+  /// once.
   void update(const std::vector<Triangle>& changed, const std::vector<HalfEdge>& out, std::vector<Vertex>& fallen);
 
   double at(Vertex v) const { return sizes_[v]; }
 
  private:
+  static constexpr std::uint8_t kWaits = 1, kFell = 2;
+
   void take_lengths(Triangle t);
   void lower(Vertex v, double size);
   void spread(const std::vector<HalfEdge>& out, std::vector<Vertex>* fallen);
@@ -35,8 +38,8 @@ class SizeField {
   const PlanMetric& metric_;
   double grade_, least_;
   std::vector<double> sizes_;
-  std::vector<Vertex> queue_;        ///< whose neighbours have not heard of it yet
-  std::vector<std::uint8_t> waits_;  ///< by vertex: it is in the queue
+  std::vector<Vertex> queue_, wave_;  ///< whose neighbours have not heard of it yet, and those that are telling them
+  std::vector<std::uint8_t> states_;  ///< by vertex: kWaits, kFell
 };
 
 /// Calls visit(h) for each half-edge out of v, in triangles of the rectangle. `first`: one of them.

@@ -23,7 +23,7 @@ void add(Work& sum, const Work& work) {
 }
 
 TileOutcome TileWorker::refine(const HeightField& field, const TileWindow& window, const SharedSides& shared,
-                               double threshold, double density) {
+                               double threshold, double density, std::size_t most) {
   TileOutcome outcome;
   if (outcome.status = tile_.load(field, window); !outcome.status) return outcome;
   if (!(tile_.largest_height() <= kMaxScanHeight)) {
@@ -35,7 +35,9 @@ TileOutcome TileWorker::refine(const HeightField& field, const TileWindow& windo
   coarse_.insert(tile_, shared, threshold, steps_ > 0 ? expected_density(border_.size(), steps_) : density, mesh_);
   TileScanner scanner(tile_.view(), threshold);
   scanner.set_shared(shared);
-  const DominantRun run = refine_dominant(mesh_, scanner);
+  const DominantRun run = refine_dominant(mesh_, scanner, most);
+  outcome.is_broken_off = !run.finished;
+  if (outcome.is_broken_off) return outcome;
   outcome.is_unsuited = scanner.has_given_up();
   outcome.work = {scanner.samples_scanned(), scanner.triangles_scanned(), run.moves, run.insertions};
   add(outcome.work, coarse_.work());

@@ -1,6 +1,7 @@
 // One thread's work on tiles; its memory is kept from tile to tile.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,7 +22,8 @@ struct TileOutcome {
   TilePiece piece;
   std::vector<float> heights;  ///< of the piece's points, where the field has a source
   Work work;
-  bool is_unsuited = false;  ///< heights span magnitudes beyond exact arithmetic
+  bool is_unsuited = false;    ///< heights span magnitudes beyond exact arithmetic
+  bool is_broken_off = false;  ///< at the most vertices allowed; there is no piece
 };
 
 /// Vertices a sample of the plane where `kept` were kept along lines of so many steps.
@@ -32,9 +34,9 @@ void add(Work& sum, const Work& work);
 class TileWorker {
  public:
   /// Refines one tile until every sample lies within `threshold`; what it did before changes nothing. `density`: of the
-  /// whole mesh, as expected; 0 if unknown.
+  /// whole mesh, as expected; 0 if unknown. `most`: vertices it may have, but for those it begins with.
   TileOutcome refine(const HeightField& field, const TileWindow& window, const SharedSides& shared, double threshold,
-                     double density);
+                     double density, std::size_t most);
 
  private:
   Result<void> find_border(const HeightField& field, const TileWindow& window, const SharedSides& shared,

@@ -8,6 +8,7 @@
 #include "grid/window.h"
 #include "refine/border_chain.h"
 #include "refine/tile_plan.h"
+#include "refine/tile_room.h"
 #include "refine/tile_worker.h"
 #include "tin/assembly.h"
 
@@ -182,19 +183,56 @@ class TiledRun {
     return band_.load(first, std::min(window.row + window.rows + 1, field_.rows) - first);
   }
 
+  /// One after the other from the first on that has no room beside the others: then no tile is refused what it could
+  /// have, whatever the number of threads.
   void refine(std::size_t first, std::size_t count) {
-    parallel_in_order(
-        count, threads_,
-        [&](std::size_t i, std::size_t worker) {
-          const std::size_t tile = first + i;
-          outcomes_[tile] =
-              workers_[worker].refine(field_, plan_.window(tile), plan_.shared(tile), options_.threshold, density_);
-        },
-        [&](std::size_t i) { return commit(first + i); });
+    const std::size_t end = first + count;
+    const std::size_t refused = refine(first, end, threads_);
+    if (refused == end || !status_ || is_unsuited_) return;
+    workers_ = std::vector<TileWorker>(workers_.size());
+    for (std::size_t tile = refused; tile < end; ++tile) outcomes_[tile].reset();
+    const std::size_t too_large = refine(refused, end, 1);
+    if (too_large != end && status_) status_ = refuse(too_large);
   }
 
-  bool commit(std::size_t tile) {
-    TileOutcome outcome = *std::exchange(outcomes_[tile], std::nullopt);
+  /// Up to the first tile for which there is no room, which is returned, or `end`.
+  std::size_t refine(std::size_t first, std::size_t end, int threads) {
+    std::size_t refused = end;
+    TileRoom room(options_.memory, base_bytes_, assembly_.vertex_count() + row_.vertex_count(), threads);
+    parallel_in_order(
+        end - first, threads,
+        [&](std::size_t i, std::size_t worker) {
+          const std::size_t tile = first + i, most = room.begin();
+          outcomes_[tile] = workers_[worker].refine(field_, plan_.window(tile), plan_.shared(tile), options_.threshold,
+                                                    density_, most);
+          room.end(most, outcomes_[tile]->piece.points.size());
+        },
+        [&](std::size_t i) {
+          TileOutcome outcome = *std::exchange(outcomes_[first + i], std::nullopt);
+          if (outcome.is_broken_off) refused = first + i;
+          if (outcome.is_broken_off) return false;
+          room.commit(outcome.piece.points.size());
+          return commit(std::move(outcome), first + i);
+        });
+    return refused;
+  }
+
+  /// Of a tile that outgrows all the room there is. It is taken to become as dense as can be, or four times as much.
+  Result<void> refuse(std::size_t tile) const {
+    const MemoryBudget& memory = options_.memory;
+    const std::uint64_t before = assembly_.vertex_count() + row_.vertex_count(),
+                        each = TileRoom::bytes_per_vertex(memory);
+    const std::uint64_t taken = std::min(memory.rest(), base_bytes_ + before * memory.per_vertex);
+    const std::uint64_t most = (memory.rest() - taken) / each + 1;
+    const TileWindow window = plan_.window(tile);
+    const double samples = static_cast<double>(window.cols) * window.rows;
+    const double expected = static_cast<double>(before) + std::min(samples, 4 * static_cast<double>(most));
+    const double share = static_cast<double>(before + most) / expected * static_cast<double>(tile + 1) /
+                         static_cast<double>(plan_.count());
+    return memory.check_mesh(base_bytes_ + (each - memory.per_vertex) * most, before + most, share);
+  }
+
+  bool commit(TileOutcome outcome, std::size_t tile) {
     status_ = outcome.status;
     is_unsuited_ = outcome.is_unsuited;
     if (!status_ || is_unsuited_) return false;

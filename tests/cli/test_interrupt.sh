@@ -29,6 +29,15 @@ for signal in INT TERM HUP; do
   done
 done
 
+# Even what arrives while libraries make themselves ready, before main(); sanitizers are not ready then themselves.
+if [ "$(uname)" = Linux ] && command -v cc > /dev/null && bash -c 'ulimit -v 1000000; exec "$1" --version' - "$scarp" > /dev/null 2>&1; then
+  printf '#include <signal.h>\n__attribute__((constructor)) static void first(void) { raise(SIGINT); }\n' > "$logs/early.c"
+  cc -shared -fPIC -o "$logs/early.so" "$logs/early.c"
+  try env LD_PRELOAD="$logs/early.so" "$scarp" simplify big.tif out.glb -e 0
+  [ "$code" = 5 ] || fail "exit code $code instead of 5 where the signal comes before main()"
+  grep -q '^scarp: interrupted; nothing was written$' "$logs/err" || fail "the sentence is missing before main()"
+fi
+
 # The second signal does not wait for the run to notice the first; it may still come too late to matter.
 for wait in 0 0.01 0.05; do
   set -m

@@ -30,7 +30,7 @@ refuses 1 '--map needs all samples' "$scarp" measure "$dem" hills.glb --memory $
 refuses 1 '--error-raster needs all samples' "$scarp" measure "$dem" hills.glb --memory $small --error-raster e.tif
 refuses 1 '--script needs all samples' "$scarp" measure "$dem" hills.glb --memory $small --script /dev/null
 for option in "--preview p.png" "--render r.png" "--error-raster e.tif" "--nodata-policy fill" \
-  "--normals" "--edges data" "--outline-tolerance 1" "--mask $dem" "--script /dev/null" "--texture $dem"; do
+  "--normals" "--order greedy" "--algorithm local" "--edges data" "--outline-tolerance 1" "--mask $dem" "--script /dev/null" "--texture $dem"; do
   # shellcheck disable=SC2086
   refuses 1 'needs all samples in memory at once' "$scarp" simplify "$dem" o.glb -e 5 --memory $small $option
 done
@@ -38,6 +38,10 @@ refuses 1 'needs all samples in memory at once' "$scarp" simplify "$dem" o.tif -
 "$scarp" measure "$dem" hills.glb --memory $small --map m.png 2>&1 | grep -oE 'allow [0-9]+M' | tr -d -c '0-9M' > enough || true
 [ -s enough ] || fail "--map does not say how much memory would do"
 succeeds "$scarp" measure "$dem" hills.glb --memory "$(cat enough)" --map m.png
+
+# So is what turns out to need them later.
+{ printf 'ncols 40\nnrows 40\nxllcorner 0\nyllcorner 0\ncellsize 1\n'; for ((k = 0; k < 800; ++k)); do echo 3e38 "1e-$((k % 30))"; done; } > huge.asc
+refuses 2 'only be refined in memory: leave --memory out, or allow 74M' "$scarp" simplify huge.asc o.glb -e 1 --memory $small
 
 # What outgrows the limit is refused, with what would do; that much does.
 succeeds "$scarp" generate fractal 900 900 fractal.tif -q

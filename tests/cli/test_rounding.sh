@@ -39,4 +39,8 @@ refuses 3 "rounded" "$scarp" simplify fine.tif none.glb -e 0
 # Where the samples are the values, nothing is said.
 succeeds "$scarp" simplify "$dem" plain.glb -e 0 --report plain.json
 if grep -q 'rounded' "$logs/out" || grep -q '^  "sample_rounding"' plain.json; then fail "a rounding that is none"; fi
+
+# A share of a relief that the rounding swallows is named as it was asked for.
+gdal_translate -q -srcwin 0 0 40 30 -ot Float64 -scale 236 1076 1000000000 1000000000.01 "$dem" level.tif
+refuses 3 '-e 1% of a relief of 0, a max error of 0, cannot be kept: ' "$scarp" simplify level.tif o.glb -e 1%
 echo "roundings are told and counted"

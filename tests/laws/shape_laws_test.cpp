@@ -251,5 +251,28 @@ TEST(shape, goals_out_of_range_are_refused_in_a_sentence) {
   EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
 }
 
+TEST(shape, meshes_that_nobody_could_hold_are_refused_before_they_are_begun) {
+  constexpr int kSide = 3201;
+  const std::vector<float> flat(std::size_t{kSide} * kSide, 0.0f);
+  HeightField field;
+  field.samples = flat.data();
+  field.cols = field.rows = kSide;
+  field.frame = grid_frame(kSide);
+  SimplifyOptions options;
+  options.max_error = 1;
+  options.effort = Effort::kFast;
+  options.shape.max_edge = 0.125;
+  const auto none = simplify(field, options);
+  ASSERT_FALSE(none.has_value());
+  EXPECT_EQ(none.error().kind, ErrorKind::kInput);
+  EXPECT_NE(none.error().message.find("at least 1513 million triangles"), std::string::npos) << none.error().message;
+  options.shape.max_edge = 0.2;
+  options.memory_limit = 1'000'000'000;
+  const auto large = simplify(field, options);
+  ASSERT_FALSE(large.has_value());
+  EXPECT_EQ(large.error().kind, ErrorKind::kUsage);
+  EXPECT_NE(large.error().message.find("at least 591 million triangles"), std::string::npos) << large.error().message;
+}
+
 }  // namespace
 }  // namespace scarp::shape_laws_test

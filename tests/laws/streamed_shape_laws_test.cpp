@@ -76,7 +76,7 @@ RC_GTEST_PROP(streamed_shapes, bands_leave_no_goal_behind, ()) {
   ShapeTask task{{}, frame.affine, *rc::gen::element(0.0, 0.5, 2.0, 20.0, 2000.0)};
   task.goals.min_angle = *rc::gen::element(0.0, 15.0, 20.0);
   if (*rc::gen::arbitrary<bool>()) task.goals.max_edge = *rc::gen::element(0.7, 2.5, 7.0);
-  if (*rc::gen::arbitrary<bool>()) task.goals.grade = *rc::gen::element(0.1, 0.5);
+  if (*rc::gen::arbitrary<bool>()) task.goals.grade = *rc::gen::element(0.01, 0.1, 0.5);
   task.field = &streamed;
   task.rows_at_once = *rc::gen::element(4, 7, 16);
   std::vector<float> bounds = testing::any_bounds(field.cols, field.rows);
@@ -91,6 +91,11 @@ RC_GTEST_PROP(streamed_shapes, bands_leave_no_goal_behind, ()) {
   task.progress = [&](double now, std::uint64_t, double) -> Result<void> {
     RC_ASSERT(now >= share && now <= 1);
     share = now;
+    return {};
+  };
+  double least = -1;
+  task.foresee = [&](double triangles) -> Result<void> {
+    least = triangles;
     return {};
   };
   const auto outside = testing::outside_area2(start->tin);
@@ -109,6 +114,7 @@ RC_GTEST_PROP(streamed_shapes, bands_leave_no_goal_behind, ()) {
   RC_ASSERT(judged->max_error <= task.threshold + 1e-9);
   RC_ASSERT(judged->uncovered == 0u);
   RC_ASSERT(judged->is_sound());
+  RC_ASSERT(least >= 0 && least <= static_cast<double>(mesh.triangle_count()));
   const ShapeReport shape = report_shapes(mesh, task.goals, work->forced);
   RC_ASSERT(shape.below == 0u);
   if (task.goals.max_edge) RC_ASSERT(shape.longest_edge <= *task.goals.max_edge);
@@ -230,12 +236,15 @@ TEST(streamed_shapes, what_outgrows_the_memory_is_refused_with_what_would_do) {
   const Field field = wavy_field(300, 300);
   const ArraySource source(field.view());
   SimplifyOptions options = in_little_memory(Effort::kFast);
-  options.shape.max_edge = 2;
-  const auto result = simplify(with_source(field.view(), source), options);
-  ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
-  EXPECT_NE(result.error().message.find("memory_limit is too little: the mesh has"), std::string::npos)
-      << result.error().message;
+  const auto refuses = [&](double max_edge, const char* words) {
+    options.shape.max_edge = max_edge;
+    const auto result = simplify(with_source(field.view(), source), options);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
+    EXPECT_NE(result.error().message.find(words), std::string::npos) << result.error().message;
+  };
+  refuses(2, "memory_limit is too little: edges so short need at least 51547 triangles");
+  refuses(3, "memory_limit is too little: the mesh has");
 }
 
 }  // namespace

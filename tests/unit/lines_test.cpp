@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "unit/raster_files.h"
 
@@ -82,6 +84,38 @@ TEST_F(LineFiles, the_third_coordinate_is_the_height_unless_told_otherwise) {
   EXPECT_TRUE(std::isnan(read(path, {.z_field = "empty"}).lines[0].points[1][2]));
   EXPECT_TRUE(contains(refuse(path, {.z_field = "name"}), "feature 0 has no number as its height"));
   EXPECT_TRUE(contains(refuse(path, {.z_field = "level"}), "no attribute 'level', only elev, name, empty"));
+}
+
+TEST_F(LineFiles, unknown_heights_lie_between_the_known_ones_of_their_line) {
+  const auto heights = [&](const std::string& geometry) {
+    const LineSet set = read(write("z.geojson", geojson({geometry})));
+    std::vector<double> z;
+    for (const auto& point : set.lines.at(0).points) z.push_back(point[2]);
+    return std::pair{z, set.warnings};
+  };
+  const auto warns = [](const std::vector<std::string>& warnings, const char* words) {
+    return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& w) { return contains(w, words); });
+  };
+  const std::string one =
+      "1 vertex without a height on lines that have heights lies between its neighbours: vertex 2 of ";
+  auto [middle, warnings] = heights(R"({"type":"LineString","coordinates":[[0,0,4],[3,0,NaN],[4,0,8]]})");
+  EXPECT_EQ(middle, (std::vector<double>{4, 7, 8}));
+  EXPECT_TRUE(warns(warnings, one.c_str()));
+  EXPECT_TRUE(warns(warnings, "feature 0"));
+  std::tie(middle, warnings) =
+      heights(R"({"type":"LineString","coordinates":[[0,0,NaN],[1,0,4],[2,0,NaN],[2,2,NaN],[3,2,8],[9,9,NaN]]})");
+  EXPECT_EQ(middle, (std::vector<double>{4, 4, 5, 7, 8, 8}));
+  EXPECT_TRUE(warns(
+      warnings, "4 vertices without a height on lines that have heights lie between their neighbours: vertex 1 of"));
+  std::tie(middle, warnings) =
+      heights(R"({"type":"Polygon","coordinates":[[[0,0,NaN],[2,0,2],[2,2,NaN],[0,2,4],[0,0,NaN]]]})");
+  EXPECT_EQ(middle, (std::vector<double>{3, 2, 3, 4, 3}));
+  std::tie(middle, warnings) =
+      heights(R"({"type":"Polygon","coordinates":[[[0,0,NaN],[2,0,2],[2,2,NaN],[0,2,NaN],[0,0,NaN]]]})");
+  EXPECT_EQ(middle, (std::vector<double>(5, 2)));
+  std::tie(middle, warnings) = heights(R"({"type":"LineString","coordinates":[[0,0,NaN],[3,0,NaN]]})");
+  EXPECT_TRUE(std::isnan(middle[0]) && std::isnan(middle[1]));
+  EXPECT_FALSE(warns(warnings, "without a height"));
 }
 
 TEST_F(LineFiles, rings_know_their_polygon) {

@@ -12,6 +12,7 @@
 #include "base/caught.h"
 #include "io/gdal/crs.h"
 #include "io/gdal/vector.h"
+#include "io/line_heights.h"
 #include "scarp/lines.h"
 
 namespace scarp::gdal {
@@ -110,6 +111,13 @@ class Collector {
     };
     tell(points_, "point", "points");
     tell(without_geometry_, "feature without geometry", "features without geometry");
+    if (filled_ > 0)
+      set_.warnings.push_back(
+          filled_ == 1
+              ? "1 vertex without a height on lines that have heights lies between its neighbours: " + first_filled_
+              : fmt::format("{} vertices without a height on lines that have heights lie between their "
+                            "neighbours: {} is the first",
+                            filled_, first_filled_));
     tell(without_extent_, "line or ring of no extent", "lines or rings of no extent");
   }
 
@@ -160,6 +168,7 @@ class Collector {
     double* first = line.points[0].data();
     OGR_G_GetPoints(geometry, first, kStride, first + 1, kStride, first + 2, kStride);
     const bool has_z = OGR_G_Is3D(geometry) != 0;
+    if (has_z && !ignore_z_ && !height_) find_unknown(line);
     std::size_t kept = 0;
     for (const auto& [x, y, given_z] : line.points) {
       const double z = ignore_z_ ? kUnknown : height_ ? *height_ : has_z ? given_z : kUnknown;
@@ -181,6 +190,14 @@ class Collector {
     return {};
   }
 
+  void find_unknown(Line& line) {
+    const auto is_unknown = [](const std::array<double, 3>& place) { return std::isnan(place[2]); };
+    const auto first = std::find_if(line.points.begin(), line.points.end(), is_unknown) - line.points.begin();
+    const std::uint64_t filled = fill_heights(line.points, line.is_ring());
+    if (filled > 0 && filled_ == 0) first_filled_ = fmt::format("vertex {} of {}", first + 1, name_);
+    filled_ += filled;
+  }
+
   static bool is_same(const std::array<double, 3>& a, const std::array<double, 3>& b) {
     return a[0] == b[0] && a[1] == b[1] && (a[2] == b[2] || (std::isnan(a[2]) && std::isnan(b[2])));
   }
@@ -190,6 +207,8 @@ class Collector {
   LineSet& set_;
   std::string prefix_, name_;
   std::optional<double> height_;  ///< of the feature at work, if an attribute holds it
+  std::uint64_t filled_ = 0;      ///< vertices that were given heights
+  std::string first_filled_;
   std::uint64_t points_ = 0, without_geometry_ = 0, without_extent_ = 0;
 };
 

@@ -1,0 +1,54 @@
+#include "io/line_heights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace scarp {
+
+namespace {
+
+using Place = std::array<double, 3>;
+
+/// Of those between the places `from` and `to`, which have heights. Counts on beyond the end, where the ring begins.
+void fill_between(std::span<Place> places, std::size_t from, std::size_t to) {
+  const auto at = [&](std::size_t k) -> Place& { return places[k % places.size()]; };
+  std::vector<double> ways{0};
+  for (std::size_t k = from; k < to; ++k)
+    ways.push_back(ways.back() + std::hypot(at(k + 1)[0] - at(k)[0], at(k + 1)[1] - at(k)[1]));
+  const double begin = at(from)[2], end = at(to)[2];
+  for (std::size_t k = from + 1; k < to; ++k) {
+    const double share = ways.back() > 0 ? ways[k - from] / ways.back() : 0;
+    at(k)[2] = begin + share * (end - begin);
+  }
+}
+
+}  // namespace
+
+std::size_t fill_heights(std::span<Place> places, bool is_ring) {
+  const auto is_known = [](const Place& place) { return !std::isnan(place[2]); };
+  if (places.size() < 2) return 0;
+  // The last place of a ring is its first.
+  const std::span<Place> distinct = is_ring ? places.first(places.size() - 1) : places;
+  if (is_ring && !is_known(distinct.front())) distinct.front()[2] = places.back()[2];
+  const auto known = static_cast<std::size_t>(std::count_if(distinct.begin(), distinct.end(), is_known));
+  if (known == 0) return 0;
+  const auto first =
+      static_cast<std::size_t>(std::find_if(distinct.begin(), distinct.end(), is_known) - distinct.begin());
+  std::size_t last = first;
+  for (std::size_t k = first + 1; k < distinct.size(); ++k) {
+    if (!is_known(distinct[k])) continue;
+    fill_between(distinct, last, k);
+    last = k;
+  }
+  if (is_ring) {
+    fill_between(distinct, last, first + distinct.size());
+    places.back()[2] = distinct.front()[2];
+  } else {
+    for (std::size_t k = 0; k < first; ++k) places[k][2] = places[first][2];
+    for (std::size_t k = last + 1; k < places.size(); ++k) places[k][2] = places[last][2];
+  }
+  return distinct.size() - known;
+}
+
+}  // namespace scarp
