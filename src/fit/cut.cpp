@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "base/parallel.h"
@@ -28,6 +29,11 @@ struct Box {
     return high.x - low.x <= kMost && high.y - low.y <= kMost;
   }
 };
+
+/// Of a half-edge among those of its patch, by the places of triangles among theirs.
+std::size_t rank_in(const std::vector<std::uint32_t>& places, HalfEdge h) {
+  return 3 * std::size_t{places[h / 3]} + h % 3;
+}
 
 }  // namespace
 
@@ -224,8 +230,18 @@ Triangulation PatchCutter::join(std::vector<Patch> patches, const std::vector<st
     parts.arrays.twins[now] = twin == kNone ? kNone : name_now(twin, parts);
   };
   parallel_for(patches.size(), threads_, [&](std::size_t i) {
-    const Borders& borders = parts.borders[i];
-    for (std::size_t n = 0; n < borders.before.size(); ++n) link(borders.before[n], borders.now[n]);
+    const auto& [before, now] = parts.borders[i];
+    // Both sides of a constrained edge are borders, most of them of one patch.
+    const auto names = std::make_unique_for_overwrite<HalfEdge[]>(3 * (begins_[i + 1] - begins_[i]));
+    for (std::size_t n = 0; n < before.size(); ++n) names[rank_in(place_, before[n])] = now[n];
+    for (std::size_t n = 0; n < before.size(); ++n) {
+      const HalfEdge twin = tin_.twin(before[n]);
+      if (twin != kNone && square_[twin / 3] == i) {
+        parts.arrays.twins[now[n]] = names[rank_in(place_, twin)];
+      } else {
+        link(before[n], now[n]);
+      }
+    }
   });
   for (std::size_t n = begins_.back(); n < order_.size(); ++n) {
     for (HalfEdge h = 3 * order_[n]; h < 3 * order_[n] + 3; ++h) link(h, name_now(h, parts));
@@ -239,9 +255,8 @@ HalfEdge PatchCutter::name_now(HalfEdge before, const Parts& parts) const {
   const std::size_t square = square_[before / 3];
   if (square == count()) return static_cast<HalfEdge>(3 * (parts.begins.back() + place_[before / 3]) + before % 3);
   const auto& [names, now] = parts.borders[square];
-  const auto rank = [this](HalfEdge h) { return 3 * std::uint64_t{place_[h / 3]} + h % 3; };
-  const auto found =
-      std::lower_bound(names.begin(), names.end(), before, [&](HalfEdge a, HalfEdge b) { return rank(a) < rank(b); });
+  const auto found = std::lower_bound(names.begin(), names.end(), before,
+                                      [&](HalfEdge a, HalfEdge b) { return rank_in(place_, a) < rank_in(place_, b); });
   assert(found != names.end() && *found == before);
   return now[static_cast<std::size_t>(found - names.begin())];
 }
