@@ -198,6 +198,8 @@ Result<void> plan_order(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (culprit == nullptr) culprit = find_bounds(given);
   if (culprit == nullptr) culprit = find_beyond_heights(given, plan);
   if (culprit == nullptr) culprit = given.strategy.dominant_obstacle();
+  if (culprit == nullptr && !given.memory.memory)
+    culprit = given.cliff.height ? "--cliff" : given.ridges.height ? "--ridges" : nullptr;
   if (culprit == nullptr) return {};
   return fail(ErrorKind::kUsage,
               fmt::format("--order dominant and {} contradict each other: that order is for a max error alone, on "
@@ -205,8 +207,41 @@ Result<void> plan_order(const SimplifyArguments& given, SimplifyPlan& plan) {
                           culprit));
 }
 
+/// The option beside which fast effort is the default; null if there is none.
+const char* find_reason_for_fast(const SimplifyArguments& given, const SimplifyPlan& plan) {
+  if (const char* bounds = find_bounds(given)) return bounds;
+  if (const char* strategy = given.strategy.dominant_obstacle()) return strategy;
+  if (plan.simplify.order == Order::kGreedy) return "--order greedy";
+  return given.memory.memory ? "--memory" : nullptr;
+}
+
+/// Where no effort is named, what needs more than the default.
+Result<void> plan_default_effort(const SimplifyArguments& given, const SimplifyPlan& plan) {
+  const char* needs = given.strategy.min_shape                     ? "--min-shape"
+                      : given.strategy.time_limit                  ? "--time-limit"
+                      : plan.simplify.objective == Objective::kRms ? "--objective rms"
+                                                                   : nullptr;
+  const char* reason = find_reason_for_fast(given, plan);
+  if (needs == nullptr || reason == nullptr) return {};
+  if (plan.simplify.edges.data_dependent)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} and --edges data contradict each other: where vertices are removed edges are chosen "
+                            "anew; leave one of them out",
+                            needs));
+  return fail(
+      ErrorKind::kUsage,
+      fmt::format("{} needs more than fast effort, which is the default beside {}: add --effort normal, high or "
+                  "max",
+                  needs, reason));
+}
+
 /// Removal chooses edges itself, and budgets are met by one error for all samples.
 Result<void> plan_effort(const SimplifyArguments& given, SimplifyPlan& plan) {
+  if (const char* budget = find_budget(given); budget != nullptr && given.strategy.time_limit)
+    return fail(ErrorKind::kUsage,
+                fmt::format("--time-limit and {} contradict each other: whether a mesh fits is known "
+                            "when it is finished; leave one of them out",
+                            budget));
   if (plan.simplify.effort == Effort::kFast) {
     const char* needless = given.strategy.min_shape    ? "--min-shape"
                            : given.strategy.time_limit ? "--time-limit"
@@ -215,7 +250,7 @@ Result<void> plan_effort(const SimplifyArguments& given, SimplifyPlan& plan) {
     return fail(ErrorKind::kUsage,
                 fmt::format("{} needs --effort normal, high or max: fast effort is refinement alone", needless));
   }
-  if (plan.simplify.effort == Effort::kAuto) return {};
+  if (plan.simplify.effort == Effort::kAuto) return plan_default_effort(given, plan);
   const char* bounds = find_bounds(given);
   if (const char* budget = find_budget(given); budget != nullptr && bounds != nullptr) {
     return fail(ErrorKind::kUsage,

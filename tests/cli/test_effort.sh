@@ -127,7 +127,18 @@ refuses 1 "regular" "$scarp" simplify "$dem" never.glb -e 20 --effort high --ver
 refuses 1 "--min-shape 0.6 is above 0.5" "$scarp" simplify "$dem" never.glb -e 20 --min-shape 0.6
 refuses 1 "--min-shape needs --effort" "$scarp" simplify "$dem" never.glb -e 20 --effort fast --min-shape 0.1
 refuses 1 "--time-limit needs --effort" "$scarp" simplify "$dem" never.glb -e 20 --effort fast --time-limit 3
-refuses 1 "budget" "$scarp" simplify "$dem" never.glb -t 2000 --effort high --time-limit 3
+refuses 1 "--time-limit and --max-triangles" "$scarp" simplify "$dem" never.glb -t 2000 --effort high --time-limit 3
 refuses 1 "--time-limit" "$scarp" simplify "$dem" never.glb -e 20 --effort high --time-limit soon
+# Where fast effort is the default the option that makes it so is named, too.
+for reason in "--mask $dem" "--tolerance $dem" "--script /dev/null" "--importance local" "--batch const" "--algorithm local" "--order greedy" "--memory 1G"; do
+  for needs in "--min-shape 0.1" "--time-limit 5"; do
+    # shellcheck disable=SC2086
+    refuses 1 "${needs% *} needs more than fast effort, which is the default beside ${reason%% *}" "$scarp" simplify "$dem" never.glb -e 20 $needs $reason
+  done
+done
+refuses 1 "--objective rms needs more than fast effort, which is the default beside --order greedy" "$scarp" simplify "$dem" never.glb -t 2000 --objective rms --order greedy
+refuses 1 "--min-shape and --edges data contradict each other" "$scarp" simplify "$dem" never.glb -e 20 --min-shape 0.1 --edges data
+refuses 1 "--time-limit and --max-triangles contradict each other" "$scarp" simplify "$dem" never.glb -t 2000 --time-limit 5
+refuses 1 "--order dominant and --ridges contradict each other" "$scarp" simplify "$dem" never.glb -e 20 --order dominant --ridges 20
 refuses 1 "--effort" "$scarp" simplify "$dem" never.glb -e 20 --effort much
 refuses 1 "no goal" "$scarp" simplify "$dem" never.glb --effort normal
