@@ -114,10 +114,11 @@ class RegionSamples {
     std::vector<ColumnWalk> walks;
     walks.reserve(widest());
     const std::int32_t end = window.col + window.cols;
-    for (std::int32_t begin = window.col / stretch_ * stretch_; begin < end;) {
+    // Without a falloff columns know nothing of each other.
+    for (std::int32_t begin = reach_ == 0 ? window.col : window.col / stretch_ * stretch_; begin < end;) {
       const std::int32_t next = begin > grid_.cols - stretch_ ? grid_.cols : begin + stretch_;
       const std::int32_t left = std::max(begin - reach_, left_);
-      const std::int32_t right = next > right_ - reach_ ? right_ : next + reach_;
+      const std::int32_t right = reach_ == 0 ? std::min({next, right_, end}) : std::min(next, right_ - reach_) + reach_;
       if (left < right) {
         walks.clear();
         for (std::int32_t x = left; x < right; ++x) walks.emplace_back(columns_.column(x), first);

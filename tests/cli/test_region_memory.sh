@@ -63,7 +63,7 @@ check fast none --roi site.geojson=2 --roi road.geojson=5
 same little.json much.json bounded_max_error bounded_max_error_at
 
 # Beside goals of shapes.
-succeeds within "$small" "$scarp" simplify hills.tif shaped.obj -e 40 "${sites[@]}" --min-angle 20 --effort normal --memory "${small}M" \
+within "$small" "$scarp" simplify hills.tif shaped.obj -e 40 "${sites[@]}" --min-angle 20 --effort normal --memory "${small}M" \
   --report shaped.json
 [ "$(json shaped.json shape below)" = 0 ] || fail "triangles with smaller angles are left"
 succeeds "$scarp" measure hills.tif shaped.obj "${sites[@]}" --fail-above 40
