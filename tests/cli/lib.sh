@@ -50,18 +50,19 @@ succeeds() {
   [ "$code" = 0 ] || fail "exit code $code instead of 0: $*"
 }
 
-# within MEGABYTES COMMAND...: succeeds, and takes no more memory at any moment. What a sanitizer takes is not the
-# program's, and not looked at.
-within() {
+# run_within MEGABYTES COMMAND...: the command's exit code, and a failure if it takes more memory at any moment. What a
+# sanitizer takes is not the program's, and not looked at.
+run_within() {
   local most=$1
   shift
   bash -c 'ulimit -v 1000000; exec "$1" --version' - "$scarp" > /dev/null 2>&1 || most=1000000
-  succeeds python3 -c '
+  python3 -c '
 import resource, subprocess, sys
 code = subprocess.call(sys.argv[2:])
 peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024
 sys.exit(code or (peak > 1e6 * int(sys.argv[1]) and f"{peak / 1e6:.1f} MB were taken"))' "$most" "$@"
 }
+within() { succeeds run_within "$@"; }
 
 # refuses CODE WORDS COMMAND...: the exit code, exactly one line on stderr, which begins with "scarp: " and holds WORDS,
 # nothing on stdout, and not one file more, less or changed.

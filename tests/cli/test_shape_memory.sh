@@ -45,16 +45,16 @@ succeeds "$scarp" measure hills.tif graded.obj --fail-above 12
 
 # What is refused stays within the limit until then, and what could never be had is refused at once.
 refuses_within() {
-  try within "$limit" "$scarp" simplify hills.tif x.obj -e 12 --memory "${limit}M" "$@"
+  try run_within "$limit" "$scarp" simplify hills.tif x.obj --memory "${limit}M" "$@"
   [ "$code" = 1 ] || fail "exit code $code instead of 1: $*"
   grep -q "^scarp: --memory ${limit}M is too little: " "$logs/err" || fail "another sentence: $(cat "$logs/err")"
 }
-refuses_within --max-edge 3
+refuses_within -e 12 --max-edge 3
 grep -q 'edges so short need at least 204818 triangles, which take more than' "$logs/err" || fail "triangles are not counted"
-for grade in 0.01 0.001 1e-9; do refuses_within --grade $grade; done
+for grade in 0.01 0.001 1e-9; do refuses_within -e 12 --grade $grade; done
 refuses_within -e 0 --min-angle 5
 succeeds "$scarp" generate fractal 1000 800 rough.tif -q
 for effort in fast normal; do
-  try within "$limit" "$scarp" simplify rough.tif x.obj -e 0 --effort $effort --memory "${limit}M" -j 8
+  try run_within "$limit" "$scarp" simplify rough.tif x.obj -e 0 --effort $effort --memory "${limit}M" -j 8
   grep -q "^scarp: --memory ${limit}M is too little: the mesh has" "$logs/err" || fail "another sentence: $(cat "$logs/err")"
 done
