@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cut_source.h"
@@ -21,6 +22,7 @@
 #include "line_samples.h"
 #include "refine/freeze.h"
 #include "row_fit.h"
+#include "scarp/cliffs.h"
 #include "scarp/measure.h"
 
 namespace scarp::row_cutline_laws_test {
@@ -30,6 +32,7 @@ using testing::any_field;
 using testing::ArraySource;
 using testing::Draughtsman;
 using testing::Field;
+using testing::Relief;
 using testing::with_source;
 
 /// A field that is read window by window, and polygons that end its surface.
@@ -41,7 +44,8 @@ struct CutScene {
   SimplifyOptions options;
   Draughtsman draughtsman{*rc::gen::arbitrary<std::uint32_t>()};
 
-  explicit CutScene(std::int32_t largest) : field(any_field(largest)) {
+  explicit CutScene(std::int32_t largest) : CutScene(any_field(largest)) {}
+  explicit CutScene(Field any) : field(std::move(any)) {
     options.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0, 1e6);
     options.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh, Effort::kMax);
     options.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
@@ -52,6 +56,35 @@ struct CutScene {
   void add_lines() {
     options.breaklines = testing::any_lines(field);
     options.breaklines.affine = options.cutline.affine;
+  }
+  /// A town within a polygon, whose walls stay away from its ring. Returns how many there are.
+  std::uint64_t add_town() {
+    constexpr float kBlock = 50;
+    const double width = field.cols - 1, height = field.rows - 1;
+    Line ring;
+    ring.role = LineRole::kOuter;
+    ring.polygon = 0;
+    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}})
+      ring.points.push_back({std::clamp(x * width + draughtsman.between(-3, 3), -2.0, width + 2),
+                             std::clamp(y * height + draughtsman.between(-3, 3), -2.0, height + 2), NAN});
+    ring.points.push_back(ring.points.front());
+    options.cutline.rings = {ring};
+    for (int blocks = draughtsman.below(4) + 1; blocks-- > 0;) {
+      const std::int32_t left = 5 + draughtsman.below(field.cols - 10), top = 5 + draughtsman.below(field.rows - 10);
+      const std::int32_t right = std::min(left + 2 + draughtsman.below(20), field.cols - 5);
+      const std::int32_t bottom = std::min(top + 2 + draughtsman.below(20), field.rows - 5);
+      for (std::int32_t y = top; y < bottom; ++y) {
+        for (std::int32_t x = left; x < right; ++x)
+          field.samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(field.cols) +
+                        static_cast<std::size_t>(x)] += kBlock;
+      }
+    }
+    CliffOptions walls{kBlock / 2, *options.max_error, options.cutline.affine};
+    walls.avoid = options.cutline.rings;
+    const auto cliffs = *detect_cliffs(streamed, walls);
+    options.breaklines.affine = options.cutline.affine;
+    options.breaklines.lines = cliffs.lines;
+    return cliffs.faults;
   }
   Result<FieldLines> lines() const {
     return prepare_lines(streamed, options.breaklines, options.cutline, *options.max_error / 2, 1, side);
@@ -70,11 +103,8 @@ struct CutScene {
   }
 };
 
-RC_GTEST_PROP(row_cutlines, cover_what_lies_in_the_polygons_and_has_data_within_the_bound_and_nothing_else, ()) {
-  CutScene scene(40);
-  scene.options.cutline =
-      *rc::gen::arbitrary<bool>() ? scene.draughtsman.rings(scene.field) : scene.draughtsman.rectangles(scene.field);
-  if (*rc::gen::arbitrary<bool>()) scene.add_lines();
+/// The surface is that of the polygons that has data, sound and within the bound.
+void check_cut(CutScene& scene) {
   const auto lines = scene.lines();
   const auto made = lines ? scene.refine(*lines) : tl::unexpected(lines.error());
   if (!made) {
@@ -99,6 +129,22 @@ RC_GTEST_PROP(row_cutlines, cover_what_lies_in_the_polygons_and_has_data_within_
   RC_ASSERT(judged->uncovered == 0u);
   RC_ASSERT(judged->void_cells_covered == 0u);
   RC_ASSERT(judged->is_sound());
+}
+
+RC_GTEST_PROP(row_cutlines, cover_what_lies_in_the_polygons_and_has_data_within_the_bound_and_nothing_else, ()) {
+  CutScene scene(40);
+  scene.options.cutline =
+      *rc::gen::arbitrary<bool>() ? scene.draughtsman.rings(scene.field) : scene.draughtsman.rectangles(scene.field);
+  if (*rc::gen::arbitrary<bool>()) scene.add_lines();
+  check_cut(scene);
+}
+
+RC_GTEST_PROP(row_cutlines, around_walls_keep_the_bound_and_the_domain_too, ()) {
+  CutScene scene(testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(20, 60),
+                                       *rc::gen::inRange(20, 60), *rc::gen::element(Relief::kFlat, Relief::kRidges),
+                                       *rc::gen::element(0.0, 0.0, 0.02)));
+  RC_PRE(scene.add_town() > 0u);
+  check_cut(scene);
 }
 
 RC_GTEST_PROP(row_cutlines, leave_exactly_the_area_of_the_polygons_that_has_data, ()) {
