@@ -248,6 +248,7 @@ class ErrorSearch {
     SimplifyOptions options = options_;
     options.max_triangles = options.max_vertices = std::nullopt;
     options.max_error = error;
+    options.objective = Objective::kMax;  // of the search, not of a run
     return options;
   }
 

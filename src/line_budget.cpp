@@ -141,6 +141,7 @@ class LineErrorSearch {
     SimplifyOptions options = options_;
     options.max_triangles = options.max_vertices = std::nullopt;
     options.max_error = error;
+    options.objective = Objective::kMax;  // of the search, not of a run
     options.progress = progress_.of_run(false);
     constexpr std::uint64_t kBytesPerVertex = 48;
     options.memory_taken += kBytesPerVertex * best_.mesh.vertex_count();

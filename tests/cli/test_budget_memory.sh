@@ -25,5 +25,8 @@ holds "$(json r.json vertices) >= 0.97 * 2000"
 within 78 "$scarp" simplify hills.tif mesh.ply -e 20 -t 100000 --memory 78M --report r.json --overwrite
 holds "$(json r.json max_error) <= 20"
 
+echo '{"type":"LineString","coordinates":[[5.3,800.1],[600,400.5]]}' > river.geojson
+succeeds "$scarp" simplify hills.tif mesh.ply -t 2000 --rivers river.geojson --effort normal --objective rms --overwrite
+
 refuses 1 "alone need" "$scarp" simplify hills.tif x.ply -t 1 --memory 78M
 refuses 1 "--memory 74M is too little: the mesh has" "$scarp" simplify hills.tif x.ply -t 400000 --memory 74M
