@@ -29,6 +29,8 @@ struct CompanionArguments {
   Result<void> check(const char* bound_option, bool has_bound) const;
   /// The option that gives samples bounds of their own, other than weights; null if there is none.
   const char* find_tolerance() const;
+  /// Whether samples are given weights or bounds of their own.
+  bool gives_bounds() const { return mask || script || find_tolerance() != nullptr; }
   /// The option that reads what is of use for samples in memory only; null if there is none.
   const char* find_need_of_samples() const { return mask ? "--mask" : script ? "--script" : nullptr; }
   /// The files that were named.

@@ -171,11 +171,12 @@ Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judg
   }
   const Result<std::optional<std::uint64_t>> limit = memory_.parse();
   if (!limit) return tl::unexpected(limit.error());
-  const std::uint64_t others = cut_.files.empty() && companions_.roi.empty() ? 0 : kVectorBytes;
-  Result<OwnedHeightField> field = read_within(raster_.path, options, *limit, others);
+  MemoryNeeds needs{cut_.files.empty() && companions_.roi.empty() ? 0 : kVectorBytes};
+  if (companions_.gives_bounds()) needs.per_sample = kBoundedSampleBytes;
+  Result<OwnedHeightField> field = read_within(raster_.path, options, *limit, needs);
   if (!field) return tl::unexpected(std::move(field.error()));
   if (const std::optional<std::string> need = find_need_of_samples()) {
-    if (auto in_memory = check_in_memory(*field, *need, others); !in_memory) return in_memory;
+    if (auto in_memory = check_in_memory(*field, *need, needs); !in_memory) return in_memory;
   }
   judged.field = std::move(*field);
   Result<Channels> textures = read_textures(judged.plan, judged.field, options.progress);

@@ -50,9 +50,9 @@ std::uint64_t samples_share(std::uint64_t limit, std::uint64_t others) {
 std::uint64_t megabytes(std::uint64_t bytes) { return (bytes + 999'999) / 1'000'000; }
 
 /// What a run with all samples in memory needs at least.
-double megabytes_in_memory(const OwnedHeightField& field, std::uint64_t others) {
-  const double bytes = static_cast<double>(kBytesPerSample) * field.cols * field.rows;
-  return std::ceil((2 * bytes + static_cast<double>(kProgramBytes + others)) / 1e6) + 1;
+double megabytes_in_memory(const OwnedHeightField& field, const MemoryNeeds& needs = {}) {
+  const double bytes = static_cast<double>(needs.per_sample) * field.cols * field.rows;
+  return std::ceil((2 * bytes + static_cast<double>(kProgramBytes + needs.others)) / 1e6) + 1;
 }
 
 }  // namespace
@@ -96,10 +96,17 @@ Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& te
 }
 
 Result<OwnedHeightField> read_within(const std::string& path, ReadOptions options,
-                                     const std::optional<std::uint64_t>& limit, std::uint64_t others) {
+                                     const std::optional<std::uint64_t>& limit, const MemoryNeeds& needs) {
   if (!limit) return read_height_field(path, options);
   give_back_early();
-  options.memory_limit = std::max<std::uint64_t>(samples_share(*limit, others), 1);  // 0 would be no limit
+  const std::uint64_t share = std::max<std::uint64_t>(samples_share(*limit, needs.others), 1);  // 0 would be no limit
+  options.memory_limit = std::max<std::uint64_t>(share / needs.per_sample * kBytesPerSample, 1);
+  Result<OwnedHeightField> field = open_height_field(path, options);
+  if (!field || !field->source || options.memory_limit == share) return field;
+  // A file that has to be read in windows anyway may have all of the share for its cache.
+  const std::uint64_t samples = static_cast<std::uint64_t>(field->cols) * static_cast<std::uint64_t>(field->rows);
+  if (kBytesPerSample * samples <= share) return field;
+  options.memory_limit = share;
   return open_height_field(path, options);
 }
 
@@ -132,12 +139,12 @@ Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std:
                                              options, megabytes(bytes), megabytes(needed)));
 }
 
-Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option, std::uint64_t others) {
+Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option, const MemoryNeeds& needs) {
   if (!field.source) return {};
   return fail(ErrorKind::kUsage,
               fmt::format("{} needs all samples in memory at once, and {} x {} samples are more than --memory leaves "
                           "for them: leave {} out, or allow {}M",
-                          option, field.cols, field.rows, option, megabytes_in_memory(field, others)));
+                          option, field.cols, field.rows, option, megabytes_in_memory(field, needs)));
 }
 
 Error name_memory(const MemoryArguments& given, const OwnedHeightField& field, Error error) {
@@ -147,7 +154,7 @@ Error name_memory(const MemoryArguments& given, const OwnedHeightField& field, E
     error.message.replace(0, kLimit.size(), "--memory " + shell_word(*given.memory));
   if (const std::size_t at = error.message.find(kWhole); at != std::string::npos)
     error.message.replace(at, kWhole.size(),
-                          fmt::format("leave --memory out, or allow {}M", megabytes_in_memory(field, 0)));
+                          fmt::format("leave --memory out, or allow {}M", megabytes_in_memory(field)));
   return error;
 }
 

@@ -34,11 +34,19 @@ Result<std::uint64_t> parse_bytes(std::string_view option, const std::string& te
 /// What GDAL loads to read a file of lines or polygons.
 inline constexpr std::uint64_t kVectorBytes = 6'000'000;
 
+/// What a run needs beside the mesh.
+struct MemoryNeeds {
+  std::uint64_t others = 0;      ///< bytes, of files beside the raster's
+  std::uint64_t per_sample = 4;  ///< bytes, where all samples are in memory: the samples, and bounds of their own
+};
+
+/// Of a sample in memory that has a bound of its own.
+inline constexpr std::uint64_t kBoundedSampleBytes = 24;
+
 /// read_height_field(), or, with a limit, open_height_field(): one half of what the program itself leaves of it is for
-/// the samples or their file's cache. `others`: bytes that something else will
-/// need, which the samples leave.
+/// the samples, with what each of them needs, or their file's cache.
 Result<OwnedHeightField> read_within(const std::string& path, ReadOptions options,
-                                     const std::optional<std::uint64_t>& limit, std::uint64_t others = 0);
+                                     const std::optional<std::uint64_t>& limit, const MemoryNeeds& needs = {});
 
 /// What of `limit` a run on a field that was read within it has not for itself: the program, and the samples or the
 /// cache of their file, with what others have of it.
@@ -54,7 +62,7 @@ std::uint64_t bytes_beside(const OwnedHeightField& other, const OwnedHeightField
 Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std::uint64_t bytes, const char* options);
 
 /// Fails with kUsage if the field's samples are not in memory as one array, which `option` needs; says what would do.
-Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option, std::uint64_t others = 0);
+Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option, const MemoryNeeds& needs = {});
 
 /// What the library says of memory_limit, and of rasters that were not read as a whole, in the words of --memory.
 Error name_memory(const MemoryArguments& given, const OwnedHeightField& field, Error error);

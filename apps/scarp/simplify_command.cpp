@@ -27,11 +27,18 @@ std::uint64_t vector_bytes(const SimplifyPlan& plan) {
   return has_none ? 0 : kVectorBytes;
 }
 
+MemoryNeeds needs_of(const SimplifyPlan& plan) {
+  MemoryNeeds needs{vector_bytes(plan)};
+  if (plan.companions.gives_bounds()) needs.per_sample = kBoundedSampleBytes;
+  return needs;
+}
+
 Result<void> read_heights(const SimplifyPlan& plan, const ReadOptions& options, Outcome& outcome) {
-  Result<OwnedHeightField> field = read_within(plan.input, options, plan.memory, vector_bytes(plan));
+  const MemoryNeeds needs = needs_of(plan);
+  Result<OwnedHeightField> field = read_within(plan.input, options, plan.memory, needs);
   if (!field) return tl::unexpected(std::move(field.error()));
   if (plan.needs_samples) {
-    if (auto in_memory = check_in_memory(*field, *plan.needs_samples, vector_bytes(plan)); !in_memory) return in_memory;
+    if (auto in_memory = check_in_memory(*field, *plan.needs_samples, needs); !in_memory) return in_memory;
   }
   outcome.field = std::move(*field);
   outcome.as_read = outcome.field.info;
@@ -63,8 +70,12 @@ bool has_lines_to_fit(const SimplifyPlan& plan) {
 /// What the process may take, and has taken.
 MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome) {
   if (!plan.memory) return {};
-  return {*plan.memory,
-          bytes_taken(outcome.field, *plan.memory) + outcome.waters.bytes() + outcome.companions.in_windows.bytes};
+  const OwnedHeightField& field = outcome.field;
+  std::uint64_t taken = bytes_taken(field, *plan.memory) + outcome.waters.bytes() + outcome.companions.in_windows.bytes;
+  if (plan.companions.gives_bounds() && !field.source)
+    taken += (kBoundedSampleBytes - MemoryNeeds().per_sample) * static_cast<std::uint64_t>(field.cols) *
+             static_cast<std::uint64_t>(field.rows);
+  return {*plan.memory, taken};
 }
 
 /// All lines of a mesh of such an error, and the walls and ridges among them.

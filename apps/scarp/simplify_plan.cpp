@@ -408,10 +408,9 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
 
 /// The first option that was given and cannot do with a few samples at a time; nothing if there is none.
 std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, const SimplifyPlan& plan) {
-  const bool has_bounds = find_bounds(given) != nullptr;
+  const char *budget = find_budget(given), *bounds = find_bounds(given);
+  if (budget != nullptr && bounds != nullptr) return fmt::format("{} with {}", budget, bounds);
   const std::pair<const char*, bool> options[] = {
-      {"--max-triangles", has_bounds && given.max_triangles},
-      {"--max-points", has_bounds && given.max_points},
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
       {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
       {"--normals", plan.simplify.normals},
