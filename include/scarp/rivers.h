@@ -36,8 +36,8 @@ struct RiverOptions {
 ///
 /// Parts beside the raster and in voids have no heights. Rings are left out, as are lines without a height anywhere.
 /// The raster stays as it is: as hard breaklines, rivers run in gorges a sample wide where they lie below it. Heights
-/// are float32. Fails with kUsage for a negative tolerance, and as the field's source does. REQUIRES: the affine map can
-/// be inverted. Cost: O(n log n) for lines and shores along n samples.
+/// are float32. Fails with kUsage for a negative tolerance, and as the field's source does. REQUIRES: the affine map
+/// can be inverted. Cost: O(n log n) for lines and shores along n samples.
 Result<std::vector<River>> carve_rivers(const OwnedHeightField& field, std::span<const Line> lines,
                                         std::span<const Lake> lakes, const RiverOptions& options);
 

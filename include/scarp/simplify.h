@@ -47,7 +47,7 @@ struct SimplifyOptions {
   /// DEFAULT: empty.
   std::span<const float> tolerance = {};
   /// The same where the field has a source, read in windows as its samples are (no NaN): there the above fails with
-  /// kUsage, as this does beside samples in memory. Borrowed. DEFAULT: none.
+  /// kUsage, as this does beside samples in memory, and a budget beside it. Borrowed. DEFAULT: none.
   const SampleSource* tolerance_source = nullptr;
   /// Breaklines. A hard line keeps its heights, a soft one follows the raster. Where a hard line passes through a
   /// sample that has another height, the sample is given the line's, and what is promised holds for the samples as they
@@ -69,8 +69,8 @@ struct SimplifyOptions {
   /// kDominant fails with kUsage together with a budget, a mask, tolerances, a script, channels, an importance, an
   /// algorithm, batches, data-dependent edges or an outline tolerance; kAuto then is kGreedy. DEFAULT: kAuto.
   Order order = Order::kAuto;
-  /// All but kFast fail with kUsage together with a script that inserts, data-dependent edges, or with a budget beside a
-  /// mask, tolerances or a script. DEFAULT: kAuto.
+  /// All but kFast fail with kUsage together with a script that inserts, data-dependent edges, or with a budget beside
+  /// a mask, tolerances or a script. DEFAULT: kAuto.
   Effort effort = Effort::kAuto;
   /// kFree fails with kUsage below kHigh, with channels and in frames that are not affine. DEFAULT: kAuto.
   Vertices vertices = Vertices::kAuto;
