@@ -100,7 +100,7 @@ Result<OwnedHeightField> read_within(const std::string& path, ReadOptions option
   if (!limit) return read_height_field(path, options);
   give_back_early();
   const std::uint64_t share = std::max<std::uint64_t>(samples_share(*limit, needs.others), 1);  // 0 would be no limit
-  options.memory_limit = std::max<std::uint64_t>(share / needs.per_sample * kBytesPerSample, 1);
+  options.memory_limit = std::max<std::uint64_t>(share * kBytesPerSample / needs.per_sample, 1);
   Result<OwnedHeightField> field = open_height_field(path, options);
   if (!field || !field->source || options.memory_limit == share) return field;
   // A file that has to be read in windows anyway may have all of the share for its cache.
