@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+"""The byte table: what the program writes for each set of options (options.txt) of each raster (make_inputs.py), in
+memory and streamed, as one hash of all files of the run. A run that fails stands there with its exit code.
+
+usage: table.py PROGRAM DEM TABLE [--update]     in an empty folder
+
+Compares with TABLE, or writes it. The program's version, which stands in most files, is left out of the hash."""
+import concurrent.futures
+import hashlib
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+# File, height of a step or ridge, and the --memory that leaves less than the samples need: `hills` and `coast` stay in
+# their file, `fault` and `town` are kept in 16 bits.
+RASTERS = {"fault": ("fault.tif", 80, "72900k"), "hills": ("hills.bil", 200, "72500k"),
+           "coast": ("coast.bil", 200, "72500k"), "town": ("town.bil", 8, "72500k")}
+FILES = {"lines": "lines.geojson", "hard": "hard.geojson", "river": "river.geojson", "pond": "pond.geojson", "site": "site.geojson",
+         "cut": "cut.geojson", "mask": "mask.bil", "near": "near.bil", "photo": "photo.ppm", "steps": "steps.txt"}
+VERSION = re.compile(rb"[Ss]carp \d+\.\d+\.\d+")
+
+
+def hash_of(folder):
+    digest = hashlib.sha256()
+    for path in sorted(folder.iterdir()):
+        digest.update(path.name.encode() + b"\0" + VERSION.sub(b"scarp", path.read_bytes()))
+    return digest.hexdigest()[:12]
+
+
+def run(program, number, line, raster, is_streamed):
+    words = line.split()
+    from_points = words[0] == "points"
+    ending, options = words[from_points], words[1 + from_points:]
+    source, step, memory = RASTERS[raster]
+    names = {key: os.path.abspath(f"{raster}.{end}") for key, end in FILES.items()} | {"step": step}
+    source = f"{raster}.points.csv" if from_points else source
+    folder = pathlib.Path(f"{number}.{raster}.{'streamed' if is_streamed else 'memory'}")
+    folder.mkdir()
+    command = [program, "simplify", source, str(folder / f"out.{ending}"), *(word.format(**names) for word in options),
+               *(["--memory", memory] if is_streamed else []), "-q", "-j", "1"]
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    if done.returncode:
+        sentence = done.stderr.decode().strip().replace(os.getcwd() + "/", "")
+        return f"exit {done.returncode}", sentence
+    return hash_of(folder), ""
+
+
+def main():
+    program, dem, table = (os.path.abspath(path) for path in sys.argv[1:4])
+    lines = (pathlib.Path(__file__).parent / "options.txt").read_text().splitlines()
+    lines = [line for line in lines if line and not line.startswith("#")]
+    subprocess.run([sys.executable, str(pathlib.Path(__file__).parent / "make_inputs.py"), dem], check=True)
+    jobs = [(number, line, raster, is_streamed) for number, line in enumerate(lines) for raster in RASTERS
+            for is_streamed in (False, True) if not (is_streamed and line.startswith("points"))]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 2) as pool:
+        results = list(pool.map(lambda job: run(program, *job), jobs))
+    rows, sentences = {}, {}
+    for (_, line, raster, is_streamed), (result, sentence) in zip(jobs, results):
+        row = f"{line} | {'streamed' if is_streamed else 'memory'}"
+        rows.setdefault(row, {})[raster] = result
+        sentences[row, raster] = sentence
+    text = "".join(f"{row} | {' '.join(f'{raster}={result}' for raster, result in of.items())}\n" for row, of in rows.items())
+    if "--update" in sys.argv:
+        pathlib.Path(table).write_text(text)
+    had = dict(line.rsplit(" | ", 1) for line in pathlib.Path(table).read_text().splitlines())
+    have = dict(line.rsplit(" | ", 1) for line in text.splitlines())
+    faults = [row for row in {**had, **have} if had.get(row) != have.get(row)]
+    for row in faults:
+        print(f"{row}\n  was {had.get(row)}\n  is  {have.get(row)}")
+        print("".join(f"  {raster}: {sentences[row, raster]}\n" for raster in RASTERS if sentences.get((row, raster))), end="")
+    if "--sentences" in sys.argv:
+        for (row, raster), sentence in sentences.items():
+            if sentence:
+                print(f"{row} | {raster}: {sentence}")
+    refused = sum(result.startswith("exit") for of in rows.values() for result in of.values())
+    print(f"byte table: {len(lines)} sets of options, {len(jobs)} runs, {refused} refused, {len(faults)} rows differ")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
