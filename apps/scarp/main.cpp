@@ -9,15 +9,15 @@
 #include <string>
 #include <string_view>
 
-#include "generate_command.h"
-#include "info_command.h"
-#include "measure_command.h"
-#include "missing_value.h"
-#include "paper_command.h"
+#include "commands/generate_command.h"
+#include "commands/info_command.h"
+#include "commands/measure_command.h"
+#include "commands/paper_command.h"
+#include "commands/simplify_command.h"
+#include "options/missing_value.h"
 #include "scarp/version.h"
-#include "signals.h"
-#include "simplify_command.h"
-#include "text.h"
+#include "terminal/signals.h"
+#include "terminal/text.h"
 
 namespace {
 

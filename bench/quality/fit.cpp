@@ -17,12 +17,12 @@
 #include "scarp/scarp.h"
 //
 #include "fit/fit.h"
+#include "grid/samples.h"
+#include "metric/height_judge.h"
+#include "pieces/release.h"
+#include "pieces/tiled.h"
 #include "refine/domain.h"
-#include "refine/height_judge.h"
 #include "refine/refinement.h"
-#include "refine/release.h"
-#include "refine/samples.h"
-#include "refine/tiled.h"
 
 namespace {
 

@@ -6,12 +6,12 @@
 #include <string>
 #include <utility>
 
+#include "metric/height_judge.h"
+#include "pieces/release.h"
+#include "pieces/tiled.h"
 #include "raw.h"
 #include "refine/domain.h"
-#include "refine/height_judge.h"
 #include "refine/refinement.h"
-#include "refine/release.h"
-#include "refine/tiled.h"
 #include "scarp/height_field.h"
 
 namespace bench {

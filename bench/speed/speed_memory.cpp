@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "engines.h"
-#include "refine/freeze.h"
+#include "pieces/freeze.h"
 
 namespace {
 

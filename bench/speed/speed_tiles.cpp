@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "engines.h"
-#include "refine/border_chain.h"
+#include "pieces/border_chain.h"
+#include "pieces/tile_plan.h"
 #include "refine/dominant.h"
 #include "refine/tile_domain.h"
-#include "refine/tile_plan.h"
 #include "tin/assembly.h"
 
 namespace {

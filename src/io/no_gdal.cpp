@@ -1,10 +1,10 @@
 // The doors that GDAL stands behind, in a build without it.
 #ifndef SCARP_WITH_GDAL
 
-#include "io/crs_description.h"
-#include "io/mesh_file.h"
-#include "io/point_source.h"
-#include "io/raster_source.h"
+#include "io/mesh/mesh_file.h"
+#include "io/points/point_source.h"
+#include "io/raster/crs_description.h"
+#include "io/raster/raster_source.h"
 #include "scarp/cutline.h"
 #include "scarp/lines.h"
 

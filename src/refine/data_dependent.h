@@ -8,8 +8,8 @@
 
 #include <vector>
 
+#include "metric/judge.h"
 #include "refine/fit_cache.h"
-#include "refine/judge.h"
 #include "scarp/strategy.h"
 #include "tin/triangulation.h"
 

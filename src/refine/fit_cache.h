@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "refine/fine_lattice.h"
-#include "refine/judge.h"
+#include "metric/fine_lattice.h"
+#include "metric/judge.h"
 #include "tin/triangulation.h"
 
 namespace scarp {

@@ -17,9 +17,9 @@
 #include <span>
 #include <vector>
 
+#include "metric/judge.h"
 #include "refine/candidate_queue.h"
 #include "refine/data_dependent.h"
-#include "refine/judge.h"
 #include "scarp/strategy.h"
 #include "tin/triangulation.h"
 

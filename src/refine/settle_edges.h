@@ -1,7 +1,7 @@
 // The last touch to a data-dependent triangulation.
 #pragma once
 
-#include "refine/judge.h"
+#include "metric/judge.h"
 #include "scarp/strategy.h"
 #include "tin/triangulation.h"
 

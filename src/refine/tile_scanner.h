@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geom/scan_kernels.h"
-#include "refine/height_judge.h"
+#include "metric/height_judge.h"
 #include "tin/tile_mesh.h"
 
 namespace scarp {

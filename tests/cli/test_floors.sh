@@ -36,10 +36,10 @@ expect_fault src/measure/measure.cpp '#include "geom/scan.h"' 'measure must not 
 expect_fault src/base/array.h '#include "geom/plane.h"' 'a step upwards from base'
 expect_fault include/scarp/mesh.h '#include "base/array.h"' 'public headers only'
 expect_fault apps/scarp/main.cpp '#include "grid/raster.h"' 'apps may include'
-expect_fault src/io/stm.cpp '#include <gdal.h>' 'GDAL'
-expect_fault src/refine/freeze.cpp '#include <thread>' 'threads'
+expect_fault src/io/raster/stm.cpp '#include <gdal.h>' 'GDAL'
+expect_fault src/pieces/freeze.cpp '#include <thread>' 'threads'
 expect_fault src/geom/scan.h '#include <immintrin.h>' 'instruction set'
-expect_fault src/io/stl.cpp '#include "io/no_such.h"' 'there is no src/io/no_such.h'
+expect_fault src/io/mesh/stl.cpp '#include "io/no_such.h"' 'there is no src/io/no_such.h'
 expect_fault src/geom/plane.h "$(printf '// line\\n%.0s' $(seq 600))" 'more than 600'
 mkdir -p "$scratch/empty"
 if "$python" "$check" "$scratch/empty" 2>/dev/null; then echo "an empty tree passed"; exit 1; fi

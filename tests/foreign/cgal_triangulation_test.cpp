@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "geom/arrangement.h"
-#include "refine/constraints.h"
+#include "lines/constraints.h"
 
 namespace scarp {
 namespace {

@@ -1,7 +1,7 @@
 // Any bytes: a height field of the size it claims, or an error with words.
 #include <cstdlib>
 
-#include "io/pgm.h"
+#include "io/raster/pgm.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::span<const std::uint8_t> bytes(data, size);

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "io/point_source.h"
+#include "io/points/point_source.h"
 #include "scarp/points.h"
 
 namespace {

@@ -1,7 +1,7 @@
 // Any bytes: steps within the raster, or an error with words.
 #include <cstdlib>
 
-#include "io/script.h"
+#include "io/raster/script.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto steps = scarp::decode_script({data, size}, "fuzz.txt", 100, 70);

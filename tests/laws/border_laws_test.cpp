@@ -6,9 +6,9 @@
 
 #include "base/int128.h"
 #include "laws/tile_meshes.h"
-#include "refine/border_chain.h"
+#include "pieces/border_chain.h"
+#include "pieces/tile_plan.h"
 #include "refine/tile_domain.h"
-#include "refine/tile_plan.h"
 
 namespace scarp::border_laws_test {
 namespace {

@@ -14,7 +14,7 @@
 #include "laws/fit_meshes.h"
 #include "laws/mesh_laws.h"
 #include "laws/tile_meshes.h"
-#include "refine/sample_judge.h"
+#include "metric/sample_judge.h"
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "breaklines.h"
+#include "lines/breaklines.h"
 
 namespace scarp::breaklines_laws_test {
 namespace {

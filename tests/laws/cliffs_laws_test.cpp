@@ -6,8 +6,8 @@
 #include <limits>
 #include <random>
 
-#include "crack_chains.h"
-#include "fault_lines.h"
+#include "features/crack_chains.h"
+#include "features/fault_lines.h"
 #include "laws/array_source.h"
 #include "laws/fields.h"
 #include "scarp/cliffs.h"

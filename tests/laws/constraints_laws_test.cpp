@@ -5,7 +5,7 @@
 #include <map>
 
 #include "laws/fit_meshes.h"
-#include "refine/constraints.h"
+#include "lines/constraints.h"
 
 namespace scarp::constraints_laws_test {
 namespace {

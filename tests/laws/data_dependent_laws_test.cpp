@@ -6,9 +6,9 @@
 
 #include "geom/plane.h"
 #include "laws/strategies.h"
+#include "metric/height_judge.h"
 #include "refine/data_dependent.h"
 #include "refine/domain.h"
-#include "refine/height_judge.h"
 #include "refine/quadrilateral.h"
 #include "refine/refinement.h"
 #include "refine/settle_edges.h"

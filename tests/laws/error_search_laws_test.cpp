@@ -5,11 +5,11 @@
 #include <cmath>
 #include <functional>
 
-#include "error_search.h"
 #include "laws/any_field.h"
 #include "laws/budgets.h"
 #include "laws/fields.h"
 #include "scarp/simplify.h"
+#include "simplify/error_search.h"
 
 namespace scarp::error_search_laws_test {
 namespace {

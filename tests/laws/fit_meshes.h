@@ -13,8 +13,8 @@
 #include "geom/exact_error.h"
 #include "laws/fields.h"
 #include "laws/tile_meshes.h"
+#include "metric/height_judge.h"
 #include "refine/domain.h"
-#include "refine/height_judge.h"
 #include "refine/refinement.h"
 
 namespace scarp::testing {

@@ -14,7 +14,7 @@
 #include "fit/norm_error.h"
 #include "laws/fit_meshes.h"
 #include "laws/mesh_laws.h"
-#include "refine/sample_judge.h"
+#include "metric/sample_judge.h"
 
 namespace scarp::norm_laws_test {
 namespace {

@@ -10,14 +10,14 @@
 
 // After scarp/io.h: Decode::kNone would shadow kNone.
 #include "fit/fit.h"
+#include "grid/samples.h"
 #include "laws/fit_meshes.h"
 #include "laws/mesh_laws.h"
 #include "laws/sanitized.h"
 #include "laws/tile_meshes.h"
-#include "refine/height_judge.h"
-#include "refine/release.h"
-#include "refine/samples.h"
-#include "refine/tiled.h"
+#include "metric/height_judge.h"
+#include "pieces/release.h"
+#include "pieces/tiled.h"
 
 namespace scarp::real_rasters_test {
 namespace {

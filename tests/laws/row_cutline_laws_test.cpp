@@ -12,16 +12,16 @@
 #include <utility>
 #include <vector>
 
-#include "cut_source.h"
-#include "field_lines.h"
+#include "grid/sources/cut_source.h"
 #include "laws/any_cutlines.h"
 #include "laws/any_field.h"
 #include "laws/any_lines.h"
 #include "laws/array_source.h"
 #include "laws/mesh_laws.h"
-#include "line_samples.h"
-#include "refine/freeze.h"
-#include "row_fit.h"
+#include "lines/field_lines.h"
+#include "lines/line_samples.h"
+#include "pieces/freeze.h"
+#include "pieces/row_fit.h"
 #include "scarp/cliffs.h"
 #include "scarp/measure.h"
 

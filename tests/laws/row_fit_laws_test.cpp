@@ -10,9 +10,9 @@
 #include "laws/fields.h"
 #include "laws/mesh_laws.h"
 #include "laws/tile_meshes.h"
+#include "pieces/freeze.h"
+#include "pieces/row_fit.h"
 #include "refine/domain.h"
-#include "refine/freeze.h"
-#include "row_fit.h"
 #include "scarp/measure.h"
 
 namespace scarp::row_fit_laws_test {

@@ -10,15 +10,15 @@
 #include <utility>
 #include <vector>
 
-#include "field_lines.h"
 #include "laws/any_field.h"
 #include "laws/any_lines.h"
 #include "laws/array_source.h"
 #include "laws/mesh_laws.h"
-#include "line_samples.h"
+#include "lines/field_lines.h"
+#include "lines/line_samples.h"
+#include "pieces/freeze.h"
+#include "pieces/row_fit.h"
 #include "refine/domain.h"
-#include "refine/freeze.h"
-#include "row_fit.h"
 #include "scarp/cliffs.h"
 #include "scarp/edits.h"
 #include "scarp/measure.h"
@@ -62,7 +62,7 @@ struct RowScene {
     lines.insert(lines.end(), cliffs->lines.begin(), cliffs->lines.end());
   }
   Result<FieldLines> lines() const {
-    return prepare_lines(streamed, options.breaklines, {}, *options.max_error / 2, 1, side);
+    return prepare_lines(streamed, options.breaklines, {}, *options.max_error / 2, 1, shared_rows(streamed, side));
   }
   Result<std::optional<Tiled>> refine(const FieldLines& lines) const {
     RowFits fits;
@@ -164,8 +164,8 @@ RC_GTEST_PROP(row_lines, are_laid_alike_by_any_number_of_threads, ()) {
 
 RC_GTEST_PROP(row_lines, in_one_row_are_those_of_a_raster_in_memory, ()) {
   const RowScene scene;
-  const auto streamed =
-      prepare_lines(scene.streamed, scene.options.breaklines, {}, *scene.options.max_error / 2, 1, 4096);
+  const auto streamed = prepare_lines(scene.streamed, scene.options.breaklines, {}, *scene.options.max_error / 2, 1,
+                                      shared_rows(scene.streamed, 4096));
   const auto held = prepare_lines(scene.field.view(), scene.options.breaklines, {}, *scene.options.max_error / 2, 1);
   RC_ASSERT(streamed.has_value() == held.has_value());
   if (!held) return;

@@ -7,11 +7,11 @@
 #include <set>
 
 #include "laws/strategies.h"
+#include "metric/height_judge.h"
+#include "metric/importance.h"
+#include "metric/sample_judge.h"
 #include "refine/domain.h"
-#include "refine/height_judge.h"
-#include "refine/importance.h"
 #include "refine/refinement.h"
-#include "refine/sample_judge.h"
 
 namespace scarp::strategy_laws_test {
 namespace {

@@ -8,16 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "field_lines.h"
 #include "laws/any_field.h"
 #include "laws/any_lines.h"
 #include "laws/array_bounds.h"
 #include "laws/array_source.h"
 #include "laws/mesh_laws.h"
-#include "refine/border_chain.h"
+#include "lines/field_lines.h"
+#include "pieces/border_chain.h"
+#include "pieces/freeze.h"
+#include "pieces/row_fit.h"
 #include "refine/domain.h"
-#include "refine/freeze.h"
-#include "row_fit.h"
 #include "scarp/measure.h"
 #include "scarp/ridges.h"
 

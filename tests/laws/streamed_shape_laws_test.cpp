@@ -5,17 +5,17 @@
 #include <cmath>
 #include <vector>
 
+#include "grid/sample_rows.h"
 #include "laws/array_bounds.h"
 #include "laws/array_source.h"
 #include "laws/fit_meshes.h"
 #include "laws/mesh_laws.h"
+#include "pieces/freeze.h"
+#include "pieces/source_windows.h"
 #include "refine/domain.h"
-#include "refine/freeze.h"
-#include "refine/sample_rows.h"
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
-#include "shape_refinement.h"
-#include "source_windows.h"
+#include "shape/shape_refinement.h"
 
 namespace scarp::streamed_shape_laws_test {
 namespace {

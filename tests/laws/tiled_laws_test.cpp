@@ -7,11 +7,11 @@
 
 #include "laws/mesh_laws.h"
 #include "laws/tile_meshes.h"
-#include "refine/freeze.h"
-#include "refine/height_judge.h"
-#include "refine/release.h"
-#include "refine/tile_plan.h"
-#include "refine/tiled.h"
+#include "metric/height_judge.h"
+#include "pieces/freeze.h"
+#include "pieces/release.h"
+#include "pieces/tile_plan.h"
+#include "pieces/tiled.h"
 #include "scarp/measure.h"
 #include "tin/assembly.h"
 

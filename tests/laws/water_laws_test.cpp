@@ -13,11 +13,11 @@
 #include <utility>
 #include <vector>
 
+#include "grid/line_marks.h"
 #include "grid/outline.h"
 #include "grid/window.h"
 #include "laws/any_field.h"
 #include "laws/array_source.h"
-#include "line_marks.h"
 #include "scarp/measure.h"
 #include "scarp/rivers.h"
 #include "scarp/simplify.h"

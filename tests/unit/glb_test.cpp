@@ -4,7 +4,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "io/mesh_file.h"
+#include "io/mesh/mesh_file.h"
 #include "mesh_samples.h"
 #include "scarp/io.h"
 

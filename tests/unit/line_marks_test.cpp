@@ -1,5 +1,5 @@
 // Samples in polygons, against a count of what lies beside each.
-#include "line_marks.h"
+#include "grid/line_marks.h"
 
 #include <gtest/gtest.h>
 

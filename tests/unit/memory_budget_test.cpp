@@ -1,5 +1,5 @@
 // Refusals of runs that outgrow what they were given.
-#include "refine/memory_budget.h"
+#include "base/memory_budget.h"
 
 #include <gtest/gtest.h>
 

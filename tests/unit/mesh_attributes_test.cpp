@@ -7,7 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "io/srgb.h"
+#include "io/mesh/srgb.h"
 #include "mesh_samples.h"
 #include "scarp/io.h"
 

@@ -1,4 +1,4 @@
-#include "io/pgm.h"
+#include "io/raster/pgm.h"
 
 #include <gtest/gtest.h>
 

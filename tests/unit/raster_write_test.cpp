@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "io/pgm.h"
+#include "io/raster/pgm.h"
 #include "raster_files.h"
 
 namespace scarp {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "io/file_bytes.h"
+#include "io/mesh/file_bytes.h"
 #include "mesh_samples.h"
 #include "scarp/io.h"
 

@@ -1,4 +1,4 @@
-#include "io/stm.h"
+#include "io/raster/stm.h"
 
 #include <gtest/gtest.h>
 

@@ -22,7 +22,7 @@
 
 // After scarp/io.h: Decode::kNone would shadow kNone.
 #include "fit/fit.h"
-#include "refine/tiled.h"
+#include "pieces/tiled.h"
 
 namespace scarp {
 namespace {

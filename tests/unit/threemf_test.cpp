@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "io/file_bytes.h"
-#include "io/zip.h"
+#include "io/mesh/file_bytes.h"
+#include "io/mesh/zip.h"
 #include "mesh_samples.h"
 #include "scarp/io.h"
 #include "scarp/solid.h"

@@ -1,4 +1,4 @@
-#include "io/xml_reader.h"
+#include "io/mesh/xml_reader.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

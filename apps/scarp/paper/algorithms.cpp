@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "study.h"
+#include "paper/study.h"
 
 namespace scarp::paper {
 namespace {

@@ -1,7 +1,7 @@
 // 2.6: many insertions between two looks at the mesh.
 #include <fmt/format.h>
 
-#include "study.h"
+#include "paper/study.h"
 
 namespace scarp::paper {
 namespace {

@@ -1,4 +1,4 @@
-#include "colors.h"
+#include "paper/colors.h"
 
 #include <fmt/format.h>
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "paper/study.h"
 #include "scarp/io.h"
 #include "scarp/picture.h"
-#include "study.h"
 
 namespace scarp::paper {
 

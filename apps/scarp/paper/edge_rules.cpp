@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study.h"
+#include "paper/study.h"
 
 namespace scarp::paper {
 namespace {

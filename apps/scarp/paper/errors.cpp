@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../signals.h"
-#include "reference_rows.h"
-#include "study.h"
+#include "paper/reference_rows.h"
+#include "paper/study.h"
+#include "terminal/signals.h"
 
 namespace scarp::paper {
 

@@ -1,4 +1,4 @@
-#include "fields.h"
+#include "paper/fields.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "figures.h"
+#include "paper/figures.h"
 #include "scarp/io.h"
 
 namespace scarp::paper {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "colors.h"
+#include "paper/colors.h"
 
 namespace scarp::paper {
 namespace {

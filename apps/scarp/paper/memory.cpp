@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "study.h"
+#include "paper/study.h"
 
 namespace scarp::paper {
 namespace {

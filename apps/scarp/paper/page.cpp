@@ -1,4 +1,4 @@
-#include "page.h"
+#include "paper/page.h"
 
 #include <fmt/format.h>
 

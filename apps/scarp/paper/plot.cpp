@@ -1,4 +1,4 @@
-#include "plot.h"
+#include "paper/plot.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

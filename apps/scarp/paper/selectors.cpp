@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "study.h"
+#include "paper/study.h"
 
 namespace scarp::paper {
 namespace {

@@ -1,12 +1,12 @@
-#include "study.h"
+#include "paper/study.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "../signals.h"
-#include "../text.h"
+#include "terminal/signals.h"
+#include "terminal/text.h"
 
 namespace scarp::paper {
 namespace {

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "fields.h"
-#include "figures.h"
-#include "page.h"
-#include "plot.h"
+#include "paper/fields.h"
+#include "paper/figures.h"
+#include "paper/page.h"
+#include "paper/plot.h"
 #include "scarp/io.h"
 #include "scarp/result.h"
 #include "scarp/simplify.h"

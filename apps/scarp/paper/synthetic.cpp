@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "paper/study.h"
 #include "scarp/generate.h"
-#include "study.h"
 
 namespace scarp::paper {
 namespace {

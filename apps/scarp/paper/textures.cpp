@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "colors.h"
+#include "paper/colors.h"
 
 namespace scarp::paper {
 namespace {

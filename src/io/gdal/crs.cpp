@@ -8,9 +8,9 @@
 #include <mutex>
 #include <vector>
 
-#include "io/crs_description.h"
 #include "io/gdal/session.h"
-#include "io/raster_source.h"
+#include "io/raster/crs_description.h"
+#include "io/raster/raster_source.h"
 
 namespace scarp::gdal {
 namespace {

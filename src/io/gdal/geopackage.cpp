@@ -13,7 +13,7 @@
 #include "io/gdal/memory_file.h"
 #include "io/gdal/open.h"
 #include "io/gdal/session.h"
-#include "io/mesh_file.h"
+#include "io/mesh/mesh_file.h"
 
 namespace scarp {
 namespace {

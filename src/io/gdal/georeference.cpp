@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "grid/local_frame.h"
-#include "io/raster_finish.h"
+#include "io/raster/raster_finish.h"
 
 namespace scarp::gdal {
 namespace {

@@ -10,7 +10,7 @@
 #include "io/gdal/memory_file.h"
 #include "io/gdal/open.h"
 #include "io/gdal/session.h"
-#include "io/raster_source.h"
+#include "io/raster/raster_source.h"
 
 namespace scarp {
 namespace {

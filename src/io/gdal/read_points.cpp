@@ -9,7 +9,7 @@
 #include "grid/local_frame.h"
 #include "io/gdal/crs.h"
 #include "io/gdal/vector.h"
-#include "io/point_source.h"
+#include "io/points/point_source.h"
 
 namespace scarp::gdal {
 namespace {

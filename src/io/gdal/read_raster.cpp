@@ -12,8 +12,8 @@
 #include "io/gdal/georeference.h"
 #include "io/gdal/open.h"
 #include "io/gdal/read_samples.h"
-#include "io/raster_finish.h"
-#include "io/raster_source.h"
+#include "io/raster/raster_finish.h"
+#include "io/raster/raster_source.h"
 
 namespace scarp {
 namespace gdal {

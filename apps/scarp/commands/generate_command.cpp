@@ -1,0 +1,147 @@
+#include "commands/generate_command.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <utility>
+
+#include "scarp/generate.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+/// "tif", "tiff" or "pgm", of a name or of a path's extension.
+std::optional<RasterFormat> find_raster_format(std::string name) {
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (name == "tif" || name == "tiff") return RasterFormat::kGeoTiff;
+  if (name == "pgm") return RasterFormat::kPgm;
+  return std::nullopt;
+}
+
+Result<RasterFormat> choose_format(const Given& asked, const std::string& output) {
+  std::string name = asked.value_or(std::filesystem::path(output).extension().string());
+  if (!asked && !name.empty()) name.erase(0, 1);
+  if (const auto format = find_raster_format(name)) return *format;
+  return fail(ErrorKind::kUsage,
+              asked ? fmt::format("--of {} is unknown: choose tif or pgm", shell_word(*asked))
+                    : fmt::format("the extension of OUTPUT {} tells no format: end it in .tif or .pgm, or give --of",
+                                  shell_word(output)));
+}
+
+Result<int> parse_side(std::string_view option, const std::string& text) {
+  const Result<std::uint64_t> side = parse_count(option, text, 2);
+  if (!side) return tl::unexpected(side.error());
+  return static_cast<int>(std::min<std::uint64_t>(*side, 1 << 30));
+}
+
+/// A number above 0.
+Result<double> parse_positive(std::string_view option, const std::string& text) {
+  const Result<double> value = parse_number(option, text);
+  if (value && !(*value > 0)) {
+    return fail(ErrorKind::kUsage, fmt::format("{} {} must be above 0", option, shell_word(text)));
+  }
+  return value;
+}
+
+/// Heights from 0 to `range`.
+void stretch(OwnedHeightField& field, double range) {
+  const double least = field.info.min, relief = field.info.max - field.info.min;
+  for (float& z : field.samples) {
+    z = relief > 0 ? static_cast<float>((static_cast<double>(z) - least) / relief * range) : 0.0f;
+  }
+  const HeightRange heights = height_range(field);
+  field.info.min = heights.min;
+  field.info.max = heights.max;
+}
+
+/// The first sample's corner at the origin, rows going down.
+void place(OwnedHeightField& field, double size) {
+  RasterInfo& info = field.info;
+  info.has_georeference = true;
+  info.geotransform = {0, size, 0, size * field.rows, 0, -size};
+  info.cell_x = info.cell_y = size;
+}
+
+}  // namespace
+
+GenerateCommand::GenerateCommand(CLI::App& program)
+    : verb_(program.add_subcommand("generate", "Make a synthetic raster of heights")) {
+  verb_->add_option("STYLE", style_, "What to make, by name or by genstm's letter (below)")->type_name("")->required();
+  verb_->add_option("COLS", cols_, "Columns, at least 2")->type_name("")->required();
+  verb_->add_option("ROWS", rows_, "Rows, at least 2")->type_name("")->required();
+  verb_->add_option("OUTPUT", output_, "Raster to write: .tif (GeoTIFF, float32) or .pgm (16-bit)")
+      ->type_name("")
+      ->required();
+  verb_->add_option("--seed", seed_, "fractal, smooth: which one of them (default 0)")->type_name("N")->group("Field");
+  verb_->add_option("--range", range_, "Stretch the heights to 0 ... R")->type_name("R")->group("Field");
+  verb_->add_option("--size", size_, "Side of a cell: gives a GeoTIFF coordinates, the lower\nleft corner at 0, 0")
+      ->type_name("S")
+      ->group("Field");
+  verb_->add_option("--of", format_, "Raster format: tif or pgm (default: by OUTPUT's extension)")
+      ->type_name("FORMAT")
+      ->group("Output");
+  verb_->add_flag("--overwrite", overwrite_, "Replace a file that exists (default: refuse)")->group("Output");
+  verb_->add_flag("-q,--quiet", quiet_, "No summary")->group("Run");
+  verb_->footer(
+      "Styles: cliff (h), step (x), sharp-step (X), diagonal-step (d), sharp-diagonal-step (D), parabola (q),\n"
+      "paraboloid (p), scaled-paraboloid (P), pyramid (o), diagonal-pyramid (r), fractal, smooth.\n"
+      "Examples:\n"
+      "  scarp generate cliff 256 256 cliff.tif\n"
+      "  scarp generate fractal 1000 800 hills.tif --seed 7 --range 1200 --size 30\n"
+      "  scarp generate D 256 256 step.pgm\n"
+      "The same bytes on every machine.\n"
+      "Exit codes: 0 ok, 1 usage, 4 output, 70 internal error.");
+}
+
+Result<void> GenerateCommand::run() const {
+  const std::optional<FieldStyle> style = find_field_style(style_);
+  if (!style) {
+    return fail(ErrorKind::kUsage, fmt::format("STYLE {} is unknown: choose {}", shell_word(style_),
+                                               fmt::join(field_style_names(), ", ")));
+  }
+  const Result<int> cols = parse_side("COLS", cols_), rows = parse_side("ROWS", rows_);
+  if (!cols) return tl::unexpected(cols.error());
+  if (!rows) return tl::unexpected(rows.error());
+  const Result<std::uint64_t> seed = parse_count("--seed", seed_.value_or("0"), 0);
+  if (!seed) return tl::unexpected(seed.error());
+  if (seed_ && *style != FieldStyle::kFractal && *style != FieldStyle::kSmooth) {
+    return fail(ErrorKind::kUsage, fmt::format("--seed is for fractal and smooth only: {} is always the same", style_));
+  }
+  const Result<double> range = parse_positive("--range", range_.value_or("1"));
+  if (!range) return tl::unexpected(range.error());
+  const Result<double> size = parse_positive("--size", size_.value_or("1"));
+  if (!size) return tl::unexpected(size.error());
+  const Result<RasterFormat> format = choose_format(format_, output_);
+  if (!format) return tl::unexpected(format.error());
+  if (size_ && *format == RasterFormat::kPgm) {
+    return fail(ErrorKind::kUsage, "--size needs a GeoTIFF: PGM has no room for coordinates");
+  }
+  const Result<void> checked = check_outputs({{"OUTPUT", output_}}, {}, overwrite_);
+  if (!checked) return checked;
+
+  Result<OwnedHeightField> field = generate_field(*style, *cols, *rows, *seed);
+  if (!field) return tl::unexpected(std::move(field.error()));
+  if (range_) stretch(*field, *range);
+  if (size_) place(*field, *size);
+  const Result<std::vector<std::uint8_t>> bytes =
+      encode_raster({field->samples, field->cols, field->rows, &field->info}, *format);
+  if (!bytes) {
+    return fail(bytes.error().kind, fmt::format("{} cannot be written: {}", output_, bytes.error().message));
+  }
+  const Result<void> written = write_file(output_, *bytes, overwrite_);
+  if (!written || quiet_) return written;
+  const std::string summary =
+      fmt::format("{}: {} columns x {} rows, heights {} to {}\n{}: {}\n", field->info.path, field->cols, field->rows,
+                  format_number(field->info.min), format_number(field->info.max), output_, format_bytes(bytes->size()));
+  if (is_stdout(output_)) {
+    print_to_stderr(summary);
+    return {};
+  }
+  return print_to_stdout(summary);
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,28 @@
+// scarp generate: synthetic height fields as rasters.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "options/options.h"
+
+namespace scarp::cli {
+
+class GenerateCommand {
+ public:
+  /// Adds the verb to the program. This object must stay alive and in place until run() is done.
+  explicit GenerateCommand(CLI::App& program);
+  GenerateCommand(const GenerateCommand&) = delete;
+  GenerateCommand& operator=(const GenerateCommand&) = delete;
+
+  bool is_chosen() const { return verb_->parsed(); }
+  Result<void> run() const;
+
+ private:
+  CLI::App* verb_;
+  std::string style_, cols_, rows_, output_;
+  Given seed_, range_, size_, format_;
+  bool overwrite_ = false, quiet_ = false;
+};
+
+}  // namespace scarp::cli

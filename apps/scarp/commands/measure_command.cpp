@@ -1,0 +1,283 @@
+#include "commands/measure_command.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+#include "reports/measure_report.h"
+#include "reports/report.h"
+#include "scarp/picture.h"
+#include "scarp/solid.h"
+#include "terminal/clock.h"
+#include "terminal/progress_display.h"
+#include "terminal/signals.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+MeasureCommand::MeasureCommand(CLI::App& program)
+    : verb_(program.add_subcommand("measure", "Judge a mesh file against its raster, sample by sample")) {
+  verb_
+      ->add_option(
+          "RASTER", raster_.path,
+          "Raster of heights: a file or URL that GDAL opens, PGM\nor STM; with --image any image; or scattered points")
+      ->type_name("")
+      ->required();
+  verb_
+      ->add_option("MESH", mesh_,
+                   "Mesh to judge: GLB, OBJ, PLY, STL, TIN, 2DM, VTU, VTP,\nLandXML, DXF or 3MF, recognised by content")
+      ->type_name("")
+      ->required();
+  raster_.add_to(
+      *verb_,
+      "Coordinates of the mesh: source, local, grid or a CRS\nsuch as EPSG:32611. Default: what the mesh file "
+      "says of\nitself, else what simplify does by default");
+  points_.add_to(*verb_);
+  verb_
+      ->add_option(
+          "--fail-above", fail_above_,
+          "End with exit code 3 if any error is above this (units\nof the heights; weighted, with a mask; combined, "
+          "with\nchannels; samples without a bound left out), a sample\nis uncovered or the mesh is not "
+          "sound. --tolerance\nfails without it")
+      ->type_name("E")
+      ->group("Verdict");
+  companions_.add_to(*verb_, "Samples that its lines 'i COL ROW' and 'u COL ROW'\nname have no bound (as in simplify)");
+  cut_.add_to(*verb_);
+  channels_.add_to(*verb_);
+  verb_->add_flag("--json", json_, "The report as JSON on stdout")->group("Output");
+  verb_->add_option("--map", map_, "Draw the signed errors in diverging colours")
+      ->type_name("FILE.png")
+      ->group("Output");
+  verb_
+      ->add_option("--error-raster", error_raster_,
+                   "Write the errors, mesh minus sample, as GeoTIFF\n(--image: their norm over the bands)")
+      ->type_name("FILE.tif")
+      ->group("Output");
+  verb_->add_flag("--overwrite", overwrite_, "Replace files that exist (default: refuse)")->group("Output");
+  verb_->add_option("-j,--num-threads", threads_, "Threads, 0 = all cores (default); never changes the result")
+      ->type_name("N")
+      ->group("Run");
+  memory_.add_to(*verb_,
+                 "Most memory that this run may take, such as 1G; a\nlarger raster is read row by row as it is judged");
+  verb_->add_flag("-q,--quiet", quiet_, "No table, no progress, no warnings")->group("Run");
+  verb_->add_flag("--json-progress", json_progress_, "Progress as one JSON object a line on stderr")->group("Run");
+  verb_->footer(
+      "Examples:\n"
+      "  scarp measure dem.tif hills.glb                   a table of errors and faults\n"
+      "  scarp measure dem.tif hills.glb --fail-above 1    exit code 3 unless every error is within 1 m\n"
+      "  scarp measure dem.tif hills.obj --json --map error.png\n"
+      "  scarp measure dem.tif hills.glb --tolerance t.tif exit code 3 if a sample is above its bound\n"
+      "  scarp measure dem.tif hills.glb --script outliers.txt --fail-above 1\n"
+      "  scarp measure photo.png photo.glb --image --fail-above 8\n"
+      "Errors are vertical, mesh minus sample, in the units of the heights.\n"
+      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.");
+}
+
+Result<void> MeasureCommand::check_outputs_of_run() const {
+  std::vector<PlannedOutput> outputs;
+  if (map_) {
+    outputs.push_back({"--map", *map_});
+    const Result<void> named = check_png_name(outputs.back());
+    if (!named) return named;
+  }
+  if (error_raster_) {
+    outputs.push_back({"--error-raster", *error_raster_});
+    const Result<void> named = check_tiff_name(outputs.back());
+    if (!named) return named;
+  }
+  std::vector<std::string> inputs = companions_.files();
+  inputs.insert(inputs.end(), channels_.textures.begin(), channels_.textures.end());
+  inputs.insert(inputs.end(), {raster_.path, mesh_});
+  const Result<void> checked = check_outputs(outputs, inputs, overwrite_);
+  if (!checked) return checked;
+  for (const PlannedOutput& output : outputs) {
+    if (json_ && is_stdout(output.path)) {
+      return fail(ErrorKind::kUsage,
+                  fmt::format("--json and {} /dev/stdout both write to standard output", output.option));
+    }
+  }
+  return {};
+}
+
+Result<void> MeasureCommand::write_files(const Judged& judged) const {
+  std::vector<std::pair<std::string, std::vector<std::uint8_t>>> files;
+  if (!map_ && !error_raster_) return {};
+  const std::vector<float> errors =
+      take_error_raster(judged.judgement, judged.plan.image ? ErrorsOf::kNorms : ErrorsOf::kHeights);
+  if (map_) {
+    Result<std::vector<std::uint8_t>> png = encode_png(draw_error_map(errors, judged.field.cols, judged.field.rows));
+    if (!png) return tl::unexpected(std::move(png.error()));
+    files.emplace_back(*map_, std::move(*png));
+  }
+  if (error_raster_) {
+    Result<std::vector<std::uint8_t>> tiff =
+        encode_raster({errors, judged.field.cols, judged.field.rows, &judged.field.info}, RasterFormat::kGeoTiff);
+    if (!tiff) return tl::unexpected(std::move(tiff.error()));
+    files.emplace_back(*error_raster_, std::move(*tiff));
+  }
+  for (const auto& [path, bytes] : files) {
+    const Result<void> written = write_file(path, bytes, overwrite_);
+    if (!written) return written;
+  }
+  return {};
+}
+
+Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judged& judged) const {
+  Result<ReadOptions> read = raster_.parse();
+  if (!read) return tl::unexpected(std::move(read.error()));
+  judged.band = read->band;
+  read->progress = progress;
+  Result<Mesh> mesh = read_mesh(mesh_);
+  if (!mesh) return tl::unexpected(std::move(mesh.error()));
+  judged.mesh = std::move(*mesh);
+  undo_placement(judged.mesh);
+  const auto crs_of_mesh = judged.mesh.metadata.find("crs_option");
+  const bool crs_from_mesh = !raster_.crs && crs_of_mesh != judged.mesh.metadata.end();
+  if (crs_from_mesh) read->crs = crs_of_mesh->second;
+  Result<void> has_field = read_field(*read, judged);
+  if (!has_field) {
+    if (crs_from_mesh && has_field.error().kind == ErrorKind::kUsage) {
+      has_field.error().message += fmt::format("; {} names that CRS as its own, --crs overrides it", mesh_);
+    }
+    return has_field;
+  }
+  if (!judged.channels.empty()) {
+    const Result<void> restored = restore_channels(judged.mesh, judged.channels, mesh_);
+    if (!restored) return restored;
+  }
+  const Result<std::optional<std::uint64_t>> limit = memory_.parse();
+  if (!limit) return tl::unexpected(limit.error());
+  const Result<int> threads = parse_threads(threads_);
+  if (!threads) return tl::unexpected(threads.error());
+  Result<Companions> companions = read_companions(companions_, judged.field.info, judged.field, judged.fail_above,
+                                                  {progress, limit->value_or(0), *threads});
+  if (!companions) return tl::unexpected(std::move(companions.error()));
+  judged.companions = std::move(*companions);
+  Result<Cut> cut = read_cut(cut_, judged.field.info, progress, judged.field, judged.companions.warnings);
+  if (!cut) return tl::unexpected(std::move(cut.error()));
+  judged.cut = std::move(*cut);
+  judged.warnings = judged.field.info.warnings;
+  judged.warnings.insert(judged.warnings.end(), judged.companions.warnings.begin(), judged.companions.warnings.end());
+  return {};
+}
+
+Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judged) const {
+  if (judged.plan.image) {
+    Result<Image> image = read_image(judged.plan, raster_.path, options, raster_.band.has_value());
+    if (!image) return tl::unexpected(std::move(image.error()));
+    judged.field = std::move(image->field);
+    judged.channels = std::move(image->channels);
+    return {};
+  }
+  const Result<std::optional<std::uint64_t>> limit = memory_.parse();
+  if (!limit) return tl::unexpected(limit.error());
+  MemoryNeeds needs{cut_.files.empty() && companions_.roi.empty() ? 0 : kVectorBytes};
+  if (companions_.gives_bounds()) needs.per_sample = kBoundedSampleBytes;
+  Result<OwnedHeightField> field = read_within(raster_.path, options, *limit, needs);
+  if (!field) return tl::unexpected(std::move(field.error()));
+  if (const std::optional<std::string> need = find_need_of_samples()) {
+    if (auto in_memory = check_in_memory(*field, *need, needs); !in_memory) return in_memory;
+  }
+  judged.field = std::move(*field);
+  Result<Channels> textures = read_textures(judged.plan, judged.field, options.progress);
+  if (!textures) return tl::unexpected(std::move(textures.error()));
+  judged.channels = std::move(*textures);
+  return {};
+}
+
+std::optional<std::string> MeasureCommand::find_need_of_samples() const {
+  if (map_) return "--map";
+  if (error_raster_) return "--error-raster";
+  if (const char* need = companions_.find_need_of_samples()) return need;
+  const std::string others = channels_.canonical();
+  if (others.empty()) return std::nullopt;
+  return others.substr(1, others.find(' ', 1) - 1);
+}
+
+Result<void> MeasureCommand::run(const std::string& command_line) const {
+  const Clock::time_point start = Clock::now();
+  if (points_.are_meant(raster_.path)) {
+    return run_measure_points(*verb_,
+                              {raster_.path, mesh_, raster_.crs, fail_above_, threads_, json_, quiet_, json_progress_},
+                              points_, command_line);
+  }
+  if (auto unused = points_.check_unused(raster_.path); !unused) return unused;
+  Judged judged;
+  const Result<ReadOptions> read = raster_.parse();
+  if (!read) return tl::unexpected(read.error());
+  const Result<int> threads = parse_threads(threads_);
+  if (!threads) return tl::unexpected(threads.error());
+  Result<ChannelPlan> plan = channels_.parse(raster_);
+  if (!plan) return tl::unexpected(std::move(plan.error()));
+  judged.plan = std::move(*plan);
+  const Result<void> companions_agree = companions_.check("--fail-above", fail_above_.has_value());
+  if (!companions_agree) return companions_agree;
+  if (auto checked = cut_.check(); !checked) return checked;
+  const Result<std::optional<std::uint64_t>> limit = memory_.parse();
+  if (!limit) return tl::unexpected(limit.error());
+  if (*limit && judged.plan.image) {
+    return fail(ErrorKind::kUsage, "--memory and --image contradict each other: images are read as a whole");
+  }
+  if (fail_above_) {
+    const Result<double> bound = parse_non_negative("--fail-above", *fail_above_);
+    if (!bound) return tl::unexpected(bound.error());
+    judged.fail_above = *bound;
+  }
+  const Result<void> outputs = check_outputs_of_run();
+  if (!outputs) return outputs;
+
+  ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
+  const Result<void> has_inputs = read_inputs(display.callback(), judged);
+  if (!has_inputs) return has_inputs;
+  judged.seconds_read = seconds_since(start);
+
+  const Clock::time_point measure_start = Clock::now();
+  judged.exceptions = find_exceptions(judged.field, judged.companions, judged.fail_above.has_value());
+  if (judged.exceptions.source) {
+    const Result<std::uint64_t> count = count_unbounded(judged.field, *judged.companions.in_windows.source);
+    if (!count) return tl::unexpected(count.error());
+    judged.exceptions.count = *count;
+    if (*count == 0) judged.exceptions.source = nullptr;
+  }
+  JudgeOptions options;
+  options.exceptions = &judged.exceptions;
+  options.weigh_by = judged.companions.in_windows.source.get();
+  options.cutline = judged.cut.judged();
+  const bool weighs_later = judged.companions.has_weights() && options.weigh_by == nullptr;
+  options.keep_errors = map_ || error_raster_ || weighs_later || !judged.channels.empty();
+  options.threads = *threads;
+  options.progress = display.callback();
+  Result<Judgement> judgement = judge(judged.field, judged.mesh, judged.channels, judged.plan.norm, options);
+  if (!judgement) return tl::unexpected(std::move(judgement.error()));
+  judged.judgement = std::move(*judgement);
+  complete_info(judged.judgement.heights.heights, judged.field.info);
+  judged.seconds_measure = seconds_since(measure_start);
+  decide(judged);
+  if (judged.judgement.heights.samples == 0) {
+    judged.warnings.push_back(fmt::format(
+        "no sample of {} is covered by {}: do they have the same coordinates (--crs)?", raster_.path, mesh_));
+  }
+  if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
+  const Result<void> files = write_files(judged);
+  if (!files) return files;
+  display.finish();
+  judged.seconds_total = seconds_since(start);
+
+  if (!quiet_) print_warnings(judged.warnings);
+  if (json_) {
+    const Result<void> printed = print_to_stdout(to_text(make_report(judged, mesh_, cut_, command_line)));
+    if (!printed) return printed;
+  } else if (!quiet_) {
+    const std::string table = make_table(judged, raster_.path, mesh_);
+    if (is_stdout(map_.value_or("")) || is_stdout(error_raster_.value_or(""))) {
+      print_to_stderr(table);
+    } else {
+      const Result<void> printed = print_to_stdout(table);
+      if (!printed) return printed;
+    }
+  }
+  if (judged.broken) return fail(ErrorKind::kPromise, fmt::format("{}: {}", mesh_, *judged.broken));
+  return {};
+}
+
+}  // namespace scarp::cli

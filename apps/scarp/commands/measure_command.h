@@ -1,0 +1,48 @@
+// scarp measure: judge a mesh file against its raster.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "commands/points_command.h"
+#include "inputs/channels.h"
+#include "inputs/companions.h"
+#include "options/cutline_options.h"
+#include "options/memory.h"
+#include "options/options.h"
+#include "reports/measure_report.h"
+
+namespace scarp::cli {
+
+class MeasureCommand {
+ public:
+  /// Adds the verb to the program. This object must stay alive and in place until run() is done.
+  explicit MeasureCommand(CLI::App& program);
+  MeasureCommand(const MeasureCommand&) = delete;
+  MeasureCommand& operator=(const MeasureCommand&) = delete;
+
+  bool is_chosen() const { return verb_->parsed(); }
+  /// `command_line` is what the user typed, for the report.
+  Result<void> run(const std::string& command_line) const;
+
+ private:
+  Result<void> check_outputs_of_run() const;
+  Result<void> read_inputs(const ProgressCallback& progress, Judged& judged) const;
+  Result<void> read_field(const ReadOptions& options, Judged& judged) const;
+  /// The first option that was given and needs all samples in memory; nothing if there is none.
+  std::optional<std::string> find_need_of_samples() const;
+  Result<void> write_files(const Judged& judged) const;
+
+  CLI::App* verb_;
+  RasterArguments raster_;
+  PointsArguments points_;
+  std::string mesh_;
+  CompanionArguments companions_;
+  CutlineArguments cut_;
+  ChannelArguments channels_;
+  MemoryArguments memory_;
+  Given map_, error_raster_, fail_above_, threads_;
+  bool json_ = false, overwrite_ = false, quiet_ = false, json_progress_ = false;
+};
+
+}  // namespace scarp::cli

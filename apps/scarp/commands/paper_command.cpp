@@ -1,0 +1,135 @@
+#include "commands/paper_command.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <span>
+#include <utility>
+
+#include "paper/study.h"
+#include "scarp/version.h"
+#include "terminal/signals.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Result<void> (*kExperiments[])(paper::Study&) = {
+    paper::add_memory,         paper::add_selectors,    paper::add_algorithms,       paper::add_effort,
+    paper::add_batches,        paper::add_edge_rules,   paper::add_edge_sweep,       paper::add_synthetic,
+    paper::add_reference_rows, paper::add_error_curves, paper::add_textured_terrain, paper::add_images};
+
+void add_header(paper::Study& study) {
+  study.page.heading(1, "The report's experiments");
+  study.page.paragraph(fmt::format(
+      "Written by `scarp paper --data DIR{}` (Scarp {}; `make paper` runs it); not edited by hand. It repeats what is "
+      "known of "
+      "the experiments in M. Garland and P. S. Heckbert, *Fast Polygonal Approximation of Terrains and Height Fields* "
+      "(CMU-CS-95-181, 1995).",
+      study.timing ? "" : " --no-timing", version()));
+  if (study.fields.are_reports) {
+    study.page.paragraph(
+        "In brackets: the figure of Scape 1.2, the report's own program, measured on the same fields, and our "
+        "difference from "
+        "it. The figures are listed, by section, in `apps/scarp/paper/figures.h`; the numbers in headings are those "
+        "sections. The fields are the report's five: "
+        "Crater Lake, Ashby Gap, Ozark, the National Training Center (ntc) and the western US. Errors are vertical, in "
+        "metres, over all samples.");
+  } else {
+    study.page.paragraph(
+        "There are none of the report's fields in the folder, so there are no figures to compare with.");
+  }
+  study.page.paragraph(
+      study.timing
+          ? "Ratios of times and memory are marked as measured once; all other numbers are the same on every run "
+            "and machine."
+          : "All numbers are the same on every run and machine.");
+  std::vector<std::vector<std::string>> rows;
+  for (const paper::Field& field : study.fields.all) {
+    rows.push_back(
+        {field.key, fmt::format("{} × {}", field.heights.cols, field.heights.rows), fmt::format("{}", field.samples()),
+         fmt::format("{} to {}", format_number(field.heights.info.min), format_number(field.heights.info.max))});
+  }
+  study.page.table({"field", "size", "samples n", "heights"}, rows);
+  if (!study.fields.left_out.empty()) {
+    study.page.paragraph("Left out:");
+    study.page.list(study.fields.left_out);
+  }
+}
+
+Result<void> make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) return {};
+  return fail(ErrorKind::kOutput, fmt::format("the folder {} cannot be made: {}", folder.string(), error.message()));
+}
+
+/// The pictures, then the page that shows them.
+Result<void> write_all(const paper::Study& study, const fs::path& page, bool overwrite) {
+  Result<void> done;
+  for (const auto& picture : study.pictures()) {
+    if (done) done = write_file((page.parent_path() / picture.path).string(), picture.bytes, overwrite);
+  }
+  if (!done) return done;
+  const std::string& text = study.page.text();
+  return write_file(page.string(), {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, overwrite);
+}
+
+}  // namespace
+
+PaperCommand::PaperCommand(CLI::App& program)
+    : verb_(program.add_subcommand("paper", "Repeat the experiments of Garland & Heckbert's report")) {
+  verb_
+      ->add_option("--data", data_,
+                   "Folder with the report's fields (crater, ashby, ozark,\nntc, westUS; .stm, .pgm or .tif, also "
+                   "scape_crater.stm),\nelse with any rasters")
+      ->type_name("DIR")
+      ->required()
+      ->group("Input");
+  verb_->add_option("--out", out_, "Folder for paper.md and images/paper (default docs)")
+      ->type_name("DIR")
+      ->group("Output");
+  verb_->add_flag("--no-timing", no_timing_, "Leave out what is measured: times and memory")->group("Output");
+  verb_->add_flag("--overwrite", overwrite_, "Replace files that exist (default: refuse)")->group("Output");
+  verb_->add_flag("-q,--quiet", quiet_, "Do not tell what is being done")->group("Run");
+  verb_->footer(
+      "Examples:\n"
+      "  scarp paper --data scape/Samples --overwrite\n"
+      "  scarp paper --data my_rasters --out my_report --no-timing\n"
+      "Plots are drawn by gnuplot (Debian: gnuplot-nox). Rasters with missing samples are left out, and so are rasters "
+      "of\n"
+      "more than 4 million samples. An astronaut.png, kodim05.png or kodim23.png, and a pair santa_barbara_elev.tif "
+      "and\n"
+      "santa_barbara_aerial.tif in the folder are used for the experiments with colours.\n"
+      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.");
+}
+
+Result<void> PaperCommand::run() const {
+  const fs::path page = fs::path(out_) / "paper.md";
+  std::error_code error;
+  if (out_.empty()) return fail(ErrorKind::kUsage, "--out is empty: name a folder");
+  if (fs::exists(page, error) && !overwrite_) {
+    return fail(ErrorKind::kOutput, fmt::format("{} exists already: --overwrite replaces it", page.string()));
+  }
+  const Result<void> has_gnuplot = paper::find_gnuplot();
+  if (!has_gnuplot) return has_gnuplot;
+  Result<paper::Fields> fields = paper::read_fields(data_);
+  if (!fields) return tl::unexpected(std::move(fields.error()));
+  Result<void> has_place = make_folder(page.parent_path() / "images" / "paper");
+  if (has_place) has_place = check_outputs({{"--out", page.string()}}, {}, overwrite_);
+  if (!has_place) return has_place;
+  paper::Study study(std::move(*fields), data_, !no_timing_, quiet_);
+  add_header(study);
+  for (const auto& add_experiment : kExperiments) {
+    const Result<void> added = add_experiment(study);
+    if (!added) return added;
+    if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
+  }
+  const Result<void> written = write_all(study, page, overwrite_);
+  if (!written || quiet_) return written;
+  return print_to_stdout(fmt::format("{}, {} pictures\n", page.string(), study.pictures().size()));
+}
+
+}  // namespace scarp::cli

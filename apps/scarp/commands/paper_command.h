@@ -1,0 +1,27 @@
+// scarp paper: repeats the report's experiments.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "options/options.h"
+
+namespace scarp::cli {
+
+class PaperCommand {
+ public:
+  /// Adds the verb to the program. This object must stay alive and in place until run() is done.
+  explicit PaperCommand(CLI::App& program);
+  PaperCommand(const PaperCommand&) = delete;
+  PaperCommand& operator=(const PaperCommand&) = delete;
+
+  bool is_chosen() const { return verb_->parsed(); }
+  Result<void> run() const;
+
+ private:
+  CLI::App* verb_;
+  std::string data_, out_ = "docs";
+  bool no_timing_ = false, overwrite_ = false, quiet_ = false;
+};
+
+}  // namespace scarp::cli

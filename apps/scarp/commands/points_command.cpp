@@ -1,0 +1,238 @@
+#include "commands/points_command.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "reports/points_report.h"
+#include "reports/report.h"
+#include "terminal/clock.h"
+#include "terminal/progress_display.h"
+#include "terminal/signals.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+/// Points have no use for many of the verb's options; silence would be a lie.
+Result<void> refuse_raster_options(const CLI::App& verb, const std::string& path) {
+  constexpr std::array<std::string_view, 17> kMeant{
+      "--max-error",     "--max-triangles", "--max-points",  "--crs",        "--of",     "--base",
+      "--report",        "--overwrite",     "--num-threads", "--quiet",      "--points", "--layer",
+      "--json-progress", "--duplicates",    "--z-field",     "--fail-above", "--json"};
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::string name = option->get_name();
+    const bool is_meant = option->get_positional() || std::find(kMeant.begin(), kMeant.end(), name) != kMeant.end();
+    if (option->count() > 0 && !is_meant)
+      return fail(ErrorKind::kUsage, fmt::format("{} is for rasters, and {} holds points: leave it out", name,
+                                                 shell_word(base_name(path))));
+  }
+  return {};
+}
+
+Result<PointSet> read(const std::string& path, const PointsArguments& arguments, const Given& crs,
+                      const ProgressCallback& progress) {
+  if (path.empty()) return fail(ErrorKind::kUsage, "the name of the points is empty");
+  for (const auto& [name, value] :
+       {std::pair{"--crs", &crs}, std::pair{"--layer", &arguments.layer}, std::pair{"--z-field", &arguments.z_field}}) {
+    if (*value && (*value)->empty()) return fail(ErrorKind::kUsage, fmt::format("{} is empty: leave it out", name));
+  }
+  return read_points(path, {.layer = arguments.layer.value_or(""),
+                            .z_field = arguments.z_field.value_or(""),
+                            .crs = crs.value_or(""),
+                            .progress = progress});
+}
+
+/// As --crs: points, unlike rasters, always have coordinates of their own.
+std::string crs_option(const SimplifyPlan& plan) {
+  return plan.read.crs.empty() && plan.read.keep_degrees ? "source" : plan.read.crs;
+}
+
+std::string canonical_command(const SimplifyPlan& plan, const PointsArguments& arguments) {
+  return plan.canonical_command + (arguments.points ? " --points" : "") +
+         canonical_option("--duplicates", arguments.duplicates) + canonical_option("--layer", arguments.layer) +
+         canonical_option("--z-field", arguments.z_field);
+}
+
+void add_metadata(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
+  Mesh& mesh = outcome.simplified.mesh;
+  add_origin(canonical_command(plan, arguments), outcome.points.description, outcome.points.crs, crs_option(plan),
+             mesh);
+  mesh.metadata["duplicates"] = policy_name(outcome.policy);
+  const Measurement& measured = outcome.simplified.measurement;
+  const Json error{{"asked", or_null(outcome.asked)},
+                   {"max_error", measured.max_error},
+                   {"rmse", measured.rmse},
+                   {"samples", measured.samples}};
+  mesh.metadata["error"] = error.dump();
+}
+
+Result<ReadyFile> encode(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
+  if (auto finished = finish_mesh(plan, outcome); !finished) return tl::unexpected(std::move(finished.error()));
+  add_metadata(plan, arguments, outcome);
+  auto bytes = encode_as(plan.format, outcome.simplified.mesh);
+  if (!bytes) return tl::unexpected(std::move(bytes.error()));
+  return ReadyFile{plan.output, plan.format.name(), std::move(*bytes)};
+}
+
+/// A frame that the mesh file names and the points cannot have.
+Error explain_frame(Error error, const std::string& crs, const std::string& mesh, const std::string& path) {
+  if (error.kind != ErrorKind::kUsage || error.message.find(crs) == std::string::npos) return error;
+  if (crs != "grid") {
+    error.message += fmt::format("; {} names that CRS as its own, --crs overrides it", mesh);
+    return error;
+  }
+  error.message = fmt::format(
+      "{} says of itself that its coordinates are the columns and rows of a raster ('grid'), which the points of {} do "
+      "not have: judge it by its raster, or say with --crs source that x and y of the points count the same",
+      mesh, path);
+  return error;
+}
+
+/// Library errors about the points themselves do not know the file.
+Error with_path(Error error, const std::string& path) {
+  if (error.kind == ErrorKind::kInput) error.message = fmt::format("{}: {}", path, error.message);
+  return error;
+}
+
+}  // namespace
+
+Result<void> run_simplify_points(const CLI::App& verb, const SimplifyArguments& given, const PointsArguments& arguments,
+                                 const std::string& command_line) {
+  const Clock::time_point start = Clock::now();
+  if (auto meant = refuse_raster_options(verb, given.raster.path); !meant) return meant;
+  if (!given.max_error && !given.max_triangles && !given.max_points)
+    return fail(ErrorKind::kUsage,
+                "no goal is given: say how good the mesh must be, such as -e 1 for heights within 1 unit, or how small "
+                "with -t or -p");
+  Result<SimplifyPlan> plan = plan_simplify(given);
+  if (!plan) return tl::unexpected(std::move(plan.error()));
+  if (plan->format.kind == OutputKind::kDem)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} is a raster, and {} holds points, which lie on no grid: choose a mesh format, "
+                            "such as .glb or .ply",
+                            given.output, shell_word(base_name(given.raster.path))));
+  const auto policy = parse_policy(arguments.duplicates);
+  if (!policy) return tl::unexpected(policy.error());
+
+  PointsOutcome outcome;
+  outcome.policy = *policy;
+  ProgressDisplay display(ProgressDisplay::choose(given.json_progress, given.quiet));
+  const std::string crs = crs_option(*plan);
+  Result<PointSet> points = read(given.raster.path, arguments, crs.empty() ? Given() : Given(crs), display.callback());
+  if (!points) return tl::unexpected(std::move(points.error()));
+  outcome.points = std::move(*points);
+  if (auto checked = check_crs_of(plan->format, outcome.points.crs, ""); !checked) return checked;
+  outcome.warnings = plan->warnings;
+  outcome.warnings.insert(outcome.warnings.end(), outcome.points.warnings.begin(), outcome.points.warnings.end());
+  const HeightRange heights = height_range(outcome.points);
+  if (plan->error_goal) outcome.asked = plan->error_goal->absolute(heights.max - heights.min);
+  outcome.seconds_read = seconds_since(start);
+
+  SimplifyOptions options = plan->simplify;
+  options.max_error = outcome.asked;
+  options.progress = display.callback();
+  Result<SimplifiedPoints> simplified = simplify_points(outcome.points, options, outcome.policy);
+  if (!simplified) return tl::unexpected(with_path(std::move(simplified.error()), given.raster.path));
+  outcome.simplified = std::move(simplified->simplified);
+  outcome.duplicates = simplified->duplicates;
+  outcome.on_hull = simplified->on_hull;
+  outcome.lattice_step = simplified->lattice_step;
+  // The engine proves its own result; a mesh whose proof does not hold is never written.
+  const bool has_bound = outcome.simplified.stop == StopReason::kMaxError;
+  const auto broken = find_broken(outcome.points, outcome.simplified.measurement,
+                                  has_bound ? *outcome.asked : outcome.simplified.measurement.max_error);
+  if (broken)
+    return fail(ErrorKind::kPromise,
+                "the mesh does not keep its promise and was not written; this is a bug in Scarp: " + *broken);
+
+  const Clock::time_point write_start = Clock::now();
+  Result<ReadyFile> file = encode(*plan, arguments, outcome);
+  if (!file) return tl::unexpected(std::move(file.error()));
+  const std::vector<ReadyFile> files{std::move(*file)};
+  if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
+  const Result<void> written = write_file(plan->output, files.front().bytes, plan->overwrite);
+  if (!written) return written;
+  outcome.seconds_write = seconds_since(write_start);
+  outcome.seconds_total = seconds_since(start);
+  if (plan->report) {
+    const Json report = make_report(*plan, outcome, files, command_line);
+    const Result<void> reported = write_report(report, *plan->report, plan->overwrite, plan->output);
+    if (!reported) return reported;
+  }
+  display.finish();
+
+  if (given.quiet) return {};
+  print_warnings(outcome.warnings);
+  const std::string summary = make_summary(*plan, outcome, files);
+  if (!is_stdout(plan->output) && !is_stdout(plan->report.value_or(""))) return print_to_stdout(summary);
+  print_to_stderr(summary);
+  return {};
+}
+
+Result<void> run_measure_points(const CLI::App& verb, const MeasurePointsArguments& given,
+                                const PointsArguments& arguments, const std::string& command_line) {
+  const Clock::time_point start = Clock::now();
+  if (auto meant = refuse_raster_options(verb, given.path); !meant) return meant;
+  const Result<int> threads = parse_threads(given.threads);
+  if (!threads) return tl::unexpected(threads.error());
+  JudgedPoints judged;
+  if (given.fail_above) {
+    const Result<double> bound = parse_non_negative("--fail-above", *given.fail_above);
+    if (!bound) return tl::unexpected(bound.error());
+    judged.fail_above = *bound;
+  }
+  ProgressDisplay display(ProgressDisplay::choose(given.json_progress, given.quiet));
+  Result<Mesh> mesh = read_mesh(given.mesh);
+  if (!mesh) return tl::unexpected(std::move(mesh.error()));
+  judged.mesh = std::move(*mesh);
+  // What was asked of the mesh holds for its judge, unless it is told otherwise.
+  const auto remembered = [&](const Given& option, const char* key) -> Given {
+    const auto entry = judged.mesh.metadata.find(key);
+    return option || entry == judged.mesh.metadata.end() ? option : Given(entry->second);
+  };
+  const auto policy = parse_policy(remembered(arguments.duplicates, "duplicates"));
+  if (!policy) return tl::unexpected(policy.error());
+  judged.policy = *policy;
+  const Given crs = remembered(given.crs, "crs_option");
+  Result<PointSet> points = read(given.path, arguments, crs, display.callback());
+  if (!points && !given.crs && crs)
+    return tl::unexpected(explain_frame(std::move(points.error()), *crs, given.mesh, given.path));
+  if (!points) return tl::unexpected(std::move(points.error()));
+  judged.points = std::move(*points);
+  judged.seconds_read = seconds_since(start);
+
+  const Clock::time_point measure_start = Clock::now();
+  MeasureOptions options;
+  options.threads = *threads;
+  options.progress = display.callback();
+  Result<Measurement> measured = measure_points(judged.points, judged.mesh, judged.policy, options);
+  if (!measured) return tl::unexpected(std::move(measured.error()));
+  judged.measured = std::move(*measured);
+  judged.seconds_measure = seconds_since(measure_start);
+  if (judged.fail_above) judged.broken = find_broken(judged.points, judged.measured, *judged.fail_above);
+  if (judged.measured.samples == 0)
+    judged.points.warnings.push_back(fmt::format(
+        "no point of {} is covered by {}: do they have the same coordinates (--crs)?", given.path, given.mesh));
+  if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
+  display.finish();
+  judged.seconds_total = seconds_since(start);
+
+  if (!given.quiet) print_warnings(judged.points.warnings);
+  if (given.json) {
+    const Result<void> printed = print_to_stdout(to_text(make_report(judged, given.mesh, command_line)));
+    if (!printed) return printed;
+  } else if (!given.quiet) {
+    const Result<void> printed = print_to_stdout(make_table(judged, given.mesh));
+    if (!printed) return printed;
+  }
+  if (judged.broken) return fail(ErrorKind::kPromise, fmt::format("{}: {}", given.mesh, *judged.broken));
+  return {};
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,41 @@
+// simplify and measure where the input is scattered points instead of a raster.
+#pragma once
+
+#include <string>
+
+#include "options/simplify_plan.h"
+#include "scarp/points.h"
+
+namespace CLI {
+class App;
+}
+
+namespace scarp::cli {
+
+/// The options of every verb that reads points.
+struct PointsArguments {
+  bool points = false;
+  Given duplicates, layer, z_field;
+
+  void add_to(CLI::App& verb);
+  /// True if the input is to be read as points: it was asked for, or its name says so.
+  bool are_meant(const std::string& path) const { return points || is_point_file(path); }
+  /// Fails if an option for points was given, for an input that is a raster.
+  Result<void> check_unused(const std::string& path) const;
+};
+
+/// What `scarp measure` was asked to do with points.
+struct MeasurePointsArguments {
+  std::string path, mesh;
+  Given crs, fail_above, threads;
+  bool json = false, quiet = false, json_progress = false;
+};
+
+/// `verb` is asked which options were given: those for rasters are refused by name. `command_line` is what the user
+/// typed, for the report.
+Result<void> run_simplify_points(const CLI::App& verb, const SimplifyArguments& given, const PointsArguments& points,
+                                 const std::string& command_line);
+Result<void> run_measure_points(const CLI::App& verb, const MeasurePointsArguments& given,
+                                const PointsArguments& points, const std::string& command_line);
+
+}  // namespace scarp::cli

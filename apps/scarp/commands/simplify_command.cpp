@@ -1,0 +1,383 @@
+#include "commands/simplify_command.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "reports/report.h"
+#include "reports/simplify_outcome.h"
+#include "reports/simplify_report.h"
+#include "reports/verdict.h"
+#include "terminal/clock.h"
+#include "terminal/progress_display.h"
+#include "terminal/signals.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+constexpr const char* kBroken = "the mesh does not keep its promise and was not written; this is a bug in Scarp: ";
+
+/// Of files beside the raster's.
+std::uint64_t vector_bytes(const SimplifyPlan& plan) {
+  const bool has_none = plan.lines.breaklines.empty() && plan.lines.water.empty() && plan.lines.rivers.empty() &&
+                        plan.cut.files.empty() && plan.companions.roi.empty();
+  return has_none ? 0 : kVectorBytes;
+}
+
+MemoryNeeds needs_of(const SimplifyPlan& plan) {
+  MemoryNeeds needs{vector_bytes(plan)};
+  if (plan.companions.gives_bounds()) needs.per_sample = kBoundedSampleBytes;
+  return needs;
+}
+
+Result<void> read_heights(const SimplifyPlan& plan, const ReadOptions& options, Outcome& outcome) {
+  const MemoryNeeds needs = needs_of(plan);
+  Result<OwnedHeightField> field = read_within(plan.input, options, plan.memory, needs);
+  if (!field) return tl::unexpected(std::move(field.error()));
+  if (plan.needs_samples) {
+    if (auto in_memory = check_in_memory(*field, *plan.needs_samples, needs); !in_memory) return in_memory;
+  }
+  outcome.field = std::move(*field);
+  outcome.as_read = outcome.field.info;
+  if (plan.policy == NodataPolicy::kFill) outcome.filled = fill_voids(outcome.field, plan.fill_distance);
+  if (plan.policy == NodataPolicy::kBackground) outcome.filled = fill_background(outcome.field, plan.background);
+  Result<Channels> textures = read_textures(plan.channels, outcome.field, options.progress);
+  if (!textures) return tl::unexpected(std::move(textures.error()));
+  outcome.channels = std::move(*textures);
+  if (plan.error_goal) outcome.asked = plan.error_goal->absolute(outcome.as_read.max - outcome.as_read.min);
+  return {};
+}
+
+Result<void> read_colors(const SimplifyPlan& plan, const ReadOptions& options, bool one_band, Outcome& outcome) {
+  Result<Image> image = read_image(plan.channels, plan.input, options, one_band);
+  if (!image) return tl::unexpected(std::move(image.error()));
+  outcome.field = std::move(image->field);
+  outcome.channels = std::move(image->channels);
+  outcome.as_read = outcome.field.info;
+  if (plan.error_goal) outcome.asked = plan.error_goal->absolute(outcome.channels.relief);
+  return {};
+}
+
+/// Rivers, walls and ridges are fitted to the max error: that of a budget's mesh is not known before the mesh is.
+bool has_lines_to_fit(const SimplifyPlan& plan) {
+  const bool has_budget = plan.simplify.max_triangles || plan.simplify.max_vertices;
+  return has_budget && (!plan.lines.rivers.empty() || plan.cliff.height || plan.ridges.height);
+}
+
+/// What the process may take, and has taken.
+MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome) {
+  if (!plan.memory) return {};
+  const OwnedHeightField& field = outcome.field;
+  std::uint64_t taken = bytes_taken(field, *plan.memory) + outcome.waters.bytes() + outcome.companions.in_windows.bytes;
+  if (plan.companions.gives_bounds() && !field.source)
+    taken += (kBoundedSampleBytes - MemoryNeeds().per_sample) * static_cast<std::uint64_t>(field.cols) *
+             static_cast<std::uint64_t>(field.rows);
+  return {*plan.memory, taken};
+}
+
+/// All lines of a mesh of such an error, and the walls and ridges among them.
+struct FittedLines {
+  LineConstraints lines;
+  std::optional<Cliffs> cliffs;
+  std::optional<Ridges> ridges;
+};
+Result<FittedLines> fit_lines(const SimplifyPlan& plan, const Outcome& outcome, double max_error) {
+  FittedLines fitted{outcome.lines, std::nullopt, std::nullopt};
+  if (auto rivers = add_rivers(outcome.waters, outcome.field, max_error, fitted.lines); !rivers)
+    return tl::unexpected(rivers.error());
+  auto cliffs = plan.cliff.add_cliffs(outcome.field.view(), max_error, memory_of(plan, outcome), fitted.lines);
+  if (!cliffs) return tl::unexpected(cliffs.error());
+  fitted.cliffs = std::move(*cliffs);
+  auto ridges = plan.ridges.add_ridges(outcome.field.view(), max_error, plan.simplify.threads, memory_of(plan, outcome),
+                                       {}, fitted.lines);
+  if (!ridges) return tl::unexpected(ridges.error());
+  fitted.ridges = std::move(*ridges);
+  return fitted;
+}
+
+Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const ProgressCallback& progress, Outcome& outcome) {
+  const Clock::time_point start = Clock::now();
+  ReadOptions options = plan.read;
+  options.progress = progress;
+  const Result<void> read =
+      plan.channels.image ? read_colors(plan, options, one_band, outcome) : read_heights(plan, options, outcome);
+  if (!read) return read;
+  Result<Companions> companions = read_companions(plan.companions, outcome.as_read, outcome.field, outcome.asked,
+                                                  {progress, plan.memory.value_or(0), plan.simplify.threads});
+  if (!companions) return tl::unexpected(std::move(companions.error()));
+  outcome.companions = std::move(*companions);
+  Result<LineConstraints> lines =
+      plan.lines.read(outcome.as_read, outcome.field.rows, progress, outcome.companions.warnings);
+  if (!lines) return tl::unexpected(std::move(lines.error()));
+  outcome.lines = std::move(*lines);
+  const bool fits_later = has_lines_to_fit(plan);
+  const std::optional<double> max_error = fits_later ? std::nullopt : std::optional(outcome.asked.value_or(0));
+  Result<WatersFound> waters = add_waters(plan.lines, progress, max_error, memory_of(plan, outcome), outcome.field,
+                                          outcome.lines, outcome.companions.warnings);
+  if (!waters) return tl::unexpected(std::move(waters.error()));
+  outcome.waters = std::move(*waters);
+  if (!fits_later) {
+    auto cliffs =
+        plan.cliff.add_cliffs(outcome.field.view(), outcome.asked.value_or(0), memory_of(plan, outcome), outcome.lines);
+    if (!cliffs) return tl::unexpected(std::move(cliffs.error()));
+    outcome.cliffs = std::move(*cliffs);
+    auto ridges = plan.ridges.add_ridges(outcome.field.view(), outcome.asked.value_or(0), plan.simplify.threads,
+                                         memory_of(plan, outcome), progress, outcome.lines);
+    if (!ridges) return tl::unexpected(std::move(ridges.error()));
+    outcome.ridges = std::move(*ridges);
+  }
+  Result<Cut> cut = read_cut(plan.cut, outcome.as_read, progress, outcome.field, outcome.companions.warnings);
+  if (!cut) return tl::unexpected(std::move(cut.error()));
+  outcome.cut = std::move(*cut);
+  const RasterInfo& now = outcome.field.info;
+  if (now.has_range) complete_info({now.valid, now.min, now.max}, outcome.as_read);
+  outcome.heights = height_range(outcome.field);
+  outcome.seconds_read = seconds_since(start);
+  return {};
+}
+
+/// OBJ has no place for channels other than colours: an image would lose its bound, a texture its values.
+Result<void> check_place_of_channels(SimplifyPlan& plan, const Channels& channels) {
+  const bool is_obj = plan.format.is_mesh() && plan.format.mesh == MeshFormat::kObj;
+  if (!is_obj || channels.empty() || channels.are_colors()) return {};
+  const std::string sentence = "OBJ has a place for 8-bit colours only";
+  if (plan.channels.image) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("{}, and {} holds {} of {}: choose .glb or .ply", sentence, plan.input,
+                            format_plural(channels.count(), "band"), channels.bands.info.sample_type));
+  }
+  plan.warnings.push_back(sentence + ": the values of the texture's bands are not in the file");
+  return {};
+}
+
+/// A judgement beyond simplify()'s own proof.
+void add_judging(Clock::time_point start, Outcome& outcome) {
+  const double seconds = seconds_since(start);
+  outcome.simplified.passes.push_back({"judge", seconds});
+  outcome.simplified.seconds_measure += seconds;
+}
+
+/// simplify() tells the largest errors of all samples; where some are ignored, this finds those of the others.
+Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& progress, Outcome& outcome) {
+  const Clock::time_point start = Clock::now();
+  const Companions& companions = outcome.companions;
+  const Exceptions exceptions = find_exceptions(outcome.field, companions, outcome.asked.has_value());
+  static const Channels kNoChannels;
+  const Channels& channels = companions.ignores_samples() || plan.channels.image ? outcome.channels : kNoChannels;
+  JudgeOptions options;
+  options.exceptions = &exceptions;
+  options.keep_errors = !channels.empty() || (companions.ignores_samples() && companions.has_weights());
+  options.cutline = outcome.cut.judged();
+  options.topology = false;
+  options.threads = plan.simplify.threads;
+  options.progress = progress;
+  const Result<Judgement> judged = judge(outcome.field, outcome.simplified.mesh, channels, plan.channels.norm, options);
+  if (!judged) return tl::unexpected(judged.error());
+  const auto weigh = [&](const Companions& weights) {
+    return weigh_errors(*judged, outcome.field, channels, weights, exceptions, HUGE_VAL).bounded;
+  };
+  outcome.bounded = plan.channels.image ? weigh({}) : judged->bounded;
+  if (companions.ignores_samples()) {
+    outcome.bounded_goal = options.keep_errors ? weigh(companions).value : judged->bounded.value;
+  }
+  add_judging(start, outcome);
+  return {};
+}
+
+/// The engine proves its own result; a mesh whose proof does not hold is never written.
+Result<void> check_promise(const Outcome& outcome) {
+  const Simplified& simplified = outcome.simplified;
+  const Measurement& measured = simplified.measurement;
+  const GoalError goal = find_goal_error(outcome);
+  const bool has_tolerance = outcome.companions.has_tolerance();
+  const bool has_budget_ended =
+      simplified.stop == StopReason::kMaxTriangles || simplified.stop == StopReason::kMaxVertices;
+  const std::optional<double> asked = has_tolerance ? 1 : outcome.asked;
+  if (asked && !has_budget_ended) {
+    const double height_scale = outcome.channels.empty() ? 1 : outcome.channels.height_scale;
+    // With weights the engine took the rounding of the samples off each bound before it weighed the errors.
+    const double rounding = outcome.companions.has_weights() ? 0 : outcome.field.sample_rounding * height_scale;
+    const double allowance =
+        judging_allowance(*asked, outcome.heights) + 1e-12 * outcome.channels.magnitude +
+        (goal.is_rounded ? std::ldexp(*asked, -24) * static_cast<double>(4 + outcome.channels.count()) : 0);
+    if (!(goal.value + rounding <= *asked + allowance)) {
+      return fail(ErrorKind::kPromise,
+                  fmt::format("{}{} {:.10g} exceeds {:.10g}", kBroken, goal.name, goal.value + rounding, *asked));
+    }
+  }
+  if (measured.uncovered == 0) return {};
+  return fail(ErrorKind::kPromise, kBroken + format_plural(measured.uncovered, "sample") + " without a triangle");
+}
+
+/// simplify() leaves out the topology where it holds by construction; a report states what was looked at, not what must
+/// be so.
+Result<void> judge_topology(const ProgressCallback& progress, int threads, Outcome& outcome) {
+  MeasureOptions options;
+  options.cutline = outcome.cut.judged();
+  options.threads = threads;
+  options.progress = progress;
+  const Clock::time_point start = Clock::now();
+  Result<Measurement> measured = measure(outcome.field, outcome.simplified.mesh, options);
+  if (!measured) return tl::unexpected(std::move(measured.error()));
+  outcome.simplified.measurement = std::move(*measured);
+  add_judging(start, outcome);
+  return {};
+}
+
+/// Efforts that take long hold a mesh that keeps the bound all the while.
+bool keeps_mesh_on_interrupt(const SimplifyOptions& options) {
+  const bool is_long = options.effort == Effort::kHigh || options.effort == Effort::kMax;
+  return is_long && !options.max_triangles && !options.max_vertices && options.memory_limit == 0;
+}
+
+/// A print is made with its mesh.
+Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyOptions& options, Outcome& outcome) {
+  if (!plan.solid) return simplify(outcome.view(), options);
+  Result<PrintedTerrain> printed = simplify_for_print(*plan.solid, outcome.field, options);
+  if (!printed) return tl::unexpected(std::move(printed.error()));
+  outcome.print = std::move(printed->print);
+  return std::move(printed->simplified);
+}
+
+}  // namespace
+
+SimplifyCommand::SimplifyCommand(CLI::App& program)
+    : verb_(
+          program.add_subcommand("simplify", "Turn a raster of heights into a small mesh with a proven error bound")) {
+  given_.add_to(*verb_);
+  points_.add_to(*verb_);
+}
+
+Result<void> SimplifyCommand::run(const std::string& command_line) const {
+  const Clock::time_point start = Clock::now();
+  if (points_.are_meant(given_.raster.path)) return run_simplify_points(*verb_, given_, points_, command_line);
+  if (auto unused = points_.check_unused(given_.raster.path); !unused) return unused;
+  Result<SimplifyPlan> plan = plan_simplify(given_);
+  if (!plan) return tl::unexpected(std::move(plan.error()));
+
+  Outcome outcome;
+  ProgressDisplay display(ProgressDisplay::choose(given_.json_progress, given_.quiet));
+  const Result<void> has_inputs = read_inputs(*plan, given_.raster.band.has_value(), display.callback(), outcome);
+  if (!has_inputs) return tl::unexpected(name_memory(given_.memory, outcome.field, has_inputs.error()));
+
+  const Result<void> has_place = check_place_of_channels(*plan, outcome.channels);
+  if (!has_place) return has_place;
+  const Frame& frame = outcome.field.frame;
+  if (auto checked = check_crs_of(plan->format, frame.crs, outcome.as_read.unit); !checked) return checked;
+  if (plan->format.is_landxml() && frame.kind == Frame::Kind::kLocal && plan->read.crs.empty()) {
+    plan->warnings.push_back(
+        "LandXML has no degrees: the surface is in metres around the raster's centre; a projected CRS (--crs) puts it "
+        "in its place");
+  }
+  if (auto checked = check_frame_of_lines(plan->lines, frame, plan->read.crs, plan->input); !checked) return checked;
+  SimplifyOptions options = plan->simplify;
+  options.max_error = outcome.asked;
+  options.mask = outcome.companions.mask;
+  options.tolerance = outcome.companions.tolerance;
+  options.tolerance_source = outcome.companions.in_windows.source.get();
+  options.script = outcome.companions.script;
+  options.breaklines = outcome.lines;
+  options.cutline = outcome.cut.cutline;
+  if (has_lines_to_fit(*plan)) {
+    options.breaklines_for = [&plan, &outcome](double max_error) -> Result<LineConstraints> {
+      auto fitted = fit_lines(*plan, outcome, max_error);
+      if (!fitted) return tl::unexpected(std::move(fitted.error()));
+      return std::move(fitted->lines);
+    };
+  }
+  options.progress = display.callback();
+  if (keeps_mesh_on_interrupt(options)) {
+    options.is_enough = content_with_interrupt;
+    display.let_interrupt_finish("fit");
+  }
+  if (plan->memory) options.memory_taken = memory_of(*plan, outcome).taken + outcome.cut.bytes;
+  Result<Simplified> simplified = simplify_as_planned(*plan, options, outcome);
+  if (!simplified) {
+    Error error = name_memory(given_.memory, outcome.field, std::move(simplified.error()));
+    if (plan->error_goal)
+      error = name_goal(*plan->error_goal, outcome.as_read.max - outcome.as_read.min, std::move(error));
+    if (error.kind == ErrorKind::kInput && !error.message.starts_with(plan->input) && !error.message.starts_with("--"))
+      error.message = fmt::format("{}: {}", plan->input, error.message);
+    return tl::unexpected(std::move(error));
+  }
+  outcome.simplified = std::move(*simplified);
+  if (options.breaklines_for) {
+    auto fitted = fit_lines(*plan, outcome, outcome.simplified.lines_for);
+    if (!fitted) return tl::unexpected(std::move(fitted.error()));
+    outcome.lines = std::move(fitted->lines);
+    outcome.cliffs = std::move(fitted->cliffs);
+    outcome.ridges = std::move(fitted->ridges);
+  }
+  apply_edits(outcome.simplified.edits, outcome.field);
+  if (outcome.field.source) outcome.heights = outcome.simplified.measurement.heights;
+  complete_info(outcome.heights, outcome.as_read);
+  const OwnedHeightField& field = outcome.field;
+  const bool by_construction =
+      options.float32_positions ? offsets_are_exact(field.frame, field.cols, field.rows) : field.frame.is_affine();
+  if (plan->report && by_construction) {
+    const Result<void> judged = judge_topology(display.callback(), plan->simplify.threads, outcome);
+    if (!judged) return judged;
+  }
+  if (outcome.simplified.ignored > 0) {
+    const Result<void> judged = judge_bounded(*plan, display.callback(), outcome);
+    if (!judged) return judged;
+  }
+  const Result<void> promise = check_promise(outcome);
+  if (!promise) return promise;
+  outcome.warnings = plan->warnings;
+  std::vector<const std::vector<std::string>*> sources{&outcome.as_read.warnings, &outcome.companions.warnings};
+  if (!plan->channels.image) sources.push_back(&outcome.channels.bands.info.warnings);
+  for (const std::vector<std::string>* more : sources) {
+    outcome.warnings.insert(outcome.warnings.end(), more->begin(), more->end());
+  }
+  if (options.order == Order::kDominant && outcome.simplified.order != Order::kDominant) {
+    outcome.warnings.push_back(
+        "the greedy order was taken: the goal is so coarse that tiles would cost vertices, or the heights span "
+        "magnitudes beyond exact arithmetic");
+  }
+  if (outcome.line_count() > 0 && outcome.simplified.lines_laid == 0) {
+    outcome.warnings.push_back(
+        fmt::format("{}: no line lies on the raster's surface, so they change nothing: is their CRS the right one?",
+                    plan->lines.find_lines()));
+  }
+  if (const std::string faults = list_faults(outcome.simplified.measurement); !faults.empty()) {
+    outcome.warnings.push_back("the mesh keeps its error bound but is not sound: " + faults);
+  }
+
+  const Clock::time_point write_start = Clock::now();
+  const bool go_on = display.callback()(
+      {"write", 0, outcome.simplified.mesh.vertex_count(), outcome.simplified.measurement.max_error});
+  if (!go_on) return fail(ErrorKind::kCancelled, "interrupted");
+  const Result<std::vector<ReadyFile>> files = encode_files(*plan, display.callback(), outcome);
+  if (!files) return tl::unexpected(files.error());
+  if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
+
+  // From here on the work is done: all files get their names, or none.
+  std::vector<FileBytes> ready;
+  for (const ReadyFile& file : *files) ready.push_back({file.path, file.bytes});
+  if (const Result<void> written = write_files(ready, plan->overwrite); !written) return written;
+  outcome.seconds_write = seconds_since(write_start);
+  outcome.seconds_total = seconds_since(start);
+  if (plan->report) {
+    const Json report = make_report(*plan, outcome, *files, command_line);
+    const Result<void> written = write_report(report, *plan->report, plan->overwrite, plan->output);
+    if (!written) return written;
+  }
+  display.finish();
+
+  if (given_.quiet) return {};
+  print_warnings(outcome.warnings);
+  const std::string summary = make_summary(*plan, outcome, *files) + (given_.timing ? timing_lines(outcome) : "");
+  bool stdout_is_data = is_stdout(plan->report.value_or(""));
+  for (const ReadyFile& file : *files) stdout_is_data = stdout_is_data || is_stdout(file.path);
+  if (stdout_is_data) {
+    print_to_stderr(summary);
+    return {};
+  }
+  return print_to_stdout(summary);
+}
+
+}  // namespace scarp::cli

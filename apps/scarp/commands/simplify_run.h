@@ -1,0 +1,66 @@
+// What a run of `scarp simplify` comes to and tells, on a raster or on points.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands/solid_run.h"
+#include "options/simplify_plan.h"
+#include "reports/json.h"
+#include "scarp/simplify.h"
+
+namespace scarp::cli {
+
+/// A file of this run and its bytes, ready to be written.
+struct ReadyFile {
+  std::string path;
+  const char* kind;
+  std::vector<std::uint8_t> bytes;
+};
+
+struct SimplifyRun {
+  std::optional<double> asked;  ///< max error in z units
+  Simplified simplified;
+  std::uint64_t vertices = 0, triangles = 0;              ///< of the terrain
+  std::uint64_t solid_vertices = 0, solid_triangles = 0;  ///< with --base
+  std::optional<Print> print;                             ///< with --solid
+  std::vector<std::string> warnings;
+  double seconds_read = 0, seconds_write = 0, seconds_total = 0;
+};
+
+/// Counts the terrain's vertices and triangles, then closes it into a solid where that was asked for.
+Result<void> finish_mesh(const SimplifyPlan& plan, SimplifyRun& run);
+/// Writes into the mesh who made it, how, and in which frame; `crs_option` is what measure() needs as --crs, or empty.
+void add_origin(const std::string& command, const std::string& frame, const std::string& crs,
+                const std::string& crs_option, Mesh& mesh);
+
+/// The "goal", "passes", "seconds" and "outputs" of the report; "solid", where there is one.
+Json describe_goal(const SimplifyPlan& plan, const SimplifyRun& run);
+Json describe_passes(const SimplifyRun& run);
+Json describe_seconds(const SimplifyRun& run);
+Json describe_outputs(const std::vector<ReadyFile>& files);
+void add_solid(Json& report, const SimplifyPlan& plan, const SimplifyRun& run);
+/// The file of each sheet of the print, or one that holds them all.
+std::vector<std::string> print_paths(const SimplifyPlan& plan, const Print& print);
+
+/// A line of the summary, and those that every summary has.
+std::string summary_line(const char* name, const std::string& value);
+std::string files_lines(const SimplifyPlan& plan, const std::vector<ReadyFile>& files);
+std::string solid_line(const SimplifyPlan& plan, const SimplifyRun& run);
+std::string seconds_line(const SimplifyRun& run);
+
+/// The lines of --timing: a table of the passes, reading first and writing last.
+std::string timing_lines(const SimplifyRun& run);
+
+/// What the last line of the summary says of the error.
+struct EndError {
+  std::string text;           ///< "max error 0.5"
+  bool is_exact = false;      ///< nothing was lost
+  const char* of = "sample";  ///< what was reproduced if so
+};
+/// Which goal ended the run and what the error then is: "Reached the error goal: max error 0.5 (asked 0.5)".
+std::string describe_end(const SimplifyPlan& plan, const SimplifyRun& run, const EndError& error);
+
+}  // namespace scarp::cli

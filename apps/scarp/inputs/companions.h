@@ -1,0 +1,87 @@
+// Rasters and scripts beside INPUT that say, sample by sample, what counts.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "inputs/tolerance_source.h"
+#include "options/options.h"
+#include "scarp/io.h"
+#include "scarp/simplify.h"
+
+namespace CLI {
+class App;
+}
+
+namespace scarp::cli {
+
+struct CompanionArguments {
+  Given mask, tolerance, script, falloff;
+  std::vector<std::string> roi;  ///< FILE[:LAYER]=M
+
+  /// `script_help` is the verb's own sentence on --script.
+  void add_to(CLI::App& verb, const char* script_help);
+  /// Refuses what contradicts each other. `bound_option`: the verb's own for a bound of all samples; `has_bound`:
+  /// whether it was given.
+  Result<void> check(const char* bound_option, bool has_bound) const;
+  /// The option that gives samples bounds of their own, other than weights; null if there is none.
+  const char* find_tolerance() const;
+  /// Whether samples are given weights or bounds of their own.
+  bool gives_bounds() const { return mask || script || find_tolerance() != nullptr; }
+  /// The option that reads what is of use for samples in memory only; null if there is none.
+  const char* find_need_of_samples() const { return mask ? "--mask" : script ? "--script" : nullptr; }
+  /// The files that were named.
+  std::vector<std::string> files() const;
+  std::string canonical() const;
+};
+
+/// What the files hold; empty where none was given.
+struct Companions {
+  std::vector<float> mask;       ///< weights in 0 … 1, one a sample
+  std::vector<float> tolerance;  ///< bounds in z units, one a sample; +infinity: none
+  BoundsInWindows in_windows;    ///< the same in its place where the heights are not in memory as one array
+  std::vector<ScriptStep> script;
+  std::vector<std::string> warnings;
+
+  bool has_tolerance() const { return !tolerance.empty() || in_windows.source; }
+  bool has_weights() const { return !mask.empty() || has_tolerance(); }
+  /// The script takes samples' bounds away; they count in the largest errors all the same.
+  bool ignores_samples() const;
+};
+
+/// How a run reads them. The rest counts where the heights have a source.
+struct CompanionRun {
+  const ProgressCallback& progress;
+  std::uint64_t memory = 0;  ///< the process's limit; REQUIRED then
+  int threads = 0;           ///< that read windows
+};
+
+/// Reads and checks the files, which must lie on the grid of `raster`.
+/// Mask: values below 0 are refused; if the largest is above 1, all are divided by it; no value means weight 0.
+/// Tolerance: values below 0 are refused; no value means no bound. Regions of interest: the smaller one of their
+/// tolerance and the raster's counts; `bound` is what holds beyond them. `raster`: that of the field, as it was read.
+/// Fails with kUsage if the memory has no room for what is beside heights that have a source; masks and scripts are for
+/// heights in memory.
+Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster,
+                                   const OwnedHeightField& field, std::optional<double> bound, const CompanionRun& run);
+
+/// The valid samples without a bound: by the script, by weight 0, by an infinite tolerance.
+struct Exceptions {
+  std::vector<float> limits;  ///< +infinity for them, 0 for the others; empty if there are none
+  /// The same in its place, in windows, for heights that are not in memory; not counted, so perhaps there are none.
+  std::shared_ptr<const SampleSource> source;
+  std::uint64_t count = 0;
+
+  bool has(std::size_t sample) const { return !limits.empty() && limits[sample] > 0; }
+};
+/// `has_max_error`: a bound that holds beside the tolerances, also where they are infinite.
+Exceptions find_exceptions(const HeightField& heights, const Companions& companions, bool has_max_error);
+
+/// Fails, with the way out, unless `other` lies on the grid of `raster`. `option` named it.
+Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const char* option, const RasterInfo& other,
+                        int other_cols, int other_rows);
+
+}  // namespace scarp::cli

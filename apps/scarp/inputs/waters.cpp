@@ -1,0 +1,140 @@
+#include "inputs/waters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "commands/simplify_run.h"
+#include "reports/report.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+ReadLinesOptions plan_reading(const OwnedHeightField& field, const ProgressCallback& progress) {
+  ReadLinesOptions reading;
+  reading.crs = field.info.crs;
+  reading.ignore_z = true;
+  reading.progress = progress;
+  return reading;
+}
+
+Result<std::vector<Lake>> add_lakes(const LineArguments& given, const ProgressCallback& progress,
+                                    const MemoryShare& memory, OwnedHeightField& field,
+                                    const std::array<double, 6>& affine, std::vector<std::string>& warnings) {
+  if (given.flats) {
+    auto flats = find_flats(
+        field, {affine, *parse_count("--detect-flats", *given.flats, 3), memory.limit, memory.taken, progress});
+    if (flats && flats->empty()) warnings.push_back("--detect-flats finds no flat area: it changes nothing");
+    return flats;
+  }
+  if (given.water.empty()) return std::vector<Lake>();
+  const auto polygons = read_files(given.water, plan_reading(field, progress), warnings);
+  if (!polygons) return tl::unexpected(polygons.error());
+  WaterOptions options;
+  options.affine = affine;
+  options.memory_limit = memory.limit;
+  options.memory_taken = memory.taken;
+  options.progress = progress;
+  if (given.percentile) options.percentile = *parse_non_negative("--water-percentile", *given.percentile);
+  auto lakes = flatten_lakes(field, *polygons, options);
+  if (lakes && lakes->empty()) warnings.push_back("--water names no lake in the raster: it changes nothing");
+  return lakes;
+}
+
+Result<std::vector<Line>> read_streams(const LineArguments& given, const ProgressCallback& progress,
+                                       const OwnedHeightField& field, std::vector<std::string>& warnings) {
+  if (given.rivers.empty()) return std::vector<Line>();
+  return read_files(given.rivers, plan_reading(field, progress), warnings);
+}
+
+std::string lakes_line(const std::vector<Lake>& lakes) {
+  if (lakes.empty()) return "";
+  std::uint64_t samples = 0;
+  double largest = 0;
+  for (const Lake& lake : lakes) {
+    samples += lake.samples + lake.raised;
+    largest = std::max(largest, lake.largest_change);
+  }
+  const std::string changed =
+      samples == 0 ? ", flat as they are"
+                   : fmt::format("; {} changed by up to {}: the errors are those against the changed raster",
+                                 format_plural(samples, "sample"), format_number(largest));
+  return summary_line("water", format_plural(lakes.size(), "lake") + changed);
+}
+
+std::string rivers_line(const std::vector<River>& rivers) {
+  if (rivers.empty()) return "";
+  double deepest = 0;
+  for (const River& river : rivers) deepest = std::max(deepest, river.deepest_cut);
+  return summary_line("rivers", fmt::format("{}, up to {} below the raster", format_plural(rivers.size(), "line"),
+                                            format_number(deepest)));
+}
+
+}  // namespace
+
+std::uint64_t WatersFound::bytes() const {
+  std::uint64_t bytes = 0;
+  for (const Lake& lake : lakes) bytes += lake.bytes;
+  return bytes;
+}
+
+Result<WatersFound> add_waters(const LineArguments& given, const ProgressCallback& progress,
+                               const std::optional<double>& max_error, const MemoryShare& memory,
+                               OwnedHeightField& field, LineConstraints& lines, std::vector<std::string>& warnings) {
+  WatersFound found;
+  auto lakes = add_lakes(given, progress, memory, field, lines.affine, warnings);
+  if (!lakes) return tl::unexpected(lakes.error());
+  found.lakes = std::move(*lakes);
+  auto streams = read_streams(given, progress, field, warnings);
+  if (!streams) return tl::unexpected(streams.error());
+  found.streams = std::move(*streams);
+  if (!found.streams.empty()) {
+    auto rivers = carve_rivers(field, found.streams, found.lakes, {lines.affine, max_error.value_or(0) / 2});
+    if (!rivers) return tl::unexpected(rivers.error());
+    found.rivers = std::move(*rivers);
+  }
+  if (found.rivers.size() < found.streams.size())
+    warnings.push_back(fmt::format("--rivers: {} beside the raster or closed: no river",
+                                   format_plural(found.streams.size() - found.rivers.size(), "line")));
+  for (const Lake& lake : found.lakes) lines.lines.insert(lines.lines.end(), lake.shore.begin(), lake.shore.end());
+  if (!max_error) return found;
+  for (const River& river : found.rivers) lines.lines.push_back(river.course);
+  return found;
+}
+
+Result<void> add_rivers(const WatersFound& waters, const OwnedHeightField& field, double max_error,
+                        LineConstraints& lines) {
+  if (waters.streams.empty()) return {};
+  auto rivers = carve_rivers(field, waters.streams, waters.lakes, {lines.affine, max_error / 2});
+  if (!rivers) return tl::unexpected(rivers.error());
+  for (River& river : *rivers) lines.lines.push_back(std::move(river.course));
+  return {};
+}
+
+Json describe_lakes(const std::vector<Lake>& lakes) {
+  Json list = Json::array();
+  for (const Lake& lake : lakes)
+    list.push_back(Json{{"name", lake.name},
+                        {"level", lake.level},
+                        {"edited_samples", lake.samples},
+                        {"raised_around", lake.raised},
+                        {"largest_edit", lake.largest_change}});
+  return list;
+}
+
+Json describe_rivers(const std::vector<River>& rivers) {
+  Json list = Json::array();
+  for (const River& river : rivers)
+    list.push_back(Json{{"name", river.name},
+                        {"source", river.source},
+                        {"mouth", river.mouth},
+                        {"deepest_cut", river.deepest_cut},
+                        {"turned", river.is_turned}});
+  return list;
+}
+
+std::string waters_lines(const WatersFound& waters) { return lakes_line(waters.lakes) + rivers_line(waters.rivers); }
+
+}  // namespace scarp::cli

@@ -1,0 +1,195 @@
+#include "options/line_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "commands/simplify_run.h"
+#include "reports/report.h"
+#include "scarp/edits.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+constexpr Choice<LineConflict> kConflicts[] = {{"error", LineConflict::kError},
+                                               {"first", LineConflict::kFirst},
+                                               {"mean", LineConflict::kMean},
+                                               {"highest", LineConflict::kHighest}};
+
+double largest_edit(const std::vector<SampleEdit>& edits) {
+  double largest = 0;
+  for (const SampleEdit& edit : edits) largest = std::max(largest, std::abs(double{edit.after} - double{edit.before}));
+  return largest;
+}
+
+}  // namespace
+
+Result<std::vector<Line>> read_files(const std::vector<std::string>& files, const ReadLinesOptions& options,
+                                     std::vector<std::string>& warnings) {
+  std::vector<Line> lines;
+  std::uint32_t polygons = 0;
+  for (const std::string& file : files) {
+    auto set = read_lines(file, options);
+    if (!set) return tl::unexpected(std::move(set.error()));
+    for (Line& line : set->lines) {
+      if (line.polygon != kNoPolygon) line.polygon += polygons;
+      lines.push_back(std::move(line));
+    }
+    polygons += set->polygons;
+    warnings.insert(warnings.end(), set->warnings.begin(), set->warnings.end());
+  }
+  return lines;
+}
+
+void LineArguments::add_to(CLI::App& verb) {
+  const char* group = "Breaklines";
+  verb.add_option("--breaklines", breaklines,
+                  "Lines, and rings of polygons, that become edges of\nthe mesh, from any vector file that GDAL opens. "
+                  "With\nheights of their own they keep them, without they\nfollow the raster. May be given again")
+      ->type_name("FILE[:LAYER]")
+      ->group(group);
+  verb.add_option("--breakline-z", z_field, "Attribute that holds the height of a line, such as a\ncontour's")
+      ->type_name("FIELD")
+      ->group(group);
+  verb.add_flag("--soft-breaklines", are_soft, "Lines follow the raster, whatever heights they have")->group(group);
+  verb.add_option("--line-conflict", conflict,
+                  "Where lines of different heights meet: error\n(default), first, mean or highest")
+      ->type_name("RULE")
+      ->group(group);
+  verb.add_option(
+          "--water", water,
+          "Lakes: each polygon of a vector file becomes flat, at\na low height of its shore, and the shore edges "
+          "of\nthe mesh. May be given again")
+      ->type_name("FILE[:LAYER]")
+      ->group("Water");
+  verb.add_option("--water-percentile", percentile, "Share of the shore that lies below the lake's level\n(default 5)")
+      ->type_name("P")
+      ->group("Water");
+  verb.add_option("--detect-flats", flats,
+                  "Keep areas of at least N samples of one height flat:\ntheir shores become edges of the mesh")
+      ->type_name("N")
+      ->group("Water");
+  verb.add_option("--rivers", rivers,
+                  "Lines that become edges of the mesh and never rise\ndownstream. May be given again")
+      ->type_name("FILE[:LAYER]")
+      ->group("Water");
+}
+
+const char* LineArguments::find_lines() const {
+  if (!breaklines.empty()) return "--breaklines";
+  if (const char* lakes = find_lakes()) return lakes;
+  return rivers.empty() ? nullptr : "--rivers";
+}
+
+const char* LineArguments::find_lakes() const {
+  if (!water.empty()) return "--water";
+  return flats ? "--detect-flats" : nullptr;
+}
+
+Result<void> LineArguments::check() const {
+  const char* needing = z_field    ? "--breakline-z"
+                        : are_soft ? "--soft-breaklines"
+                        : conflict ? "--line-conflict"
+                                   : nullptr;
+  const bool may_meet = conflict && !are_soft && !z_field && (!rivers.empty() || !water.empty());
+  if (needing != nullptr && breaklines.empty() && !may_meet)
+    return fail(ErrorKind::kUsage, fmt::format("{} needs --breaklines: there are no lines without", needing));
+  if (are_soft && z_field)
+    return fail(ErrorKind::kUsage, "--soft-breaklines and --breakline-z contradict each other: leave one of them out");
+  if (percentile) {
+    if (water.empty()) return fail(ErrorKind::kUsage, "--water-percentile needs --water: there is no lake without");
+    const Result<double> share = parse_non_negative("--water-percentile", *percentile);
+    if (!share) return tl::unexpected(share.error());
+    if (*share > 100)
+      return fail(ErrorKind::kUsage, fmt::format("--water-percentile {} is above 100", shell_word(*percentile)));
+  }
+  if (flats) {
+    if (!water.empty())
+      return fail(ErrorKind::kUsage,
+                  "--detect-flats and --water contradict each other: lakes are found, or named by a file");
+    const Result<std::uint64_t> samples = parse_count("--detect-flats", *flats, 3);
+    if (!samples) return tl::unexpected(samples.error());
+  }
+  if (!conflict) return {};
+  const Result<LineConflict> rule = choose("--line-conflict", *conflict, kConflicts);
+  return rule ? Result<void>() : tl::unexpected(rule.error());
+}
+
+Result<void> check_frame_of_lines(const LineArguments& given, const Frame& frame, const std::string& crs_option,
+                                  const std::string& input) {
+  const char* lines = given.find_lines();
+  if (lines == nullptr || frame.is_affine()) return {};
+  const std::string crs = shell_word(crs_option);
+  return fail(
+      ErrorKind::kUsage,
+      fmt::format("{} and --crs {} contradict each other: lines are laid where the grid is regular, and in that "
+                  "CRS it is bent. Leave --crs out, or bend the raster first: gdalwarp -t_srs {} {} warped.tif",
+                  lines, crs, crs, shell_word(input)));
+}
+
+std::string LineArguments::canonical() const {
+  std::string text;
+  for (const std::string& file : breaklines) text += " --breaklines " + shell_word(base_name(file));
+  text += canonical_option("--breakline-z", z_field) + (are_soft ? " --soft-breaklines" : "") +
+          canonical_option("--line-conflict", conflict);
+  for (const std::string& file : water) text += " --water " + shell_word(base_name(file));
+  text += canonical_option("--water-percentile", percentile) + canonical_option("--detect-flats", flats);
+  for (const std::string& file : rivers) text += " --rivers " + shell_word(base_name(file));
+  return text;
+}
+
+Result<LineConstraints> LineArguments::read(const RasterInfo& raster, int rows, const ProgressCallback& progress,
+                                            std::vector<std::string>& warnings) const {
+  LineConstraints constraints;
+  constraints.affine = map_affine(raster, rows);
+  if (conflict) constraints.conflict = *choose("--line-conflict", *conflict, kConflicts);
+  ReadLinesOptions options;
+  options.crs = raster.crs;
+  options.z_field = z_field.value_or("");
+  options.ignore_z = are_soft;
+  options.progress = progress;
+  auto lines = read_files(breaklines, options, warnings);
+  if (!lines) return tl::unexpected(std::move(lines.error()));
+  constraints.lines = std::move(*lines);
+  return constraints;
+}
+
+void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field) {
+  if (field.source) {
+    if (!edits.empty()) field.source = edit_source(field.source, edits);
+    return;
+  }
+  for (const SampleEdit& edit : edits)
+    field.samples[static_cast<std::size_t>(edit.row) * static_cast<std::size_t>(field.cols) +
+                  static_cast<std::size_t>(edit.col)] = edit.after;
+}
+
+Json describe_lines(const LineArguments& given, std::uint64_t lines, std::uint64_t laid,
+                    const std::vector<SampleEdit>& edits) {
+  if (given.breaklines.empty()) return nullptr;
+  return Json{{"files", given.breaklines},
+              {"lines", lines},
+              {"laid", laid},
+              {"edited_samples", edits.size()},
+              {"largest_edit", largest_edit(edits)}};
+}
+
+std::string lines_line(std::uint64_t lines, std::uint64_t laid, const std::vector<SampleEdit>& edits) {
+  if (lines == 0) return "";
+  std::string text = format_plural(lines, "line");
+  if (laid != lines) {
+    text = fmt::format("{} of {}, the {} beside the raster", laid == 0 ? "none" : format_count(laid), text,
+                       lines - laid == 1 ? "other lies" : "others lie");
+  }
+  if (!edits.empty())
+    text +=
+        fmt::format("; {} given their heights, changed by up to {}: the errors are those against the changed raster",
+                    format_plural(edits.size(), "sample"), format_number(largest_edit(edits)));
+  return summary_line("breaklines", text);
+}
+
+}  // namespace scarp::cli

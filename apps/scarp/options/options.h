@@ -1,0 +1,106 @@
+// What the verbs' options have in common: reading numbers, rasters' options, checks of output files.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scarp/io.h"
+#include "scarp/result.h"
+#include "terminal/text.h"
+
+namespace CLI {
+class App;
+}
+
+namespace scarp::cli {
+
+/// The text of an option as the user gave it; nothing if the option was not given. Every value is parsed by the
+/// functions below, so that each complaint names its option and its value.
+using Given = std::optional<std::string>;
+
+/// A finite number.
+Result<double> parse_number(std::string_view option, const std::string& text);
+/// A finite number that is at least 0.
+Result<double> parse_non_negative(std::string_view option, const std::string& text);
+/// A whole number that is at least `least`.
+Result<std::uint64_t> parse_count(std::string_view option, const std::string& text, std::uint64_t least);
+/// Threads: 0 (all cores, also if not given) to 1024.
+Result<int> parse_threads(const Given& text);
+
+/// A word that an option takes, and what it stands for.
+template <class T>
+struct Choice {
+  const char* name;
+  T value;
+};
+
+/// The value that the word names. Else the sentence lists the words.
+template <class T, std::size_t N>
+Result<T> choose(std::string_view option, const std::string& word, const Choice<T> (&choices)[N]) {
+  std::string names;
+  for (std::size_t k = 0; k < N; ++k) {
+    if (word == choices[k].name) return choices[k].value;
+    names += (k == 0 ? "" : k + 1 == N ? " or " : ", ") + std::string(choices[k].name);
+  }
+  return fail(ErrorKind::kUsage, fmt::format("{} {} is unknown: choose {}", option, shell_word(word), names));
+}
+
+/// The word for the value.
+template <class T, std::size_t N>
+const char* name_of(T value, const Choice<T> (&choices)[N]) {
+  for (const Choice<T>& choice : choices) {
+    if (choice.value == value) return choice.name;
+  }
+  return "";
+}
+
+/// " --name value" if the option was given: a piece of a canonical command.
+std::string canonical_option(const char* name, const Given& text);
+
+/// The value of -e/--max-error.
+struct ErrorGoal {
+  double value = 0;
+  bool percent_of_relief = false;
+  /// In z units, for a raster of the given relief.
+  double absolute(double relief) const { return percent_of_relief ? value / 100 * relief : value; }
+};
+Result<ErrorGoal> parse_error_goal(std::string_view option, const std::string& text);
+/// What the library says of a max error, with the share of the relief that was asked for.
+Error name_goal(const ErrorGoal& goal, double relief, Error error);
+
+/// The options of every verb that reads a raster.
+struct RasterArguments {
+  std::string path;
+  Given band, nodata, decode, crs;
+
+  /// Adds INPUT's companions; `crs_help` is the verb's own sentence on --crs.
+  void add_to(CLI::App& verb, const std::string& crs_help);
+  Result<ReadOptions> parse() const;
+};
+
+/// A file that the run will write, and the option that asked for it ("OUTPUT", "--report", …).
+struct PlannedOutput {
+  std::string option;
+  std::string path;
+};
+
+/// Everything that can be known about output files before the work begins: their folders exist and can be written,
+/// nothing is replaced without `overwrite`, none is an input or another output.
+Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<std::string>& inputs,
+                           bool overwrite);
+/// The path's extension in lower case, with its point (".png"); empty if there is none.
+std::string lower_extension(const std::string& path);
+/// Fails unless the path ends in .png or is a device.
+Result<void> check_png_name(const PlannedOutput& output);
+/// Fails unless the path ends in .tif or .tiff or is a device.
+Result<void> check_tiff_name(const PlannedOutput& output);
+/// True if writing to the path is writing to standard output (/dev/stdout).
+bool is_stdout(const std::string& path);
+
+}  // namespace scarp::cli

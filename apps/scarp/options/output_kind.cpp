@@ -1,0 +1,159 @@
+#include "options/output_kind.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+
+#include "scarp/picture.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+constexpr const char* kNames = "glb, obj, ply, stl, tin, 2dm, vtu, vtp, landxml, dxf, gpkg, 3mf, svg, eps or dem";
+
+/// What the verbs must know of a mesh format before they write it.
+struct MeshRow {
+  MeshFormat format;
+  const char* name;
+  const char* title;
+  std::uint64_t bytes_per_vertex;
+  bool holds_attributes, is_on_maps;
+};
+constexpr MeshRow kMeshRows[] = {{MeshFormat::kGlb, "glb", "GLB", 80, true, false},
+                                 {MeshFormat::kObj, "obj", "OBJ", 190, true, false},
+                                 {MeshFormat::kPly, "ply", "PLY", 100, true, false},
+                                 {MeshFormat::kStl, "stl", "STL", 220, false, false},
+                                 {MeshFormat::kTin, "tin", "TIN", 400, false, false},
+                                 {MeshFormat::k2dm, "2dm", "2DM", 260, false, true},
+                                 {MeshFormat::kVtu, "vtu", "VTU", 120, true, false},
+                                 {MeshFormat::kVtp, "vtp", "VTP", 120, true, false},
+                                 {MeshFormat::kLandXml, "landxml", "LandXML", 260, false, false},
+                                 {MeshFormat::kDxf, "dxf", "DXF", 900, false, true},
+                                 {MeshFormat::kGpkg, "gpkg", "GeoPackage", 1200, false, true},
+                                 {MeshFormat::k3mf, "3mf", "3MF", 400, false, false}};
+
+const MeshRow& row_of(MeshFormat format) {
+  for (const MeshRow& row : kMeshRows) {
+    if (row.format == format) return row;
+  }
+  return kMeshRows[0];
+}
+
+std::string lower(std::string word) {
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return word;
+}
+
+std::optional<OutputFormat> find_format(const std::string& word) {
+  for (const MeshRow& row : kMeshRows) {
+    if (word == row.name) return OutputFormat{OutputKind::kMesh, row.format, RasterFormat::kGeoTiff};
+  }
+  OutputFormat format;
+  if (word == "svg") {
+    format.kind = OutputKind::kSvg;
+  } else if (word == "eps") {
+    format.kind = OutputKind::kEps;
+  } else if (word == "dem") {
+    format.kind = OutputKind::kDem;
+  } else {
+    return std::nullopt;
+  }
+  return format;
+}
+
+/// What an extension stands for: the formats' names, and those of rasters.
+std::optional<OutputFormat> find_format_of_extension(const std::string& extension) {
+  if (extension.size() < 2 || extension == ".dem") return std::nullopt;
+  if (extension == ".xml") return find_format("landxml");
+  if (extension == ".tif" || extension == ".tiff") return find_format("dem");
+  if (extension == ".pgm") return OutputFormat{OutputKind::kDem, MeshFormat::kGlb, RasterFormat::kPgm};
+  return find_format(extension.substr(1));
+}
+
+}  // namespace
+
+const char* OutputFormat::name() const {
+  switch (kind) {
+    case OutputKind::kSvg:
+      return "svg";
+    case OutputKind::kEps:
+      return "eps";
+    case OutputKind::kDem:
+      return raster == RasterFormat::kPgm ? "pgm" : "tif";
+    case OutputKind::kMesh:
+      break;
+  }
+  return row_of(mesh).name;
+}
+
+std::string OutputFormat::title() const {
+  if (kind == OutputKind::kMesh) return row_of(mesh).title;
+  std::string text = name();
+  for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return kind == OutputKind::kDem ? "a raster" : text;
+}
+
+std::uint64_t OutputFormat::bytes_per_vertex() const {
+  return kind == OutputKind::kMesh ? row_of(mesh).bytes_per_vertex : 300;
+}
+
+bool OutputFormat::holds_attributes() const { return is_mesh() && row_of(mesh).holds_attributes; }
+
+bool OutputFormat::holds_prints() const {
+  return is_mesh() &&
+         (mesh == MeshFormat::kStl || mesh == MeshFormat::k3mf || mesh == MeshFormat::kObj || mesh == MeshFormat::kPly);
+}
+
+bool OutputFormat::is_on_maps() const { return is_mesh() && row_of(mesh).is_on_maps; }
+
+Result<OutputFormat> choose_output_format(const Given& of, const std::string& output) {
+  if (output.empty()) return fail(ErrorKind::kUsage, "the name of OUTPUT is empty");
+  if (output == "-") {
+    return fail(ErrorKind::kUsage, "- is no output: for standard output give /dev/stdout and a format with --of");
+  }
+  const std::string extension = lower_extension(output);
+  if (of) {
+    std::optional<OutputFormat> named = find_format(lower(*of));
+    if (!named) {
+      return fail(ErrorKind::kUsage, fmt::format("--of {} is unknown: choose {}", shell_word(*of), kNames));
+    }
+    if (named->kind == OutputKind::kDem && extension == ".pgm") named->raster = RasterFormat::kPgm;
+    return *named;
+  }
+  if (const std::optional<OutputFormat> named = find_format_of_extension(extension)) return *named;
+  return fail(ErrorKind::kUsage,
+              fmt::format("{} does not tell a format: end it in .glb, .obj, .ply, .stl, .tin, .2dm, .vtu, .vtp, .xml, "
+                          ".dxf, .gpkg, .3mf, .svg, .eps, .tif or .pgm, or choose one with --of",
+                          shell_word(output)));
+}
+
+Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, const std::string& unit) {
+  if (!format.is_mesh() || format.mesh == MeshFormat::k3mf) return {};
+  Mesh sample;
+  sample.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  sample.triangles = {0, 1, 2};
+  if (!crs.empty()) sample.metadata["crs"] = crs;
+  if (!unit.empty()) sample.metadata["unit"] = unit;
+  auto bytes = encode_mesh(sample, format.mesh);
+  if (!bytes) return fail(ErrorKind::kUsage, std::move(bytes.error().message));
+  return {};
+}
+
+Result<void> close_with_base(Mesh& mesh, double base) {
+  if (add_base(mesh, base)) return {};
+  double lowest = mesh.vertex(0)[2];
+  for (std::size_t v = 1; v < mesh.vertex_count(); ++v) lowest = std::min(lowest, mesh.vertex(v)[2]);
+  return fail(ErrorKind::kUsage,
+              fmt::format("--base {:.10g} is not below the lowest vertex, which is at {:.10g}", base, lowest));
+}
+
+Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh) {
+  if (format.kind == OutputKind::kSvg) return encode_svg(mesh);
+  if (format.kind == OutputKind::kEps) return encode_eps(mesh);
+  return encode_mesh(mesh, format.mesh);
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,54 @@
+// What OUTPUT is: a mesh file, a drawing of the mesh's edges, or the approximation resampled on the grid.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "options/options.h"
+#include "scarp/io.h"
+#include "scarp/mesh.h"
+
+namespace scarp::cli {
+
+enum class OutputKind { kMesh, kSvg, kEps, kDem };
+
+struct OutputFormat {
+  OutputKind kind = OutputKind::kMesh;
+  MeshFormat mesh = MeshFormat::kGlb;            ///< of a kMesh
+  RasterFormat raster = RasterFormat::kGeoTiff;  ///< of a kDem
+
+  /// "glb", "svg", "dem", …
+  const char* name() const;
+  /// "GLB", "SVG", …: for sentences.
+  std::string title() const;
+  /// About what encode_as() takes for a vertex and its two triangles, the file's bytes included.
+  std::uint64_t bytes_per_vertex() const;
+  bool is_mesh() const { return kind == OutputKind::kMesh; }
+  /// Positions are rounded to float32.
+  bool is_float32() const {
+    return is_mesh() && (mesh == MeshFormat::kGlb || mesh == MeshFormat::kStl || mesh == MeshFormat::k3mf);
+  }
+  bool is_landxml() const { return is_mesh() && mesh == MeshFormat::kLandXml; }
+  /// Can be a print: its coordinates are millimetres to those who print it.
+  bool holds_prints() const;
+  /// Has a place for normals, uvs and colours.
+  bool holds_attributes() const;
+  /// Is laid on maps: x and y are the raster's own, degrees too, unless a CRS was asked for.
+  bool is_on_maps() const;
+};
+
+/// By --of if it was given, else by the output's extension.
+Result<OutputFormat> choose_output_format(const Given& of, const std::string& output);
+
+/// kUsage if the format cannot hold a mesh in the CRS, with heights in `unit` (both may be empty): what writing would
+/// find out, before the work is done.
+Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, const std::string& unit);
+
+/// Makes a solid of the mesh; kUsage if --base is not below its lowest vertex.
+Result<void> close_with_base(Mesh& mesh, double base);
+
+/// The file's bytes. REQUIRES: not a kDem.
+Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh);
+
+}  // namespace scarp::cli

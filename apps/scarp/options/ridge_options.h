@@ -1,0 +1,37 @@
+// --ridges: lines along crests and valley beds that the mesh prefers, or holds.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "options/memory.h"
+#include "options/options.h"
+#include "reports/json.h"
+#include "scarp/ridges.h"
+
+namespace CLI {
+class App;
+}
+
+namespace scarp::cli {
+
+struct RidgeArguments {
+  Given height;
+  bool are_kept = false;
+
+  void add_to(CLI::App& verb);
+  /// `has_error`: there is one for all samples, given or to be searched for.
+  Result<void> check(bool has_error) const;
+  std::string canonical() const;
+  /// Adds the lines of ridges and valleys to `lines`, away from those that are there. Nothing without --ridges.
+  Result<std::optional<Ridges>> add_ridges(const HeightField& field, double max_error, int threads,
+                                           const MemoryShare& memory, const ProgressCallback& progress,
+                                           LineConstraints& lines) const;
+};
+
+/// The "ridges" object of a report; null without --ridges.
+Json describe_ridges(const RidgeArguments& given, const std::optional<Ridges>& ridges);
+/// Of the summary; empty without --ridges.
+std::string ridges_line(const std::optional<Ridges>& ridges);
+
+}  // namespace scarp::cli

@@ -1,0 +1,104 @@
+#include "options/shape_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <tuple>
+
+#include "commands/simplify_run.h"
+#include "reports/report.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+Result<std::optional<double>> parse_above_zero(const char* option, const Given& text) {
+  if (!text) return std::nullopt;
+  const Result<double> value = parse_number(option, *text);
+  if (!value) return tl::unexpected(value.error());
+  if (!(*value > 0)) return fail(ErrorKind::kUsage, fmt::format("{} {} is not above 0", option, shell_word(*text)));
+  return *value;
+}
+
+}  // namespace
+
+void ShapeArguments::add_to(CLI::App& verb) {
+  const char* group = "Shape (for simulation: vertices are added until it holds)";
+  verb.add_option(
+          "--min-angle", min_angle,
+          "No triangle has a smaller angle seen from above, in\ndegrees, 0 to 33; what corners between lines or\n"
+          "outline force is left and counted")
+      ->type_name("DEG")
+      ->group(group);
+  verb.add_option("--max-edge", max_edge, "No edge is longer seen from above, in the units of\nx and y of the mesh")
+      ->type_name("LENGTH")
+      ->group(group);
+  verb.add_option("--grade", grade,
+                  "How fast edges may grow: none is longer than\n2 (s + G d), d from its far end to an edge of\n"
+                  "length s; 0.2 is moderate")
+      ->type_name("G")
+      ->group(group);
+}
+
+Result<ShapeGoals> ShapeArguments::parse() const {
+  ShapeGoals goals;
+  if (min_angle) {
+    constexpr double kLargest = 33;
+    const Result<double> angle = parse_non_negative("--min-angle", *min_angle);
+    if (!angle) return tl::unexpected(angle.error());
+    if (*angle > kLargest)
+      return fail(
+          ErrorKind::kUsage,
+          fmt::format("--min-angle {} is above {}: beyond that refinement hardly ever comes to an end; up to 20 "
+                      "degrees are proven to be possible, 30 mostly are",
+                      shell_word(*min_angle), kLargest));
+    goals.min_angle = *angle;
+  }
+  for (const auto& [option, given, goal] :
+       {std::tuple{"--max-edge", &max_edge, &goals.max_edge}, std::tuple{"--grade", &grade, &goals.grade}}) {
+    const auto value = parse_above_zero(option, *given);
+    if (!value) return tl::unexpected(value.error());
+    *goal = *value;
+  }
+  return goals;
+}
+
+const char* ShapeArguments::find_goal() const {
+  if (min_angle) return "--min-angle";
+  if (max_edge) return "--max-edge";
+  return grade ? "--grade" : nullptr;
+}
+
+std::string ShapeArguments::canonical() const {
+  return canonical_option("--min-angle", min_angle) + canonical_option("--max-edge", max_edge) +
+         canonical_option("--grade", grade);
+}
+
+Json describe_shape(const ShapeGoals& goals, const Simplified& simplified) {
+  if (!simplified.shape) return nullptr;
+  const ShapeReport& shape = *simplified.shape;
+  return Json{{"asked_angle", goals.min_angle},
+              {"asked_edge", or_null(goals.max_edge)},
+              {"asked_grade", or_null(goals.grade)},
+              {"min_angle", shape.min_angle},
+              {"below", shape.below},
+              {"forced", shape.forced},
+              {"shortest_edge", shape.shortest_edge},
+              {"longest_edge", shape.longest_edge},
+              {"histogram", shape.histogram}};
+}
+
+std::string shape_line(const ShapeGoals& goals, const Simplified& simplified) {
+  if (!simplified.shape) return "";
+  const ShapeReport& shape = *simplified.shape;
+  std::string text = fmt::format("smallest angle {} degrees", format_number(shape.min_angle));
+  if (goals.min_angle > 0) text += fmt::format(" (asked {})", format_number(goals.min_angle));
+  if (shape.below > 0)
+    text += fmt::format(", {} below: {} forced by corners, {} for want of room", format_plural(shape.below, "triangle"),
+                        format_count(shape.forced), format_count(shape.below - shape.forced));
+  return summary_line("shape", fmt::format("{}; edges {} to {}", text, format_number(shape.shortest_edge),
+                                           format_number(shape.longest_edge)));
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,33 @@
+// Shapes of triangles that are asked for, and what became of them.
+#pragma once
+
+#include <string>
+
+#include "options/options.h"
+#include "reports/json.h"
+#include "scarp/shape.h"
+#include "scarp/simplify.h"
+
+namespace CLI {
+class App;
+}
+
+namespace scarp::cli {
+
+struct ShapeArguments {
+  Given min_angle, max_edge, grade;
+
+  void add_to(CLI::App& verb);
+  Result<ShapeGoals> parse() const;
+  /// The option that asks for shapes; null if there is none.
+  const char* find_goal() const;
+  /// The options for the canonical command.
+  std::string canonical() const;
+};
+
+/// The "shape" object of a report; null where nothing was asked.
+Json describe_shape(const ShapeGoals& goals, const Simplified& simplified);
+/// Of the summary; empty where nothing was asked.
+std::string shape_line(const ShapeGoals& goals, const Simplified& simplified);
+
+}  // namespace scarp::cli

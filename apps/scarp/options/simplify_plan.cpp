@@ -1,0 +1,509 @@
+#include "options/simplify_plan.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+Result<void> plan_goals(const SimplifyArguments& given, SimplifyPlan& plan) {
+  if (!given.max_error && !given.max_triangles && !given.max_points && given.companions.find_tolerance() == nullptr) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("no goal is given: say how good the mesh must be, such as -e 1 for heights within 1 unit, "
+                            "or how small with -t or -p; 'scarp info {}' suggests errors",
+                            shell_word(given.raster.path)));
+  }
+  if (given.max_error) {
+    const Result<ErrorGoal> goal = parse_error_goal("--max-error", *given.max_error);
+    if (!goal) return tl::unexpected(goal.error());
+    plan.error_goal = *goal;
+  }
+  if (given.max_triangles) {
+    const Result<std::uint64_t> budget = parse_count("--max-triangles", *given.max_triangles, 1);
+    if (!budget) return tl::unexpected(budget.error());
+    plan.simplify.max_triangles = *budget;
+  }
+  if (given.max_points) {
+    const Result<std::uint64_t> budget = parse_count("--max-points", *given.max_points, 1);
+    if (!budget) return tl::unexpected(budget.error());
+    plan.simplify.max_vertices = *budget;
+  }
+  return {};
+}
+
+Result<void> plan_nodata(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const std::string policy = given.nodata_policy.value_or("hole");
+  if (policy == "fill") {
+    plan.policy = NodataPolicy::kFill;
+  } else if (policy == "background") {
+    plan.policy = NodataPolicy::kBackground;
+  } else if (policy != "hole") {
+    return fail(ErrorKind::kUsage,
+                fmt::format("--nodata-policy {} is unknown: choose hole, fill or background", shell_word(policy)));
+  }
+  if (given.fill_distance) {
+    if (plan.policy != NodataPolicy::kFill) {
+      return fail(ErrorKind::kUsage, "--fill-distance needs --nodata-policy fill");
+    }
+    const Result<double> distance = parse_number("--fill-distance", *given.fill_distance);
+    if (!distance) return tl::unexpected(distance.error());
+    if (*distance <= 0) {
+      return fail(ErrorKind::kUsage, fmt::format("--fill-distance {} is not above 0", *given.fill_distance));
+    }
+    plan.fill_distance = *distance;
+  }
+  if (given.background.has_value() != (plan.policy == NodataPolicy::kBackground)) {
+    return fail(ErrorKind::kUsage, given.background
+                                       ? "--background needs --nodata-policy background"
+                                       : "--nodata-policy background needs the height to use: --background V");
+  }
+  if (given.background) {
+    const Result<double> height = parse_number("--background", *given.background);
+    if (!height) return tl::unexpected(height.error());
+    if (std::abs(*height) > std::numeric_limits<float>::max()) {
+      return fail(ErrorKind::kUsage, fmt::format("--background {} does not fit a float", *given.background));
+    }
+    plan.background = static_cast<float>(*height);
+  }
+  if (given.outline_tolerance) {
+    const Result<double> tolerance = parse_non_negative("--outline-tolerance", *given.outline_tolerance);
+    if (!tolerance) return tl::unexpected(tolerance.error());
+    plan.simplify.outline_tolerance = *tolerance;
+  }
+  return {};
+}
+
+Result<void> plan_channels(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const Result<ChannelPlan> channels = given.channels.parse(given.raster);
+  if (!channels) return tl::unexpected(channels.error());
+  plan.channels = *channels;
+  plan.simplify.norm = channels->norm;
+  if (channels->image && plan.policy != NodataPolicy::kHole) {
+    return fail(ErrorKind::kUsage, "--image and --nodata-policy contradict each other: missing pixels are holes");
+  }
+  if (channels->has_channels() && !channels->image && channels->texture_weight == 1) {
+    if (given.max_error) {
+      return fail(ErrorKind::kUsage,
+                  "--max-error bounds heights, and --texture-weight 1 does not look at them: ask for "
+                  "a size with -t or -p, or choose a smaller weight");
+    }
+    if (const char* tolerance = given.companions.find_tolerance()) {
+      return fail(ErrorKind::kUsage,
+                  fmt::format("{} bounds heights, and --texture-weight 1 does not look at them", tolerance));
+    }
+  }
+  return {};
+}
+
+Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
+  plan.companions = given.companions;
+  const Result<void> checked = given.companions.check("--max-error", given.max_error.has_value());
+  if (!checked) return checked;
+  const Result<void> parsed = given.strategy.parse_into(plan.simplify);
+  if (!parsed) return parsed;
+  if (plan.channels.image && plan.simplify.importance.feature != Importance::Feature::kNoFeature) {
+    return fail(ErrorKind::kUsage, "--importance measures features of heights, which an --image has not: leave it out");
+  }
+  return {};
+}
+
+/// The budget that was given; null if there is none.
+const char* find_budget(const SimplifyArguments& given) {
+  if (given.max_triangles) return "--max-triangles";
+  return given.max_points ? "--max-points" : nullptr;
+}
+
+/// The option that gives samples bounds of their own; null if there is none.
+const char* find_bounds(const SimplifyArguments& given) {
+  if (given.companions.mask) return "--mask";
+  if (const char* tolerance = given.companions.find_tolerance()) return tolerance;
+  return given.companions.script ? "--script" : nullptr;
+}
+
+/// The option beside which the mesh can have no vertices between samples; null if there is none.
+const char* find_lattice_obstacle(const SimplifyArguments& given, const SimplifyPlan& plan) {
+  if (plan.channels.image) return "--image";
+  if (!given.channels.textures.empty()) return "--texture";
+  if (plan.simplify.outline_tolerance > 0) return "--outline-tolerance";
+  return given.strategy.dominant_obstacle();
+}
+
+Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
+  plan.lines = given.lines;
+  plan.cliff = given.cliff;
+  plan.ridges = given.ridges;
+  plan.cut = given.cut;
+  if (auto checked = given.lines.check(); !checked) return checked;
+  if (auto checked = given.cliff.check(given.max_error || find_budget(given) != nullptr); !checked) return checked;
+  if (auto checked = given.ridges.check(given.max_error || find_budget(given) != nullptr); !checked) return checked;
+  if (auto checked = given.cut.check(); !checked) return checked;
+  const char* lines = given.cliff.height ? "--cliff" : given.lines.find_lines();
+  if (lines == nullptr && given.ridges.height) lines = "--ridges";
+  const bool is_cut = lines == nullptr && given.cut.find_cut() != nullptr;
+  if (is_cut) lines = given.cut.find_cut();
+  const bool is_split = plan.solid && plan.solid->is_split();
+  if (lines == nullptr && is_split) lines = "--split";
+  if (lines == nullptr) return {};
+  const char *obstacle = find_lattice_obstacle(given, plan), *budget = find_budget(given);
+  if (budget != nullptr && is_split) lines = "--split", obstacle = budget;
+  if (const char* bounds = find_bounds(given); obstacle == nullptr && budget != nullptr && bounds != nullptr)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{}, {} and {} contradict each other: a budget is met by one error for all samples; leave "
+                            "one of them out",
+                            lines, budget, bounds));
+  if (given.cliff.height && given.shape.find_goal() != nullptr) obstacle = given.shape.find_goal();
+  if (given.cliff.height && is_split) obstacle = "--split";
+  // Water is level where all corners of its triangles are: at samples and on its shore.
+  const char* lakes = given.lines.find_lakes();
+  if (lakes != nullptr && plan.simplify.vertices == Vertices::kFree) obstacle = "--vertices free";
+  if (lakes != nullptr) plan.simplify.vertices = Vertices::kSamples;
+  if (obstacle == nullptr) return {};
+  return fail(ErrorKind::kUsage,
+              fmt::format("{} and {} contradict each other: leave one of them out{}", lines, obstacle,
+                          is_cut ? ", or cut at cells of the grid with --mask-outside" : ""));
+}
+
+Result<void> plan_shape(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const Result<ShapeGoals> goals = given.shape.parse();
+  if (!goals) return tl::unexpected(goals.error());
+  plan.simplify.shape = *goals;
+  const char* goal = given.shape.find_goal();
+  const char* obstacle = goal == nullptr ? nullptr : find_lattice_obstacle(given, plan);
+  if (goal != nullptr && obstacle == nullptr) obstacle = find_budget(given);
+  if (obstacle == nullptr) return {};
+  return fail(ErrorKind::kUsage, fmt::format("{} and {} contradict each other: leave one of them out", goal, obstacle));
+}
+
+/// The option that asks for more than heights; null if there is none.
+const char* find_beyond_heights(const SimplifyArguments& given, const SimplifyPlan& plan) {
+  const std::pair<const char*, bool> options[] = {{"--image", given.channels.image},
+                                                  {"--texture", !given.channels.textures.empty()},
+                                                  {"--outline-tolerance", plan.simplify.outline_tolerance > 0}};
+  for (const auto& [name, is_given] : options) {
+    if (is_given) return name;
+  }
+  return nullptr;
+}
+
+/// The dominant order is for an error goal alone, on heights alone. The library would refuse the rest too, but knows no
+/// options.
+Result<void> plan_order(const SimplifyArguments& given, SimplifyPlan& plan) {
+  if (plan.simplify.order != Order::kDominant) return {};
+  const char* culprit = find_budget(given);
+  if (culprit == nullptr) culprit = find_bounds(given);
+  if (culprit == nullptr) culprit = find_beyond_heights(given, plan);
+  if (culprit == nullptr) culprit = given.strategy.dominant_obstacle();
+  if (culprit == nullptr && !given.memory.memory)
+    culprit = given.cliff.height ? "--cliff" : given.ridges.height ? "--ridges" : nullptr;
+  if (culprit == nullptr) return {};
+  return fail(ErrorKind::kUsage,
+              fmt::format("--order dominant and {} contradict each other: that order is for a max error alone, on "
+                          "heights alone; leave one of them out",
+                          culprit));
+}
+
+/// The option beside which fast effort is the default; null if there is none.
+const char* find_reason_for_fast(const SimplifyArguments& given, const SimplifyPlan& plan) {
+  if (const char* bounds = find_bounds(given)) return bounds;
+  if (const char* strategy = given.strategy.dominant_obstacle()) return strategy;
+  if (plan.simplify.order == Order::kGreedy) return "--order greedy";
+  return given.memory.memory ? "--memory" : nullptr;
+}
+
+/// Where no effort is named, what needs more than the default.
+Result<void> plan_default_effort(const SimplifyArguments& given, const SimplifyPlan& plan) {
+  const char* needs = given.strategy.min_shape                     ? "--min-shape"
+                      : given.strategy.time_limit                  ? "--time-limit"
+                      : plan.simplify.objective == Objective::kRms ? "--objective rms"
+                                                                   : nullptr;
+  const char* reason = find_reason_for_fast(given, plan);
+  if (needs == nullptr || reason == nullptr) return {};
+  if (plan.simplify.edges.data_dependent)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} and --edges data contradict each other: where vertices are removed edges are chosen "
+                            "anew; leave one of them out",
+                            needs));
+  return fail(
+      ErrorKind::kUsage,
+      fmt::format("{} needs more than fast effort, which is the default beside {}: add --effort normal, high or "
+                  "max",
+                  needs, reason));
+}
+
+/// Removal chooses edges itself, and budgets are met by one error for all samples.
+Result<void> plan_effort(const SimplifyArguments& given, SimplifyPlan& plan) {
+  if (const char* budget = find_budget(given); budget != nullptr && given.strategy.time_limit)
+    return fail(ErrorKind::kUsage,
+                fmt::format("--time-limit and {} contradict each other: whether a mesh fits is known "
+                            "when it is finished; leave one of them out",
+                            budget));
+  if (plan.simplify.effort == Effort::kFast) {
+    const char* needless = given.strategy.min_shape    ? "--min-shape"
+                           : given.strategy.time_limit ? "--time-limit"
+                                                       : nullptr;
+    if (needless == nullptr) return {};
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} needs --effort normal, high or max: fast effort is refinement alone", needless));
+  }
+  if (plan.simplify.effort == Effort::kAuto) return plan_default_effort(given, plan);
+  const char* bounds = find_bounds(given);
+  if (const char* budget = find_budget(given); budget != nullptr && bounds != nullptr) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("--effort {}, {} and {} contradict each other: a budget is met by one error for all "
+                            "samples; leave one of them out",
+                            *given.strategy.effort, budget, bounds));
+  }
+  if (plan.channels.has_channels() && plan.simplify.vertices == Vertices::kFree) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("--vertices free and {} contradict each other: a vertex between samples has no colour; "
+                            "leave one of them out",
+                            plan.channels.image ? "--image" : "--texture"));
+  }
+  if (!plan.simplify.edges.data_dependent) return {};
+  return fail(ErrorKind::kUsage,
+              fmt::format("--effort {} and --edges data contradict each other: where vertices are removed edges are "
+                          "chosen anew; leave one of them out",
+                          *given.strategy.effort));
+}
+
+/// A max error decides the mesh, and so does fast effort.
+Result<void> plan_objective(const SimplifyArguments& given, SimplifyPlan& plan) {
+  if (plan.simplify.objective == Objective::kMax) return {};
+  if (find_budget(given) == nullptr)
+    return fail(ErrorKind::kUsage,
+                "--objective rms needs a budget, -t or -p: a max error alone decides the mesh, whatever its RMSE");
+  if (plan.simplify.effort == Effort::kFast)
+    return fail(ErrorKind::kUsage,
+                "--objective rms needs --effort normal or more: fast effort lowers the max error only");
+  return {};
+}
+
+/// The option that asks for more than one bound on heights, by which alone a print is judged; null if there is none.
+const char* find_print_obstacle(const SimplifyArguments& given) {
+  if (given.base) return "--base";
+  if (given.normals) return "--normals";
+  if (given.uvs) return "--uvs";
+  if (given.channels.image) return "--image";
+  if (!given.channels.textures.empty()) return "--texture";
+  return find_bounds(given);
+}
+
+Result<void> plan_solid(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const Result<std::optional<SolidPlan>> solid = given.solid.parse();
+  if (!solid) return tl::unexpected(solid.error());
+  plan.solid = *solid;
+  if (!plan.solid) return {};
+  if (const char* obstacle = find_print_obstacle(given); obstacle != nullptr)
+    return fail(ErrorKind::kUsage,
+                fmt::format("--solid and {} contradict each other: leave one of them out", obstacle));
+  return {};
+}
+
+/// What solids need of the format, and it of them.
+Result<void> plan_solid_format(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const OutputFormat& format = plan.format;
+  if (format.is_mesh() && format.mesh == MeshFormat::k3mf && !plan.solid && !plan.base)
+    return fail(ErrorKind::kUsage,
+                "3MF holds closed solids only: say how to close the terrain, such as --solid size=120mm");
+  if (!plan.solid) return {};
+  if (!format.holds_prints())
+    return fail(ErrorKind::kUsage,
+                fmt::format("--solid is for printing, and {} has no place for millimetres: choose .stl, .3mf, .obj or "
+                            ".ply, or --base for a solid in the raster's units",
+                            format.title()));
+  if (plan.has_file_per_sheet() && is_stdout(given.output))
+    return fail(ErrorKind::kUsage, "--split writes several files: /dev/stdout is only one");
+  return {};
+}
+
+/// What the format has no place for: refused where nothing would be left, else a warning.
+Result<void> plan_attributes(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const OutputFormat& format = plan.format;
+  const std::string title = format.title();
+  plan.simplify.normals = given.normals && format.holds_attributes();
+  plan.simplify.uvs = (given.uvs || plan.channels.has_channels()) && format.holds_attributes();
+  plan.simplify.float32_positions = format.is_float32();
+  const bool shows_image =
+      format.holds_attributes() || format.kind == OutputKind::kSvg || format.kind == OutputKind::kEps;
+  if (given.channels.image && !shows_image) {
+    return fail(ErrorKind::kUsage, fmt::format("{} has no place for colours, and an image has no heights: choose .glb, "
+                                               ".ply or .obj",
+                                               title));
+  }
+  if (given.base && !format.is_mesh()) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("--base makes a solid, which {} cannot hold: choose a mesh format", title));
+  }
+  if (given.normals && given.base) {
+    return fail(ErrorKind::kUsage,
+                "--normals and --base contradict each other: a solid's walls have no terrain normal");
+  }
+  if (given.normals && given.channels.image) {
+    return fail(ErrorKind::kUsage,
+                "--normals and --image contradict each other: an image is flat, and its normals say nothing");
+  }
+  if (format.kind == OutputKind::kDem && given.raster.crs) {
+    plan.warnings.push_back("a raster's approximation lies on the raster's own grid, whatever --crs says");
+  }
+  if (format.holds_attributes()) return {};
+  if (given.normals) {
+    plan.warnings.push_back(fmt::format("{} has no place for vertex normals: --normals changes nothing", title));
+  }
+  if (given.uvs) plan.warnings.push_back(fmt::format("{} has no place for uvs: --uvs changes nothing", title));
+  if (!given.channels.textures.empty()) {
+    plan.warnings.push_back(fmt::format("{} has no place for colours: the texture shapes the mesh only", title));
+  }
+  return {};
+}
+
+Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const Result<OutputFormat> format = choose_output_format(given.format, given.output);
+  if (!format) return tl::unexpected(format.error());
+  plan.format = *format;
+  plan.read.keep_degrees = format->is_on_maps();
+  if (given.base) {
+    const Result<double> base = parse_number("--base", *given.base);
+    if (!base) return tl::unexpected(base.error());
+    constexpr double kFarthest = 1e30;  // differences to heights must fit float32
+    if (std::abs(*base) > kFarthest) {
+      return fail(ErrorKind::kUsage, fmt::format("--base {} is out of the range of float32 heights: choose one between "
+                                                 "-1e30 and 1e30",
+                                                 *given.base));
+    }
+    plan.base = *base;
+  }
+  const Result<void> attributes = plan_attributes(given, plan);
+  if (!attributes) return attributes;
+  if (auto solid = plan_solid_format(given, plan); !solid) return solid;
+
+  std::vector<PlannedOutput> outputs;
+  if (!plan.has_file_per_sheet()) outputs.push_back({"OUTPUT", given.output});
+  for (int k = 0; plan.has_file_per_sheet() && k < plan.solid->columns * plan.solid->rows; ++k) {
+    const int columns = plan.solid->columns;
+    outputs.push_back({"--split", sheet_path(given.output, k / columns + 1, k % columns + 1)});
+  }
+  const std::pair<const char*, const Given*> pictures[] = {{"--preview", &given.preview}, {"--render", &given.render}};
+  for (const auto& [option, path] : pictures) {
+    if (!*path) continue;
+    outputs.push_back({option, **path});
+    const Result<void> named = check_png_name(outputs.back());
+    if (!named) return named;
+  }
+  if (given.error_raster) {
+    outputs.push_back({"--error-raster", *given.error_raster});
+    const Result<void> named = check_tiff_name(outputs.back());
+    if (!named) return named;
+  }
+  if (given.report) outputs.push_back({"--report", *given.report});
+  std::vector<std::string> inputs = given.companions.files();
+  inputs.insert(inputs.end(), given.channels.textures.begin(), given.channels.textures.end());
+  inputs.push_back(given.raster.path);
+  return check_outputs(outputs, inputs, given.overwrite);
+}
+
+/// The first option that was given and cannot do with a few samples at a time; nothing if there is none.
+std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, const SimplifyPlan& plan) {
+  const char *budget = find_budget(given), *bounds = find_bounds(given);
+  if (budget != nullptr && bounds != nullptr) return fmt::format("{} with {}", budget, bounds);
+  const std::pair<const char*, bool> options[] = {
+      {"--nodata-policy", plan.policy != NodataPolicy::kHole},
+      {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
+      {"--normals", plan.simplify.normals},
+      {"--preview", given.preview.has_value()},
+      {"--render", given.render.has_value()},
+      {"--error-raster", given.error_raster.has_value()},
+      {"--of dem", plan.format.kind == OutputKind::kDem},
+      {"--algorithm", given.strategy.algorithm.has_value()},
+      {"--order greedy", plan.simplify.order == Order::kGreedy},
+  };
+  for (const auto& [name, is_given] : options) {
+    if (is_given) return name;
+  }
+  if (const char* need = given.companions.find_need_of_samples()) return need;
+  // " --name value --name value": the first of these will do.
+  const std::string others = given.channels.canonical() + given.strategy.canonical_refinement();
+  if (others.empty()) return std::nullopt;
+  return others.substr(1, others.find(' ', 1) - 1);
+}
+
+Result<void> plan_memory(const SimplifyArguments& given, SimplifyPlan& plan) {
+  const Result<std::optional<std::uint64_t>> limit = given.memory.parse();
+  if (!limit) return tl::unexpected(limit.error());
+  plan.memory = *limit;
+  if (!plan.memory) return {};
+  if (plan.channels.image) {
+    return fail(ErrorKind::kUsage, "--memory and --image contradict each other: images are read as a whole");
+  }
+  plan.simplify.memory_limit = *plan.memory;
+  plan.simplify.memory_per_vertex = plan.format.bytes_per_vertex();
+  // A solid's bottom and walls are as many vertices again; a print is judged beside its mesh.
+  constexpr std::uint64_t kMeshBytes = 48;
+  if (plan.base) plan.simplify.memory_per_vertex = 2 * plan.simplify.memory_per_vertex + kMeshBytes;
+  if (plan.solid) plan.simplify.memory_per_vertex += 4 * kMeshBytes;
+  plan.needs_samples = find_need_of_samples(given, plan);
+  // The proof sees the range of all other rasters, but of this one with its lakes.
+  const bool is_flattened = !given.lines.water.empty();
+  plan.read.with_range = is_flattened || (plan.error_goal && plan.error_goal->percent_of_relief);
+  return {};
+}
+
+std::string canonical_command(const SimplifyArguments& given) {
+  std::string command = "scarp simplify " + shell_word(base_name(given.raster.path)) + " OUTPUT";
+  const std::pair<const char*, const Given*> options[] = {
+      {"--max-error", &given.max_error},
+      {"--max-triangles", &given.max_triangles},
+      {"--max-points", &given.max_points},
+      {"--band", &given.raster.band},
+      {"--nodata", &given.raster.nodata},
+      {"--decode", &given.raster.decode},
+      {"--crs", &given.raster.crs},
+      {"--nodata-policy", &given.nodata_policy},
+      {"--fill-distance", &given.fill_distance},
+      {"--background", &given.background},
+      {"--outline-tolerance", &given.outline_tolerance},
+      {"--base", &given.base},
+  };
+  for (const auto& [name, value] : options) {
+    command += canonical_option(name, *value);
+  }
+  command += given.solid.canonical();
+  command += given.companions.canonical() + given.lines.canonical() + given.cliff.canonical() +
+             given.ridges.canonical() + given.cut.canonical() + given.shape.canonical() + given.channels.canonical() +
+             given.strategy.canonical();
+  if (given.strategy.asks_for_greedy()) command += " --order greedy";
+  return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "");
+}
+
+}  // namespace
+
+Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
+  SimplifyPlan plan;
+  plan.input = given.raster.path;
+  plan.output = given.output;
+  plan.preview = given.preview;
+  plan.render = given.render;
+  plan.error_raster = given.error_raster;
+  plan.report = given.report;
+  plan.overwrite = given.overwrite;
+  plan.canonical_command = canonical_command(given);
+
+  const Result<ReadOptions> read = given.raster.parse();
+  if (!read) return tl::unexpected(read.error());
+  plan.read = *read;
+  const Result<int> threads = parse_threads(given.threads);
+  if (!threads) return tl::unexpected(threads.error());
+  plan.simplify.threads = *threads;
+  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_solid, plan_lines, plan_shape,
+                          plan_order, plan_effort, plan_objective, plan_outputs, plan_memory}) {
+    const Result<void> planned = step(given, plan);
+    if (!planned) return tl::unexpected(planned.error());
+  }
+  return plan;
+}
+
+}  // namespace scarp::cli

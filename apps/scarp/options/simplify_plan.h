@@ -1,0 +1,85 @@
+// What `scarp simplify` was asked to do: its options, parsed and checked before any file is read.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "inputs/channels.h"
+#include "inputs/companions.h"
+#include "options/cliff_options.h"
+#include "options/cutline_options.h"
+#include "options/line_options.h"
+#include "options/memory.h"
+#include "options/options.h"
+#include "options/output_kind.h"
+#include "options/ridge_options.h"
+#include "options/shape_options.h"
+#include "options/solid_options.h"
+#include "options/strategy_options.h"
+#include "scarp/simplify.h"
+
+namespace CLI {
+class App;
+}
+
+namespace scarp::cli {
+
+enum class NodataPolicy { kHole, kFill, kBackground };
+
+/// The options as they were given.
+struct SimplifyArguments {
+  RasterArguments raster;
+  std::string output;
+  Given max_error, max_triangles, max_points;
+  Given nodata_policy, fill_distance, background, outline_tolerance;
+  Given format, base, preview, render, error_raster, report, threads;
+  StrategyArguments strategy;
+  CompanionArguments companions;
+  ChannelArguments channels;
+  LineArguments lines;
+  CliffArguments cliff;
+  RidgeArguments ridges;
+  CutlineArguments cut;
+  ShapeArguments shape;
+  MemoryArguments memory;
+  SolidArguments solid;
+  bool normals = false, uvs = false, overwrite = false, quiet = false, timing = false, json_progress = false;
+
+  void add_to(CLI::App& verb);
+};
+
+struct SimplifyPlan {
+  std::string input, output;
+  OutputFormat format;
+  ReadOptions read;
+  std::optional<ErrorGoal> error_goal;
+  SimplifyOptions simplify;  ///< without max_error, which may depend on the relief, and what CompanionArguments name
+  CompanionArguments companions;
+  LineArguments lines;
+  CliffArguments cliff;
+  RidgeArguments ridges;
+  CutlineArguments cut;
+  ChannelPlan channels;
+  NodataPolicy policy = NodataPolicy::kHole;
+  double fill_distance = 100;
+  float background = 0;
+  std::optional<double> base;
+  std::optional<SolidPlan> solid;
+  std::optional<std::string> preview, render, error_raster, report;
+  bool overwrite = false;
+  std::optional<std::uint64_t> memory;       ///< what the process may take
+  std::optional<std::string> needs_samples;  ///< an option that needs all samples in memory
+  std::vector<std::string> warnings;
+  /// The command for the mesh's metadata: options in a fixed order and with their long names, folders left out, and
+  /// without what cannot change the mesh (threads, quietness, other outputs, the output's name).
+  std::string canonical_command;
+
+  /// Of a print in sheets; else OUTPUT holds them all.
+  bool has_file_per_sheet() const { return solid && solid->is_split() && format.mesh != MeshFormat::k3mf; }
+};
+
+Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given);
+
+}  // namespace scarp::cli

@@ -1,0 +1,211 @@
+#include "options/solid_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace scarp::cli {
+namespace {
+
+/// KEY=VALUE, or a word alone, whose value is empty.
+using Pair = std::pair<std::string, std::optional<std::string>>;
+
+std::vector<Pair> split_pairs(const std::string& text) {
+  std::vector<Pair> pairs;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    const std::size_t equals = word.find('=');
+    pairs.emplace_back(word.substr(0, equals),
+                       equals == std::string::npos ? std::nullopt : std::optional(word.substr(equals + 1)));
+    begin = end + 1;
+  }
+  return pairs;
+}
+
+/// A length above 0 in millimetres if it has a unit.
+Result<Length> parse_length(const std::string& name, const std::string& text) {
+  constexpr std::pair<const char*, double> kUnits[] = {{"mm", 1}, {"cm", 10}, {"in", 25.4}, {"m", 1000}};
+  std::string number = text;
+  Length length;
+  double factor = 1;
+  for (const auto& [unit, millimetres] : kUnits) {
+    if (!number.ends_with(unit)) continue;
+    number.resize(number.size() - std::string_view(unit).size());
+    factor = millimetres;
+    length.is_metric = true;
+    break;
+  }
+  const Result<double> value = parse_number(name, number);
+  if (!value || !(*value > 0) || !(*value * factor < 1e9))
+    return fail(ErrorKind::kUsage, fmt::format("{} {} is no length above 0, such as 120mm", name, shell_word(text)));
+  length.value = *value * factor;
+  return length;
+}
+
+Result<void> refuse_key(const char* option, const std::string& key, const char* keys) {
+  return fail(ErrorKind::kUsage, fmt::format("{} has no key {}: choose {}", option, shell_word(key), keys));
+}
+
+Result<void> take_solid(const Pair& pair, SolidPlan& plan) {
+  const auto& [key, value] = pair;
+  const std::string name = "--solid " + key;
+  if (key == "walls" && !value) return {};  // a solid always has them
+  if (key != "base" && key != "thickness" && key != "size" && key != "exaggerate")
+    return refuse_key("--solid", key, "base, thickness, size, exaggerate or walls");
+  if (!value) return fail(ErrorKind::kUsage, fmt::format("{} needs a value: {}=VALUE", name, key));
+  if (key == "base") {
+    if (*value == "auto") return {};
+    const Result<double> base = parse_number(name, *value);
+    if (!base) return tl::unexpected(base.error());
+    if (std::abs(*base) > 1e30) return fail(ErrorKind::kUsage, fmt::format("{} {} is out of range", name, *value));
+    plan.base = *base;
+    return {};
+  }
+  if (key == "exaggerate") {
+    const Result<double> factor = parse_number(name, *value);
+    if (!factor) return tl::unexpected(factor.error());
+    if (!(*factor > 0) || *factor > 1e6)
+      return fail(ErrorKind::kUsage, fmt::format("{} {} is not above 0 and at most a million", name, *value));
+    plan.exaggerate = *factor;
+    return {};
+  }
+  const Result<Length> length = parse_length(name, *value);
+  if (!length) return tl::unexpected(length.error());
+  if (key == "thickness") {
+    plan.thickness = *length;
+  } else {
+    plan.size = length->value;
+  }
+  return {};
+}
+
+Result<void> take_split(const Pair& pair, bool is_first, SolidPlan& plan) {
+  const auto& [key, value] = pair;
+  if (is_first && !value) {
+    const std::size_t cross = key.find('x');
+    const auto number = [](const std::string& text) {
+      const bool is_short = !text.empty() && text.size() <= 3;
+      const bool is_whole = std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+      return is_short && is_whole ? std::stoi(text) : 0;
+    };
+    plan.columns = number(key.substr(0, cross));
+    plan.rows = cross == std::string::npos ? 0 : number(key.substr(cross + 1));
+    if (plan.columns >= 1 && plan.rows >= 1 && plan.columns <= 100 && plan.rows <= 100) return {};
+  }
+  if (is_first)
+    return fail(ErrorKind::kUsage, fmt::format("--split {} is no COLUMNSxROWS of sheets, 1 to 100 each, such as 2x3",
+                                               shell_word(key + (value ? "=" + *value : ""))));
+  if (key == "gap" && value) {
+    const Result<Length> gap = parse_length("--split gap", *value);
+    if (!gap) return tl::unexpected(gap.error());
+    plan.gap = *gap;
+    return {};
+  }
+  if (key != "joint" || !value) return refuse_key("--split", key, "joint or gap");
+  constexpr Choice<bool> kJoints[] = {{"none", false}, {"dovetail", true}};
+  const Result<bool> joint = choose("--split joint", *value, kJoints);
+  if (!joint) return tl::unexpected(joint.error());
+  plan.dovetail = *joint;
+  return {};
+}
+
+/// To six significant digits, if that is below the limit.
+double shorten_below(double value, double limit) {
+  const double shorter = *parse_number("", fmt::format("{:.6g}", value));
+  return shorter < limit ? shorter : value;
+}
+
+/// Down to six significant digits, so that it is short and the print no larger than asked.
+double round_down(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 5);
+  const double below = std::floor(value / unit) * unit;
+  return *parse_number("", fmt::format("{:.6g}", below <= value ? below : below - unit));
+}
+
+}  // namespace
+
+void SolidArguments::add_to(CLI::App& verb) {
+  verb.add_option("--solid", solid,
+                  "Close the mesh into a solid for printing, proven\nclosed: base=H (height in the raster's units) or\n"
+                  "thickness=T (below the lowest vertex, 3mm or in the\nraster's units), size=120mm (longest side), "
+                  "exaggerate=F\n(heights), in .stl, .3mf, .obj or .ply")
+      ->type_name("KEY=VALUE,...")
+      ->group("Output");
+  verb.add_option("--split", split,
+                  "Cut the solid into sheets, each a file (OUT-r1-c1.stl)\nor an object of one .3mf; joint=dovetail "
+                  "lets them hook\ninto each other, gap=0.2mm leaves room between")
+      ->type_name("CxR[,KEY=VALUE]")
+      ->group("Output");
+}
+
+Result<std::optional<SolidPlan>> SolidArguments::parse() const {
+  if (!solid) {
+    if (split) return fail(ErrorKind::kUsage, "--split needs --solid: sheets are solids, such as --solid size=120mm");
+    return std::optional<SolidPlan>();
+  }
+  SolidPlan plan;
+  for (const Pair& pair : split_pairs(*solid)) {
+    if (auto taken = take_solid(pair, plan); !taken) return tl::unexpected(taken.error());
+  }
+  if (plan.base && plan.thickness)
+    return fail(ErrorKind::kUsage, "--solid base and thickness contradict each other: leave one of them out");
+  bool is_first = true;
+  for (const Pair& pair : split ? split_pairs(*split) : std::vector<Pair>()) {
+    if (auto taken = take_split(pair, is_first, plan); !taken) return tl::unexpected(taken.error());
+    is_first = false;
+  }
+  for (const auto& [name, length] :
+       {std::pair{"--solid thickness", &plan.thickness}, std::pair{"--split gap", &plan.gap}}) {
+    if (*length && (*length)->is_metric && !plan.size)
+      return fail(ErrorKind::kUsage,
+                  fmt::format("{} in millimetres needs the size of the print: --solid size=120mm", name));
+  }
+  if ((plan.gap || plan.dovetail) && !plan.is_split())
+    return fail(ErrorKind::kUsage, "--split 1x1 has no neighbours: leave joint and gap out");
+  return std::optional(plan);
+}
+
+Result<SolidPlace> find_place(const SolidPlan& plan, const Mesh& terrain) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::array<double, 3> low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
+  for (std::size_t v = 0; v < terrain.vertex_count(); ++v) {
+    const auto place = terrain.vertex(v);
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], place[k]);
+      high[k] = std::max(high[k], place[k]);
+    }
+  }
+  const double longest = std::max(high[0] - low[0], high[1] - low[1]);
+  const double scale = plan.size ? round_down(*plan.size / longest) : 1;
+  constexpr double kThickness = 0.02;  // of the longest side
+  SolidPlace place;
+  place.placement.scale = {scale, scale, scale * plan.exaggerate};
+  const double up = place.placement.scale[2];
+  if (plan.base) {
+    place.base = *plan.base;
+  } else if (plan.thickness) {
+    const double below = plan.thickness->is_metric ? plan.thickness->value / up : plan.thickness->value;
+    place.base = shorten_below(low[2] - below, low[2]);
+  } else {
+    place.base = shorten_below(low[2] - kThickness * longest * scale / up, low[2]);
+  }
+  if (!(place.base < low[2])) {
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("--solid base={:.10g} is not below the lowest vertex, which is at {:.10g}: choose a lower one",
+                    place.base, low[2]));
+  }
+  place.placement.origin = {low[0], low[1], place.base};
+  return place;
+}
+
+std::string sheet_path(const std::string& output, int row, int column) {
+  const std::size_t point = output.size() - lower_extension(output).size();
+  return fmt::format("{}-r{}-c{}{}", output.substr(0, point), row, column, output.substr(point));
+}
+
+}  // namespace scarp::cli

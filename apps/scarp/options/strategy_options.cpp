@@ -1,0 +1,350 @@
+#include "options/strategy_options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <string_view>
+
+#include "reports/report.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+constexpr Choice<Importance::Feature> kFeatures[] = {{"local", Importance::Feature::kLocal4},
+                                                     {"local8", Importance::Feature::kLocal8},
+                                                     {"curvature", Importance::Feature::kCurvature}};
+constexpr Choice<Effort> kEfforts[] = {
+    {"fast", Effort::kFast}, {"normal", Effort::kNormal}, {"high", Effort::kHigh}, {"max", Effort::kMax}};
+constexpr Choice<Vertices> kVertices[] = {{"samples", Vertices::kSamples}, {"free", Vertices::kFree}};
+constexpr Choice<Objective> kObjectives[] = {{"max", Objective::kMax}, {"rms", Objective::kRms}};
+constexpr Choice<Order> kOrders[] = {{"dominant", Order::kDominant}, {"greedy", Order::kGreedy}};
+constexpr Choice<Algorithm> kAlgorithms[] = {
+    {"brute", Algorithm::kBruteForce}, {"local", Algorithm::kLocal}, {"heap", Algorithm::kHeap}};
+constexpr Choice<bool> kEdges[] = {{"delaunay", false}, {"data", true}};
+constexpr Choice<EdgeScore> kScores[] = {{"sum", EdgeScore::kSum},
+                                         {"max", EdgeScore::kMax},
+                                         {"sqerr", EdgeScore::kSquares},
+                                         {"abn", EdgeScore::kNormals},
+                                         {"tight", EdgeScore::kTight}};
+
+/// Cuts `prefix` and `suffix` off the text; false, without change, if it does not have both.
+bool strip(std::string_view& text, std::string_view prefix, std::string_view suffix) {
+  if (text.size() < prefix.size() + suffix.size()) return false;
+  if (text.substr(0, prefix.size()) != prefix || text.substr(text.size() - suffix.size()) != suffix) return false;
+  text.remove_prefix(prefix.size());
+  text.remove_suffix(suffix.size());
+  return true;
+}
+
+Result<Batch> parse_batch(const std::string& text) {
+  Batch batch;
+  if (text == "const") {
+    batch.rule = Batch::Rule::kConstant;
+    return batch;
+  }
+  if (text == "independent") {
+    batch.rule = Batch::Rule::kIndependent;
+    return batch;
+  }
+  if (text.rfind("frac:", 0) != 0) {
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("--batch {} is unknown: choose const, frac:A such as frac:0.9, or independent", shell_word(text)));
+  }
+  const Result<double> fraction = parse_number("--batch frac:", text.substr(5));
+  if (!fraction) return tl::unexpected(fraction.error());
+  if (*fraction <= 0 || *fraction > 1) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("--batch {}: the fraction must be above 0 and at most 1", shell_word(text)));
+  }
+  batch.rule = Batch::Rule::kFraction;
+  batch.fraction = *fraction;
+  return batch;
+}
+
+Result<EdgeRule> parse_edges(const StrategyArguments& given) {
+  EdgeRule rule;
+  if (given.edges) {
+    const Result<bool> data = choose("--edges", *given.edges, kEdges);
+    if (!data) return tl::unexpected(data.error());
+    rule.data_dependent = *data;
+  }
+  const std::pair<const char*, const Given*> needing[] = {{"--edge-score", &given.edge_score},
+                                                          {"--shape-threshold", &given.shape_threshold},
+                                                          {"--supersample", &given.supersample}};
+  for (const auto& [name, text] : needing) {
+    if (*text && !rule.data_dependent) {
+      return fail(ErrorKind::kUsage, fmt::format("{} needs --edges data: Delaunay edges ignore the heights", name));
+    }
+  }
+  if (given.edge_score) {
+    const Result<EdgeScore> score = choose("--edge-score", *given.edge_score, kScores);
+    if (!score) return tl::unexpected(score.error());
+    rule.score = *score;
+  }
+  if (given.shape_threshold) {
+    const Result<double> threshold = parse_non_negative("--shape-threshold", *given.shape_threshold);
+    if (!threshold) return tl::unexpected(threshold.error());
+    if (*threshold > 1) {
+      return fail(ErrorKind::kUsage, fmt::format("--shape-threshold {} is above 1: it lies between 0, by the data "
+                                                 "alone, and 1, by the shape alone",
+                                                 shell_word(*given.shape_threshold)));
+    }
+    rule.shape_threshold = *threshold;
+  }
+  if (given.supersample) {
+    const Result<double> supersample = parse_non_negative("--supersample", *given.supersample);
+    if (!supersample) return tl::unexpected(supersample.error());
+    rule.supersample = *supersample;
+  }
+  return rule;
+}
+
+}  // namespace
+
+Result<Importance> parse_importance(const std::string& text) {
+  std::string word = text;
+  word.erase(std::remove_if(word.begin(), word.end(), [](unsigned char c) { return std::isspace(c) != 0; }),
+             word.end());
+  Importance importance;
+  if (word == "global") return importance;
+  std::string_view feature = word;
+  importance.global = strip(feature, "global*", "");
+  if (strip(feature, "sqrt(", "+1)")) {
+    importance.damping = Importance::Damping::kSqrtPlusOne;
+  } else if (strip(feature, "(", "+1)")) {
+    importance.damping = Importance::Damping::kPlusOne;
+  }
+  for (const Choice<Importance::Feature>& choice : kFeatures) {
+    if (feature != choice.name) continue;
+    importance.feature = choice.value;
+    return importance;
+  }
+  return fail(ErrorKind::kUsage,
+              fmt::format("--importance {} is unknown: choose global, or local, local8 or curvature, alone or as in "
+                          "global*local, global*(local+1), global*sqrt(curvature+1)",
+                          shell_word(text)));
+}
+
+std::string importance_name(const Importance& importance) {
+  if (importance.feature == Importance::Feature::kNoFeature) return "global";
+  std::string name = name_of(importance.feature, kFeatures);
+  if (importance.damping == Importance::Damping::kPlusOne) name = "(" + name + "+1)";
+  if (importance.damping == Importance::Damping::kSqrtPlusOne) name = "sqrt(" + name + "+1)";
+  return importance.global ? "global*" + name : name;
+}
+
+void StrategyArguments::add_to(CLI::App& verb) {
+  verb.add_option(
+          "--effort", effort,
+          "fast: the mesh as refined. normal (default where possible):\nthen removes vertices for as long as "
+          "every sample keeps the\nbound: about half the triangles. high: and repairs what that\nbreaks: three "
+          "tenths, for ten times the time. max: deeper, a hundred\ntimes. With -t or -p: a smaller error instead.\n"
+          "Not with --edges data")
+      ->type_name("LEVEL");
+  verb.add_option("--vertices", vertices,
+                  "Where --effort high and max may put vertices: free (default;\nbetween samples too, with heights of "
+                  "their own; not\nwith --texture and --image) or samples (a fourth more triangles)")
+      ->type_name("WHERE");
+  verb.add_option(
+          "--min-shape", min_shape,
+          "No triangle is made thinner than this by an effort: height\nover longest edge, 0 to 0.5 (default: 0.1 "
+          "with free vertices,\nelse 0)")
+      ->type_name("Q");
+  verb.add_option("--time-limit", time_limit,
+                  "After so many seconds efforts end, with the mesh so far; until\nthen max goes on for as long as "
+                  "there is something to gain.\nThe mesh then depends on the time")
+      ->type_name("SECONDS");
+  verb.add_option("--objective", objective,
+                  "What -t and -p make as small as they can with --effort\nnormal or more: the max error (max, "
+                  "default) or the RMSE\n(rms)")
+      ->type_name("NAME");
+  const char* group = "Strategy (which samples become vertices; the promise stays the same)";
+  verb.add_option("--importance", importance,
+                  "What is inserted next: the sample with the largest\nglobal (error of the mesh; default), local or "
+                  "local8\n(difference from its 4 or 8 neighbours' mean) or\ncurvature; or products of them: "
+                  "global*local,\n'global*(local+1)', 'global*sqrt(curvature+1)'")
+      ->type_name("FORMULA")
+      ->group(group);
+  verb.add_flag("--one-pass", one_pass,
+                "Rank all samples once, by a feature of the raster,\nand insert the best until a goal is reached: for "
+                "-t\nand -p (with -e it inserts nearly everything)")
+      ->group(group);
+  verb.add_option(
+          "--order", order,
+          "dominant: the worst sample of its neighbourhood\nfirst, on all threads; for -e alone, and then the\n"
+          "default. greedy: the worst of the whole raster\nfirst, as the report has it; the default of all else")
+      ->type_name("NAME")
+      ->group(group);
+  verb.add_option(
+          "--algorithm", algorithm,
+          "How the greedy order finds the next sample: brute,\nlocal or heap (default): the report's algorithms "
+          "I,\nII and III. The mesh is the same")
+      ->type_name("NAME")
+      ->group(group);
+  verb.add_option("--batch", batch,
+                  "Insert many samples between two looks at the mesh:\nconst (all that break the bound), frac:A (all "
+                  "of at\nleast A times the worst) or independent (in\ntriangles not yet changed). Default: one at a "
+                  "time")
+      ->type_name("RULE")
+      ->group(group);
+  verb.add_option("--edges", edges,
+                  "Which diagonals are kept: delaunay (default; well-\nshaped triangles) or data (those that fit the "
+                  "heights)")
+      ->type_name("RULE")
+      ->group(group);
+  verb.add_option("--edge-score", edge_score,
+                  "data: what a diagonal is judged by: sum (default) or\nmax of its triangles' worst errors, sqerr "
+                  "(squared\nerrors), abn (angle between normals), tight (fewest\ntriangles at equal error)")
+      ->type_name("SCORE")
+      ->group(group);
+  verb.add_option("--shape-threshold", shape_threshold,
+                  "data: 0 looks at the data alone, 1 at the shape\nalone (default 0.5; tight: 0.1)")
+      ->type_name("Q")
+      ->group(group);
+  verb.add_option(
+          "--supersample", supersample,
+          "data: judge thin triangles on a finer lattice of\nbilinear heights; 0.8 is moderate (default 0, off)")
+      ->type_name("F")
+      ->group(group);
+}
+
+Result<void> StrategyArguments::parse_into(SimplifyOptions& options) const {
+  if (effort) {
+    const Result<Effort> parsed = choose("--effort", *effort, kEfforts);
+    if (!parsed) return tl::unexpected(parsed.error());
+    options.effort = *parsed;
+  }
+  if (vertices) {
+    const Result<Vertices> parsed = choose("--vertices", *vertices, kVertices);
+    if (!parsed) return tl::unexpected(parsed.error());
+    if (*parsed == Vertices::kFree && options.effort < Effort::kHigh)
+      return fail(ErrorKind::kUsage,
+                  "--vertices free needs --effort high or max: below that no vertex is moved, and all are samples");
+    options.vertices = *parsed;
+  }
+  if (min_shape) {
+    const Result<double> parsed = parse_non_negative("--min-shape", *min_shape);
+    if (!parsed) return tl::unexpected(parsed.error());
+    if (*parsed > 0.5)
+      return fail(ErrorKind::kUsage,
+                  fmt::format("--min-shape {} is above 0.5, the shape of half a sample's square: choose "
+                              "one from 0 to 0.5",
+                              shell_word(*min_shape)));
+    options.min_shape = *parsed;
+  }
+  if (time_limit) {
+    const Result<double> parsed = parse_non_negative("--time-limit", *time_limit);
+    if (!parsed) return tl::unexpected(parsed.error());
+    const auto seconds = std::chrono::duration<double>(std::min(*parsed, 1e9));
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::nanoseconds>(seconds);
+    options.is_time_up = [end] { return std::chrono::steady_clock::now() >= end; };
+  }
+  if (objective) {
+    const Result<Objective> parsed = choose("--objective", *objective, kObjectives);
+    if (!parsed) return tl::unexpected(parsed.error());
+    options.objective = *parsed;
+  }
+  if (importance) {
+    const Result<Importance> parsed = parse_importance(*importance);
+    if (!parsed) return tl::unexpected(parsed.error());
+    options.importance = *parsed;
+  }
+  if (one_pass && (options.importance.feature == Importance::Feature::kNoFeature || options.importance.global)) {
+    return fail(ErrorKind::kUsage,
+                "--one-pass ranks by a feature of the raster, without the mesh: give it "
+                "--importance local, local8 or curvature");
+  }
+  options.importance.one_pass = one_pass;
+  if (order) {
+    const Result<Order> parsed = choose("--order", *order, kOrders);
+    if (!parsed) return tl::unexpected(parsed.error());
+    options.order = *parsed;
+  } else if (algorithm) {
+    options.order = Order::kGreedy;
+  }
+  if (algorithm) {
+    const Result<Algorithm> parsed = choose("--algorithm", *algorithm, kAlgorithms);
+    if (!parsed) return tl::unexpected(parsed.error());
+    options.algorithm = *parsed;
+  }
+  if (batch) {
+    const Result<Batch> parsed = parse_batch(*batch);
+    if (!parsed) return tl::unexpected(parsed.error());
+    options.batch = *parsed;
+  }
+  if (one_pass && batch) {
+    return fail(ErrorKind::kUsage, "--one-pass and --batch contradict each other: one pass never looks at the mesh");
+  }
+  const Result<EdgeRule> rule = parse_edges(*this);
+  if (!rule) return tl::unexpected(rule.error());
+  options.edges = *rule;
+  return {};
+}
+
+const char* StrategyArguments::dominant_obstacle() const {
+  const std::pair<const char*, bool> greedy_only[] = {{"--one-pass", one_pass},
+                                                      {"--importance", importance && *importance != "global"},
+                                                      {"--algorithm", algorithm.has_value()},
+                                                      {"--batch", batch.has_value()},
+                                                      {"--edges", edges && *edges != "delaunay"}};
+  for (const auto& [name, is_given] : greedy_only) {
+    if (is_given) return name;
+  }
+  return nullptr;
+}
+
+std::string StrategyArguments::canonical() const {
+  return canonical_option("--effort", effort) + canonical_option("--vertices", vertices) +
+         canonical_option("--min-shape", min_shape) + canonical_option("--time-limit", time_limit) +
+         (objective && *objective != "max" ? canonical_option("--objective", objective) : "") + canonical_refinement();
+}
+
+std::string StrategyArguments::canonical_refinement() const {
+  return canonical_option("--importance", importance) + (one_pass ? " --one-pass" : "") +
+         canonical_option("--batch", batch) + canonical_option("--edges", edges) +
+         canonical_option("--edge-score", edge_score) + canonical_option("--shape-threshold", shape_threshold) +
+         canonical_option("--supersample", supersample);
+}
+
+Json describe_strategy(const SimplifyOptions& options, const Simplified& simplified) {
+  Json strategy;
+  strategy["importance"] = importance_name(options.importance);
+  strategy["one_pass"] = options.importance.one_pass;
+  strategy["effort"] = name_of(simplified.effort, kEfforts);
+  strategy["vertices"] = name_of(simplified.vertices, kVertices);
+  strategy["min_shape"] = options.min_shape.value_or(simplified.vertices == Vertices::kFree ? 0.1 : 0);
+  strategy["cut_short"] = simplified.is_cut_short;
+  strategy["objective"] = name_of(options.objective, kObjectives);
+  strategy["order"] = name_of(simplified.order, kOrders);
+  strategy["algorithm"] =
+      simplified.order == Order::kGreedy ? Json(name_of(options.algorithm, kAlgorithms)) : Json(nullptr);
+  switch (options.batch.rule) {
+    case Batch::Rule::kSequential:
+      strategy["batch"] = nullptr;
+      break;
+    case Batch::Rule::kConstant:
+      strategy["batch"] = "const";
+      break;
+    case Batch::Rule::kFraction:
+      strategy["batch"] = fmt::format("frac:{}", options.batch.fraction);
+      break;
+    case Batch::Rule::kIndependent:
+      strategy["batch"] = "independent";
+      break;
+  }
+  const EdgeRule& edges = options.edges;
+  strategy["edges"] = name_of(edges.data_dependent, kEdges);
+  if (!edges.data_dependent) return strategy;
+  strategy["edge_score"] = name_of(edges.score, kScores);
+  const double by_default = edges.score == EdgeScore::kTight ? 0.1 : 0.5;
+  strategy["shape_threshold"] = edges.shape_threshold < 0 ? by_default : edges.shape_threshold;
+  strategy["supersample"] = edges.supersample;
+  return strategy;
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,183 @@
+#include "reports/points_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "reports/report.h"
+#include "reports/verdict.h"
+#include "scarp/version.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+constexpr std::pair<const char*, DuplicatePolicy> kPolicies[] = {{"first", DuplicatePolicy::kFirst},
+                                                                 {"last", DuplicatePolicy::kLast},
+                                                                 {"highest", DuplicatePolicy::kHighest},
+                                                                 {"lowest", DuplicatePolicy::kLowest},
+                                                                 {"mean", DuplicatePolicy::kMean}};
+
+std::string describe_place(const PointSet& points, const Measurement& measured) {
+  if (measured.max_error_at[0] < 0) return "no point";
+  const auto i = static_cast<std::size_t>(measured.max_error_at[0]);
+  return fmt::format("{:.12g}, {:.12g}", points.x[i], points.y[i]);
+}
+
+Json describe_points(const PointSet& points, DuplicatePolicy policy, std::uint64_t duplicates) {
+  const HeightRange heights = height_range(points);
+  return Json{{"path", points.path},
+              {"format", points.format},
+              {"points", points.size()},
+              {"duplicates", duplicates},
+              {"duplicate_policy", policy_name(policy)},
+              {"min", heights.min},
+              {"max", heights.max},
+              {"crs", points.crs}};
+}
+
+Json describe_frame(const PointSet& points) { return Json{{"crs", points.crs}, {"description", points.description}}; }
+
+void add_point_measurement(Json& report, const PointSet& points, const Measurement& measured) {
+  add_errors(report, measured, 0);
+  add_coverage(report, measured);
+  Json at = nullptr;
+  if (const auto i = static_cast<std::size_t>(measured.max_error_at[0]); measured.max_error_at[0] >= 0)
+    at = Json::array({points.x[i], points.y[i]});
+  report["max_error_at"] = at;
+}
+
+}  // namespace
+
+const char* policy_name(DuplicatePolicy policy) {
+  for (const auto& [name, value] : kPolicies) {
+    if (value == policy) return name;
+  }
+  return "first";
+}
+
+Result<DuplicatePolicy> parse_policy(const Given& text) {
+  if (!text) return DuplicatePolicy::kFirst;
+  for (const auto& [name, value] : kPolicies) {
+    if (*text == name) return value;
+  }
+  return fail(ErrorKind::kUsage, fmt::format("--duplicates {} is unknown: choose first, last, highest, lowest or mean",
+                                             shell_word(*text)));
+}
+
+HeightRange height_range(const PointSet& points) {
+  const auto [least, most] = std::minmax_element(points.z.begin(), points.z.end());
+  return {points.size(), *least, *most};
+}
+
+std::optional<std::string> find_broken(const PointSet& points, const Measurement& measured, double bound) {
+  if (!(measured.max_error <= bound + judging_allowance(bound, height_range(points))))
+    return fmt::format("max error {:.10g} at {} exceeds {:.10g}", measured.max_error, describe_place(points, measured),
+                       bound);
+  if (measured.uncovered > 0)
+    return fmt::format("{} covered by no triangle",
+                       measured.uncovered == 1 ? "1 point is" : format_count(measured.uncovered) + " points are");
+  if (!measured.is_sound()) return "the mesh is not sound: " + list_faults(measured);
+  return std::nullopt;
+}
+
+Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const std::vector<ReadyFile>& files,
+                 const std::string& command_line) {
+  Json report;
+  report["scarp"] = version();
+  report["command"] = command_line;
+  report["input"] = describe_points(outcome.points, outcome.policy, outcome.duplicates);
+  report["input"]["on_hull"] = outcome.on_hull;
+  report["input"]["lattice_step"] = outcome.lattice_step;
+  report["frame"] = describe_frame(outcome.points);
+  report["goal"] = describe_goal(plan, outcome);
+  report["stopped_by"] = stop_name(outcome.simplified.stop);
+  report["vertices"] = outcome.vertices;
+  report["triangles"] = outcome.triangles;
+  add_point_measurement(report, outcome.points, outcome.simplified.measurement);
+  add_solid(report, plan, outcome);
+  report["seconds"] = describe_seconds(outcome);
+  report["outputs"] = describe_outputs(files);
+  report["warnings"] = outcome.warnings;
+  return report;
+}
+
+std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome, const std::vector<ReadyFile>& files) {
+  const Measurement& measured = outcome.simplified.measurement;
+  const HeightRange heights = height_range(outcome.points);
+  std::string text = fmt::format("{} -> {}\n", base_name(plan.input), plan.output);
+  text += summary_line("points", fmt::format("{}, heights {} to {}", format_count(outcome.points.size()),
+                                             format_number(heights.min), format_number(heights.max)));
+  text += summary_line("duplicates", outcome.duplicates == 0
+                                         ? "none"
+                                         : fmt::format("{}, the {} of each place counts",
+                                                       format_count(outcome.duplicates), policy_name(outcome.policy)));
+  text += summary_line("lattice step", format_number(outcome.lattice_step));
+  text += files_lines(plan, files);
+  text += summary_line("vertices", fmt::format("{}, {} of the points, {} on the hull", format_count(outcome.vertices),
+                                               format_share(static_cast<double>(outcome.vertices),
+                                                            static_cast<double>(outcome.points.size())),
+                                               format_count(outcome.on_hull)));
+  text += summary_line("triangles", format_count(outcome.triangles));
+  text += solid_line(plan, outcome);
+  text += summary_line(
+      "max error",
+      fmt::format("{} at {}{}", format_number(measured.max_error), describe_place(outcome.points, measured),
+                  outcome.asked ? fmt::format(" (asked {})", format_number(*outcome.asked)) : ""));
+  text += summary_line("RMSE", format_number(measured.rmse));
+  text += summary_line("judged", format_plural(measured.samples, "point") + ", none uncovered");
+  const EndError error{
+      .text = "max error " + format_number(measured.max_error), .is_exact = measured.max_error == 0, .of = "point"};
+  return text + seconds_line(outcome) +
+         fmt::format("{}, RMSE {}, {}, {} s\n", describe_end(plan, outcome, error), format_number(measured.rmse),
+                     format_plural(outcome.triangles, "triangle"), format_seconds(outcome.seconds_total));
+}
+
+Json make_report(const JudgedPoints& judged, const std::string& mesh_path, const std::string& command_line) {
+  Json report;
+  report["scarp"] = version();
+  report["command"] = command_line;
+  report["input"] = describe_points(judged.points, judged.policy, judged.duplicates());
+  report["frame"] = describe_frame(judged.points);
+  report["mesh"] = Json{{"path", mesh_path}, {"metadata", judged.mesh.metadata}};
+  report["vertices"] = judged.measured.vertices;
+  report["triangles"] = judged.measured.triangles;
+  add_point_measurement(report, judged.points, judged.measured);
+  report["fail_above"] = or_null(judged.fail_above);
+  report["passed"] = judged.fail_above ? Json(!judged.broken) : Json(nullptr);
+  report["seconds"] =
+      Json{{"read", judged.seconds_read}, {"measure", judged.seconds_measure}, {"total", judged.seconds_total}};
+  report["warnings"] = judged.points.warnings;
+  return report;
+}
+
+std::string make_table(const JudgedPoints& judged, const std::string& mesh_path) {
+  const Measurement& m = judged.measured;
+  const auto line = [](const char* name, const std::string& value) { return fmt::format("  {:<20}{}\n", name, value); };
+  std::string text = fmt::format("{} judged by {}, {}\n", base_name(mesh_path), base_name(judged.points.path),
+                                 format_plural(judged.points.size(), "point"));
+  text += line("max error", fmt::format("{} at {}", format_number(m.max_error), describe_place(judged.points, m)));
+  text += line("RMSE", format_number(m.rmse));
+  text += line("mean error", format_number(m.mean_error));
+  text += line("mean |error|", format_number(m.mean_abs_error));
+  text += line("P50, P95", fmt::format("{}, {}", format_number(m.p50), format_number(m.p95)));
+  text += line("P99, P99.9", fmt::format("{}, {}", format_number(m.p99), format_number(m.p999)));
+  text += line("points judged", format_count(m.samples));
+  text += line("points uncovered", format_count(m.uncovered));
+  text += line("duplicates",
+               fmt::format("{} left out ({})", format_count(judged.duplicates()), policy_name(judged.policy)));
+  text += line("vertices", format_count(m.vertices));
+  text += line("triangles", format_count(m.triangles));
+  text += line("smallest angle",
+               fmt::format("{:.3g} degrees; of each triangle P1 {:.3g}, P5 {:.3g}, P50 {:.3g}", m.min_angle,
+                           m.angle_percentiles[0], m.angle_percentiles[1], m.angle_percentiles[2]));
+  const std::string faults = list_faults(m);
+  text += line("topology", faults.empty() ? "sound" : faults);
+  if (judged.fail_above) {
+    text += line("verdict", fmt::format("{} {}", judged.broken ? "FAILS" : "keeps", format_number(*judged.fail_above)));
+  }
+  return text;
+}
+
+}  // namespace scarp::cli

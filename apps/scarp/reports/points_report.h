@@ -1,0 +1,53 @@
+// What simplify and measure find out about scattered points and tell.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands/simplify_run.h"
+#include "reports/json.h"
+#include "scarp/height_field.h"
+#include "scarp/points.h"
+
+namespace scarp::cli {
+
+Result<DuplicatePolicy> parse_policy(const Given& text);
+const char* policy_name(DuplicatePolicy policy);
+
+HeightRange height_range(const PointSet& points);
+
+/// As find_broken_promise(), with a point's place.
+std::optional<std::string> find_broken(const PointSet& points, const Measurement& measured, double bound);
+
+/// What simplify made of points.
+struct PointsOutcome : SimplifyRun {
+  PointSet points;
+  DuplicatePolicy policy = DuplicatePolicy::kFirst;
+  std::uint64_t duplicates = 0, on_hull = 0;
+  double lattice_step = 0;
+};
+
+Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const std::vector<ReadyFile>& files,
+                 const std::string& command_line);
+/// The lines on standard output.
+std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome, const std::vector<ReadyFile>& files);
+
+/// What measure found.
+struct JudgedPoints {
+  PointSet points;
+  DuplicatePolicy policy = DuplicatePolicy::kFirst;
+  Mesh mesh;
+  Measurement measured;
+  std::optional<double> fail_above;
+  std::optional<std::string> broken;  ///< why the mesh fails; nothing if it passes or nothing was asked
+  double seconds_read = 0, seconds_measure = 0, seconds_total = 0;
+
+  std::uint64_t duplicates() const { return points.size() - measured.samples - measured.uncovered; }
+};
+
+Json make_report(const JudgedPoints& judged, const std::string& mesh_path, const std::string& command_line);
+std::string make_table(const JudgedPoints& judged, const std::string& mesh_path);
+
+}  // namespace scarp::cli

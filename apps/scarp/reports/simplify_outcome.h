@@ -1,0 +1,61 @@
+// What a run of `scarp simplify` on a raster came to.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "commands/simplify_run.h"
+#include "inputs/channels.h"
+#include "inputs/companions.h"
+#include "inputs/waters.h"
+#include "options/cutline_options.h"
+#include "reports/judge.h"
+#include "scarp/height_field.h"
+
+namespace scarp::cli {
+
+/// Everything that the files, the report and the summary tell.
+struct Outcome : SimplifyRun {
+  OwnedHeightField field;
+  RasterInfo as_read;   ///< before voids were filled
+  HeightRange heights;  ///< of the samples that were judged
+  Channels channels;
+  Companions companions;
+  LineConstraints lines;  ///< with shores, rivers and the lines of cliffs and ridges
+  WatersFound waters;
+  std::optional<Cliffs> cliffs;
+  std::optional<Ridges> ridges;
+  Cut cut;
+  std::uint64_t filled = 0;
+  std::optional<LargestError> bounded;  ///< where samples are ignored: of the others; images: norms
+  std::optional<double> bounded_goal;   ///< where a script ignores them: of what the goal bounds
+  std::optional<double> psnr;           ///< of the rendering, in dB; +infinity if it is the image
+
+  /// Breaklines and shores.
+  std::uint64_t line_count() const {
+    return lines.lines.size() - (cliffs ? cliffs->lines.size() : 0) -
+           (ridges ? ridges->ridges.size() + ridges->valleys.size() : 0);
+  }
+
+  /// The field with its channels.
+  HeightField view() const {
+    HeightField view = field.view();
+    channels.attach_to(view);
+    return view;
+  }
+};
+
+/// What the goal bounds, and how large it came out; where a script ignores samples, of the others.
+struct GoalError {
+  double value = 0;         ///< compared with the bound, without the rounding of samples
+  const char* name = "";    ///< "max error", "weighted max error", …
+  bool is_rounded = false;  ///< to float32, by which it may exceed the bound
+};
+GoalError find_goal_error(const Outcome& outcome);
+
+/// The bytes of every file but the report, OUTPUT first. Closes the mesh into a solid where that was asked for.
+Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const ProgressCallback& progress,
+                                            Outcome& outcome);
+
+}  // namespace scarp::cli

@@ -1,0 +1,201 @@
+#include "reports/simplify_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "reports/report.h"
+#include "scarp/version.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+/// Errors of heights and channels, as they are and as they were weighed.
+void add_all_errors(Json& report, const SimplifyPlan& plan, const Outcome& outcome) {
+  const Simplified& simplified = outcome.simplified;
+  if (!plan.channels.image) add_errors(report, simplified.measurement, outcome.field.sample_rounding);
+  if (outcome.companions.has_weights()) {
+    report["weighted_max_error"] = finite_or_word(simplified.weighted_max_error);
+    report["weighted_rmse"] = finite_or_word(simplified.weighted_rmse);
+  }
+  report["ignored"] = simplified.ignored;
+  if (outcome.bounded) add_bounded(report, *outcome.bounded);
+  if (!outcome.channels.empty()) {
+    report["norm"] = norm_name(plan.channels.norm);
+    report["height_scale"] = outcome.channels.height_scale;
+    report["combined_max_error"] = simplified.combined_max_error;
+    report["channels"] =
+        describe_channels(outcome.channels.names, outcome.channels.scales, simplified.channel_measurements);
+  }
+  if (outcome.psnr) report["psnr"] = finite_or_word(*outcome.psnr);
+}
+
+/// ", ignored samples left out": what a bound does not hold for, though the errors count it.
+const char* describe_exceptions(const Outcome& outcome) {
+  return outcome.companions.ignores_samples() ? ", ignored samples left out" : "";
+}
+
+/// The summary's lines on errors.
+std::string describe_errors(const SimplifyPlan& plan, const Outcome& outcome) {
+  const Simplified& simplified = outcome.simplified;
+  const Measurement& measured = simplified.measurement;
+  const std::string unit = outcome.as_read.unit.empty() ? "" : " " + outcome.as_read.unit;
+  const std::string asked =
+      outcome.asked ? fmt::format(" (asked {}{})", format_number(*outcome.asked), describe_exceptions(outcome)) : "";
+  const bool bounds_heights = outcome.channels.empty() && outcome.companions.mask.empty();
+  std::string text;
+  if (!plan.channels.image) {
+    text += summary_line("max error",
+                         fmt::format("{}{} at column {}, row {}{}", format_number(measured.max_error), unit,
+                                     measured.max_error_at[0], measured.max_error_at[1], bounds_heights ? asked : ""));
+    if (outcome.field.sample_rounding > 0) {
+      text += summary_line("", fmt::format("values rounded to float32 by up to {}{}",
+                                           format_number(outcome.field.sample_rounding), unit));
+    }
+    text += summary_line("RMSE", fmt::format("{}{}", format_number(measured.rmse), unit));
+  }
+  constexpr std::size_t kMostLines = 8;
+  for (std::size_t k = 0; k < std::min(kMostLines, simplified.channel_measurements.size()); ++k) {
+    const Measurement& channel = simplified.channel_measurements[k];
+    text += summary_line(
+        outcome.channels.names[k].c_str(),
+        fmt::format("max error {}, RMSE {}", format_number(channel.max_error), format_number(channel.rmse)));
+  }
+  if (outcome.channels.count() > kMostLines) text += summary_line("", "further bands: see --report");
+  if (!outcome.channels.empty()) {
+    text += summary_line("combined",
+                         fmt::format("max error {} ({}){}", format_number(simplified.combined_max_error),
+                                     norm_name(plan.channels.norm), outcome.companions.has_weights() ? "" : asked));
+  }
+  if (outcome.companions.has_weights()) {
+    const bool has_mask = !outcome.companions.mask.empty();
+    text +=
+        summary_line("weighted", fmt::format("{} {}, RMS {}{}", has_mask ? "max error" : "largest error / tolerance",
+                                             format_number(simplified.weighted_max_error),
+                                             format_number(simplified.weighted_rmse), has_mask ? asked : ""));
+  }
+  if (simplified.ignored > 0) {
+    text += summary_line("ignored", fmt::format("{} without a bound; max error of the others {}",
+                                                format_plural(simplified.ignored, "sample"),
+                                                format_number(outcome.bounded.value_or(LargestError()).value)));
+  }
+  return text;
+}
+
+/// The last line of the summary.
+std::string describe_ending(const SimplifyPlan& plan, const Outcome& outcome) {
+  const GoalError goal = find_goal_error(outcome);
+  const std::string numbers = fmt::format(
+      "{}{} ({} of {}), {} s",
+      plan.channels.image ? "" : fmt::format("RMSE {}, ", format_number(outcome.simplified.measurement.rmse)),
+      format_plural(outcome.triangles, "triangle"),
+      format_share(static_cast<double>(outcome.triangles), static_cast<double>(full_grid_triangles(outcome.field))),
+      format_count(full_grid_triangles(outcome.field)), format_seconds(outcome.seconds_total));
+  EndError error{.text = fmt::format("{} {}{}", goal.name, format_number(goal.value),
+                                     outcome.bounded_goal ? " of the bounded samples" : "")};
+  error.is_exact = goal.value == 0 && outcome.simplified.ignored == 0 && outcome.field.sample_rounding == 0;
+  const bool keeps_tolerances = outcome.simplified.stop == StopReason::kMaxError && outcome.companions.has_tolerance();
+  return fmt::format("{}, {}\n",
+                     keeps_tolerances ? "Kept every tolerance: " + error.text : describe_end(plan, outcome, error),
+                     numbers);
+}
+
+}  // namespace
+
+GoalError find_goal_error(const Outcome& outcome) {
+  const Simplified& simplified = outcome.simplified;
+  const auto goal = [&](double of_all, const char* name, bool is_rounded) {
+    return GoalError{outcome.bounded_goal.value_or(of_all), name, is_rounded};
+  };
+  if (outcome.companions.has_tolerance()) {
+    return goal(simplified.weighted_max_error, "largest error / tolerance", true);
+  }
+  if (!outcome.companions.mask.empty()) return goal(simplified.weighted_max_error, "weighted max error", true);
+  if (!outcome.channels.empty()) return goal(simplified.combined_max_error, "combined max error", true);
+  return goal(simplified.measurement.max_error, "max error", false);
+}
+
+Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::vector<ReadyFile>& files,
+                 const std::string& command_line) {
+  Json report;
+  report["scarp"] = version();
+  report["command"] = command_line;
+  report["input"] = describe_input(outcome.field, outcome.as_read, plan.read.band);
+  report["input"]["filled"] = outcome.filled;
+  report["frame"] = describe_frame(outcome.field.frame);
+  report["goal"] = describe_goal(plan, outcome);
+  report["strategy"] = describe_strategy(plan.simplify, outcome.simplified);
+  for (const auto& [key, file] : {std::pair{"mask", &plan.companions.mask},
+                                  {"tolerance", &plan.companions.tolerance},
+                                  {"script", &plan.companions.script}}) {
+    report["strategy"][key] = or_null(*file);
+  }
+  report["strategy"]["roi"] = plan.companions.roi.empty() ? Json(nullptr) : Json(plan.companions.roi);
+  report["strategy"]["falloff"] = or_null(plan.companions.falloff);
+  report["breaklines"] =
+      describe_lines(plan.lines, outcome.line_count(), outcome.simplified.lines_laid, outcome.simplified.edits);
+  report["water"] = describe_lakes(outcome.waters.lakes);
+  report["rivers"] = describe_rivers(outcome.waters.rivers);
+  report["cliffs"] = describe_cliffs(plan.cliff, outcome.cliffs);
+  report["ridges"] = describe_ridges(plan.ridges, outcome.ridges);
+  report["shape"] = describe_shape(plan.simplify.shape, outcome.simplified);
+  report["cutline"] = describe_cut(plan.cut, outcome.cut, outcome.simplified.cut_off);
+  report["stopped_by"] = stop_name(outcome.simplified.stop);
+  report["vertices"] = outcome.vertices;
+  report["triangles"] = outcome.triangles;
+  report["full_triangles"] = full_grid_triangles(outcome.field);
+  add_all_errors(report, plan, outcome);
+  add_coverage(report, outcome.simplified.measurement);
+  add_solid(report, plan, outcome);
+  const Work& work = outcome.simplified.work;
+  report["work"] = Json{{"samples_scanned", work.samples_scanned},
+                        {"triangles_scanned", work.triangles_scanned},
+                        {"queue_moves", work.queue_moves},
+                        {"passes", work.passes}};
+  report["passes"] = describe_passes(outcome);
+  report["seconds"] = describe_seconds(outcome);
+  report["outputs"] = describe_outputs(files);
+  report["warnings"] = outcome.warnings;
+  return report;
+}
+
+std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const std::vector<ReadyFile>& files) {
+  const Measurement& measured = outcome.simplified.measurement;
+  const RasterInfo& info = outcome.as_read;
+  const std::string unit = info.unit.empty() ? "" : " " + info.unit;
+
+  std::string text = fmt::format("{} -> {}\n", base_name(plan.input), plan.output);
+  const bool is_image = plan.channels.image;
+  text += summary_line(is_image ? "image" : "raster",
+                       fmt::format("{} x {}, {} valid {}, {} {} to {}{}", outcome.field.cols, outcome.field.rows,
+                                   format_count(info.valid), is_image ? "pixels" : "samples",
+                                   is_image ? format_plural(outcome.channels.count(), "band") + "," : "heights",
+                                   format_number(info.min), format_number(info.max), unit));
+  if (outcome.filled > 0) text += summary_line("filled", format_plural(outcome.filled, "void sample"));
+  text += files_lines(plan, files);
+  text += summary_line("vertices", format_count(outcome.vertices));
+  const std::uint64_t full = full_grid_triangles(outcome.field);
+  text += summary_line(
+      "triangles",
+      fmt::format("{}, {} of the full grid's {}", format_count(outcome.triangles),
+                  format_share(static_cast<double>(outcome.triangles), static_cast<double>(full)), format_count(full)));
+  text += waters_lines(outcome.waters);
+  if (!plan.cut.files.empty()) text += summary_line("cutline", cut_words(outcome.cut, outcome.simplified.cut_off));
+  text += lines_line(outcome.line_count(), outcome.simplified.lines_laid, outcome.simplified.edits);
+  text += cliffs_line(outcome.cliffs);
+  text += ridges_line(outcome.ridges);
+  text += shape_line(plan.simplify.shape, outcome.simplified);
+  text += solid_line(plan, outcome);
+  text += describe_errors(plan, outcome);
+  if (outcome.psnr) text += summary_line("PSNR", fmt::format("{:.2f} dB", *outcome.psnr));
+  text += summary_line("judged", format_plural(measured.samples, "sample") + ", none uncovered" +
+                                     (measured.stray > 0 ? fmt::format(", {} outside every cell of the domain left out",
+                                                                       format_count(measured.stray))
+                                                         : ""));
+  return text + seconds_line(outcome) + describe_ending(plan, outcome);
+}
+
+}  // namespace scarp::cli

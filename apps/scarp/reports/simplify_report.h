@@ -1,0 +1,18 @@
+// What `scarp simplify` tells about a run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/json.h"
+#include "reports/simplify_outcome.h"
+
+namespace scarp::cli {
+
+/// The JSON of --report.
+Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::vector<ReadyFile>& files,
+                 const std::string& command_line);
+/// The lines on standard output.
+std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const std::vector<ReadyFile>& files);
+
+}  // namespace scarp::cli

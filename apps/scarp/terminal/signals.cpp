@@ -1,0 +1,71 @@
+#include "terminal/signals.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+
+#include "scarp/io.h"
+
+namespace scarp::cli {
+namespace {
+
+// Lock-free, so that a handler may touch them.
+std::atomic<int> g_signals = 0;
+std::atomic<bool> g_is_content = false;
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+
+/// The default action, so that a shell sees a program ended by the signal, but without half a file left.
+extern "C" void on_end_signal(int signal) {
+  for (int place = 0; place < scarp::kPendingOutputs; ++place) {
+    const char* half_written = pending_output(place);
+    if (half_written[0] != '\0') unlink(half_written);
+  }
+  std::signal(signal, SIG_DFL);
+  raise(signal);  // acts when this handler returns
+}
+
+extern "C" void on_stop_signal(int signal) {
+  const int taken = g_is_content ? 1 : 0;
+  if (g_signals.fetch_add(1) > taken) on_end_signal(signal);
+}
+
+}  // namespace
+
+void install_signal_handlers() {
+  struct sigaction action = {};
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  action.sa_handler = on_end_signal;
+  sigaction(SIGQUIT, &action, nullptr);
+  action.sa_handler = on_stop_signal;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  struct sigaction inherited = {};
+  const bool is_nohup = sigaction(SIGHUP, nullptr, &inherited) == 0 && inherited.sa_handler == SIG_IGN;
+  if (!is_nohup) sigaction(SIGHUP, &action, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+// Libraries that are loaded take a while to make themselves ready, all before main(): where the system has a place for
+// what comes first of all, that is where this goes. Sanitizers are not ready there themselves.
+#if defined(__has_feature)
+#define SCARP_HAS_FEATURE(name) __has_feature(name)
+#else
+#define SCARP_HAS_FEATURE(name) 0
+#endif
+#if defined(__ELF__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
+    !SCARP_HAS_FEATURE(address_sanitizer) && !SCARP_HAS_FEATURE(thread_sanitizer) &&                             \
+    !SCARP_HAS_FEATURE(memory_sanitizer)
+[[gnu::used, gnu::section(".preinit_array")]] static void (*const g_first_of_all)() = install_signal_handlers;
+#endif
+
+bool interrupted() { return g_signals > (g_is_content ? 1 : 0); }
+
+bool content_with_interrupt() {
+  if (g_signals > 0) g_is_content = true;
+  return g_is_content;
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,17 @@
+#include "base/reporter.h"
+
+#include <algorithm>
+
+namespace scarp {
+
+double error_progress(double first, double now, double goal) {
+  return goal > 0 && first > goal ? goal * goal / (now * now) : 0;
+}
+
+bool Reporter::report(std::string_view pass, double fraction, std::uint64_t vertices, double error) {
+  last_ = Clock::now();
+  fraction_ = std::max(fraction_, std::min(fraction, 1.0));
+  return !callback_ || callback_({pass, fraction_, vertices, error});
+}
+
+}  // namespace scarp

@@ -1,0 +1,29 @@
+// Progress of a pass, told to a callback.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "base/clock.h"
+#include "scarp/progress.h"
+
+namespace scarp {
+
+/// How much of the work is done when the error has come from `first` to `now`. The error falls about as the square root
+/// of the vertices grows, so work done is a ratio of squares. 0 for a goal of 0.
+double error_progress(double first, double now, double goal);
+
+/// Reports progress at most ten times a second; false once the callback has said so.
+class Reporter {
+ public:
+  explicit Reporter(const ProgressCallback& callback) : callback_(callback) {}
+  bool due() const { return callback_ && seconds_since(last_) > 0.1; }
+  bool report(std::string_view pass, double fraction, std::uint64_t vertices, double error);
+
+ private:
+  const ProgressCallback& callback_;
+  Clock::time_point last_ = Clock::now();
+  double fraction_ = 0;
+};
+
+}  // namespace scarp

@@ -1,0 +1,103 @@
+#include "scarp/cliffs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/memory_budget.h"
+#include "features/crack_chains.h"
+#include "features/fault_lines.h"
+#include "grid/line_marks.h"
+#include "grid/row_sweep.h"
+#include "grid/samples.h"
+
+namespace scarp {
+namespace {
+
+/// Share of the max error that heights of samples along a line may leave it by: less leaves more vertices, more leaves
+/// refinement no room.
+constexpr double kHeightShare = 0.9;
+
+Line to_map(const std::vector<FaultVertex>& vertices, const std::array<double, 6>& affine, std::string name) {
+  Line line;
+  line.polygon = kFaultLine;
+  line.yields = true;
+  line.name = std::move(name);
+  line.points.reserve(vertices.size());
+  for (const FaultVertex& v : vertices) {
+    const double col = v.at.x / double{kLatticeSteps}, row = v.at.y / double{kLatticeSteps};
+    line.points.push_back({affine[0] + affine[1] * col + affine[2] * row, affine[3] + affine[4] * col + affine[5] * row,
+                           double{v.height}});
+  }
+  return line;
+}
+
+Result<void> check_cliffs(const CliffOptions& options) {
+  if (!(options.height > 0 && std::isfinite(options.height)))
+    return fail(ErrorKind::kUsage,
+                fmt::format("the height of cliffs must be a finite number above 0, not {}", options.height));
+  if (!(options.max_error >= 0 && std::isfinite(options.max_error)))
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("the max error beside cliffs must be a finite number of at least 0, not {}", options.max_error));
+  return {};
+}
+
+constexpr std::uint64_t kBytesPerLine = 3 * sizeof(Line);  // its place, its name, and what the list has in reserve
+constexpr const char *kWhat = "walls", *kAdvice = "a larger height of cliffs";
+
+Result<CrackChains> find_cracks(const HeightField& field, double height, const SampleSet& marks,
+                                const MemoryBudget& memory) {
+  CrackChains cracks(field.cols, field.rows, height, [&marks](Point p) { return marks.has(p); });
+  const std::uint64_t bytes = sweep_bytes(field, 1);
+  auto swept = sweep_rows(field, 1, [&](const RowStrip& strip) {
+    for (std::int32_t row = strip.begin; row < strip.end; ++row)
+      cracks.add_row(row, row > 0 ? strip.row(row - 1) : nullptr, strip.row(row),
+                     row + 1 < field.rows ? strip.row(row + 1) : nullptr);
+    return memory.check_part(bytes + CrackChains::kBytesPerCrack * cracks.count(),
+                             static_cast<double>(strip.end) / field.rows, kWhat, kAdvice);
+  });
+  if (!swept) return tl::unexpected(swept.error());
+  return cracks;
+}
+
+}  // namespace
+
+Result<Cliffs> detect_cliffs(const HeightField& field, const CliffOptions& options) {
+  if (auto sound = check_cliffs(options); !sound) return tl::unexpected(sound.error());
+  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
+  Cliffs cliffs;
+  // Lines on a finer lattice need room.
+  if (std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps) return cliffs;
+  LineRuns runs(options.affine, field.cols, field.rows);
+  for (const Line& line : options.avoid) runs.add_course(line);
+  const SampleSet marks(runs.runs(), field.rows);
+  MemoryBudget memory;
+  if (field.samples == nullptr) memory = {options.memory_limit, options.memory_taken, 0};
+  auto cracks = find_cracks(field, options.height, marks, memory);
+  if (!cracks) return tl::unexpected(cracks.error());
+  cracks->link();
+  std::uint64_t line_bytes = 0;
+  Result<void> fits;
+  cracks->visit([&](const CrackChain& chain) {
+    if (!fits) return;
+    fits = memory.check_part(
+        CrackChains::kBytesPerCrack * cracks->count() + line_bytes + kFaultBytesPerCrack * chain.cracks.size(), 1,
+        kWhat, kAdvice);
+    if (!fits) return;
+    for (const Fault& fault : find_faults(chain, kHeightShare * options.max_error)) {
+      ++cliffs.faults;
+      cliffs.vertices += 2 * (fault.top.size() - (fault.top.front() == fault.top.back() ? 1 : 0));
+      for (const auto& [line, side] : {std::pair{&fault.top, "top"}, std::pair{&fault.foot, "foot"}}) {
+        cliffs.lines.push_back(to_map(*line, options.affine, fmt::format("the {} of cliff {}", side, cliffs.faults)));
+        line_bytes += kBytesPerLine + sizeof(cliffs.lines.back().points[0]) * line->size();
+      }
+    }
+  });
+  if (!fits) return tl::unexpected(fits.error());
+  return cliffs;
+}
+
+}  // namespace scarp

@@ -1,0 +1,58 @@
+// Samples that lie lower than what is on both sides of them, and those beside them, of a raster larger than memory.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "base/point.h"
+#include "features/hollows.h"
+#include "scarp/height_field.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+class HollowSamples {
+ public:
+  struct Question {
+    double height = 0;                       ///< as for find_hollows()
+    bool is_upside_down = false;             ///< the raster is
+    std::function<bool(Point)> is_left_out;  ///< of samples, those that do not count
+    /// How many there are when a share of the raster is searched; may refuse.
+    std::function<Result<void>(std::uint64_t samples, double share)> check;
+    int threads = 0;
+  };
+  /// The samples within two of one that lies low. Fails as the field's source does, which is read once from the top
+  /// down, and as `check` does. Memory: 9 bytes a sample here, twice that while they are gathered, and bytes().
+  static Result<HollowSamples> find(const HeightField& field, const Question& question);
+  /// What find() takes beside the samples.
+  static std::uint64_t bytes(const HeightField& field);
+
+  std::size_t size() const { return heights_.size(); }
+  // In raster order.
+  float height(std::uint32_t i) const { return heights_[i]; }  ///< negated where the raster is upside down
+  Hollow hollow(std::uint32_t i) const { return hollows_[i]; }
+  Point point(std::uint32_t i) const;
+  /// Calls visit(j) for the samples next to one, at corners too, that are there.
+  template <class Visit>
+  void visit_neighbours(std::uint32_t i, const Visit& visit) const {
+    const Point at = point(i);
+    for (std::int32_t row = at.y - 1; row <= at.y + 1; ++row) {
+      for (std::uint32_t j = first_from({at.x - 1, row}); j < end_of(row) && cols_[j] <= at.x + 1; ++j) visit(j);
+    }
+  }
+
+ private:
+  std::uint32_t end_of(std::int32_t row) const {
+    return row < 0 || row + 1 >= static_cast<std::int32_t>(begins_.size()) ? 0
+                                                                           : begins_[static_cast<std::size_t>(row) + 1];
+  }
+  std::uint32_t first_from(Point p) const;
+
+  std::vector<float> heights_;
+  std::vector<std::int32_t> cols_;
+  std::vector<Hollow> hollows_;
+  std::vector<std::uint32_t> begins_;  // of each row's, and the end of the last
+};
+
+}  // namespace scarp

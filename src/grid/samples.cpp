@@ -1,0 +1,46 @@
+#include "grid/samples.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace scarp {
+
+Result<void> check_size(const HeightField& field) {
+  if ((field.samples == nullptr && field.source == nullptr) || field.cols < 2 || field.rows < 2)
+    return fail(ErrorKind::kInput,
+                fmt::format("a height field needs at least 2 x 2 samples, not {} x {}", field.cols, field.rows));
+  if (field.cols > kMaxCoordinate || field.rows > kMaxCoordinate)
+    return fail(ErrorKind::kInput, fmt::format("a height field of {} x {} samples is too large: at most {} a side",
+                                               field.cols, field.rows, kMaxCoordinate));
+  return {};
+}
+
+Result<Samples> Samples::of(const HeightField& field) {
+  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
+  Samples samples;
+  samples.raster_ = {field.samples, field.cols, field.rows};
+  const std::size_t count = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
+  const auto must_change = [&](float z) { return std::isinf(z) || (field.nodata && z == *field.nodata); };
+  // Without a way out in the middle of a row, so that compilers see vectors.
+  bool is_clean = true;
+  const float nodata = field.nodata.value_or(std::numeric_limits<float>::infinity());
+  for (std::size_t first = 0, cols = static_cast<std::size_t>(field.cols); is_clean && first < count; first += cols) {
+    int unfit = 0;
+    for (std::size_t i = first; i < first + cols; ++i)
+      unfit += std::abs(field.samples[i]) == std::numeric_limits<float>::infinity() || field.samples[i] == nodata;
+    is_clean = unfit == 0;
+  }
+  if (!is_clean) {
+    samples.cleaned_.assign(field.samples, field.samples + count);
+    for (float& z : samples.cleaned_) {
+      if (must_change(z)) z = std::numeric_limits<float>::quiet_NaN();
+    }
+    samples.raster_.samples = samples.cleaned_.data();
+  }
+  return samples;
+}
+
+}  // namespace scarp

@@ -1,0 +1,490 @@
+// Reading GLB: the part of glTF 2.0 that can carry a terrain, from any writer.
+//
+// Nothing in the file is believed: every index is checked against the array it names, every accessor against its view,
+// every view against the binary chunk, and the node tree against loops. What we cannot honour (compressed or quantised
+// geometry, sparse accessors, lines, external buffers) is refused by name rather than read wrongly.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "io/mesh/file_bytes.h"
+#include "io/mesh/glb_json.h"
+#include "io/mesh/glb_transform.h"
+#include "io/mesh/mesh_file.h"
+#include "io/mesh/srgb.h"
+#include "scarp/height_field.h"
+
+namespace scarp {
+namespace {
+
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+constexpr int kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
+
+/// A checked accessor: `count` items of `components` numbers, `stride` bytes apart.
+struct Items {
+  const std::uint8_t* data = nullptr;
+  std::uint64_t count = 0, stride = 0;
+  int component_type = 0;
+};
+
+class GlbReader {
+ public:
+  explicit GlbReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  Mesh mesh;
+  std::string complaint;
+
+  bool read() {
+    if (!split_chunks() || !check_extensions()) return false;
+    if (const Json* asset = member(json_, "asset")) {
+      if (const Json* extras = member(*asset, "extras")) mesh.metadata = extras_to_metadata(*extras);
+      const Json* generator = member(*asset, "generator");
+      if (generator && generator->is_string()) mesh.metadata.emplace("generator", generator->get<std::string>());
+    }
+    return read_scene();
+  }
+
+ private:
+  bool refuse(std::string why) {
+    if (complaint.empty()) complaint = std::move(why);
+    return false;
+  }
+
+  static const Json* member(const Json& object, const char* key) {
+    if (!object.is_object()) return nullptr;
+    const auto found = object.find(key);
+    return found == object.end() ? nullptr : &*found;
+  }
+
+  /// The non-negative integer `key` of `object`, or `missing` where there is none.
+  bool read_count(const Json& object, const char* key, std::uint64_t missing, std::uint64_t& value) {
+    const Json* found = member(object, key);
+    value = missing;
+    if (!found) return true;
+    if (!found->is_number_unsigned()) return refuse(fmt::format("a '{}' in its JSON is not a count", key));
+    value = found->get<std::uint64_t>();
+    return true;
+  }
+
+  /// Item `index` of the top-level array `array`.
+  const Json* item(const char* array, std::uint64_t index) {
+    const Json* items = member(json_, array);
+    if (items && items->is_array() && index < items->size()) return &(*items)[index];
+    refuse(fmt::format("its JSON refers to {} {}, which does not exist", array, index));
+    return nullptr;
+  }
+
+  bool read_numbers(const Json& object, const char* key, double* values, std::size_t count, bool& present) {
+    const Json* found = member(object, key);
+    present = found != nullptr;
+    if (!present) return true;
+    if (!found->is_array() || found->size() != count) return refuse(fmt::format("a node's '{}' is malformed", key));
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!(*found)[i].is_number()) return refuse(fmt::format("a node's '{}' is malformed", key));
+      values[i] = (*found)[i].get<double>();
+    }
+    return true;
+  }
+
+  bool split_chunks() {
+    if (bytes_.size() < 20)
+      return refuse(fmt::format("it ends after {} bytes, within the header of a GLB file", bytes_.size()));
+    const std::uint32_t version = load_number<std::uint32_t>(&bytes_[4]);
+    if (version != 2) return refuse(fmt::format("it is glTF version {}; only version 2 can be read", version));
+    const std::uint32_t length = load_number<std::uint32_t>(&bytes_[8]);
+    if (length > bytes_.size()) {
+      return refuse(fmt::format("it ends after {} of {} bytes: it was cut off", bytes_.size(), length));
+    }
+    std::size_t at = 12;
+    bool has_json = false;
+    while (at + 8 <= length) {
+      const std::uint32_t size = load_number<std::uint32_t>(&bytes_[at]),
+                          type = load_number<std::uint32_t>(&bytes_[at + 4]);
+      at += 8;
+      if (size > length - at) return refuse(fmt::format("its chunk at byte {} reaches beyond the file's end", at - 8));
+      const auto chunk = bytes_.subspan(at, size);
+      at += size;
+      if (type == kJsonChunk && !has_json) {
+        auto json = parse_json({reinterpret_cast<const char*>(chunk.data()), chunk.size()});
+        if (!json || !json->is_object()) return refuse("its JSON chunk is malformed");
+        json_ = std::move(*json);
+        has_json = true;
+      } else if (type == kBinaryChunk && binary_.empty()) {
+        binary_ = chunk;
+      }
+    }
+    return has_json || refuse("it has no JSON chunk");
+  }
+
+  bool check_extensions() {
+    const Json* required = member(json_, "extensionsRequired");
+    if (!required || !required->is_array()) return true;
+    for (const Json& name : *required) {
+      if (!name.is_string()) continue;
+      const auto& text = name.get_ref<const std::string&>();
+      const bool harmless = text.starts_with("KHR_materials_") || text.starts_with("KHR_texture_") ||
+                            text.starts_with("EXT_texture_") || text.starts_with("KHR_lights_");
+      if (!harmless) return refuse(fmt::format("it needs the glTF extension {}, which is not supported", text));
+    }
+    return true;
+  }
+
+  /// Visits the nodes of the default scene, the first scene, or all nodes; then, if there are no nodes, the meshes as
+  /// they are.
+  bool read_scene() {
+    const Json* nodes = member(json_, "nodes");
+    if (!nodes || !nodes->is_array() || nodes->empty()) {
+      const Json* meshes = member(json_, "meshes");
+      const std::size_t count = meshes && meshes->is_array() ? meshes->size() : 0;
+      for (std::size_t m = 0; m < count; ++m) {
+        if (!read_mesh(m, Transform{})) return false;
+      }
+      return true;
+    }
+    seen_.assign(nodes->size(), false);
+    std::vector<std::uint64_t> roots;
+    const Json* scenes = member(json_, "scenes");
+    if (scenes && scenes->is_array() && !scenes->empty()) {
+      std::uint64_t index = 0;
+      if (!read_count(json_, "scene", 0, index)) return false;
+      const Json* scene = item("scenes", index);
+      if (!scene || !read_node_list(*scene, "nodes", roots)) return false;
+    } else {
+      std::vector<bool> is_child(nodes->size(), false);
+      std::vector<std::uint64_t> children;
+      for (const Json& node : *nodes) {
+        children.clear();
+        if (!read_node_list(node, "children", children)) return false;
+        for (const std::uint64_t child : children) is_child[child] = true;
+      }
+      for (std::size_t n = 0; n < nodes->size(); ++n) {
+        if (!is_child[n]) roots.push_back(n);
+      }
+    }
+    return read_nodes(roots);
+  }
+
+  bool read_node_list(const Json& object, const char* key, std::vector<std::uint64_t>& list) {
+    const Json* found = member(object, key);
+    if (!found) return true;
+    if (!found->is_array()) return refuse(fmt::format("a list '{}' in its JSON is malformed", key));
+    for (const Json& index : *found) {
+      if (!index.is_number_unsigned() || index.get<std::uint64_t>() >= seen_.size()) {
+        return refuse(fmt::format("a list '{}' in its JSON names a node that does not exist", key));
+      }
+      list.push_back(index.get<std::uint64_t>());
+    }
+    return true;
+  }
+
+  bool read_nodes(const std::vector<std::uint64_t>& roots) {
+    struct Visit {
+      std::uint64_t node;
+      Transform parent;
+    };
+    std::vector<Visit> stack;
+    for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({*root, Transform{}});
+    std::vector<std::uint64_t> children;
+    while (!stack.empty()) {
+      const Visit visit = stack.back();
+      stack.pop_back();
+      if (seen_[visit.node]) return refuse(fmt::format("its node {} has more than one parent", visit.node));
+      seen_[visit.node] = true;
+      const Json* node = item("nodes", visit.node);
+      Transform local;
+      if (!node || !read_transform(*node, local)) return false;
+      const Transform global = visit.parent * local;
+      if (member(*node, "mesh")) {
+        std::uint64_t index = 0;
+        if (!read_count(*node, "mesh", 0, index) || !read_mesh(index, global)) return false;
+      }
+      children.clear();
+      if (!read_node_list(*node, "children", children)) return false;
+      for (auto child = children.rbegin(); child != children.rend(); ++child) stack.push_back({*child, global});
+    }
+    return true;
+  }
+
+  bool read_transform(const Json& node, Transform& local) {
+    double m[16], q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
+    bool present = false;
+    if (!read_numbers(node, "matrix", m, 16, present)) return false;
+    if (present) {
+      for (int c = 0; c < 3; ++c) {
+        for (int r = 0; r < 3; ++r) local.linear[c][r] = m[4 * c + r];
+        local.translation[c] = m[12 + c];
+      }
+      return true;
+    }
+    if (!read_numbers(node, "translation", local.translation, 3, present) ||
+        !read_numbers(node, "rotation", q, 4, present) || !read_numbers(node, "scale", s, 3, present)) {
+      return false;
+    }
+    const double x = q[0], y = q[1], z = q[2], w = q[3];
+    const double rotation[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)},
+                                   {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)},
+                                   {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)}};
+    for (int c = 0; c < 3; ++c) {
+      for (int r = 0; r < 3; ++r) local.linear[c][r] = rotation[c][r] * s[c];
+    }
+    return true;
+  }
+
+  bool read_mesh(std::uint64_t index, const Transform& transform) {
+    const Json* found = item("meshes", index);
+    const Json* primitives = found ? member(*found, "primitives") : nullptr;
+    if (!primitives || !primitives->is_array()) return refuse(fmt::format("its mesh {} is malformed", index));
+    std::map<std::uint64_t, std::uint32_t> first_vertices;  // of each position accessor that is already here
+    for (const Json& primitive : *primitives) {
+      std::uint64_t mode = 0;
+      if (!read_count(primitive, "mode", 4, mode)) return false;
+      if (mode != 4)
+        return refuse(fmt::format("its mesh {} has primitives of mode {}, not triangles (mode 4)", index, mode));
+      if (!read_primitive(primitive, transform, first_vertices)) return false;
+    }
+    return true;
+  }
+
+  bool read_primitive(const Json& primitive, const Transform& transform,
+                      std::map<std::uint64_t, std::uint32_t>& first_vertices) {
+    const Json* attributes = member(primitive, "attributes");
+    if (!attributes || !member(*attributes, "POSITION")) return refuse("a primitive has no positions");
+    std::uint64_t accessor = 0;
+    Items positions;
+    if (!read_count(*attributes, "POSITION", 0, accessor) || !find_items(accessor, "VEC3", positions)) return false;
+    if (positions.component_type != kFloat)
+      return refuse(fmt::format("its accessor {} of positions is not float32", accessor));
+    const auto known = first_vertices.find(accessor);
+    const bool is_new = known == first_vertices.end();
+    const std::uint32_t first = is_new ? static_cast<std::uint32_t>(mesh.vertex_count()) : known->second;
+    if (is_new) {
+      if (!append_positions(positions, transform)) return false;
+      first_vertices.emplace(accessor, first);
+      if (!append_normals(*attributes, positions.count, transform) || !append_uvs(*attributes, positions.count) ||
+          !append_colors(*attributes, positions.count) || !append_channels(primitive, *attributes, positions.count)) {
+        return false;
+      }
+    }
+    return append_triangles(primitive, positions.count, first, transform.determinant() < 0);
+  }
+
+  bool append_positions(const Items& items, const Transform& transform) {
+    // Instances may multiply what a file says; a terrain has none, a bomb has millions.
+    const std::uint64_t most = std::max<std::uint64_t>(std::uint64_t{1} << 24, 16 * bytes_.size() / 12);
+    if (items.count > most || mesh.vertex_count() + items.count > most)
+      return refuse("it repeats its meshes too often");
+    if (mesh.positions.empty()) {
+      const double* t = transform.translation;
+      mesh.origin = {t[0] + 0.0, 0.0 - t[2], t[1] + 0.0};
+    }
+    for (std::uint64_t v = 0; v < items.count; ++v) {
+      const std::uint8_t* at = items.data + v * items.stride;
+      const double p[3] = {load_number<float>(at), load_number<float>(at + 4), load_number<float>(at + 8)};
+      const auto q = transform.apply_linear(p);
+      const double* t = transform.translation;
+      mesh.positions.push_back(q[0] + (t[0] - mesh.origin[0]));
+      mesh.positions.push_back(0.0 - (q[2] + (t[2] + mesh.origin[1])));
+      mesh.positions.push_back(q[1] + (t[1] - mesh.origin[2]));
+    }
+    return true;
+  }
+
+  /// Normals are kept where no transform but a translation touches them.
+  bool append_normals(const Json& attributes, std::uint64_t count, const Transform& transform) {
+    if (!member(attributes, "NORMAL") || !transform.is_translation()) return true;
+    std::uint64_t accessor = 0;
+    Items normals;
+    if (!read_count(attributes, "NORMAL", 0, accessor) || !find_items(accessor, "VEC3", normals)) return false;
+    if (normals.component_type != kFloat || normals.count != count)
+      return refuse(fmt::format("its accessor {} of normals is malformed", accessor));
+    for (std::uint64_t v = 0; v < count; ++v) {
+      const std::uint8_t* at = normals.data + v * normals.stride;
+      const float x = load_number<float>(at), y = load_number<float>(at + 4), z = load_number<float>(at + 8);
+      if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
+        return refuse(fmt::format("normal {} is not finite", v));
+      mesh.normals.insert(mesh.normals.end(), {x, 0.0f - z, y});
+    }
+    return true;
+  }
+
+  /// The items of an attribute of numbers: float32, or integers that stand for 0 … 1.
+  bool find_attribute(const Json& attributes, const char* name, std::string_view type, std::uint64_t count,
+                      Items& items) {
+    std::uint64_t accessor = 0;
+    if (!read_count(attributes, name, 0, accessor) || !find_items(accessor, type, items)) return false;
+    if (items.component_type != kUint32 && items.count == count) return true;
+    return refuse(fmt::format("its accessor {} of {} is malformed", accessor, name));
+  }
+
+  static double load_component(const Items& items, std::uint64_t v, std::uint64_t k) {
+    const std::uint8_t* at = items.data + v * items.stride;
+    if (items.component_type == kUint8) return at[k] / 255.0;
+    if (items.component_type == kUint16) return load_number<std::uint16_t>(at + 2 * k) / 65535.0;
+    return load_number<float>(at + 4 * k);
+  }
+
+  bool append_uvs(const Json& attributes, std::uint64_t count) {
+    if (!member(attributes, "TEXCOORD_0")) return true;
+    Items uvs;
+    if (!find_attribute(attributes, "TEXCOORD_0", "VEC2", count, uvs)) return false;
+    for (std::uint64_t i = 0; i < 2 * count; ++i) {
+      const double value = load_component(uvs, i / 2, i % 2);
+      if (!std::isfinite(value)) return refuse(fmt::format("texture coordinate {} is not finite", i / 2));
+      mesh.uvs.push_back(static_cast<float>(value));
+    }
+    return true;
+  }
+
+  /// Linear light, with or without alpha.
+  bool append_colors(const Json& attributes, std::uint64_t count) {
+    if (!member(attributes, "COLOR_0")) return true;
+    std::uint64_t accessor = 0;
+    if (!read_count(attributes, "COLOR_0", 0, accessor)) return false;
+    const Json* described = item("accessors", accessor);
+    if (!described) return false;
+    const Json* type = member(*described, "type");
+    const bool with_alpha = type && type->is_string() && type->get_ref<const std::string&>() == "VEC4";
+    Items colors;
+    if (!find_attribute(attributes, "COLOR_0", with_alpha ? "VEC4" : "VEC3", count, colors)) return false;
+    for (std::uint64_t i = 0; i < 3 * count; ++i) {
+      const double value = load_component(colors, i / 3, i % 3);
+      if (!std::isfinite(value)) return refuse(fmt::format("colour {} is not finite", i / 3));
+      mesh.colors.push_back(srgb_of_linear(value));
+    }
+    return true;
+  }
+
+  /// Our own "_CHANNEL_n"; where extras announce channels that are not there, they are the colours.
+  bool append_channels(const Json& primitive, const Json& attributes, std::uint64_t count) {
+    std::vector<Items> channels;
+    while (channels.size() < kMaxChannels) {
+      const std::string name = fmt::format("_CHANNEL_{}", channels.size() + 1);
+      if (!member(attributes, name.c_str())) break;
+      channels.emplace_back();
+      if (!find_attribute(attributes, name.c_str(), "SCALAR", count, channels.back())) return false;
+      if (channels.back().component_type != kFloat) return true;  // somebody else's
+    }
+    const Json* extras = member(primitive, "extras");
+    const Json* announced = extras ? member(*extras, "channels") : nullptr;
+    const Json* no_value = extras ? member(*extras, "noValue") : nullptr;
+    const bool by_colors = channels.empty() && announced && (*announced == 1 || *announced == 3) &&
+                           mesh.colors.size() == mesh.positions.size();
+    const std::size_t width = by_colors ? announced->get<std::size_t>() : channels.size();
+    if (width == 0) return true;
+    if (mesh.channel_count == 0 && mesh.channels.empty()) mesh.channel_count = static_cast<int>(width);
+    if (static_cast<std::size_t>(mesh.channel_count) != width) {
+      mesh.channel_count = -1;  // parts that differ
+      return true;
+    }
+    if (mesh.channels.size() + width * count > most_numbers()) return refuse("it repeats its meshes too often");
+    const double gap =
+        no_value && no_value->is_number() ? no_value->get<double>() : std::numeric_limits<double>::quiet_NaN();
+    for (std::uint64_t v = 0; v < count; ++v) {
+      for (std::size_t c = 0; c < width; ++c) {
+        const double value =
+            by_colors ? mesh.colors[mesh.colors.size() - 3 * (count - v) + c] : load_component(channels[c], v, 0);
+        mesh.channels.push_back(value == gap ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(value));
+      }
+    }
+    return true;
+  }
+
+  bool append_triangles(const Json& primitive, std::uint64_t vertices, std::uint32_t first, bool mirrored) {
+    Items indices;
+    std::uint64_t accessor = 0, corners = vertices;
+    const bool indexed = member(primitive, "indices") != nullptr;
+    if (indexed) {
+      if (!read_count(primitive, "indices", 0, accessor) || !find_items(accessor, "SCALAR", indices)) return false;
+      if (indices.component_type == kFloat)
+        return refuse(fmt::format("its accessor {} of indices is not integer", accessor));
+      corners = indices.count;
+    }
+    if (corners % 3 != 0) return refuse(fmt::format("its triangles have {} corners, no multiple of 3", corners));
+    if (corners > most_corners()) return refuse("it repeats its meshes too often");
+    const std::size_t start = mesh.triangles.size();
+    for (std::uint64_t i = 0; i < corners; ++i) {
+      const std::uint64_t vertex = indexed ? load_index(indices, i) : i;
+      if (vertex >= vertices) {
+        return refuse(fmt::format("index {} of accessor {} names vertex {} of {}", i, accessor, vertex, vertices));
+      }
+      mesh.triangles.push_back(first + static_cast<std::uint32_t>(vertex));
+    }
+    for (std::size_t i = start; mirrored && i < mesh.triangles.size(); i += 3) {
+      std::swap(mesh.triangles[i + 1], mesh.triangles[i + 2]);
+    }
+    return true;
+  }
+
+  std::uint64_t most_numbers() const { return std::max<std::uint64_t>(std::uint64_t{1} << 26, 16 * bytes_.size()); }
+  std::uint64_t most_corners() const {
+    return most_numbers() - std::min<std::uint64_t>(most_numbers(), mesh.triangles.size());
+  }
+
+  static std::uint64_t load_index(const Items& items, std::uint64_t i) {
+    const std::uint8_t* at = items.data + i * items.stride;
+    if (items.component_type == kUint8) return *at;
+    return items.component_type == kUint16 ? load_number<std::uint16_t>(at) : load_number<std::uint32_t>(at);
+  }
+
+  bool find_items(std::uint64_t index, std::string_view type, Items& items) {
+    const Json* accessor = item("accessors", index);
+    if (!accessor) return false;
+    const auto broken = [&](std::string_view what) { return refuse(fmt::format("its accessor {} {}", index, what)); };
+    if (member(*accessor, "sparse")) return broken("is sparse, which is not supported");
+    if (!member(*accessor, "bufferView")) return broken("has no buffer view");
+    const Json* given_type = member(*accessor, "type");
+    if (!given_type || !given_type->is_string() || given_type->get_ref<const std::string&>() != type) {
+      return broken(fmt::format("is not of type {}", type));
+    }
+    std::uint64_t component_type = 0, offset = 0, view_index = 0;
+    if (!read_count(*accessor, "componentType", 0, component_type) || !read_count(*accessor, "count", 0, items.count) ||
+        !read_count(*accessor, "byteOffset", 0, offset) || !read_count(*accessor, "bufferView", 0, view_index)) {
+      return false;
+    }
+    std::uint64_t size = 0;
+    if (component_type == kUint8) size = 1;
+    if (component_type == kUint16) size = 2;
+    if (component_type == kUint32 || component_type == kFloat) size = 4;
+    if (size == 0) return broken(fmt::format("has component type {}, which is not supported here", component_type));
+    items.component_type = static_cast<int>(component_type);
+    size *= type == "SCALAR" ? 1 : static_cast<std::uint64_t>(type.back() - '0');
+
+    const Json* view = item("bufferViews", view_index);
+    if (!view) return false;
+    std::uint64_t buffer = 0, start = 0, length = 0;
+    if (!read_count(*view, "buffer", 0, buffer) || !read_count(*view, "byteOffset", 0, start) ||
+        !read_count(*view, "byteLength", 0, length) || !read_count(*view, "byteStride", size, items.stride)) {
+      return false;
+    }
+    const Json* buffer_json = item("buffers", buffer);
+    if (!buffer_json) return false;
+    if (buffer != 0 || member(*buffer_json, "uri")) return broken("keeps its data outside of the file's binary chunk");
+    if (start > binary_.size() || length > binary_.size() - start) {
+      return refuse(fmt::format("its buffer view {} reaches beyond the binary chunk", view_index));
+    }
+    if (items.stride < size || items.stride > 252 + size) return broken("has an impossible stride");
+    if (items.count == 0) return broken("is empty");
+    if (offset > length || length - offset < size || items.count - 1 > (length - offset - size) / items.stride) {
+      return broken("reaches beyond its buffer view");
+    }
+    items.data = binary_.data() + start + offset;
+    return true;
+  }
+
+  std::span<const std::uint8_t> bytes_, binary_;
+  Json json_;
+  std::vector<bool> seen_;
+};
+
+}  // namespace
+
+Result<Mesh> decode_glb(std::span<const std::uint8_t> bytes) {
+  GlbReader reader(bytes);
+  if (!reader.read()) return fail(ErrorKind::kInput, std::move(reader.complaint));
+  return std::move(reader.mesh);
+}
+
+}  // namespace scarp

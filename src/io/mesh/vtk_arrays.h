@@ -1,0 +1,65 @@
+// The arrays of VTK's XML files: as text, as base64 or as raw bytes behind the XML; not compressed.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/mesh/file_bytes.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+enum class VtkType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kInt64, kUint64, kFloat32, kFloat64 };
+
+/// "Float64", "UInt8" …; nothing if VTK has no such type of numbers.
+std::optional<VtkType> find_vtk_type(std::string_view name);
+
+/// What the root element says of all arrays, and where those behind the XML begin.
+struct VtkFile {
+  std::endian order = std::endian::little;
+  bool wide_lengths = false;               ///< 64 bits instead of 32 before each array
+  std::span<const std::uint8_t> appended;  ///< from behind the mark '_'; in base64 where `is_base64`
+  bool is_base64 = false;
+};
+
+/// A DataArray element.
+struct VtkArray {
+  enum class Format { kText, kBase64, kAppended };
+  VtkType type = VtkType::kFloat64;
+  Format format = Format::kText;
+  std::uint64_t offset = 0;  ///< from the mark, of a kAppended
+  std::string content;       ///< of the others
+};
+
+/// Its numbers, wherever they stand.
+class VtkNumbers {
+ public:
+  VtkNumbers() = default;
+  VtkNumbers(VtkNumbers&&) = default;  // a copy's bytes would be the original's
+  VtkNumbers& operator=(VtkNumbers&&) = default;
+
+  std::size_t size() const { return bytes_.size() / width_; }
+  bool is_float() const { return type_ == VtkType::kFloat32 || type_ == VtkType::kFloat64; }
+  std::size_t bytes() const { return bytes_.size(); }
+  double real(std::size_t i) const;
+  /// Whole numbers beyond 63 bits and all that is no whole number become −1.
+  std::int64_t whole(std::size_t i) const;
+
+ private:
+  friend Result<VtkNumbers> read_vtk_array(const VtkFile& file, const VtkArray& array);
+  VtkType type_ = VtkType::kFloat64;
+  std::size_t width_ = 8;
+  std::endian order_ = std::endian::little;
+  std::vector<std::uint8_t> owned_;
+  std::span<const std::uint8_t> bytes_;
+};
+
+/// Fails with kInput and half a sentence ("is cut off", …) where the array is damaged. REQUIRES: the file outlives it.
+Result<VtkNumbers> read_vtk_array(const VtkFile& file, const VtkArray& array);
+
+}  // namespace scarp

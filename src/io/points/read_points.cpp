@@ -1,0 +1,75 @@
+// One door for all points: the name's end, else the first bytes, say whose reader a file goes to.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "base/caught.h"
+#include "io/mesh/mesh_file_text.h"
+#include "io/points/point_source.h"
+#include "scarp/io.h"
+
+namespace scarp {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The end of the name from its last dot on, in small letters.
+std::string extension_of(const std::string& path) { return lowered(fs::path(path).extension().string()); }
+
+template <std::size_t N>
+bool is_one_of(const std::string& extension, const std::array<std::string_view, N>& list) {
+  return std::find(list.begin(), list.end(), extension) != list.end();
+}
+
+std::vector<std::uint8_t> read_head(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 4096> bytes{};
+  file.read(bytes.data(), bytes.size());
+  return {bytes.begin(), bytes.begin() + file.gcount()};
+}
+
+bool is_text_of_columns(const std::string& path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (!fs::exists(status) || fs::is_directory(status)) return false;
+  if (!fs::is_regular_file(status)) return true;  // a pipe cannot be looked into and then read by another
+  constexpr std::array<std::string_view, 5> kText{".csv", ".tsv", ".txt", ".xyz", ".dat"};
+  return is_one_of(extension_of(path), kText) || looks_like_columns(read_head(path));
+}
+
+/// An ESRI or a Surfer ASCII grid.
+bool begins_as_grid(const std::string& path) {
+  std::string word;
+  for (const std::uint8_t c : read_head(path)) {
+    if (std::isspace(c) != 0 && word.empty()) continue;
+    if (std::isalpha(c) == 0) break;
+    word += static_cast<char>(std::tolower(c));
+  }
+  return word == "ncols" || word == "nrows" || word == "dsaa";
+}
+
+}  // namespace
+
+bool is_point_file(const std::string& path) {
+  constexpr std::array<std::string_view, 10> kPoints{".csv", ".tsv", ".xyz", ".geojson", ".geojsonl",
+                                                     ".shp", ".fgb", ".gml", ".kml",     ".parquet"};
+  const std::string extension = extension_of(path);
+  if (extension == ".txt" || extension == ".dat") return !begins_as_grid(path);
+  return is_one_of(extension, kPoints) || (extension == ".gpkg" && !opens_as_raster(path));
+}
+
+Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options) try {
+  if (!is_text_of_columns(path)) return read_gdal_points(path, options);
+  const auto bytes = read_file(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return decode_columns(*bytes, path, options);
+} catch (...) {
+  return caught(ErrorKind::kInput, "read " + path);
+}
+
+}  // namespace scarp

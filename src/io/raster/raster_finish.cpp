@@ -1,0 +1,104 @@
+#include "io/raster/raster_finish.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+
+namespace scarp {
+
+std::string format_memory(double bytes) {
+  constexpr const char* kUnits[] = {"KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
+  double value = bytes / 1024;
+  std::size_t unit = 0;
+  while (value >= 1024 && unit + 1 < std::size(kUnits)) {
+    value /= 1024;
+    ++unit;
+  }
+  return fmt::format("{:.1f} {}", value, kUnits[unit]);
+}
+
+Result<void> check_raster_sides(const std::string& name, std::uint64_t cols, std::uint64_t rows) {
+  constexpr std::uint64_t kLargestSide = 0x7fffffff;
+  if (cols < 2 || rows < 2) {
+    return fail(
+        ErrorKind::kInput,
+        fmt::format("{}: {} x {} samples are no surface: a height field needs at least 2 x 2", name, cols, rows));
+  }
+  if (cols > kLargestSide || rows > kLargestSide) {
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: {} x {} samples: a side may have at most {}", name, cols, rows, kLargestSide));
+  }
+  return {};
+}
+
+Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std::uint64_t rows,
+                               const ReadOptions& options, std::uint64_t bands) {
+  if (auto checked = check_raster_sides(name, cols, rows); !checked) return checked;
+  const std::uint64_t limit = max_samples(options.memory_limit);
+  if (cols * rows > limit / bands) {
+    return fail(
+        ErrorKind::kInput,
+        fmt::format("{}: {} x {} samples{} need {} of memory, but only {} {}; read a part of it (gdal_translate "
+                    "-srcwin) or a coarser copy (gdal_translate -outsize 50% 50%)",
+                    name, cols, rows, bands > 1 ? fmt::format(" of {} bands", bands) : "",
+                    format_memory(5.0 * static_cast<double>(cols * rows) * static_cast<double>(bands)),
+                    format_memory(5.0 * static_cast<double>(limit)),
+                    options.memory_limit != 0 ? "are allowed" : "are available"));
+  }
+  return {};
+}
+
+Result<void> allocate_samples(const std::string& name, OwnedHeightField& field) {
+  const auto count = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
+  try {
+    field.samples.resize(count);
+  } catch (const std::exception&) {
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: the machine refuses the {} of memory that {} x {} samples need", name,
+                            format_memory(4.0 * static_cast<double>(count)), field.cols, field.rows));
+  }
+  return {};
+}
+
+Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities) {
+  const HeightRange range = height_range(field);
+  field.info.valid = range.valid;
+  field.info.min = range.min;
+  field.info.max = range.max;
+  return finish_info(field, infinities);
+}
+
+Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities) {
+  if (infinities > 0) {
+    field.info.warnings.push_back(fmt::format("{} {} infinite or too large for a height and taken as nodata",
+                                              infinities, infinities == 1 ? "sample is" : "samples are"));
+  }
+  if (field.info.valid == 0) {
+    return fail(ErrorKind::kInput, fmt::format("{}: none of its {} x {} samples is a height: all are nodata",
+                                               field.info.path, field.cols, field.rows));
+  }
+  return {};
+}
+
+Result<Frame> ungeoreferenced_frame(const std::string& name, int rows, const std::string& crs) {
+  if (crs.empty() || crs == "grid") return grid_frame(rows);
+  return fail(
+      ErrorKind::kUsage,
+      fmt::format("{} has no georeference, so its coordinates cannot be given in '{}': ask for 'grid', or give the "
+                  "raster a CRS and a position first (gdal_translate -a_srs -a_ullr)",
+                  name, crs));
+}
+
+Result<Frame> bare_grid_frame(const std::string& name, const char* kind, int rows, const ReadOptions& options) {
+  auto frame = ungeoreferenced_frame(name, rows, options.crs);
+  if (!frame) return frame;
+  if (options.band != 1)
+    return fail(ErrorKind::kInput, fmt::format("{} has 1 band; there is no band {}", name, options.band));
+  if (options.decode != Decode::kNone) {
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: heights packed into colours need 3 or 4 bands of bytes; {} has one band", name, kind));
+  }
+  return frame;
+}
+
+}  // namespace scarp

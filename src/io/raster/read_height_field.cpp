@@ -1,0 +1,88 @@
+// One door for all rasters: the file's first bytes say whose reader it goes to.
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "base/caught.h"
+#include "io/raster/pgm.h"
+#include "io/raster/raster_finish.h"
+#include "io/raster/raster_source.h"
+#include "io/raster/stm.h"
+
+namespace scarp {
+namespace {
+
+enum class Reader { kPgm, kStm, kGdal };
+
+/// Names that are no local file, devices and pipes go to GDAL unopened.
+Reader find_reader(const std::string& path, std::vector<std::uint8_t>& head) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return Reader::kGdal;
+  std::ifstream file(path, std::ios::binary);
+  std::array<char, 4096> bytes{};
+  file.read(bytes.data(), bytes.size());
+  head.assign(bytes.begin(), bytes.begin() + file.gcount());
+  if (is_pgm(head)) return Reader::kPgm;
+  if (is_stm(head)) return Reader::kStm;
+  return Reader::kGdal;
+}
+
+/// kInput if the file and its samples as floats, read as a whole, need more than the limit.
+Result<void> check_whole_file(const std::string& path, const ReadOptions& options) {
+  std::error_code ignored;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
+  if (ignored || options.memory_limit == 0 || bytes <= options.memory_limit / 3) return {};
+  return fail(ErrorKind::kInput,
+              fmt::format("{}: PGM and STM are read as a whole, which needs {} of memory, but only {} are allowed for "
+                          "samples: allow more, or convert it to a format that is read by windows, such as GeoTIFF",
+                          path, format_memory(3 * static_cast<double>(bytes)),
+                          format_memory(static_cast<double>(options.memory_limit))));
+}
+
+}  // namespace
+
+Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOptions& options) try {
+  std::vector<std::uint8_t> head;
+  if (find_reader(path, head) == Reader::kGdal) return open_gdal_raster(path, options);
+  if (auto fits = check_whole_file(path, options); !fits) return tl::unexpected(fits.error());
+  ReadOptions whole = options;
+  whole.memory_limit = 0;
+  return read_height_field(path, whole);
+} catch (...) {
+  return caught(ErrorKind::kInput, "read " + path);
+}
+
+Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options) try {
+  std::vector<std::uint8_t> head;
+  const Reader reader = find_reader(path, head);
+  if (reader == Reader::kGdal) return read_gdal_raster(path, options);
+  auto bytes = read_file(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return reader == Reader::kPgm ? decode_pgm(*bytes, path, options) : decode_stm(*bytes, path, options);
+} catch (...) {
+  return caught(ErrorKind::kInput, "read " + path);
+}
+
+Result<OwnedChannels> read_channels(const std::string& path, const ReadOptions& options, bool all_bands) try {
+  std::vector<std::uint8_t> head;
+  if (find_reader(path, head) == Reader::kGdal) return read_gdal_channels(path, options, all_bands);
+  ReadOptions one_band = options;
+  if (all_bands) one_band.band = 1;
+  auto field = read_height_field(path, one_band);
+  if (!field) return tl::unexpected(field.error());
+  OwnedChannels channels;
+  channels.cols = field->cols;
+  channels.rows = field->rows;
+  channels.is_8bit = field->info.sample_type == "Byte";
+  channels.bands.push_back(std::move(field->samples));
+  channels.frame = std::move(field->frame);
+  channels.info = std::move(field->info);
+  return channels;
+} catch (...) {
+  return caught(ErrorKind::kInput, "read " + path);
+}
+
+}  // namespace scarp

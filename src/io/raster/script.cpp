@@ -1,0 +1,89 @@
+// Scripts: one step a line.
+#include "io/raster/script.h"
+
+#include <fmt/format.h>
+
+#include <unordered_map>
+#include <utility>
+
+#include "base/caught.h"
+#include "io/mesh/mesh_file_text.h"
+
+namespace scarp {
+namespace {
+
+/// The complaint about the line at which the cursor stands; empty if there is none. Leaves the cursor within the line.
+std::string read_line(TextCursor& cursor, int cols, int rows, std::vector<ScriptStep>& steps) {
+  const auto next = [&] {
+    const std::string_view word = cursor.word();
+    return word.starts_with('#') ? std::string_view() : word;
+  };
+  const std::string_view action = next();
+  if (action.empty()) return {};
+  if (action != "s" && action != "i" && action != "u") {
+    return fmt::format("{} is none of s (insert), i (ignore) and u (unknown)", quoted(action));
+  }
+  std::int64_t place[2] = {};
+  for (std::int64_t& number : place) {
+    const std::string_view word = next();
+    if (word.empty()) return fmt::format("'{}' needs a column and a row", action);
+    if (!parse_integer(word, number)) return fmt::format("{} is no whole number", quoted(word));
+  }
+  if (const std::string_view more = next(); !more.empty()) {
+    return fmt::format("{} stands behind the column and the row", quoted(more));
+  }
+  if (place[0] < 0 || place[0] >= cols || place[1] < 0 || place[1] >= rows) {
+    return fmt::format("({}, {}) lies outside of the raster, whose columns are 0 to {} and rows 0 to {}", place[0],
+                       place[1], cols - 1, rows - 1);
+  }
+  steps.push_back({action == "s" ? ScriptStep::Action::kInsert : ScriptStep::Action::kIgnore,
+                   static_cast<std::int32_t>(place[0]), static_cast<std::int32_t>(place[1])});
+  return {};
+}
+
+/// What the lines so far say of each sample.
+class Said {
+ public:
+  /// The complaint if an earlier line says the opposite; empty if none does.
+  std::string add(const ScriptStep& step, std::size_t line) {
+    const auto key = (static_cast<std::uint64_t>(step.row) << 32) | static_cast<std::uint32_t>(step.col);
+    const auto [found, is_new] = samples_.try_emplace(key, step.action, line);
+    const auto& [action, earlier] = found->second;
+    if (is_new || action == step.action) return {};
+    const bool inserts = step.action == ScriptStep::Action::kInsert;
+    return fmt::format("sample ({}, {}) is {}, but line {} {} it: remove one of the two", step.col, step.row,
+                       inserts ? "inserted" : "ignored", earlier, inserts ? "ignores" : "inserts");
+  }
+
+ private:
+  std::unordered_map<std::uint64_t, std::pair<ScriptStep::Action, std::size_t>> samples_;
+};
+
+}  // namespace
+
+Result<std::vector<ScriptStep>> decode_script(std::span<const std::uint8_t> bytes, const std::string& name, int cols,
+                                              int rows) {
+  TextCursor cursor(bytes);
+  std::vector<ScriptStep> steps;
+  Said said;
+  while (!cursor.at_end()) {
+    const std::size_t line = cursor.line(), before = steps.size();
+    std::string why = read_line(cursor, cols, rows, steps);
+    if (steps.size() > before) why = said.add(steps.back(), line);
+    if (!why.empty()) {
+      return fail(ErrorKind::kInput, fmt::format("{}: line {}: {}", name, line, why));
+    }
+    cursor.rest_of_line();
+  }
+  return steps;
+}
+
+Result<std::vector<ScriptStep>> read_script(const std::string& path, int cols, int rows) try {
+  auto bytes = read_file(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return decode_script(*bytes, path, cols, rows);
+} catch (...) {
+  return caught(ErrorKind::kInput, "read " + path);
+}
+
+}  // namespace scarp

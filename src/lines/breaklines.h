@@ -1,0 +1,89 @@
+// Lines of a map on the lattice of a raster: arranged with the outline of its surface, with heights.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geom/arrangement.h"
+#include "geom/segments.h"
+#include "grid/affine_map.h"
+#include "grid/outline.h"
+#include "grid/raster.h"
+#include "grid/sample_rows.h"
+#include "grid/vertex_places.h"
+#include "lines/line_samples.h"
+#include "scarp/height_field.h"
+#include "scarp/lines.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+struct Breaklines {
+  /// Vertices, in raster order, in kLatticeSteps of a sample: those of lines within the raster's rectangle and of its
+  /// outline.
+  std::vector<Point> points;
+  /// Of each point: that of the hard lines that pass, else the raster's. The raster is bilinear in a cell of four
+  /// heights, the plane of three in one of three, and else the mean of the corners that are heights, weighted as in the
+  /// bilinear; NaN where none with a weight is. On a sample it is the sample.
+  std::vector<float> heights;
+  std::vector<bool> is_hard;  ///< of each point: its height is that of lines
+  std::vector<Arrangement::Edge> edges;
+  std::vector<bool> is_held;  ///< of each edge: more than starts run there; EMPTY: there are none
+
+  std::uint64_t outside = 0;  ///< lines of which nothing is left
+
+  /// A line, or a part of it within the rectangle: points[passed[begin]], …, points[passed[end − 1]].
+  struct Chain {
+    std::uint32_t line;  ///< of the lines given
+    std::uint32_t begin, end;
+  };
+  std::vector<Chain> chains;  ///< in the order of the lines and along each; where they were asked for
+  std::vector<std::uint32_t> passed;
+
+  std::span<const std::uint32_t> points_of(const Chain& chain) const {
+    return std::span(passed).subspan(chain.begin, chain.end - chain.begin);
+  }
+};
+
+/// A line that was found in the raster, and is laid before refinement.
+bool is_laid_first(const Line& line);
+
+/// Places lines on the lattice of a raster: a vertex of a line moves by half a step, 1/512 sample, at most, what runs
+/// between its vertices by one and a half. `affine` takes samples to the coordinates of the lines, as
+/// Frame::affine does; `outline` is trace_outline()'s, not simplified. Outline and rectangle are the rigid edges.
+///
+/// Along a hard line heights run from vertex to vertex; between a vertex with a height and one without the line is
+/// soft. Two hard lines meet in peace if their heights differ by no more than what they, or the raster in that cell,
+/// climb within two steps each, and the rounding of float32: so far the lattice moves them. Then the line given first
+/// has its way, as it does in kFirst.
+///
+/// Fails with kInput where hard lines disagree (kError: names both and the place in map coordinates) and for
+/// coordinates that are too large for the raster to mean anything; with kUsage for a raster of more than 2^30 /
+/// kLatticeSteps samples a side. REQUIRES: lines as read_lines() gives them; the affine map can be inverted. Cost: as
+/// arrange(), and a look at each point of each hard line (with chains: of each line), which n that overlap make n²/2.
+Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
+                                    const Raster& raster, const Outline& outline,
+                                    LineConflict conflict = LineConflict::kError, bool with_chains = false);
+
+/// The same with samples that need but lie near lines. `rigid`: beside the rectangle, in kLatticeSteps: the outline, as
+/// far as lines pass, and whatever else they are to be cut at.
+Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
+                                    const LineSamples& samples, std::span<const Segment> rigid, LineConflict conflict,
+                                    bool with_chains);
+
+/// Where lines run in the raster and a sample around it, in kLatticeSteps. Fails with kInput for coordinates that are
+/// too large.
+Result<std::vector<Segment>> find_courses(std::span<const Line> lines, const std::array<double, 6>& affine,
+                                          std::int32_t cols, std::int32_t rows);
+
+/// The surface of `heights` above, at a point in kLatticeSteps of a sample within the raster.
+double height_between_samples(const SampleView& heights, Point place);
+
+/// The same at the lattice place next to this one; NaN beyond the raster.
+double surface_at(const Raster& raster, SamplePlace place);
+double surface_at(const LineSamples& samples, SamplePlace place);
+
+}  // namespace scarp

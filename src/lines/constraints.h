@@ -1,0 +1,62 @@
+// Lines that a mesh must hold: laid into the triangulation after refinement, which then goes on around them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "grid/raster.h"
+#include "grid/vertex_places.h"
+#include "lines/cut_away.h"
+#include "metric/lattice_judge.h"
+#include "scarp/result.h"
+#include "tin/triangulation.h"
+
+namespace scarp {
+
+/// Vertices, and edges between them that have nothing but ends in common and hold no vertex in their interior.
+struct ConstraintGraph {
+  std::vector<Point> points;                        ///< in kLatticeSteps, in the raster, each once
+  std::vector<float> heights;                       ///< of the points; what a sample has counts before it
+  std::vector<std::array<std::uint32_t, 2>> edges;  ///< indices of points
+  std::vector<std::uint8_t> is_shared;  ///< by point: 1 where it is laid beside the domain too; EMPTY: none is
+  std::vector<std::uint8_t> is_start;   ///< by edge: 1 where the mesh need not hold it in the end; EMPTY: all stay
+  bool is_laid_first = false;           ///< before the surface is refined
+  std::optional<SurfaceCut> cut;        ///< nothing: all of the surface stays
+};
+
+/// The workbench with lines in it.
+class ConstrainedMesh {
+ public:
+  /// Turns the points of `tin` from samples into kLatticeSteps, and makes the graph's edges chains of its edges,
+  /// constrained; then what is cut away is marked outside. Points outside the domain, but for shared ones, are left out
+  /// with their edges. `tin` and the raster stay alive; nobody else changes them. Fails with kInternal where an edge
+  /// crosses one that is constrained. REQUIRES: sides of at most kMaxCoordinate / kLatticeSteps samples; edges cross no
+  /// constrained edge of `tin` but in points of the graph.
+  static Result<ConstrainedMesh> lay(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph);
+
+  /// Whether a cut, if there is one, has left some surface.
+  bool has_surface() const { return has_surface_; }
+  /// Triangles that are others than before, ascending.
+  const std::vector<Triangle>& changed() const { return changed_; }
+  /// Gives edges free that are but a start, and vertices that no other edge of the graph has.
+  void release_starts(Triangulation& tin);
+
+  const PlaceHeights& heights() const { return heights_; }
+  /// Of all vertices that `tin` has by now: heights, and which of them belong to the graph and are not released. With
+  /// several threads the samples are those of a raster, not of rows.
+  VertexPlaces places(int threads = 1) const;
+
+ private:
+  ConstrainedMesh(const Raster& raster, const Triangulation& tin) : tin_(&tin), heights_(raster) {}
+
+  const Triangulation* tin_;
+  PlaceHeights heights_;
+  std::vector<Vertex> fixed_, starts_;  // of starts only, the latter
+  std::vector<std::array<Vertex, 2>> start_edges_;
+  std::vector<Triangle> changed_;
+  bool has_surface_ = true;
+};
+
+}  // namespace scarp

@@ -1,0 +1,144 @@
+#include "lines/cut_away.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/int128.h"
+#include "grid/vertex_places.h"
+
+namespace scarp {
+
+namespace {
+
+class CutAway {
+ public:
+  CutAway(Triangulation& tin, const SurfaceCut& cut)
+      : tin_(tin), cut_(cut), walls_(3 * tin.triangle_count(), Wall::kNo) {
+    first_.assign(tin.vertex_count(), kNone);
+    for (HalfEdge h = 0; h < walls_.size(); ++h) first_[tin.origin(h)] = h;
+  }
+
+  /// Along the edges from a to b, which lie on one line.
+  void add_wall(Vertex a, Vertex b) {
+    for (Vertex v = a; v != b;) {
+      const HalfEdge h = edge_towards(v, tin_.point(b));
+      mark(h, v);
+      v = tin_.origin(h) == v ? tin_.origin(Triangulation::next(h)) : tin_.origin(h);
+    }
+  }
+
+  /// True if something stays.
+  bool run() {
+    std::vector<bool> is_seen(tin_.triangle_count(), false);
+    bool any = false;
+    for (Triangle t = 0; t < tin_.triangle_count(); ++t) {
+      if (is_seen[t] || tin_.is_outside(t)) continue;
+      collect_part(t, is_seen);
+      if (stays()) {
+        any = true;
+        continue;
+      }
+      for (const Triangle gone : part_) tin_.set_outside(gone, true);
+    }
+    return any;
+  }
+
+ private:
+  /// Of a half-edge: whether it is part of a wall, and if so whether its triangle stays.
+  enum class Wall : std::uint8_t { kNo, kBeyond, kWithin };
+
+  void mark(HalfEdge h, Vertex from) {
+    const bool runs_on = tin_.origin(h) == from;
+    walls_[h] = runs_on ? Wall::kWithin : Wall::kBeyond;
+    if (tin_.twin(h) != kNone) walls_[tin_.twin(h)] = runs_on ? Wall::kBeyond : Wall::kWithin;
+  }
+
+  bool leads_towards(Vertex v, Vertex other, Point target) const {
+    const Point p = tin_.point(v), q = tin_.point(other);
+    if (orient(p, target, q) != 0) return false;
+    return std::int64_t{target.x - p.x} * (q.x - p.x) + std::int64_t{target.y - p.y} * (q.y - p.y) > 0;
+  }
+
+  /// The edge at v that runs towards the target: from v, or to it where nothing lies on its other side.
+  HalfEdge edge_towards(Vertex v, Point target) const {
+    const HalfEdge first = first_[v];
+    HalfEdge h = first;
+    do {
+      if (leads_towards(v, tin_.origin(Triangulation::next(h)), target)) return h;
+      const HalfEdge before = Triangulation::previous(h);
+      if (tin_.twin(before) == kNone && leads_towards(v, tin_.origin(before), target)) return before;
+      h = tin_.twin(before);
+    } while (h != kNone && h != first);
+    for (h = tin_.twin(first); h != kNone; h = tin_.twin(Triangulation::next(h))) {
+      const HalfEdge out = Triangulation::next(h);
+      if (leads_towards(v, tin_.origin(Triangulation::next(out)), target)) return out;
+    }
+    return kNone;
+  }
+
+  /// Triangles of the domain that no wall parts from t.
+  void collect_part(Triangle t, std::vector<bool>& is_seen) {
+    part_.assign(1, t);
+    is_seen[t] = true;
+    verdict_ = Wall::kNo;
+    for (std::size_t i = 0; i < part_.size(); ++i) {
+      for (HalfEdge h = 3 * part_[i]; h < 3 * part_[i] + 3; ++h) {
+        if (walls_[h] != Wall::kNo) {
+          verdict_ = walls_[h];
+          continue;
+        }
+        const HalfEdge g = tin_.twin(h);
+        if (g == kNone || is_seen[g / 3] || tin_.is_outside(g / 3)) continue;
+        is_seen[g / 3] = true;
+        part_.push_back(g / 3);
+      }
+    }
+  }
+
+  /// Of the part: what its walls say; else what a sample of it says that is on no wall; else what one triangle says.
+  bool stays() const {
+    if (verdict_ != Wall::kNo) return verdict_ == Wall::kWithin;
+    for (const Triangle t : part_) {
+      for (const Point p : tin_.corners(t)) {
+        if (p.x % kLatticeSteps != 0 || p.y % kLatticeSteps != 0) continue;
+        const CutSide side = cut_.rows->side({p.x / kLatticeSteps, cut_.first + p.y / kLatticeSteps});
+        if (side != CutSide::kOnWall) return side == CutSide::kWithin;
+      }
+    }
+    return holds_centre(part_.front());
+  }
+
+  /// By the parity of the outline to the left of the triangle's centre.
+  bool holds_centre(Triangle t) const {
+    const auto [a, b, c] = tin_.corners(t);
+    const Int128 x = Int128{a.x} + b.x + c.x, y = Int128{a.y} + b.y + c.y;
+    bool is_within = false;
+    for (auto [p, q] : cut_.outline) {
+      if (p.y > q.y) std::swap(p, q);
+      if (Int128{3} * p.y > y || Int128{3} * q.y <= y) continue;
+      // Left of the centre: the centre is on the negative side of an edge that runs down the rows.
+      const Int128 side = (Int128{q.x} - p.x) * (y - Int128{3} * p.y) - (Int128{q.y} - p.y) * (x - Int128{3} * p.x);
+      is_within = is_within != (side < 0);
+    }
+    return is_within;
+  }
+
+  Triangulation& tin_;
+  const SurfaceCut& cut_;
+  std::vector<Wall> walls_;      // by half-edge
+  std::vector<HalfEdge> first_;  // by vertex, one that starts there
+  std::vector<Triangle> part_;
+  Wall verdict_ = Wall::kNo;  // of a wall of the part
+};
+
+}  // namespace
+
+bool cut_away(Triangulation& tin, const SurfaceCut& cut, std::span<const Vertex> vertices) {
+  CutAway away(tin, cut);
+  for (const auto& [a, b] : cut.walls) {
+    if (vertices[a] != kNone && vertices[b] != kNone) away.add_wall(vertices[a], vertices[b]);
+  }
+  return away.run();
+}
+
+}  // namespace scarp

@@ -1,0 +1,414 @@
+#include "lines/field_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "base/parallel.h"
+#include "geom/polygon_cover.h"
+#include "grid/affine_map.h"
+#include "grid/line_places.h"
+#include "grid/samples.h"
+#include "lines/breaklines.h"
+#include "lines/field_cut.h"
+#include "lines/profile.h"
+#include "scarp/cliffs.h"
+#include "scarp/edits.h"
+
+namespace scarp {
+
+namespace {
+
+/// Gives a soft line the vertices that it needs to follow the raster. Those of a cutline's ring lie a sample apart
+/// where they may, and on samples where the ring passes some: triangles at edges much shorter than themselves are
+/// slivers.
+class SoftLine {
+ public:
+  SoftLine(const LineSamples& samples, const std::array<double, 6>& affine, double tolerance)
+      : samples_(samples), affine_(affine), to_samples_(affine), tolerance_(tolerance) {}
+
+  /// `is_cut`: a ring that was clipped, and the sides of the raster, along which it may run, are followed by others.
+  Line follow(const Line& line, bool is_cut = false) const {
+    Line result = line;
+    result.points.clear();
+    std::vector<double> heights;
+    for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
+      result.points.push_back(line.points[k]);
+      if (is_cut && is_along_side(line.points[k], line.points[k + 1])) continue;
+      if (std::isnan(line.points[k][2]) || std::isnan(line.points[k + 1][2]))
+        add_between(line.points[k], line.points[k + 1], is_cut, heights, result.points);
+    }
+    result.points.push_back(line.points.back());
+    return result;
+  }
+
+ private:
+  using Place = std::array<double, 3>;
+  static constexpr std::size_t kLooksASample = 2;
+
+  static Place between(const Place& a, const Place& b, double share) {
+    return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]), std::numeric_limits<double>::quiet_NaN()};
+  }
+  /// Column and row.
+  std::array<double, 2> sample_of(const Place& place) const {
+    const auto [col, row] = to_samples_.place(place[0], place[1]);
+    return {col, row};
+  }
+  /// Whether both are on the same side of the raster's rectangle, up to rounding.
+  bool is_along_side(const Place& a, const Place& b) const {
+    const auto p = sample_of(a), q = sample_of(b);
+    const std::array<double, 2> last{samples_.cols() - 1.0, samples_.rows() - 1.0};
+    for (const std::size_t axis : {0, 1}) {
+      for (const double side : {0.0, last[axis]}) {
+        if (std::max(std::abs(p[axis] - side), std::abs(q[axis] - side)) < 0.5 / kLatticeSteps) return true;
+      }
+    }
+    return false;
+  }
+  /// The nearest sample where it lies on the line from one place to the other, else the place itself.
+  Place on_sample(const Place& place, const Place& from, const Place& to) const {
+    const auto p = sample_of(from), q = sample_of(to), at = sample_of(place);
+    const double col = std::round(at[0]), row = std::round(at[1]), dx = q[0] - p[0], dy = q[1] - p[1];
+    const double beside = (col - p[0]) * dy - (row - p[1]) * dx, along = (col - p[0]) * dx + (row - p[1]) * dy;
+    const double length = std::hypot(dx, dy);
+    if (std::abs(beside) >= 0.5 / kLatticeSteps * length || !(along > 0 && along < length * length)) return place;
+    return {affine_[0] + affine_[1] * col + affine_[2] * row, affine_[3] + affine_[4] * col + affine_[5] * row,
+            std::numeric_limits<double>::quiet_NaN()};
+  }
+  /// The raster's surface there; NaN beyond it.
+  double height_at(const Place& place) const {
+    const auto [col, row] = sample_of(place);
+    return surface_at(samples_, {col, row});
+  }
+
+  /// Bends where the surface asks for it. Two looks a sample, whose heights are left in `heights`.
+  void add_between(const Place& from, const Place& to, bool is_cut, std::vector<double>& heights,
+                   std::vector<Place>& points) const {
+    const SamplePlace way = to_samples_.way(to[0] - from[0], to[1] - from[1]);
+    const double length = std::hypot(way.col, way.row);
+    constexpr double kMostLooks = 1 << 20;
+    const auto looks =
+        static_cast<std::size_t>(std::min(std::ceil(static_cast<double>(kLooksASample) * length), kMostLooks));
+    if (looks < 2) return;
+    heights.clear();
+    for (std::size_t i = 0; i <= looks; ++i)
+      heights.push_back(height_at(between(from, to, static_cast<double>(i) / static_cast<double>(looks))));
+    for (const std::size_t i : find_bends(heights, tolerance_, is_cut ? kLooksASample : 1)) {
+      const Place place = between(from, to, static_cast<double>(i) / static_cast<double>(looks));
+      points.push_back(is_cut ? on_sample(place, from, to) : place);
+    }
+  }
+
+  const LineSamples& samples_;
+  std::array<double, 6> affine_;
+  MapToSamples to_samples_;
+  double tolerance_;
+};
+
+/// Edges among those that lines are part of.
+std::vector<GraphEdge> edges_of_lines(const Breaklines& placed) {
+  std::vector<GraphEdge> edges;
+  for (const Arrangement::Edge& edge : placed.edges) {
+    if (edge.is_line) edges.push_back({edge.a, edge.b});
+  }
+  return edges;
+}
+
+/// Of these edges, 1 where none but lines of faults run. EMPTY: there are no faults.
+std::vector<std::uint8_t> starts_of_lines(const Breaklines& placed) {
+  std::vector<std::uint8_t> is_start;
+  for (std::size_t i = 0; i < placed.is_held.size(); ++i) {
+    if (placed.edges[i].is_line) is_start.push_back(placed.is_held[i] ? 0 : 1);
+  }
+  return is_start;
+}
+
+/// What lines pass, those from number `first` up to `end`.
+std::vector<PolygonEdge> passes_of(const Breaklines& placed, std::span<const Line> lines, std::size_t first,
+                                   std::size_t end) {
+  std::vector<PolygonEdge> passes;
+  for (const auto& chain : placed.chains) {
+    if (chain.line < first || chain.line >= end) continue;
+    const auto points = placed.points_of(chain);
+    for (std::size_t k = 0; k + 1 < points.size(); ++k)
+      passes.push_back(
+          {lines[chain.line].polygon, {std::min(points[k], points[k + 1]), std::max(points[k], points[k + 1])}});
+  }
+  return passes;
+}
+
+/// On the border of the raster's rectangle.
+bool is_on_side(Point p, Point q, std::int32_t cols, std::int32_t rows) {
+  const std::int32_t right = (cols - 1) * kLatticeSteps, bottom = (rows - 1) * kLatticeSteps;
+  return (p.x == q.x && (p.x == 0 || p.x == right)) || (p.y == q.y && (p.y == 0 || p.y == bottom));
+}
+
+/// Which edges become part of the mesh, and where the surface is cut.
+struct KeptEdges {
+  std::vector<GraphEdge> edges;
+  std::vector<std::uint8_t> is_start;  ///< as in the graph
+  std::vector<GraphEdge> walls;        ///< of these, those that the surface ends at, which is on their positive side
+  std::vector<std::array<Point, 2>>
+      outline;  ///< of what stays: the walls, and where it ends at the sides of the raster
+};
+
+/// Edges of breaklines in and around polygons, and the outline of the polygons' union.
+KeptEdges cut_edges(const Breaklines& placed, std::span<const Line> lines, std::size_t breaklines, std::int32_t cols,
+                    std::int32_t rows) {
+  const std::vector<GraphEdge> edges = edges_of_lines(placed);
+  std::vector<std::uint8_t> is_start(edges.size(), 0);
+  for (std::size_t i = 0, line = 0; i < placed.is_held.size(); ++i) {
+    if (placed.edges[i].is_line) is_start[line++] = placed.is_held[i] ? 0 : 1;
+  }
+  const std::vector<EdgeCover> covers =
+      cover_edges(placed.points, edges, passes_of(placed, lines, breaklines, lines.size()));
+  std::vector<bool> is_breakline(edges.size(), false);
+  for (const PolygonEdge& pass : passes_of(placed, lines, 0, breaklines))
+    is_breakline[static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), pass.edge) - edges.begin())] =
+        true;
+  KeptEdges kept;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto [a, b] = edges[i];
+    const bool before = covers[i].positive > 0, after = covers[i].negative > 0;
+    if (before != after) kept.outline.push_back({placed.points[a], placed.points[b]});
+    const bool is_wall = before != after && !is_on_side(placed.points[a], placed.points[b], cols, rows);
+    if (is_wall) kept.walls.push_back(before ? edges[i] : GraphEdge{b, a});
+    if (!is_wall && !(is_breakline[i] && (before || after))) continue;
+    kept.edges.push_back(edges[i]);
+    kept.is_start.push_back(is_start[i]);
+  }
+  return kept;
+}
+
+/// Where nothing is cut.
+KeptEdges all_edges(const Breaklines& placed) {
+  KeptEdges kept;
+  kept.edges = edges_of_lines(placed);
+  kept.is_start = starts_of_lines(placed);
+  return kept;
+}
+
+/// The edges and the points that they need.
+ConstraintGraph graph_of(const Breaklines& placed, const KeptEdges& kept) {
+  ConstraintGraph graph;
+  std::vector<std::uint32_t> numbers(placed.points.size(), kNone);
+  const auto number_of = [&](std::uint32_t point) {
+    if (numbers[point] == kNone) {
+      numbers[point] = static_cast<std::uint32_t>(graph.points.size());
+      graph.points.push_back(placed.points[point]);
+      graph.heights.push_back(placed.heights[point]);
+    }
+    return numbers[point];
+  };
+  for (const auto& [a, b] : kept.edges) {
+    const std::uint32_t from = number_of(a), to = number_of(b);
+    graph.edges.push_back({from, to});
+  }
+  graph.is_start = kept.is_start;
+  if (kept.outline.empty()) return graph;
+  graph.cut.emplace();
+  for (const auto& [a, b] : kept.walls) graph.cut->walls.push_back({numbers[a], numbers[b]});
+  graph.cut->outline = kept.outline;
+  return graph;
+}
+
+/// Calls visit(sample, share) for the samples on a closed edge, share from a to b.
+template <class Visit>
+void visit_samples(Point a, Point b, const Visit& visit) {
+  const std::int32_t dx = b.x - a.x, dy = b.y - a.y, steps = std::gcd(std::abs(dx), std::abs(dy));
+  for (std::int32_t i = 0; i <= steps; ++i) {
+    const Point p{a.x + dx / steps * i, a.y + dy / steps * i};
+    if (PlaceHeights::is_sample(p))
+      visit(Point{p.x / kLatticeSteps, p.y / kLatticeSteps}, static_cast<double>(i) / steps);
+  }
+}
+
+/// Gives the samples on hard lines, but for faults, the heights of the lines. `change(p, height)` does so, and returns
+/// what the sample was.
+template <class Change>
+std::vector<SampleEdit> edit_samples(const Breaklines& placed, const Change& change) {
+  std::vector<SampleEdit> edits;
+  const auto edit = [&](Point p, double height) {
+    const auto after = static_cast<float>(height);
+    const float before = change(p, after);
+    if (!std::isnan(before) && before != after) edits.push_back({p.x, p.y, before, after});
+  };
+  for (std::size_t i = 0; i < placed.edges.size(); ++i) {
+    const Arrangement::Edge& edge = placed.edges[i];
+    if (!edge.is_line || !placed.is_hard[edge.a] || !placed.is_hard[edge.b]) continue;
+    if (!placed.is_held.empty() && !placed.is_held[i]) continue;
+    const double from{placed.heights[edge.a]}, to{placed.heights[edge.b]};
+    visit_samples(placed.points[edge.a], placed.points[edge.b],
+                  [&](Point p, double share) { edit(p, from + share * (to - from)); });
+  }
+  for (std::size_t i = 0; i < placed.points.size(); ++i) {
+    const Point p = placed.points[i];
+    if (placed.is_hard[i] && PlaceHeights::is_sample(p))
+      edit({p.x / kLatticeSteps, p.y / kLatticeSteps}, placed.heights[i]);
+  }
+  std::stable_sort(edits.begin(), edits.end(), [](const SampleEdit& a, const SampleEdit& b) {
+    return before({a.col, a.row}, {b.col, b.row});
+  });
+  return edits;
+}
+
+/// The graph of what was placed: `followed` are `breaklines` of them, and rings where there is a cut.
+Result<void> take_graph(const Breaklines& placed, std::span<const Line> followed, std::size_t breaklines, bool is_cut,
+                        std::int32_t cols, std::int32_t rows, FieldLines& result) {
+  // Those that were found in the raster are no lines of the caller's.
+  std::vector<bool> is_laid(breaklines, !is_cut);
+  for (const auto& chain : placed.chains) {
+    if (chain.line < breaklines) is_laid[chain.line] = true;
+  }
+  for (std::size_t k = 0; k < breaklines; ++k) result.laid += is_laid[k] && !is_laid_first(followed[k]) ? 1 : 0;
+  if (!is_cut) result.laid -= placed.outside;
+  result.graph = graph_of(placed, is_cut ? cut_edges(placed, followed, breaklines, cols, rows) : all_edges(placed));
+  result.graph.is_laid_first = std::any_of(followed.begin(), followed.end(), is_laid_first);
+  if (!is_cut) return {};
+  if (!result.graph.cut)
+    return fail(ErrorKind::kInput,
+                "the cutline lies beside the raster, or is narrower than 1/256 sample: nothing would be left");
+  SurfaceCut& cut = *result.graph.cut;
+  cut.rows = std::make_shared<CutRows>(cut.outline, cols, rows);
+  std::erase_if(result.edits, [&](const SampleEdit& edit) {
+    return cut.rows->side({edit.col, edit.row}) == CutSide::kBeyond;
+  });
+  return {};
+}
+
+/// Makes void what lies well beyond the cut.
+Result<void> cut_samples(const CutRows& cut, std::int32_t cols, std::int32_t rows, FieldLines& lines) {
+  for (const float sample : lines.samples) lines.valid += std::isnan(sample) ? 0 : 1;
+  if (!cut.has_surface({lines.samples.data(), cols, rows}))
+    return fail(ErrorKind::kInput, "no part of the raster's surface lies in the cutline: it holds voids only");
+  cut.void_beyond(0, 0, cols, rows, lines.samples.data(), cols);
+  return {};
+}
+
+}  // namespace
+
+HeightField FieldLines::apply(const HeightField& field) const {
+  HeightField edited = field;
+  if (source) edited.source = source.get();
+  if (samples.empty()) return edited;
+  edited.samples = samples.data();
+  edited.nodata = std::nullopt;
+  return edited;
+}
+
+namespace {
+
+/// Lines, `count` of them, with the vertices that they need. `follow(k)`: one of them.
+template <class Follow>
+std::vector<Line> follow_all(std::size_t count, int threads, const Follow& follow) {
+  std::vector<Line> followed(count);
+  constexpr std::size_t kTogether = 64;
+  parallel_for((count + kTogether - 1) / kTogether, threads, [&](std::size_t part) {
+    const std::size_t first = part * kTogether, end = std::min(first + kTogether, count);
+    for (std::size_t k = first; k < end; ++k) followed[k] = follow(k);
+  });
+  return followed;
+}
+
+/// In a raster that is not in memory.
+Result<FieldLines> prepare_from_source(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
+                                       double tolerance, int threads, std::span<const std::int32_t> shared_rows) {
+  const bool is_cut = !cutline.rings.empty();
+  const std::array<double, 6>& affine = is_cut ? cutline.affine : lines.affine;
+  const std::vector<Line> rings = clip_rings(cutline, field.cols, field.rows);
+  auto courses = find_courses(lines.lines, affine, field.cols, field.rows);
+  if (!courses) return tl::unexpected(courses.error());
+  const auto around = find_courses(rings, affine, field.cols, field.rows);
+  if (!around) return tl::unexpected(around.error());
+  courses->insert(courses->end(), around->begin(), around->end());
+  auto samples = LineSamples::read(field, *courses);
+  if (!samples) return tl::unexpected(samples.error());
+  const std::size_t breaklines = lines.lines.size();
+  const SoftLine soft(*samples, affine, tolerance);
+  const std::vector<Line> followed = follow_all(breaklines + rings.size(), threads, [&](std::size_t k) {
+    return k < breaklines ? soft.follow(lines.lines[k]) : soft.follow(rings[k - breaklines], true);
+  });
+  std::vector<Segment> rigid = samples->outline_near();
+  const std::int32_t width = (field.cols - 1) * kLatticeSteps;
+  for (const std::int32_t row : shared_rows) rigid.push_back({{0, row * kLatticeSteps}, {width, row * kLatticeSteps}});
+  const auto placed = place_breaklines(followed, affine, *samples, rigid, lines.conflict, is_cut);
+  if (!placed) return tl::unexpected(placed.error());
+  FieldLines result;
+  result.edits = edit_samples(*placed, [&](Point p, float after) { return samples->change(p, after); });
+  if (auto taken = take_graph(*placed, followed, breaklines, is_cut, field.cols, field.rows, result); !taken)
+    return tl::unexpected(taken.error());
+  if (!result.edits.empty()) result.source = edit_source({std::shared_ptr<const void>(), field.source}, result.edits);
+  return result;
+}
+
+}  // namespace
+
+std::uint64_t line_bytes(const HeightField& field, std::span<const Line> lines, const std::array<double, 6>& affine) {
+  constexpr double kBytesPerVertex = 300, kBytesPerSample = 100, kBytesPerSampleOfWall = 50;
+  const MapToSamples to_samples(affine);
+  const double longest = static_cast<double>(field.cols) + field.rows;
+  double bytes = 0;
+  for (const Line& line : lines) {
+    bytes += kBytesPerVertex * static_cast<double>(line.points.size());
+    for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
+      const SamplePlace way =
+          to_samples.way(line.points[k + 1][0] - line.points[k][0], line.points[k + 1][1] - line.points[k][1]);
+      bytes +=
+          (is_fault(line) ? kBytesPerSampleOfWall : kBytesPerSample) * std::fmin(std::hypot(way.col, way.row), longest);
+    }
+  }
+  return static_cast<std::uint64_t>(bytes);
+}
+
+std::uint64_t copied_bytes(const HeightField& field, const LineConstraints& lines, const Cutline& cutline) {
+  const auto is_hard = [](const Line& line) {
+    return std::any_of(line.points.begin(), line.points.end(), [](const auto& p) { return !std::isnan(p[2]); });
+  };
+  const bool is_copied = !cutline.rings.empty() || std::any_of(lines.lines.begin(), lines.lines.end(), is_hard);
+  if (field.samples == nullptr || !is_copied) return 0;
+  return sizeof(float) * static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(field.rows);
+}
+
+Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
+                                 double tolerance, int threads, std::span<const std::int32_t> shared_rows) {
+  for (const Line& ring : cutline.rings) {
+    if (auto placed = check_line_places(ring.name, ring.points, cutline.affine); !placed)
+      return tl::unexpected(placed.error());
+  }
+  if (field.samples == nullptr) return prepare_from_source(field, lines, cutline, tolerance, threads, shared_rows);
+  const auto cleaned = Samples::of(field);
+  if (!cleaned) return tl::unexpected(cleaned.error());
+  const Raster raster = cleaned->raster();
+  const bool is_cut = !cutline.rings.empty();
+  const std::array<double, 6>& affine = is_cut ? cutline.affine : lines.affine;
+  const LineSamples samples(raster);
+  const SoftLine soft(samples, affine, tolerance);
+  const std::vector<Line> rings = clip_rings(cutline, raster.cols, raster.rows);
+  const std::size_t breaklines = lines.lines.size();
+  const std::vector<Line> followed = follow_all(breaklines + rings.size(), threads, [&](std::size_t k) {
+    return k < breaklines ? soft.follow(lines.lines[k]) : soft.follow(rings[k - breaklines], true);
+  });
+  const auto placed = place_breaklines(followed, affine, raster, trace_outline(raster), lines.conflict, is_cut);
+  if (!placed) return tl::unexpected(placed.error());
+  FieldLines result;
+  if (is_cut || std::find(placed->is_hard.begin(), placed->is_hard.end(), true) != placed->is_hard.end()) {
+    result.samples.assign(raster.samples, raster.row(raster.rows));
+    result.edits = edit_samples(*placed, [&](Point p, float after) {
+      float& sample = result.samples[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(raster.cols) +
+                                     static_cast<std::size_t>(p.x)];
+      const float before = sample;
+      if (!std::isnan(before)) sample = after;
+      return before;
+    });
+  }
+  if (auto taken = take_graph(*placed, followed, breaklines, is_cut, raster.cols, raster.rows, result); !taken)
+    return tl::unexpected(taken.error());
+  if (!is_cut) return result;
+  if (auto cut = cut_samples(*result.graph.cut->rows, raster.cols, raster.rows, result); !cut)
+    return tl::unexpected(cut.error());
+  return result;
+}
+
+}  // namespace scarp

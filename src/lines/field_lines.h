@@ -1,0 +1,52 @@
+// What breaklines and cutlines ask of a height field, made ready for the engine.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "lines/constraints.h"
+#include "scarp/cutline.h"
+#include "scarp/height_field.h"
+#include "scarp/result.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+
+struct FieldLines {
+  ConstraintGraph graph;
+  /// The raster's, NaN where void and well beyond a cutline, with those on hard lines at the height of the line.
+  /// EMPTY: as the field has them.
+  std::vector<float> samples;
+  /// Instead, where the field has one and samples are edited; nothing of it is cut.
+  std::shared_ptr<const SampleSource> source;
+  std::vector<SampleEdit> edits;  ///< of these samples
+  std::uint64_t laid = 0;         ///< breaklines of which some part lies in the raster, but for those laid first
+  std::uint64_t valid = 0;        ///< samples, before the cut; 0: not known
+
+  /// `field` with these samples, which stay here.
+  HeightField apply(const HeightField& field) const;
+};
+
+/// Soft lines, and the rings of the cutline, are given vertices of their own where they are straight for so long that
+/// the raster beside them leaves them by more than `tolerance`. Of breaklines the graph has what lies in the cutline.
+/// Fails as place_breaklines(), as the field's source, and with kInput where no surface lies in the cutline, as far as
+/// that is known. `shared_rows`: where the field has a source, the rows of samples that strips
+/// share, where lines are cut; what lines look at is read before. REQUIRES: the field is no larger than the lattice;
+/// tolerance >= 0; lines and cutline in the same coordinates.
+Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
+                                 double tolerance, int threads, std::span<const std::int32_t> shared_rows = {});
+
+/// What lines and rings take beside the mesh, most of it while they are prepared: 300 bytes a vertex, and 100 for each
+/// sample that they run along, which both lines of a wall share.
+std::uint64_t line_bytes(const HeightField& field, std::span<const Line> lines, const std::array<double, 6>& affine);
+inline std::uint64_t line_bytes(const HeightField& field, const LineConstraints& lines) {
+  return line_bytes(field, lines.lines, lines.affine);
+}
+
+/// Of the samples in memory, where lines may edit them or a cutline makes some void: FieldLines::samples.
+std::uint64_t copied_bytes(const HeightField& field, const LineConstraints& lines, const Cutline& cutline);
+
+}  // namespace scarp

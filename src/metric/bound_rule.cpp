@@ -1,0 +1,42 @@
+#include "metric/bound_rule.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace scarp {
+
+namespace {
+
+/// The largest float that is at most `value`.
+float round_down(double value) {
+  if (value >= std::numeric_limits<float>::max())
+    return std::isinf(value) ? std::numeric_limits<float>::infinity() : std::numeric_limits<float>::max();
+  const auto rounded = static_cast<float>(value);
+  return rounded > value ? std::nextafter(rounded, 0.0f) : rounded;
+}
+
+}  // namespace
+
+double tightened(double goal, double reserve) {
+  return reserve > 0 ? std::max(0.0, std::nextafter(goal - reserve, 0.0)) : goal;
+}
+
+float BoundRule::bound(double asked) const { return round_down(std::isinf(asked) ? asked : tightened(asked, reserve)); }
+
+float BoundRule::aim_at(float bound) const { return std::isinf(bound) ? bound : round_down(aim * bound); }
+
+Error BoundRule::refuse(Point at, double asked) const {
+  return {ErrorKind::kPromise,
+          fmt::format("the bound at sample ({}, {}) is {}, but the raster's values do not fit float32 and are rounded "
+                      "by up to {}; allow at least that much",
+                      at.x, at.y, asked, reserve)};
+}
+
+Error refuse_value(const char* what, Point at, float value, const char* rest) {
+  return {ErrorKind::kUsage,
+          fmt::format("{} at sample ({}, {}) is {}: it must be at least 0{}", what, at.x, at.y, value, rest)};
+}
+
+}  // namespace scarp

@@ -1,0 +1,198 @@
+#include "metric/criterion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/exact_arithmetic.h"
+#include "metric/height_judge.h"
+#include "metric/importance.h"
+#include "metric/source_judge.h"
+
+namespace scarp {
+
+namespace {
+
+constexpr float kUnbounded = std::numeric_limits<float>::infinity();
+
+/// The largest double that times `weight` is at most `value`, as real numbers, or the one below it.
+double divide_down(double value, double weight) {
+  const double quotient = value / weight;
+  const auto [high, low] = exact_product(quotient, weight);
+  return high > value || (high == value && low > 0) ? std::nextafter(quotient, 0.0) : quotient;
+}
+
+tl::unexpected<Error> usage(std::string message) { return fail(ErrorKind::kUsage, std::move(message)); }
+
+}  // namespace
+
+Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOptions& options, const Raster& raster,
+                                  double aim) {
+  Criterion criterion;
+  criterion.field_ = &field;
+  criterion.options_ = &options;
+  criterion.raster_ = raster;
+  criterion.aim_ = aim;
+  for (const auto check : {&Criterion::check_weights, &Criterion::check_strategy, &Criterion::check_channels}) {
+    if (auto sound = (criterion.*check)(); !sound) return tl::unexpected(sound.error());
+  }
+  if (options.max_error) criterion.bound_ = tightened(*options.max_error, field.sample_rounding);
+  if (auto set = criterion.set_bounds(); !set) return tl::unexpected(set.error());
+  criterion.set_factors();
+  if (aim < 1) {
+    for (const float of : criterion.bounds_) criterion.aims_.push_back(criterion.rule().aim_at(of));
+  }
+  const Importance& importance = options.importance;
+  criterion.importance_is_error_ = importance.global && importance.feature == Importance::Feature::kNoFeature;
+  const double bound = criterion.aim();
+  const bool plain =
+      field.channels.empty() && field.height_scale == 1 && criterion.bounds_.empty() && criterion.factors_.empty();
+  if (plain) {
+    if (field.samples != nullptr) {
+      criterion.judge_ = std::make_unique<HeightJudge>(raster, bound);
+    } else {
+      criterion.judge_ = std::make_unique<SourceJudge>(field, bound, criterion.source_bounds());
+    }
+  } else {
+    Judging judging{raster, criterion.judged_fields(), options.norm, bound};
+    if (!criterion.bounds_.empty()) judging.bounds = criterion.aims().data();
+    if (!criterion.factors_.empty()) judging.factors = criterion.factors_.data();
+    judging.per_bound = !options.tolerance.empty() && criterion.factors_.empty();
+    judging.by_error = importance.global;
+    if (criterion.importance_is_error_) judging.goal = options.tolerance.empty() ? bound : 1;
+    criterion.judge_ = std::make_unique<SampleJudge>(std::move(judging));
+  }
+  return criterion;
+}
+
+Point Criterion::place(std::size_t index) const {
+  const auto cols = static_cast<std::size_t>(raster_.cols);
+  return {static_cast<std::int32_t>(index % cols), static_cast<std::int32_t>(index / cols)};
+}
+
+Result<void> Criterion::check_weights() const {
+  if (options_->tolerance_source != nullptr && field_->samples != nullptr)
+    return usage("tolerances are read in windows where samples are: beside samples in memory give them as an array");
+  const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
+  if (!options_->mask.empty() && !options_->tolerance.empty())
+    return usage("a mask and tolerances contradict each other: give one of them");
+  for (const auto& [name, values] : {std::pair{"the mask", options_->mask}, {"the tolerance", options_->tolerance}}) {
+    if (values.empty()) continue;
+    if (values.size() != samples)
+      return usage(fmt::format("{} has {} values for {} samples", name, values.size(), samples));
+    const bool is_mask = values.data() == options_->mask.data();
+    const auto bad =
+        std::find_if(values.begin(), values.end(), [&](float v) { return !(v >= 0) || (is_mask && v == kUnbounded); });
+    if (bad != values.end())
+      return tl::unexpected(refuse_value(name, place(static_cast<std::size_t>(bad - values.begin())), *bad,
+                                         is_mask ? ", and finite" : ""));
+  }
+  for (const ScriptStep& step : options_->script) {
+    if (step.col < 0 || step.row < 0 || step.col >= raster_.cols || step.row >= raster_.rows)
+      return usage(fmt::format("the script names sample ({}, {}), but the raster has {} x {} samples", step.col,
+                               step.row, raster_.cols, raster_.rows));
+  }
+  return {};
+}
+
+Result<void> Criterion::check_strategy() const {
+  const Importance& importance = options_->importance;
+  const bool has_feature = importance.feature != Importance::Feature::kNoFeature;
+  if (!importance.global && !has_feature) return usage("an importance needs the global error or a feature");
+  if (importance.one_pass && (importance.global || !has_feature))
+    return usage("one pass ranks samples by a feature alone: local error or curvature");
+  if (importance.one_pass && options_->batch.rule != Batch::Rule::kSequential) return usage("one pass has no batches");
+  const Batch& batch = options_->batch;
+  if (batch.rule == Batch::Rule::kFraction && !(batch.fraction > 0 && batch.fraction <= 1))
+    return usage(fmt::format("a batch takes a fraction above 0 and at most 1, not {}", batch.fraction));
+  if (!(options_->edges.shape_threshold <= 1))
+    return usage(fmt::format("the shape threshold must lie in 0 … 1, not {}", options_->edges.shape_threshold));
+  if (!(options_->edges.supersample >= 0))
+    return usage(fmt::format("supersampling needs a number of at least 0, not {}", options_->edges.supersample));
+  return {};
+}
+
+Result<void> Criterion::check_channels() const {
+  const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
+  if (field_->channels.size() > static_cast<std::size_t>(kMaxChannels))
+    return usage(fmt::format("{} channels are more than {}", field_->channels.size(), kMaxChannels));
+  if (!(field_->height_scale >= 0 && std::isfinite(field_->height_scale)))
+    return usage(fmt::format("the weight of the heights must be at least 0, not {}", field_->height_scale));
+  for (std::size_t k = 0; k < field_->channels.size(); ++k) {
+    const Channel& channel = field_->channels[k];
+    if (!(channel.scale >= 0 && std::isfinite(channel.scale)))
+      return usage(fmt::format("the weight of channel {} must be at least 0, not {}", k + 1, channel.scale));
+    for (std::size_t i = 0; i < samples; ++i) {
+      if (!std::isnan(raster_.samples[i]) && !std::isfinite(channel.samples[i]))
+        return fail(
+            ErrorKind::kInput,
+            fmt::format("channel {} at sample ({}, {}) has no value though the height has one: fill the channel "
+                        "there, or make the height void too",
+                        k + 1, place(i).x, place(i).y));
+    }
+  }
+  if (judged_fields().empty()) return usage("every weight is 0: nothing is left to be judged");
+  return {};
+}
+
+std::vector<JudgedField> Criterion::judged_fields() const {
+  std::vector<JudgedField> fields;
+  if (field_->height_scale > 0) fields.push_back({raster_.samples, field_->height_scale});
+  for (const Channel& channel : field_->channels) {
+    if (channel.scale > 0) fields.push_back({channel.samples, channel.scale});
+  }
+  return fields;
+}
+
+Result<void> Criterion::set_bounds() {
+  const auto ignores = [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; };
+  const bool has_ignored = std::any_of(options_->script.begin(), options_->script.end(), ignores);
+  if (options_->tolerance_source != nullptr)
+    source_bounds_ =
+        std::make_unique<SourceBounds>(*options_->tolerance_source, options_->max_error.value_or(HUGE_VAL), rule());
+  if (options_->mask.empty() && options_->tolerance.empty() && !has_ignored) return {};
+  const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
+  bounds_.resize(samples);
+  for (std::size_t i = 0; i < samples; ++i) {
+    double asked = options_->max_error.value_or(options_->tolerance.empty() ? 0 : HUGE_VAL);
+    if (!options_->tolerance.empty()) asked = std::min(asked, double{options_->tolerance[i]});
+    if (!options_->mask.empty()) {
+      const double weight = options_->mask[i];
+      asked = weight > 0 ? divide_down(asked, weight) : HUGE_VAL;
+    }
+    if (has_error_goal() && asked < rule().reserve && !std::isnan(raster_.samples[i]))
+      return tl::unexpected(rule().refuse(place(i), asked));
+    bounds_[i] = rule().bound(asked);
+  }
+  for (const ScriptStep& step : options_->script) {
+    if (ignores(step))
+      bounds_[static_cast<std::size_t>(step.row) * static_cast<std::size_t>(raster_.cols) +
+              static_cast<std::size_t>(step.col)] = kUnbounded;
+  }
+  for (std::size_t i = 0; i < samples; ++i) ignored_ += std::isinf(bounds_[i]) && !std::isnan(raster_.samples[i]);
+  return {};
+}
+
+void Criterion::set_factors() {
+  const bool has_feature = options_->importance.feature != Importance::Feature::kNoFeature;
+  if (has_feature) factors_ = measure_feature(raster_, options_->importance);
+  const bool has_tolerance = !options_->tolerance.empty();
+  if (options_->mask.empty() && !(has_tolerance && has_feature)) return;
+  factors_.resize(bounds_.size(), 1);
+  for (std::size_t i = 0; i < factors_.size(); ++i)
+    factors_[i] = std::min(factors_[i] * (has_tolerance ? per_bound(bounds_[i]) : options_->mask[i]), kMostFactor);
+}
+
+std::vector<Point> Criterion::ranking() const {
+  if (!options_->importance.one_pass) return {};
+  std::vector<Point> points = rank_samples(raster_, factors_);
+  std::erase_if(points, [this](Point p) {
+    const auto row = static_cast<std::size_t>(p.y) * static_cast<std::size_t>(raster_.cols);
+    return !bounds_.empty() && std::isinf(bounds_[row + static_cast<std::size_t>(p.x)]);
+  });
+  return points;
+}
+
+}  // namespace scarp

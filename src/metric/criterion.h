@@ -1,0 +1,73 @@
+// What the options and the field say about errors, made ready for the engine and for the proof.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "metric/bound_rule.h"
+#include "metric/judge.h"
+#include "metric/sample_judge.h"
+#include "metric/source_bounds.h"
+#include "scarp/height_field.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+
+/// Owns the arrays that the engine's judge reads: at most 12 bytes a sample, none for plain heights and bounds that are
+/// read in windows.
+class Criterion {
+ public:
+  /// Checks mask, tolerance, channels and importance against the raster. Fails with kUsage, kInput (a channel without
+  /// value at a sample, named) and kPromise (a tolerance below the rounding of the samples). `field`, `options` and the
+  /// raster's samples stay alive. `aim`: the share of the bounds that the judge holds to where heights alone have some.
+  static Result<Criterion> make(const HeightField& field, const SimplifyOptions& options, const Raster& raster,
+                                double aim = 1);
+
+  const Judge& judge() const { return *judge_; }
+  /// Bound of the combined error where no sample has one of its own; nothing without a goal for errors.
+  std::optional<double> bound() const { return bound_; }
+  /// What the judge holds to in place of bound().
+  double aim() const { return aim_ * bound_.value_or(0); }
+  /// Bounds of the samples; empty where bound() holds for all.
+  std::span<const float> bounds() const { return bounds_; }
+  /// Where they are read in windows; null: the above say all.
+  const SourceBounds* source_bounds() const { return source_bounds_.get(); }
+  /// Those that the judge holds to.
+  std::span<const float> aims() const { return aims_.empty() ? bounds_ : aims_; }
+  /// The engine's importance is an error that grows and shrinks with what is promised.
+  bool importance_is_error() const { return importance_is_error_; }
+  /// Order of insertion for one pass, without the samples that have no bound; empty otherwise.
+  std::vector<Point> ranking() const;
+  /// Samples without a bound; those of source_bounds() the proof counts.
+  std::uint64_t ignored() const { return ignored_; }
+  /// The fields whose errors count.
+  std::vector<JudgedField> judged_fields() const;
+  bool has_error_goal() const {
+    return bound_.has_value() || !options_->tolerance.empty() || options_->tolerance_source != nullptr;
+  }
+
+ private:
+  Result<void> check_weights() const;
+  Result<void> check_strategy() const;
+  Result<void> check_channels() const;
+  Result<void> set_bounds();
+  void set_factors();
+  BoundRule rule() const { return {field_->sample_rounding, aim_}; }
+  Point place(std::size_t index) const;
+
+  const HeightField* field_ = nullptr;
+  const SimplifyOptions* options_ = nullptr;
+  Raster raster_;
+  std::optional<double> bound_;
+  double aim_ = 1;
+  std::vector<float> bounds_, aims_, factors_;
+  std::unique_ptr<SourceBounds> source_bounds_;
+  std::uint64_t ignored_ = 0;
+  bool importance_is_error_ = true;
+  std::unique_ptr<Judge> judge_;
+};
+
+}  // namespace scarp

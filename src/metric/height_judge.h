@@ -1,0 +1,24 @@
+// The plain judge: vertical errors of heights against one threshold.
+#pragma once
+
+#include "grid/raster.h"
+#include "metric/judge.h"
+
+namespace scarp {
+
+class HeightJudge final : public Judge {
+ public:
+  HeightJudge(const Raster& raster, double threshold) : raster_(raster), threshold_(threshold) {}
+
+  Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const override;
+  std::optional<Candidate> find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const override;
+  double goal() const override { return threshold_; }
+  double squares_between(Point a, Point b) const override;
+  double bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const override;
+
+ private:
+  Raster raster_;
+  double threshold_;
+};
+
+}  // namespace scarp

@@ -1,0 +1,97 @@
+#include "metric/importance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace scarp {
+
+namespace {
+
+class Neighbourhood {
+ public:
+  explicit Neighbourhood(const Raster& raster) : raster_(raster) {}
+
+  bool has(std::int32_t x, std::int32_t y) const {
+    return x >= 0 && y >= 0 && x < raster_.cols && y < raster_.rows && raster_.is_valid({x, y});
+  }
+  double at(std::int32_t x, std::int32_t y) const { return raster_.at({x, y}); }
+
+  /// Sum of the two neighbours at ±d minus twice the sample; nothing to say (0, false) if one is missing.
+  bool second_difference(Point p, Point d, double& value) const {
+    if (!has(p.x - d.x, p.y - d.y) || !has(p.x + d.x, p.y + d.y)) return false;
+    value = at(p.x - d.x, p.y - d.y) + at(p.x + d.x, p.y + d.y) - 2 * at(p.x, p.y);
+    return true;
+  }
+
+ private:
+  const Raster& raster_;
+};
+
+constexpr Point kDirections[] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+
+double local_error(const Neighbourhood& near, Point p, int pairs) {
+  double sum = 0, difference = 0;
+  int count = 0;
+  for (Point d : std::span(kDirections).first(static_cast<std::size_t>(pairs))) {
+    if (!near.second_difference(p, d, difference)) continue;
+    sum += difference;
+    ++count;
+  }
+  return count == 0 ? 0 : std::abs(sum) / (2 * count);
+}
+
+double curvature(const Neighbourhood& near, Point p) {
+  double xx = 0, yy = 0, xy = 0;
+  near.second_difference(p, {1, 0}, xx);
+  near.second_difference(p, {0, 1}, yy);
+  const auto [x, y] = p;
+  if (near.has(x - 1, y - 1) && near.has(x + 1, y - 1) && near.has(x - 1, y + 1) && near.has(x + 1, y + 1))
+    xy = (near.at(x + 1, y + 1) - near.at(x - 1, y + 1) - near.at(x + 1, y - 1) + near.at(x - 1, y - 1)) / 4;
+  return std::sqrt(xx * xx + 2 * xy * xy + yy * yy);
+}
+
+double damped(double feature, Importance::Damping damping) {
+  if (damping == Importance::Damping::kUndamped) return feature;
+  return damping == Importance::Damping::kPlusOne ? feature + 1 : std::sqrt(feature + 1);
+}
+
+}  // namespace
+
+std::vector<float> measure_feature(const Raster& raster, const Importance& importance) {
+  const Neighbourhood near(raster);
+  std::vector<float> values;
+  values.reserve(static_cast<std::size_t>(raster.cols) * static_cast<std::size_t>(raster.rows));
+  for (std::int32_t y = 0; y < raster.rows; ++y) {
+    for (std::int32_t x = 0; x < raster.cols; ++x) {
+      const Point p{x, y};
+      double value = 0;
+      if (raster.is_valid(p)) {
+        const double feature = importance.feature == Importance::Feature::kCurvature
+                                   ? curvature(near, p)
+                                   : local_error(near, p, importance.feature == Importance::Feature::kLocal8 ? 4 : 2);
+        value = damped(feature, importance.damping);
+      }
+      values.push_back(static_cast<float>(std::min(value, double{std::numeric_limits<float>::max()})));
+    }
+  }
+  return values;
+}
+
+std::vector<Point> rank_samples(const Raster& raster, const std::vector<float>& values) {
+  std::vector<Point> points;
+  for (std::int32_t y = 0; y < raster.rows; ++y) {
+    for (std::int32_t x = 0; x < raster.cols; ++x) {
+      if (raster.is_valid({x, y})) points.push_back({x, y});
+    }
+  }
+  const auto value_at = [&](Point p) {
+    return values[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(raster.cols) +
+                  static_cast<std::size_t>(p.x)];
+  };
+  std::stable_sort(points.begin(), points.end(), [&](Point a, Point b) { return value_at(a) > value_at(b); });
+  return points;
+}
+
+}  // namespace scarp

@@ -1,0 +1,89 @@
+// The judge of triangles whose corners lie between samples, at heights of their own.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "geom/plane.h"
+#include "grid/sample_rows.h"
+#include "grid/vertex_places.h"
+#include "metric/judge.h"
+
+namespace scarp {
+
+/// Heights at places of the lattice: those that were given, else the sample's.
+class PlaceHeights {
+ public:
+  explicit PlaceHeights(const SampleView& samples) : samples_(samples), slots_(kFewest) {}
+  void set(Point place, float height);
+  /// Makes room for so many, so that set() need not move others.
+  void reserve(std::size_t count);
+  static bool is_sample(Point place) { return place.x % kLatticeSteps == 0 && place.y % kLatticeSteps == 0; }
+  /// REQUIRES: it was given, or is a sample's.
+  float at(Point place) const {
+    if (is_sample(place) && !has_samples_) return sample(place);
+    const Slot& slot = slots_[find(key(place))];
+    return slot.key != 0 ? slot.height : sample(place);
+  }
+
+ private:
+  /// An open table of which at most half is taken.
+  struct Slot {
+    std::uint64_t key = 0;  // of none
+    float height = 0;
+  };
+  static constexpr std::size_t kFewest = 64;
+
+  float sample(Point place) const { return samples_.at({place.x / kLatticeSteps, place.y / kLatticeSteps}); }
+  static std::uint64_t key(Point place) {
+    return (std::uint64_t{static_cast<std::uint32_t>(place.y)} << 32 | static_cast<std::uint32_t>(place.x)) + 1;
+  }
+  /// The key's slot, or the one where it would stand.
+  std::size_t find(std::uint64_t key) const {
+    std::size_t slot = (key * 0x9e3779b97f4a7c15) >> 32 & (slots_.size() - 1);
+    while (slots_[slot].key != key && slots_[slot].key != 0) slot = (slot + 1) & (slots_.size() - 1);
+    return slot;
+  }
+
+  SampleView samples_;
+  std::vector<Slot> slots_;
+  std::size_t taken_ = 0;
+  bool has_samples_ = false;  ///< samples were given other heights
+};
+
+/// Corners and candidates are in kLatticeSteps. Where samples have bounds of their own (row-major, +infinity for none),
+/// importance is the error over the bound, else the error. Bounds are decided exactly.
+class LatticeJudge final : public Judge {
+ public:
+  /// `heights` and the bounds stay alive.
+  LatticeJudge(const SampleView& samples, const PlaceHeights& heights, double threshold, std::span<const float> bounds)
+      : samples_(samples), heights_(heights), threshold_(threshold) {
+    if (!bounds.empty()) bounds_ = SampleView(Raster{bounds.data(), samples.cols(), samples.rows()});
+  }
+  /// With bounds of which somebody holds rows.
+  LatticeJudge(const SampleView& samples, const PlaceHeights& heights, const SampleRows& bounds)
+      : samples_(samples), heights_(heights), bounds_(bounds) {}
+
+  Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const override;
+  std::optional<Candidate> find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const override;
+  double goal() const override { return bounds_ ? 1 : threshold_; }
+  double squares_between(Point a, Point b) const override;
+  double bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const override;
+
+ private:
+  Fit fit_evenly(const std::array<Point, 3>& corners) const;
+  Fit fit_by_bounds(const std::array<Point, 3>& corners) const;
+  std::array<float, 3> heights_at(const std::array<Point, 3>& corners) const;
+  Plane plane_of(const std::array<Point, 3>& corners) const { return Plane::through(corners, heights_at(corners)); }
+  double importance(double error, double bound) const;
+
+  SampleView samples_;
+  const PlaceHeights& heights_;
+  double threshold_ = 0;
+  std::optional<SampleView> bounds_;
+};
+
+}  // namespace scarp

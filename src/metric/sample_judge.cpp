@@ -1,0 +1,241 @@
+#include "metric/sample_judge.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "geom/exact_error.h"
+#include "geom/scan.h"
+#include "metric/between.h"
+#include "metric/fine_lattice.h"
+#include "scarp/height_field.h"
+
+namespace scarp {
+
+namespace {
+
+/// Samples of a row that are looked at together.
+constexpr std::int32_t kChunk = 64;
+
+/// Where the importance is 0 the error itself decides, far below any other importance.
+constexpr double kUnimportant = 1e-280;
+
+/// Combining kMaxChannels + 1 errors rounds about as often, by 2^-53 each time, and a few times more.
+constexpr double kNormRounding = 0x1p-46;
+
+/// Adds one error to a norm; `total` holds Σ, Σ² or max.
+void add_to_norm(Norm norm, double error, double& total) {
+  if (norm == Norm::kSum) {
+    total += error;
+  } else if (norm == Norm::kSquares) {
+    total += error * error;
+  } else {
+    total = std::max(total, error);
+  }
+}
+
+}  // namespace
+
+/// A plane for each field. Few fields, the usual case, cost no allocation and no clearing of many planes.
+struct SampleJudge::Surface {
+  static constexpr std::size_t kFew = 4;
+  std::array<Plane, kFew> few;
+  std::vector<Plane> more;
+  double guard = 0;
+
+  void add(std::size_t k, const Plane& plane) {
+    if (k < kFew) {
+      few[k] = plane;
+    } else {
+      more.push_back(plane);
+    }
+  }
+  const Plane& plane(std::size_t k) const { return k < kFew ? few[k] : more[k - kFew]; }
+};
+
+Judging judging_by_bounds(const Raster& raster, std::span<const float> bounds) {
+  Judging judging{raster, {{raster.samples, 1}}};
+  judging.bounds = bounds.data();
+  judging.per_bound = true;
+  judging.goal = 1;
+  return judging;
+}
+
+SampleJudge::SampleJudge(Judging judging) : judging_(std::move(judging)) {}
+
+std::array<float, 3> SampleJudge::values_at(const JudgedField& field, const std::array<Point, 3>& corners) const {
+  return {field.samples[index_of(corners[0])], field.samples[index_of(corners[1])],
+          field.samples[index_of(corners[2])]};
+}
+
+SampleJudge::Surface SampleJudge::surface(const std::array<Point, 3>& corners) const {
+  Surface surface;
+  for (std::size_t k = 0; k < judging_.fields.size(); ++k) {
+    surface.add(k, Plane::through(corners, values_at(judging_.fields[k], corners)));
+    surface.guard += judging_.fields[k].scale * surface.plane(k).guard;
+  }
+  return surface;
+}
+
+void SampleJudge::combine_row(const Surface& surface, Point start, std::span<double> errors) const {
+  const std::size_t index = index_of(start);
+  std::fill(errors.begin(), errors.end(), 0.0);
+  for (std::size_t k = 0; k < judging_.fields.size(); ++k) {
+    const Plane& plane = surface.plane(k);
+    const double row_height = plane.row_height(start.y), scale = judging_.fields[k].scale;
+    const float* samples = judging_.fields[k].samples + index;
+    const auto each = [&](auto&& add) {
+      for (std::size_t i = 0; i < errors.size(); ++i) {
+        const double along = static_cast<double>(start.x - plane.base.x + static_cast<std::int32_t>(i));
+        add(errors[i], scale * std::abs(row_height + plane.slope_x * along - double{samples[i]}));
+      }
+    };
+    if (judging_.norm == Norm::kSum || judging_.fields.size() == 1) {
+      each([](double& total, double error) { total += error; });
+    } else if (judging_.norm == Norm::kSquares) {
+      each([](double& total, double error) { total += error * error; });
+    } else {
+      each([](double& total, double error) { total = std::max(total, error); });
+    }
+  }
+  if (judging_.norm == Norm::kSquares && judging_.fields.size() > 1) {
+    for (double& error : errors) error = std::sqrt(error);
+  }
+}
+
+double SampleJudge::combine(const Surface& surface, Point p) const {
+  double error = 0;
+  combine_row(surface, p, {&error, 1});
+  return error;
+}
+
+double SampleJudge::weighted(double error, std::size_t index) const {
+  if (judging_.per_bound) return error * double{per_bound(judging_.bounds[index])};
+  return judging_.factors != nullptr && judging_.by_error ? error * double{judging_.factors[index]} : error;
+}
+
+double SampleJudge::importance(double error, std::size_t index) const {
+  const double value = judging_.by_error ? weighted(error, index) : double{judging_.factors[index]};
+  return value > 0 ? value : error * kUnimportant;
+}
+
+Fit SampleJudge::fit(const std::array<Point, 3>& corners, const FitQuestion& question) const {
+  const Surface surface = this->surface(corners);
+  Fit fit;
+  fit.guard = surface.guard;
+  double doubtful = -1;
+  std::array<double, kChunk> errors;
+  scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    if (!fit.complete) return;
+    fit.scanned += static_cast<std::uint64_t>(last - first + 1);
+    for (std::int32_t begin = first; begin <= last; begin += kChunk) {
+      const auto count = static_cast<std::size_t>(std::min(kChunk, last - begin + 1));
+      combine_row(surface, {begin, y}, {errors.data(), count});
+      const std::size_t index = index_of({begin, y});
+      for (std::size_t i = 0; i < count; ++i) {
+        const double error = errors[i];
+        if (std::isnan(judging_.heights.samples[index + i])) continue;
+        const double score = weighted(error, index + i);
+        fit.max_error = std::max(fit.max_error, score);
+        fit.sum_squares += score * score;
+        const double value = importance(error, index + i);
+        if (value <= fit.worst.error) continue;  // no candidate, whatever its bound
+        const double bound = bound_at(index + i), margin = surface.guard + kNormRounding * error;
+        if (error < bound - margin) continue;
+        if (error > bound + margin) {
+          fit.worst = {value, {begin + static_cast<std::int32_t>(i), y}};
+        } else {
+          doubtful = std::max(doubtful, value);
+        }
+      }
+    }
+    fit.complete = !question.is_given_up(fit.max_error, fit.sum_squares);
+  });
+  fit.unsettled = doubtful >= 0 && doubtful >= fit.worst.error;
+  if (question.lattice > 1 && fit.complete) refine_scores(surface, corners, question, fit);
+  return fit;
+}
+
+void SampleJudge::refine_scores(const Surface& surface, const std::array<Point, 3>& corners,
+                                const FitQuestion& question, Fit& fit) const {
+  const auto error_at = [&](std::int32_t x, std::int32_t y, double fx, double fy) {
+    double total = 0;
+    for (std::size_t k = 0; k < judging_.fields.size(); ++k) {
+      const Plane& plane = surface.plane(k);
+      const double height = plane.height + plane.slope_y * (fy - plane.base.y) + plane.slope_x * (fx - plane.base.x);
+      const double sample = interpolate(judging_.fields[k].samples, judging_.heights.cols, x, y, question.lattice);
+      add_to_norm(judging_.norm, judging_.fields[k].scale * std::abs(height - sample), total);
+    }
+    return judging_.norm == Norm::kSquares ? std::sqrt(total) : total;
+  };
+  double most = 0, squares = 0;
+  scan_fine(corners, question.lattice, [&](std::int32_t x, std::int32_t y, double fx, double fy) {
+    const std::size_t nearest = index_of({static_cast<std::int32_t>(fx + 0.5), static_cast<std::int32_t>(fy + 0.5)});
+    const double error = weighted(error_at(x, y, fx, fy), nearest);
+    ++fit.scanned;
+    if (!std::isnan(error)) {
+      most = std::max(most, error);
+      squares += error * error;
+    }
+  });
+  fit.max_error = most;
+  fit.sum_squares = squares / (double{1} * question.lattice * question.lattice);
+}
+
+bool SampleJudge::exceeds(const std::array<Point, 3>& corners, Point p, std::size_t index) const {
+  const double bound = bound_at(index);
+  const auto field_exceeds = [&](const JudgedField& field) {
+    return exceeds_exactly(corners, values_at(field, corners), p, field.samples[index], bound);
+  };
+  if (std::find(corners.begin(), corners.end(), p) != corners.end()) return false;
+  if (bound == 0 || (judging_.fields.size() == 1 && judging_.fields[0].scale == 1))
+    return std::any_of(judging_.fields.begin(), judging_.fields.end(), field_exceeds);
+  return true;
+}
+
+std::optional<Candidate> SampleJudge::find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const {
+  std::optional<Candidate> worst;
+  if (fit.worst.error >= 0) worst = fit.worst;
+  if (!fit.unsettled) return worst;
+  const Surface surface = this->surface(corners);
+  scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
+    for (std::int32_t x = first; x <= last; ++x) {
+      const Point p{x, y};
+      const std::size_t index = index_of(p);
+      if (std::isnan(judging_.heights.samples[index])) continue;
+      const double error = combine(surface, p), bound = bound_at(index);
+      const double margin = surface.guard + kNormRounding * error;
+      if (!(std::abs(error - bound) <= margin)) continue;
+      const Candidate candidate{importance(error, index), p};
+      if ((!worst || is_worse(candidate, *worst)) && exceeds(corners, p, index)) worst = candidate;
+    }
+  });
+  return worst;
+}
+
+double SampleJudge::squares_between(Point a, Point b) const {
+  double squares = 0;
+  visit_between(a, b, [&](Point p, double share) {
+    const std::size_t index = index_of(p);
+    if (std::isnan(judging_.heights.samples[index])) return;
+    double total = 0;
+    for (const JudgedField& field : judging_.fields) {
+      const double from = field.samples[index_of(a)], rise = double{field.samples[index_of(b)]} - from;
+      add_to_norm(judging_.norm, field.scale * std::abs(from + share * rise - double{field.samples[index]}), total);
+    }
+    const double error = weighted(judging_.norm == Norm::kSquares ? std::sqrt(total) : total, index);
+    squares += error * error;
+  });
+  return squares;
+}
+
+double SampleJudge::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {
+  double sum = 0;
+  for (const JudgedField& field : judging_.fields)
+    sum += field.scale * bend_of(Plane::through(a, values_at(field, a)), Plane::through(b, values_at(field, b)));
+  return sum;
+}
+
+}  // namespace scarp

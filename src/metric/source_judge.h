@@ -1,0 +1,30 @@
+// The plain judge of samples that are not in memory as floats.
+#pragma once
+
+#include "metric/judge.h"
+#include "metric/source_bounds.h"
+#include "scarp/height_field.h"
+
+namespace scarp {
+
+/// HeightJudge's answers, bit for bit, or SampleJudge's where samples have bounds of their own, each from a window of
+/// the source around the triangle: for few questions. Throws SourceFailure where a source fails.
+class SourceJudge final : public Judge {
+ public:
+  /// `bounds`: null where the threshold holds for all; stay alive.
+  SourceJudge(const HeightField& field, double threshold, const SourceBounds* bounds = nullptr)
+      : field_(field), threshold_(threshold), bounds_(bounds) {}
+
+  Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const override;
+  std::optional<Candidate> find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const override;
+  double goal() const override { return bounds_ != nullptr ? 1 : threshold_; }
+  double squares_between(Point a, Point b) const override;
+  double bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const override;
+
+ private:
+  const HeightField& field_;
+  double threshold_;
+  const SourceBounds* bounds_;
+};
+
+}  // namespace scarp

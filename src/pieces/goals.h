@@ -1,0 +1,52 @@
+// Goals, budgets and progress of a run: what rasters and scattered points have in common.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "base/clock.h"
+#include "base/memory_budget.h"
+#include "base/reporter.h"
+#include "scarp/progress.h"
+#include "scarp/result.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+
+/// Fails unless there is a goal (tolerances count where they are allowed) and max_error is a number of at least 0.
+Result<void> check_goals(const SimplifyOptions& options, bool may_have_tolerance);
+
+/// Bytes a vertex: what a run takes most of, in the proof, while the mesh is written, or where it is fitted as a whole.
+MemoryBudget memory_budget(const HeightField& field, const SimplifyOptions& options);
+
+struct MeshSize {
+  std::uint64_t vertices = 0, triangles = 0;
+};
+
+/// The budgets of the options, which stay alive.
+class Budget {
+ public:
+  explicit Budget(const SimplifyOptions& options) : options_(options) {}
+
+  /// Fails if not even the smallest mesh fits: "N vertices are too few: CULPRIT M; allow moreADVICE".
+  Result<void> check(const MeshSize& least, const std::string& culprit, const std::string& advice) const;
+  /// The budget that one more vertex with `gain` more triangles would break.
+  std::optional<StopReason> exceeded(const MeshSize& size, std::uint32_t gain) const;
+  /// The last 5 % of what is allowed: where the best prefix is looked for.
+  bool in_last_stretch(const MeshSize& size) const;
+  /// The larger share of what is allowed; 0 without budgets.
+  double used(const MeshSize& size) const;
+
+ private:
+  const SimplifyOptions& options_;
+};
+
+/// A mesh on the way, as the number of vertices that the triangulation then had.
+struct Prefix {
+  std::size_t vertices = 0;
+  double error = 0;
+};
+
+}  // namespace scarp

@@ -1,0 +1,94 @@
+#include "pieces/release.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "base/parallel.h"
+#include "geom/predicates.h"
+
+namespace scarp {
+
+namespace {
+
+/// What the rule says about an edge, and what it cost to say.
+struct Verdict {
+  bool flips = false;
+  std::uint64_t samples = 0, triangles = 0;
+};
+
+Verdict judge_edge(const Triangulation& tin, const Judge& judge, HalfEdge h) {
+  Verdict verdict;
+  if (tin.is_outside(h / 3)) return verdict;
+  const auto corner = [&](HalfEdge g) { return tin.point(tin.origin(g)); };
+  const Point a = corner(h), b = corner(Triangulation::next(h)), c = corner(Triangulation::previous(h));
+  const Point d = corner(Triangulation::previous(tin.twin(h)));
+  // An error so far above the goal is a breach beyond any rounding; should it not be, the edge only stays as it is.
+  FitQuestion question;
+  if (judge.goal() > 0) question.give_up_max = 1.001 * judge.goal();
+  const auto keeps_bound = [&](const std::array<Point, 3>& corners) {
+    const Fit fit = judge.fit(corners, question);
+    verdict.samples += fit.scanned;
+    ++verdict.triangles;
+    return fit.complete && !judge.find_candidate(corners, fit);
+  };
+  verdict.flips = in_circle(a, b, c, d) > 0 && keeps_bound({c, d, b}) && keeps_bound({d, c, a});
+  return verdict;
+}
+
+/// Delaunay's rule where the bound allows it. Verdicts made beforehand hold until one of an edge's triangles changes.
+class CarefulRule final : public FlipRule {
+ public:
+  CarefulRule(const Triangulation& tin, const Judge& judge, const std::vector<HalfEdge>& edges, int threads)
+      : judge_(judge) {
+    constexpr std::size_t kChunk = 64;
+    std::vector<Verdict> verdicts(edges.size());
+    parallel_for((edges.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
+      const std::size_t end = std::min(edges.size(), (chunk + 1) * kChunk);
+      for (std::size_t i = chunk * kChunk; i < end; ++i) verdicts[i] = judge_edge(tin, judge, edges[i]);
+    });
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      count(verdicts[i]);
+      verdicts_[edges[i]] = verdicts[i].flips;
+    }
+  }
+
+  bool should_flip(const Triangulation& tin, HalfEdge h) override {
+    const Triangle t = h / 3, u = tin.twin(h) / 3;
+    const auto known = verdicts_.find(h);
+    bool flips = false;
+    if (known != verdicts_.end() && !changed_.contains(t) && !changed_.contains(u)) {
+      flips = known->second;
+    } else {
+      const Verdict verdict = judge_edge(tin, judge_, h);
+      count(verdict);
+      flips = verdict.flips;
+    }
+    if (flips) changed_.insert({t, u});
+    return flips;
+  }
+  const Work& work() const { return work_; }
+
+ private:
+  void count(const Verdict& verdict) {
+    work_.samples_scanned += verdict.samples;
+    work_.triangles_scanned += verdict.triangles;
+  }
+
+  const Judge& judge_;
+  std::unordered_map<HalfEdge, bool> verdicts_;
+  std::unordered_set<Triangle> changed_;
+  Work work_;
+};
+
+}  // namespace
+
+Work release_seams(Triangulation& tin, const Judge& judge, std::vector<HalfEdge> seams, int threads) {
+  CarefulRule rule(tin, judge, seams, threads);
+  tin.improve(seams, rule, SIZE_MAX);
+  return rule.work();
+}
+
+}  // namespace scarp

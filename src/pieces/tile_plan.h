@@ -1,0 +1,33 @@
+// How a raster is cut into tiles.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "pieces/border_chain.h"
+#include "refine/tile.h"
+#include "refine/tile_scanner.h"
+
+namespace scarp {
+
+/// Tiles of nearly equal sides.
+class TilePlan {
+ public:
+  /// Sides within half and one and a half times `side` where the raster is that large.
+  TilePlan(std::int32_t cols, std::int32_t rows, std::int32_t side);
+
+  std::size_t per_row() const { return x_.size() - 1; }
+  std::size_t per_column() const { return y_.size() - 1; }
+  std::size_t count() const { return per_row() * per_column(); }
+  /// Tiles are numbered row by row.
+  TileWindow window(std::size_t tile) const;
+  SharedSides shared(std::size_t tile) const;
+
+ private:
+  std::vector<std::int32_t> x_, y_;
+};
+
+/// The sides of a window that are shared, as lines of the raster.
+std::vector<BorderLine> shared_lines(const TileWindow& window, const SharedSides& shared);
+
+}  // namespace scarp

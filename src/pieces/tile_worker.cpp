@@ -1,0 +1,66 @@
+#include "pieces/tile_worker.h"
+
+#include <algorithm>
+
+#include "pieces/border_chain.h"
+#include "pieces/tile_plan.h"
+#include "refine/dominant.h"
+#include "refine/tile_domain.h"
+
+namespace scarp {
+
+double expected_density(std::size_t kept, std::int64_t steps) {
+  // The square of the density along a line, times what was found on terrain of all kinds (2 to 10).
+  const double along = static_cast<double>(kept) / static_cast<double>(std::max<std::int64_t>(1, steps));
+  return 5 * along * along;
+}
+
+void add(Work& sum, const Work& work) {
+  sum.samples_scanned += work.samples_scanned;
+  sum.triangles_scanned += work.triangles_scanned;
+  sum.queue_moves += work.queue_moves;
+  sum.passes += work.passes;
+}
+
+TileOutcome TileWorker::refine(const HeightField& field, const TileWindow& window, const SharedSides& shared,
+                               double threshold, double density, std::size_t most) {
+  TileOutcome outcome;
+  if (outcome.status = tile_.load(field, window); !outcome.status) return outcome;
+  if (!(tile_.largest_height() <= kMaxScanHeight)) {
+    outcome.is_unsuited = true;
+    return outcome;
+  }
+  if (outcome.status = find_border(field, window, shared, threshold); !outcome.status) return outcome;
+  if (outcome.status = start_tile(tile_, border_, mesh_); !outcome.status) return outcome;
+  coarse_.insert(tile_, shared, threshold, steps_ > 0 ? expected_density(border_.size(), steps_) : density, mesh_);
+  TileScanner scanner(tile_.view(), threshold);
+  scanner.set_shared(shared);
+  const DominantRun run = refine_dominant(mesh_, scanner, most);
+  outcome.is_broken_off = !run.finished;
+  if (outcome.is_broken_off) return outcome;
+  outcome.is_unsuited = scanner.has_given_up();
+  outcome.work = {scanner.samples_scanned(), scanner.triangles_scanned(), run.moves, run.insertions};
+  add(outcome.work, coarse_.work());
+  outcome.piece = pieces_.make(mesh_, {window.col, window.row}, window.cols, window.rows);
+  if (field.samples == nullptr) {
+    for (const Place p : outcome.piece.points) outcome.heights.push_back(tile_.view().at(p));
+  }
+  return outcome;
+}
+
+Result<void> TileWorker::find_border(const HeightField& field, const TileWindow& window, const SharedSides& shared,
+                                     double threshold) {
+  border_.clear();
+  steps_ = 0;
+  for (const BorderLine& line : shared_lines(window, shared)) {
+    const auto kept = simplify_border(field, line, threshold);
+    if (!kept) return tl::unexpected(kept.error());
+    steps_ += line.steps;
+    for (const std::int32_t step : *kept)
+      border_.push_back(place(line.col - window.col + (line.is_vertical ? 0 : step),
+                              line.row - window.row + (line.is_vertical ? step : 0)));
+  }
+  return {};
+}
+
+}  // namespace scarp

@@ -1,0 +1,366 @@
+#include "pieces/tiled.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "base/parallel.h"
+#include "grid/window.h"
+#include "pieces/border_chain.h"
+#include "pieces/tile_plan.h"
+#include "pieces/tile_room.h"
+#include "pieces/tile_worker.h"
+#include "tin/assembly.h"
+
+namespace scarp {
+
+namespace {
+
+/// Below, a tile would hold a few dozen vertices, many of them on its borders.
+constexpr double kLeastDensity = 1e-5;
+
+/// Tiles of a coarse mesh are large, so that borders are few; those of a fine one fit the caches.
+std::int32_t side_for(double density) {
+  if (density < 0.001) return 2048;
+  if (density < 0.003) return 1024;
+  return density < 0.04 ? 512 : 256;
+}
+
+/// From the borders that tiles of 256 samples would have; from the raster's own where there would be none.
+Result<double> estimate_density(const HeightField& field, double threshold, int threads) {
+  const TilePlan plan(field.cols, field.rows, 256);
+  const bool is_alone = plan.count() == 1;
+  struct Border {
+    Result<void> status;
+    std::size_t kept = 0;
+    std::int64_t steps = 0;
+  };
+  std::vector<Border> borders(plan.count());
+  parallel_for(plan.count(), threads, [&](std::size_t i) {
+    Border& border = borders[i];
+    const SharedSides shared = plan.shared(i);
+    for (const BorderLine& line :
+         shared_lines(plan.window(i), {shared.left || is_alone, shared.top || is_alone, is_alone, is_alone})) {
+      const auto chain = simplify_border(field, line, threshold);
+      if (!chain) {
+        border.status = tl::unexpected(chain.error());
+        return;
+      }
+      border.kept += chain->size();
+      border.steps += line.steps;
+    }
+  });
+  std::size_t kept = 0;
+  std::int64_t steps = 0;
+  for (const Border& border : borders) {
+    if (!border.status) return tl::unexpected(border.status.error());
+    kept += border.kept;
+    steps += border.steps;
+  }
+  return expected_density(kept, steps);
+}
+
+/// Vertices that no triangle of the domain uses.
+std::uint32_t count_unused(const Triangulation& tin) {
+  std::vector<bool> is_used(tin.vertex_count(), false);
+  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    if (!tin.is_outside(h / 3)) is_used[tin.origin(h)] = true;
+  }
+  return static_cast<std::uint32_t>(std::count(is_used.begin(), is_used.end(), false));
+}
+
+/// The samples are neither in one array nor in a source that copies them.
+bool is_in_file(const HeightField& field) { return field.samples == nullptr && !field.source->is_in_memory(); }
+
+/// Rows of a field whose source is slow, read once for all the tiles that want them.
+class RowBand final : public SampleSource {
+ public:
+  explicit RowBand(const HeightField& field) : field_(field) {}
+
+  Result<void> load(std::int32_t first, std::int32_t rows) {
+    first_ = first;
+    samples_.resize(static_cast<std::size_t>(field_.cols) * static_cast<std::size_t>(rows));
+    return read_window(field_, 0, first, field_.cols, rows, samples_.data(), field_.cols);
+  }
+  Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
+    for (int y = 0; y < rows; ++y)
+      std::copy_n(samples_.data() + static_cast<std::ptrdiff_t>(row + y - first_) * field_.cols + col, cols,
+                  out + y * stride);
+    return {};
+  }
+  bool is_in_memory() const override { return true; }
+  /// Rows that are loaded.
+  Raster raster(std::int32_t row, std::int32_t rows) const {
+    return {samples_.data() + static_cast<std::ptrdiff_t>(row - first_) * field_.cols, field_.cols, rows};
+  }
+  HeightField view() const {
+    HeightField field = field_;
+    field.source = this;
+    return field;
+  }
+
+ private:
+  const HeightField& field_;
+  std::int32_t first_ = 0;
+  std::vector<float> samples_;
+};
+
+/// Rows of tiles are read, and done with, one after the other.
+bool goes_by_rows(const HeightField& field, const TiledOptions& options) {
+  return is_in_file(field) || options.finish_row != nullptr;
+}
+
+/// Of a row of tiles that is read: its samples, and where it is finished a copy and what else that takes.
+std::uint64_t bytes_per_sample(const TiledOptions& options) {
+  return options.finish_row ? 2 * sizeof(float) + options.finish_bytes_per_sample : sizeof(float);
+}
+
+/// Of the samples of the highest row of tiles, where they are read by rows.
+std::uint64_t row_bytes(const HeightField& field, const TilePlan& plan) {
+  std::int32_t rows = 0;
+  for (std::size_t i = 0; i < plan.count(); i += plan.per_row()) rows = std::max(rows, plan.window(i).rows);
+  return sizeof(float) * static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(rows + 2);
+}
+
+/// Of a thread's buffers and finished tiles that wait, beside their vertices: some twice the samples of a tile.
+std::uint64_t worker_bytes(const TilePlan& plan) {
+  const TileWindow window = plan.window(0);
+  return 2 * sizeof(float) * static_cast<std::uint64_t>(window.cols) * static_cast<std::uint64_t>(window.rows);
+}
+
+/// One run over all tiles.
+class TiledRun {
+ public:
+  TiledRun(const HeightField& field, const TiledOptions& options, const TilePlan& plan, double density)
+      : options_(options),
+        plan_(plan),
+        density_(density),
+        is_streamed_(goes_by_rows(field, options)),
+        band_(field),
+        field_(is_streamed_ ? band_.view() : field),
+        step_(is_streamed_ ? plan.per_row() : plan.count()),
+        threads_(options.memory.threads_within(worker_bytes(plan), thread_count(options.threads))),
+        workers_(static_cast<std::size_t>(threads_)),
+        outcomes_(plan.count()),
+        assembly_(options.finish_row ? 1 : plan.per_row()),
+        row_(plan.per_row()) {
+    // Who finishes a row may copy its samples.
+    if (is_streamed_) base_bytes_ += row_bytes(field, plan) / sizeof(float) * bytes_per_sample(options);
+    base_bytes_ += std::min<std::uint64_t>(workers_.size(), step_) * worker_bytes(plan);
+  }
+
+  Result<std::optional<Tiled>> execute() {
+    if (auto fits = options_.memory.check_start(base_bytes_); !fits) return tl::unexpected(fits.error());
+    for (std::size_t first = 0; first < plan_.count() && status_ && !is_unsuited_; first += step_) {
+      if (is_streamed_) status_ = load_rows(first);
+      const TileWindow window = plan_.window(first);
+      const bool is_made_whole = options_.is_made_whole && options_.is_made_whole(window.row, window.rows);
+      if (status_ && !is_made_whole) refine(first, step_);
+      if (status_ && !is_unsuited_ && options_.finish_row)
+        status_ =
+            finish_row(window, is_made_whole, static_cast<double>(first + step_) / static_cast<double>(plan_.count()));
+    }
+    if (!status_) return tl::unexpected(status_.error());
+    if (is_unsuited_) return std::optional<Tiled>();
+    const bool is_whole = assembly_.is_whole();
+    if (!fixed_.empty()) fixed_.resize(assembly_.vertex_count(), 0);
+    std::vector<HalfEdge> seams;
+    Domain domain{assembly_.finish(seams), is_whole};
+    if (!is_whole) domain.unused = count_unused(domain.tin);
+    if (domain.unused == domain.tin.vertex_count())
+      return fail(
+          ErrorKind::kInput,
+          "the raster has no grid cell with three valid corners, so there is no surface to simplify; check nodata");
+    return std::optional<Tiled>(
+        Tiled{std::move(domain), std::move(seams), std::move(heights_), steps_, std::move(fixed_), work_});
+  }
+
+ private:
+  /// With the row above and the row below: borders look at the cells on both sides.
+  Result<void> load_rows(std::size_t tile) {
+    const TileWindow window = plan_.window(tile);
+    const std::int32_t first = std::max(window.row - 1, 0);
+    return band_.load(first, std::min(window.row + window.rows + 1, field_.rows) - first);
+  }
+
+  /// One after the other from the first on that has no room beside the others: then no tile is refused what it could
+  /// have, whatever the number of threads.
+  void refine(std::size_t first, std::size_t count) {
+    const std::size_t end = first + count;
+    const std::size_t refused = refine(first, end, threads_);
+    if (refused == end || !status_ || is_unsuited_) return;
+    workers_ = std::vector<TileWorker>(workers_.size());
+    for (std::size_t tile = refused; tile < end; ++tile) outcomes_[tile].reset();
+    const std::size_t too_large = refine(refused, end, 1);
+    if (too_large != end && status_) status_ = refuse(too_large);
+  }
+
+  /// Up to the first tile for which there is no room, which is returned, or `end`.
+  std::size_t refine(std::size_t first, std::size_t end, int threads) {
+    std::size_t refused = end;
+    TileRoom room(options_.memory, base_bytes_, assembly_.vertex_count() + row_.vertex_count(), threads);
+    parallel_in_order(
+        end - first, threads,
+        [&](std::size_t i, std::size_t worker) {
+          const std::size_t tile = first + i, most = room.begin();
+          outcomes_[tile] = workers_[worker].refine(field_, plan_.window(tile), plan_.shared(tile), options_.threshold,
+                                                    density_, most);
+          room.end(most, outcomes_[tile]->piece.points.size());
+        },
+        [&](std::size_t i) {
+          TileOutcome outcome = *std::exchange(outcomes_[first + i], std::nullopt);
+          if (outcome.is_broken_off) refused = first + i;
+          if (outcome.is_broken_off) return false;
+          room.commit(outcome.piece.points.size());
+          return commit(std::move(outcome), first + i);
+        });
+    return refused;
+  }
+
+  /// Of a tile that outgrows all the room there is. It is taken to become as dense as can be, or four times as much.
+  Result<void> refuse(std::size_t tile) const {
+    const MemoryBudget& memory = options_.memory;
+    const std::uint64_t before = assembly_.vertex_count() + row_.vertex_count(),
+                        each = TileRoom::bytes_per_vertex(memory);
+    const std::uint64_t taken = std::min(memory.rest(), base_bytes_ + before * memory.per_vertex);
+    const std::uint64_t most = (memory.rest() - taken) / each + 1;
+    const TileWindow window = plan_.window(tile);
+    const double samples = static_cast<double>(window.cols) * window.rows;
+    const double expected = static_cast<double>(before) + std::min(samples, 4 * static_cast<double>(most));
+    const double share = static_cast<double>(before + most) / expected * static_cast<double>(tile + 1) /
+                         static_cast<double>(plan_.count());
+    return memory.check_mesh(base_bytes_ + (each - memory.per_vertex) * most, before + most, share);
+  }
+
+  bool commit(TileOutcome outcome, std::size_t tile) {
+    status_ = outcome.status;
+    is_unsuited_ = outcome.is_unsuited;
+    if (!status_ || is_unsuited_) return false;
+    if (assembly_.triangle_count() + row_.triangle_count() + outcome.piece.outside.size() > kNone / 3 - 2) {
+      status_ = fail(ErrorKind::kInput, "the mesh would have more than 1,431 million triangles: allow a larger error");
+      return false;
+    }
+    add(work_, outcome.work);
+    if (options_.finish_row) {
+      outcome.piece.first.y = 0;
+      row_.append(outcome.piece);
+    } else {
+      assembly_.append(outcome.piece);
+      keep_heights(outcome.heights);
+    }
+    const double share = static_cast<double>(tile + 1) / static_cast<double>(plan_.count());
+    const std::uint64_t vertices = assembly_.vertex_count() + row_.vertex_count();
+    if (status_ = options_.memory.check_mesh(base_bytes_ + finish_bytes(row_.vertex_count()), vertices, share);
+        !status_)
+      return false;
+    if (options_.progress && !options_.progress(share, vertices))
+      status_ = fail(ErrorKind::kCancelled, "cancelled while refining");
+    return status_.has_value();
+  }
+
+  /// Beyond those of so many vertices of the row as such.
+  std::uint64_t finish_bytes(std::uint64_t vertices) const {
+    const std::uint64_t whole = options_.finish_bytes_per_vertex, mesh = options_.memory.per_vertex;
+    return (std::max(whole, mesh) - mesh) * vertices;
+  }
+
+  /// `share`: of the tiles, when it is done.
+  Result<void> finish_row(const TileWindow& window, bool is_made_whole, double share) {
+    const Raster samples = band_.raster(window.row, window.rows);
+    const bool has_above = window.row > 0, has_below = window.row + window.rows < field_.rows;
+    std::vector<HalfEdge> seams;
+    TileRow row{samples,   window.row, is_made_whole ? Triangulation(samples.cols, samples.rows) : row_.finish(seams),
+                has_above, has_below,  band_.raster(window.row - has_above, window.rows + has_above + has_below)};
+    row.check = [this, share](std::uint64_t vertices) -> Result<void> {
+      const std::uint64_t all = assembly_.vertex_count() + vertices;
+      if (options_.progress && !options_.progress(share, all))
+        return fail(ErrorKind::kCancelled, "cancelled while refining");
+      return options_.memory.check_mesh(base_bytes_ + finish_bytes(vertices), all, share);
+    };
+    row_ = Assembly(plan_.per_row());
+    const auto finished = options_.finish_row(std::move(row));
+    if (!finished) return tl::unexpected(finished.error());
+    const Triangulation& tin = finished->tin;
+    assert(window.row == 0 || finished->places.steps == steps_);
+    steps_ = finished->places.steps;
+    assembly_.append(tin, {0, window.row * steps_}, (samples.cols - 1) * steps_ + 1, (samples.rows - 1) * steps_ + 1);
+    std::vector<float> heights = finished->places.heights;
+    for (Vertex v = 0; finished->places.are_samples() && v < tin.vertex_count(); ++v)
+      heights.push_back(samples.at(tin.point(v)));
+    keep_heights(heights);
+    keep_fixed(finished->places.fixed);
+    return {};
+  }
+
+  void keep_heights(const std::vector<float>& heights) {
+    if (heights.empty()) return;
+    heights_.resize(assembly_.vertex_count());
+    for (std::size_t k = 0; k < heights.size(); ++k) heights_[assembly_.last_vertices()[k]] = heights[k];
+  }
+
+  void keep_fixed(const std::vector<std::uint8_t>& fixed) {
+    if (fixed.empty()) return;
+    fixed_.resize(assembly_.vertex_count(), 0);
+    for (std::size_t k = 0; k < fixed.size(); ++k) {
+      if (fixed[k] != 0) fixed_[assembly_.last_vertices()[k]] = 1;
+    }
+  }
+
+  const TiledOptions& options_;
+  std::uint64_t base_bytes_ = 0;  // bytes taken whatever the mesh
+  TilePlan plan_;
+  double density_;
+  bool is_streamed_;
+  RowBand band_;
+  HeightField field_;
+  std::size_t step_;  // tiles that are refined between one reading of rows and the next
+  int threads_;
+  std::vector<TileWorker> workers_;
+  std::vector<std::optional<TileOutcome>> outcomes_;
+  Assembly assembly_;  // of tiles, or of finished rows
+  Assembly row_;       // of tiles whose row is not finished
+  std::vector<float> heights_;
+  std::vector<std::uint8_t> fixed_;
+  std::int32_t steps_ = 1;
+  Work work_;
+  Result<void> status_;
+  bool is_unsuited_ = false;
+};
+
+}  // namespace
+
+/// Rows fit a quarter of the memory, half with what finishes them. That pays for each line between two of them.
+std::int32_t streamed_side(const HeightField& field, const TiledOptions& options) {
+  const MemoryBudget& memory = options.memory;
+  std::int32_t side = options.finish_row ? 1024 : 512;
+  const std::uint64_t parts = options.finish_row ? 2 : 4;
+  const auto bytes = [&] {
+    return bytes_per_sample(options) * static_cast<std::uint64_t>(field.cols) * static_cast<unsigned>(side);
+  };
+  while (memory.is_limited() && side > 64 && bytes() > memory.rest() / parts) side /= 2;
+  return side;
+}
+
+std::vector<std::int32_t> shared_rows(const HeightField& field, std::int32_t side) {
+  const TilePlan plan(field.cols, field.rows, side);
+  std::vector<std::int32_t> rows;
+  for (std::size_t tile = plan.per_row(); tile < plan.count(); tile += plan.per_row())
+    rows.push_back(plan.window(tile).row);
+  return rows;
+}
+
+Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options) {
+  const bool is_streamed = goes_by_rows(field, options);
+  double density = 0;
+  if (!is_streamed) {
+    const auto estimate = estimate_density(field, options.threshold, options.threads);
+    if (!estimate) return tl::unexpected(estimate.error());
+    density = *estimate;
+  }
+  std::int32_t side = options.tile_side;
+  if (options.may_decline && !is_streamed && density < kLeastDensity) return std::optional<Tiled>();
+  if (side == 0) side = is_streamed ? streamed_side(field, options) : side_for(density);
+  return TiledRun(field, options, TilePlan(field.cols, field.rows, side), density).execute();
+}
+
+}  // namespace scarp

@@ -1,0 +1,588 @@
+#include "shape/shape_refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "grid/sample_bands.h"
+#include "grid/sample_rows.h"
+#include "lines/breaklines.h"
+#include "metric/lattice_judge.h"
+#include "refine/refinement.h"
+#include "shape/plan_metric.h"
+#include "shape/shape_faults.h"
+#include "shape/shape_need.h"
+#include "shape/size_field.h"
+
+namespace scarp {
+
+namespace {
+
+using Vector = PlanMetric::Vector;
+using Location = Triangulation::Location;
+
+constexpr double kSlack = 1e-3;          ///< degrees, and share of lengths, that rounding of positions may take
+constexpr double kClosest = 1.0 / 32;    ///< of a sample: vertices for the sake of angles
+constexpr double kFinestSize = 0.5;      ///< of a sample: sizes that grade reckons with
+constexpr double kSnapShare = 1.0 / 12;  ///< steps of places over the distance to the nearest vertices
+constexpr double kAcute = 0.5;  ///< cos² of 45 degrees: corners between walls below that are acute, those of voids not
+
+Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1]}; }
+double dot_of(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]; }
+
+/// Whether the angle between u and v is less than the one whose cosine has this square (of 0 … 90 degrees).
+bool is_sharper(double dot, double squares, double cosine2) { return dot > 0 && dot * dot > cosine2 * squares; }
+
+SampleRows::Read aims_of(const SourceBounds& bounds) {
+  return [&bounds](Point first, std::int32_t cols, std::int32_t rows, float* out) {
+    return bounds.read_aims(first, cols, rows, out, cols);
+  };
+}
+
+class ShapeRefiner {
+ public:
+  ShapeRefiner(const Raster& raster, Triangulation& tin, const VertexPlaces& places, const ShapeTask& task)
+      : bands_{raster.rows, std::max(task.rows_at_once / 2, 1)},
+        rows_(raster.samples == nullptr ? std::optional<SampleRows>(std::in_place, *task.field, 2 * bands_.side)
+                                        : std::nullopt),
+        bound_rows_(task.source_bounds != nullptr
+                        ? std::optional<SampleRows>(std::in_place, raster.cols, raster.rows,
+                                                    aims_of(*task.source_bounds), 2 * bands_.side)
+                        : std::nullopt),
+        samples_(rows_ ? SampleView(*rows_) : SampleView(raster)),
+        tin_(tin),
+        task_(task),
+        metric_(task.affine, kLatticeSteps),
+        delaunay_(metric_),
+        heights_(samples_),
+        judge_(bound_rows_ ? LatticeJudge(samples_, heights_, *bound_rows_)
+                           : LatticeJudge(samples_, heights_, task.threshold, task.bounds)),
+        fixed_(places.fixed),
+        cosine2_(squares_of(task.goals.min_angle + kSlack).cosine),
+        least_(kClosest * metric_.shorter_side()) {
+    if (const auto& longest = task.goals.max_edge) {
+      longest2_ = *longest * *longest * (1 - kSlack);
+      least_ = std::min(least_, *longest / 4);
+    }
+    const SquaredAngle half = squares_of((task.goals.min_angle + kSlack) / 2);
+    off_centre_ = 0.475 * std::sqrt(half.cosine / half.sine);
+    if (places.are_samples()) tin_.scale(kLatticeSteps);
+    for (Vertex v = 0; v < places.heights.size(); ++v) {
+      const Point p = tin_.point(v);
+      const float z = places.heights[v];
+      if (rows_ || !PlaceHeights::is_sample(p) || (!std::isnan(z) && z != heights_.at(p))) heights_.set(p, z);
+    }
+    restore_delaunay(tin_, delaunay_);
+    const auto start = rows_ ? Refinement::Start::kClean : Refinement::Start::kScan;
+    refinement_.emplace(judge_, tin_, Algorithm::kHeap, EdgeRule{}, start);
+    refinement_->follow(&delaunay_);
+  }
+
+  Result<ShapeWork> run() {
+    note_all();
+    if (task_.goals.grade) {
+      sizes_.emplace(tin_, metric_, *task_.goals.grade, kFinestSize * metric_.longer_side());
+      sizes_->measure_all(out_);
+    }
+    if (const double least = least_triangles(tin_, metric_, task_.goals, sizes_ ? &*sizes_ : nullptr); task_.foresee) {
+      if (auto fits = task_.foresee(least); !fits) return tl::unexpected(fits.error());
+    }
+    for (std::uint64_t before = work_.insertions + 1; before != work_.insertions;) {
+      before = work_.insertions;
+      if (auto done = rows_ ? sweep_bands() : sweep_all(); !done) return tl::unexpected(done.error());
+    }
+    for (Triangle t = 0; t < tin_.triangle_count(); ++t) work_.forced += is_sharp(t) && is_forced(t);
+    work_.samples_scanned = refinement_->work().samples_scanned;
+    work_.triangles_scanned = refinement_->work().triangles_scanned;
+    return work_;
+  }
+
+  VertexPlaces places() const {
+    VertexPlaces places{kLatticeSteps, {}, {}};
+    places.heights.reserve(tin_.vertex_count());
+    for (Vertex v = 0; v < tin_.vertex_count(); ++v) {
+      const Point p = tin_.point(v);
+      places.heights.push_back(heights_.at(p));
+      const bool was_fixed = v < fixed_.size() && fixed_[v] != 0;
+      places.fixed.push_back(was_fixed || (!task_.all_may_go && !PlaceHeights::is_sample(p)) ? 1 : 0);
+    }
+    return places;
+  }
+
+ private:
+  Result<void> sweep_all() {
+    for (Triangle t = 0; t < tin_.triangle_count(); ++t) enqueue(t);
+    return work_off();
+  }
+
+  /// The first time all triangles are scanned, then only bad ones are looked at.
+  Result<void> sweep_bands() {
+    const bool is_first = waiting_.empty();
+    waiting_.assign(bands_.count(), {});
+    for (Triangle t = 0; t < tin_.triangle_count(); ++t) {
+      if (is_first ? !tin_.is_outside(t) : find_fault(t).has_value()) waiting_[bands_.at(row_of(t))].push(t);
+    }
+    for (band_ = 0; band_ < bands_.count(); ++band_) {
+      const std::vector<Triangle> here = waiting_[band_].take();
+      if (here.empty()) continue;
+      bands_.hold(band_, *rows_);
+      if (bound_rows_) bands_.hold(band_, *bound_rows_);
+      for (const Triangle t : here) {
+        // Who has left the band has been changed, and scanned.
+        if (is_first && bands_.at(row_of(t)) == band_) refinement_->scan({&t, 1});
+        enqueue(t);
+      }
+      if (is_first) share_ = static_cast<double>(band_ + 1) / static_cast<double>(bands_.count());
+      if (auto done = work_off(); !done) return done;
+    }
+    share_ = 1;
+    return {};
+  }
+
+  Result<void> work_off() {
+    for (std::uint64_t step = 0; !refinement_->done() || !bad_.empty(); ++step) {
+      if (refinement_->is_full())
+        return fail(ErrorKind::kInput,
+                    "the mesh would have more than 1,431 million triangles: ask for larger angles or edges");
+      if (step % 64 == 0 && task_.progress) {
+        if (auto on = task_.progress(share_, tin_.vertex_count(), refinement_->worst_error()); !on) return on;
+      }
+      if (!refinement_->done()) {
+        refinement_->insert_worst();
+        note_insertion();
+        continue;
+      }
+      const ShapeFault bad = bad_.pop();
+      if (corners_of(bad.triangle) != bad.corners || !find_fault(bad.triangle)) continue;
+      const bool helped = bad.is_long ? shorten(bad.triangle) : blunt(bad.triangle);
+      if (helped && corners_of(bad.triangle) == bad.corners) enqueue(bad.triangle);
+    }
+    return {};
+  }
+
+  // ---- What is bad ------------------------------------------------------------------------------------------------
+
+  std::array<Vertex, 3> corners_of(Triangle t) const {
+    return {tin_.origin(3 * t), tin_.origin(3 * t + 1), tin_.origin(3 * t + 2)};
+  }
+  double square(HalfEdge h) const {
+    return metric_.square(tin_.point(tin_.origin(h)), tin_.point(tin_.origin(Triangulation::next(h))));
+  }
+  HalfEdge shortest(Triangle t) const {
+    return std::min({3 * t, 3 * t + 1, 3 * t + 2}, [&](HalfEdge a, HalfEdge b) { return square(a) < square(b); });
+  }
+  /// Of samples, in which its centre lies.
+  std::int32_t row_of(Triangle t) const {
+    const auto [a, b, c] = tin_.corners(t);
+    return static_cast<std::int32_t>((std::int64_t{a.y} + b.y + c.y) / (3 * kLatticeSteps));
+  }
+  Vertex opposite(HalfEdge h) const { return tin_.origin(Triangulation::previous(h)); }
+
+  /// How many times as long as allowed, squared.
+  double excess(HalfEdge h) const {
+    const double length2 = square(h);
+    double excess = length2 / longest2_;
+    if (sizes_) {
+      const double size = std::max(sizes_->at(tin_.origin(h)), sizes_->at(tin_.origin(Triangulation::next(h))));
+      excess = std::max(excess, length2 / (kGradeFactor * kGradeFactor * (1 - kSlack) * size * size));
+    }
+    return excess;
+  }
+  bool is_sharp(Triangle t) const {
+    if (tin_.is_outside(t) || task_.goals.min_angle == 0) return false;
+    const HalfEdge h = shortest(t);
+    return is_sharper(metric_.dot(tin_.point(opposite(h)), tin_.point(tin_.origin(h)),
+                                  tin_.point(tin_.origin(Triangulation::next(h)))),
+                      square(Triangulation::next(h)) * square(Triangulation::previous(h)), cosine2_);
+  }
+  std::optional<ShapeFault> find_fault(Triangle t) const {
+    if (tin_.is_outside(t)) return std::nullopt;
+    const double most = std::max({excess(3 * t), excess(3 * t + 1), excess(3 * t + 2)});
+    if (most > 1) return ShapeFault{true, most, t, corners_of(t)};
+    if (!is_sharp(t) || is_forced(t)) return std::nullopt;
+    return ShapeFault{false, -square(shortest(t)), t, corners_of(t)};
+  }
+  void enqueue(Triangle t) {
+    const auto bad = find_fault(t);
+    if (!bad) return;
+    if (!rows_ || bands_.reaches(band_, row_of(t))) {
+      bad_.push(*bad);
+      if (bad_.size() > 2 * tin_.triangle_count())
+        bad_.clean([this](const ShapeFault& fault) { return corners_of(fault.triangle) == fault.corners; });
+    } else if (const std::size_t band = bands_.at(row_of(t)); band > band_) {
+      waiting_[band].push(t);
+    }
+  }
+
+  /// Nothing may cross it.
+  bool is_wall(HalfEdge h) const {
+    const HalfEdge g = tin_.twin(h);
+    return g == kNone || tin_.is_constrained(h) || tin_.is_outside(g / 3);
+  }
+  /// A line with surface on both sides.
+  bool is_line(HalfEdge h) const { return tin_.twin(h) != kNone && !tin_.is_outside(tin_.twin(h) / 3); }
+
+  /// Whether the small angle is the input's: between two walls, or over an edge that joins two walls of an acute
+  /// corner.
+  bool is_forced(Triangle t) const {
+    const HalfEdge h = shortest(t);
+    const auto is_corner = [&](HalfEdge side) {
+      return is_wall(Triangulation::next(side)) && is_wall(Triangulation::previous(side));
+    };
+    if (is_corner(h)) return true;
+    const HalfEdge g = tin_.twin(h);
+    if (is_wall(h) || !is_corner(g)) return false;
+    return is_sharper(metric_.dot(tin_.point(opposite(g)), tin_.point(tin_.origin(g)),
+                                  tin_.point(tin_.origin(Triangulation::next(g)))),
+                      square(Triangulation::next(g)) * square(Triangulation::previous(g)), kAcute);
+  }
+
+  // ---- What is done about it ----------------------------------------------------------------------------------------
+
+  bool shorten(Triangle t) {
+    const HalfEdge h =
+        std::max({3 * t, 3 * t + 1, 3 * t + 2}, [&](HalfEdge a, HalfEdge b) { return excess(a) < excess(b); });
+    if (is_wall(h)) return split_wall(h, true);
+    return insert_near(t, std::numeric_limits<double>::infinity()) || split_free(h);
+  }
+  bool blunt(Triangle t) {
+    return insert_near(t, off_centre_ * std::sqrt(square(shortest(t)))) ||
+           insert_near(t, std::numeric_limits<double>::infinity());
+  }
+
+  /// Towards the centre of the triangle's circle, so far from its shortest edge at most. False if nothing was inserted.
+  bool insert_near(Triangle t, double reach) {
+    const HalfEdge h = shortest(t);
+    const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h))),
+                c = tin_.point(opposite(h));
+    const Vector ab = metric_.between(a, b), ac = metric_.between(a, c);
+    const double area = ab[0] * ac[1] - ab[1] * ac[0], ab2 = dot_of(ab, ab), ac2 = dot_of(ac, ac);
+    const Vector centre{(ac[1] * ab2 - ab[1] * ac2) / (2 * area), (ab[0] * ac2 - ac[0] * ab2) / (2 * area)};
+    Vector up = minus(centre, {ab[0] / 2, ab[1] / 2});
+    const double height = std::sqrt(dot_of(up, up));
+    if (height > reach) up = {up[0] * reach / height, up[1] * reach / height};
+    const Vector at = metric_.to_lattice({ab[0] / 2 + up[0], ab[1] / 2 + up[1]});
+    const double radius = std::sqrt(ab2 / 4 + dot_of(up, up));
+    const Vector from{(double(a.x) + b.x + c.x) / 3, (double(a.y) + b.y + c.y) / 3};
+    const Point p = place_near(from, {a.x + at[0], a.y + at[1]}, radius / metric_.longer_side());
+    return insert_free(t, from, p);
+  }
+
+  /// On the lattice and in the rectangle; on coarse steps where `radius`, in samples, is large.
+  Point place_near(const Vector& from, const Vector& wanted, double radius) const {
+    const Vector far{(samples_.cols() - 1.0) * kLatticeSteps, (samples_.rows() - 1.0) * kLatticeSteps};
+    double share = 1;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double limit = wanted[k] < 0 ? 0 : far[k];
+      if (wanted[k] < 0 || wanted[k] > far[k]) share = std::min(share, (limit - from[k]) / (wanted[k] - from[k]));
+    }
+    std::int32_t step = 1;
+    while (step < kLatticeSteps && 2 * step <= radius * kLatticeSteps * kSnapShare) step *= 2;
+    const auto snap = [&](std::size_t k) {
+      const double at = std::floor((from[k] + share * (wanted[k] - from[k])) / step + 0.5) * step;
+      return static_cast<std::int32_t>(std::clamp(at, 0.0, far[k]));
+    };
+    return {snap(0), snap(1)};
+  }
+
+  /// The triangle that holds p, seen from `from` in t; else the wall that hides it.
+  struct Sight {
+    Triangle triangle = kNone;
+    HalfEdge wall = kNone;
+  };
+  Sight look(Triangle t, const Vector& from, Point p) const {
+    const Vector ahead{p.x - from[0], p.y - from[1]};
+    const auto is_left = [&](Vertex v) {
+      const Point q = tin_.point(v);
+      return ahead[0] * (q.y - from[1]) - ahead[1] * (q.x - from[0]) > 0;
+    };
+    HalfEdge entered = kNone;
+    for (std::size_t step = 0; step < tin_.triangle_count(); ++step) {
+      HalfEdge exit = kNone;
+      for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+        if (h == entered || orient(tin_.point(tin_.origin(h)), tin_.point(tin_.origin(Triangulation::next(h))), p) >= 0)
+          continue;
+        // Of two edges that p lies beyond, the one that the way crosses: they share a corner, left or right of it.
+        if (exit == kNone) {
+          exit = h;
+        } else if (Triangulation::next(exit) == h) {
+          exit = is_left(tin_.origin(h)) ? exit : h;
+        } else {
+          exit = is_left(tin_.origin(exit)) ? h : exit;
+        }
+      }
+      if (exit == kNone) return {t, kNone};
+      if (is_wall(exit)) return {kNone, exit};
+      entered = tin_.twin(exit);
+      t = entered / 3;
+    }
+    return {};  // lost by rounding
+  }
+
+  /// What the insertion of p would take away, and the walls around that whose circles hold p, longest first.
+  struct Cavity {
+    double nearest2 = std::numeric_limits<double>::infinity();
+    std::vector<HalfEdge> encroached;
+  };
+  Cavity cavity_of(Point p, const Location& location) {
+    Cavity cavity;
+    seen_.resize(tin_.triangle_count(), 0);
+    std::vector<Triangle> found{location.edge / 3};
+    if (location.kind == Location::Kind::kOnEdge) found.push_back(tin_.twin(location.edge) / 3);
+    for (const Triangle t : found) seen_[t] = 1;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      for (HalfEdge h = 3 * found[k]; h < 3 * found[k] + 3; ++h) {
+        const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h)));
+        cavity.nearest2 = std::min(cavity.nearest2, metric_.square(p, a));
+        if (is_wall(h)) {
+          if (metric_.dot(p, a, b) < 0) cavity.encroached.push_back(h);
+          continue;
+        }
+        const Triangle beyond = tin_.twin(h) / 3;
+        if (seen_[beyond] != 0 || !metric_.is_in_circle(tin_.corners(beyond), p)) continue;
+        seen_[beyond] = 1;
+        found.push_back(beyond);
+      }
+    }
+    for (const Triangle t : found) seen_[t] = 0;
+    std::stable_sort(cavity.encroached.begin(), cavity.encroached.end(),
+                     [&](HalfEdge a, HalfEdge b) { return square(a) > square(b); });
+    return cavity;
+  }
+
+  bool insert_free(Triangle t, const Vector& from, Point p) {
+    const Sight sight = look(t, from, p);
+    if (sight.wall != kNone) return split_wall(sight.wall, false);
+    if (sight.triangle == kNone) return false;
+    const Location location = tin_.locate_in(p, sight.triangle);
+    if (location.kind == Location::Kind::kOnVertex) return false;
+    if (location.kind == Location::Kind::kOnEdge && is_wall(location.edge)) return split_wall(location.edge, false);
+    const Cavity cavity = cavity_of(p, location);
+    for (const HalfEdge wall : cavity.encroached) {
+      if (split_wall(wall, false)) return true;
+    }
+    return cavity.nearest2 >= least_ * least_ && insert_with_height(p, location);
+  }
+
+  /// The raster's; in level triangles theirs, so that water is flat up to its shore.
+  float height_between(Point p, const Location& location) const {
+    const HalfEdge across = location.kind == Location::Kind::kOnEdge ? tin_.twin(location.edge) : location.edge;
+    for (const HalfEdge h : {location.edge, across}) {
+      const auto [a, b, c] = tin_.corners(h / 3);
+      const float z = heights_.at(a);
+      if (heights_.at(b) == z && heights_.at(c) == z) return z;
+    }
+    return static_cast<float>(height_between_samples(samples_, p));
+  }
+
+  bool insert_with_height(Point p, const Location& location) {
+    if (!PlaceHeights::is_sample(p)) {
+      const float z = height_between(p, location);
+      if (std::isnan(z)) return false;
+      heights_.set(p, z);
+    }
+    refinement_->insert_at(p, location);
+    note_insertion();
+    return true;
+  }
+
+  /// Halves an edge that is not constrained.
+  bool split_free(HalfEdge h) {
+    const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h)));
+    const auto p = beside({(double(a.x) + b.x) / 2, (double(a.y) + b.y) / 2}, h);
+    return p && insert_with_height(*p, {Location::Kind::kOnEdge, std::min(h, tin_.twin(h))});
+  }
+
+  /// The lattice place nearest to one on an edge with two sides, such that the four triangles are positive.
+  std::optional<Point> beside(const Vector& wanted, HalfEdge h) const {
+    const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h))),
+                c = tin_.point(opposite(h)), d = tin_.point(opposite(tin_.twin(h)));
+    const auto x = static_cast<std::int32_t>(std::floor(wanted[0])),
+               y = static_cast<std::int32_t>(std::floor(wanted[1]));
+    std::optional<Point> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Point p : {Point{x, y}, {x + 1, y}, {x, y + 1}, {x + 1, y + 1}}) {
+      const Vector off{p.x - wanted[0], p.y - wanted[1]};
+      const double distance = dot_of(off, off);
+      if (distance >= least || orient(b, c, p) <= 0 || orient(c, a, p) <= 0 || orient(a, d, p) <= 0 ||
+          orient(d, b, p) <= 0)
+        continue;
+      best = p;
+      least = distance;
+    }
+    return best;
+  }
+
+  /// Halves it, about; for the sake of angles only if it is long enough for that. False if nothing was inserted.
+  bool split_wall(HalfEdge h, bool is_too_long) {
+    if (tin_.is_outside(h / 3)) h = tin_.twin(h);
+    if (!is_too_long && square(h) < 4 * least_ * least_) return false;
+    const Vertex from = tin_.origin(h), to = tin_.origin(Triangulation::next(h));
+    const Point a = tin_.point(from), b = tin_.point(to);
+    const double share = share_of_split(h);
+    // The outline of the valid data stays where it is; where a cutline ends the surface few lattice places are exactly
+    // on the way.
+    std::optional<Point> p;
+    if (!is_line(h)) p = on_outline(a, b, share);
+    const bool bends = !p && tin_.twin(h) != kNone;
+    std::pair<Point, Point> line{a, b};
+    if (bends) {
+      for (const Vertex v : {from, to}) {
+        if (const auto bent = lines_.find(v); bent != lines_.end()) line = bent->second;
+      }
+      p = beside_line(line, h, share, is_too_long ? 0.25 : 0);
+    }
+    if (!p) return false;
+    if (!PlaceHeights::is_sample(*p) || !samples_.is_valid({p->x / kLatticeSteps, p->y / kLatticeSteps})) {
+      const double za = heights_.at(a), zb = heights_.at(b);
+      heights_.set(*p, static_cast<float>(za + (zb - za) * std::sqrt(metric_.square(a, *p) / square(h))));
+    }
+    if (bends) lines_[static_cast<Vertex>(tin_.vertex_count())] = line;
+    const HalfEdge g = tin_.twin(h);
+    refinement_->insert_at(*p, {Location::Kind::kOnEdge, std::min(h, g)});
+    note_insertion();
+    return true;
+  }
+
+  /// The place beside() a line, of which an edge is part. Vertices that lie next to the line leave few places: what is
+  /// nearest to the share that is wanted, and at most `leeway` from it.
+  std::optional<Point> beside_line(const std::pair<Point, Point>& line, HalfEdge h, double share, double leeway) const {
+    constexpr int kTries = 512;
+    const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h)));
+    for (int k = 0; k < (leeway > 0 ? kTries : 1); ++k) {
+      const double at = share + (k % 2 == 0 ? 1 : -1) * leeway * ((k + 1) / 2) * 2 / kTries;
+      if (const auto p = beside(on_line(line, {a.x + at * (b.x - a.x), a.y + at * (b.y - a.y)}), h)) return p;
+    }
+    return std::nullopt;
+  }
+
+  /// A half; from an acute corner so much that the length from there is a power of two.
+  double share_of_split(HalfEdge h) const {
+    const Vertex from = tin_.origin(h), to = tin_.origin(Triangulation::next(h));
+    const bool begins = is_acute(from, to), ends = is_acute(to, from);
+    if (begins == ends) return 0.5;
+    const double length = std::sqrt(square(h));
+    double shell = metric_.shorter_side() / kLatticeSteps;
+    while (1.5 * shell < length / 2) shell *= 2;
+    const double share = std::clamp(shell / length, 0.25, 0.75);
+    return begins ? share : 1 - share;
+  }
+  /// Whether another wall than that to w begins at v, less than 45 degrees from it.
+  bool is_acute(Vertex v, Vertex w) const {
+    const Point apex = tin_.point(v), end = tin_.point(w);
+    bool found = false;
+    visit_around(tin_, out_[v], [&](HalfEdge out) {
+      if (tin_.is_outside(out / 3)) return;
+      for (const auto& [side, u] : {std::pair{out, tin_.origin(Triangulation::next(out))},
+                                    std::pair{Triangulation::previous(out), opposite(out)}}) {
+        if (u == w || !is_wall(side)) continue;
+        const double squares = metric_.square(apex, end) * square(side);
+        found = found || is_sharper(metric_.dot(apex, end, tin_.point(u)), squares, kAcute);
+      }
+    });
+    return found;
+  }
+
+  static Vector on_line(const std::pair<Point, Point>& line, const Vector& near) {
+    const Vector a{double(line.first.x), double(line.first.y)};
+    const Vector way{double(line.second.x) - a[0], double(line.second.y) - a[1]};
+    const double along = dot_of(minus(near, a), way) / dot_of(way, way);
+    return {a[0] + along * way[0], a[1] + along * way[1]};
+  }
+
+  /// A place of the lattice between a and b, exactly on the way: a sample where that is fine enough.
+  std::optional<Point> on_outline(Point a, Point b, double share) const {
+    const std::int32_t units = std::gcd(std::abs(b.x - a.x), std::abs(b.y - a.y));
+    if (units < 2) return std::nullopt;
+    const Point unit{(b.x - a.x) / units, (b.y - a.y) / units};
+    std::int32_t step = 1;
+    while (step < kLatticeSteps && 2 * step <= units * kSnapShare) step *= 2;
+    // Multiples of the step count from the raster's corner, as they do for other places.
+    const std::int32_t begin = unit.x != 0 ? a.x * (unit.x < 0 ? -1 : 1) : a.y * (unit.y < 0 ? -1 : 1);
+    const double at = std::floor((begin + share * units) / step + 0.5) * step - begin;
+    const auto k = static_cast<std::int32_t>(std::clamp(at, 1.0, units - 1.0));
+    return Point{a.x + k * unit.x, a.y + k * unit.y};
+  }
+
+  // ---- What must be known ------------------------------------------------------------------------------------------
+
+  void note_all() {
+    out_.resize(tin_.vertex_count());
+    for (HalfEdge h = 0; h < 3 * tin_.triangle_count(); ++h) out_[tin_.origin(h)] = h;
+  }
+  /// So that no band need be asked again.
+  void remember_height(Vertex v) {
+    const Point p = tin_.point(v);
+    if (PlaceHeights::is_sample(p)) heights_.set(p, heights_.at(p));
+  }
+  void note_insertion() {
+    ++work_.insertions;
+    out_.resize(tin_.vertex_count());
+    if (rows_) remember_height(static_cast<Vertex>(tin_.vertex_count() - 1));
+    for (const Triangle t : refinement_->changed()) {
+      for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) out_[tin_.origin(h)] = h;
+    }
+    if (sizes_) {
+      fallen_.clear();
+      sizes_->update(refinement_->changed(), out_, fallen_);
+      for (const Vertex v : fallen_) visit_around(tin_, out_[v], [&](HalfEdge h) { enqueue(h / 3); });
+    }
+    for (const Triangle t : refinement_->changed()) enqueue(t);
+  }
+
+  SampleBands bands_;
+  std::optional<SampleRows> rows_;  ///< where the samples are not in memory as a whole
+  std::optional<SampleRows> bound_rows_;
+  SampleView samples_;
+  Triangulation& tin_;
+  const ShapeTask& task_;
+  PlanMetric metric_;
+  PlanDelaunay delaunay_;
+  PlaceHeights heights_;
+  LatticeJudge judge_;
+  std::vector<std::uint8_t> fixed_;  ///< as they were given
+  double cosine2_, least_, longest2_ = std::numeric_limits<double>::infinity(), off_centre_ = 0;
+  std::optional<Refinement> refinement_;
+  std::optional<SizeField> sizes_;
+  ShapeFaults bad_;
+  std::size_t band_ = 0;                                       ///< at work
+  double share_ = 1;                                           ///< of bands, that has been at work
+  std::vector<WaitingTriangles> waiting_;                      ///< by band
+  std::vector<HalfEdge> out_;                                  ///< by vertex: a half-edge that begins there
+  std::unordered_map<Vertex, std::pair<Point, Point>> lines_;  ///< of vertices that halve lines: where these run
+  std::vector<Vertex> fallen_;
+  std::vector<std::uint8_t> seen_;
+  ShapeWork work_;
+};
+
+}  // namespace
+
+std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame) {
+  const auto& a = frame.affine;
+  if (goals.grade || a[1] * a[2] + a[4] * a[5] != 0) return std::nullopt;
+  const double width = std::sqrt(a[1] * a[1] + a[4] * a[4]), height = std::sqrt(a[2] * a[2] + a[5] * a[5]);
+  ShapeRule rule;
+  rule.by_angle = true;
+  rule.aspect = height / width;
+  // Without a smallest angle whatever has an area will do.
+  rule.floor = std::max(squares_of(goals.min_angle + kSlack).sine, std::numeric_limits<double>::min());
+  if (!goals.max_edge) return rule;
+  const double longest = *goals.max_edge / width * kLatticeSteps;
+  rule.longest_square = longest * longest * (1 - kSlack);
+  return rule;
+}
+
+Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexPlaces& places, const ShapeTask& task) {
+  ShapeRefiner refiner(raster, tin, places, task);
+  auto work = refiner.run();
+  if (work) places = refiner.places();
+  return work;
+}
+
+}  // namespace scarp

@@ -1,0 +1,83 @@
+// Triangles that are fit for simulation: Delaunay refinement over the lattice between samples, beside the error bound.
+//
+// A triangle with too small an angle is given a vertex near the centre of its circle: the off-centre (A. Üngör, 2004),
+// which makes the angle over its shortest edge just what was asked, else the centre. Where that lies beyond an outline
+// or a line, or in the circle over one of its edges, the edge is halved instead (J. Ruppert, "A Delaunay refinement
+// algorithm for quality 2-dimensional mesh generation", 1995), at corners of less than 45 degrees at powers of two from
+// the corner (J. R. Shewchuk, "Delaunay refinement algorithms for triangular mesh generation", 2002), so that both
+// sides get edges of the same lengths. A triangle that is too large gets the centre of its circle, or else its longest
+// edge is halved.
+//
+// How we differ: edges that no bad triangle asks for are not split, though they hold vertices in their circle; every
+// vertex has a place of its own on the raster's lattice, on samples where that is fine enough; between any two steps
+// samples that break the bound are inserted, worst first, as ever. For the sake of angles none comes nearer to
+// another than 1/32 of a sample, edges are split for size only while they are longer than what is allowed, and samples
+// are finite: so it ends for any goal.
+//
+// Where the samples are not in memory as a whole, the mesh is, and bands of rows are gone through from the top down:
+// what is bad in a band is dealt with while its samples and some around are held. Triangles that this changes further
+// up or down are seen to at once as far as the bound is concerned, else in their own bands, if need be in the next
+// sweep. So there are no borders between bands, and the goals hold as they do in memory.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "fit/rules.h"
+#include "grid/raster.h"
+#include "grid/vertex_places.h"
+#include "metric/source_bounds.h"
+#include "scarp/frame.h"
+#include "scarp/height_field.h"
+#include "scarp/mesh.h"
+#include "scarp/result.h"
+#include "scarp/shape.h"
+#include "tin/triangulation.h"
+
+namespace scarp {
+
+struct ShapeTask {
+  ShapeGoals goals;
+  std::array<double, 6> affine;        ///< of the frame
+  double threshold = 0;                ///< of errors
+  std::span<const float> bounds = {};  ///< of samples, as LatticeJudge has them
+  bool all_may_go = false;             ///< who comes next may remove, or move, vertices that are no samples
+  /// Told a share of the bands that have been gone through once, all where there are none, the vertices there are and
+  /// the worst error; what it says ends the run.
+  std::function<Result<void>(double share, std::uint64_t vertices, double error)> progress = {};
+  /// Told once, before all, how many triangles there will be at least; what it says ends the run.
+  std::function<Result<void>(double triangles)> foresee = {};
+  /// Where the raster has no samples: whose source has them, alive, and how many rows are held at a time, at least 4.
+  /// Then bounds of samples come from windows, too; null: the threshold holds for all.
+  const HeightField* field = nullptr;
+  const SourceBounds* source_bounds = nullptr;
+  std::int32_t rows_at_once = 0;
+};
+
+struct ShapeWork {
+  std::uint64_t forced = 0;  ///< triangles with small angles in corners between lines or outline
+  std::uint64_t samples_scanned = 0, triangles_scanned = 0, insertions = 0;
+};
+
+/// Makes `tin` Delaunay in the frame, but for constrained edges, and adds vertices until every sample keeps its bound
+/// and the goals hold as ShapeGoals says. `places`: of the vertices; afterwards in kLatticeSteps, those fixed that
+/// were, or that are no samples unless vertices are free. Fails with kInput for too many triangles, and as progress
+/// and foresee do; throws SourceFailure.
+/// REQUIRES: goals that were checked; sides of at most kMaxCoordinate / kLatticeSteps samples; an outline that is
+/// exact. Cost: expected O(log n) an insertion, but for scanning.
+Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexPlaces& places, const ShapeTask& task);
+
+/// Bytes a vertex that this takes at most, the mesh included.
+inline constexpr std::uint64_t kShapeBytesPerVertex = 240;
+
+/// What keeps angles and lengths of edges, as refine_shapes() has left them, while vertices are removed and moved.
+/// Nothing where only insertion can: with a grade, and where rows and columns of the frame are not at right angles.
+std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame);
+
+/// What a finished mesh looks like. `forced`: see ShapeWork.
+ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, std::uint64_t forced);
+
+}  // namespace scarp

@@ -1,0 +1,498 @@
+// The main job as a list of passes. Milestones: after `build_domain`, or in each tile after `start_tile`, the outline
+// is fixed; after `refine` and `take_best_prefix`, or after the tiles, no vertex is added, after `remove_vertices`
+// none removed; after `freeze` nothing moves; what `prove` has seen is what is returned.
+#include "simplify/engine_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+#include "fit/fit.h"
+#include "grid/samples.h"
+#include "lines/constraints.h"
+#include "metric/lattice_judge.h"
+#include "metric/source_judge.h"
+#include "pieces/effort.h"
+#include "pieces/freeze.h"
+#include "pieces/goals.h"
+#include "pieces/release.h"
+#include "pieces/row_fit.h"
+#include "pieces/source_windows.h"
+#include "refine/domain.h"
+#include "refine/refinement.h"
+#include "refine/settle_edges.h"
+#include "shape/shape_need.h"
+#include "shape/shape_refinement.h"
+#include "simplify/proof.h"
+
+namespace scarp {
+
+namespace {
+
+/// One run of the engine towards the goals.
+class Run {
+ public:
+  Run(const HeightField& field, const Raster& raster, const SimplifyOptions& options, const Criterion& criterion,
+      const ConstraintGraph* lines)
+      : field_(field),
+        raster_(raster),
+        options_(options),
+        criterion_(criterion),
+        lines_(lines),
+        budget_(options),
+        memory_(memory_budget(field, options)),
+        exact_(places_are_exact(field, options, lines == nullptr ? 1 : kLatticeSteps)),
+        reporter_(options.progress) {}
+
+  /// In the dominant order where `tiled` is given, else greedily.
+  Result<Simplified> execute(std::optional<Tiled> tiled) {
+    const auto start = Clock::now();
+    Simplified result;
+    result.ignored = criterion_.ignored();
+    result.order = tiled ? Order::kDominant : Order::kGreedy;
+    result.effort = options_.effort;
+    auto refined = tiled ? free_seams(std::move(*tiled), result) : insert_greedily(result);
+    if (!refined) return tl::unexpected(refined.error());
+    if (auto laid = lay_lines(result); !laid) return tl::unexpected(laid.error());
+    const auto shaped = fit_and_shape(result);
+    if (!shaped) return tl::unexpected(shaped.error());
+    // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
+    // proof.
+    const bool is_final = result.stop != StopReason::kMaxError || exact_ || !places_.are_samples();
+    if (is_final) refinement_.reset();
+    freeze_into(result, is_final);
+    order(result);
+    result.seconds_refine += seconds_since(start);
+    if (auto proven = prove_and_mend(result); !proven) return tl::unexpected(proven.error());
+    if (options_.shape.any()) result.shape = report_shapes(result.mesh, options_.shape, shaped->forced);
+    return result;
+  }
+
+ private:
+  static constexpr const char* kTooManyTriangles =
+      "the mesh would have more than 1,431 million triangles: allow a larger error";
+
+  /// Adds a pass that began at `start`.
+  static void record(Simplified& result, std::string_view name, Clock::time_point start, const Work& work = {}) {
+    result.passes.push_back({name, seconds_since(start), work.samples_scanned, work.triangles_scanned, work.passes});
+  }
+
+  Result<void> insert_greedily(Simplified& result) {
+    auto start = Clock::now();
+    auto domain = build_domain(raster_, options_.outline_tolerance, field_.frame);
+    if (!domain) return tl::unexpected(domain.error());
+    domain_ = std::move(*domain);
+    follow_script();
+    record(result, "domain", start);
+    if (lays_first()) return {};
+    start = Clock::now();
+    refinement_.emplace(criterion_.judge(), domain_->tin, options_.algorithm, options_.edges);
+    const char* culprit = options_.script.empty() ? "the outline of the valid data alone needs"
+                                                  : "the outline of the valid data and the script need";
+    const char* advice = domain_->whole ? "" : ", or simplify the outline with an outline tolerance";
+    if (auto fits = budget_.check(size(), culprit, advice); !fits) return fits;
+    if (auto refined = refine(result.stop); !refined) return refined;
+    finish_edges(result);
+    record(result, "refine", start, result.work);
+    return {};
+  }
+
+  /// The tiles' mesh becomes one. In curved frames its border is fitted to the samples, and what that breaks is
+  /// refined.
+  Result<void> free_seams(Tiled tiled, Simplified& result) {
+    const auto start = Clock::now();
+    domain_ = std::move(tiled.domain);
+    heights_ = std::move(tiled.heights);
+    result.work = tiled.work;
+    if (finishes_rows(field_, options_)) {
+      // Who works on the whole later has no raster to take heights of samples from.
+      if (options_.shape.any() && tiled.steps == 1) domain_->tin.scale(tiled.steps = kLatticeSteps);
+      set_places({tiled.steps, tiled.steps > 1 ? std::move(heights_) : std::vector<float>(), std::move(tiled.fixed)},
+                 result);
+    } else if (field_.samples != nullptr || field_.source->is_in_memory()) {
+      const Work work = release_seams(domain_->tin, criterion_.judge(), std::move(tiled.seams), options_.threads);
+      result.work.samples_scanned += work.samples_scanned;
+      result.work.triangles_scanned += work.triangles_scanned;
+      record(result, "seams", start, work);
+    }
+    if (field_.frame.is_affine()) return {};
+    const auto again = Clock::now();
+    follow_curved_border(raster_, domain_->tin, field_.frame);
+    refinement_.emplace(criterion_.judge(), domain_->tin);
+    auto refined = refine(result.stop);
+    record(result, "refine", again, refinement_->work());
+    return refined;
+  }
+
+  /// Whether there are faults or ridges: what refinement would do there without them, it need not do with them.
+  bool lays_first() const { return lines_ != nullptr && lines_->is_laid_first; }
+
+  /// Inserts what the script wants; samples outside the domain cannot become vertices.
+  void follow_script() {
+    for (const ScriptStep& step : options_.script) {
+      if (step.action == ScriptStep::Action::kInsert) insert_seed({step.col, step.row});
+    }
+    seeds_ = domain_->tin.vertex_count();
+  }
+  void insert_seed(Point p) {
+    const Triangulation& tin = domain_->tin;
+    const auto location = tin.locate(p, tin.last_touched());
+    const HalfEdge twin = location.kind == Triangulation::Location::Kind::kOnEdge ? tin.twin(location.edge) : kNone;
+    const bool inside = !tin.is_outside(location.edge / 3) || (twin != kNone && !tin.is_outside(twin / 3));
+    if (inside && raster_.is_valid(p)) domain_->tin.insert(p, location);
+  }
+
+  std::uint64_t vertices() const { return domain_->tin.vertex_count() - domain_->unused; }
+
+  MeshSize size() const { return {vertices(), refinement_->triangle_count()}; }
+  std::optional<StopReason> exceeded(std::uint32_t gain) const { return budget_.exceeded(size(), gain); }
+
+  std::optional<StopReason> reached() const {
+    if (refinement_->done()) return criterion_.has_error_goal() ? StopReason::kMaxError : StopReason::kExact;
+    return exceeded(refinement_->next_gain());
+  }
+
+  /// Every way of refinement is steps of one or more insertions, with a look at goals, progress and the best prefix
+  /// after each.
+  Result<void> refine(StopReason& stop) {
+    const double first_error = refinement_->worst_error();
+    best_ = {domain_->tin.vertex_count(), in_last_stretch() ? first_error : std::numeric_limits<double>::infinity()};
+    for (std::uint64_t step = 0;; ++step) {
+      if (const auto reason = reached()) {
+        stop = *reason;
+        return {};
+      }
+      if (refinement_->is_full()) return fail(ErrorKind::kInput, kTooManyTriangles);
+      if ((step < 1024 || step % 256 == 0 || options_.batch.rule != Batch::Rule::kSequential) && reporter_.due() &&
+          !reporter_.report("refine", fraction(first_error), vertices(), refinement_->worst_error()))
+        return fail(ErrorKind::kCancelled, "cancelled while refining");
+      if (step % 256 == 0) {
+        if (auto fits = memory_.check_mesh(0, vertices(), fraction(first_error)); !fits) return fits;
+      }
+      if (const auto budget = take_step()) {
+        stop = *budget;
+        return {};
+      }
+      if (in_last_stretch() && refinement_->worst_error() <= best_.error)
+        best_ = {domain_->tin.vertex_count(), refinement_->worst_error()};
+    }
+  }
+
+  /// Returns the budget that stopped it. REQUIRES: !reached().
+  std::optional<StopReason> take_step() {
+    if (options_.batch.rule != Batch::Rule::kSequential) return insert_batch();
+    if (options_.importance.one_pass) return insert_ranked();
+    refinement_->insert_worst();
+    return std::nullopt;
+  }
+
+  std::optional<StopReason> insert_batch() {
+    std::optional<StopReason> budget;
+    for (const auto& [candidate, triangle] : refinement_->collect(options_.batch)) {
+      if (options_.batch.rule == Batch::Rule::kIndependent && refinement_->has_changed(triangle)) continue;
+      const std::uint32_t gain = refinement_->gain_near(candidate.at, triangle);
+      if (gain == 0) continue;  // on an edge, named by both triangles
+      budget = exceeded(gain);
+      if (budget || refinement_->is_full()) break;
+      refinement_->insert_unseen(candidate.at, triangle);
+    }
+    refinement_->rescan_changed();
+    return budget;
+  }
+
+  std::optional<StopReason> insert_ranked() {
+    if (!ranking_) ranking_ = criterion_.ranking();
+    while (ranked_ < ranking_->size()) {
+      const Point p = (*ranking_)[ranked_];
+      const std::uint32_t gain = refinement_->gain_at(p);
+      if (const auto budget = gain == 0 ? std::nullopt : exceeded(gain)) return budget;
+      ++ranked_;
+      if (gain == 0) continue;
+      refinement_->insert(p);
+      return std::nullopt;
+    }
+    refinement_->insert_worst();
+    return std::nullopt;
+  }
+
+  double fraction(double first_error) const {
+    const double goal = criterion_.has_error_goal() ? criterion_.judge().goal() : 0;
+    return std::max(budget_.used(size()), error_progress(first_error, refinement_->worst_error(), goal));
+  }
+
+  /// Where the best prefix is looked for.
+  bool in_last_stretch() const {
+    return options_.best_of_budget && criterion_.importance_is_error() && !options_.importance.one_pass &&
+           budget_.in_last_stretch(size());
+  }
+
+  /// Max error is not monotone: a budget may stop on a spike. Insertion is deterministic, so an earlier mesh is had by
+  /// inserting the same points again, without looking at a sample.
+  void take_best_prefix() {
+    if (refinement_->done() || std::isinf(best_.error) || best_.vertices == domain_->tin.vertex_count()) return;
+    std::vector<Point> points;
+    for (std::size_t v = seeds_; v < best_.vertices; ++v) points.push_back(domain_->tin.point(static_cast<Vertex>(v)));
+    refinement_.reset();
+    domain_ = *build_domain(raster_, options_.outline_tolerance, field_.frame);
+    follow_script();
+    std::optional<DataDependentRule> rule;
+    if (options_.edges.data_dependent) rule.emplace(criterion_.judge(), options_.edges);
+    Triangulation& tin = domain_->tin;
+    for (Point p : points) {
+      const auto location = tin.locate(p, tin.last_touched());
+      rule ? rule->insert(tin, p, location) : tin.insert(p, location);
+    }
+  }
+
+  void finish_edges(Simplified& result) {
+    result.work = refinement_->work();
+    take_best_prefix();
+    const Work settling = settle_edges(domain_->tin, criterion_.judge(), options_.edges,
+                                       result.stop == StopReason::kMaxError || result.stop == StopReason::kExact);
+    result.work.samples_scanned += settling.samples_scanned;
+    result.work.triangles_scanned += settling.triangles_scanned;
+  }
+
+  /// Lines become chains of edges; what they break is refined around them.
+  Result<void> lay_lines(Simplified& result) {
+    if (lines_ == nullptr) return {};
+    const auto start = Clock::now();
+    refinement_.reset();
+    auto laid = ConstrainedMesh::lay(raster_, domain_->tin, *lines_);
+    if (!laid) return tl::unexpected(laid.error());
+    if (!laid->has_surface()) return fail(ErrorKind::kInput, kNothingInCutline);
+    const LatticeJudge judge(raster_, laid->heights(), criterion_.aim(), criterion_.aims());
+    // What refinement left and no line touches keeps the bound.
+    Refinement refinement(judge, domain_->tin, Algorithm::kHeap, {},
+                          lays_first() ? Refinement::Start::kScan : Refinement::Start::kClean);
+    if (!lays_first()) refinement.scan(laid->changed(), options_.threads);
+    const double first_error = refinement.worst_error();
+    for (std::uint64_t step = 0; !refinement.done(); ++step) {
+      if (refinement.is_full()) return fail(ErrorKind::kInput, kTooManyTriangles);
+      if (reporter_.due() &&
+          !reporter_.report("lines", error_progress(first_error, refinement.worst_error(), judge.goal()), vertices(),
+                            refinement.worst_error()))
+        return fail(ErrorKind::kCancelled, "cancelled while laying lines");
+      if (step % 256 == 0) {
+        if (auto fits =
+                memory_.check_mesh(0, vertices(), error_progress(first_error, refinement.worst_error(), judge.goal()));
+            !fits)
+          return fits;
+      }
+      refinement.insert_worst();
+    }
+    const bool may_move = options_.effort == Effort::kNormal || vertices_are_free(field_, options_);
+    if (options_.effort != Effort::kFast && may_move) laid->release_starts(domain_->tin);
+    places_ = laid->places(options_.threads);
+    if (lays_first()) result.work = refinement.work();
+    record(result, "lines", start, refinement.work());
+    return {};
+  }
+
+  Result<ShapeWork> fit_and_shape(Simplified& result) {
+    const bool is_last = removes_last(field_, options_);
+    if (!is_last) {
+      if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
+    }
+    auto shaped = add_for_shapes(result);
+    if (!shaped || !is_last) return shaped;
+    if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
+    return shaped;
+  }
+
+  /// Vertices that the bound can do without go.
+  Result<void> remove_vertices(Simplified& result) {
+    if (options_.effort == Effort::kFast || (fits_rows(field_, options_) && !options_.shape.any())) return {};
+    const auto start = Clock::now();
+    refinement_.reset();
+    FitOptions options = fit_options(field_, options_, criterion_.aim());
+    options.bounds = criterion_.aims();
+    const auto norm = fit_norm(options_, raster_, criterion_);
+    if (norm) options.norm = &*norm;
+    if (field_.samples == nullptr) read_windows(field_, memory_, options, criterion_.source_bounds());
+    options.threads = fit_threads(window_bytes(options));
+    const std::uint64_t windows = window_bytes(options) * static_cast<unsigned>(options.threads);
+    if (auto fits = memory_.check_mesh(windows, vertices(), 1); !fits) return fits;
+    Reporter reporter(options_.progress);
+    if (options_.progress) {
+      options.progress = [&](double share, std::uint64_t vertices) {
+        return !reporter.due() || reporter.report("fit", share, vertices, 0);
+      };
+    }
+    auto fitted = fit(raster_, std::move(domain_->tin), std::move(places_), options);
+    if (!fitted) return tl::unexpected(fitted.error());
+    domain_->tin = std::move(fitted->tin);
+    set_places(std::move(fitted->places), result);
+    result.is_cut_short = fitted->is_cut_short;
+    record(result, "fit", start);
+    result.passes.back().removals = fitted->counts.removed;
+    return {};
+  }
+
+  /// Vertices that angles and sizes of triangles need come, and others that the bound then needs.
+  Result<ShapeWork> add_for_shapes(Simplified& result) {
+    if (!options_.shape.any()) return ShapeWork{};
+    const auto start = Clock::now();
+    refinement_.reset();
+    ShapeTask task{options_.shape, field_.frame.affine, criterion_.aim(), criterion_.aims()};
+    task.all_may_go = vertices_are_free(field_, options_) || options_.effort == Effort::kNormal;
+    std::uint64_t rows = 0;
+    if (field_.samples == nullptr) {
+      task.field = &field_;
+      task.source_bounds = criterion_.source_bounds();
+      task.rows_at_once = rows_at_once(field_, memory_, task.source_bounds);
+      rows = bytes_at_once(field_, memory_, task.source_bounds);
+    }
+    const auto before = static_cast<double>(domain_->tin.vertex_count());
+    task.progress = [&](double share, std::uint64_t count, double error) -> Result<void> {
+      if (reporter_.due() && !reporter_.report("shape", 0, count, error))
+        return fail(ErrorKind::kCancelled, "cancelled while refining shapes");
+      const auto now = static_cast<double>(count);
+      return memory_.check_mesh(rows, count, now / (before + (now - before) / share));
+    };
+    task.foresee = [&](double triangles) { return check_need(triangles, memory_, rows); };
+    VertexPlaces places = std::move(places_);
+    auto work = refine_shapes(raster_, domain_->tin, places, task);
+    if (!work) return work;
+    set_places(std::move(places), result);
+    result.passes.push_back(
+        {"shape", seconds_since(start), work->samples_scanned, work->triangles_scanned, work->insertions});
+    return work;
+  }
+
+  /// Of the vertices, after fitting.
+  void set_places(VertexPlaces places, Simplified& result) {
+    places_ = std::move(places);
+    exact_ = places_are_exact(field_, options_, place_steps(field_, options_));
+    if (vertices_are_free(field_, options_) && !places_.are_samples()) result.vertices = Vertices::kFree;
+  }
+
+  /// As many as the memory leaves room for, each with a window of samples.
+  int fit_threads(std::uint64_t window) const {
+    const int threads = thread_count(options_.threads);
+    if (!memory_.is_limited()) return threads;
+    const std::uint64_t vertices = domain_->tin.vertex_count(), taken = memory_.per_vertex * vertices;
+    const std::uint64_t most =
+        (std::max(memory_.rest(), taken) - taken) / (kFitBytesPerVertexAndThread * vertices + window);
+    return static_cast<int>(std::clamp<std::uint64_t>(most, 1, static_cast<std::uint64_t>(threads)));
+  }
+
+  void order(Simplified& result) const {
+    const auto start = Clock::now();
+    optimize_order(result.mesh);
+    record(result, "order", start);
+  }
+
+  /// The last time the workbench's memory is given back on the way.
+  void freeze_into(Simplified& result, bool is_last) {
+    const auto start = Clock::now();
+    const SampleHeights heights = field_.samples != nullptr ? SampleHeights(raster_) : SampleHeights(field_, heights_);
+    const bool has_more = options_.normals || options_.uvs || !field_.channels.empty();
+    const LatticePoints at = has_more ? frozen_points(domain_->tin, places_) : LatticePoints{};
+    if (is_last) {
+      result.mesh = melt_down(heights, std::move(domain_->tin), places_, field_.frame, options_.float32_positions);
+      domain_.reset();
+    } else {
+      result.mesh = freeze(heights, domain_->tin, places_, field_.frame, options_.float32_positions);
+    }
+    if (options_.normals) result.mesh.normals = sample_normals(heights, field_.frame, at);
+    if (options_.uvs) result.mesh.uvs = sample_uvs(raster_.cols, raster_.rows, at);
+    result.mesh.channel_count = static_cast<int>(field_.channels.size());
+    for (Point p : field_.channels.empty() ? std::vector<Point>() : at.points) {
+      for (const Channel& channel : field_.channels)
+        result.mesh.channels.push_back(
+            channel.samples[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(raster_.cols) +
+                            static_cast<std::size_t>(p.x)]);
+    }
+    record(result, "freeze", start);
+  }
+
+  /// Inserts the samples that break the bound in the judge's eyes, as far as the budgets allow, and refines on. Returns
+  /// false if that cannot help.
+  Result<bool> mend(const std::vector<Offender>& offenders, Simplified& result) {
+    // A vertex among them: its own rounding breaks the bound, and no other vertex can mend that.
+    const auto is_vertex = [this](const Offender& o) { return refinement_->gain_at({o.col, o.row}) == 0; };
+    if (offenders.empty() || std::any_of(offenders.begin(), offenders.end(), is_vertex)) return false;
+    std::optional<StopReason> budget;
+    for (const Offender& o : offenders) {
+      const std::uint32_t gain = refinement_->gain_at({o.col, o.row});
+      if (gain == 0) continue;  // named by two triangles
+      budget = exceeded(gain);
+      if (budget) break;
+      refinement_->insert({o.col, o.row});
+    }
+    if (budget) {
+      result.stop = *budget;
+      return true;
+    }
+    if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
+    finish_edges(result);
+    return true;
+  }
+
+  /// Judges the mesh as it will be written. Where float32 positions or the frame's curvature cost the bound, the
+  /// samples that break it are inserted and refinement goes on.
+  Result<void> prove_and_mend(Simplified& result) {
+    for (;;) {
+      const auto start = Clock::now();
+      const auto proof = prove(field_, options_, criterion_, exact_, result);
+      if (!proof) return tl::unexpected(proof.error());
+      result.seconds_measure += seconds_since(start);
+      record(result, "prove", start);
+      if (!exact_ && !result.measurement.is_sound())
+        return fail(ErrorKind::kPromise,
+                    "the mesh folds over itself: in this frame positions are rounded to float32, or edges are straight "
+                    "where the grid's are curved; ask for a smaller error, or write in the local or grid frame");
+      if (proof->kept) return {};
+      if (!domain_) return fail(exact_ ? ErrorKind::kInternal : ErrorKind::kPromise, proof->broken);
+      if (!refinement_)
+        refinement_.emplace(criterion_.judge(), domain_->tin, options_.algorithm, options_.edges,
+                            Refinement::Start::kClean);
+      const auto again = Clock::now();
+      const auto mended = mend(proof->offenders, result);
+      if (!mended) return tl::unexpected(mended.error());
+      if (!*mended)
+        return fail(ErrorKind::kPromise,
+                    proof->broken +
+                        ": positions in the mesh are rounded to float32, which alone costs that much; ask for a larger "
+                        "error, or "
+                        "write OBJ or PLY, whose positions are double, or use the local or grid frame");
+      record(result, "refine", again);
+      freeze_into(result, false);
+      order(result);
+      result.seconds_refine += seconds_since(again);
+    }
+  }
+
+  const HeightField& field_;
+  const Raster& raster_;
+  const SimplifyOptions& options_;
+  const Criterion& criterion_;
+  const ConstraintGraph* lines_;
+  Budget budget_;
+  MemoryBudget memory_;
+  std::optional<Domain> domain_;  // the workbench: given back as soon as nothing can need it any more
+  std::vector<float> heights_;    // of its vertices, where the field has a source
+  std::size_t seeds_ = 0;
+  std::optional<Refinement> refinement_;
+  VertexPlaces places_;
+  bool exact_;  // every vertex can lie exactly on its sample, or on the lattice of fitting
+  Reporter reporter_;
+  std::optional<std::vector<Point>> ranking_;
+  std::size_t ranked_ = 0;
+  Prefix best_{0, std::numeric_limits<double>::infinity()};
+};
+
+}  // namespace
+
+Result<Simplified> run_engine(const HeightField& field, const Raster& raster, const SimplifyOptions& options,
+                              const Criterion& criterion, const ConstraintGraph* lines, std::optional<Tiled> tiled) {
+  return Run(field, raster, options, criterion, lines).execute(std::move(tiled));
+}
+
+}  // namespace scarp

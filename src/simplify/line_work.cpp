@@ -1,0 +1,44 @@
+#include "simplify/line_work.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel.h"
+#include "grid/line_places.h"
+#include "lines/breaklines.h"
+#include "pieces/goals.h"
+#include "pieces/row_fit.h"
+#include "pieces/tiled.h"
+
+namespace scarp {
+
+LineWork::LineWork(const HeightField& field, const SimplifyOptions& options, double tolerance)
+    : field_(field), options_(options), tolerance_(tolerance) {}
+
+bool LineWork::may_wait() const {
+  const LineConstraints& given = options_.breaklines;
+  if (thread_count(options_.threads) == 1) return false;
+  const bool is_too_large = std::max(field_.cols, field_.rows) > kMaxCoordinate / kLatticeSteps;
+  if (field_.samples == nullptr || is_too_large || !options_.cutline.rings.empty()) return false;
+  return std::all_of(given.lines.begin(), given.lines.end(), [&](const Line& line) {
+    const bool is_soft =
+        std::all_of(line.points.begin(), line.points.end(), [](const auto& p) { return std::isnan(p[2]); });
+    return is_soft && !is_laid_first(line) && check_line_places(line.name, line.points, given.affine);
+  });
+}
+
+Result<void> LineWork::prepare() {
+  if (is_prepared_) return {};
+  const auto start = Clock::now();
+  std::vector<std::int32_t> rows;
+  if (field_.samples == nullptr) rows = shared_rows(field_, side_of_rows(field_, options_));
+  auto lines = prepare_lines(field_, options_.breaklines, options_.cutline, tolerance_, options_.threads, rows);
+  if (!lines) return tl::unexpected(lines.error());
+  lines_ = std::move(*lines);
+  is_prepared_ = true;
+  seconds_ = seconds_since(start);
+  return {};
+}
+
+}  // namespace scarp

@@ -1,0 +1,40 @@
+// When the lines of a run are made ready: before it, or beside the refinement of tiles where that looks at none of
+// them.
+#pragma once
+
+#include "lines/field_lines.h"
+#include "scarp/height_field.h"
+#include "scarp/result.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+
+class LineWork {
+ public:
+  /// Lines and cutline of `options`; `tolerance` as for prepare_lines(). The field and the options stay alive.
+  LineWork(const HeightField& field, const SimplifyOptions& options, double tolerance);
+
+  /// Lines change no sample and cut nothing, all have a place on the lattice, and there is a second thread: whoever
+  /// refines tiles need not wait for them.
+  bool may_wait() const;
+  /// prepare_lines(), the first time only; fails as that does.
+  Result<void> prepare();
+  bool is_prepared() const { return is_prepared_; }
+
+  /// REQUIRES: is_prepared(), or may_wait() of the field.
+  HeightField field() const { return lines_.apply(field_); }
+  /// REQUIRES: is_prepared().
+  const ConstraintGraph& graph() const { return lines_.graph; }
+  FieldLines& lines() { return lines_; }
+  double seconds() const { return seconds_; }
+
+ private:
+  const HeightField& field_;
+  const SimplifyOptions& options_;
+  double tolerance_;
+  FieldLines lines_;
+  double seconds_ = 0;
+  bool is_prepared_ = false;
+};
+
+}  // namespace scarp

@@ -1,0 +1,29 @@
+// The mesh as it will be written, judged against everything that was promised.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "metric/criterion.h"
+#include "scarp/measure.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+
+struct Proof {
+  bool kept = true;
+  std::string broken;               ///< what is not kept, as the beginning of a sentence
+  std::vector<Offender> offenders;  ///< samples whose insertion may mend it
+};
+
+/// Fills the measurements of `result` from its mesh; looks for breaches where the error goal ended the run. `exact`:
+/// vertices lie exactly on their samples, so that a breach within the judge's own rounding is none, and the topology,
+/// which holds by construction, is left out. Fails as measure() does.
+Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, const Criterion& criterion, bool exact,
+                    Simplified& result);
+
+/// What prove() takes whatever the mesh.
+std::uint64_t proof_bytes(const HeightField& field, const SimplifyOptions& options);
+
+}  // namespace scarp

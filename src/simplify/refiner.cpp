@@ -1,0 +1,59 @@
+// The engine one vertex at a time: thin over refine/.
+#include "base/caught.h"
+#include "grid/raster.h"
+#include "grid/samples.h"
+#include "metric/height_judge.h"
+#include "pieces/freeze.h"
+#include "refine/domain.h"
+#include "refine/refinement.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+
+struct Refiner::Impl {
+  Impl(const HeightField& field_, Samples samples_, Domain domain_)
+      : field(field_),
+        samples(std::move(samples_)),
+        raster(samples.raster()),
+        domain(std::move(domain_)),
+        judge(raster, 0),
+        refinement(judge, domain.tin) {}
+  HeightField field;
+  Samples samples;
+  Raster raster;
+  Domain domain;
+  HeightJudge judge;
+  Refinement refinement;
+};
+
+Refiner::Refiner(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Refiner::Refiner(Refiner&&) noexcept = default;
+Refiner& Refiner::operator=(Refiner&&) noexcept = default;
+Refiner::~Refiner() = default;
+
+Result<Refiner> Refiner::create(const HeightField& field, double outline_tolerance) try {
+  if (field.samples == nullptr && field.source != nullptr)
+    return fail(ErrorKind::kUsage, "a refiner needs the samples as one array of floats: read the raster as a whole");
+  auto samples = Samples::of(field);
+  if (!samples) return tl::unexpected(samples.error());
+  auto domain = build_domain(samples->raster(), outline_tolerance, field.frame);
+  if (!domain) return tl::unexpected(domain.error());
+  return Refiner(std::make_unique<Impl>(field, std::move(*samples), std::move(*domain)));
+} catch (...) {
+  return caught(ErrorKind::kInput, "triangulate this raster");
+}
+
+bool Refiner::insert_worst() {
+  if (impl_->refinement.done() || impl_->refinement.is_full()) return false;
+  impl_->refinement.insert_worst();
+  return true;
+}
+
+double Refiner::max_error() const { return impl_->refinement.worst_error(); }
+std::uint64_t Refiner::vertex_count() const { return impl_->domain.tin.vertex_count() - impl_->domain.unused; }
+std::uint64_t Refiner::triangle_count() const { return impl_->refinement.triangle_count(); }
+Mesh Refiner::mesh() const {
+  return freeze(SampleHeights(impl_->raster), impl_->domain.tin, {}, impl_->field.frame, true);
+}
+
+}  // namespace scarp

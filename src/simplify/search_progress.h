@@ -1,0 +1,55 @@
+// A search, all runs of it, told as one pass: its progress, its work.
+#pragma once
+
+#include <string_view>
+
+#include "pieces/goals.h"
+#include "scarp/progress.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+
+/// Adds the work of a run, or of one of its passes, to that of the search.
+inline void add_work(const Pass& pass, Pass& search) {
+  search.samples_scanned += pass.samples_scanned;
+  search.triangles_scanned += pass.triangles_scanned;
+  search.insertions += pass.insertions;
+  search.removals += pass.removals;
+}
+inline void add_work(const Simplified& run, Pass& search) {
+  for (const Pass& pass : run.passes) add_work(pass, search);
+}
+
+/// Tells the whole search as one pass. Each stage takes its share of what was left.
+class SearchProgress {
+ public:
+  explicit SearchProgress(const ProgressCallback& callback) : callback_(callback), reporter_(callback) {}
+
+  /// False: cancelled.
+  bool begin(double share) {
+    begin_ = end_;
+    end_ = begin_ + share * (1 - begin_);
+    return reporter_.report("search", begin_, 0, 0);
+  }
+  ProgressCallback of_run(bool has_fit) {
+    if (!callback_) return {};
+    return [this, has_fit](const Progress& progress) {
+      return reporter_.report("search", begin_ + share_of(progress, has_fit) * (end_ - begin_), progress.vertices,
+                              progress.max_error);
+    };
+  }
+
+ private:
+  static double share_of(const Progress& progress, bool has_fit) {
+    constexpr double kRefine = 0.1;
+    if (progress.pass == "search") return progress.fraction;
+    if (progress.pass == "refine") return has_fit ? kRefine * progress.fraction : progress.fraction;
+    return progress.pass == "fit" ? kRefine + (1 - kRefine) * progress.fraction : 1;
+  }
+
+  const ProgressCallback& callback_;
+  Reporter reporter_;
+  double begin_ = 0, end_ = 0;
+};
+
+}  // namespace scarp

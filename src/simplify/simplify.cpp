@@ -1,0 +1,263 @@
+// The door: options are checked, an effort and an order chosen, lines made ready; engine_run.h does the rest.
+#include "scarp/simplify.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <exception>
+#include <new>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+#include "grid/raster.h"
+#include "grid/samples.h"
+#include "grid/source_failure.h"
+#include "grid/sources/cut_source.h"
+#include "metric/criterion.h"
+#include "pieces/effort.h"
+#include "pieces/goals.h"
+#include "pieces/row_fit.h"
+#include "pieces/tile_worker.h"
+#include "pieces/tiled.h"
+#include "simplify/engine_run.h"
+#include "simplify/error_search.h"
+#include "simplify/line_budget.h"
+#include "simplify/line_work.h"
+#include "simplify/proof.h"
+
+namespace scarp {
+
+namespace {
+
+Result<void> check_options(const HeightField& field, const SimplifyOptions& options) {
+  if (auto goals = check_goals(options, true); !goals) return goals;
+  if (!(options.outline_tolerance >= 0 && std::isfinite(options.outline_tolerance)))
+    return fail(ErrorKind::kUsage, fmt::format("outline_tolerance must be a finite number of at least 0, not {}",
+                                               options.outline_tolerance));
+  if (options.max_error && *options.max_error < field.sample_rounding)
+    return fail(
+        ErrorKind::kPromise,
+        fmt::format(
+            "a max error of {} cannot be kept: the raster's values do not fit float32 and are rounded by up to {}; "
+            "ask for at least that much",
+            *options.max_error, field.sample_rounding));
+  return {};
+}
+
+/// Without a search for the error of a budget. `lines`: to be laid, prepared or such as may wait; null: none.
+Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options, LineWork* lines);
+
+const ConstraintGraph* graph_of(const LineWork* lines) { return lines != nullptr ? &lines->graph() : nullptr; }
+
+Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const SimplifyOptions& options,
+                                          const Criterion& criterion, const ConstraintGraph* lines, RowFits& fits) {
+  TiledOptions tiles;
+  tiles.threshold = criterion.aim();
+  tiles.threads = options.threads;
+  tiles.memory = memory_budget(field, options);
+  tiles.may_decline = options.order == Order::kAuto && field.samples != nullptr;
+  Reporter reporter(options.progress);
+  if (options.progress) {
+    if (!reporter.report("refine", 0, 0, 0)) return fail(ErrorKind::kCancelled, "cancelled while refining");
+    tiles.progress = [&](double share, std::uint64_t vertices) {
+      return !reporter.due() || reporter.report("refine", share, vertices, 0);
+    };
+  }
+  if (finishes_rows(field, options))
+    finish_rows(field, options, lines, criterion.aim(), fits, tiles, criterion.source_bounds());
+  if (field.samples != nullptr || lines == nullptr || !lines->cut) return refine_tiled(field, tiles);
+  const CutSource near(*field.source, lines->cut->rows);
+  HeightField seen = field;
+  seen.source = &near;
+  return refine_tiled(seen, tiles);
+}
+
+/// And prepares lines that have waited for this.
+Result<std::optional<Tiled>> refine_beside_lines(const HeightField& field, const SimplifyOptions& options,
+                                                 const Criterion& criterion, LineWork* lines, RowFits& fits) {
+  if (lines == nullptr || lines->is_prepared()) return refine_tiles(field, options, criterion, graph_of(lines), fits);
+  Result<void> prepared;
+  Result<std::optional<Tiled>> tiled;
+  run_beside(
+      options.threads, [&] { prepared = lines->prepare(); },
+      [&] { tiled = refine_tiles(field, options, criterion, nullptr, fits); });
+  if (!prepared) return tl::unexpected(prepared.error());
+  return tiled;
+}
+
+/// The dominant order; greedily where that is of no use.
+Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOptions& options, LineWork* lines) {
+  // The engine reads voids as such; what else looks at samples beyond the mesh's own needs them cleaned.
+  Raster raster{field.samples, field.cols, field.rows};
+  std::optional<Samples> samples;
+  const bool looks_beyond = options.normals || !field.frame.is_affine() || options.effort != Effort::kFast;
+  if (field.samples != nullptr && (looks_beyond || lines != nullptr)) {
+    auto cleaned = Samples::of(field);
+    if (!cleaned) return tl::unexpected(cleaned.error());
+    raster = samples.emplace(std::move(*cleaned)).raster();
+  }
+  const auto criterion = Criterion::make(field, options, raster, aim_of(field, options));
+  if (!criterion) return tl::unexpected(criterion.error());
+  const MemoryBudget memory = memory_budget(field, options);
+  const std::uint64_t bytes = proof_bytes(field, options);
+  if (auto fits = memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
+  const auto start = Clock::now();
+  RowFits fits;
+  auto tiled = refine_beside_lines(field, options, *criterion, lines, fits);
+  if (!tiled) return tl::unexpected(tiled.error());
+  if (!*tiled) {
+    if (field.samples == nullptr)
+      return fail(ErrorKind::kInput,
+                  "heights of such different magnitudes can only be refined in memory: read the raster as a whole");
+    SimplifyOptions greedy = options;
+    greedy.order = Order::kGreedy;
+    return simplify_once(field, greedy, lines);
+  }
+  const Domain& domain = (*tiled)->domain;
+  if (auto has_room = memory.check_mesh(bytes, domain.tin.vertex_count() - domain.unused, 1); !has_room)
+    return tl::unexpected(has_room.error());
+  const Work work = (*tiled)->work;
+  add((*tiled)->work, fits.bounds);
+  const double seconds = seconds_since(start);
+  std::vector<Pass> passes{{"tiles", seconds - fits.seconds - fits.seconds_of_lines - fits.seconds_of_bounds,
+                            work.samples_scanned, work.triangles_scanned, work.passes}};
+  const bool by_rows = finishes_rows(field, options);
+  if (by_rows && lines != nullptr)
+    passes.push_back(
+        {"lines", fits.seconds_of_lines, fits.lines.samples_scanned, fits.lines.triangles_scanned, fits.lines.passes});
+  if (fits.seconds_of_bounds > 0)
+    passes.push_back({"refine", fits.seconds_of_bounds, fits.bounds.samples_scanned, fits.bounds.triangles_scanned,
+                      fits.bounds.passes});
+  if (fits_rows(field, options)) passes.push_back({"fit", fits.seconds, 0, 0, 0, fits.removed});
+  auto result = run_engine(field, raster, options, *criterion, by_rows ? nullptr : graph_of(lines), std::move(*tiled));
+  if (!result) return result;
+  result->passes.insert(result->passes.begin(), passes.begin(), passes.end());
+  result->seconds_refine += seconds;
+  result->is_cut_short = result->is_cut_short || fits.is_cut_short;
+  return result;
+}
+
+Result<Simplified> simplify_greedily(const HeightField& field, const SimplifyOptions& options, LineWork* lines) {
+  if (lines != nullptr) {
+    if (auto prepared = lines->prepare(); !prepared) return tl::unexpected(prepared.error());
+  }
+  auto samples = Samples::of(field);
+  if (!samples) return tl::unexpected(samples.error());
+  const auto criterion = Criterion::make(field, options, samples->raster(), aim_of(field, options));
+  if (!criterion) return tl::unexpected(criterion.error());
+  return run_engine(field, samples->raster(), options, *criterion, graph_of(lines), std::nullopt);
+}
+
+Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options, LineWork* lines) {
+  if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
+  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
+  const char* obstacle = options.order == Order::kGreedy ? "is not the greedy one" : find_obstacle(field, options);
+  if (obstacle != nullptr && field.samples == nullptr)
+    return fail(ErrorKind::kUsage, fmt::format("a raster that is not in memory as a whole is refined in the dominant "
+                                               "order, which {}: leave that out, or read the raster as a whole",
+                                               obstacle));
+  if (obstacle != nullptr && options.order == Order::kDominant)
+    return fail(ErrorKind::kUsage,
+                fmt::format("the dominant order {}: leave that out, or take the greedy order", obstacle));
+  const auto run = obstacle == nullptr ? simplify_tiles : simplify_greedily;
+  auto result = run(field, options, lines);
+  if (result || result.error().kind != ErrorKind::kPromise || options.vertices != Vertices::kAuto) return result;
+  if (!vertices_are_free(field, options)) return result;
+  SimplifyOptions on_samples = options;
+  on_samples.vertices = Vertices::kSamples;
+  return run(field, on_samples, lines);
+}
+
+/// Soft lines follow the raster to within this share of the max error.
+constexpr double kLineShare = 0.5;
+
+/// Towards a max error.
+Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyOptions& asked) {
+  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
+  const auto start = Clock::now();
+  SimplifyOptions options = asked;
+  if (asked.breaklines_for) {
+    auto lines = asked.breaklines_for(*asked.max_error);
+    if (!lines) return tl::unexpected(lines.error());
+    options.breaklines = std::move(*lines);
+    if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
+  }
+  options.memory_taken +=
+      line_bytes(field, options.breaklines) + line_bytes(field, options.cutline.rings, options.cutline.affine);
+  if (auto fits = memory_budget(field, options).check_start(0); !fits) return tl::unexpected(fits.error());
+  LineWork work(field, options, kLineShare * *options.max_error);
+  const double seconds = seconds_since(start);
+  if (!work.may_wait()) {
+    if (auto prepared = work.prepare(); !prepared) return tl::unexpected(prepared.error());
+  }
+  auto result = simplify_once(work.field(), options, &work);
+  if (!result) return result;
+  FieldLines* const lines = &work.lines();
+  result->passes.insert(result->passes.begin(), Pass{"arrange", seconds + work.seconds()});
+  result->edits = std::move(lines->edits);
+  result->lines_laid = lines->laid;
+  result->lines_for = *options.max_error;
+  const Measurement& measured = result->measurement;
+  // Where the field has a source, what lies beyond a cut is void to refinement only.
+  const std::uint64_t valid = lines->valid > 0 ? lines->valid : measured.heights.valid;
+  if (lines->graph.cut) result->cut_off = valid - measured.samples - measured.uncovered - measured.stray;
+  return result;
+}
+
+/// With the budgets there are, where insertion does not stop at them: lines are what they are for one error, and rows
+/// of tiles are refined one after the other.
+Result<Simplified> simplify_within(const HeightField& field, const SimplifyOptions& options) {
+  constexpr double kNearlyFull = 0.97;
+  const auto run_once = [&](const SimplifyOptions& once) {
+    return has_lines(once) ? simplify_with_lines(field, once) : simplify_once(field, once, nullptr);
+  };
+  if (!has_budget(options)) return run_once(options);
+  bool has_mesh = false;
+  std::optional<Error> no_room;
+  const RunOnce towards_error = [&](const SimplifyOptions& once) {
+    auto made = run_once(once);
+    // Slivers of a cutline may vanish at one error and not at another. What was possible once goes on.
+    if (!made && has_mesh && made.error().kind == ErrorKind::kInput) made.error().kind = ErrorKind::kPromise;
+    // A mesh that takes too much memory may be one that exceeds the budget, too.
+    if (!made && has_mesh && made.error().kind == ErrorKind::kUsage) {
+      no_room = made.error();
+      made.error().kind = ErrorKind::kPromise;
+    }
+    has_mesh = has_mesh || made.has_value();
+    return made;
+  };
+  const double most = largest_line_error(field, options);
+  const RunOnce run = [&](const SimplifyOptions& once) {
+    return has_budget(once) ? search_line_error(once, most, towards_error) : towards_error(once);
+  };
+  auto made = options.effort == Effort::kFast ? run(options) : search_error(options, run);
+  if (!made || !no_room || made->stop == StopReason::kMaxError || made->stop == StopReason::kExact) return made;
+  const double used = Budget(options).used({made->mesh.vertex_count(), made->mesh.triangle_count()});
+  if (used < kNearlyFull) return tl::unexpected(*no_room);
+  return made;
+}
+
+}  // namespace
+
+Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& asked) try {
+  SimplifyOptions options = asked;
+  options.effort = choose_effort(asked);
+  if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
+  if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
+  if (has_lines(options) || (field.samples == nullptr && has_budget(options))) return simplify_within(field, options);
+  if (options.effort == Effort::kFast || !has_budget(options)) return simplify_once(field, options, nullptr);
+  const auto run = [&](const SimplifyOptions& once) { return simplify_once(field, once, nullptr); };
+  if (!has_norm(field)) return search_error(options, run);
+  options.vertices = Vertices::kSamples;
+  return search_error(options, run, Judged::kNorm);
+} catch (const SourceFailure& failure) {
+  return tl::unexpected(failure.error);
+} catch (const std::bad_alloc&) {
+  return fail(ErrorKind::kInput, "not enough memory for this raster and goal: allow a larger error or fewer triangles");
+} catch (const std::exception& e) {
+  return fail(ErrorKind::kInternal, fmt::format("an exception while simplifying: {}", e.what()));
+}
+
+}  // namespace scarp

@@ -1,0 +1,340 @@
+// Scattered points to a mesh, as a list of passes. Milestones: after `find_places` every point has a place of its own
+// on the lattice; after `build_domain` the hull is fixed; after `refine` and `take_best_prefix` no vertex is added;
+// what `prove` has seen is what is returned.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <new>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "grid/far_points.h"
+#include "grid/point_places.h"
+#include "measure/point_judge.h"
+#include "mesh/thin_triangles.h"
+#include "pieces/goals.h"
+#include "refine/scattered.h"
+#include "scarp/points.h"
+
+namespace scarp {
+
+namespace {
+
+Result<void> check_options(const SimplifyOptions& options) {
+  if (auto goals = check_goals(options, false); !goals) return goals;
+  const std::pair<bool, const char*> refused[] = {
+      {options.outline_tolerance != 0, "outline_tolerance"},
+      {!options.mask.empty(), "mask"},
+      {!options.tolerance.empty() || options.tolerance_source != nullptr, "tolerance"},
+      {!options.script.empty(), "script"},
+      {!(options.importance == Importance{}), "importance"},
+      {options.algorithm != Algorithm::kHeap, "algorithm"},
+      {!(options.batch == Batch{}), "batch"},
+      {!(options.edges == EdgeRule{}), "edges"},
+      {options.norm != Norm::kSum, "norm"},
+      {options.uvs, "uvs"},
+      {options.normals, "normals"},
+  };
+  for (const auto& [is_set, name] : refused) {
+    if (is_set)
+      return fail(ErrorKind::kUsage, fmt::format("{} is for rasters only: leave it out for scattered points", name));
+  }
+  return {};
+}
+
+/// Heights that vertices have in a mesh of float32 positions.
+Result<std::vector<double>> round_heights(const PointSet& points, const PointPlaces& places) {
+  for (const auto& values : {std::span(points.x), std::span(points.y)}) {
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    if (*most - *least > std::numeric_limits<float>::max())
+      return fail(ErrorKind::kPromise,
+                  fmt::format("the extent of the points, {}, does not fit float32: write OBJ or PLY, whose positions "
+                              "are double",
+                              *most - *least));
+  }
+  std::vector<double> heights;
+  heights.reserve(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (std::abs(places.z[i]) > std::numeric_limits<float>::max())
+      return fail(ErrorKind::kPromise,
+                  fmt::format("the height {} of point {} does not fit float32: write OBJ or PLY, whose positions are "
+                              "double",
+                              places.z[i], places.source[i]));
+    heights.push_back(double{static_cast<float>(places.z[i])});
+  }
+  return heights;
+}
+
+/// The middle of the extent, rounded so coarsely that offsets from it are exact doubles.
+double middle(std::span<const double> values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const double centre = *least + (*most - *least) / 2;
+  const double unit = *least == *most ? 0 : std::ldexp(1.0, std::ilogb(*most - *least) - 4);
+  if (unit == 0) return centre;
+  return std::nearbyint(centre / unit) * unit;
+}
+
+/// One run of the engine towards the goals.
+class PointRun {
+ public:
+  PointRun(const PointSet& points, const PointPlaces& places, std::span<const double> heights,
+           const SimplifyOptions& options, ScatteredDomain domain)
+      : points_(points),
+        places_(places),
+        heights_(heights),
+        options_(options),
+        budget_(options),
+        bound_(options.max_error.value_or(0)),
+        domain_(std::move(domain)),
+        seeds_(domain_.place_of.size()),
+        refinement_(std::in_place, places, heights, domain_, bound_),
+        reporter_(options.progress) {
+    for (double z : places.z) largest_height_ = std::max(largest_height_, std::abs(z));
+  }
+
+  Result<Simplified> execute(Clock::time_point start) {
+    if (auto fits = budget_.check(size(), "the convex hull of the points alone needs", ""); !fits)
+      return tl::unexpected(fits.error());
+    Simplified result;
+    if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
+    take_best_prefix();
+    freeze_into(result);
+    result.seconds_refine = seconds_since(start);
+    if (auto proven = prove(result); !proven) return tl::unexpected(proven.error());
+    return result;
+  }
+
+ private:
+  MeshSize size() const { return {domain_.vertex_count(), refinement_->triangle_count()}; }
+  std::optional<StopReason> exceeded(std::uint32_t gain) const { return budget_.exceeded(size(), gain); }
+
+  Result<void> refine(StopReason& stop) {
+    const double first_error = refinement_->worst_error();
+    best_ = {domain_.place_of.size(), in_last_stretch() ? first_error : std::numeric_limits<double>::infinity()};
+    for (std::uint64_t step = 0;; ++step) {
+      if (refinement_->done()) {
+        stop = options_.max_error ? StopReason::kMaxError : StopReason::kExact;
+        return {};
+      }
+      if (const auto budget = exceeded(refinement_->next_gain())) {
+        stop = *budget;
+        return {};
+      }
+      if (refinement_->is_full())
+        return fail(ErrorKind::kInput, "the mesh would have more than 1,431 million triangles: allow a larger error");
+      if ((step < 1024 || step % 256 == 0) && reporter_.due() &&
+          !reporter_.report("refine", fraction(first_error), domain_.vertex_count(), refinement_->worst_error()))
+        return fail(ErrorKind::kCancelled, "cancelled while refining");
+      refinement_->insert_worst();
+      ++insertions_;
+      if (in_last_stretch() && refinement_->worst_error() <= best_.error)
+        best_ = {domain_.place_of.size(), refinement_->worst_error()};
+    }
+  }
+
+  double fraction(double first_error) const {
+    const double goal = options_.max_error ? bound_ : 0;
+    return std::max(budget_.used(size()), error_progress(first_error, refinement_->worst_error(), goal));
+  }
+
+  /// Where the best prefix is looked for.
+  bool in_last_stretch() const { return options_.best_of_budget && budget_.in_last_stretch(size()); }
+
+  /// Max error is not monotone: a budget may stop on a spike. An earlier mesh is had by inserting the same places
+  /// again.
+  void take_best_prefix() {
+    if (refinement_->done() || std::isinf(best_.error) || best_.vertices == domain_.place_of.size()) return;
+    const std::vector<std::uint32_t> inserted(domain_.place_of.begin() + static_cast<std::ptrdiff_t>(seeds_),
+                                              domain_.place_of.begin() + static_cast<std::ptrdiff_t>(best_.vertices));
+    refinement_.reset();
+    domain_ = *build_domain(places_);
+    for (const std::uint32_t place : inserted) {
+      const Point p = places_.at[place];
+      domain_.insert(place, p, domain_.tin.locate(p, domain_.tin.last_touched()));
+    }
+  }
+
+  void freeze_into(Simplified& result) const {
+    const Triangulation& tin = domain_.tin;
+    Mesh& mesh = result.mesh;
+    mesh = {};
+    mesh.origin = {middle(points_.x), middle(points_.y), 0};
+    std::vector<std::uint32_t> ids(tin.vertex_count(), kNone);
+    for (Vertex v = 0; v < tin.vertex_count(); ++v) {
+      const std::uint32_t place = domain_.place_of[v];
+      if (place == kNone) continue;
+      ids[v] = static_cast<std::uint32_t>(mesh.vertex_count());
+      const std::uint32_t source = places_.source[place];
+      for (const double offset : {points_.x[source] - mesh.origin[0], points_.y[source] - mesh.origin[1]})
+        mesh.positions.push_back(options_.float32_positions ? double{static_cast<float>(offset)} : offset);
+      mesh.positions.push_back(heights_[place]);
+    }
+    // The lattice's rows count southwards: what is positive there is clockwise seen from above.
+    for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+      if (tin.is_outside(t)) continue;
+      for (const HalfEdge h : {3 * t, 3 * t + 2, 3 * t + 1}) mesh.triangles.push_back(ids[tin.origin(h)]);
+    }
+    remove_thin_triangles(mesh, 4 * position_rounding(mesh), thinnest_border_);
+    optimize_order(mesh);
+    if (refinement_) {
+      result.work.samples_scanned = refinement_->places_judged();
+      result.work.triangles_scanned = refinement_->lists_dealt();
+    }
+    result.work.passes = insertions_;
+  }
+
+  /// How far vertices may lie from their places on the lattice, along x or y.
+  double position_rounding(const Mesh& mesh) const {
+    double reach = 0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      if (i % 3 != 2) reach = std::max(reach, std::abs(mesh.positions[i]));
+    }
+    const double snapping = places_.is_exact ? 0 : places_.lattice.step / 2;
+    return std::max(snapping, reach * (options_.float32_positions ? 0x1p-24 : 0x1p-53));
+  }
+
+  std::uint32_t place_of_point(std::int32_t point) {
+    if (places_by_point_.empty()) {
+      places_by_point_.resize(points_.size(), kNone);
+      for (std::uint32_t place = 0; place < places_.size(); ++place) places_by_point_[places_.source[place]] = place;
+    }
+    return places_by_point_[static_cast<std::size_t>(point)];
+  }
+
+  /// Inserts the points that break the bound in the judge's eyes, as far as the budgets allow, and refines on. Returns
+  /// false if that cannot help.
+  Result<bool> mend(Simplified& result) {
+    std::vector<std::uint32_t> offenders;
+    for (const Offender& o : result.measurement.offenders) offenders.push_back(place_of_point(o.col));
+    // A vertex among them: its own rounding breaks the bound, and no other vertex can mend that.
+    const auto is_vertex = [this](std::uint32_t place) { return refinement_->gain_at(place) == 0; };
+    if (offenders.empty() || std::any_of(offenders.begin(), offenders.end(), is_vertex)) return false;
+    for (const std::uint32_t place : offenders) {
+      if (const auto budget = exceeded(refinement_->gain_at(place))) {
+        result.stop = *budget;
+        return true;
+      }
+      refinement_->insert(place);
+      ++insertions_;
+    }
+    if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
+    take_best_prefix();
+    return true;
+  }
+
+  /// Gives up thicker slivers along the hull than before: over one that is a millimetre high the surface may rise by
+  /// metres, so that the rounding of its corners breaks the bound. False once they are as thick as what the judge takes
+  /// for covered.
+  bool trim_border(const Mesh& mesh) {
+    const double thinnest = std::max(8 * thinnest_border_, 32 * position_rounding(mesh));
+    const double area = places_.lattice.step * places_.lattice.step * static_cast<double>(places_.lattice.cols) *
+                        static_cast<double>(places_.lattice.rows);
+    if (thinnest > std::sqrt(area / static_cast<double>(places_.size())) / 64) return false;
+    thinnest_border_ = thinnest;
+    return true;
+  }
+
+  /// Judges the mesh as it will be written, at the points as they were given. Where snapping or float32 positions cost
+  /// the bound, the points that break it are inserted and refinement goes on.
+  Result<void> prove(Simplified& result) {
+    MeasureOptions judge;
+    judge.threads = options_.threads;
+    judge.progress = options_.progress;
+    if (options_.max_error) judge.collect_above = bound_ + allowance();
+    for (;;) {
+      const auto start = Clock::now();
+      auto measurement = judge::judge_points(points_, places_, result.mesh, judge);
+      if (!measurement) return tl::unexpected(measurement.error());
+      result.measurement = std::move(*measurement);
+      result.seconds_measure += seconds_since(start);
+      const Measurement& m = result.measurement;
+      const bool is_kept =
+          result.stop != StopReason::kMaxError || (m.max_error <= bound_ + allowance() && m.uncovered == 0);
+      if (m.is_sound() && is_kept) return {};
+      const auto again = Clock::now();
+      const auto mended = m.is_sound() ? mend(result) : false;
+      if (!mended) return tl::unexpected(mended.error());
+      if (!*mended && !trim_border(result.mesh))
+        return fail(ErrorKind::kPromise, (m.is_sound() ? describe_broken(m) : "the mesh folds over itself") + advice());
+      freeze_into(result);
+      result.seconds_refine += seconds_since(again);
+    }
+  }
+
+  /// The judge's own double arithmetic rounds.
+  double allowance() const { return 1e-12 * (bound_ + largest_height_); }
+
+  std::string describe_broken(const Measurement& m) const {
+    if (m.uncovered > 0) return fmt::format("{} points are not covered by the mesh", m.uncovered);
+    const auto i = static_cast<std::size_t>(m.max_error_at[0]);
+    return fmt::format("a max error of {} cannot be kept: at ({}, {}) the mesh is off by {}", bound_, points_.x[i],
+                       points_.y[i], m.max_error);
+  }
+  std::string advice() const {
+    const std::string far = describe_far_points(points_);
+    return (options_.float32_positions
+                ? ": positions in the mesh are rounded to float32, which alone costs that much; ask for a larger "
+                  "error, "
+                  "or write OBJ or PLY, whose positions are double"
+                : fmt::format(": points are snapped to a lattice of step {}, which alone costs that much; ask for a "
+                              "larger error, or split the points into smaller areas",
+                              places_.lattice.step)) +
+           (far.empty() ? "" : "; " + far);
+  }
+
+  const PointSet& points_;
+  const PointPlaces& places_;
+  std::span<const double> heights_;
+  const SimplifyOptions& options_;
+  Budget budget_;
+  double bound_;
+  double largest_height_ = 0, thinnest_border_ = 0;
+  ScatteredDomain domain_;
+  std::size_t seeds_;
+  std::optional<ScatteredRefinement> refinement_;
+  std::vector<std::uint32_t> places_by_point_;
+  std::uint64_t insertions_ = 0;
+  Reporter reporter_;
+  Prefix best_{0, std::numeric_limits<double>::infinity()};
+};
+
+}  // namespace
+
+Result<SimplifiedPoints> simplify_points(const PointSet& points, const SimplifyOptions& options,
+                                         DuplicatePolicy duplicates) try {
+  const auto start = Clock::now();
+  if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
+  const auto places = find_places(points, duplicates);
+  if (!places) return tl::unexpected(places.error());
+  auto domain = build_domain(*places);
+  if (!domain) return tl::unexpected(domain.error());
+  std::vector<double> rounded;
+  if (options.float32_positions) {
+    auto heights = round_heights(points, *places);
+    if (!heights) return tl::unexpected(heights.error());
+    rounded = std::move(*heights);
+  }
+  SimplifiedPoints result;
+  result.points = points.size();
+  result.duplicates = places->duplicates;
+  result.on_hull = domain->on_hull;
+  result.lattice_step = places->lattice.step;
+  PointRun run(points, *places, options.float32_positions ? std::span<const double>(rounded) : places->z, options,
+               std::move(*domain));
+  auto simplified = run.execute(start);
+  if (!simplified) return tl::unexpected(simplified.error());
+  result.simplified = std::move(*simplified);
+  return result;
+} catch (const std::bad_alloc&) {
+  return fail(ErrorKind::kInput,
+              "not enough memory for these points and this goal: allow a larger error or fewer points");
+} catch (const std::exception& e) {
+  return fail(ErrorKind::kInternal, fmt::format("an exception while simplifying: {}", e.what()));
+}
+
+}  // namespace scarp
