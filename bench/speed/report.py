@@ -9,6 +9,7 @@ import argparse
 import json
 import statistics
 import sys
+import textwrap
 
 from rasters import HERE, PROJECT
 
@@ -201,22 +202,27 @@ def order_table(rows):
     return markdown(["kept %", "meshes", "lowest", "median", "highest", "above 1.01"], lines)
 
 
+def bullet(words):
+    """Lines of an item of a list."""
+    return textwrap.wrap(words, 118, initial_indent="- ", subsequent_indent="  ", break_on_hyphens=False)
+
+
 def head():
     machine = read_machine()
     has = "has" if machine.get("avx512") else "has no"
     return [
         "# Speed of the triangulation",
         "",
-        "Written by `report.py` from the CSV files beside it (see `bench/README.md`). Scarp is the dominant order, its",
-        "default; greedy is its own engine for the greedy order. Ratios are a program's time divided by Scarp's, above 1",
+        "Written by `report.py` from the CSV files beside it (see `bench/README.md`). \"Scarp\" is the dominant order, its",
+        "default; \"greedy\" is its own engine for the greedy order. Ratios are a program's time divided by Scarp's, above 1",
         "where Scarp is faster: the minima of all rounds and (the medians). One thread, triangulation only. CPU time is",
-        "the process's own, all its threads (node collects garbage in others); wall clock also counts waiting for a",
+        "the process's own, of all its threads (node collects garbage in others). Wall clock also counts waiting for a",
         "processor that others use.",
         "",
-        f"- machine: {machine.get('machine')}, {machine.get('processors')} logical processors; it {has} AVX-512; "
-        f"load average at the start {machine.get('load')}",
+        *bullet(f"machine: {machine.get('machine')}, {machine.get('processors')} logical processors; it {has} AVX-512; "
+                f"load average at the start {machine.get('load')}"),
         f"- compiler: {machine.get('compiler')}, CMake's Release flags and the project's",
-        *(f"- {remark}" for remark in machine.get("remarks", [])),
+        *(line for remark in machine.get("remarks", []) for line in bullet(remark)),
         *(f"- {name}: {version}" for name, version in machine.get("versions", {}).items()),
         "",
     ]

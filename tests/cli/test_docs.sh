@@ -1,6 +1,6 @@
 #!/bin/bash
 # What --help prints, the man page and the completions say the same: every verb and every long option is in all of them,
-# and they name no option that the program does not have.
+# and they name no option that the program does not have. No line of Markdown is too long to read in a terminal.
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 man=$SCARP_SOURCE/docs/man/scarp.1
 completions=$SCARP_SOURCE/completions
@@ -46,5 +46,17 @@ if command -v fish >/dev/null; then fish -n "$completions/scarp.fish" || fail "f
 if command -v groff >/dev/null; then
   groff -man -Tutf8 -ww -z "$man" 2>man.log || fail "groff refuses the man page"
   [ ! -s man.log ] || fail "groff warns about the man page: $(head -n 3 man.log)"
+fi
+
+if command -v python3 >/dev/null; then
+  check_words=$SCARP_SOURCE/tools/check_words.py
+  python3 "$check_words" "$SCARP_SOURCE" >words.txt || fail "a line of Markdown is too long: $(head -n 3 words.txt)"
+  mkdir pages
+  long_line=$(printf '%0161d' 0)
+  printf '| %s |\n    %s\n```\n%s\n```\n' "$long_line" "$long_line" "$long_line" >pages/fine.md
+  python3 "$check_words" pages >words.txt || fail "tables and code may have long lines: $(cat words.txt)"
+  printf 'short\n%s\n' "$long_line" >pages/planted.md
+  if python3 "$check_words" pages >words.txt; then fail "a line of 161 characters was not noticed"; fi
+  [ "$(cat words.txt)" = "planted.md:2: 161 characters, at most 160" ] || fail "wrong words: $(cat words.txt)"
 fi
 echo "man page and completions agree with --help"

@@ -22,24 +22,21 @@ constexpr Result<void> (*kExperiments[])(paper::Study&) = {
     paper::add_reference_rows, paper::add_error_curves, paper::add_textured_terrain, paper::add_images};
 
 void add_header(paper::Study& study) {
-  study.page.heading(1, "The report's experiments");
+  study.page.heading(1, "The experiments of the 1995 paper");
   study.page.paragraph(fmt::format(
-      "Written by `scarp paper --data DIR{}` (Scarp {}; `make paper` runs it); not edited by hand. It repeats what is "
-      "known of "
-      "the experiments in M. Garland and P. S. Heckbert, *Fast Polygonal Approximation of Terrains and Height Fields* "
-      "(CMU-CS-95-181, 1995).",
+      "Written by `scarp paper --data DIR{}` (Scarp {}; `make paper` runs it), not edited by hand. This page repeats "
+      "what is known of the experiments in M. Garland and P. S. Heckbert, *Fast Polygonal Approximation of Terrains "
+      "and Height Fields* (CMU-CS-95-181, 1995): the paper.",
       study.timing ? "" : " --no-timing", version()));
   if (study.fields.are_reports) {
     study.page.paragraph(
-        "In brackets: the figure of Scape 1.2, the report's own program, measured on the same fields, and our "
-        "difference from "
-        "it. The figures are listed, by section, in `apps/scarp/paper/figures.h`; the numbers in headings are those "
-        "sections. The fields are the report's five: "
+        "In brackets: the figure of Scape 1.2, the paper's own program, measured on the same fields, and Scarp's "
+        "difference from it. The figures are listed in `apps/scarp/paper/figures.h`. The fields are the paper's five: "
         "Crater Lake, Ashby Gap, Ozark, the National Training Center (ntc) and the western US. Errors are vertical, in "
         "metres, over all samples.");
   } else {
     study.page.paragraph(
-        "There are none of the report's fields in the folder, so there are no figures to compare with.");
+        "The folder holds none of the paper's fields, so there are no figures to compare with.");
   }
   study.page.paragraph(
       study.timing

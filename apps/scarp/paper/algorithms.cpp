@@ -88,7 +88,7 @@ Result<void> add_algorithms(Study& study) {
     }
     rows.push_back(std::move(row));
   }
-  study.page.heading(2, "Algorithms I, II and III (2.3 to 2.5)");
+  study.page.heading(2, "Algorithms I, II and III");
   std::vector<std::string> header{"field",    "m",       "million samples scanned, I",   "II",
                                   "III",      "I / III", "triangles looked through, II", "entries moved, III",
                                   "same mesh"};

@@ -69,7 +69,7 @@ Result<void> add_batches(Study& study) {
     }
     cells.push_back(std::move(line));
   }
-  study.page.heading(2, "Insertion in batches (2.6)");
+  study.page.heading(2, "Insertion in batches");
   study.page.paragraph(
       "Vertices and passes until the max error is below the bound. Fraction α: a pass inserts all candidates of at "
       "least α "
@@ -85,9 +85,9 @@ Result<void> add_batches(Study& study) {
   }
   std::vector<std::string> remarks{
       sequential_best
-          ? "Of the report's rules, one at a time makes the smallest meshes on every field: a batch inserts "
+          ? "Of the paper's rules, one at a time makes the smallest meshes on every field: a batch inserts "
             "samples whose error its own earlier insertions have already mended."
-          : "One at a time is not the smallest of the report's rules on every field here."};
+          : "One at a time is not the smallest of the paper's rules on every field here."};
   if (independent_better) {
     remarks.push_back(
         "Independent candidates need fewer vertices than any threshold on every field: none of them is stale when it "

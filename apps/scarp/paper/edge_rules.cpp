@@ -180,7 +180,7 @@ Result<void> add_bound_table(Study& study, const ModeTrials& trials) {
     rows.push_back(std::move(row));
   }
   study.page.paragraph(
-      "Triangles that keep the max error which Delaunay has at 1 % of the samples (against Delaunay):");
+      "Triangles that satisfy the max error of Delaunay at 1 % of the samples as a bound (against Delaunay):");
   study.page.table(header, rows);
   return {};
 }
@@ -234,7 +234,7 @@ Result<void> add_times(Study& study) {
 Result<void> add_edge_rules(Study& study) {
   const Result<ModeTrials> trials = run_modes(study);
   if (!trials) return tl::unexpected(trials.error());
-  study.page.heading(2, "Data-dependent triangulation, Algorithm IV (3.7)");
+  study.page.heading(2, "Data-dependent triangulation, Algorithm IV");
   add_mode_table(study, *trials);
   const Result<void> gains = add_gain_table(study, *trials);
   if (!gains) return gains;

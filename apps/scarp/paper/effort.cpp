@@ -122,7 +122,7 @@ Result<void> add_effort(Study& study) {
     }
     all.push_back(std::move(*series));
   }
-  study.page.heading(2, "The cost of Algorithm III (2.5)");
+  study.page.heading(2, "The cost of Algorithm III");
   study.page.paragraph("Expected: O((n + m) log m) for n samples and m vertices.");
   study.page.table(
       {"field", "m", "million samples scanned", "without corners", "triangles scanned / m", "queue entries moved / m"},

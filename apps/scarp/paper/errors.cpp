@@ -48,7 +48,7 @@ Result<void> add_reference_rows(Study& study) {
       }
     }
   }
-  study.page.heading(2, "Results (5.3)");
+  study.page.heading(2, "Results");
   study.page.paragraph("Delaunay, exactly this many vertices, corners included. Errors over all samples.");
   study.page.table({"field", "m", "triangles", "max error", "RMS", "max / relief", "RMS / relief"}, rows);
   if (!rmse.empty()) {
@@ -115,10 +115,9 @@ Result<void> add_spikes(Study& study) {
     rows.push_back({fmt::format("{}", trial->vertices), beside(trial->max_error, figure.max_error)});
   }
   study.page.paragraph(
-      "Each insertion mends the worst place and may spoil another a little: the max error has spikes, where a single "
-      "sample "
-      "suddenly lies under a long triangle. `scarp simplify -p` therefore returns the best mesh near its budget. "
-      "Crater:");
+      "Each insertion mends the worst sample and may spoil another a little. So the max error has spikes, where a "
+      "single sample suddenly lies under a long triangle. `scarp simplify -p` therefore returns the best mesh near its "
+      "budget. Crater:");
   study.page.table({"m", "max error"}, rows);
   return {};
 }

@@ -1,6 +1,5 @@
-// What the experiments are compared with: figures of Scape 1.2, the report's own program, measured on its own five
-// fields. Section numbers are those of this list, which the page's headings repeat. The rows of 5.3 are in
-// reference_rows.h.
+// What the experiments are compared with: figures of Scape 1.2, the paper's own program, measured on its own five
+// fields. Section numbers are those of this list, not the paper's. The rows of 5.3 are in reference_rows.h.
 #pragma once
 
 #include <array>

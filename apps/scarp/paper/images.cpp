@@ -154,13 +154,12 @@ Result<void> add_images(Study& study) {
                           : fmt::format("{}: the uniform grid has the better PSNR throughout.", image.file));
   }
   if (rows.empty()) return {};
-  study.page.heading(2, "Colour images (4)");
+  study.page.heading(2, "Colour images");
   study.page.paragraph(
-      fmt::format("The report shows the mandrill, which is not free, at 200 × 200 pixels with 400 vertices against a "
-                  "uniform grid of 20 "
-                  "× 20. Here: other images whose shorter side is reduced to {} pixels, red, green and blue as "
-                  "channels over a flat "
-                  "field, the error their sum, Gouraud shading. PSNR over all pixels and colours.",
+      fmt::format("The paper shows the mandrill, which is not free, at 200 × 200 pixels with 400 vertices against a "
+                  "uniform grid (20 × 20). Here: other images whose shorter side is reduced to {} pixels, red, green "
+                  "and blue as channels over a flat field, the error their sum, Gouraud shading. PSNR over all pixels "
+                  "and colours.",
                   kShorterSide));
   study.page.table({"image", "mesh", "vertices", "PSNR", "against uniform"}, rows);
   for (auto& [image, png] : pictures) {

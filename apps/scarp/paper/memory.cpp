@@ -57,14 +57,14 @@ Result<void> add_memory(Study& study) {
     rows.push_back({field->key, fmt::format("{}", trial->vertices), fmt::format("{:.1f}", bytes / 1e6),
                     fmt::format("{:.0f}", bytes / static_cast<double>(trial->vertices))});
   }
-  study.page.heading(2, "Memory (2.7)");
+  study.page.heading(2, "Memory");
   study.page.paragraph(
       "*Measured once, on the machine that wrote this page:* the peak of resident memory during `simplify()`, judging "
       "included, above what was there with the samples (4 bytes each) before.");
   study.page.table({"field", "m", "MB", "bytes a vertex"}, rows);
   study.page.paragraph(fmt::format(
       "Scape in a 64-bit build: about {:g} bytes a vertex, samples included; counted from its structures with 4-byte "
-      "pointers: {:g}; named for the report: about {:g}.",
+      "pointers: {:g}; named for the paper: about {:g}.",
       kScapeBytesMeasured, kScapeBytesCounted, kReportBytes));
   return {};
 }

@@ -4,18 +4,50 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace scarp::paper {
+namespace {
+
+constexpr std::size_t kLineWidth = 120;
+
+/// Characters of UTF-8: bytes that do not go on with one.
+std::size_t count_characters(std::string_view word) {
+  const auto begins = [](char byte) { return (static_cast<unsigned char>(byte) & 0xc0u) != 0x80u; };
+  return static_cast<std::size_t>(std::count_if(word.begin(), word.end(), begins));
+}
+
+/// The words on lines of `kLineWidth` characters, `indent` before all but the first. No line begins with a single sign,
+/// which Markdown could take for the beginning of a list.
+std::string wrap_words(const std::string& text, std::size_t indent) {
+  std::string lines;
+  std::size_t column = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string_view word = std::string_view(text).substr(begin, end - begin);
+    if (begin > 0) {
+      const bool fits = count_characters(word) == 1 || column + 1 + count_characters(word) <= kLineWidth;
+      lines += fits ? std::string(" ") : "\n" + std::string(indent, ' ');
+      column = fits ? column + 1 : indent;
+    }
+    lines += word;
+    column += count_characters(word);
+    begin = end + 1;
+  }
+  return lines;
+}
+
+}  // namespace
 
 void Page::heading(int level, const std::string& text) {
   text_ += fmt::format("{}{} {}\n", text_.empty() ? "" : "\n", std::string(static_cast<std::size_t>(level), '#'), text);
 }
 
-void Page::paragraph(const std::string& text) { text_ += "\n" + text + "\n"; }
+void Page::paragraph(const std::string& text) { text_ += "\n" + wrap_words(text, 0) + "\n"; }
 
 void Page::list(const std::vector<std::string>& items) {
   text_ += "\n";
-  for (const std::string& item : items) text_ += "- " + item + "\n";
+  for (const std::string& item : items) text_ += wrap_words("- " + item, 2) + "\n";
 }
 
 void Page::table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows) {
@@ -33,7 +65,7 @@ void Page::table(const std::vector<std::string>& header, const std::vector<std::
 }
 
 void Page::picture(const std::string& path, const std::string& caption) {
-  text_ += fmt::format("\n![{}]({})\n", caption, path);
+  text_ += "\n" + wrap_words(fmt::format("![{}]({})", caption, path), 0) + "\n";
 }
 
 std::string number(double value) { return fmt::format("{:.4g}", value); }

@@ -1,4 +1,4 @@
-// A page of Markdown that is written from top to bottom.
+// A page of Markdown that is written from top to bottom, in lines of 120 characters but for tables.
 #pragma once
 
 #include <cstdint>

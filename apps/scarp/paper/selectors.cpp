@@ -151,7 +151,7 @@ Result<void> add_selectors(Study& study) {
     header.push_back(field->key + " RMS");
     header.push_back("max");
   }
-  study.page.heading(2, "What is worth inserting (1.2)");
+  study.page.heading(2, "What is worth inserting");
   study.page.paragraph(
       "The same Delaunay triangulation of 1 % of the samples; only their choice differs. Uniform: a sub-grid of about "
       "as "

@@ -68,13 +68,13 @@ Result<void> add_textured_terrain(Study& study) {
   }
   if (!added) return added;
 
-  study.page.heading(2, "Textured terrain (4)");
+  study.page.heading(2, "Textured terrain");
   study.page.paragraph(
       "Santa Barbara, 512 × 512 heights and an aerial photograph on the same grid; 5 % of the samples. The error is (1 "
       "− w) "
       "|dz| + w · relief / 3 · (|dr| + |dg| + |db|), colours from 0 to 1. Scape takes the highest height for the "
       "relief, "
-      "which makes the balance depend on where heights are counted from; Scarp takes highest minus lowest. The report "
+      "which makes the balance depend on where heights are counted from; Scarp takes highest minus lowest. The paper "
       "gives no "
       "figures.");
   study.page.table({"vertices by", "vertices", "RMS of heights", "max", "PSNR of colours"}, rows);
