@@ -17,11 +17,11 @@ namespace scarp {
 namespace {
 
 /// A vertex of a line in samples, not rounded.
-struct Vertex {
+struct PathVertex {
   double col = 0, row = 0, z = 0;
 };
 
-Vertex between(const Vertex& a, const Vertex& b, double at) {
+PathVertex between(const PathVertex& a, const PathVertex& b, double at) {
   return {a.col + at * (b.col - a.col), a.row + at * (b.row - a.row), a.z + at * (b.z - a.z)};
 }
 
@@ -39,10 +39,10 @@ class LatticeLines {
  public:
   LatticeLines(std::int32_t cols, std::int32_t rows) : most_col_(cols), most_row_(rows) {}
 
-  void add(std::uint32_t line, std::span<const Vertex> vertices) {
+  void add(std::uint32_t line, std::span<const PathVertex> vertices) {
     line_ = line;
     for (std::size_t k = 0; k + 1 < vertices.size(); ++k) {
-      const Vertex &from = vertices[k], &to = vertices[k + 1];
+      const PathVertex &from = vertices[k], &to = vertices[k + 1];
       double begin = 0, end = 1;
       if (!narrow(from.col, to.col - from.col, -1, most_col_, begin, end) ||
           !narrow(from.row, to.row - from.row, -1, most_row_, begin, end)) {
@@ -97,13 +97,13 @@ class LatticeLines {
   static std::int32_t in_steps(double samples) {
     return static_cast<std::int32_t>(std::floor(samples * kLatticeSteps + 0.5));
   }
-  void push(const Vertex& v) {
+  void push(const PathVertex& v) {
     part_.push_back({in_steps(v.col), in_steps(v.row)});
     heights_.push_back(v.z);
     climbs_.push_back(0);
   }
   /// A cliff between two vertices in one place is no climb: it is a conflict.
-  static double climb(const Vertex& a, const Vertex& b) {
+  static double climb(const PathVertex& a, const PathVertex& b) {
     const double length = std::max(std::abs(b.col - a.col), std::abs(b.row - a.row)) * kLatticeSteps;
     const double climb = std::abs(b.z - a.z) / length;
     return std::isfinite(climb) ? climb : 0;
@@ -250,7 +250,7 @@ Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<do
                                 std::int32_t rows) {
   const MapToSamples to_samples(affine);
   LatticeLines lattice(cols, rows);
-  std::vector<Vertex> vertices;
+  std::vector<PathVertex> vertices;
   for (std::uint32_t k = 0; k < lines.size(); ++k) {
     vertices.clear();
     if (auto placed = check_line_places(lines[k].name, lines[k].points, affine); !placed)

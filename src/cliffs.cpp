@@ -18,7 +18,7 @@ namespace {
 
 /// Share of the max error that heights of samples along a line may leave it by: less leaves more vertices, more leaves
 /// refinement no room.
-constexpr double kHeightShare = 0.9;
+constexpr double kCliffShare = 0.9;
 
 Line to_map(const std::vector<FaultVertex>& vertices, const std::array<double, 6>& affine, std::string name) {
   Line line;
@@ -87,7 +87,7 @@ Result<Cliffs> detect_cliffs(const HeightField& field, const CliffOptions& optio
         CrackChains::kBytesPerCrack * cracks->count() + line_bytes + kFaultBytesPerCrack * chain.cracks.size(), 1,
         kWhat, kAdvice);
     if (!fits) return;
-    for (const Fault& fault : find_faults(chain, kHeightShare * options.max_error)) {
+    for (const Fault& fault : find_faults(chain, kCliffShare * options.max_error)) {
       ++cliffs.faults;
       cliffs.vertices += 2 * (fault.top.size() - (fault.top.front() == fault.top.back() ? 1 : 0));
       for (const auto& [line, side] : {std::pair{&fault.top, "top"}, std::pair{&fault.foot, "foot"}}) {

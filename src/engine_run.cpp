@@ -35,10 +35,10 @@ namespace scarp {
 namespace {
 
 /// One run of the engine towards the goals.
-class Run {
+class EngineRun {
  public:
-  Run(const HeightField& field, const Raster& raster, const SimplifyOptions& options, const Criterion& criterion,
-      const ConstraintGraph* lines)
+  EngineRun(const HeightField& field, const Raster& raster, const SimplifyOptions& options, const Criterion& criterion,
+            const ConstraintGraph* lines)
       : field_(field),
         raster_(raster),
         options_(options),
@@ -492,7 +492,7 @@ class Run {
 
 Result<Simplified> run_engine(const HeightField& field, const Raster& raster, const SimplifyOptions& options,
                               const Criterion& criterion, const ConstraintGraph* lines, std::optional<Tiled> tiled) {
-  return Run(field, raster, options, criterion, lines).execute(std::move(tiled));
+  return EngineRun(field, raster, options, criterion, lines).execute(std::move(tiled));
 }
 
 }  // namespace scarp

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kAim = 0.995;        // share of the budget: below it by about what a run scatters
 constexpr double kFull = 0.99;        // enough to stop at once
-constexpr double kNearlyFull = 0.97;  // enough after kPatience runs
-constexpr int kPatience = 4;
+constexpr double kNearlyFull = 0.97;  // enough after kFullPatience runs
+constexpr int kFullPatience = 4;
 constexpr double kClosed = 0.002;       // logarithm of the bounds' ratio
 constexpr double kUsualPower = 1.3;     // triangles ~ error^-power, where nothing is known yet
 constexpr double kFarBelow = 1.0 / 64;  // of greedy's error: below it an exact mesh is likely to fit
@@ -90,7 +90,7 @@ class ErrorSearch {
   }
 
   bool has_ended() const {
-    const double enough = std::log(runs_ < kPatience ? kFull : kNearlyFull);
+    const double enough = std::log(runs_ < kFullPatience ? kFull : kNearlyFull);
     return runs_ == kMostRuns || is_at_floor_ || (fits_ && fits_->used >= enough) ||
            (exceeds_ && highest() - exceeds_->error < kClosed);
   }

@@ -16,17 +16,17 @@ namespace {
 constexpr std::int32_t kHalfGap = 2, kPlaceStep = 16, kCellStep = 64;
 /// What two vertices cost, one on either line, and a crack without lines.
 constexpr std::int32_t kPairCost = 10, kCrackCost = 3;
-constexpr std::size_t kLongestLink = 1024;  ///< in stations
+constexpr std::size_t kLongestFaultLink = 1024;  ///< in stations
 
 constexpr std::uint32_t kNoPlace = 0xffffffff;
-constexpr std::int32_t kNever = std::numeric_limits<std::int32_t>::max() / 2;
+constexpr std::int32_t kNeverReached = std::numeric_limits<std::int32_t>::max() / 2;
 
-struct Vector {
+struct FaultVector {
   std::int64_t x, y;
 };
-Vector operator-(Point a, Point b) { return {std::int64_t{a.x} - b.x, std::int64_t{a.y} - b.y}; }
+FaultVector operator-(Point a, Point b) { return {std::int64_t{a.x} - b.x, std::int64_t{a.y} - b.y}; }
 /// Whether b points to the left of a, rows downwards.
-bool is_left(Vector a, Vector b) { return a.x * b.y - a.y * b.x < 0; }
+bool is_left(FaultVector a, FaultVector b) { return a.x * b.y - a.y * b.x < 0; }
 
 Point scaled(Point p) { return {p.x * kLatticeSteps, p.y * kLatticeSteps}; }
 
@@ -65,7 +65,7 @@ class FaultSearch {
     Point top, foot;
   };
   struct State {
-    std::int32_t cost = kNever;
+    std::int32_t cost = kNeverReached;
     std::uint32_t from = kNoPlace;  // where the link comes from; kNoPlace: lines begin here
   };
 
@@ -147,7 +147,7 @@ class FaultSearch {
       if (!station.is_cell) end_lines(station, first == kNoPlace || s + 1 < stations_.size());
       find_ends(s);
       for (std::uint32_t p = station.begin; p < station.end; ++p) {
-        if (states_[p].cost < kNever) spread(s, p);
+        if (states_[p].cost < kNeverReached) spread(s, p);
       }
     }
   }
@@ -174,9 +174,9 @@ class FaultSearch {
     ends_.clear();
     double high_least = -kFar, high_most = kFar, low_least = -kFar, low_most = kFar;
     const Station& from = stations_[s];
-    for (std::size_t t = s + 1; t < std::min(stations_.size(), s + kLongestLink); ++t) {
+    for (std::size_t t = s + 1; t < std::min(stations_.size(), s + kLongestFaultLink); ++t) {
       const Station& to = stations_[t];
-      const Vector way = to.middle - from.middle;
+      const FaultVector way = to.middle - from.middle;
       const double length = std::max(std::sqrt(static_cast<double>(way.x * way.x + way.y * way.y)), 1.0);
       const double rise = (to.high - from.high) / length, fall = (to.low - from.low) / length;
       ends_.push_back(rise >= high_least && rise <= high_most && fall >= low_least && fall <= low_most);
@@ -194,12 +194,12 @@ class FaultSearch {
   void spread(std::size_t s, std::uint32_t p) {
     const std::int32_t cost = states_[p].cost + kPairCost;
     const Place& from = places_[p];
-    Vector high_limit{0, 0}, low_limit{0, 0};
+    FaultVector high_limit{0, 0}, low_limit{0, 0};
     bool is_limited = false;
     for (std::size_t t = s + 1; t <= s + ends_.size(); ++t) {
       const Station& to = stations_[t];
       if (!to.is_cell) {
-        const Vector h = scaled(cracks_[to.crack].high) - from.top, l = scaled(cracks_[to.crack].low) - from.foot;
+        const FaultVector h = scaled(cracks_[to.crack].high) - from.top, l = scaled(cracks_[to.crack].low) - from.foot;
         if (!is_limited || !is_left(high_limit, h)) high_limit = h;
         if (!is_limited || is_left(low_limit, l)) low_limit = l;
         is_limited = true;
@@ -209,7 +209,7 @@ class FaultSearch {
       for (std::uint32_t q = to.begin; q < to.end; ++q) {
         if (!(cost < states_[q].cost)) continue;
         const Place& end = places_[q];
-        const Vector above = end.top - from.top, below = end.foot - from.foot;
+        const FaultVector above = end.top - from.top, below = end.foot - from.foot;
         if (is_limited && !(is_left(above, high_limit) && is_left(low_limit, below))) continue;
         // The lines must not cross.
         if (!is_left(from.foot - from.top, above) || !is_left(end.foot - end.top, above)) continue;

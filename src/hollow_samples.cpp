@@ -11,8 +11,8 @@ namespace scarp {
 
 namespace {
 
-constexpr std::int32_t kNear = 2;
-constexpr std::int32_t kReach = kHollowReach + kNear;
+constexpr std::int32_t kNearHollow = 2;
+constexpr std::int32_t kReach = kHollowReach + kNearHollow;
 
 }  // namespace
 
@@ -30,8 +30,8 @@ Result<HollowSamples> HollowSamples::find(const HeightField& field, const Questi
       for (float& height : turned) height = -height;
       raster.samples = turned.data();
     }
-    const std::int32_t from = std::max(strip.begin - kNear, strip.first),
-                       to = std::min(strip.end + kNear, strip.first + raster.rows);
+    const std::int32_t from = std::max(strip.begin - kNearHollow, strip.first),
+                       to = std::min(strip.end + kNearHollow, strip.first + raster.rows);
     const std::vector<Hollow> hollows =
         find_hollows(raster, question.height, question.threads, from - strip.first, to - strip.first);
     const auto hollows_of = [&](std::int32_t row) {
@@ -39,11 +39,12 @@ Result<HollowSamples> HollowSamples::find(const HeightField& field, const Questi
     };
     for (std::int32_t row = strip.begin; row < strip.end; ++row) {
       std::fill(is_near.begin(), is_near.end(), 0);
-      for (std::int32_t y = std::max(row - kNear, from); y <= std::min(row + kNear, to - 1); ++y) {
+      for (std::int32_t y = std::max(row - kNearHollow, from); y <= std::min(row + kNearHollow, to - 1); ++y) {
         const auto of = hollows_of(y);
         for (std::size_t x = 0; x < cols; ++x) {
           if (of[x] == Hollow::kNone) continue;
-          const std::size_t first = x - std::min<std::size_t>(x, kNear), end = std::min(x + kNear + 1, cols);
+          const std::size_t first = x - std::min<std::size_t>(x, kNearHollow),
+                            end = std::min(x + kNearHollow + 1, cols);
           std::fill(is_near.begin() + static_cast<std::ptrdiff_t>(first),
                     is_near.begin() + static_cast<std::ptrdiff_t>(end), 1);
         }

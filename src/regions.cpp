@@ -15,7 +15,7 @@
 namespace scarp {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr double kFarAway = std::numeric_limits<double>::infinity();
 constexpr std::int32_t kLeastStretch = 1024;  // samples of a row
 
 /// Squared distances along a row of samples that are `cell` apart: the least of a place's height + (cell · steps)².
@@ -27,11 +27,11 @@ class Envelope {
   bool is_empty() const { return count_ == 0; }
   /// Places come from the left to the right.
   void add(std::int32_t x, double height) {
-    double begins = -kFar;
+    double begins = -kFarAway;
     for (; count_ > 0; --count_) {
       begins = crossing(lows_[count_ - 1], {x, height});
       if (begins > from_[count_ - 1]) break;
-      begins = -kFar;
+      begins = -kFarAway;
     }
     lows_[count_] = {x, height};
     from_[count_++] = begins;
@@ -39,7 +39,7 @@ class Envelope {
   /// each(x, squared distance) for x in [begin, end). REQUIRES: not empty.
   template <class Each>
   void visit(std::int32_t begin, std::int32_t end, const Each& each) {
-    from_[count_] = kFar;
+    from_[count_] = kFarAway;
     std::size_t k = 0;
     for (std::int32_t x = begin; x < end; ++x) {
       while (from_[k + 1] < x) ++k;
@@ -150,7 +150,7 @@ class RegionSamples {
       if (steps == 0 || (steps > 0 && away < grid_.falloff)) envelope.add(static_cast<std::int32_t>(k), away * away);
     }
     if (envelope.is_empty()) return;
-    const double beyond = grid_.beyond.value_or(kFar);
+    const double beyond = grid_.beyond.value_or(kFarAway);
     envelope.visit(at.from - at.left, at.to - at.left, [&](std::int32_t k, double squared) {
       float& bound = bounds[at.left + k];
       const double away = std::sqrt(squared);
@@ -203,7 +203,7 @@ RegionBounds make_region_bounds(std::span<const Region> regions, const RegionGri
     to_read = std::max(to_read, found.back().bytes_to_read());
   }
   bounds.bytes += to_read * static_cast<std::uint64_t>(thread_count(threads));
-  bounds.source = std::make_shared<RegionSource>(std::move(found), grid.beyond.value_or(kFar));
+  bounds.source = std::make_shared<RegionSource>(std::move(found), grid.beyond.value_or(kFarAway));
   return bounds;
 }
 

@@ -24,7 +24,7 @@ namespace scarp {
 namespace {
 
 /// Share of the max error within which lines follow the raster: what soft lines are laid with takes no more bends.
-constexpr double kHeightShare = 0.5;
+constexpr double kRidgeShare = 0.5;
 
 Result<void> check_ridges(const RidgeOptions& options) {
   if (!(options.height > 0 && std::isfinite(options.height)))
@@ -142,7 +142,7 @@ class Detection {
   std::vector<Line> draw(const std::vector<ValleyPath>& paths, const LineSamples& samples, const char* name) {
     std::vector<Line> lines(paths.size());
     parallel_for(paths.size(), options_.threads, [&](std::size_t k) {
-      lines[k] = to_map(fewest_vertices(samples, paths[k], kHeightShare * options_.max_error), options_,
+      lines[k] = to_map(fewest_vertices(samples, paths[k], kRidgeShare * options_.max_error), options_,
                         fmt::format("{} {}", name, k + 1));
     });
     for (const Line& line : lines) lines_ += 2 * sizeof(Line) + sizeof(line.points[0]) * line.points.size();

@@ -27,7 +27,7 @@ namespace {
 using Vector = PlanMetric::Vector;
 using Location = Triangulation::Location;
 
-constexpr double kSlack = 1e-3;          ///< degrees, and share of lengths, that rounding of positions may take
+constexpr double kShapeSlack = 1e-3;     ///< degrees, and share of lengths, that rounding of positions may take
 constexpr double kClosest = 1.0 / 32;    ///< of a sample: vertices for the sake of angles
 constexpr double kFinestSize = 0.5;      ///< of a sample: sizes that grade reckons with
 constexpr double kSnapShare = 1.0 / 12;  ///< steps of places over the distance to the nearest vertices
@@ -64,13 +64,13 @@ class ShapeRefiner {
         judge_(bound_rows_ ? LatticeJudge(samples_, heights_, *bound_rows_)
                            : LatticeJudge(samples_, heights_, task.threshold, task.bounds)),
         fixed_(places.fixed),
-        cosine2_(squares_of(task.goals.min_angle + kSlack).cosine),
+        cosine2_(squares_of(task.goals.min_angle + kShapeSlack).cosine),
         least_(kClosest * metric_.shorter_side()) {
     if (const auto& longest = task.goals.max_edge) {
-      longest2_ = *longest * *longest * (1 - kSlack);
+      longest2_ = *longest * *longest * (1 - kShapeSlack);
       least_ = std::min(least_, *longest / 4);
     }
-    const SquaredAngle half = squares_of((task.goals.min_angle + kSlack) / 2);
+    const SquaredAngle half = squares_of((task.goals.min_angle + kShapeSlack) / 2);
     off_centre_ = 0.475 * std::sqrt(half.cosine / half.sine);
     if (places.are_samples()) tin_.scale(kLatticeSteps);
     for (Vertex v = 0; v < places.heights.size(); ++v) {
@@ -190,7 +190,7 @@ class ShapeRefiner {
     double excess = length2 / longest2_;
     if (sizes_) {
       const double size = std::max(sizes_->at(tin_.origin(h)), sizes_->at(tin_.origin(Triangulation::next(h))));
-      excess = std::max(excess, length2 / (kGradeFactor * kGradeFactor * (1 - kSlack) * size * size));
+      excess = std::max(excess, length2 / (kGradeFactor * kGradeFactor * (1 - kShapeSlack) * size * size));
     }
     return excess;
   }
@@ -571,10 +571,10 @@ std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame)
   rule.by_angle = true;
   rule.aspect = height / width;
   // Without a smallest angle whatever has an area will do.
-  rule.floor = std::max(squares_of(goals.min_angle + kSlack).sine, std::numeric_limits<double>::min());
+  rule.floor = std::max(squares_of(goals.min_angle + kShapeSlack).sine, std::numeric_limits<double>::min());
   if (!goals.max_edge) return rule;
   const double longest = *goals.max_edge / width * kLatticeSteps;
-  rule.longest_square = longest * longest * (1 - kSlack);
+  rule.longest_square = longest * longest * (1 - kShapeSlack);
   return rule;
 }
 

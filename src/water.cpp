@@ -23,7 +23,7 @@ namespace {
 using Rings = std::span<const Line>;
 
 /// Samples [col, col + cols) × [row, row + rows).
-struct Box {
+struct ShoreBox {
   int col = 0, row = 0, cols = 0, rows = 0;
   bool is_empty() const { return cols <= 0 || rows <= 0; }
 };
@@ -84,7 +84,7 @@ class Shores {
   /// Calls visit(run) for the samples of a lake, in raster order.
   template <class Visit>
   void each_run(Rings rings, const Visit& visit) const {
-    const Box box = box_of(rings);
+    const ShoreBox box = box_of(rings);
     std::array<double, 6> affine = options_.affine;
     affine[0] += box.col * affine[1] + box.row * affine[2];
     affine[3] += box.col * affine[4] + box.row * affine[5];
@@ -99,7 +99,7 @@ class Shores {
   SamplePlace place_of(const std::array<double, 3>& point) const { return to_samples_.place(point[0], point[1]); }
 
   /// With a sample around.
-  Box box_of(Rings rings) const {
+  ShoreBox box_of(Rings rings) const {
     double left = field_.cols, right = 0, top = field_.rows, bottom = 0;
     for (const Line& ring : rings) {
       for (const auto& point : ring.points) {

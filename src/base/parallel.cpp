@@ -118,9 +118,9 @@ void run_beside(int threads, const std::function<void()>& beside, const std::fun
 namespace {
 
 /// Which tasks have started, ended and been committed.
-class Order {
+class TaskOrder {
  public:
-  Order(std::size_t count, std::size_t ahead) : ended_(count, false), ahead_(ahead) {}
+  TaskOrder(std::size_t count, std::size_t ahead) : ended_(count, false), ahead_(ahead) {}
 
   /// The next task; nothing if none is left to start. With `may_wait` waits for commits where too much is uncommitted.
   std::optional<std::size_t> start(bool may_wait) {
@@ -184,7 +184,7 @@ class Order {
 void parallel_in_order(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t)>& task,
                        const std::function<bool(std::size_t)>& commit) {
   const std::size_t workers = std::min<std::size_t>(count, static_cast<std::size_t>(thread_count(threads)));
-  Order order(count, 4 * workers);
+  TaskOrder order(count, 4 * workers);
   const auto run = [&](std::size_t i, std::size_t worker) {
     try {
       task(i, worker);

@@ -17,9 +17,9 @@ using draw::Colour;
 constexpr std::array<Colour, 7> kDiverging{Colour{5, 48, 97},     Colour{67, 147, 195},  Colour{171, 210, 229},
                                            Colour{250, 250, 250}, Colour{248, 186, 155}, Colour{214, 96, 77},
                                            Colour{120, 0, 32}};
-constexpr Colour kVoid{150, 150, 150};
-constexpr Colour kInk{30, 30, 30};
-constexpr int kSmall = 500;
+constexpr Colour kVoidColour{150, 150, 150};
+constexpr Colour kMapInk{30, 30, 30};
+constexpr int kSmallMap = 500;
 
 Colour colour_of(double error, double limit) {
   return draw::ramp(kDiverging, limit > 0 ? 0.5 + error / limit / 2 : 0.5);
@@ -50,7 +50,7 @@ void draw_scale(Picture& picture, int top, int size, double limit) {
     const double t = right > left ? static_cast<double>(x - left) / (right - left) : 0.5;
     for (int y = 0; y < bar; ++y) {
       const bool is_frame = x == left || x == right || y == 0 || y == bar - 1;
-      draw::set_pixel(picture, x, top + y, is_frame ? kInk : draw::ramp(kDiverging, t));
+      draw::set_pixel(picture, x, top + y, is_frame ? kMapInk : draw::ramp(kDiverging, t));
     }
   }
   // Two more numbers between where there is room for them.
@@ -61,9 +61,9 @@ void draw_scale(Picture& picture, int top, int size, double limit) {
     const double value = limit * (k - 2) / 2;
     const std::string text = k == 2 ? "0" : fmt::format("{:+.3g}", value);
     const int x = left + (right - left) * k / 4, width = static_cast<int>(text.size()) * step - size;
-    for (int y = 0; y < 2 * size; ++y) draw::set_pixel(picture, x, top + bar + y, kInk);
+    for (int y = 0; y < 2 * size; ++y) draw::set_pixel(picture, x, top + bar + y, kMapInk);
     draw::write_number(picture, std::clamp(x - width / 2, 0, std::max(0, picture.width - width)), top + bar + 3 * size,
-                       size, text, kInk);
+                       size, text, kMapInk);
   }
 }
 
@@ -84,7 +84,8 @@ Picture draw_error_map(std::span<const float> errors, int cols, int rows, double
   const double scale = std::min({1.0, static_cast<double>(max_side) / cols, static_cast<double>(room) / rows});
   const int width = std::max(1, static_cast<int>(cols * scale)), height = std::max(1, static_cast<int>(rows * scale));
   const int side = std::max(cols, rows);
-  const int factor = std::max(1, std::min({max_side / width, room / height, side < kSmall ? kSmall / side + 1 : 1}));
+  const int factor =
+      std::max(1, std::min({max_side / width, room / height, side < kSmallMap ? kSmallMap / side + 1 : 1}));
 
   const std::vector<float> reduced = reduce(errors, cols, rows, width, height);
   const bool has_scale = room < max_side;
@@ -93,7 +94,7 @@ Picture draw_error_map(std::span<const float> errors, int cols, int rows, double
     for (int x = 0; x < picture.width; ++x) {
       const float error = reduced[static_cast<std::size_t>(y / factor) * static_cast<std::size_t>(width) +
                                   static_cast<std::size_t>(x / factor)];
-      draw::set_pixel(picture, x, y, std::isnan(error) ? kVoid : colour_of(static_cast<double>(error), limit));
+      draw::set_pixel(picture, x, y, std::isnan(error) ? kVoidColour : colour_of(static_cast<double>(error), limit));
     }
   }
   if (has_scale) draw_scale(picture, height * factor + 4 * size, size, limit);

@@ -14,8 +14,8 @@ namespace {
 using draw::Colour;
 using draw::Relief;
 
-constexpr Colour kInk{24, 28, 48};
-constexpr int kSmall = 700;  // rasters below this many samples a side are enlarged
+constexpr Colour kFrameInk{24, 28, 48};
+constexpr int kSmallPreview = 700;  // rasters below this many samples a side are enlarged
 
 /// Means of the samples that fall into each pixel; void where more than half of them are.
 Relief reduce(const HeightField& field, int width, int height) {
@@ -95,7 +95,7 @@ void draw_mesh(const HeightField& field, const Mesh& mesh, Picture& picture) {
       lines.add_line(x[k], y[k], x[next], y[next], 0.9, darkness);
     }
   }
-  lines.blend_into(picture, kInk);
+  lines.blend_into(picture, kFrameInk);
 }
 
 }  // namespace
@@ -107,7 +107,8 @@ Picture draw_preview(const HeightField& field, const Mesh& mesh, int max_side) {
   const double scale = std::min(1.0, static_cast<double>(max_side) / side);
   const int width = std::max(1, static_cast<int>(field.cols * scale)),
             height = std::max(1, static_cast<int>(field.rows * scale));
-  const int factor = side >= kSmall ? 1 : std::max(1, std::min(max_side / side, 3 * kSmall / (2 * side) + 1));
+  const int factor =
+      side >= kSmallPreview ? 1 : std::max(1, std::min(max_side / side, 3 * kSmallPreview / (2 * side) + 1));
 
   const Relief relief = reduce(field, width, height);
   Picture picture = enlarge(relief, draw::shade(relief, field.frame, field.cols, field.rows), factor);

@@ -13,14 +13,14 @@ namespace scarp {
 namespace {
 
 /// Rises of energy beyond this are not worth trying, nor are searches that begin this many times as far away.
-constexpr float kMostRise = 300, kFar = 10;
+constexpr float kMostRise = 300, kFarReach = 10;
 
 /// Longer rings are not looked at.
 constexpr std::size_t kMostCorners = 16;
 
-constexpr std::array<double, 3> kStarts{0.5, 0.15, 0.85}, kReaches{0.3, 0.15, 0.07};
+constexpr std::array<double, 3> kStarts{0.5, 0.15, 0.85}, kCollapseReaches{0.3, 0.15, 0.07};
 constexpr int kSteps = 3;  // of each reach
-constexpr std::array<Point, 4> kWays{Point{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+constexpr std::array<Point, 4> kCollapseWays{Point{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
 
 constexpr float kNever = std::numeric_limits<float>::infinity();
 
@@ -102,14 +102,14 @@ bool Collapse::search(Patch::Id v, Patch::Id u, Offer& offer) const {
   };
   const double x = b.x - a.x, y = b.y - a.y, z = double{b.z} - double{a.z};
   for (const double share : kStarts) look(a.x + share * x, a.y + share * y, double{a.z} + share * z);
-  if (!(least < energy_ + kFar * kMostRise)) return false;
+  if (!(least < energy_ + kFarReach * kMostRise)) return false;
   const double length = std::sqrt(x * x + y * y);
-  for (const double reach : kReaches) {
+  for (const double reach : kCollapseReaches) {
     bool is_better = true;
     for (int step = 0; is_better && step < kSteps; ++step) {
       const FitCorner from = best;
       is_better = false;
-      for (const Point& way : kWays)
+      for (const Point& way : kCollapseWays)
         is_better |= look(from.x + way.x * reach * length, from.y + way.y * reach * length, double{from.z});
     }
   }

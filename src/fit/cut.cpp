@@ -18,7 +18,7 @@ constexpr std::int64_t kBlocksPerSide = 8;
 constexpr std::size_t kBlocks = 64;
 
 /// The smallest window that holds points.
-struct Box {
+struct PointBox {
   Point low{kMaxCoordinate, kMaxCoordinate}, high{0, 0};
   void add(Point p) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
@@ -130,7 +130,7 @@ float PatchCutter::height_of(Vertex v) const {
 bool PatchCutter::add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::vector<Vertex>& vertices) const {
   vertices.clear();
   if (scratch.ids.size() < tin_.vertex_count()) scratch.ids.resize(tin_.vertex_count(), kNone);
-  Box box;
+  PointBox box;
   for (std::size_t k = begins_[i]; k < begins_[i + 1]; ++k) {
     for (HalfEdge h = 3 * order_[k]; h < 3 * order_[k] + 3; ++h) {
       const Vertex v = tin_.origin(h);

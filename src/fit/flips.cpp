@@ -7,7 +7,7 @@ namespace scarp {
 namespace {
 
 /// Of the energy before: what must be gained, so that roundings never flip an edge back and forth.
-constexpr float kGain = 1e-5f;
+constexpr float kFlipGain = 1e-5f;
 
 }  // namespace
 
@@ -35,7 +35,7 @@ bool Flips::improve(const TriangleError& error, Patch::Id face, unsigned edge) {
   const Patch::Quad q = patch_.quad(face, edge);
   const FitCorner &a = patch_.at(q.a), &b = patch_.at(q.b), &c = patch_.at(q.c), &d = patch_.at(q.d);
   if (area2(c, a, d) <= 0 || area2(d, b, c) <= 0 || !has_shape(q)) return false;
-  const float limit = (patch_.face(q.face).energy + patch_.face(q.beyond).energy) * (1 - kGain);
+  const float limit = (patch_.face(q.face).energy + patch_.face(q.beyond).energy) * (1 - kFlipGain);
   const Trial trial = trial_of(q, limit);
   Trial& refused = place_of(q);
   if (refused == trial) return false;

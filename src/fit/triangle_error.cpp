@@ -161,11 +161,11 @@ struct TriangleError::ByBounds {
 namespace {
 
 /// A triangle as exact arithmetic wants it.
-struct Outline {
+struct ExactTriangle {
   std::array<Point, 3> corners;
   std::array<float, 3> heights;
 
-  explicit Outline(const std::array<FitCorner, 3>& of) {
+  explicit ExactTriangle(const std::array<FitCorner, 3>& of) {
     for (std::size_t k = 0; k < 3; ++k) {
       corners[k] = {of[k].x, of[k].y};
       heights[k] = of[k].z;
@@ -265,7 +265,7 @@ float TriangleError::energy_of(float error) const {
 
 /// REQUIRES: corners are samples' places, and no other sample lies in the triangle.
 TriangleError::Verdict TriangleError::judge_corners(const std::array<FitCorner, 3>& corners, float energy_limit) const {
-  const Outline outline(corners);
+  const ExactTriangle outline(corners);
   Verdict verdict;
   bool keeps = true;
   for (const FitCorner& corner : corners) {
@@ -295,7 +295,7 @@ TriangleError::Verdict TriangleError::judge_corners(const std::array<FitCorner, 
 template <class Tally>
 bool TriangleError::settle(const Tally& tally, Verdict& verdict) const {
   const TriangleTask& task = tally.task;
-  const Outline outline(task.corners);
+  const ExactTriangle outline(task.corners);
   return each_row(task, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     const float row = task.row_height(y);
     for (std::int32_t x = first; x <= last; ++x) {

@@ -13,12 +13,12 @@ namespace scarp {
 namespace {
 
 /// Of the energy before: what must be gained.
-constexpr float kGain = 2e-3f;
+constexpr float kStepGain = 2e-3f;
 /// Lengths of a step: times Newton's, but at most this share of the mean edge.
 constexpr std::array<double, 3> kLengths{1.5, 0.45, 0.12};
-constexpr std::array<double, 3> kReaches{0.4, 0.12, 0.032};
+constexpr std::array<double, 3> kStepReaches{0.4, 0.12, 0.032};
 
-constexpr std::array<Point, 8> kWays{Point{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
+constexpr std::array<Point, 8> kStepWays{Point{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
 
 /// What a shake may cost, times the energy before, and how far it goes at most, times the mean edge.
 constexpr float kShakeCost = 3;
@@ -109,14 +109,14 @@ float VertexStep::energy() const {
 
 bool VertexStep::improve(const TriangleError& error, Patch::Id v) {
   if (!take_up(error, v)) return false;
-  const float limit = energy() * (1 - kGain);
+  const float limit = energy() * (1 - kStepGain);
   const FitCorner from = patch_.at(v);
   const Vector step = newton_step(error, from);
   const double length = std::sqrt(step.x * step.x + step.y * step.y) * kLatticeSteps;
   const double edge = mean_edge(from), floor = shape_floor(from);
   Point last{0, 0};
   for (std::size_t i = 0; length > 0 && length < 1e9 && i < kLengths.size(); ++i) {
-    const double scale = std::min(kLengths[i], kReaches[i] * edge / length) * kLatticeSteps / unit();
+    const double scale = std::min(kLengths[i], kStepReaches[i] * edge / length) * kLatticeSteps / unit();
     Point by{static_cast<std::int32_t>(std::lround(step.x * scale)),
              static_cast<std::int32_t>(std::lround(step.y * scale))};
     if (by == Point{0, 0}) by = unit_step(step.x, step.y);
@@ -132,12 +132,12 @@ bool VertexStep::improve(const TriangleError& error, Patch::Id v) {
 
 bool VertexStep::probe(const TriangleError& error, Patch::Id v, double reach) {
   if (!take_up(error, v)) return false;
-  const float limit = energy() * (1 - kGain);
+  const float limit = energy() * (1 - kStepGain);
   const FitCorner from = patch_.at(v);
   const double floor = shape_floor(from);
   const auto steps = static_cast<std::int32_t>(std::max(1L, std::lround(reach * mean_edge(from) / unit())));
   Offer best{from, limit};
-  for (const Point& way : kWays) {
+  for (const Point& way : kStepWays) {
     if (!star_.closed && (ring(0).y == from.y ? way.y : way.x) != 0) continue;
     const FitCorner place = beside(from, {way.x * steps, way.y * steps});
     if (!fits(place, floor)) continue;
@@ -234,7 +234,7 @@ VertexStep::Offer VertexStep::offer_at(const TriangleError& error, const FitCorn
   place.z = std::clamp(height, rules_.lowest, rules_.highest);
   if (!(std::abs(place.z) <= kMaxScanHeight)) return {place, kNever};
   const auto energy = static_cast<float>(best.energy);
-  return {place, mends ? std::min(energy, limit * (1 - kGain)) : energy, mends};
+  return {place, mends ? std::min(energy, limit * (1 - kStepGain)) : energy, mends};
 }
 
 /// Moves v there if that is better than the limit, and the rule of `error` lets it.

@@ -11,27 +11,28 @@ namespace scarp {
 namespace {
 
 /// A part of a line in the rectangle.
-struct Piece {
+struct LinePiece {
   ClippedSegment clipped;
   std::uint32_t segment;  ///< of the line
 };
 
 /// Pieces that follow each other without a gap.
-struct Run {
+struct PieceRun {
   std::uint32_t line;
   std::size_t begin, end;  ///< of the pieces
 };
 
-struct Pieces {
-  std::vector<Piece> pieces;
-  std::vector<Run> runs;
+struct LinePieces {
+  std::vector<LinePiece> pieces;
+  std::vector<PieceRun> runs;
 };
 
-void cut_line(std::span<const Point> line, std::uint32_t number, std::int32_t width, std::int32_t height, Pieces& cut) {
+void cut_line(std::span<const Point> line, std::uint32_t number, std::int32_t width, std::int32_t height,
+              LinePieces& cut) {
   bool is_open = false;  // the last run ends where this segment begins
   for (std::uint32_t k = 0; k + 1 < line.size(); ++k) {
     if (line[k] == line[k + 1]) continue;
-    Piece piece{{}, k};
+    LinePiece piece{{}, k};
     if (!clip_segment({line[k], line[k + 1]}, width, height, piece.clipped)) {
       is_open = false;
       continue;
@@ -43,8 +44,8 @@ void cut_line(std::span<const Point> line, std::uint32_t number, std::int32_t wi
   }
 }
 
-Pieces cut_lines(const Polylines& lines, std::int32_t width, std::int32_t height) {
-  Pieces cut;
+LinePieces cut_lines(const Polylines& lines, std::int32_t width, std::int32_t height) {
+  LinePieces cut;
   for (std::uint32_t k = 0; k < lines.size(); ++k) cut_line(lines[k], k, width, height, cut);
   return cut;
 }
@@ -116,7 +117,7 @@ void number_vertices(const std::vector<Point>& points, Arrangement& result) {
 }
 
 /// Where on its course a segment begins and ends.
-Arrangement::Stretch stretch_of(const Piece& piece, const Segment& course, const HotPoints& hot,
+Arrangement::Stretch stretch_of(const LinePiece& piece, const Segment& course, const HotPoints& hot,
                                 const HotPoints::Passes& passes, std::size_t begin, std::size_t end) {
   const auto place_of = [&](Point p) {
     if (p == course.from) return static_cast<std::uint32_t>(begin);
@@ -148,10 +149,10 @@ std::vector<Arrangement::Stop> Arrangement::stops_of(const Chain& chain) const {
 
 Arrangement arrange(const Polylines& lines, std::span<const Segment> rigid, std::int32_t width, std::int32_t height) {
   Arrangement result;
-  const Pieces cut = cut_lines(lines, width, height);
+  const LinePieces cut = cut_lines(lines, width, height);
   std::vector<Segment> segments;
   segments.reserve(cut.pieces.size());
-  for (const Piece& piece : cut.pieces) segments.push_back(piece.clipped.segment);
+  for (const LinePiece& piece : cut.pieces) segments.push_back(piece.clipped.segment);
   const Courses courses = merge_overlaps(segments), rigid_courses = merge_overlaps(rigid);
   const HotPoints hot = find_hot_points(segments, rigid, courses, rigid_courses, result.is_exact);
   // A course passes what its segments pass: their ends are among its points, and between two of these both see the
@@ -164,7 +165,7 @@ Arrangement arrange(const Polylines& lines, std::span<const Segment> rigid, std:
     result.stretches.push_back(stretch_of(cut.pieces[k], courses.segments[course], hot, passes, passes.begins[course],
                                           passes.begins[course + 1]));
   }
-  for (const Run& run : cut.runs)
+  for (const PieceRun& run : cut.runs)
     result.chains.push_back({run.line, static_cast<std::uint32_t>(run.begin), static_cast<std::uint32_t>(run.end)});
   Edges line_edges(passes), rigid_edges(hot.walk(rigid_courses.segments, true));
   result.edges = merge(line_edges.sort(), rigid_edges.sort());

@@ -23,16 +23,16 @@ std::pair<std::int32_t, std::int32_t> piece(std::int32_t a, std::int32_t b, std:
                 : std::pair{static_cast<std::int32_t>(a - high), static_cast<std::int32_t>(a - low)};
 }
 
-struct Pieces {
+struct BoxedPieces {
   std::vector<Box> boxes;
   std::vector<std::uint32_t> owners;
 };
 
-Pieces cut(std::span<const Segment> segments) {
+BoxedPieces cut(std::span<const Segment> segments) {
   std::int64_t total = 0;
   for (const Segment& s : segments) total += length(s);
   const std::int64_t longest = std::max<std::int64_t>(1, total / std::max<std::int64_t>(1, std::ssize(segments)) + 1);
-  Pieces pieces;
+  BoxedPieces pieces;
   for (std::uint32_t k = 0; k < segments.size(); ++k) {
     const auto& [from, to] = segments[k];
     const std::int64_t count = (length(segments[k]) + longest - 1) / longest;
@@ -132,7 +132,7 @@ void visit_overlaps(const BoxTree& tree, const Visit& visit) {
 Crossings find_crossings(std::span<const Segment> lines, std::span<const Segment> rigid) {
   std::vector<Segment> segments(lines.begin(), lines.end());
   segments.insert(segments.end(), rigid.begin(), rigid.end());
-  const Pieces pieces = cut(segments);
+  const BoxedPieces pieces = cut(segments);
   const BoxTree tree(pieces.boxes);
   Finder finder(segments, lines.size());
   visit_overlaps(tree, [&](std::size_t a, std::size_t b) {

@@ -37,6 +37,9 @@ inline float scan_floor(double threshold, float guard) {
   return static_cast<float>(std::max(threshold - double{guard}, 0.0));
 }
 
+/// Rows of fewer samples are faster without vectors.
+constexpr std::int32_t kMinVectorRow = 16;
+
 struct ScanKernels {
   const char* name;  ///< "AVX3", "AVX2", "SSE4", "NEON", "WASM", "EMU128", … as Highway calls them; "SCALAR": the twin
 

@@ -15,7 +15,7 @@ namespace scarp {
 namespace {
 
 constexpr std::size_t kLongestChain = 200;  // vertices replaced by one segment
-constexpr int kPatience = 8;                // failures in a row before giving up on a longer segment
+constexpr int kLinkPatience = 8;            // failures in a row before giving up on a longer segment
 
 /// Chain within `tolerance` of the segment from its first to its last point, and to the left of it or on it.
 bool hugs_segment(std::span<const Point> chain, double tolerance) {
@@ -92,7 +92,7 @@ std::vector<Point> simplify_polygon(const Raster& raster, const std::vector<Poin
     std::size_t best = i + 1;
     chain = {polygon[i], polygon[(i + 1) % n]};
     int failures = 0;
-    for (std::size_t j = i + 2; j <= n && j - i <= kLongestChain && failures < kPatience; ++j) {
+    for (std::size_t j = i + 2; j <= n && j - i <= kLongestChain && failures < kLinkPatience; ++j) {
       // A segment back to the start would close a polygon of fewer than three corners.
       if (j == n && kept.size() < 3) break;
       if (std::binary_search(touching.begin(), touching.end(), chain.back(), before)) break;

@@ -17,13 +17,13 @@
 namespace scarp {
 namespace {
 
-constexpr std::string_view kOrigin = "scarp.origin: ", kKey = "scarp ", kMore = "scarp+ ";
+constexpr std::string_view kDxfOrigin = "scarp.origin: ", kDxfKey = "scarp ", kDxfMore = "scarp+ ";
 
 void append_comment(const std::string& text, std::string& lines) {
   constexpr std::size_t kMost = 240;
   lines += fmt::format("999\n{}\n", std::string_view(text).substr(0, kMost));
   for (std::size_t at = kMost; at < text.size(); at += kMost) {
-    lines += fmt::format("999\n{}{}\n", kMore, std::string_view(text).substr(at, kMost));
+    lines += fmt::format("999\n{}{}\n", kDxfMore, std::string_view(text).substr(at, kMost));
   }
 }
 
@@ -112,8 +112,8 @@ class DxfReader {
   }
 
   void read_comment(std::string_view text) {
-    if (text.starts_with(kMore)) {
-      comment_ += text.substr(kMore.size());
+    if (text.starts_with(kDxfMore)) {
+      comment_ += text.substr(kDxfMore.size());
       return;
     }
     take_comment();
@@ -122,10 +122,10 @@ class DxfReader {
 
   void take_comment() {
     const std::string_view text = comment_;
-    if (text.starts_with(kOrigin)) {
-      origin_ = parse_origin(text.substr(kOrigin.size()));
-    } else if (text.starts_with(kKey)) {
-      parse_metadata_line(text.substr(kKey.size()), mesh.metadata);
+    if (text.starts_with(kDxfOrigin)) {
+      origin_ = parse_origin(text.substr(kDxfOrigin.size()));
+    } else if (text.starts_with(kDxfKey)) {
+      parse_metadata_line(text.substr(kDxfKey.size()), mesh.metadata);
     }
   }
 
@@ -159,9 +159,9 @@ Result<std::vector<std::uint8_t>> encode_dxf(const Mesh& mesh) {
   std::string header;
   append_comment("Terrain by Scarp: x east, y north, z up; faces counter-clockwise from above", header);
   if (mesh.origin != std::array<double, 3>{})
-    append_comment(fmt::format("{}{}", kOrigin, origin_text(mesh.origin)), header);
+    append_comment(fmt::format("{}{}", kDxfOrigin, origin_text(mesh.origin)), header);
   for (const auto& [key, value] : mesh.metadata) {
-    append_comment(fmt::format("{}{}", kKey, ascii_metadata_line(key, value)), header);
+    append_comment(fmt::format("{}{}", kDxfKey, ascii_metadata_line(key, value)), header);
   }
   std::vector<std::uint8_t> bytes(header.begin(), header.end());
   bytes.reserve(header.size() + mesh.triangles.size() * 64);

@@ -13,14 +13,15 @@
 
 #include "io/file_bytes.h"
 #include "io/glb_json.h"
+#include "io/glb_numbers.h"
 #include "io/mesh_file.h"
 #include "io/srgb.h"
 
 namespace scarp {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
-constexpr int kFloat = 5126, kUint16 = 5123, kUint32 = 5125, kArrayBuffer = 34962, kIndexBuffer = 34963;
+constexpr std::uint32_t kMagic = 0x46546C67;
+constexpr int kArrayBuffer = 34962, kIndexBuffer = 34963;
 
 /// A PNG of one white pixel: places in an image mean something only where there is a texture, and this one stands in
 /// for the user's.
@@ -127,7 +128,8 @@ Json describe(const Mesh& mesh, const std::vector<Attribute>& attributes, const 
   constexpr const char* kTypes[] = {"", "SCALAR", "VEC2", "VEC3"};
   for (const Attribute& attribute : attributes) {
     named[attribute.name] = accessors.size();
-    Json& accessor = add(4 * attribute.width * vertices, kArrayBuffer, kFloat, vertices, kTypes[attribute.width]);
+    Json& accessor =
+        add(4 * attribute.width * vertices, kArrayBuffer, kFloatComponent, vertices, kTypes[attribute.width]);
     if (attribute.name == "POSITION") {
       accessor["min"] = low;
       accessor["max"] = high;
@@ -139,7 +141,7 @@ Json describe(const Mesh& mesh, const std::vector<Attribute>& attributes, const 
     if (has_gaps(mesh)) primitive["extras"]["noValue"] = kNoValue;
   }
   const std::uint64_t size = index_size(vertices);
-  add(size * corners, kIndexBuffer, size == 2 ? kUint16 : kUint32, corners, "SCALAR");
+  add(size * corners, kIndexBuffer, size == 2 ? kUint16Component : kUint32Component, corners, "SCALAR");
   json["meshes"] = Json::array({{{"name", "terrain"}, {"primitives", Json::array({primitive})}}});
   if (!mesh.uvs.empty()) {
     offset = pad4(offset);

@@ -12,6 +12,7 @@
 
 #include "io/file_bytes.h"
 #include "io/glb_json.h"
+#include "io/glb_numbers.h"
 #include "io/glb_transform.h"
 #include "io/mesh_file.h"
 #include "io/srgb.h"
@@ -19,9 +20,6 @@
 
 namespace scarp {
 namespace {
-
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
-constexpr int kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat = 5126;
 
 /// A checked accessor: `count` items of `components` numbers, `stride` bytes apart.
 struct Items {
@@ -255,7 +253,7 @@ class GlbReader {
     std::uint64_t accessor = 0;
     Items positions;
     if (!read_count(*attributes, "POSITION", 0, accessor) || !find_items(accessor, "VEC3", positions)) return false;
-    if (positions.component_type != kFloat)
+    if (positions.component_type != kFloatComponent)
       return refuse(fmt::format("its accessor {} of positions is not float32", accessor));
     const auto known = first_vertices.find(accessor);
     const bool is_new = known == first_vertices.end();
@@ -298,7 +296,7 @@ class GlbReader {
     std::uint64_t accessor = 0;
     Items normals;
     if (!read_count(attributes, "NORMAL", 0, accessor) || !find_items(accessor, "VEC3", normals)) return false;
-    if (normals.component_type != kFloat || normals.count != count)
+    if (normals.component_type != kFloatComponent || normals.count != count)
       return refuse(fmt::format("its accessor {} of normals is malformed", accessor));
     for (std::uint64_t v = 0; v < count; ++v) {
       const std::uint8_t* at = normals.data + v * normals.stride;
@@ -315,14 +313,14 @@ class GlbReader {
                       Items& items) {
     std::uint64_t accessor = 0;
     if (!read_count(attributes, name, 0, accessor) || !find_items(accessor, type, items)) return false;
-    if (items.component_type != kUint32 && items.count == count) return true;
+    if (items.component_type != kUint32Component && items.count == count) return true;
     return refuse(fmt::format("its accessor {} of {} is malformed", accessor, name));
   }
 
   static double load_component(const Items& items, std::uint64_t v, std::uint64_t k) {
     const std::uint8_t* at = items.data + v * items.stride;
-    if (items.component_type == kUint8) return at[k] / 255.0;
-    if (items.component_type == kUint16) return load_number<std::uint16_t>(at + 2 * k) / 65535.0;
+    if (items.component_type == kUint8Component) return at[k] / 255.0;
+    if (items.component_type == kUint16Component) return load_number<std::uint16_t>(at + 2 * k) / 65535.0;
     return load_number<float>(at + 4 * k);
   }
 
@@ -365,7 +363,7 @@ class GlbReader {
       if (!member(attributes, name.c_str())) break;
       channels.emplace_back();
       if (!find_attribute(attributes, name.c_str(), "SCALAR", count, channels.back())) return false;
-      if (channels.back().component_type != kFloat) return true;  // somebody else's
+      if (channels.back().component_type != kFloatComponent) return true;  // somebody else's
     }
     const Json* extras = member(primitive, "extras");
     const Json* announced = extras ? member(*extras, "channels") : nullptr;
@@ -398,7 +396,7 @@ class GlbReader {
     const bool indexed = member(primitive, "indices") != nullptr;
     if (indexed) {
       if (!read_count(primitive, "indices", 0, accessor) || !find_items(accessor, "SCALAR", indices)) return false;
-      if (indices.component_type == kFloat)
+      if (indices.component_type == kFloatComponent)
         return refuse(fmt::format("its accessor {} of indices is not integer", accessor));
       corners = indices.count;
     }
@@ -425,8 +423,8 @@ class GlbReader {
 
   static std::uint64_t load_index(const Items& items, std::uint64_t i) {
     const std::uint8_t* at = items.data + i * items.stride;
-    if (items.component_type == kUint8) return *at;
-    return items.component_type == kUint16 ? load_number<std::uint16_t>(at) : load_number<std::uint32_t>(at);
+    if (items.component_type == kUint8Component) return *at;
+    return items.component_type == kUint16Component ? load_number<std::uint16_t>(at) : load_number<std::uint32_t>(at);
   }
 
   bool find_items(std::uint64_t index, std::string_view type, Items& items) {
@@ -445,9 +443,9 @@ class GlbReader {
       return false;
     }
     std::uint64_t size = 0;
-    if (component_type == kUint8) size = 1;
-    if (component_type == kUint16) size = 2;
-    if (component_type == kUint32 || component_type == kFloat) size = 4;
+    if (component_type == kUint8Component) size = 1;
+    if (component_type == kUint16Component) size = 2;
+    if (component_type == kUint32Component || component_type == kFloatComponent) size = 4;
     if (size == 0) return broken(fmt::format("has component type {}, which is not supported here", component_type));
     items.component_type = static_cast<int>(component_type);
     size *= type == "SCALAR" ? 1 : static_cast<std::uint64_t>(type.back() - '0');

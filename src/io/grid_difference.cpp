@@ -11,7 +11,7 @@ namespace scarp {
 namespace {
 
 /// Corners this near to each other, in cells, are one: less than any resampling could show.
-constexpr double kNear = 0.01;
+constexpr double kNearCorner = 0.01;
 
 struct Corner {
   double x = 0, y = 0;
@@ -44,7 +44,7 @@ std::optional<std::string> find_grid_difference(const RasterInfo& raster, int co
   }
   const double width = std::hypot(raster.geotransform[1], raster.geotransform[4]);
   const double height = std::hypot(raster.geotransform[2], raster.geotransform[5]);
-  const double allowed = kNear * std::min(width, height);
+  const double allowed = kNearCorner * std::min(width, height);
   const auto is_apart = [&](double col, double row) {
     const Corner a = corner_of(raster, col, row), b = corner_of(other, col, row);
     return !(std::hypot(a.x - b.x, a.y - b.y) <= allowed);

@@ -21,7 +21,7 @@
 namespace scarp {
 namespace {
 
-constexpr std::string_view kOrigin = "scarp.origin", kFeature = "scarp";
+constexpr std::string_view kOriginLabel = "scarp.origin", kFeature = "scarp";
 
 struct LengthUnit {
   const char* name;  // LandXML's
@@ -71,7 +71,7 @@ std::string value_of(const Mesh& mesh, const char* key) {
   return found == mesh.metadata.end() ? std::string() : found->second;
 }
 
-tl::unexpected<Error> refuse(std::string why) { return fail(ErrorKind::kOutput, std::move(why)); }
+tl::unexpected<Error> refuse_to_write(std::string why) { return fail(ErrorKind::kOutput, std::move(why)); }
 
 /// The unit of all lengths, and the CRS if there is one.
 struct Reference {
@@ -84,22 +84,23 @@ Result<Reference> find_reference(const Mesh& mesh) {
   if (const std::string crs = value_of(mesh, "crs"); !crs.empty()) {
     reference.crs = describe_crs(crs);
     if (!reference.crs)
-      return refuse(fmt::format("LandXML names its unit of length, and that of {} is unknown here", crs));
+      return refuse_to_write(fmt::format("LandXML names its unit of length, and that of {} is unknown here", crs));
     if (reference.crs->is_geographic) {
-      return refuse(fmt::format(
+      return refuse_to_write(fmt::format(
           "LandXML has lengths only, and {} has degrees: choose a projected CRS, or the frame 'local'", crs));
     }
     reference.unit = find_unit(reference.crs->unit_in_metres);
     if (reference.unit == nullptr) {
-      return refuse(
+      return refuse_to_write(
           fmt::format("LandXML has no name for the unit of {}, which is {} m", crs, reference.crs->unit_in_metres));
     }
   }
   const std::string unit = value_of(mesh, "unit");
   const LengthUnit* heights = find_unit_of_heights(unit);
   if (heights != nullptr && heights != reference.unit) {
-    return refuse(fmt::format("LandXML has one unit for all lengths, and here x and y are in {} but heights in {} ({})",
-                              reference.unit->name, heights->name, unit));
+    return refuse_to_write(
+        fmt::format("LandXML has one unit for all lengths, and here x and y are in {} but heights in {} ({})",
+                    reference.unit->name, heights->name, unit));
   }
   return reference;
 }
@@ -206,7 +207,7 @@ class LandXmlReader {
   }
 
   void read_property(const std::string& label, const std::string& value) {
-    if (label == kOrigin) {
+    if (label == kOriginLabel) {
       origin_ = parse_origin(value);
     } else if (!label.empty()) {
       mesh.metadata[undo_ascii_text(label)] = undo_ascii_text(value);
@@ -272,7 +273,7 @@ class LandXmlReader {
 }  // namespace
 
 Result<std::vector<std::uint8_t>> encode_landxml(const Mesh& mesh) {
-  if (std::string why = find_beyond_int32(mesh, "a LandXML file"); !why.empty()) return refuse(why);
+  if (std::string why = find_beyond_int32(mesh, "a LandXML file"); !why.empty()) return refuse_to_write(why);
   const auto reference = find_reference(mesh);
   if (!reference) return tl::unexpected(reference.error());
   std::vector<std::uint8_t> bytes;
@@ -301,7 +302,7 @@ Result<std::vector<std::uint8_t>> encode_landxml(const Mesh& mesh) {
   const bool has_origin = mesh.origin != std::array<double, 3>{};
   if (has_origin || !mesh.metadata.empty()) {
     fmt::format_to(out, "      <Feature code=\"{}\">\n", kFeature);
-    if (has_origin) fmt::format_to(out, "{}", property(kOrigin, origin_text(mesh.origin)));
+    if (has_origin) fmt::format_to(out, "{}", property(kOriginLabel, origin_text(mesh.origin)));
     for (const auto& [key, value] : mesh.metadata) {
       fmt::format_to(out, "{}", property(ascii_text(key), ascii_text(value)));
     }

@@ -8,11 +8,11 @@ namespace scarp {
 
 namespace {
 
-using Place = std::array<double, 3>;
+using HeightPlace = std::array<double, 3>;
 
 /// Of those between the places `from` and `to`, which have heights. Counts on beyond the end, where the ring begins.
-void fill_between(std::span<Place> places, std::size_t from, std::size_t to) {
-  const auto at = [&](std::size_t k) -> Place& { return places[k % places.size()]; };
+void fill_between(std::span<HeightPlace> places, std::size_t from, std::size_t to) {
+  const auto at = [&](std::size_t k) -> HeightPlace& { return places[k % places.size()]; };
   std::vector<double> ways{0};
   for (std::size_t k = from; k < to; ++k)
     ways.push_back(ways.back() + std::hypot(at(k + 1)[0] - at(k)[0], at(k + 1)[1] - at(k)[1]));
@@ -25,11 +25,11 @@ void fill_between(std::span<Place> places, std::size_t from, std::size_t to) {
 
 }  // namespace
 
-std::size_t fill_heights(std::span<Place> places, bool is_ring) {
-  const auto is_known = [](const Place& place) { return !std::isnan(place[2]); };
+std::size_t fill_heights(std::span<HeightPlace> places, bool is_ring) {
+  const auto is_known = [](const HeightPlace& place) { return !std::isnan(place[2]); };
   if (places.size() < 2) return 0;
   // The last place of a ring is its first.
-  const std::span<Place> distinct = is_ring ? places.first(places.size() - 1) : places;
+  const std::span<HeightPlace> distinct = is_ring ? places.first(places.size() - 1) : places;
   if (is_ring && !is_known(distinct.front())) distinct.front()[2] = places.back()[2];
   const auto known = static_cast<std::size_t>(std::count_if(distinct.begin(), distinct.end(), is_known));
   if (known == 0) return 0;

@@ -9,7 +9,7 @@
 namespace scarp {
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+bool is_text_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -77,7 +77,7 @@ std::string lowered(std::string_view text) {
 
 std::string_view TextCursor::word() {
   for (;;) {
-    while (at_ != end_ && is_blank(*at_)) ++at_;
+    while (at_ != end_ && is_text_blank(*at_)) ++at_;
     if (at_ == end_ || *at_ != '\\') break;
     const char* next = at_ + 1;
     if (next != end_ && *next == '\r') ++next;
@@ -86,7 +86,7 @@ std::string_view TextCursor::word() {
     ++line_;
   }
   const char* begin = at_;
-  while (at_ != end_ && !is_blank(*at_) && !is_line_end(*at_)) ++at_;
+  while (at_ != end_ && !is_text_blank(*at_) && !is_line_end(*at_)) ++at_;
   return {begin, static_cast<std::size_t>(at_ - begin)};
 }
 

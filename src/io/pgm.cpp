@@ -12,7 +12,7 @@
 namespace scarp {
 namespace {
 
-constexpr int kEnd = -1;
+constexpr int kEndOfText = -1;
 
 bool is_space(int c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
 bool is_digit(int c) { return c >= '0' && c <= '9'; }
@@ -23,7 +23,7 @@ class Text {
   explicit Text(std::span<const std::uint8_t> bytes, std::size_t at) : bytes_(bytes), at_(at) {}
 
   int next() {
-    if (at_ >= bytes_.size()) return kEnd;
+    if (at_ >= bytes_.size()) return kEndOfText;
     if (bytes_[at_] != '#') return bytes_[at_++];
     while (at_ < bytes_.size() && bytes_[at_] != '\n' && bytes_[at_] != '\r') ++at_;
     if (at_ < bytes_.size()) ++at_;
@@ -41,14 +41,14 @@ class Text {
       value = value * 10 + static_cast<std::uint64_t>(c - '0');
       if (value > 0x7fffffff) return {};
     }
-    if (c != kEnd && !is_space(c)) return {};
+    if (c != kEndOfText && !is_space(c)) return {};
     return static_cast<std::uint32_t>(value);
   }
 
   bool only_space_left() {
     int c = next();
     while (is_space(c)) c = next();
-    return c == kEnd;
+    return c == kEndOfText;
   }
 
   std::size_t position() const { return at_; }
@@ -58,16 +58,16 @@ class Text {
   std::size_t at_;
 };
 
-struct Header {
+struct PgmHeader {
   bool plain = false;
   std::uint32_t cols = 0, rows = 0, maxval = 0;
   std::size_t samples_at = 0;
   std::uint64_t count() const { return static_cast<std::uint64_t>(cols) * rows; }
 };
 
-Result<Header> decode_header(std::span<const std::uint8_t> bytes, const std::string& name) {
+Result<PgmHeader> decode_pgm_header(std::span<const std::uint8_t> bytes, const std::string& name) {
   if (!is_pgm(bytes)) return fail(ErrorKind::kInput, name + ": not a PGM: it does not begin with P2 or P5");
-  Header header;
+  PgmHeader header;
   header.plain = bytes[1] == '2';
   Text text(bytes, 2);
   for (std::uint32_t* field : {&header.cols, &header.rows, &header.maxval}) {
@@ -83,7 +83,7 @@ Result<Header> decode_header(std::span<const std::uint8_t> bytes, const std::str
   return header;
 }
 
-RasterInfo describe(const Header& header, const std::string& name) {
+RasterInfo describe_pgm(const PgmHeader& header, const std::string& name) {
   RasterInfo info;
   info.path = name;
   info.format = "PGM";
@@ -91,9 +91,9 @@ RasterInfo describe(const Header& header, const std::string& name) {
   return info;
 }
 
-class Samples {
+class PgmSamples {
  public:
-  Samples(const Header& header, const std::string& name, const ReadOptions& options, float* out)
+  PgmSamples(const PgmHeader& header, const std::string& name, const ReadOptions& options, float* out)
       : header_(header), name_(name), nodata_(options.nodata), out_(out) {}
 
   Result<void> put(std::uint64_t index, std::uint32_t value) {
@@ -107,14 +107,14 @@ class Samples {
   }
 
  private:
-  const Header& header_;
+  const PgmHeader& header_;
   const std::string& name_;
   std::optional<double> nodata_;
   float* out_;
 };
 
-Result<void> decode_plain(std::span<const std::uint8_t> bytes, const Header& header, const std::string& name,
-                          Samples& samples) {
+Result<void> decode_plain(std::span<const std::uint8_t> bytes, const PgmHeader& header, const std::string& name,
+                          PgmSamples& samples) {
   Text text(bytes, header.samples_at);
   for (std::uint64_t k = 0; k < header.count(); ++k) {
     const auto value = text.number();
@@ -134,8 +134,8 @@ Result<void> decode_plain(std::span<const std::uint8_t> bytes, const Header& hea
   return {};
 }
 
-Result<void> decode_raw(std::span<const std::uint8_t> bytes, const Header& header, const std::string& name,
-                        Samples& samples) {
+Result<void> decode_raw(std::span<const std::uint8_t> bytes, const PgmHeader& header, const std::string& name,
+                        PgmSamples& samples) {
   const bool wide = header.maxval > 255;
   const std::uint8_t* data = bytes.data() + header.samples_at;
   for (std::uint64_t k = 0; k < header.count(); ++k) {
@@ -163,7 +163,7 @@ bool is_pgm(std::span<const std::uint8_t> bytes) {
 
 Result<OwnedHeightField> decode_pgm(std::span<const std::uint8_t> bytes, const std::string& name,
                                     const ReadOptions& options) {
-  auto header = decode_header(bytes, name);
+  auto header = decode_pgm_header(bytes, name);
   if (!header) return tl::unexpected(header.error());
   auto frame = bare_grid_frame(name, "a PGM", static_cast<int>(header->rows), options);
   if (!frame) return tl::unexpected(frame.error());
@@ -184,10 +184,10 @@ Result<OwnedHeightField> decode_pgm(std::span<const std::uint8_t> bytes, const s
   field.cols = static_cast<int>(header->cols);
   field.rows = static_cast<int>(header->rows);
   field.frame = std::move(*frame);
-  field.info = describe(*header, name);
+  field.info = describe_pgm(*header, name);
   field.info.nodata = options.nodata;
   if (auto allocated = allocate_samples(name, field); !allocated) return tl::unexpected(allocated.error());
-  Samples samples(*header, name, options, field.samples.data());
+  PgmSamples samples(*header, name, options, field.samples.data());
   auto decoded =
       header->plain ? decode_plain(bytes, *header, name, samples) : decode_raw(bytes, *header, name, samples);
   if (!decoded) return tl::unexpected(decoded.error());

@@ -21,23 +21,23 @@
 namespace scarp {
 namespace {
 
-constexpr std::string_view kOrigin = "scarp.origin: ", kKey = "scarp ", kCrs = "crs ";
+constexpr std::string_view kPlyOrigin = "scarp.origin: ", kPlyKey = "scarp ", kCrs = "crs ";
 
 enum class Type { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
 constexpr std::size_t kTypeSizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
 
-struct TypeName {
+struct PlyTypeName {
   std::string_view name;
   Type type;
 };
-constexpr TypeName kTypeNames[] = {
+constexpr PlyTypeName kTypeNames[] = {
     {"char", Type::kInt8},   {"int8", Type::kInt8},     {"uchar", Type::kUint8},   {"uint8", Type::kUint8},
     {"short", Type::kInt16}, {"int16", Type::kInt16},   {"ushort", Type::kUint16}, {"uint16", Type::kUint16},
     {"int", Type::kInt32},   {"int32", Type::kInt32},   {"uint", Type::kUint32},   {"uint32", Type::kUint32},
     {"float", Type::kFloat}, {"float32", Type::kFloat}, {"double", Type::kDouble}, {"float64", Type::kDouble}};
 
 std::optional<Type> find_type(std::string_view name) {
-  for (const TypeName& known : kTypeNames) {
+  for (const PlyTypeName& known : kTypeNames) {
     if (known.name == name) return known.type;
   }
   return {};
@@ -166,10 +166,10 @@ class PlyReader {
   void read_comment() {
     std::string_view text = cursor_.rest_of_line();
     while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-    if (text.starts_with(kOrigin)) {
-      origin_ = parse_origin(text.substr(kOrigin.size()));
-    } else if (text.starts_with(kKey)) {
-      parse_metadata_line(text.substr(kKey.size()), mesh.metadata);
+    if (text.starts_with(kPlyOrigin)) {
+      origin_ = parse_origin(text.substr(kPlyOrigin.size()));
+    } else if (text.starts_with(kPlyKey)) {
+      parse_metadata_line(text.substr(kPlyKey.size()), mesh.metadata);
     } else if (text.starts_with(kCrs)) {
       mesh.metadata.emplace("crs", text.substr(kCrs.size()));
     }
@@ -319,13 +319,13 @@ Result<std::vector<std::uint8_t>> encode_ply(const Mesh& mesh) {
   const auto channels = static_cast<std::size_t>(mesh.channel_count);
   std::string header = "ply\nformat binary_little_endian 1.0\ncomment Terrain by Scarp: x east, y north, z up\n";
   if (mesh.origin != std::array<double, 3>{})
-    header += fmt::format("comment {}{}\n", kOrigin, origin_text(mesh.origin));
+    header += fmt::format("comment {}{}\n", kPlyOrigin, origin_text(mesh.origin));
   const auto crs = mesh.metadata.find("crs");
   if (crs != mesh.metadata.end() && crs->second.find_first_of("\r\n") == std::string::npos) {
     header += fmt::format("comment {}{}\n", kCrs, crs->second);
   }
   for (const auto& [key, value] : mesh.metadata) {
-    header += fmt::format("comment {}{}\n", kKey, metadata_line(key, value));
+    header += fmt::format("comment {}{}\n", kPlyKey, metadata_line(key, value));
   }
   header += fmt::format("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n", vertices);
   if (with_normals) header += "property float nx\nproperty float ny\nproperty float nz\n";

@@ -18,11 +18,11 @@
 namespace scarp {
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
+bool is_blank_in_line(char c) { return c == ' ' || c == '\t'; }
 
 std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  while (!text.empty() && is_blank_in_line(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank_in_line(text.back())) text.remove_suffix(1);
   return text;
 }
 

@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t kHeaderSize = 80, kTriangleSize = 50;
 constexpr std::string_view kOriginDecimal = "scarp origin ", kOriginBits = "scarp origin bits ",
                            kPlaced = "scarp placed ", kPlacedBytes = "scarp placed\1";
-constexpr const char* kPlacement = "placement";
+constexpr const char* kPlacementKey = "placement";
 
 std::string placement_header(const std::string& placement) {
   if (kPlaced.size() + placement.size() < kHeaderSize) return fmt::format("{}{}", kPlaced, placement);
@@ -54,7 +54,7 @@ std::optional<std::string> parse_placement(std::string_view header) {
 /// Decimal where it fits into the header, which is nearly always; else the bits of the three doubles.
 std::string header_text(const Mesh& mesh) {
   const std::array<double, 3>& origin = mesh.origin;
-  if (const auto placed = mesh.metadata.find(kPlacement); placed != mesh.metadata.end()) {
+  if (const auto placed = mesh.metadata.find(kPlacementKey); placed != mesh.metadata.end()) {
     if (std::string text = placement_header(placed->second); !text.empty()) return text;
   }
   std::string text = fmt::format("{}{}", kOriginDecimal, origin_text(origin));
@@ -112,7 +112,7 @@ Result<Mesh> decode_binary(std::span<const std::uint8_t> bytes) {
   }
   const std::string_view header(reinterpret_cast<const char*>(bytes.data()), kHeaderSize);
   if (const auto origin = parse_header(header)) mesh.origin = *origin;
-  if (auto placement = parse_placement(header)) mesh.metadata[kPlacement] = std::move(*placement);
+  if (auto placement = parse_placement(header)) mesh.metadata[kPlacementKey] = std::move(*placement);
   return mesh;
 }
 

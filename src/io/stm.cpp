@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kMissing = 65535;
 
-struct Header {
+struct StmHeader {
   std::uint32_t cols = 0, rows = 0;
   bool big_endian = false;
   std::size_t samples_at = 0;
@@ -32,9 +32,9 @@ bool take_number(std::span<const std::uint8_t> bytes, std::size_t& at, std::uint
   return true;
 }
 
-Result<Header> decode_header(std::span<const std::uint8_t> bytes, const std::string& name) {
+Result<StmHeader> decode_stm_header(std::span<const std::uint8_t> bytes, const std::string& name) {
   if (!is_stm(bytes)) return fail(ErrorKind::kInput, name + ": not an STM: it does not begin with 'STM '");
-  Header header;
+  StmHeader header;
   std::size_t at = 4;
   if (!take_number(bytes, at, header.cols) || !take_number(bytes, at, header.rows) || bytes.size() < at + 5) {
     return fail(ErrorKind::kInput, name + ": the STM header is not 'STM width height ' and four bytes of byte order");
@@ -54,7 +54,7 @@ Result<Header> decode_header(std::span<const std::uint8_t> bytes, const std::str
   return header;
 }
 
-RasterInfo describe(const std::string& name, double nodata) {
+RasterInfo describe_stm(const std::string& name, double nodata) {
   RasterInfo info;
   info.path = name;
   info.format = "STM";
@@ -71,7 +71,7 @@ bool is_stm(std::span<const std::uint8_t> bytes) {
 
 Result<OwnedHeightField> decode_stm(std::span<const std::uint8_t> bytes, const std::string& name,
                                     const ReadOptions& options) {
-  auto header = decode_header(bytes, name);
+  auto header = decode_stm_header(bytes, name);
   if (!header) return tl::unexpected(header.error());
   auto frame = bare_grid_frame(name, "an STM", static_cast<int>(header->rows), options);
   if (!frame) return tl::unexpected(frame.error());
@@ -91,7 +91,7 @@ Result<OwnedHeightField> decode_stm(std::span<const std::uint8_t> bytes, const s
   field.cols = static_cast<int>(header->cols);
   field.rows = static_cast<int>(header->rows);
   field.frame = std::move(*frame);
-  field.info = describe(name, nodata);
+  field.info = describe_stm(name, nodata);
   if (auto allocated = allocate_samples(name, field); !allocated) return tl::unexpected(allocated.error());
   const std::uint8_t* data = bytes.data() + header->samples_at;
   const std::size_t high = header->big_endian ? 0 : 1;

@@ -36,15 +36,15 @@ constexpr std::string_view kContentTypes =
     "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">"
     "<Default Extension=\"rels\" ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>"
     "<Default Extension=\"model\" ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/></Types>\n";
-constexpr std::string_view kMetadata = "scarp:metadata", kOrigin = "scarp.origin";
-constexpr const char *kName = "name", *kPlacement = "placement";
+constexpr std::string_view kMetadata = "scarp:metadata", kOriginName = "scarp.origin";
+constexpr const char *kName = "name", *kPlacementName = "placement";
 
 std::vector<std::uint8_t> to_bytes(std::string_view text) { return {text.begin(), text.end()}; }
 
 std::string metadata_lines(const Mesh& mesh) {
   std::string lines;
   if (mesh.origin != std::array<double, 3>{})
-    lines += ascii_metadata_line(std::string(kOrigin), origin_text(mesh.origin)) + "\n";
+    lines += ascii_metadata_line(std::string(kOriginName), origin_text(mesh.origin)) + "\n";
   for (const auto& [key, value] : mesh.metadata) {
     if (key != kName) lines += ascii_metadata_line(key, value) + "\n";
   }
@@ -83,7 +83,7 @@ std::vector<std::uint8_t> make_model(std::span<const Mesh> objects) {
       "<model unit=\"{}\" xml:lang=\"en-US\" "
       "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" xmlns:scarp=\"urn:scarp:metadata\">\n"
       "<metadata name=\"Application\">Scarp {}</metadata>\n",
-      first.metadata.contains(kPlacement) ? "millimeter" : "meter", version());
+      first.metadata.contains(kPlacementName) ? "millimeter" : "meter", version());
   if (const std::string lines = metadata_lines(first); !lines.empty())
     fmt::format_to(out, "<metadata name=\"{}\">{}</metadata>\n", kMetadata, with_entities(lines));
   fmt::format_to(out, "<resources>\n");
@@ -94,7 +94,7 @@ std::vector<std::uint8_t> make_model(std::span<const Mesh> objects) {
   return bytes;
 }
 
-tl::unexpected<Error> refuse(std::string why) { return fail(ErrorKind::kInput, std::move(why)); }
+tl::unexpected<Error> refuse_to_read(std::string why) { return fail(ErrorKind::kInput, std::move(why)); }
 
 /// Rows are the images of x, y, z and the origin.
 using Transform = std::array<double, 12>;
@@ -225,7 +225,7 @@ class ModelReader {
   }
 
   std::string finish() {
-    const auto origin = mesh.metadata.find(std::string(kOrigin));
+    const auto origin = mesh.metadata.find(std::string(kOriginName));
     if (origin == mesh.metadata.end()) return {};
     if (const auto parsed = parse_origin(origin->second)) mesh.origin = *parsed;
     mesh.metadata.erase(origin);
@@ -286,11 +286,11 @@ Result<Mesh> decode_3mf(std::span<const std::uint8_t> bytes) {
   const auto zip = ZipReader::open(bytes);
   if (!zip) return tl::unexpected(zip.error());
   const std::string part = find_model_part(*zip);
-  if (part.empty()) return refuse("it is an archive without a 3MF model");
+  if (part.empty()) return refuse_to_read("it is an archive without a 3MF model");
   const auto model = zip->extract(part);
   if (!model) return tl::unexpected(model.error());
   ModelReader reader(*model);
-  if (std::string why = reader.read(); !why.empty()) return refuse(std::move(why));
+  if (std::string why = reader.read(); !why.empty()) return refuse_to_read(std::move(why));
   return std::move(reader.mesh);
 }
 

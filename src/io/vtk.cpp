@@ -15,7 +15,7 @@
 namespace scarp {
 namespace {
 
-constexpr std::uint8_t kTriangle = 5;  // VTK's number for this kind of cell
+constexpr std::uint8_t kTriangleCell = 5;  // VTK's number for this kind of cell
 
 /// Numbers the arrays' places as the XML names them.
 class Places {
@@ -148,7 +148,7 @@ std::vector<std::uint8_t> encode(const Mesh& mesh, bool as_polydata) {
   }
   if (!as_polydata) {
     store_header<std::uint8_t>(at, triangles);
-    std::memset(at, kTriangle, triangles);
+    std::memset(at, kTriangleCell, triangles);
     at += triangles;
   }
   std::memcpy(at, kFooter.data(), kFooter.size());

@@ -11,19 +11,19 @@
 namespace scarp {
 namespace {
 
-struct TypeName {
+struct VtkTypeName {
   std::string_view name;
   VtkType type;
   std::size_t width;
 };
-constexpr TypeName kTypes[] = {{"Int8", VtkType::kInt8, 1},       {"UInt8", VtkType::kUint8, 1},
-                               {"Int16", VtkType::kInt16, 2},     {"UInt16", VtkType::kUint16, 2},
-                               {"Int32", VtkType::kInt32, 4},     {"UInt32", VtkType::kUint32, 4},
-                               {"Int64", VtkType::kInt64, 8},     {"UInt64", VtkType::kUint64, 8},
-                               {"Float32", VtkType::kFloat32, 4}, {"Float64", VtkType::kFloat64, 8}};
+constexpr VtkTypeName kTypes[] = {{"Int8", VtkType::kInt8, 1},       {"UInt8", VtkType::kUint8, 1},
+                                  {"Int16", VtkType::kInt16, 2},     {"UInt16", VtkType::kUint16, 2},
+                                  {"Int32", VtkType::kInt32, 4},     {"UInt32", VtkType::kUint32, 4},
+                                  {"Int64", VtkType::kInt64, 8},     {"UInt64", VtkType::kUint64, 8},
+                                  {"Float32", VtkType::kFloat32, 4}, {"Float64", VtkType::kFloat64, 8}};
 
 std::size_t width_of(VtkType type) {
-  for (const TypeName& known : kTypes) {
+  for (const VtkTypeName& known : kTypes) {
     if (known.type == type) return known.width;
   }
   return 1;
@@ -101,7 +101,7 @@ tl::unexpected<Error> broken(const char* what) { return fail(ErrorKind::kInput, 
 }  // namespace
 
 std::optional<VtkType> find_vtk_type(std::string_view name) {
-  for (const TypeName& known : kTypes) {
+  for (const VtkTypeName& known : kTypes) {
     if (known.name == name) return known.type;
   }
   return {};

@@ -22,7 +22,7 @@ namespace scarp {
 namespace {
 
 /// A Piece element. Arrays are known by "Section/Name": "Polys/offsets"; the points' only array by "Points".
-struct Piece {
+struct VtkPiece {
   std::int64_t points = 0, cells = 0;
   std::map<std::string, VtkArray> arrays;
   std::string normals, uvs;  // the names of arrays in PointData
@@ -41,7 +41,7 @@ class VtkReader {
   std::string read() {
     if (std::string why = read_xml(); !why.empty()) return why;
     if (pieces_.empty()) return "it holds no piece of a mesh";
-    for (const Piece& piece : pieces_) {
+    for (const VtkPiece& piece : pieces_) {
       if (std::string why = add_piece(piece); !why.empty()) return why;
     }
     if (origin_ && find_unreadable(mesh).empty()) set_origin(mesh, *origin_);
@@ -95,7 +95,7 @@ class VtkReader {
     if (path.size() == 1 && name == "AppendedData") return skip_appended();
     if (name == "Piece" && path.size() == 2) {
       pieces_.emplace_back();
-      Piece& piece = pieces_.back();
+      VtkPiece& piece = pieces_.back();
       if (!parse_integer(xml_.attribute("NumberOfPoints"), piece.points)) return "a piece does not count its points";
       const std::string cells = xml_.attribute(is_polydata_ ? "NumberOfPolys" : "NumberOfCells");
       if (!parse_integer(cells, piece.cells)) return "a piece does not count its cells";
@@ -166,7 +166,7 @@ class VtkReader {
   }
 
   /// The numbers of an array that must be there. Arrays that share bytes are refused: a small file could ask for much.
-  Result<VtkNumbers> load(const Piece& piece, const std::string& key) {
+  Result<VtkNumbers> load(const VtkPiece& piece, const std::string& key) {
     const auto found = piece.arrays.find(key);
     if (found == piece.arrays.end()) return fail(ErrorKind::kInput, fmt::format("it has no array {}", quoted(key)));
     auto numbers = read_vtk_array(file_, found->second);
@@ -178,7 +178,7 @@ class VtkReader {
     return numbers;
   }
 
-  std::string add_piece(const Piece& piece) {
+  std::string add_piece(const VtkPiece& piece) {
     if (piece.points == 0 || piece.cells == 0) return {};
     const auto points = load(piece, "Points");
     if (!points) return points.error().message;
@@ -195,7 +195,7 @@ class VtkReader {
     return pieces_.size() == 1 ? add_point_data(piece) : std::string();
   }
 
-  std::string add_cells(const Piece& piece, std::uint32_t first) {
+  std::string add_cells(const VtkPiece& piece, std::uint32_t first) {
     const std::string section = is_polydata_ ? "Polys/" : "Cells/";
     const auto connectivity = load(piece, section + "connectivity");
     if (!connectivity) return connectivity.error().message;
@@ -241,7 +241,7 @@ class VtkReader {
   }
 
   /// Numbers of points, `components` for each. Empty where the piece has none, or has them not for all.
-  Result<VtkNumbers> load_point_data(const Piece& piece, const std::string& name, std::size_t components) {
+  Result<VtkNumbers> load_point_data(const VtkPiece& piece, const std::string& name, std::size_t components) {
     const std::string key = "PointData/" + name;
     if (piece.arrays.find(key) == piece.arrays.end()) return VtkNumbers();
     auto numbers = load(piece, key);
@@ -249,7 +249,7 @@ class VtkReader {
     return numbers;
   }
 
-  std::string add_point_data(const Piece& piece) {
+  std::string add_point_data(const VtkPiece& piece) {
     const auto normals = load_point_data(piece, piece.normals, 3);
     if (!normals) return normals.error().message;
     for (std::size_t i = 0; i < normals->size(); ++i) mesh.normals.push_back(as_float(normals->real(i)));
@@ -265,7 +265,7 @@ class VtkReader {
     return add_channels(piece);
   }
 
-  std::string add_colors(const Piece& piece) {
+  std::string add_colors(const VtkPiece& piece) {
     const auto array = piece.arrays.find("PointData/Colors");
     if (array == piece.arrays.end() || array->second.type != VtkType::kUint8) return {};
     const auto colors = load_point_data(piece, "Colors", 3);
@@ -274,7 +274,7 @@ class VtkReader {
     return {};
   }
 
-  std::string add_channels(const Piece& piece) {
+  std::string add_channels(const VtkPiece& piece) {
     std::vector<VtkNumbers> channels;
     while (channels.size() < static_cast<std::size_t>(kMaxChannels)) {
       auto channel = load_point_data(piece, fmt::format("channel_{}", channels.size() + 1), 1);
@@ -293,7 +293,7 @@ class VtkReader {
   XmlReader xml_;
   VtkFile file_;
   bool is_polydata_ = false;
-  std::vector<Piece> pieces_;
+  std::vector<VtkPiece> pieces_;
   std::size_t loaded_ = 0;  // bytes of arrays behind the XML
   std::optional<std::array<double, 3>> origin_;
 };

@@ -9,9 +9,11 @@
 namespace scarp {
 namespace {
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+bool is_xml_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
-bool ends_name(char c) { return is_blank(c) || c == '/' || c == '>' || c == '=' || c == '<' || c == '"' || c == '\''; }
+bool ends_name(char c) {
+  return is_xml_blank(c) || c == '/' || c == '>' || c == '=' || c == '<' || c == '"' || c == '\'';
+}
 
 std::string_view without_prefix(std::string_view name) { return name.substr(name.find(':') + 1); }
 
@@ -117,7 +119,7 @@ XmlReader::Event XmlReader::broken(std::string why) {
 }
 
 void XmlReader::skip_blanks() {
-  while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
+  while (at_ < text_.size() && is_xml_blank(text_[at_])) ++at_;
 }
 
 std::string_view XmlReader::read_name() {
@@ -202,7 +204,7 @@ XmlReader::Event XmlReader::next() {
       content_ = text_.substr(at_, end - at_);
       at_ = end;
       if (!open_.empty()) return Event::kText;
-      if (!std::all_of(content_.begin(), content_.end(), is_blank)) {
+      if (!std::all_of(content_.begin(), content_.end(), is_xml_blank)) {
         return broken(fmt::format("line {}: there is text outside of the root", line()));
       }
       continue;

@@ -16,7 +16,7 @@
 namespace scarp {
 namespace {
 
-constexpr std::uint32_t kLocal = 0x04034b50, kCentral = 0x02014b50, kEnd = 0x06054b50, kEnd64 = 0x06064b50,
+constexpr std::uint32_t kLocal = 0x04034b50, kCentral = 0x02014b50, kEndRecord = 0x06054b50, kEnd64 = 0x06064b50,
                         kLocator64 = 0x07064b50;
 constexpr std::size_t kLocalSize = 30, kCentralSize = 46, kEndSize = 22, kEnd64Size = 56, kLocatorSize = 20;
 constexpr std::uint16_t kStored = 0, kDeflated = 8, kVersion = 20, kFirstDate = 0x21;  // 1980-01-01
@@ -136,7 +136,7 @@ Result<std::vector<std::uint8_t>> encode_zip(std::span<const ZipEntry> entries) 
   }
   const auto start = static_cast<std::uint32_t>(archive.size());
   archive.insert(archive.end(), directory.begin(), directory.end());
-  append_number(archive, kEnd);
+  append_number(archive, kEndRecord);
   append_number(archive, std::uint32_t{0});  // volumes
   append_number(archive, static_cast<std::uint16_t>(entries.size()));
   append_number(archive, static_cast<std::uint16_t>(entries.size()));
@@ -151,7 +151,7 @@ Result<ZipReader> ZipReader::open(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kLongestComment = 65535;
   for (std::size_t back = kEndSize; back <= std::min(size, kEndSize + kLongestComment); ++back) {
     const std::uint8_t* end = &bytes[size - back];
-    if (load_number<std::uint32_t>(end) != kEnd) continue;
+    if (load_number<std::uint32_t>(end) != kEndRecord) continue;
     std::uint64_t count = load_number<std::uint16_t>(end + 10), at = load_number<std::uint32_t>(end + 16);
     if (back + kLocatorSize <= size && load_number<std::uint32_t>(end - kLocatorSize) == kLocator64) {
       const std::uint64_t record = load_number<std::uint64_t>(end - kLocatorSize + 8);

@@ -23,7 +23,7 @@
 namespace scarp {
 namespace {
 
-constexpr const char* kPlacement = "placement";
+constexpr const char* kPlacementEntry = "placement";
 
 float rounded(double value) { return static_cast<float>(value) + 0.0f; }  // and no −0
 
@@ -166,11 +166,11 @@ void place_mesh(Mesh& mesh, const Placement& placement) {
   mesh.origin = {0, 0, 0};
   mesh.normals.clear();
   const auto &o = placement.origin, &s = placement.scale;
-  mesh.metadata[kPlacement] = fmt::format("{} {} {} {} {} {}", o[0], o[1], o[2], s[0], s[1], s[2]);
+  mesh.metadata[kPlacementEntry] = fmt::format("{} {} {} {} {} {}", o[0], o[1], o[2], s[0], s[1], s[2]);
 }
 
 bool undo_placement(Mesh& mesh) {
-  const auto told = mesh.metadata.find(kPlacement);
+  const auto told = mesh.metadata.find(kPlacementEntry);
   if (told == mesh.metadata.end()) return false;
   std::istringstream text(told->second);
   text.imbue(std::locale::classic());

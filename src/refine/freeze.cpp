@@ -75,7 +75,7 @@ class OffsetMap {
   std::array<double, 2> origin_;
 };
 
-constexpr std::size_t kChunk = 4096;
+constexpr std::size_t kChunkVertices = 4096;
 
 double twice_area(const Mesh& mesh) {
   double sum = 0;
@@ -110,7 +110,7 @@ void add_positions(const SampleHeights& heights, const Triangulation& tin, const
       vertices.push_back(v);
       chunk.push_back(tin.point(v));
     }
-    if (chunk.size() < kChunk && v + 1 < tin.vertex_count()) continue;
+    if (chunk.size() < kChunkVertices && v + 1 < tin.vertex_count()) continue;
     offsets.map(chunk, x, y);
     for (std::size_t k = 0; k < chunk.size(); ++k) {
       for (double offset : {x[k], y[k]})
@@ -142,9 +142,9 @@ std::vector<float> normals_of(const SampleHeights& heights, const Frame& frame, 
   normals.reserve(3 * samples.size());
   std::vector<Point> neighbours;  // west, east, north, south of each vertex; a missing one is the vertex itself
   std::vector<double> x, y;
-  for (std::size_t begin = 0; begin < samples.size(); begin += kChunk) {
+  for (std::size_t begin = 0; begin < samples.size(); begin += kChunkVertices) {
     neighbours.clear();
-    for (Point p : std::span(samples).subspan(begin, std::min(kChunk, samples.size() - begin))) {
+    for (Point p : std::span(samples).subspan(begin, std::min(kChunkVertices, samples.size() - begin))) {
       for (Point q : {Point{p.x - 1, p.y}, Point{p.x + 1, p.y}, Point{p.x, p.y - 1}, Point{p.x, p.y + 1}})
         neighbours.push_back(is_usable(heights, q) ? q : p);
     }
@@ -240,11 +240,11 @@ std::vector<float> sample_normals(const SampleHeights& heights, const Frame& fra
   std::vector<Point> corners;  // the valid samples around each point
   std::vector<double> weights;
   std::vector<std::size_t> ends;
-  for (std::size_t begin = 0; begin < at.points.size(); begin += kChunk) {
+  for (std::size_t begin = 0; begin < at.points.size(); begin += kChunkVertices) {
     corners.clear();
     weights.clear();
     ends.clear();
-    for (Point p : std::span(at.points).subspan(begin, std::min(kChunk, at.points.size() - begin))) {
+    for (Point p : std::span(at.points).subspan(begin, std::min(kChunkVertices, at.points.size() - begin))) {
       add_corners(heights, at.steps, p, corners, weights);
       ends.push_back(corners.size());
     }

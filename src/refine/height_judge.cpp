@@ -18,9 +18,6 @@ std::array<float, 3> heights_at(const Raster& raster, const std::array<Point, 3>
   return {raster.at(corners[0]), raster.at(corners[1]), raster.at(corners[2])};
 }
 
-/// Rows of fewer samples are faster without vectors.
-constexpr std::int32_t kMinVectorRow = 16;
-
 /// The worst of a row's samples that is worse than `worst`. NaN samples lose every comparison.
 void find_worst(const ScanKernels& kernels, const Plane& plane, const float* samples, std::int32_t y,
                 std::int32_t first, std::int32_t last, Candidate& worst) {

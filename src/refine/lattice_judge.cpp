@@ -14,9 +14,6 @@ namespace scarp {
 
 namespace {
 
-/// Rows of fewer samples are faster without vectors.
-constexpr std::int32_t kMinVectorRow = 16;
-
 Point place_of(std::int32_t x, std::int32_t y) { return {x * kLatticeSteps, y * kLatticeSteps}; }
 
 }  // namespace

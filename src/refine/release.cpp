@@ -14,13 +14,13 @@ namespace scarp {
 namespace {
 
 /// What the rule says about an edge, and what it cost to say.
-struct Verdict {
+struct EdgeVerdict {
   bool flips = false;
   std::uint64_t samples = 0, triangles = 0;
 };
 
-Verdict judge_edge(const Triangulation& tin, const Judge& judge, HalfEdge h) {
-  Verdict verdict;
+EdgeVerdict judge_edge(const Triangulation& tin, const Judge& judge, HalfEdge h) {
+  EdgeVerdict verdict;
   if (tin.is_outside(h / 3)) return verdict;
   const auto corner = [&](HalfEdge g) { return tin.point(tin.origin(g)); };
   const Point a = corner(h), b = corner(Triangulation::next(h)), c = corner(Triangulation::previous(h));
@@ -44,7 +44,7 @@ class CarefulRule final : public FlipRule {
   CarefulRule(const Triangulation& tin, const Judge& judge, const std::vector<HalfEdge>& edges, int threads)
       : judge_(judge) {
     constexpr std::size_t kChunk = 64;
-    std::vector<Verdict> verdicts(edges.size());
+    std::vector<EdgeVerdict> verdicts(edges.size());
     parallel_for((edges.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
       const std::size_t end = std::min(edges.size(), (chunk + 1) * kChunk);
       for (std::size_t i = chunk * kChunk; i < end; ++i) verdicts[i] = judge_edge(tin, judge, edges[i]);
@@ -62,7 +62,7 @@ class CarefulRule final : public FlipRule {
     if (known != verdicts_.end() && !changed_.contains(t) && !changed_.contains(u)) {
       flips = known->second;
     } else {
-      const Verdict verdict = judge_edge(tin, judge_, h);
+      const EdgeVerdict verdict = judge_edge(tin, judge_, h);
       count(verdict);
       flips = verdict.flips;
     }
@@ -72,7 +72,7 @@ class CarefulRule final : public FlipRule {
   const Work& work() const { return work_; }
 
  private:
-  void count(const Verdict& verdict) {
+  void count(const EdgeVerdict& verdict) {
     work_.samples_scanned += verdict.samples;
     work_.triangles_scanned += verdict.triangles;
   }

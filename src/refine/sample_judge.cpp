@@ -17,7 +17,7 @@ namespace scarp {
 namespace {
 
 /// Samples of a row that are looked at together.
-constexpr std::int32_t kChunk = 64;
+constexpr std::int32_t kChunkSamples = 64;
 
 /// Where the importance is 0 the error itself decides, far below any other importance.
 constexpr double kUnimportant = 1e-280;
@@ -126,12 +126,12 @@ Fit SampleJudge::fit(const std::array<Point, 3>& corners, const FitQuestion& que
   Fit fit;
   fit.guard = surface.guard;
   double doubtful = -1;
-  std::array<double, kChunk> errors;
+  std::array<double, kChunkSamples> errors;
   scan_rows(corners, [&](std::int32_t y, std::int32_t first, std::int32_t last) {
     if (!fit.complete) return;
     fit.scanned += static_cast<std::uint64_t>(last - first + 1);
-    for (std::int32_t begin = first; begin <= last; begin += kChunk) {
-      const auto count = static_cast<std::size_t>(std::min(kChunk, last - begin + 1));
+    for (std::int32_t begin = first; begin <= last; begin += kChunkSamples) {
+      const auto count = static_cast<std::size_t>(std::min(kChunkSamples, last - begin + 1));
       combine_row(surface, {begin, y}, {errors.data(), count});
       const std::size_t index = index_of({begin, y});
       for (std::size_t i = 0; i < count; ++i) {

@@ -10,7 +10,7 @@ namespace scarp::paper {
 namespace {
 
 constexpr int kSide = 256;
-constexpr std::uint64_t kVertices = 200;
+constexpr std::uint64_t kBudget = 200;
 
 struct Column {
   const char* name;
@@ -33,7 +33,7 @@ Result<std::vector<std::string>> measure_errors(Study& study, const SyntheticFig
   if (!field) return tl::unexpected(field.error());
   std::vector<std::string> row{figures.style};
   for (std::size_t k = 0; k < kColumns.size(); ++k) {
-    const Result<Trial> trial = study.refine(*field, kVertices, with_edges(kColumns[k].edges));
+    const Result<Trial> trial = study.refine(*field, kBudget, with_edges(kColumns[k].edges));
     if (!trial) return tl::unexpected(trial.error());
     row.push_back(beside(trial->max_error, figures.max_error[k]));
     differences.add(fmt::format("{}, {}", figures.style, kColumns[k].name), trial->max_error, figures.max_error[k]);
@@ -80,7 +80,7 @@ Result<void> add_synthetic(Study& study) {
       fmt::format("Max error at {} vertices on the fields of `scarp generate`, which are those of Scape's genstm. "
                   "Pyramids: vertices that "
                   "reproduce every sample.",
-                  kVertices));
+                  kBudget));
   study.page.table(header, rows);
   study.page.list(
       {differences.sentence("max errors"),

@@ -23,7 +23,7 @@ struct DestroyFeature {
 };
 using Feature = std::unique_ptr<std::remove_pointer_t<OGRFeatureH>, DestroyFeature>;
 
-tl::unexpected<Error> refuse(const std::string& why) {
+tl::unexpected<Error> refuse_geopackage(const std::string& why) {
   return fail(ErrorKind::kOutput, "the mesh cannot be encoded as GeoPackage: " + why);
 }
 
@@ -46,18 +46,18 @@ Result<std::vector<std::uint8_t>> encode_gpkg(const Mesh& mesh) {
   gdal::Session session;
   session.set_option("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z");  // equal meshes give equal bytes
   GDALDriverH driver = GDALGetDriverByName("GPKG");
-  if (driver == nullptr) return refuse("this GDAL has no GPKG driver");
+  if (driver == nullptr) return refuse_geopackage("this GDAL has no GPKG driver");
   gdal::Crs crs;
   if (const auto name = mesh.metadata.find("crs"); name != mesh.metadata.end()) {
     crs = gdal::find_crs(name->second);
-    if (!crs) return refuse(fmt::format("'{}' is no CRS that GDAL knows", name->second));
+    if (!crs) return refuse_geopackage(fmt::format("'{}' is no CRS that GDAL knows", name->second));
   }
   session.clear();
   const gdal::MemoryFile file("gpkg");
   gdal::Dataset dataset(GDALCreate(driver, file.name(), 0, 0, 0, GDT_Unknown, nullptr));
-  if (!dataset) return refuse(session.reason());
+  if (!dataset) return refuse_geopackage(session.reason());
   OGRLayerH layer = GDALDatasetCreateLayer(dataset.get(), "terrain", crs.get(), wkbPolygon25D, nullptr);
-  if (layer == nullptr) return refuse(session.reason());
+  if (layer == nullptr) return refuse_geopackage(session.reason());
   bool good = GDALDatasetStartTransaction(dataset.get(), FALSE) == OGRERR_NONE;
   for (std::size_t t = 0; t < mesh.triangle_count() && good; ++t) good = add_triangle(layer, mesh, t);
   good = good && GDALDatasetCommitTransaction(dataset.get()) == OGRERR_NONE;
@@ -66,9 +66,9 @@ Result<std::vector<std::uint8_t>> encode_gpkg(const Mesh& mesh) {
            GDALSetMetadataItem(dataset.get(), ascii_text(key).c_str(), ascii_text(value).c_str(), nullptr) == CE_None;
   }
   dataset.reset();
-  if (!good || session.failed()) return refuse(session.reason());
+  if (!good || session.failed()) return refuse_geopackage(session.reason());
   std::vector<std::uint8_t> bytes = file.bytes();
-  if (bytes.empty()) return refuse("GDAL has written nothing");
+  if (bytes.empty()) return refuse_geopackage("GDAL has written nothing");
   return bytes;
 }
 

@@ -15,7 +15,7 @@
 namespace scarp {
 namespace {
 
-tl::unexpected<Error> refuse(const std::string& why) {
+tl::unexpected<Error> refuse_geotiff(const std::string& why) {
   return fail(ErrorKind::kOutput, "the raster cannot be encoded as GeoTIFF: " + why);
 }
 
@@ -25,17 +25,17 @@ Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage& raster) {
   gdal::Session session;
   session.set_option("GDAL_PAM_ENABLED", "NO");  // no .aux.xml beside it
   GDALDriverH driver = GDALGetDriverByName("GTiff");
-  if (driver == nullptr) return refuse("this GDAL has no GTiff driver");
+  if (driver == nullptr) return refuse_geotiff("this GDAL has no GTiff driver");
   gdal::Crs crs;
   if (raster.like != nullptr && !raster.like->crs.empty()) {
     crs = gdal::find_crs(raster.like->crs);
-    if (!crs) return refuse(fmt::format("'{}' is no CRS that GDAL knows", raster.like->crs));
+    if (!crs) return refuse_geotiff(fmt::format("'{}' is no CRS that GDAL knows", raster.like->crs));
   }
   const gdal::MemoryFile file("tif");
   const char* options[] = {"COMPRESS=DEFLATE", "PREDICTOR=3",      "TILED=YES",
                            "NUM_THREADS=1",    "BIGTIFF=IF_SAFER", nullptr};
   gdal::Dataset dataset(GDALCreate(driver, file.name(), raster.cols, raster.rows, 1, GDT_Float32, options));
-  if (!dataset) return refuse(session.reason());
+  if (!dataset) return refuse_geotiff(session.reason());
   bool good = true;
   if (raster.like != nullptr && raster.like->has_georeference) {
     std::array<double, 6> geotransform = raster.like->geotransform;
@@ -51,9 +51,9 @@ Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage& raster) {
       good && GDALRasterIOEx(band, GF_Write, 0, 0, raster.cols, raster.rows, const_cast<float*>(raster.samples.data()),
                              raster.cols, raster.rows, GDT_Float32, 0, 0, nullptr) == CE_None;
   dataset.reset();
-  if (!good || session.failed()) return refuse(session.reason());
+  if (!good || session.failed()) return refuse_geotiff(session.reason());
   std::vector<std::uint8_t> bytes = file.bytes();
-  if (bytes.empty()) return refuse("GDAL has written nothing");
+  if (bytes.empty()) return refuse_geotiff("GDAL has written nothing");
   return bytes;
 }
 

@@ -16,7 +16,7 @@ namespace scarp {
 namespace gdal {
 namespace {
 
-constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoChannel = std::numeric_limits<float>::quiet_NaN();
 
 /// Red, green and blue of a palette's entries; NaN for the transparent ones.
 using Palette = std::vector<std::array<float, 3>>;
@@ -29,7 +29,7 @@ Palette palette_of(GDALRasterBandH band) {
     GDALColorEntry entry{};
     GDALGetColorEntryAsRGB(table, static_cast<int>(i), &entry);
     palette[i] = {static_cast<float>(entry.c1), static_cast<float>(entry.c2), static_cast<float>(entry.c3)};
-    if (entry.c4 == 0) palette[i].fill(kVoid);
+    if (entry.c4 == 0) palette[i].fill(kNoChannel);
   }
   return palette;
 }
@@ -78,7 +78,7 @@ Result<BandsPlan> plan_bands(GDALDatasetH dataset, const std::string& path, Read
 /// Replaces the numbers of colours by the colours.
 Result<void> apply_palette(const Palette& palette, OwnedHeightField& field, std::vector<std::vector<float>>& bands) {
   const std::size_t first = bands.size();
-  for (int k = 0; k < 3; ++k) bands.emplace_back(field.samples.size(), kVoid);
+  for (int k = 0; k < 3; ++k) bands.emplace_back(field.samples.size(), kNoChannel);
   for (std::size_t i = 0; i < field.samples.size(); ++i) {
     const float number = field.samples[i];
     if (std::isnan(number)) continue;

@@ -26,7 +26,7 @@ struct DestroyGeometry {
 using Geometry = std::unique_ptr<std::remove_pointer_t<OGRGeometryH>, DestroyGeometry>;
 
 /// An open file and the layer that was asked for.
-struct Opened {
+struct OpenedLayer {
   Dataset dataset;
   std::string path, layer;  ///< layer: empty if none was named
 };
@@ -37,7 +37,7 @@ bool exists(const std::string& path) {
 }
 
 /// "file:layer" is told from a name with a colon in it ("C:\lines.shp", "PG:dbname=…", a URL) by what can be opened.
-Result<Opened> open(Session& session, const std::string& path) {
+Result<OpenedLayer> open(Session& session, const std::string& path) {
   constexpr const char* kWhat = "lines";
   constexpr const char* kExpected = "no vector data that GDAL can read";
   const std::size_t colon = path.rfind(':');
@@ -46,11 +46,11 @@ Result<Opened> open(Session& session, const std::string& path) {
   if (may_name_layer && !exists(path) && exists(file)) {
     auto dataset = open_vector(session, file, kWhat, kExpected);
     if (!dataset) return tl::unexpected(dataset.error());
-    return Opened{std::move(*dataset), file, path.substr(colon + 1)};
+    return OpenedLayer{std::move(*dataset), file, path.substr(colon + 1)};
   }
   auto dataset = open_vector(session, path, kWhat, kExpected);
   if (!dataset) return tl::unexpected(dataset.error());
-  return Opened{std::move(*dataset), path, {}};
+  return OpenedLayer{std::move(*dataset), path, {}};
 }
 
 bool may_hold_lines(OGRLayerH layer) {
@@ -58,7 +58,7 @@ bool may_hold_lines(OGRLayerH layer) {
   return type != wkbNone && type != wkbPoint && type != wkbMultiPoint;
 }
 
-Result<OGRLayerH> find_layer(const Opened& opened) {
+Result<OGRLayerH> find_layer(const OpenedLayer& opened) {
   const int count = GDALDatasetGetLayerCount(opened.dataset.get());
   const std::string names = layer_names(opened.dataset.get());
   std::vector<OGRLayerH> fitting;
@@ -77,9 +77,9 @@ Result<OGRLayerH> find_layer(const Opened& opened) {
 }
 
 /// Collects the lines and rings of features.
-class Collector {
+class LineCollector {
  public:
-  Collector(std::optional<int> height_field, bool ignore_z, LineSet& set)
+  LineCollector(std::optional<int> height_field, bool ignore_z, LineSet& set)
       : height_field_(height_field), ignore_z_(ignore_z), set_(set) {
     const bool says_all = std::filesystem::path(set.path).stem().string() == set.layer;
     prefix_ = set.path + (says_all ? "" : ":" + set.layer) + " feature ";
@@ -275,7 +275,7 @@ Result<LineSet> read(const std::string& path, const ReadLinesOptions& options) {
   set.path = opened->path;
   set.layer = OGR_L_GetName(*layer);
   set.format = GDALGetDriverShortName(GDALGetDatasetDriver(opened->dataset.get()));
-  Collector collector(height_field, options.ignore_z, set);
+  LineCollector collector(height_field, options.ignore_z, set);
   const auto collected = each_feature(session, *layer, set.path, options.progress,
                                       [&](OGRFeatureH feature) { return collector.add(feature); });
   if (!collected) return tl::unexpected(collected.error());

@@ -55,9 +55,9 @@ Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string&
 }
 
 /// Collects the points of features.
-class Collector {
+class PointCollector {
  public:
-  Collector(const std::string& path, std::optional<int> height_field, PointSet& points)
+  PointCollector(const std::string& path, std::optional<int> height_field, PointSet& points)
       : path_(path), height_field_(height_field), points_(points) {}
 
   Result<void> add(OGRFeatureH feature) {
@@ -211,7 +211,7 @@ Result<PointSet> read(const std::string& path, const ReadPointsOptions& options)
   PointSet points;
   points.path = path;
   points.format = GDALGetDriverShortName(GDALGetDatasetDriver(dataset->get()));
-  Collector collector(path, *height_field, points);
+  PointCollector collector(path, *height_field, points);
   const auto collected = each_feature(session, *layer, path, options.progress,
                                       [&](OGRFeatureH feature) { return collector.add(feature); });
   if (!collected) return tl::unexpected(collected.error());

@@ -75,7 +75,7 @@ void add_gdal_warnings(const Session& session, RasterInfo& info) {
 }
 
 /// A raster and all that is known before its samples are read.
-struct Opened {
+struct OpenedRaster {
   Plan plan;
   OwnedHeightField field;
 
@@ -88,7 +88,7 @@ struct Opened {
   }
 };
 
-Result<Opened> open(Session& session, const std::string& path, const ReadOptions& options) {
+Result<OpenedRaster> open(Session& session, const std::string& path, const ReadOptions& options) {
   auto plan = plan_raster(session, path, options);
   if (!plan) return tl::unexpected(plan.error());
   const Georeference& geo = plan->georeference;
@@ -98,7 +98,7 @@ Result<Opened> open(Session& session, const std::string& path, const ReadOptions
   auto frame = choose_frame(geo, keep_degrees ? "source" : options.crs, plan->info);
   if (!frame) return tl::unexpected(frame.error());
   warn_of_units(*frame, geo, plan->info);
-  Opened opened;
+  OpenedRaster opened;
   opened.field.cols = geo.cols;
   opened.field.rows = geo.rows;
   opened.field.frame = std::move(*frame);
@@ -107,7 +107,7 @@ Result<Opened> open(Session& session, const std::string& path, const ReadOptions
   return opened;
 }
 
-Result<OwnedHeightField> read_samples(Session& session, Opened opened, const ReadOptions& options) {
+Result<OwnedHeightField> read_samples(Session& session, OpenedRaster opened, const ReadOptions& options) {
   OwnedHeightField& field = opened.field;
   const std::string& path = field.info.path;
   if (auto allocated = allocate_samples(path, field); !allocated) return tl::unexpected(allocated.error());
@@ -179,7 +179,7 @@ Result<void> survey(Session& session, GDALRasterBandH band, WindowReader& reader
 }
 
 /// Leaves the samples in their file.
-Result<OwnedHeightField> keep_in_file(Session& session, Opened opened, const ReadOptions& options) {
+Result<OwnedHeightField> keep_in_file(Session& session, OpenedRaster opened, const ReadOptions& options) {
   // Bands of rows are read one after the other: a file in blocks is decoded once if a row of its blocks, and what the
   // next one begins with, is still there.
   widen_block_cache(options.memory_limit);
