@@ -152,7 +152,7 @@ Result<Columns> read_header(std::string_view line, const std::string& name, std:
     if (!options.z_field.empty())
       return fail(ErrorKind::kInput, fmt::format("{}: there is no column {}, for no header line names the columns: put "
                                                  "one in front, such as x,y,{}",
-                                                 name, quoted(options.z_field), options.z_field));
+                                                 name, quoted(std::string_view(options.z_field)), options.z_field));
     return columns;
   }
   std::vector<std::string> names;

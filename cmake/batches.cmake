@@ -1,0 +1,27 @@
+# scarp_batch(TARGET SIZE): compiles the target's sources in batches of at most SIZE, each of one folder, where
+# CMAKE_UNITY_BUILD is on: headers are parsed once a batch. Private names are therefore unique in a folder. A source that
+# cannot share a translation unit says so by SKIP_UNITY_BUILD_INCLUSION.
+function(scarp_batch target size)
+  get_target_property(sources ${target} SOURCES)
+  get_target_property(folder ${target} SOURCE_DIR)
+  foreach(source IN LISTS sources)
+    cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${folder} OUTPUT_VARIABLE name)
+    cmake_path(GET name PARENT_PATH room)
+    list(APPEND rooms room_${room})
+    list(APPEND sources_of_room_${room} ${name})
+  endforeach()
+  list(REMOVE_DUPLICATES rooms)
+  foreach(room IN LISTS rooms)
+    # As many batches as needed, all of about the same size.
+    list(LENGTH sources_of_${room} count)
+    math(EXPR batches "(${count} + ${size} - 1) / ${size}")
+    set(index 0)
+    string(MAKE_C_IDENTIFIER "${room}" prefix)
+    foreach(name IN LISTS sources_of_${room})
+      math(EXPR batch "${index} * ${batches} / ${count}")
+      set_source_files_properties(${name} PROPERTIES UNITY_GROUP ${prefix}_${batch})
+      math(EXPR index "${index} + 1")
+    endforeach()
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+endfunction()

@@ -1,0 +1,11 @@
+// Numbers of the GLB container and of glTF's component types.
+#pragma once
+
+#include <cstdint>
+
+namespace scarp {
+
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
+constexpr int kUint8Component = 5121, kUint16Component = 5123, kUint32Component = 5125, kFloatComponent = 5126;
+
+}  // namespace scarp
