@@ -269,26 +269,25 @@ class TiledRun {
     const Raster samples = band_.raster(window.row, window.rows);
     const bool has_above = window.row > 0, has_below = window.row + window.rows < field_.rows;
     std::vector<HalfEdge> seams;
-    TileRow row{samples,   window.row, is_made_whole ? Triangulation(samples.cols, samples.rows) : row_.finish(seams),
+    Piece strip{samples,   window.row, is_made_whole ? Triangulation(samples.cols, samples.rows) : row_.finish(seams),
                 has_above, has_below,  band_.raster(window.row - has_above, window.rows + has_above + has_below)};
-    row.check = [this, share](std::uint64_t vertices) -> Result<void> {
+    strip.check = [this, share](std::uint64_t vertices, double, double) -> Result<void> {
       const std::uint64_t all = assembly_.vertex_count() + vertices;
       if (options_.progress && !options_.progress(share, all))
         return fail(ErrorKind::kCancelled, "cancelled while refining");
       return options_.memory.check_mesh(base_bytes_ + finish_bytes(vertices), all, share);
     };
     row_ = Assembly(plan_.per_row());
-    const auto finished = options_.finish_row(std::move(row));
-    if (!finished) return tl::unexpected(finished.error());
-    const Triangulation& tin = finished->tin;
-    assert(window.row == 0 || finished->places.steps == steps_);
-    steps_ = finished->places.steps;
+    if (auto finished = options_.finish_row(strip); !finished) return finished;
+    const Triangulation& tin = strip.tin;
+    const VertexPlaces& places = strip.places;
+    assert(window.row == 0 || places.steps == steps_);
+    steps_ = places.steps;
     assembly_.append(tin, {0, window.row * steps_}, (samples.cols - 1) * steps_ + 1, (samples.rows - 1) * steps_ + 1);
-    std::vector<float> heights = finished->places.heights;
-    for (Vertex v = 0; finished->places.are_samples() && v < tin.vertex_count(); ++v)
-      heights.push_back(samples.at(tin.point(v)));
+    std::vector<float> heights = places.heights;
+    for (Vertex v = 0; places.are_samples() && v < tin.vertex_count(); ++v) heights.push_back(samples.at(tin.point(v)));
     keep_heights(heights);
-    keep_fixed(finished->places.fixed);
+    keep_fixed(places.fixed);
     return {};
   }
 

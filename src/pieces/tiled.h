@@ -13,7 +13,8 @@
 //     │ tile  │ tile  │
 //
 // Somebody else may finish rows of tiles: the mesh between two of the long borders is handed over with its samples,
-// before they make room for the next row's. What is handed back must leave those two borders as they are.
+// before they make room for the next row's. What is handed back, all strips' points in the same steps, must leave those
+// two borders as they are.
 #pragma once
 
 #include <cstdint>
@@ -22,30 +23,13 @@
 #include <vector>
 
 #include "base/memory_budget.h"
-#include "grid/raster.h"
-#include "grid/vertex_places.h"
+#include "pieces/piece.h"
 #include "refine/domain.h"
 #include "scarp/height_field.h"
 #include "scarp/result.h"
 #include "scarp/strategy.h"
 
 namespace scarp {
-
-/// The mesh of a row of tiles, and its samples.
-struct TileRow {
-  Raster samples;
-  std::int32_t first = 0;                     ///< of its rows of samples, in the raster
-  Triangulation tin;                          ///< of rows that are made whole: the rectangle as two triangles
-  bool has_above = false, has_below = false;  ///< neighbours, which have the vertices on their shared border too
-  Raster around;                              ///< `samples`, and a row more on each side where there is a neighbour
-  /// Of a mesh that grows to so many vertices: fails where memory does not hold it, and with kCancelled.
-  std::function<Result<void>(std::uint64_t vertices)> check = {};
-};
-
-struct FinishedRow {
-  Triangulation tin;    ///< of the same rectangle and domain, its points in places.steps
-  VertexPlaces places;  ///< of all rows in the same steps
-};
 
 struct TiledOptions {
   double threshold = 0;
@@ -57,7 +41,7 @@ struct TiledOptions {
   MemoryBudget memory = {};
   /// Called on the calling thread for one row after the other; what it says is final: release_seams() has no place
   /// behind it. EMPTY: rows stay as they are.
-  std::function<Result<FinishedRow>(TileRow row)> finish_row = {};
+  std::function<Result<void>(Piece& strip)> finish_row = {};
   /// Of rows of samples, so many from the first on: whether finish_row makes their mesh from nothing. Tiles are not
   /// refined there. EMPTY: of none.
   std::function<bool(std::int32_t first, std::int32_t rows)> is_made_whole = {};

@@ -8,7 +8,7 @@
 #include "grid/line_places.h"
 #include "lines/breaklines.h"
 #include "pieces/goals.h"
-#include "pieces/row_fit.h"
+#include "pieces/strips.h"
 #include "pieces/tiled.h"
 
 namespace scarp {
@@ -32,7 +32,7 @@ Result<void> LineWork::prepare() {
   if (is_prepared_) return {};
   const auto start = Clock::now();
   std::vector<std::int32_t> rows;
-  if (field_.samples == nullptr) rows = shared_rows(field_, side_of_rows(field_, options_));
+  if (field_.samples == nullptr) rows = shared_rows(field_, strip_side(Plan(field_, options_)));
   auto lines = prepare_lines(field_, options_.breaklines, options_.cutline, tolerance_, options_.threads, rows);
   if (!lines) return tl::unexpected(lines.error());
   lines_ = std::move(*lines);

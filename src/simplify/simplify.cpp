@@ -18,13 +18,13 @@
 #include "metric/criterion.h"
 #include "pieces/effort.h"
 #include "pieces/goals.h"
-#include "pieces/row_fit.h"
+#include "pieces/plan.h"
 #include "pieces/tile_worker.h"
 #include "pieces/tiled.h"
-#include "simplify/engine_run.h"
 #include "simplify/error_search.h"
 #include "simplify/line_budget.h"
 #include "simplify/line_work.h"
+#include "simplify/orders.h"
 #include "simplify/proof.h"
 
 namespace scarp {
@@ -46,110 +46,7 @@ Result<void> check_options(const HeightField& field, const SimplifyOptions& opti
   return {};
 }
 
-/// Without a search for the error of a budget. `lines`: to be laid, prepared or such as may wait; null: none.
-Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options, LineWork* lines);
-
-const ConstraintGraph* graph_of(const LineWork* lines) { return lines != nullptr ? &lines->graph() : nullptr; }
-
-Result<std::optional<Tiled>> refine_tiles(const HeightField& field, const SimplifyOptions& options,
-                                          const Criterion& criterion, const ConstraintGraph* lines, RowFits& fits) {
-  TiledOptions tiles;
-  tiles.threshold = criterion.aim();
-  tiles.threads = options.threads;
-  tiles.memory = memory_budget(field, options);
-  tiles.may_decline = options.order == Order::kAuto && field.samples != nullptr;
-  Reporter reporter(options.progress);
-  if (options.progress) {
-    if (!reporter.report("refine", 0, 0, 0)) return fail(ErrorKind::kCancelled, "cancelled while refining");
-    tiles.progress = [&](double share, std::uint64_t vertices) {
-      return !reporter.due() || reporter.report("refine", share, vertices, 0);
-    };
-  }
-  if (finishes_rows(field, options))
-    finish_rows(field, options, lines, criterion.aim(), fits, tiles, criterion.source_bounds());
-  if (field.samples != nullptr || lines == nullptr || !lines->cut) return refine_tiled(field, tiles);
-  const CutSource near(*field.source, lines->cut->rows);
-  HeightField seen = field;
-  seen.source = &near;
-  return refine_tiled(seen, tiles);
-}
-
-/// And prepares lines that have waited for this.
-Result<std::optional<Tiled>> refine_beside_lines(const HeightField& field, const SimplifyOptions& options,
-                                                 const Criterion& criterion, LineWork* lines, RowFits& fits) {
-  if (lines == nullptr || lines->is_prepared()) return refine_tiles(field, options, criterion, graph_of(lines), fits);
-  Result<void> prepared;
-  Result<std::optional<Tiled>> tiled;
-  run_beside(
-      options.threads, [&] { prepared = lines->prepare(); },
-      [&] { tiled = refine_tiles(field, options, criterion, nullptr, fits); });
-  if (!prepared) return tl::unexpected(prepared.error());
-  return tiled;
-}
-
-/// The dominant order; greedily where that is of no use.
-Result<Simplified> simplify_tiles(const HeightField& field, const SimplifyOptions& options, LineWork* lines) {
-  // The engine reads voids as such; what else looks at samples beyond the mesh's own needs them cleaned.
-  Raster raster{field.samples, field.cols, field.rows};
-  std::optional<Samples> samples;
-  const bool looks_beyond = options.normals || !field.frame.is_affine() || options.effort != Effort::kFast;
-  if (field.samples != nullptr && (looks_beyond || lines != nullptr)) {
-    auto cleaned = Samples::of(field);
-    if (!cleaned) return tl::unexpected(cleaned.error());
-    raster = samples.emplace(std::move(*cleaned)).raster();
-  }
-  const auto criterion = Criterion::make(field, options, raster, aim_of(field, options));
-  if (!criterion) return tl::unexpected(criterion.error());
-  const MemoryBudget memory = memory_budget(field, options);
-  const std::uint64_t bytes = proof_bytes(field, options);
-  if (auto fits = memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
-  const auto start = Clock::now();
-  RowFits fits;
-  auto tiled = refine_beside_lines(field, options, *criterion, lines, fits);
-  if (!tiled) return tl::unexpected(tiled.error());
-  if (!*tiled) {
-    if (field.samples == nullptr)
-      return fail(ErrorKind::kInput,
-                  "heights of such different magnitudes can only be refined in memory: read the raster as a whole");
-    SimplifyOptions greedy = options;
-    greedy.order = Order::kGreedy;
-    return simplify_once(field, greedy, lines);
-  }
-  const Domain& domain = (*tiled)->domain;
-  if (auto has_room = memory.check_mesh(bytes, domain.tin.vertex_count() - domain.unused, 1); !has_room)
-    return tl::unexpected(has_room.error());
-  const Work work = (*tiled)->work;
-  add((*tiled)->work, fits.bounds);
-  const double seconds = seconds_since(start);
-  std::vector<Pass> passes{{"tiles", seconds - fits.seconds - fits.seconds_of_lines - fits.seconds_of_bounds,
-                            work.samples_scanned, work.triangles_scanned, work.passes}};
-  const bool by_rows = finishes_rows(field, options);
-  if (by_rows && lines != nullptr)
-    passes.push_back(
-        {"lines", fits.seconds_of_lines, fits.lines.samples_scanned, fits.lines.triangles_scanned, fits.lines.passes});
-  if (fits.seconds_of_bounds > 0)
-    passes.push_back({"refine", fits.seconds_of_bounds, fits.bounds.samples_scanned, fits.bounds.triangles_scanned,
-                      fits.bounds.passes});
-  if (fits_rows(field, options)) passes.push_back({"fit", fits.seconds, 0, 0, 0, fits.removed});
-  auto result = run_engine(field, raster, options, *criterion, by_rows ? nullptr : graph_of(lines), std::move(*tiled));
-  if (!result) return result;
-  result->passes.insert(result->passes.begin(), passes.begin(), passes.end());
-  result->seconds_refine += seconds;
-  result->is_cut_short = result->is_cut_short || fits.is_cut_short;
-  return result;
-}
-
-Result<Simplified> simplify_greedily(const HeightField& field, const SimplifyOptions& options, LineWork* lines) {
-  if (lines != nullptr) {
-    if (auto prepared = lines->prepare(); !prepared) return tl::unexpected(prepared.error());
-  }
-  auto samples = Samples::of(field);
-  if (!samples) return tl::unexpected(samples.error());
-  const auto criterion = Criterion::make(field, options, samples->raster(), aim_of(field, options));
-  if (!criterion) return tl::unexpected(criterion.error());
-  return run_engine(field, samples->raster(), options, *criterion, graph_of(lines), std::nullopt);
-}
-
+/// Without a search for the error of a budget. `lines`: to be inserted, prepared or such as may wait; null: none.
 Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options, LineWork* lines) {
   if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
@@ -161,13 +58,14 @@ Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions
   if (obstacle != nullptr && options.order == Order::kDominant)
     return fail(ErrorKind::kUsage,
                 fmt::format("the dominant order {}: leave that out, or take the greedy order", obstacle));
-  const auto run = obstacle == nullptr ? simplify_tiles : simplify_greedily;
-  auto result = run(field, options, lines);
+  const auto run = obstacle == nullptr ? run_by_tiles : run_greedily;
+  const Plan plan(field, options);
+  auto result = run(plan, lines);
   if (result || result.error().kind != ErrorKind::kPromise || options.vertices != Vertices::kAuto) return result;
-  if (!vertices_are_free(field, options)) return result;
+  if (!plan.frees_vertices) return result;
   SimplifyOptions on_samples = options;
   on_samples.vertices = Vertices::kSamples;
-  return run(field, on_samples, lines);
+  return run(Plan(field, on_samples), lines);
 }
 
 /// Soft lines follow the raster to within this share of the max error.

@@ -21,7 +21,7 @@
 #include "lines/field_lines.h"
 #include "lines/line_samples.h"
 #include "pieces/freeze.h"
-#include "pieces/row_fit.h"
+#include "pieces/strips.h"
 #include "scarp/cliffs.h"
 #include "scarp/measure.h"
 
@@ -90,9 +90,9 @@ struct CutScene {
     return prepare_lines(streamed, options.breaklines, options.cutline, *options.max_error / 2, 1, side);
   }
   Result<std::optional<Tiled>> refine(const FieldLines& lines) const {
-    RowFits fits;
+    StripTotals fits;
     TiledOptions tiles{.threshold = *options.max_error, .threads = options.threads, .tile_side = side};
-    finish_rows(streamed, options, &lines.graph, *options.max_error, fits, tiles);
+    work_by_strips(Plan(streamed, options), &lines.graph, nullptr, *options.max_error, fits, tiles);
     const HeightField edited = lines.apply(streamed);
     const CutSource near(*edited.source, lines.graph.cut->rows);
     return refine_tiled(with_source(edited, near), tiles);

@@ -11,7 +11,7 @@
 #include "laws/mesh_laws.h"
 #include "laws/tile_meshes.h"
 #include "pieces/freeze.h"
-#include "pieces/row_fit.h"
+#include "pieces/strips.h"
 #include "refine/domain.h"
 #include "scarp/measure.h"
 
@@ -43,9 +43,9 @@ SimplifyOptions any_options() {
 }
 
 Result<std::optional<Tiled>> refine_and_fit(const HeightField& field, const SimplifyOptions& options,
-                                            std::int32_t tile_side, RowFits& fits) {
+                                            std::int32_t tile_side, StripTotals& fits) {
   TiledOptions tiles{.threshold = *options.max_error, .threads = options.threads, .tile_side = tile_side};
-  finish_rows(field, options, nullptr, *options.max_error, fits, tiles);
+  work_by_strips(Plan(field, options), nullptr, nullptr, *options.max_error, fits, tiles);
   return refine_tiled(field, tiles);
 }
 
@@ -59,7 +59,7 @@ RC_GTEST_PROP(rows, that_are_fitted_keep_the_bound_and_the_domain, ()) {
   const ArraySource source(field.view());
   const HeightField streamed = with_source(field.view(), source);
   const auto domain = build_domain(field.raster(), 0, grid_frame(field.rows));
-  RowFits fits;
+  StripTotals fits;
   const auto made = refine_and_fit(streamed, options, *rc::gen::element(0, 8, 16, 31, 64), fits);
   RC_ASSERT(made.has_value() == domain.has_value());
   if (!made) return;
@@ -86,7 +86,7 @@ RC_GTEST_PROP(rows, are_fitted_alike_by_any_number_of_threads, ()) {
   const ArraySource source(field.view());
   const std::int32_t side = *rc::gen::element(8, 31);
   options.threads = 1;
-  RowFits fits;
+  StripTotals fits;
   const auto first = refine_and_fit(with_source(field.view(), source), options, side, fits);
   RC_PRE(first.has_value());
   options.threads = 3;
@@ -154,11 +154,11 @@ TEST(rows, are_cancelled_while_they_are_fitted) {
   SimplifyOptions options;
   options.max_error = 4;
   options.effort = Effort::kHigh;
-  RowFits fits;
+  StripTotals fits;
   TiledOptions tiles{.threshold = 4, .threads = 1, .tile_side = 64};
   int calls = 0;
   tiles.progress = [&](double share, std::uint64_t) { return share > 0 || ++calls < 2; };
-  finish_rows(field.view(), options, nullptr, 4, fits, tiles);
+  work_by_strips(Plan(field.view(), options), nullptr, nullptr, 4, fits, tiles);
   const auto cancelled = refine_tiled(with_source(field.view(), source), tiles);
   ASSERT_FALSE(cancelled);
   EXPECT_EQ(cancelled.error().kind, ErrorKind::kCancelled);

@@ -17,7 +17,7 @@
 #include "lines/field_lines.h"
 #include "lines/line_samples.h"
 #include "pieces/freeze.h"
-#include "pieces/row_fit.h"
+#include "pieces/strips.h"
 #include "refine/domain.h"
 #include "scarp/cliffs.h"
 #include "scarp/edits.h"
@@ -65,9 +65,9 @@ struct RowScene {
     return prepare_lines(streamed, options.breaklines, {}, *options.max_error / 2, 1, shared_rows(streamed, side));
   }
   Result<std::optional<Tiled>> refine(const FieldLines& lines) const {
-    RowFits fits;
+    StripTotals fits;
     TiledOptions tiles{.threshold = *options.max_error, .threads = options.threads, .tile_side = side};
-    finish_rows(streamed, options, &lines.graph, *options.max_error, fits, tiles);
+    work_by_strips(Plan(streamed, options), &lines.graph, nullptr, *options.max_error, fits, tiles);
     return refine_tiled(lines.apply(streamed), tiles);
   }
 };

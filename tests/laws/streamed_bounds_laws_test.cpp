@@ -16,7 +16,7 @@
 #include "lines/field_lines.h"
 #include "pieces/border_chain.h"
 #include "pieces/freeze.h"
-#include "pieces/row_fit.h"
+#include "pieces/strips.h"
 #include "refine/domain.h"
 #include "scarp/measure.h"
 #include "scarp/ridges.h"
@@ -88,10 +88,10 @@ void expect_kept(const Measurement& m) {
 Result<std::optional<Tiled>> refine(const Scene& scene, std::int32_t side, const FieldLines* lines) {
   const double most = scene.options.max_error.value_or(HUGE_VAL), threshold = scene.options.max_error.value_or(0);
   const SourceBounds bounds(scene.tolerances, most, {});
-  RowFits fits;
+  StripTotals fits;
   TiledOptions tiles{.threshold = threshold, .threads = scene.options.threads, .tile_side = side};
-  finish_rows(scene.streamed, scene.options, lines != nullptr ? &lines->graph : nullptr, threshold, fits, tiles,
-              &bounds);
+  work_by_strips(Plan(scene.streamed, scene.options), lines != nullptr ? &lines->graph : nullptr, &bounds, threshold,
+                 fits, tiles);
   return refine_tiled(lines != nullptr ? lines->apply(scene.streamed) : scene.streamed, tiles);
 }
 

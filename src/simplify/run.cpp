@@ -1,7 +1,7 @@
 // The main job as a list of passes. Milestones: after `build_domain`, or in each tile after `start_tile`, the outline
 // is fixed; after `refine` and `take_best_prefix`, or after the tiles, no vertex is added, after `remove_vertices`
 // none removed; after `freeze` nothing moves; what `prove` has seen is what is returned.
-#include "simplify/engine_run.h"
+#include "simplify/run.h"
 
 #include <fmt/format.h>
 
@@ -15,13 +15,12 @@
 #include "fit/fit.h"
 #include "grid/samples.h"
 #include "lines/constraints.h"
-#include "metric/lattice_judge.h"
 #include "metric/source_judge.h"
 #include "pieces/effort.h"
 #include "pieces/freeze.h"
 #include "pieces/goals.h"
+#include "pieces/passes.h"
 #include "pieces/release.h"
-#include "pieces/row_fit.h"
 #include "pieces/source_windows.h"
 #include "refine/domain.h"
 #include "refine/refinement.h"
@@ -35,19 +34,18 @@ namespace scarp {
 namespace {
 
 /// One run of the engine towards the goals.
-class EngineRun {
+class Run {
  public:
-  EngineRun(const HeightField& field, const Raster& raster, const SimplifyOptions& options, const Criterion& criterion,
-            const ConstraintGraph* lines)
-      : field_(field),
+  Run(const Plan& plan, const Raster& raster, const Criterion& criterion, const ConstraintGraph* lines)
+      : plan_(plan),
+        field_(plan.field),
         raster_(raster),
-        options_(options),
+        options_(plan.options),
         criterion_(criterion),
         lines_(lines),
-        budget_(options),
-        memory_(memory_budget(field, options)),
-        exact_(places_are_exact(field, options, lines == nullptr ? 1 : kLatticeSteps)),
-        reporter_(options.progress) {}
+        budget_(options_),
+        exact_(places_are_exact(field_, options_, lines == nullptr ? 1 : kLatticeSteps)),
+        reporter_(options_.progress) {}
 
   /// In the dominant order where `tiled` is given, else greedily.
   Result<Simplified> execute(std::optional<Tiled> tiled) {
@@ -58,12 +56,12 @@ class EngineRun {
     result.effort = options_.effort;
     auto refined = tiled ? free_seams(std::move(*tiled), result) : insert_greedily(result);
     if (!refined) return tl::unexpected(refined.error());
-    if (auto laid = lay_lines(result); !laid) return tl::unexpected(laid.error());
+    if (auto laid = insert_lines(result); !laid) return tl::unexpected(laid.error());
     const auto shaped = fit_and_shape(result);
     if (!shaped) return tl::unexpected(shaped.error());
     // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
     // proof.
-    const bool is_final = result.stop != StopReason::kMaxError || exact_ || !places_.are_samples();
+    const bool is_final = result.stop != StopReason::kMaxError || exact_ || !piece_->places.are_samples();
     if (is_final) refinement_.reset();
     freeze_into(result, is_final);
     order(result);
@@ -74,9 +72,6 @@ class EngineRun {
   }
 
  private:
-  static constexpr const char* kTooManyTriangles =
-      "the mesh would have more than 1,431 million triangles: allow a larger error";
-
   /// Adds a pass that began at `start`.
   static void record(Simplified& result, std::string_view name, Clock::time_point start, const Work& work = {}) {
     result.passes.push_back({name, seconds_since(start), work.samples_scanned, work.triangles_scanned, work.passes});
@@ -86,15 +81,15 @@ class EngineRun {
     auto start = Clock::now();
     auto domain = build_domain(raster_, options_.outline_tolerance, field_.frame);
     if (!domain) return tl::unexpected(domain.error());
-    domain_ = std::move(*domain);
+    take(std::move(*domain));
     follow_script();
     record(result, "domain", start);
     if (lays_first()) return {};
     start = Clock::now();
-    refinement_.emplace(criterion_.judge(), domain_->tin, options_.algorithm, options_.edges);
+    refinement_.emplace(criterion_.judge(), piece_->tin, options_.algorithm, options_.edges);
     const char* culprit = options_.script.empty() ? "the outline of the valid data alone needs"
                                                   : "the outline of the valid data and the script need";
-    const char* advice = domain_->whole ? "" : ", or simplify the outline with an outline tolerance";
+    const char* advice = is_whole_ ? "" : ", or simplify the outline with an outline tolerance";
     if (auto fits = budget_.check(size(), culprit, advice); !fits) return fits;
     if (auto refined = refine(result.stop); !refined) return refined;
     finish_edges(result);
@@ -106,24 +101,25 @@ class EngineRun {
   /// refined.
   Result<void> free_seams(Tiled tiled, Simplified& result) {
     const auto start = Clock::now();
-    domain_ = std::move(tiled.domain);
+    take(std::move(tiled.domain));
     heights_ = std::move(tiled.heights);
     result.work = tiled.work;
-    if (finishes_rows(field_, options_)) {
+    if (plan_.finishes_strips) {
       // Who works on the whole later has no raster to take heights of samples from.
-      if (options_.shape.any() && tiled.steps == 1) domain_->tin.scale(tiled.steps = kLatticeSteps);
-      set_places({tiled.steps, tiled.steps > 1 ? std::move(heights_) : std::vector<float>(), std::move(tiled.fixed)},
-                 result);
-    } else if (field_.samples != nullptr || field_.source->is_in_memory()) {
-      const Work work = release_seams(domain_->tin, criterion_.judge(), std::move(tiled.seams), options_.threads);
+      if (options_.shape.any() && tiled.steps == 1) piece_->tin.scale(tiled.steps = kLatticeSteps);
+      piece_->places = {tiled.steps, tiled.steps > 1 ? std::move(heights_) : std::vector<float>(),
+                        std::move(tiled.fixed)};
+      note_places(result);
+    } else if (!plan_.is_streamed || field_.source->is_in_memory()) {
+      const Work work = release_seams(piece_->tin, criterion_.judge(), std::move(tiled.seams), options_.threads);
       result.work.samples_scanned += work.samples_scanned;
       result.work.triangles_scanned += work.triangles_scanned;
       record(result, "seams", start, work);
     }
     if (field_.frame.is_affine()) return {};
     const auto again = Clock::now();
-    follow_curved_border(raster_, domain_->tin, field_.frame);
-    refinement_.emplace(criterion_.judge(), domain_->tin);
+    follow_curved_border(raster_, piece_->tin, field_.frame);
+    refinement_.emplace(criterion_.judge(), piece_->tin);
     auto refined = refine(result.stop);
     record(result, "refine", again, refinement_->work());
     return refined;
@@ -137,17 +133,23 @@ class EngineRun {
     for (const ScriptStep& step : options_.script) {
       if (step.action == ScriptStep::Action::kInsert) insert_seed({step.col, step.row});
     }
-    seeds_ = domain_->tin.vertex_count();
+    seeds_ = piece_->tin.vertex_count();
   }
   void insert_seed(Point p) {
-    const Triangulation& tin = domain_->tin;
+    const Triangulation& tin = piece_->tin;
     const auto location = tin.locate(p, tin.last_touched());
     const HalfEdge twin = location.kind == Triangulation::Location::Kind::kOnEdge ? tin.twin(location.edge) : kNone;
     const bool inside = !tin.is_outside(location.edge / 3) || (twin != kNone && !tin.is_outside(twin / 3));
-    if (inside && raster_.is_valid(p)) domain_->tin.insert(p, location);
+    if (inside && raster_.is_valid(p)) piece_->tin.insert(p, location);
   }
 
-  std::uint64_t vertices() const { return domain_->tin.vertex_count() - domain_->unused; }
+  void take(Domain domain) {
+    is_whole_ = domain.whole;
+    unused_ = domain.unused;
+    piece_.emplace(Piece{raster_, 0, std::move(domain.tin)});
+  }
+
+  std::uint64_t vertices() const { return piece_->tin.vertex_count() - unused_; }
 
   MeshSize size() const { return {vertices(), refinement_->triangle_count()}; }
   std::optional<StopReason> exceeded(std::uint32_t gain) const { return budget_.exceeded(size(), gain); }
@@ -161,7 +163,7 @@ class EngineRun {
   /// after each.
   Result<void> refine(StopReason& stop) {
     const double first_error = refinement_->worst_error();
-    best_ = {domain_->tin.vertex_count(), in_last_stretch() ? first_error : std::numeric_limits<double>::infinity()};
+    best_ = {piece_->tin.vertex_count(), in_last_stretch() ? first_error : std::numeric_limits<double>::infinity()};
     for (std::uint64_t step = 0;; ++step) {
       if (const auto reason = reached()) {
         stop = *reason;
@@ -172,14 +174,14 @@ class EngineRun {
           !reporter_.report("refine", fraction(first_error), vertices(), refinement_->worst_error()))
         return fail(ErrorKind::kCancelled, "cancelled while refining");
       if (step % 256 == 0) {
-        if (auto fits = memory_.check_mesh(0, vertices(), fraction(first_error)); !fits) return fits;
+        if (auto fits = plan_.memory.check_mesh(0, vertices(), fraction(first_error)); !fits) return fits;
       }
       if (const auto budget = take_step()) {
         stop = *budget;
         return {};
       }
       if (in_last_stretch() && refinement_->worst_error() <= best_.error)
-        best_ = {domain_->tin.vertex_count(), refinement_->worst_error()};
+        best_ = {piece_->tin.vertex_count(), refinement_->worst_error()};
     }
   }
 
@@ -234,15 +236,15 @@ class EngineRun {
   /// Max error is not monotone: a budget may stop on a spike. Insertion is deterministic, so an earlier mesh is had by
   /// inserting the same points again, without looking at a sample.
   void take_best_prefix() {
-    if (refinement_->done() || std::isinf(best_.error) || best_.vertices == domain_->tin.vertex_count()) return;
+    if (refinement_->done() || std::isinf(best_.error) || best_.vertices == piece_->tin.vertex_count()) return;
     std::vector<Point> points;
-    for (std::size_t v = seeds_; v < best_.vertices; ++v) points.push_back(domain_->tin.point(static_cast<Vertex>(v)));
+    for (std::size_t v = seeds_; v < best_.vertices; ++v) points.push_back(piece_->tin.point(static_cast<Vertex>(v)));
     refinement_.reset();
-    domain_ = *build_domain(raster_, options_.outline_tolerance, field_.frame);
+    take(*build_domain(raster_, options_.outline_tolerance, field_.frame));
     follow_script();
     std::optional<DataDependentRule> rule;
     if (options_.edges.data_dependent) rule.emplace(criterion_.judge(), options_.edges);
-    Triangulation& tin = domain_->tin;
+    Triangulation& tin = piece_->tin;
     for (Point p : points) {
       const auto location = tin.locate(p, tin.last_touched());
       rule ? rule->insert(tin, p, location) : tin.insert(p, location);
@@ -252,85 +254,68 @@ class EngineRun {
   void finish_edges(Simplified& result) {
     result.work = refinement_->work();
     take_best_prefix();
-    const Work settling = settle_edges(domain_->tin, criterion_.judge(), options_.edges,
+    const Work settling = settle_edges(piece_->tin, criterion_.judge(), options_.edges,
                                        result.stop == StopReason::kMaxError || result.stop == StopReason::kExact);
     result.work.samples_scanned += settling.samples_scanned;
     result.work.triangles_scanned += settling.triangles_scanned;
   }
 
   /// Lines become chains of edges; what they break is refined around them.
-  Result<void> lay_lines(Simplified& result) {
+  Result<void> insert_lines(Simplified& result) {
     if (lines_ == nullptr) return {};
     const auto start = Clock::now();
     refinement_.reset();
-    auto laid = ConstrainedMesh::lay(raster_, domain_->tin, *lines_);
-    if (!laid) return tl::unexpected(laid.error());
-    if (!laid->has_surface()) return fail(ErrorKind::kInput, kNothingInCutline);
-    const LatticeJudge judge(raster_, laid->heights(), criterion_.aim(), criterion_.aims());
-    // What refinement left and no line touches keeps the bound.
-    Refinement refinement(judge, domain_->tin, Algorithm::kHeap, {},
-                          lays_first() ? Refinement::Start::kScan : Refinement::Start::kClean);
-    if (!lays_first()) refinement.scan(laid->changed(), options_.threads);
-    const double first_error = refinement.worst_error();
-    for (std::uint64_t step = 0; !refinement.done(); ++step) {
-      if (refinement.is_full()) return fail(ErrorKind::kInput, kTooManyTriangles);
-      if (reporter_.due() &&
-          !reporter_.report("lines", error_progress(first_error, refinement.worst_error(), judge.goal()), vertices(),
-                            refinement.worst_error()))
+    piece_->aims = criterion_.aims();
+    piece_->is_refined = !lays_first();
+    piece_->check = [this](std::uint64_t count, double share, double error) -> Result<void> {
+      if (reporter_.due() && !reporter_.report("lines", share, count - unused_, error))
         return fail(ErrorKind::kCancelled, "cancelled while laying lines");
-      if (step % 256 == 0) {
-        if (auto fits =
-                memory_.check_mesh(0, vertices(), error_progress(first_error, refinement.worst_error(), judge.goal()));
-            !fits)
-          return fits;
-      }
-      refinement.insert_worst();
-    }
-    const bool may_move = options_.effort == Effort::kNormal || vertices_are_free(field_, options_);
-    if (options_.effort != Effort::kFast && may_move) laid->release_starts(domain_->tin);
-    places_ = laid->places(options_.threads);
-    if (lays_first()) result.work = refinement.work();
-    record(result, "lines", start, refinement.work());
+      return plan_.memory.check_mesh(0, count - unused_, share);
+    };
+    Work work;
+    const ConstraintGoals goals{criterion_.aim(), plan_.fits && plan_.releases_starts, options_.threads};
+    if (auto inserted = insert_constraints(*piece_, *lines_, goals, work); !inserted) return inserted;
+    if (!piece_->has_surface) return fail(ErrorKind::kInput, kNothingInCutline);
+    if (lays_first()) result.work = work;
+    record(result, "lines", start, work);
     return {};
   }
 
   Result<ShapeWork> fit_and_shape(Simplified& result) {
-    const bool is_last = removes_last(field_, options_);
-    if (!is_last) {
+    if (!plan_.removes_last) {
       if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
     }
     auto shaped = add_for_shapes(result);
-    if (!shaped || !is_last) return shaped;
+    if (!shaped || !plan_.removes_last) return shaped;
     if (auto fitted = remove_vertices(result); !fitted) return tl::unexpected(fitted.error());
     return shaped;
   }
 
   /// Vertices that the bound can do without go.
   Result<void> remove_vertices(Simplified& result) {
-    if (options_.effort == Effort::kFast || (fits_rows(field_, options_) && !options_.shape.any())) return {};
+    if (!plan_.fits || (plan_.fits_strips && !options_.shape.any())) return {};
     const auto start = Clock::now();
     refinement_.reset();
     FitOptions options = fit_options(field_, options_, criterion_.aim());
-    options.bounds = criterion_.aims();
+    piece_->aims = criterion_.aims();
     const auto norm = fit_norm(options_, raster_, criterion_);
     if (norm) options.norm = &*norm;
-    if (field_.samples == nullptr) read_windows(field_, memory_, options, criterion_.source_bounds());
+    if (plan_.is_streamed) read_windows(field_, plan_.memory, options, criterion_.source_bounds());
     options.threads = fit_threads(window_bytes(options));
     const std::uint64_t windows = window_bytes(options) * static_cast<unsigned>(options.threads);
-    if (auto fits = memory_.check_mesh(windows, vertices(), 1); !fits) return fits;
+    if (auto fits = plan_.memory.check_mesh(windows, vertices(), 1); !fits) return fits;
     Reporter reporter(options_.progress);
     if (options_.progress) {
       options.progress = [&](double share, std::uint64_t vertices) {
         return !reporter.due() || reporter.report("fit", share, vertices, 0);
       };
     }
-    auto fitted = fit(raster_, std::move(domain_->tin), std::move(places_), options);
+    const auto fitted = fit_piece(*piece_, std::move(options));
     if (!fitted) return tl::unexpected(fitted.error());
-    domain_->tin = std::move(fitted->tin);
-    set_places(std::move(fitted->places), result);
+    note_places(result);
     result.is_cut_short = fitted->is_cut_short;
     record(result, "fit", start);
-    result.passes.back().removals = fitted->counts.removed;
+    result.passes.back().removals = fitted->removed;
     return {};
   }
 
@@ -340,45 +325,43 @@ class EngineRun {
     const auto start = Clock::now();
     refinement_.reset();
     ShapeTask task{options_.shape, field_.frame.affine, criterion_.aim(), criterion_.aims()};
-    task.all_may_go = vertices_are_free(field_, options_) || options_.effort == Effort::kNormal;
+    task.all_may_go = plan_.releases_starts;
     std::uint64_t rows = 0;
-    if (field_.samples == nullptr) {
+    if (plan_.is_streamed) {
       task.field = &field_;
       task.source_bounds = criterion_.source_bounds();
-      task.rows_at_once = rows_at_once(field_, memory_, task.source_bounds);
-      rows = bytes_at_once(field_, memory_, task.source_bounds);
+      task.rows_at_once = rows_at_once(field_, plan_.memory, task.source_bounds);
+      rows = bytes_at_once(field_, plan_.memory, task.source_bounds);
     }
-    const auto before = static_cast<double>(domain_->tin.vertex_count());
+    const auto before = static_cast<double>(piece_->tin.vertex_count());
     task.progress = [&](double share, std::uint64_t count, double error) -> Result<void> {
       if (reporter_.due() && !reporter_.report("shape", 0, count, error))
         return fail(ErrorKind::kCancelled, "cancelled while refining shapes");
       const auto now = static_cast<double>(count);
-      return memory_.check_mesh(rows, count, now / (before + (now - before) / share));
+      return plan_.memory.check_mesh(rows, count, now / (before + (now - before) / share));
     };
-    task.foresee = [&](double triangles) { return check_need(triangles, memory_, rows); };
-    VertexPlaces places = std::move(places_);
-    auto work = refine_shapes(raster_, domain_->tin, places, task);
+    task.foresee = [&](double triangles) { return check_need(triangles, plan_.memory, rows); };
+    auto work = refine_shapes(raster_, piece_->tin, piece_->places, task);
     if (!work) return work;
-    set_places(std::move(places), result);
+    note_places(result);
     result.passes.push_back(
         {"shape", seconds_since(start), work->samples_scanned, work->triangles_scanned, work->insertions});
     return work;
   }
 
-  /// Of the vertices, after fitting.
-  void set_places(VertexPlaces places, Simplified& result) {
-    places_ = std::move(places);
-    exact_ = places_are_exact(field_, options_, place_steps(field_, options_));
-    if (vertices_are_free(field_, options_) && !places_.are_samples()) result.vertices = Vertices::kFree;
+  /// After fitting.
+  void note_places(Simplified& result) {
+    exact_ = plan_.is_exact;
+    if (plan_.frees_vertices && !piece_->places.are_samples()) result.vertices = Vertices::kFree;
   }
 
   /// As many as the memory leaves room for, each with a window of samples.
   int fit_threads(std::uint64_t window) const {
     const int threads = thread_count(options_.threads);
-    if (!memory_.is_limited()) return threads;
-    const std::uint64_t vertices = domain_->tin.vertex_count(), taken = memory_.per_vertex * vertices;
+    if (!plan_.memory.is_limited()) return threads;
+    const std::uint64_t vertices = piece_->tin.vertex_count(), taken = plan_.memory.per_vertex * vertices;
     const std::uint64_t most =
-        (std::max(memory_.rest(), taken) - taken) / (kFitBytesPerVertexAndThread * vertices + window);
+        (std::max(plan_.memory.rest(), taken) - taken) / (kFitBytesPerVertexAndThread * vertices + window);
     return static_cast<int>(std::clamp<std::uint64_t>(most, 1, static_cast<std::uint64_t>(threads)));
   }
 
@@ -391,14 +374,15 @@ class EngineRun {
   /// The last time the workbench's memory is given back on the way.
   void freeze_into(Simplified& result, bool is_last) {
     const auto start = Clock::now();
-    const SampleHeights heights = field_.samples != nullptr ? SampleHeights(raster_) : SampleHeights(field_, heights_);
+    const SampleHeights heights = !plan_.is_streamed ? SampleHeights(raster_) : SampleHeights(field_, heights_);
     const bool has_more = options_.normals || options_.uvs || !field_.channels.empty();
-    const LatticePoints at = has_more ? frozen_points(domain_->tin, places_) : LatticePoints{};
+    const LatticePoints at = has_more ? frozen_points(piece_->tin, piece_->places) : LatticePoints{};
     if (is_last) {
-      result.mesh = melt_down(heights, std::move(domain_->tin), places_, field_.frame, options_.float32_positions);
-      domain_.reset();
+      result.mesh =
+          melt_down(heights, std::move(piece_->tin), piece_->places, field_.frame, options_.float32_positions);
+      piece_.reset();
     } else {
-      result.mesh = freeze(heights, domain_->tin, places_, field_.frame, options_.float32_positions);
+      result.mesh = freeze(heights, piece_->tin, piece_->places, field_.frame, options_.float32_positions);
     }
     if (options_.normals) result.mesh.normals = sample_normals(heights, field_.frame, at);
     if (options_.uvs) result.mesh.uvs = sample_uvs(raster_.cols, raster_.rows, at);
@@ -449,9 +433,9 @@ class EngineRun {
                     "the mesh folds over itself: in this frame positions are rounded to float32, or edges are straight "
                     "where the grid's are curved; ask for a smaller error, or write in the local or grid frame");
       if (proof->kept) return {};
-      if (!domain_) return fail(exact_ ? ErrorKind::kInternal : ErrorKind::kPromise, proof->broken);
+      if (!piece_) return fail(exact_ ? ErrorKind::kInternal : ErrorKind::kPromise, proof->broken);
       if (!refinement_)
-        refinement_.emplace(criterion_.judge(), domain_->tin, options_.algorithm, options_.edges,
+        refinement_.emplace(criterion_.judge(), piece_->tin, options_.algorithm, options_.edges,
                             Refinement::Start::kClean);
       const auto again = Clock::now();
       const auto mended = mend(proof->offenders, result);
@@ -469,18 +453,19 @@ class EngineRun {
     }
   }
 
+  const Plan& plan_;
   const HeightField& field_;
   const Raster& raster_;
   const SimplifyOptions& options_;
   const Criterion& criterion_;
   const ConstraintGraph* lines_;
   Budget budget_;
-  MemoryBudget memory_;
-  std::optional<Domain> domain_;  // the workbench: given back as soon as nothing can need it any more
-  std::vector<float> heights_;    // of its vertices, where the field has a source
+  std::optional<Piece> piece_;  // all of the raster: given back as soon as nothing can need it any more
+  bool is_whole_ = true;        // every sample is a height
+  std::uint32_t unused_ = 0;    // corners of the rectangle that are no vertex of the domain
+  std::vector<float> heights_;  // of its vertices, where the field has a source
   std::size_t seeds_ = 0;
   std::optional<Refinement> refinement_;
-  VertexPlaces places_;
   bool exact_;  // every vertex can lie exactly on its sample, or on the lattice of fitting
   Reporter reporter_;
   std::optional<std::vector<Point>> ranking_;
@@ -490,9 +475,9 @@ class EngineRun {
 
 }  // namespace
 
-Result<Simplified> run_engine(const HeightField& field, const Raster& raster, const SimplifyOptions& options,
-                              const Criterion& criterion, const ConstraintGraph* lines, std::optional<Tiled> tiled) {
-  return EngineRun(field, raster, options, criterion, lines).execute(std::move(tiled));
+Result<Simplified> run_passes(const Plan& plan, const Raster& raster, const Criterion& criterion,
+                              const ConstraintGraph* lines, std::optional<Tiled> tiled) {
+  return Run(plan, raster, criterion, lines).execute(std::move(tiled));
 }
 
 }  // namespace scarp

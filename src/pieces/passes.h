@@ -1,0 +1,55 @@
+// The passes that a piece goes through on its way from samples to a mesh that satisfies the bound with few vertices:
+//
+//     seed → insert constraints → refine → fit
+//
+// Each leaves the piece ready for the next; which are made, and with which goals, is decided by the plan of a run.
+#pragma once
+
+#include <cstdint>
+
+#include "fit/fit.h"
+#include "lines/constraints.h"
+#include "metric/judge.h"
+#include "pieces/piece.h"
+#include "scarp/result.h"
+#include "scarp/strategy.h"
+
+namespace scarp {
+
+/// Seeds the mesh of a piece between neighbours: its domain, with no vertices but the outline's; outside where no cell
+/// is surface. Edges along shared rows are free: whether the domain ends there the neighbour decides, too.
+Result<void> seed(Piece& piece);
+
+/// How constraints are inserted.
+struct ConstraintGoals {
+  double threshold = 0;          ///< of the errors, where the piece has no aims of its own
+  bool releases_starts = false;  ///< edges that are but a start are given free in the end, with their vertices
+  int threads = 1;
+};
+
+/// Makes the graph, in the piece's coordinates, chains of constrained edges, and refines what they break: only around
+/// them if the piece is refined already, else everywhere. Then places are at kLatticeSteps. Adds to `work`. Fails as
+/// ConstrainedMesh::lay(), with kInput for too many triangles, and as piece.check does.
+Result<void> insert_constraints(Piece& piece, const ConstraintGraph& graph, const ConstraintGoals& goals, Work& work);
+
+/// Inserts the samples that break their bound, worst first, and adds to `work`. Fails with kInput for too many
+/// triangles and as piece.check does. REQUIRES: the judge is of the piece's samples.
+Result<void> refine(Piece& piece, const Judge& judge, Work& work);
+
+/// What a fit has done.
+struct FitOutcome {
+  std::uint64_t removed = 0;  ///< vertices
+  bool is_cut_short = false;  ///< by the time
+};
+
+/// Removes and moves vertices while every sample keeps what refinement aims at. Vertices on shared rows stay. Fails as
+/// fit() does.
+Result<FitOutcome> fit_piece(Piece& piece, FitOptions options);
+
+inline constexpr const char* kTooManyTriangles =
+    "the mesh would have more than 1,431 million triangles: allow a larger error";
+
+/// Bytes a vertex of a piece that constraints and refinement take, its mesh included.
+inline constexpr std::uint64_t kRefinementBytesPerVertex = 160;
+
+}  // namespace scarp

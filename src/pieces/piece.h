@@ -1,0 +1,39 @@
+// A window of the raster with its mesh: what the passes (passes.h) work on.
+//
+//     in memory      one piece: the whole raster, nothing shared
+//     streamed       a strip after the other: the upper and the lower row of samples shared with the neighbours
+//
+// A piece never looks beyond its samples and a row more around them. What lies on a shared row is a function of that
+// row's samples and tolerances alone, so that both neighbours find the same, and neither adds to it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+
+#include "grid/raster.h"
+#include "grid/vertex_places.h"
+#include "scarp/result.h"
+#include "tin/triangulation.h"
+
+namespace scarp {
+
+struct Piece {
+  Raster samples;                             ///< NaN is nodata
+  std::int32_t first = 0;                     ///< of its rows of samples, in the raster
+  Triangulation tin;                          ///< in the piece's own coordinates
+  bool has_above = false, has_below = false;  ///< neighbours, which have the vertices on their shared row too
+  Raster around = {};                         ///< `samples`, and a row more on each side where there is a neighbour
+  VertexPlaces places = {};                   ///< of the vertices of `tin`
+  /// What refinement aims at, by sample; EMPTY: at the run's threshold everywhere.
+  std::span<const float> aims = {};
+  /// Whether each sample keeps what refinement aims at, by now.
+  bool is_refined = false;
+  /// Whether some surface is left, behind a cut.
+  bool has_surface = true;
+  /// Asked from time to time, with the share of the pass that is done and the largest error left: fails where memory
+  /// does not hold so many vertices, and with kCancelled. EMPTY: nobody asks.
+  std::function<Result<void>(std::uint64_t vertices, double share, double error)> check = {};
+};
+
+}  // namespace scarp

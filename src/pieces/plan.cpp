@@ -1,0 +1,27 @@
+#include "pieces/plan.h"
+
+#include "pieces/effort.h"
+#include "pieces/goals.h"
+
+namespace scarp {
+
+Plan::Plan(const HeightField& on, const SimplifyOptions& asked)
+    : field(on),
+      options(asked),
+      is_streamed(on.samples == nullptr),
+      has_budget(scarp::has_budget(asked)),
+      has_lines(scarp::has_lines(asked)),
+      frees_vertices(vertices_are_free(on, asked)),
+      releases_starts(asked.effort == Effort::kNormal || frees_vertices),
+      fits(asked.effort != Effort::kFast),
+      // Goals of shapes want strips rid of what the lines between tiles cost, whatever the effort.
+      fits_pieces(fits || asked.shape.any()),
+      removes_last(scarp::removes_last(on, asked)),
+      fits_strips(is_streamed && fits_pieces),
+      finishes_strips(fits_strips || (is_streamed && (has_lines || asked.tolerance_source != nullptr))),
+      lattice_steps(place_steps(on, asked)),
+      is_exact(places_are_exact(on, asked, lattice_steps)),
+      aim(aim_of(on, asked)),
+      memory(memory_budget(on, asked)) {}
+
+}  // namespace scarp

@@ -1,0 +1,204 @@
+#include "pieces/shared_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "geom/exact_error.h"
+#include "grid/vertex_places.h"
+#include "pieces/border_chain.h"
+#include "pieces/tile_plan.h"
+
+namespace scarp {
+
+namespace {
+
+/// Samples strictly within a row of the strip's samples that are vertices, ascending.
+std::vector<std::int32_t> vertices_along(const Piece& strip, std::int32_t y) {
+  std::vector<std::int32_t> cols;
+  for (Vertex v = 0; v < strip.tin.vertex_count(); ++v) {
+    const Point p = strip.tin.point(v);
+    if (p.y == y && p.x > 0 && p.x < strip.samples.cols - 1) cols.push_back(p.x);
+  }
+  std::sort(cols.begin(), cols.end());
+  return cols;
+}
+
+/// Of the aims of a piece, those of a row of its samples.
+template <class Float>
+std::span<Float> along(std::span<Float> aims, const Piece& strip, std::int32_t y) {
+  const auto cols = static_cast<std::size_t>(strip.samples.cols);
+  return aims.subspan(static_cast<std::size_t>(y) * cols, cols);
+}
+
+LineBound bound_along(const Piece& strip, std::int32_t y, double threshold) {
+  return strip.aims.empty() ? LineBound(threshold) : LineBound(along(strip.aims, strip, y));
+}
+
+/// A vertex on a shared row, in kLatticeSteps along it.
+struct BorderVertex {
+  std::int32_t x = 0;
+  float height = 0;
+  bool is_of_line = false;
+};
+
+/// A vertex of a line before that of the mesh at the same place, which goes.
+void sort_along(std::vector<BorderVertex>& vertices) {
+  std::sort(vertices.begin(), vertices.end(), [](const BorderVertex& a, const BorderVertex& b) {
+    return std::pair(a.x, !a.is_of_line) < std::pair(b.x, !b.is_of_line);
+  });
+  vertices.erase(std::unique(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a.x == b.x; }),
+                 vertices.end());
+}
+
+/// Those that lines have on a row of the part.
+std::vector<BorderVertex> line_vertices(const ConstraintGraph& part, std::int32_t y, const float* samples) {
+  std::vector<BorderVertex> vertices;
+  for (std::size_t i = 0; i < part.points.size(); ++i) {
+    const Point p = part.points[i];
+    if (p.y != y * kLatticeSteps) continue;
+    const bool is_sample = PlaceHeights::is_sample(p);
+    vertices.push_back({p.x, is_sample ? samples[p.x / kLatticeSteps] : part.heights[i], true});
+  }
+  return vertices;
+}
+
+/// Samples of a row become vertices for both rows that share it.
+void share_samples(std::span<const std::int32_t> cols, std::int32_t y, const float* samples, ConstraintGraph& part) {
+  for (const std::int32_t col : cols) {
+    part.points.push_back({col * kLatticeSteps, y * kLatticeSteps});
+    part.heights.push_back(samples[col]);
+    part.is_shared.push_back(1);
+  }
+}
+
+/// Appends the samples that a chord needs between two vertices: the farthest splits it, again and again.
+void split_border_chord(const float* samples, const BorderVertex& from, const BorderVertex& to, const LineBound& bound,
+                        std::vector<std::int32_t>& kept) {
+  std::vector<std::pair<BorderVertex, BorderVertex>> chords{{from, to}};
+  while (!chords.empty()) {
+    const auto [a, b] = chords.back();
+    chords.pop_back();
+    if (std::isnan(a.height) || std::isnan(b.height)) continue;
+    const double rise = double{b.height} - a.height, steps = b.x - a.x;
+    const double guard_of_chord = 0x1p-50 * (std::abs(double{a.height}) + std::abs(rise));
+    double worst = -1;
+    std::int32_t split = -1;
+    for (std::int32_t col = a.x / kLatticeSteps + 1; col * kLatticeSteps < b.x; ++col) {
+      const float height = samples[col];
+      if (std::isnan(height)) continue;
+      const double error = std::abs(a.height + rise * ((col * kLatticeSteps - a.x) / steps) - double{height});
+      const double threshold = bound.at(col), rank = bound.rank(error, threshold);
+      const double guard = guard_of_chord + 0x1p-50 * threshold;
+      if (!(rank > worst) || error < threshold - guard || std::isinf(threshold)) continue;
+      if (error <= threshold + guard &&
+          !exceeds_exactly_between(a.height, b.height, col * kLatticeSteps - a.x, b.x - a.x, height, threshold))
+        continue;
+      worst = rank;
+      split = col;
+    }
+    if (split < 0) continue;
+    kept.push_back(split);
+    const BorderVertex middle{split * kLatticeSteps, samples[split], false};
+    chords.push_back({middle, b});
+    chords.push_back({a, middle});
+  }
+}
+
+}  // namespace
+
+void split_shared_row(const Piece& strip, bool is_top, double threshold, ConstraintGraph& part) {
+  const std::int32_t y = is_top ? 0 : strip.samples.rows - 1;
+  const float* samples = strip.samples.row(y);
+  std::vector<BorderVertex> vertices = line_vertices(part, y, samples);
+  if (vertices.empty() && strip.aims.empty()) return;
+  for (Vertex v = 0; v < strip.tin.vertex_count(); ++v) {
+    const Point p = strip.tin.point(v);
+    if (p.y == y) vertices.push_back({p.x * kLatticeSteps, samples[p.x], false});
+  }
+  sort_along(vertices);
+  std::vector<std::int32_t> kept;
+  for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
+    if (!strip.aims.empty() || vertices[i].is_of_line || vertices[i + 1].is_of_line)
+      split_border_chord(samples, vertices[i], vertices[i + 1], bound_along(strip, y, threshold), kept);
+  }
+  share_samples(kept, y, samples, part);
+}
+
+Result<void> start_shared_row(const Piece& strip, bool is_top, double threshold, std::int32_t side,
+                              ConstraintGraph& part) {
+  const std::int32_t y = is_top ? 0 : strip.samples.rows - 1, around = y + (strip.has_above ? 1 : 0);
+  const float* samples = strip.samples.row(y);
+  const HeightField field{strip.around.samples, strip.around.cols, strip.around.rows};
+  std::vector<BorderVertex> vertices = line_vertices(part, y, samples);
+  std::vector<std::int32_t> kept;
+  if (vertices.empty()) {
+    // The row beyond may be of tiles.
+    const TilePlan plan(field.cols, field.rows, side);
+    for (std::size_t tile = 0; tile < plan.per_row(); ++tile) {
+      const TileWindow window = plan.window(tile);
+      const auto chain = simplify_border(field, {window.col, around, window.cols - 1, false}, threshold);
+      if (!chain) return tl::unexpected(chain.error());
+      if (tile > 0) kept.push_back(window.col);
+      for (const std::int32_t step : *chain) kept.push_back(window.col + step);
+    }
+    if (!strip.aims.empty()) {
+      vertices = {{0, samples[0], false}, {(field.cols - 1) * kLatticeSteps, samples[field.cols - 1], false}};
+      for (const std::int32_t col : kept) vertices.push_back({col * kLatticeSteps, samples[col], false});
+      sort_along(vertices);
+      for (std::size_t i = 0; i + 1 < vertices.size(); ++i)
+        split_border_chord(samples, vertices[i], vertices[i + 1], bound_along(strip, y, threshold), kept);
+    }
+    share_samples(kept, y, samples, part);
+    return {};
+  }
+  const auto runs = find_border_runs(field, {0, around, field.cols - 1, false});
+  if (!runs) return tl::unexpected(runs.error());
+  for (const BorderRun& run : *runs) {
+    vertices.push_back({run.begin * kLatticeSteps, samples[run.begin], false});
+    if (run.begin > 0) kept.push_back(run.begin);
+  }
+  vertices.push_back({runs->back().end * kLatticeSteps, samples[runs->back().end], false});
+  sort_along(vertices);
+  auto run = runs->begin();
+  for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
+    while (run->end * kLatticeSteps <= vertices[i].x) ++run;
+    if (run->has_surface)
+      split_border_chord(samples, vertices[i], vertices[i + 1], bound_along(strip, y, threshold), kept);
+  }
+  // Each point of the part once.
+  std::erase_if(kept, [&](std::int32_t col) {
+    const auto at = std::lower_bound(vertices.begin(), vertices.end(), col * kLatticeSteps,
+                                     [](const BorderVertex& v, std::int32_t x) { return v.x < x; });
+    return at != vertices.end() && at->x == col * kLatticeSteps && at->is_of_line;
+  });
+  share_samples(kept, y, samples, part);
+  return {};
+}
+
+Result<void> insert_shared_row(Piece& strip, bool is_top, bool is_whole) {
+  const std::int32_t y = is_top ? 0 : strip.samples.rows - 1, around = y + (strip.has_above ? 1 : 0);
+  const HeightField field{strip.around.samples, strip.around.cols, strip.around.rows};
+  const BorderLine line{0, around, field.cols - 1, false};
+  const LineBound bound(along(strip.aims, strip, y));
+  const auto more =
+      is_whole ? simplify_border(field, line, bound) : split_border(field, line, vertices_along(strip, y), bound);
+  if (!more) return tl::unexpected(more.error());
+  for (const std::int32_t col : *more) {
+    const Point p{col, y};
+    strip.tin.insert(p, strip.tin.locate(p, strip.tin.last_touched()));
+  }
+  return {};
+}
+
+void settle_shared_rows(const Piece& strip, std::span<float> aims) {
+  for (const bool is_top : {true, false}) {
+    if (aims.empty() || !(is_top ? strip.has_above : strip.has_below)) continue;
+    const std::span<float> shared = along(aims, strip, is_top ? 0 : strip.samples.rows - 1);
+    std::fill(shared.begin(), shared.end(), std::numeric_limits<float>::infinity());
+  }
+}
+
+}  // namespace scarp

@@ -1,0 +1,156 @@
+#include "pieces/strips.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/clock.h"
+#include "base/parallel.h"
+#include "lines/cut_away.h"
+#include "metric/sample_judge.h"
+#include "pieces/effort.h"
+#include "pieces/passes.h"
+#include "pieces/shared_rows.h"
+#include "pieces/strip_lines.h"
+
+namespace scarp {
+
+namespace {
+
+/// Bytes that tolerances take for each sample of a strip.
+constexpr std::uint64_t kAimBytesPerSample = sizeof(float);
+
+/// Every strip's vertices on the same lattice, whatever its own extent.
+bool has_room(const HeightField& field) { return std::max(field.cols, field.rows) <= kMaxCoordinate / kLatticeSteps; }
+
+FitOptions strip_fit(const Plan& plan, double threshold) {
+  FitOptions fit = fit_options(plan.field, plan.options, threshold);
+  fit.threads = plan.options.threads;
+  fit.vertices_are_free = fit.vertices_are_free && has_room(plan.field);
+  fit.goes_on = false;
+  if (plan.options.shape.any()) {
+    fit.depth = {};
+    fit.vertices_are_free = false;
+  }
+  return fit;
+}
+
+/// The passes over one strip after the other.
+class StripWork {
+ public:
+  StripWork(const Plan& plan, const ConstraintGraph* lines, const SourceBounds* tolerances, double threshold,
+            std::int32_t side, StripTotals& totals)
+      : tolerances_(tolerances),
+        goals_{threshold, plan.fits_pieces && plan.releases_starts, plan.options.threads},
+        side_(side),
+        fit_(plan.fits_pieces ? std::optional(strip_fit(plan, threshold)) : std::nullopt),
+        totals_(totals) {
+    if (lines != nullptr) lines_.emplace(*lines);
+  }
+
+  /// Lines that come first, and tolerances without a bound for all: tiles are of no use there.
+  bool makes_whole(std::int32_t first, std::int32_t rows) const {
+    return lines_ ? lines_->makes_whole(first, rows) : tolerances_ != nullptr && !tolerances_->has_most();
+  }
+
+  Result<void> work_on(Piece& strip, const std::function<bool(double, std::uint64_t)>& progress) {
+    const bool is_whole = makes_whole(strip.first, strip.samples.rows);
+    if (auto loaded = load_aims(strip); !loaded) return loaded;
+    strip.is_refined = !is_whole && strip.aims.empty();
+    const auto start = Clock::now();
+    if (is_whole) {
+      if (auto seeded = seed(strip); !seeded) return seeded;
+    }
+    if (lines_) {
+      if (auto inserted = insert_lines(strip, is_whole); !inserted) return inserted;
+      totals_.seconds_of_lines += seconds_since(start);
+    } else if (tolerances_ != nullptr) {
+      if (auto refined = refine_to_tolerances(strip, is_whole); !refined) return refined;
+      totals_.seconds_of_refinement += seconds_since(start);
+    }
+    return fit_ ? fit(strip, progress) : Result<void>();
+  }
+
+ private:
+  Result<void> load_aims(Piece& strip) {
+    if (tolerances_ == nullptr) return {};
+    aims_.resize(static_cast<std::size_t>(strip.samples.cols) * static_cast<std::size_t>(strip.samples.rows));
+    strip.aims = aims_;
+    return tolerances_->read_aims(strip.first, strip.samples, aims_.data());
+  }
+
+  Result<void> insert_lines(Piece& strip, bool is_whole) {
+    ConstraintGraph part = lines_->part_of(strip);
+    for (const bool is_top : {true, false}) {
+      if (!(is_top ? strip.has_above : strip.has_below)) continue;
+      if (!is_whole) {
+        split_shared_row(strip, is_top, goals_.threshold, part);
+      } else if (auto started = start_shared_row(strip, is_top, goals_.threshold, side_, part); !started) {
+        return started;
+      }
+    }
+    settle_shared_rows(strip, aims_);
+    if (auto inserted = insert_constraints(strip, part, goals_, totals_.lines); !inserted) return inserted;
+    has_surface_ = has_surface_ || strip.has_surface;
+    if (!has_surface_ && !strip.has_below) return fail(ErrorKind::kInput, kNothingInCutline);
+    return {};
+  }
+
+  /// What a judge of triangles cannot decide about a sample on a shared row, that of the row could: it is not asked.
+  Result<void> refine_to_tolerances(Piece& strip, bool is_whole) {
+    for (const bool is_top : {true, false}) {
+      if (!(is_top ? strip.has_above : strip.has_below)) continue;
+      if (auto split = insert_shared_row(strip, is_top, is_whole); !split) return split;
+    }
+    settle_shared_rows(strip, aims_);
+    return refine(strip, SampleJudge(judging_by_bounds(strip.samples, strip.aims)), totals_.refinement);
+  }
+
+  Result<void> fit(Piece& strip, const std::function<bool(double, std::uint64_t)>& progress) {
+    const auto start = Clock::now();
+    FitOptions options = *fit_;
+    if (progress) options.progress = [&](double, std::uint64_t vertices) { return progress(0, vertices); };
+    const auto fitted = fit_piece(strip, std::move(options));
+    if (!fitted) return tl::unexpected(fitted.error());
+    totals_.seconds_of_fit += seconds_since(start);
+    totals_.removed += fitted->removed;
+    totals_.is_cut_short = totals_.is_cut_short || fitted->is_cut_short;
+    return {};
+  }
+
+  const SourceBounds* tolerances_;
+  ConstraintGoals goals_;
+  std::int32_t side_;
+  std::optional<FitOptions> fit_;
+  std::optional<StripLines> lines_;
+  std::vector<float> aims_;   // of the strip at hand
+  bool has_surface_ = false;  // any strip so far, behind the cut
+  StripTotals& totals_;
+};
+
+}  // namespace
+
+void work_by_strips(const Plan& plan, const ConstraintGraph* lines, const SourceBounds* tolerances, double threshold,
+                    StripTotals& totals, TiledOptions& tiles) {
+  const auto threads = static_cast<std::uint64_t>(thread_count(plan.options.threads));
+  if (plan.fits_pieces) tiles.finish_bytes_per_vertex = kFitBytesPerVertex + kFitBytesPerVertexAndThread * threads;
+  if (tolerances != nullptr) tiles.finish_bytes_per_sample = kAimBytesPerSample;
+  if (tolerances != nullptr || lines != nullptr)
+    tiles.finish_bytes_per_vertex = std::max(tiles.finish_bytes_per_vertex, kRefinementBytesPerVertex);
+  if (lines != nullptr && tiles.tile_side == 0) tiles.tile_side = strip_side(plan);
+  const auto work = std::make_shared<StripWork>(plan, lines, tolerances, threshold, tiles.tile_side, totals);
+  tiles.is_made_whole = [work](std::int32_t first, std::int32_t rows) { return work->makes_whole(first, rows); };
+  tiles.finish_row = [work, progress = tiles.progress](Piece& strip) { return work->work_on(strip, progress); };
+}
+
+std::int32_t strip_side(const Plan& plan) {
+  TiledOptions tiles;
+  tiles.memory = plan.memory;
+  if (plan.options.tolerance_source != nullptr) tiles.finish_bytes_per_sample = kAimBytesPerSample;
+  tiles.finish_row = [](Piece&) -> Result<void> { return fail(ErrorKind::kInternal, "no strip is there yet"); };
+  return streamed_side(plan.field, tiles);
+}
+
+}  // namespace scarp

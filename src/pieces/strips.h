@@ -1,0 +1,38 @@
+// A raster whose samples stay in their source, strip by strip: each is given its lines, refined to its tolerances and
+// fitted while its samples are there.
+//
+//     strip above, done ──────────────    its lower row of samples is the next one's upper row: the vertices on it
+//     stay, strip at hand     │     │     │     and everything between, across the tiles' own borders too, is one piece
+//     ────────────────────────────────
+//     strips below, not read yet
+#pragma once
+
+#include <cstdint>
+
+#include "lines/constraints.h"
+#include "metric/source_bounds.h"
+#include "pieces/plan.h"
+#include "pieces/tiled.h"
+
+namespace scarp {
+
+/// What the passes over strips have done so far.
+struct StripTotals {
+  double seconds_of_fit = 0, seconds_of_lines = 0, seconds_of_refinement = 0;
+  Work lines;                 ///< of inserting constraints
+  Work refinement;            ///< to tolerances of their own, where there are no lines
+  std::uint64_t removed = 0;  ///< vertices
+  bool is_cut_short = false;  ///< by the time: strips that come later stay as they are
+};
+
+/// Lets refine_tiled() work on each strip with the passes of the plan: constraints of `lines` (null: none), tolerances
+/// (null: the threshold holds for all), the plan's effort; and adds to `totals`. Effort kMax does not go on until a
+/// time is up, as the first strip would use it all. Progress is told through `tiles.progress`, as it is now. All stay
+/// alive.
+void work_by_strips(const Plan& plan, const ConstraintGraph* lines, const SourceBounds* tolerances, double threshold,
+                    StripTotals& totals, TiledOptions& tiles);
+
+/// The side of tiles of such a run, which cuts lines where strips meet.
+std::int32_t strip_side(const Plan& plan);
+
+}  // namespace scarp

@@ -1,0 +1,129 @@
+#include "simplify/orders.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+#include "base/reporter.h"
+#include "grid/samples.h"
+#include "grid/sources/cut_source.h"
+#include "metric/criterion.h"
+#include "pieces/strips.h"
+#include "pieces/tile_worker.h"
+#include "pieces/tiled.h"
+#include "simplify/proof.h"
+#include "simplify/run.h"
+
+namespace scarp {
+
+namespace {
+
+const ConstraintGraph* graph_of(const LineWork* lines) { return lines != nullptr ? &lines->graph() : nullptr; }
+
+Result<std::optional<Tiled>> refine_tiles(const Plan& plan, const Criterion& criterion, const ConstraintGraph* lines,
+                                          StripTotals& strips) {
+  const HeightField& field = plan.field;
+  const SimplifyOptions& options = plan.options;
+  TiledOptions tiles;
+  tiles.threshold = criterion.aim();
+  tiles.threads = options.threads;
+  tiles.memory = plan.memory;
+  tiles.may_decline = options.order == Order::kAuto && !plan.is_streamed;
+  Reporter reporter(options.progress);
+  if (options.progress) {
+    if (!reporter.report("refine", 0, 0, 0)) return fail(ErrorKind::kCancelled, "cancelled while refining");
+    tiles.progress = [&](double share, std::uint64_t vertices) {
+      return !reporter.due() || reporter.report("refine", share, vertices, 0);
+    };
+  }
+  if (plan.finishes_strips) work_by_strips(plan, lines, criterion.source_bounds(), criterion.aim(), strips, tiles);
+  if (!plan.is_streamed || lines == nullptr || !lines->cut) return refine_tiled(field, tiles);
+  const CutSource near(*field.source, lines->cut->rows);
+  HeightField seen = field;
+  seen.source = &near;
+  return refine_tiled(seen, tiles);
+}
+
+/// And prepares lines that have waited for this.
+Result<std::optional<Tiled>> refine_beside_lines(const Plan& plan, const Criterion& criterion, LineWork* lines,
+                                                 StripTotals& strips) {
+  if (lines == nullptr || lines->is_prepared()) return refine_tiles(plan, criterion, graph_of(lines), strips);
+  Result<void> prepared;
+  Result<std::optional<Tiled>> tiled;
+  run_beside(
+      plan.options.threads, [&] { prepared = lines->prepare(); },
+      [&] { tiled = refine_tiles(plan, criterion, nullptr, strips); });
+  if (!prepared) return tl::unexpected(prepared.error());
+  return tiled;
+}
+
+/// What tiles and strips did, `seconds` in all.
+std::vector<Pass> list_passes(const Plan& plan, const Work& tiles, const StripTotals& strips, bool has_lines,
+                              double seconds) {
+  const auto pass = [](const char* name, double took, const Work& work) {
+    return Pass{name, took, work.samples_scanned, work.triangles_scanned, work.passes};
+  };
+  const double beside = strips.seconds_of_fit + strips.seconds_of_lines + strips.seconds_of_refinement;
+  std::vector<Pass> passes{pass("tiles", seconds - beside, tiles)};
+  if (plan.finishes_strips && has_lines) passes.push_back(pass("lines", strips.seconds_of_lines, strips.lines));
+  if (strips.seconds_of_refinement > 0)
+    passes.push_back(pass("refine", strips.seconds_of_refinement, strips.refinement));
+  if (plan.fits_strips) passes.push_back({"fit", strips.seconds_of_fit, 0, 0, 0, strips.removed});
+  return passes;
+}
+
+}  // namespace
+
+Result<Simplified> run_by_tiles(const Plan& plan, LineWork* lines) {
+  const HeightField& field = plan.field;
+  // The engine reads nodata as such; what else looks at samples beyond the mesh's own needs them cleaned.
+  Raster raster{field.samples, field.cols, field.rows};
+  std::optional<Samples> samples;
+  const bool looks_beyond = plan.options.normals || !field.frame.is_affine() || plan.fits || lines != nullptr;
+  if (!plan.is_streamed && looks_beyond) {
+    auto cleaned = Samples::of(field);
+    if (!cleaned) return tl::unexpected(cleaned.error());
+    raster = samples.emplace(std::move(*cleaned)).raster();
+  }
+  const auto criterion = Criterion::make(field, plan.options, raster, plan.aim);
+  if (!criterion) return tl::unexpected(criterion.error());
+  const std::uint64_t bytes = proof_bytes(field, plan.options);
+  if (auto fits = plan.memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
+  const auto start = Clock::now();
+  StripTotals strips;
+  auto tiled = refine_beside_lines(plan, *criterion, lines, strips);
+  if (!tiled) return tl::unexpected(tiled.error());
+  if (!*tiled) {
+    if (plan.is_streamed)
+      return fail(ErrorKind::kInput,
+                  "heights of such different magnitudes can only be refined in memory: read the raster as a whole");
+    return run_greedily(plan, lines);
+  }
+  const Domain& domain = (*tiled)->domain;
+  if (auto has_room = plan.memory.check_mesh(bytes, domain.tin.vertex_count() - domain.unused, 1); !has_room)
+    return tl::unexpected(has_room.error());
+  const double seconds = seconds_since(start);
+  const std::vector<Pass> passes = list_passes(plan, (*tiled)->work, strips, lines != nullptr, seconds);
+  add((*tiled)->work, strips.refinement);
+  const ConstraintGraph* left = plan.finishes_strips ? nullptr : graph_of(lines);
+  auto result = run_passes(plan, raster, *criterion, left, std::move(*tiled));
+  if (!result) return result;
+  result->passes.insert(result->passes.begin(), passes.begin(), passes.end());
+  result->seconds_refine += seconds;
+  result->is_cut_short = result->is_cut_short || strips.is_cut_short;
+  return result;
+}
+
+Result<Simplified> run_greedily(const Plan& plan, LineWork* lines) {
+  if (lines != nullptr) {
+    if (auto prepared = lines->prepare(); !prepared) return tl::unexpected(prepared.error());
+  }
+  auto samples = Samples::of(plan.field);
+  if (!samples) return tl::unexpected(samples.error());
+  const auto criterion = Criterion::make(plan.field, plan.options, samples->raster(), plan.aim);
+  if (!criterion) return tl::unexpected(criterion.error());
+  return run_passes(plan, samples->raster(), *criterion, graph_of(lines), std::nullopt);
+}
+
+}  // namespace scarp

@@ -1,0 +1,23 @@
+// One run of the engine towards the goals, from the first triangles to the mesh that was proven: the passes that
+// simplify() chooses options and an order for.
+#pragma once
+
+#include <optional>
+
+#include "grid/raster.h"
+#include "metric/criterion.h"
+#include "pieces/plan.h"
+#include "pieces/tiled.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+
+struct ConstraintGraph;
+
+/// Carries out a plan on `raster`, the samples of its field: from the mesh of the dominant order where `tiled` is
+/// given, else greedily. `lines`: to be inserted into the mesh; null: none. Fails as simplify() does. REQUIRES:
+/// `criterion` was made for the plan; all outlive the call.
+Result<Simplified> run_passes(const Plan& plan, const Raster& raster, const Criterion& criterion,
+                              const ConstraintGraph* lines, std::optional<Tiled> tiled);
+
+}  // namespace scarp
