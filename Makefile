@@ -9,7 +9,7 @@ CMAKE_FLAGS ?=
 DATA ?= $(or $(SCARP_SHARED),../shared)/data
 export BUILD JOBS
 
-.PHONY: build demo test soak bench paper install clean format tidy help
+.PHONY: build demo test soak wasm-check bench paper install clean format tidy help
 
 build:
 	@tools/install_packages.sh build
@@ -29,6 +29,10 @@ soak:
 	@tools/install_packages.sh build test
 	@tools/soak.sh
 
+wasm-check:
+	@tools/install_packages.sh build wasm
+	@tools/wasm_check.sh
+
 bench:
 	@tools/install_packages.sh build bench
 	@tools/configure.sh $(BUILD) -DSCARP_BUILD_BENCH=ON $(CMAKE_FLAGS)
@@ -44,7 +48,7 @@ install: build
 	DESTDIR="$(DESTDIR)" cmake --install $(BUILD) --prefix "$(PREFIX)"
 
 clean:
-	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz $(BUILD)-debug demo
+	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz $(BUILD)-debug $(BUILD)-core $(BUILD)-wasm demo
 
 format:
 	@tools/install_packages.sh lint
@@ -60,6 +64,7 @@ help:
 	@echo 'make demo     build, simplify a bundled DEM into demo/, check the result'
 	@echo 'make test     everything: tests, sanitizers, a short run of the fuzzers'
 	@echo 'make soak     laws and fuzzers from fresh random seeds, for SOAK_MINUTES (10)'
+	@echo 'make wasm-check  the core compiled with Emscripten, its meshes compared with native ones'
 	@echo 'make bench    the benchmarks; their tables are under version control'
 	@echo 'make paper    the report'\''s experiments on the fields in DATA, written to docs/paper.md'
 	@echo 'make install  program, library, headers, man page into PREFIX (now $(PREFIX)); DESTDIR is honoured'

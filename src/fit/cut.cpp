@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/bits.h"
 #include "base/parallel.h"
 
 namespace scarp {
@@ -232,7 +233,7 @@ Triangulation PatchCutter::join(std::vector<Patch> patches, const std::vector<st
   parallel_for(patches.size(), threads_, [&](std::size_t i) {
     const auto& [before, now] = parts.borders[i];
     // Both sides of a constrained edge are borders, most of them of one patch.
-    const auto names = std::make_unique_for_overwrite<HalfEdge[]>(3 * (begins_[i + 1] - begins_[i]));
+    const auto names = make_unfilled<HalfEdge>(3 * (begins_[i + 1] - begins_[i]));
     for (std::size_t n = 0; n < before.size(); ++n) names[rank_in(place_, before[n])] = now[n];
     for (std::size_t n = 0; n < before.size(); ++n) {
       const HalfEdge twin = tin_.twin(before[n]);

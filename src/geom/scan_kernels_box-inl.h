@@ -10,10 +10,10 @@
 
 #include <hwy/highway.h>
 
-#include <bit>
 #include <cstdint>
 #include <limits>
 
+#include "base/bits.h"
 #include "geom/scan_kernels_task.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,7 +26,7 @@ using detail::ScanTask;
 /// A lane's error must exceed this to become a candidate: equal errors matter once there is a hit.
 HWY_INLINE float entry(const ScanTask& task, const ScanBest& best) {
   if (!(best.error > task.floor)) return task.floor;
-  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(best.error) - 1);
+  return bit_cast<float>(bit_cast<std::uint32_t>(best.error) - 1);
 }
 
 /// The largest error of each lane above `start`, and where it lies; a lane without one has `start` and any place.

@@ -98,13 +98,15 @@ float fill_blocks(const TileView& tile, float* low, float* high, std::uint64_t& 
 
 bool scan_row(const float* samples, std::int32_t count, double base, double slope, double offset, double& worst,
               std::int32_t& at) {
+  std::int32_t x = 0;
+  bool found = false;
+#if HWY_HAVE_FLOAT64
   const hn::ScalableTag<double> d;
   const hn::Rebind<float, decltype(d)> df;
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
   const auto base_height = hn::Set(d, base), slopes = hn::Set(d, slope), step = hn::Set(d, static_cast<double>(lanes));
   auto along = hn::Add(hn::Iota(d, 0), hn::Set(d, offset));
   auto most = hn::Set(d, worst), most_along = along;
-  std::int32_t x = 0;
   for (; x + lanes <= count; x += lanes) {
     const auto sample = hn::PromoteTo(d, hn::LoadU(df, samples + x));
     const auto error = hn::Abs(hn::Sub(hn::Add(base_height, hn::Mul(slopes, along)), sample));
@@ -113,7 +115,6 @@ bool scan_row(const float* samples, std::int32_t count, double base, double slop
     most_along = hn::IfThenElse(is_worse, along, most_along);
     along = hn::Add(along, step);
   }
-  bool found = false;
   if (!hn::AllFalse(d, hn::Gt(most, hn::Set(d, worst)))) {
     const auto largest = hn::MaxOfLanes(d, most);
     worst = hn::GetLane(largest);
@@ -122,6 +123,7 @@ bool scan_row(const float* samples, std::int32_t count, double base, double slop
     at = static_cast<std::int32_t>(hn::GetLane(first) - offset);
     found = true;
   }
+#endif
   for (; x < count; ++x) {
     const double along_x = slope * (offset + x);
     const double signed_error = base + along_x - double{samples[x]};

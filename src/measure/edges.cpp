@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/bits.h"
 #include "measure/topology.h"
 
 namespace scarp::judge {
@@ -122,7 +123,7 @@ std::vector<std::uint32_t> weld_vertices(const Mesh& mesh) {
   for (std::size_t v = 0; v < count; ++v) {
     const double* p = &mesh.positions[3 * v];
     std::uint64_t hash = 0;
-    for (int k = 0; k < 3; ++k) hash = mix(hash ^ std::bit_cast<std::uint64_t>(p[k] + 0.0));  // −0 is 0
+    for (int k = 0; k < 3; ++k) hash = mix(hash ^ bit_cast<std::uint64_t>(p[k] + 0.0));  // −0 is 0
     std::size_t slot = hash & mask;
     while (slots[slot] != kFree) {
       const double* q = &mesh.positions[3 * std::size_t{slots[slot]}];

@@ -1,13 +1,14 @@
 #include "measure/error_summary.h"
 
-#include <bit>
 #include <cmath>
 #include <cstddef>
+
+#include "base/bits.h"
 
 namespace scarp::judge {
 
 void Histogram::add(float magnitude) {
-  const std::uint32_t bucket = (std::bit_cast<std::uint32_t>(magnitude) & 0x7fffffffu) >> kShift;
+  const std::uint32_t bucket = (bit_cast<std::uint32_t>(magnitude) & 0x7fffffffu) >> kShift;
   auto& page = pages_[bucket >> kPageBits];
   if (!page) page = std::make_unique<Page>();
   ++(*page)[bucket & ((1u << kPageBits) - 1)];
@@ -34,7 +35,7 @@ double Histogram::percentile(unsigned permille) const {
       // The last finite bucket ends at infinity; there is none above it.
       const auto bucket = static_cast<std::uint32_t>((p << kPageBits) + i);
       if (bucket == 0) return 0;  // zero, or nearer to it than 1e-41
-      return static_cast<double>(std::bit_cast<float>((bucket + 1) << kShift));
+      return static_cast<double>(bit_cast<float>((bucket + 1) << kShift));
     }
   }
   return 0;

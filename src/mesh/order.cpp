@@ -1,4 +1,6 @@
+#ifdef SCARP_WITH_MESHOPTIMIZER
 #include <meshoptimizer.h>
+#endif
 
 #include <algorithm>
 #include <limits>
@@ -9,6 +11,8 @@
 #include "scarp/mesh.h"
 
 namespace scarp {
+
+#ifdef SCARP_WITH_MESHOPTIMIZER
 
 void optimize_order(Mesh& mesh) {
   const std::size_t vertices = mesh.vertex_count();
@@ -33,5 +37,11 @@ void optimize_order(Mesh& mesh) {
   for (std::uint32_t& vertex : triangles) vertex = new_ids[vertex];
   mesh.triangles = std::move(triangles);
 }
+
+#else
+
+void optimize_order(Mesh&) {}
+
+#endif
 
 }  // namespace scarp

@@ -1,11 +1,11 @@
 // Who tells the triangles of a tile their candidates.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "base/bits.h"
 #include "geom/scan_kernels.h"
 #include "metric/height_judge.h"
 #include "tin/tile_mesh.h"
@@ -15,7 +15,7 @@ namespace scarp {
 /// What waits in a triangle, as TileMesh's key: the error's bits above the complement of the candidate's place, so that
 /// the larger key is the larger error, or the first place in raster order among equal errors; 0 if nothing waits.
 constexpr std::int64_t candidate_key(float error, Place at) {
-  return error > 0 ? static_cast<std::int64_t>(std::uint64_t{std::bit_cast<std::uint32_t>(error)} << 32 |
+  return error > 0 ? static_cast<std::int64_t>(std::uint64_t{bit_cast<std::uint32_t>(error)} << 32 |
                                                static_cast<std::uint32_t>(~at))
                    : 0;
 }
