@@ -21,5 +21,6 @@
 #include "scarp/simplify.h"
 #include "scarp/solid.h"
 #include "scarp/strategy.h"
+#include "scarp/suggest.h"
 #include "scarp/version.h"
 #include "scarp/water.h"
