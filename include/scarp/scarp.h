@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scarp/cliffs.h"
+#include "scarp/degrees.h"
 #include "scarp/edits.h"
 #include "scarp/frame.h"
 #include "scarp/generate.h"
