@@ -4,6 +4,7 @@
 #include "scarp/cliffs.h"
 #include "scarp/degrees.h"
 #include "scarp/edits.h"
+#include "scarp/features.h"
 #include "scarp/frame.h"
 #include "scarp/generate.h"
 #include "scarp/height_field.h"
