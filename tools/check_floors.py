@@ -33,7 +33,7 @@ ROOMS = {
            ["cutline", "degrees", "frame", "height_field", "io", "lines", "mesh", "points", "progress", "result", "solid", "strategy", "version"],
            "bytes to values and back: `mesh/`, `raster/`, `points/`, `gdal/`"),
     "measure": (3, ["base", "grid", "mesh"],
-                ["cutline", "frame", "height_field", "measure", "mesh", "points", "progress", "result"],
+                ["cutline", "frame", "height_field", "judge", "measure", "mesh", "points", "progress", "result", "strategy"],
                 "judging a mesh, without knowing how it was made"),
     "draw": (3, ["base", "grid", "geom", "mesh"], ["frame", "height_field", "io", "mesh", "picture", "result"],
              "pictures of fields, meshes and errors"),

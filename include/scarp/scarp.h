@@ -9,6 +9,7 @@
 #include "scarp/generate.h"
 #include "scarp/height_field.h"
 #include "scarp/io.h"
+#include "scarp/judge.h"
 #include "scarp/lines.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"

@@ -28,7 +28,9 @@ Field walled_slope() {
 Features declare(const Field& field) {
   Features features;
   features.breaklines.affine = grid_frame(field.rows).affine;
-  features.rivers.push_back({{{2, 30, kNoHeight}, {30, 32, kNoHeight}, {58, 29, kNoHeight}}});
+  Line river;
+  river.points = {{2, 30, kNoHeight}, {30, 32, kNoHeight}, {58, 29, kNoHeight}};
+  features.rivers.push_back(river);
   features.walls = WallGoals{20};
   features.ridges = RidgeGoals{2};
   return features;

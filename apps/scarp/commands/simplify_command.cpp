@@ -160,24 +160,27 @@ void add_judging(Clock::time_point start, Outcome& outcome) {
 Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& progress, Outcome& outcome) {
   const Clock::time_point start = Clock::now();
   const Companions& companions = outcome.companions;
-  const Exceptions exceptions = find_exceptions(outcome.field, companions, outcome.asked.has_value());
-  static const Channels kNoChannels;
-  const Channels& channels = companions.ignores_samples() || plan.channels.image ? outcome.channels : kNoChannels;
+  const bool has_norms = !outcome.channels.empty() && (companions.ignores_samples() || plan.channels.image);
   JudgeOptions options;
-  options.exceptions = &exceptions;
-  options.keep_errors = !channels.empty() || (companions.ignores_samples() && companions.has_weights());
+  options.mask = companions.mask;
+  options.tolerance = companions.tolerance;
+  options.tolerance_source = companions.in_windows.source.get();
+  options.script = companions.script;
+  options.max_error = outcome.asked;
+  options.norm = plan.channels.norm;
   options.cutline = outcome.cut.judged();
   options.topology = false;
+  options.weigh = has_norms || companions.ignores_samples();
   options.threads = plan.simplify.threads;
   options.progress = progress;
-  const Result<Judgement> judged = judge(outcome.field, outcome.simplified.mesh, channels, plan.channels.norm, options);
+  const Result<Judgement> judged =
+      judge_mesh(has_norms ? outcome.view() : outcome.field.view(), outcome.simplified.mesh, options);
   if (!judged) return tl::unexpected(judged.error());
-  const auto weigh = [&](const Companions& weights) {
-    return weigh_errors(*judged, outcome.field, channels, weights, exceptions, HUGE_VAL).bounded;
-  };
-  outcome.bounded = plan.channels.image ? weigh({}) : judged->bounded;
+  outcome.bounded = plan.channels.image ? judged->combined->bounded : judged->bounded;
   if (companions.ignores_samples()) {
-    outcome.bounded_goal = options.keep_errors ? weigh(companions).value : judged->bounded.value;
+    outcome.bounded_goal = judged->weighted   ? judged->weighted->bounded.value
+                           : judged->combined ? judged->combined->bounded.value
+                                              : judged->bounded.value;
   }
   add_judging(start, outcome);
   return {};

@@ -263,33 +263,6 @@ bool Companions::ignores_samples() const {
                      [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; });
 }
 
-Exceptions find_exceptions(const HeightField& heights, const Companions& companions, bool has_max_error) {
-  Exceptions found;
-  if (!companions.has_weights() && !companions.ignores_samples()) return found;
-  if (companions.in_windows.source) {
-    if (companions.in_windows.may_lack && !has_max_error) found.source = limits_of(companions.in_windows.source);
-    return found;
-  }
-  constexpr float kNone = std::numeric_limits<float>::infinity();
-  const auto cols = static_cast<std::size_t>(heights.cols);
-  found.limits.resize(cols * static_cast<std::size_t>(heights.rows), 0);
-  for (std::size_t k = 0; k < companions.mask.size(); ++k) {
-    if (companions.mask[k] == 0) found.limits[k] = kNone;
-  }
-  for (std::size_t k = 0; k < companions.tolerance.size() && !has_max_error; ++k) {
-    if (std::isinf(companions.tolerance[k])) found.limits[k] = kNone;
-  }
-  for (const ScriptStep& step : companions.script) {
-    if (step.action != ScriptStep::Action::kIgnore) continue;
-    found.limits[static_cast<std::size_t>(step.row) * cols + static_cast<std::size_t>(step.col)] = kNone;
-  }
-  for (std::size_t k = 0; k < found.limits.size(); ++k) {
-    found.count += found.limits[k] > 0 && std::isfinite(heights.samples[k]);
-  }
-  if (found.count == 0) found.limits.clear();
-  return found;
-}
-
 Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster,
                                    const OwnedHeightField& field, std::optional<double> bound,
                                    const CompanionRun& run) {

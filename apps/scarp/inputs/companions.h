@@ -68,18 +68,6 @@ struct CompanionRun {
 Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster,
                                    const OwnedHeightField& field, std::optional<double> bound, const CompanionRun& run);
 
-/// The valid samples without a bound: by the script, by weight 0, by an infinite tolerance.
-struct Exceptions {
-  std::vector<float> limits;  ///< +infinity for them, 0 for the others; empty if there are none
-  /// The same in its place, in windows, for heights that are not in memory; not counted, so perhaps there are none.
-  std::shared_ptr<const SampleSource> source;
-  std::uint64_t count = 0;
-
-  bool has(std::size_t sample) const { return !limits.empty() && limits[sample] > 0; }
-};
-/// `has_max_error`: a bound that holds beside the tolerances, also where they are infinite.
-Exceptions find_exceptions(const HeightField& heights, const Companions& companions, bool has_max_error);
-
 /// Fails, with the way out, unless `other` lies on the grid of `raster`. `option` named it.
 Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const char* option, const RasterInfo& other,
                         int other_cols, int other_rows);

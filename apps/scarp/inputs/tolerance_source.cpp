@@ -103,23 +103,6 @@ class LeastBounds final : public SampleSource {
   std::shared_ptr<const SampleSource> a_, b_;
 };
 
-class Limits final : public SampleSource {
- public:
-  explicit Limits(std::shared_ptr<const SampleSource> bounds) : bounds_(std::move(bounds)) {}
-
-  Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
-    if (auto read = bounds_->read(col, row, cols, rows, out, stride); !read) return read;
-    for (int y = 0; y < rows; ++y) {
-      for (float* to = out + y * stride; to != out + y * stride + cols; ++to) *to = *to == kNone ? kNone : 0;
-    }
-    return {};
-  }
-  bool is_in_memory() const override { return bounds_->is_in_memory(); }
-
- private:
-  std::shared_ptr<const SampleSource> bounds_;
-};
-
 }  // namespace
 
 float bound_of_value(float value, bool is_rounded) {
@@ -181,24 +164,6 @@ Result<BoundsInWindows> open_tolerances(const char* option, const std::string& p
 
 BoundsInWindows least_of(const BoundsInWindows& a, const BoundsInWindows& b) {
   return {std::make_shared<LeastBounds>(a.source, b.source), a.bytes + b.bytes, a.may_lack && b.may_lack};
-}
-
-std::shared_ptr<const SampleSource> limits_of(std::shared_ptr<const SampleSource> bounds) {
-  return std::make_shared<Limits>(std::move(bounds));
-}
-
-Result<std::uint64_t> count_unbounded(const OwnedHeightField& heights, const SampleSource& bounds) {
-  std::uint64_t count = 0;
-  std::vector<float> tolerance;
-  const Result<void> seen = for_each_band(heights, [&](int row, std::span<const float> band) -> Result<void> {
-    tolerance.resize(band.size());
-    const int rows = static_cast<int>(band.size() / static_cast<std::size_t>(heights.cols));
-    if (auto read = bounds.read(0, row, heights.cols, rows, tolerance.data(), heights.cols); !read) return read;
-    for (std::size_t k = 0; k < band.size(); ++k) count += tolerance[k] == kNone && std::isfinite(band[k]);
-    return {};
-  });
-  if (!seen) return tl::unexpected(seen.error());
-  return count;
 }
 
 }  // namespace scarp::cli

@@ -27,12 +27,6 @@ Result<BoundsInWindows> open_tolerances(const char* option, const std::string& p
 /// The smaller one of two bounds.
 BoundsInWindows least_of(const BoundsInWindows& a, const BoundsInWindows& b);
 
-/// 0 where there is a bound, +infinity where there is none.
-std::shared_ptr<const SampleSource> limits_of(std::shared_ptr<const SampleSource> bounds);
-
-/// The heights without a bound. Both are read once through.
-Result<std::uint64_t> count_unbounded(const OwnedHeightField& heights, const SampleSource& bounds);
-
 /// The bound that a value of a tolerance raster means; `is_rounded`: to float32, so that it may be above the file's.
 float bound_of_value(float value, bool is_rounded);
 

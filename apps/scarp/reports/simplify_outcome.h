@@ -9,9 +9,9 @@
 #include "inputs/channels.h"
 #include "inputs/companions.h"
 #include "options/cutline_options.h"
-#include "reports/judge.h"
 #include "scarp/features.h"
 #include "scarp/height_field.h"
+#include "scarp/judge.h"
 
 namespace scarp::cli {
 
