@@ -15,6 +15,7 @@
 #include "scarp/mesh.h"
 #include "scarp/picture.h"
 #include "scarp/points.h"
+#include "scarp/print.h"
 #include "scarp/progress.h"
 #include "scarp/regions.h"
 #include "scarp/result.h"

@@ -11,6 +11,7 @@
 #include "reports/simplify_outcome.h"
 #include "reports/simplify_report.h"
 #include "reports/verdict.h"
+#include "scarp/edits.h"
 #include "terminal/clock.h"
 #include "terminal/progress_display.h"
 #include "terminal/signals.h"
@@ -235,7 +236,7 @@ bool keeps_mesh_on_interrupt(const SimplifyOptions& options) {
 /// A print is made with its mesh.
 Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyOptions& options, Outcome& outcome) {
   if (!plan.solid) return simplify(outcome.view(), options);
-  Result<PrintedTerrain> printed = simplify_for_print(*plan.solid, outcome.field, options);
+  Result<PrintedTerrain> printed = simplify_as_print(*plan.solid, outcome.field, options);
   if (!printed) return tl::unexpected(std::move(printed.error()));
   outcome.print = std::move(printed->print);
   return std::move(printed->simplified);
