@@ -26,5 +26,6 @@
 #include "scarp/solid.h"
 #include "scarp/strategy.h"
 #include "scarp/suggest.h"
+#include "scarp/tolerances.h"
 #include "scarp/version.h"
 #include "scarp/water.h"

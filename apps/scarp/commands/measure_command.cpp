@@ -262,8 +262,8 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
   const Clock::time_point measure_start = Clock::now();
   JudgeOptions options;
   options.mask = judged.companions.mask;
-  options.tolerance = judged.companions.tolerance;
-  options.tolerance_source = judged.companions.in_windows.source.get();
+  options.tolerance = judged.companions.tolerances.values;
+  options.tolerance_source = judged.companions.tolerances.source.get();
   options.script = judged.companions.script;
   options.max_error = judged.fail_above;
   options.norm = judged.plan.norm;

@@ -73,7 +73,7 @@ MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome) {
   if (!plan.memory) return {};
   const OwnedHeightField& field = outcome.field;
   std::uint64_t taken =
-      bytes_taken(field, *plan.memory) + bytes_of(outcome.features.lakes) + outcome.companions.in_windows.bytes;
+      bytes_taken(field, *plan.memory) + bytes_of(outcome.features.lakes) + outcome.companions.tolerances.bytes;
   if (plan.companions.gives_bounds() && !field.source)
     taken += (kBoundedSampleBytes - MemoryNeeds().per_sample) * static_cast<std::uint64_t>(field.cols) *
              static_cast<std::uint64_t>(field.rows);
@@ -164,8 +164,8 @@ Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& pro
   const bool has_norms = !outcome.channels.empty() && (companions.ignores_samples() || plan.channels.image);
   JudgeOptions options;
   options.mask = companions.mask;
-  options.tolerance = companions.tolerance;
-  options.tolerance_source = companions.in_windows.source.get();
+  options.tolerance = companions.tolerances.values;
+  options.tolerance_source = companions.tolerances.source.get();
   options.script = companions.script;
   options.max_error = outcome.asked;
   options.norm = plan.channels.norm;
@@ -276,8 +276,8 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   SimplifyOptions options = plan->simplify;
   options.max_error = outcome.asked;
   options.mask = outcome.companions.mask;
-  options.tolerance = outcome.companions.tolerance;
-  options.tolerance_source = outcome.companions.in_windows.source.get();
+  options.tolerance = outcome.companions.tolerances.values;
+  options.tolerance_source = outcome.companions.tolerances.source.get();
   options.script = outcome.companions.script;
   options.breaklines = outcome.fitted.lines;
   options.cutline = outcome.cut.cutline;

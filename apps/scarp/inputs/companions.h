@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "inputs/tolerance_source.h"
 #include "options/options.h"
 #include "scarp/io.h"
 #include "scarp/simplify.h"
+#include "scarp/tolerances.h"
 
 namespace CLI {
 class App;
@@ -40,13 +40,12 @@ struct CompanionArguments {
 
 /// What the files hold; empty where none was given.
 struct Companions {
-  std::vector<float> mask;       ///< weights in 0 … 1, one a sample
-  std::vector<float> tolerance;  ///< bounds in z units, one a sample; +infinity: none
-  BoundsInWindows in_windows;    ///< the same in its place where the heights are not in memory as one array
+  std::vector<float> mask;  ///< weights in 0 … 1, one a sample
+  Tolerances tolerances;    ///< with a source where the heights have one
   std::vector<ScriptStep> script;
   std::vector<std::string> warnings;
 
-  bool has_tolerance() const { return !tolerance.empty() || in_windows.source; }
+  bool has_tolerance() const { return !tolerances.values.empty() || tolerances.source; }
   bool has_weights() const { return !mask.empty() || has_tolerance(); }
   /// The script takes samples' bounds away; they count in the largest errors all the same.
   bool ignores_samples() const;
