@@ -1,4 +1,4 @@
-// Samples that lines changed, where the raster is not in memory.
+// Samples that lines changed.
 #pragma once
 
 #include <memory>
@@ -14,5 +14,9 @@ namespace scarp {
 /// each row.
 std::shared_ptr<const SampleSource> edit_source(std::shared_ptr<const SampleSource> source,
                                                 std::vector<SampleEdit> edits);
+
+/// Gives the samples of `field` the heights after the edits, in memory or by edit_source(). Without edits nothing
+/// changes. `edits`: as above. Cost: O(edits).
+void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field);
 
 }  // namespace scarp

@@ -38,7 +38,7 @@ struct RiverOptions {
 /// The raster stays as it is: as hard breaklines, rivers run in gorges a sample wide where they lie below it. Heights
 /// are float32. Fails with kUsage for a negative tolerance, and as the field's source does. REQUIRES: the affine map
 /// can be inverted. Cost: O(n log n) for lines and shores along n samples.
-Result<std::vector<River>> carve_rivers(const OwnedHeightField& field, std::span<const Line> lines,
+Result<std::vector<River>> carve_rivers(const HeightField& field, std::span<const Line> lines,
                                         std::span<const Lake> lakes, const RiverOptions& options);
 
 }  // namespace scarp

@@ -14,6 +14,7 @@
 #include "grid/line_marks.h"
 #include "grid/raster.h"
 #include "grid/sample_runs.h"
+#include "grid/samples.h"
 #include "lines/breaklines.h"
 #include "lines/line_samples.h"
 #include "lines/profile.h"
@@ -182,10 +183,16 @@ class Course {
   bool is_turned_ = false;
 };
 
-/// Of a field with a source, those near the lines.
-Result<LineSamples> samples_along(const OwnedHeightField& field, std::span<const Line> lines,
-                                  const std::array<double, 6>& affine) {
-  if (field.source == nullptr) return LineSamples(Raster{field.samples.data(), field.cols, field.rows});
+/// Of a field with a source, those near the lines; of samples in memory `held`.
+Result<LineSamples> samples_along(const HeightField& field, std::span<const Line> lines,
+                                  const std::array<double, 6>& affine, std::optional<Samples>& held) {
+  if (field.samples != nullptr) {
+    auto samples = Samples::of(field);
+    if (!samples) return tl::unexpected(std::move(samples.error()));
+    held = std::move(*samples);
+    return LineSamples(held->raster());
+  }
+  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
   const auto courses = find_courses(lines, affine, field.cols, field.rows);
   if (!courses) return tl::unexpected(courses.error());
   return LineSamples::read(field, *courses);
@@ -193,12 +200,13 @@ Result<LineSamples> samples_along(const OwnedHeightField& field, std::span<const
 
 }  // namespace
 
-Result<std::vector<River>> carve_rivers(const OwnedHeightField& field, std::span<const Line> lines,
+Result<std::vector<River>> carve_rivers(const HeightField& field, std::span<const Line> lines,
                                         std::span<const Lake> lakes, const RiverOptions& options) {
   if (!(options.tolerance >= 0))
     return fail(ErrorKind::kUsage,
                 fmt::format("the tolerance of rivers must be at least 0, not {}", options.tolerance));
-  auto samples = samples_along(field, lines, options.affine);
+  std::optional<Samples> held;
+  auto samples = samples_along(field, lines, options.affine, held);
   if (!samples) return tl::unexpected(samples.error());
   const Ground ground(std::move(*samples), lakes, options.affine);
   std::vector<Course> courses;

@@ -18,7 +18,11 @@
 // and 4-20.
 #include "grid/local_frame.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+
+#include "scarp/degrees.h"
 
 namespace scarp {
 namespace {
@@ -60,6 +64,53 @@ std::array<double, 6> centred_affine(const std::array<double, 4>& linear, int co
   round_pair(y_col, y_row, reach_col, reach_row);
   const double col = cols / 2, row = rows / 2;
   return {-(x_col * col + x_row * row), x_col, x_row, -(y_col * col + y_row * row), y_col, y_row};
+}
+
+bool is_degenerate(const std::array<double, 6>& affine) {
+  const double determinant = affine[1] * affine[5] - affine[2] * affine[4];
+  return determinant == 0 || !std::isfinite(determinant) || !std::isfinite(affine[0]) || !std::isfinite(affine[3]);
+}
+
+Result<Frame> local_frame(const std::array<double, 6>& samples, const MetresPerUnit& metres, int cols, int rows,
+                          const std::string& crs) {
+  const auto& a = samples;
+  const double col = cols / 2, row = rows / 2;
+  const double x = a[0] + a[1] * col + a[2] * row, y = a[3] + a[4] * col + a[5] * row;
+  constexpr double kFlat = 1e-3;  // cos φ nearer to the pole than this is no scale to build on
+  if (!(metres.north > 0) || !(metres.east > kFlat * metres.north)) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("its centre lies at {:.9g}, {:.9g}, at or beyond a pole, where no local frame exists; "
+                            "choose a polar CRS such as EPSG:3413 or EPSG:3031",
+                            x, y));
+  }
+  Frame frame;
+  frame.kind = Frame::Kind::kLocal;
+  frame.affine =
+      centred_affine({a[1] * metres.east, a[2] * metres.east, a[4] * metres.north, a[5] * metres.north}, cols, rows);
+  if (is_degenerate(frame.affine)) {
+    return fail(ErrorKind::kUsage, "its cells are too unequal for a local frame in float32; choose the frame 'source'");
+  }
+  frame.description =
+      fmt::format("local metres east and north of {:.9g}, {:.9g} ({}), {:.6g} m x {:.6g} m a cell", x, y, crs,
+                  std::hypot(frame.affine[1], frame.affine[4]), std::hypot(frame.affine[2], frame.affine[5]));
+  return frame;
+}
+
+std::array<double, 2> metres_of_unit(double latitude, const Geodetic& geodetic) {
+  const double radians = latitude * geodetic.radians_per_unit;
+  if (!(std::abs(radians) < std::acos(0.0))) return {};
+  const auto metres = metres_per_radian({geodetic.semi_major, geodetic.inverse_flattening}, radians);
+  return {metres.east * geodetic.radians_per_unit, metres.north * geodetic.radians_per_unit};
+}
+
+Result<Frame> frame_of_degrees(const std::array<double, 6>& affine, int cols, int rows, const Geodetic& geodetic) {
+  if (cols < 1 || rows < 1) return fail(ErrorKind::kUsage, "a frame needs at least one column and one row");
+  if (is_degenerate(affine))
+    return fail(ErrorKind::kUsage, "the affine map takes the samples to a line, or to infinity");
+  const auto [east, north] = metres_of_unit(affine[3] + affine[4] * (cols / 2) + affine[5] * (rows / 2), geodetic);
+  auto frame = local_frame(affine, {east, north}, cols, rows, "degrees");
+  if (!frame) return fail(frame.error().kind, "a raster in degrees: " + frame.error().message);
+  return frame;
 }
 
 }  // namespace scarp

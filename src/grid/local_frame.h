@@ -2,6 +2,10 @@
 #pragma once
 
 #include <array>
+#include <string>
+
+#include "scarp/frame.h"
+#include "scarp/result.h"
 
 namespace scarp {
 
@@ -26,5 +30,17 @@ constexpr int centre_reach(int size) { return size / 2; }
 /// that every sample's x and y is exactly a float32. The rounding changes a cell by less than
 /// reach / 2^23 of itself for an axis-aligned map (0.03 % for 5,000 samples from the centre to the border).
 std::array<double, 6> centred_affine(const std::array<double, 4>& linear, int cols, int rows);
+
+/// Metres for one unit of x and one of y.
+struct MetresPerUnit {
+  double east = 0, north = 0;  ///< 0: not known, or at a pole
+};
+/// The local frame of samples that `samples` maps to x and y of the CRS that `crs` names. Fails with kUsage at a pole
+/// and for cells too unequal for float32; the sentence begins with "its".
+Result<Frame> local_frame(const std::array<double, 6>& samples, const MetresPerUnit& metres, int cols, int rows,
+                          const std::string& crs);
+
+/// The affine map takes samples to a line, or to infinity.
+bool is_degenerate(const std::array<double, 6>& affine);
 
 }  // namespace scarp

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "grid/local_frame.h"
+#include "scarp/degrees.h"
 
 namespace scarp {
 namespace {
@@ -102,6 +103,32 @@ TEST(LocalFrame, EverySampleIsExactlyAFloat32) {
       RC_ASSERT(std::abs(at[0] - x) <= reach_x * (cols + rows) * 0x1p-24);
     }
   }));
+}
+
+TEST(LocalFrame, IsMadeOfDegreesAlone) {
+  // One arc second at 36.5 degrees north, 3601 x 1801 samples.
+  const double second = 1.0 / 3600;
+  const auto frame = frame_of_degrees({-84, second, 0, 37, 0, -second}, 3601, 1801);
+  ASSERT_TRUE(frame) << frame.error().message;
+  EXPECT_EQ(frame->kind, Frame::Kind::kLocal);
+  EXPECT_TRUE(frame->is_affine());
+  EXPECT_EQ(frame->apply_affine(1800, 900), (std::array<double, 2>{0, 0}));
+  EXPECT_TRUE(offsets_are_exact(*frame, 3601, 1801));
+  const auto metres = metres_of_unit(37 - 900 * second);
+  EXPECT_NEAR(frame->affine[1], metres[0] * second, 0.001 * metres[0] * second);
+  EXPECT_NEAR(frame->affine[5], -metres[1] * second, 0.001 * metres[1] * second);
+  EXPECT_NEAR(metres_of_unit(0)[0], 111319.49, 0.01);
+  EXPECT_EQ(metres_of_unit(90), (std::array<double, 2>{0, 0}));
+
+  for (const std::array<double, 6>& bad : {std::array<double, 6>{0, 1, 0, 90, 0, 0.001},
+                                           {0, 1, 0, 0, 1, 0},
+                                           {0, std::nan(""), 0, 0, 0, 1},
+                                           {0, 1e-30, 0, 0, 0, 0}}) {
+    const auto none = frame_of_degrees(bad, 10, 10);
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().kind, ErrorKind::kUsage);
+  }
+  EXPECT_FALSE(frame_of_degrees({0, 1, 0, 0, 0, 1}, 0, 10));
 }
 
 TEST(LocalFrame, KeepsCellsThatAreExactAlready) {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "reports/report.h"
-#include "reports/suggest_errors.h"
+#include "scarp/suggest.h"
 #include "scarp/version.h"
 #include "terminal/progress_display.h"
 #include "terminal/text.h"

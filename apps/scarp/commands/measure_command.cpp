@@ -15,6 +15,34 @@
 #include "terminal/text.h"
 
 namespace scarp::cli {
+namespace {
+
+/// Fills mesh.channels from its 8-bit colours where the file holds nothing else, and checks their number. `path` is the
+/// mesh's, for the sentence.
+Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::string& path) {
+  const std::size_t bands = channels.count();
+  if (mesh.channel_count > 0 && static_cast<std::size_t>(mesh.channel_count) == bands) return {};
+  if (mesh.channel_count == 0 && channels.are_colors() && !mesh.colors.empty()) {
+    mesh.channel_count = static_cast<int>(bands);
+    mesh.channels.reserve(bands * mesh.vertex_count());
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+      for (std::size_t k = 0; k < bands; ++k) mesh.channels.push_back(mesh.colors[3 * v + k]);
+    }
+    return {};
+  }
+  if (mesh.channel_count == 0) {
+    return fail(ErrorKind::kInput,
+                fmt::format("{} holds {} to compare with {}: write it as .glb or .ply, of the same image", path,
+                            mesh.colors.empty() ? "no colours" : "8-bit colours only", format_plural(bands, "band")));
+  }
+  return fail(ErrorKind::kInput,
+              fmt::format("{} has {} but {} to compare with: give the files it was made from, in the same order", path,
+                          format_plural(static_cast<std::uint64_t>(mesh.channel_count), "channel"),
+                          format_plural(bands, "band")));
+}
+
+}  // namespace
+
 MeasureCommand::MeasureCommand(CLI::App& program)
     : verb_(program.add_subcommand("measure", "Judge a mesh file against its raster, sample by sample")) {
   verb_
@@ -232,22 +260,18 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
   judged.seconds_read = seconds_since(start);
 
   const Clock::time_point measure_start = Clock::now();
-  judged.exceptions = find_exceptions(judged.field, judged.companions, judged.fail_above.has_value());
-  if (judged.exceptions.source) {
-    const Result<std::uint64_t> count = count_unbounded(judged.field, *judged.companions.in_windows.source);
-    if (!count) return tl::unexpected(count.error());
-    judged.exceptions.count = *count;
-    if (*count == 0) judged.exceptions.source = nullptr;
-  }
   JudgeOptions options;
-  options.exceptions = &judged.exceptions;
-  options.weigh_by = judged.companions.in_windows.source.get();
+  options.mask = judged.companions.mask;
+  options.tolerance = judged.companions.tolerances.values;
+  options.tolerance_source = judged.companions.tolerances.source.get();
+  options.script = judged.companions.script;
+  options.max_error = judged.fail_above;
+  options.norm = judged.plan.norm;
   options.cutline = judged.cut.judged();
-  const bool weighs_later = judged.companions.has_weights() && options.weigh_by == nullptr;
-  options.keep_errors = map_ || error_raster_ || weighs_later || !judged.channels.empty();
+  options.keep_errors = map_ || error_raster_;
   options.threads = *threads;
   options.progress = display.callback();
-  Result<Judgement> judgement = judge(judged.field, judged.mesh, judged.channels, judged.plan.norm, options);
+  Result<Judgement> judgement = judge_mesh(judged.view(), judged.mesh, options);
   if (!judgement) return tl::unexpected(std::move(judgement.error()));
   judged.judgement = std::move(*judgement);
   complete_info(judged.judgement.heights.heights, judged.field.info);

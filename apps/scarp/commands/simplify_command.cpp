@@ -6,10 +6,12 @@
 #include <optional>
 #include <utility>
 
+#include "inputs/waters.h"
 #include "reports/report.h"
 #include "reports/simplify_outcome.h"
 #include "reports/simplify_report.h"
 #include "reports/verdict.h"
+#include "scarp/edits.h"
 #include "terminal/clock.h"
 #include "terminal/progress_display.h"
 #include "terminal/signals.h"
@@ -61,41 +63,55 @@ Result<void> read_colors(const SimplifyPlan& plan, const ReadOptions& options, b
   return {};
 }
 
-/// Rivers, walls and ridges are fitted to the max error: that of a budget's mesh is not known before the mesh is.
-bool has_lines_to_fit(const SimplifyPlan& plan) {
-  const bool has_budget = plan.simplify.max_triangles || plan.simplify.max_vertices;
-  return has_budget && (!plan.lines.rivers.empty() || plan.cliff.height || plan.ridges.height);
+/// The max error of a budget's mesh is not known before the mesh is.
+bool fits_lines_later(const SimplifyPlan& plan, const Outcome& outcome) {
+  return (plan.simplify.max_triangles || plan.simplify.max_vertices) && outcome.features.depend_on_error();
 }
 
 /// What the process may take, and has taken.
 MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome) {
   if (!plan.memory) return {};
   const OwnedHeightField& field = outcome.field;
-  std::uint64_t taken = bytes_taken(field, *plan.memory) + outcome.waters.bytes() + outcome.companions.in_windows.bytes;
+  std::uint64_t taken =
+      bytes_taken(field, *plan.memory) + bytes_of(outcome.features.lakes) + outcome.companions.tolerances.bytes;
   if (plan.companions.gives_bounds() && !field.source)
     taken += (kBoundedSampleBytes - MemoryNeeds().per_sample) * static_cast<std::uint64_t>(field.cols) *
              static_cast<std::uint64_t>(field.rows);
   return {*plan.memory, taken};
 }
 
-/// All lines of a mesh of such an error, and the walls and ridges among them.
-struct FittedLines {
-  LineConstraints lines;
-  std::optional<Cliffs> cliffs;
-  std::optional<Ridges> ridges;
-};
-Result<FittedLines> fit_lines(const SimplifyPlan& plan, const Outcome& outcome, double max_error) {
-  FittedLines fitted{outcome.lines, std::nullopt, std::nullopt};
-  if (auto rivers = add_rivers(outcome.waters, outcome.field, max_error, fitted.lines); !rivers)
-    return tl::unexpected(rivers.error());
-  auto cliffs = plan.cliff.add_cliffs(outcome.field.view(), max_error, memory_of(plan, outcome), fitted.lines);
-  if (!cliffs) return tl::unexpected(cliffs.error());
-  fitted.cliffs = std::move(*cliffs);
-  auto ridges = plan.ridges.add_ridges(outcome.field.view(), max_error, plan.simplify.threads, memory_of(plan, outcome),
-                                       {}, fitted.lines);
-  if (!ridges) return tl::unexpected(ridges.error());
-  fitted.ridges = std::move(*ridges);
-  return fitted;
+/// All lines of a mesh of such an error.
+Result<FittedFeatures> fit_lines(const SimplifyPlan& plan, const Outcome& outcome, double max_error,
+                                 const ProgressCallback& progress) {
+  const MemoryShare memory = memory_of(plan, outcome);
+  return fit_features(outcome.field, outcome.features,
+                      {max_error, plan.simplify.threads, progress, memory.limit, memory.taken});
+}
+
+/// Lakes, rivers, walls and ridges; the lines of a mesh of the error that was asked for, if that is known.
+Result<void> read_features(const SimplifyPlan& plan, const ProgressCallback& progress, Outcome& outcome) {
+  Features& features = outcome.features;
+  std::vector<std::string>& warnings = outcome.companions.warnings;
+  Result<LineConstraints> lines = plan.lines.read(outcome.as_read, outcome.field.rows, progress, warnings);
+  if (!lines) return tl::unexpected(std::move(lines.error()));
+  features.breaklines = std::move(*lines);
+  const auto waters = read_waters(plan.lines, progress, memory_of(plan, outcome), outcome.field, features, warnings);
+  if (!waters) return waters;
+  features.walls = plan.cliff.goals();
+  features.ridges = plan.ridges.goals();
+  if (!fits_lines_later(plan, outcome)) {
+    auto fitted = fit_lines(plan, outcome, outcome.asked.value_or(0), progress);
+    if (!fitted) return tl::unexpected(std::move(fitted.error()));
+    outcome.fitted = std::move(*fitted);
+  } else {
+    outcome.fitted.lines = features.fixed_lines();
+    if (features.rivers.empty()) return {};
+    auto rivers = carve_rivers(outcome.field, features.rivers, features.lakes, {features.breaklines.affine});
+    if (!rivers) return tl::unexpected(std::move(rivers.error()));
+    outcome.fitted.rivers = std::move(*rivers);
+  }
+  warn_of_dry_lines(features, outcome.fitted.rivers, warnings);
+  return {};
 }
 
 Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const ProgressCallback& progress, Outcome& outcome) {
@@ -109,26 +125,7 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
                                                   {progress, plan.memory.value_or(0), plan.simplify.threads});
   if (!companions) return tl::unexpected(std::move(companions.error()));
   outcome.companions = std::move(*companions);
-  Result<LineConstraints> lines =
-      plan.lines.read(outcome.as_read, outcome.field.rows, progress, outcome.companions.warnings);
-  if (!lines) return tl::unexpected(std::move(lines.error()));
-  outcome.lines = std::move(*lines);
-  const bool fits_later = has_lines_to_fit(plan);
-  const std::optional<double> max_error = fits_later ? std::nullopt : std::optional(outcome.asked.value_or(0));
-  Result<WatersFound> waters = add_waters(plan.lines, progress, max_error, memory_of(plan, outcome), outcome.field,
-                                          outcome.lines, outcome.companions.warnings);
-  if (!waters) return tl::unexpected(std::move(waters.error()));
-  outcome.waters = std::move(*waters);
-  if (!fits_later) {
-    auto cliffs =
-        plan.cliff.add_cliffs(outcome.field.view(), outcome.asked.value_or(0), memory_of(plan, outcome), outcome.lines);
-    if (!cliffs) return tl::unexpected(std::move(cliffs.error()));
-    outcome.cliffs = std::move(*cliffs);
-    auto ridges = plan.ridges.add_ridges(outcome.field.view(), outcome.asked.value_or(0), plan.simplify.threads,
-                                         memory_of(plan, outcome), progress, outcome.lines);
-    if (!ridges) return tl::unexpected(std::move(ridges.error()));
-    outcome.ridges = std::move(*ridges);
-  }
+  if (auto features = read_features(plan, progress, outcome); !features) return features;
   Result<Cut> cut = read_cut(plan.cut, outcome.as_read, progress, outcome.field, outcome.companions.warnings);
   if (!cut) return tl::unexpected(std::move(cut.error()));
   outcome.cut = std::move(*cut);
@@ -164,24 +161,27 @@ void add_judging(Clock::time_point start, Outcome& outcome) {
 Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& progress, Outcome& outcome) {
   const Clock::time_point start = Clock::now();
   const Companions& companions = outcome.companions;
-  const Exceptions exceptions = find_exceptions(outcome.field, companions, outcome.asked.has_value());
-  static const Channels kNoChannels;
-  const Channels& channels = companions.ignores_samples() || plan.channels.image ? outcome.channels : kNoChannels;
+  const bool has_norms = !outcome.channels.empty() && (companions.ignores_samples() || plan.channels.image);
   JudgeOptions options;
-  options.exceptions = &exceptions;
-  options.keep_errors = !channels.empty() || (companions.ignores_samples() && companions.has_weights());
+  options.mask = companions.mask;
+  options.tolerance = companions.tolerances.values;
+  options.tolerance_source = companions.tolerances.source.get();
+  options.script = companions.script;
+  options.max_error = outcome.asked;
+  options.norm = plan.channels.norm;
   options.cutline = outcome.cut.judged();
   options.topology = false;
+  options.weigh = has_norms || companions.ignores_samples();
   options.threads = plan.simplify.threads;
   options.progress = progress;
-  const Result<Judgement> judged = judge(outcome.field, outcome.simplified.mesh, channels, plan.channels.norm, options);
+  const Result<Judgement> judged =
+      judge_mesh(has_norms ? outcome.view() : outcome.field.view(), outcome.simplified.mesh, options);
   if (!judged) return tl::unexpected(judged.error());
-  const auto weigh = [&](const Companions& weights) {
-    return weigh_errors(*judged, outcome.field, channels, weights, exceptions, HUGE_VAL).bounded;
-  };
-  outcome.bounded = plan.channels.image ? weigh({}) : judged->bounded;
+  outcome.bounded = plan.channels.image ? judged->combined->bounded : judged->bounded;
   if (companions.ignores_samples()) {
-    outcome.bounded_goal = options.keep_errors ? weigh(companions).value : judged->bounded.value;
+    outcome.bounded_goal = judged->weighted   ? judged->weighted->bounded.value
+                           : judged->combined ? judged->combined->bounded.value
+                                              : judged->bounded.value;
   }
   add_judging(start, outcome);
   return {};
@@ -236,7 +236,7 @@ bool keeps_mesh_on_interrupt(const SimplifyOptions& options) {
 /// A print is made with its mesh.
 Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyOptions& options, Outcome& outcome) {
   if (!plan.solid) return simplify(outcome.view(), options);
-  Result<PrintedTerrain> printed = simplify_for_print(*plan.solid, outcome.field, options);
+  Result<PrintedTerrain> printed = simplify_as_print(*plan.solid, outcome.field, options);
   if (!printed) return tl::unexpected(std::move(printed.error()));
   outcome.print = std::move(printed->print);
   return std::move(printed->simplified);
@@ -276,14 +276,14 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   SimplifyOptions options = plan->simplify;
   options.max_error = outcome.asked;
   options.mask = outcome.companions.mask;
-  options.tolerance = outcome.companions.tolerance;
-  options.tolerance_source = outcome.companions.in_windows.source.get();
+  options.tolerance = outcome.companions.tolerances.values;
+  options.tolerance_source = outcome.companions.tolerances.source.get();
   options.script = outcome.companions.script;
-  options.breaklines = outcome.lines;
+  options.breaklines = outcome.fitted.lines;
   options.cutline = outcome.cut.cutline;
-  if (has_lines_to_fit(*plan)) {
+  if (fits_lines_later(*plan, outcome)) {
     options.breaklines_for = [&plan, &outcome](double max_error) -> Result<LineConstraints> {
-      auto fitted = fit_lines(*plan, outcome, max_error);
+      auto fitted = fit_lines(*plan, outcome, max_error, {});
       if (!fitted) return tl::unexpected(std::move(fitted.error()));
       return std::move(fitted->lines);
     };
@@ -305,11 +305,9 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   }
   outcome.simplified = std::move(*simplified);
   if (options.breaklines_for) {
-    auto fitted = fit_lines(*plan, outcome, outcome.simplified.lines_for);
+    auto fitted = fit_lines(*plan, outcome, outcome.simplified.lines_for, {});
     if (!fitted) return tl::unexpected(std::move(fitted.error()));
-    outcome.lines = std::move(fitted->lines);
-    outcome.cliffs = std::move(fitted->cliffs);
-    outcome.ridges = std::move(fitted->ridges);
+    outcome.fitted = std::move(*fitted);
   }
   apply_edits(outcome.simplified.edits, outcome.field);
   if (outcome.field.source) outcome.heights = outcome.simplified.measurement.heights;
@@ -338,7 +336,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
         "the greedy order was taken: the goal is so coarse that tiles would cost vertices, or the heights span "
         "magnitudes beyond exact arithmetic");
   }
-  if (outcome.line_count() > 0 && outcome.simplified.lines_laid == 0) {
+  if (outcome.fitted.given_lines() > 0 && outcome.simplified.lines_laid == 0) {
     outcome.warnings.push_back(
         fmt::format("{}: no line lies on the raster's surface, so they change nothing: is their CRS the right one?",
                     plan->lines.find_lines()));

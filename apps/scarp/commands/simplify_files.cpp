@@ -4,7 +4,6 @@
 #include <iterator>
 #include <utility>
 
-#include "reports/judge.h"
 #include "reports/report.h"
 #include "reports/simplify_outcome.h"
 #include "scarp/picture.h"
@@ -54,14 +53,15 @@ Result<void> add_render(const SimplifyPlan& plan, Outcome& outcome, std::vector<
 Result<void> add_error_raster(const SimplifyPlan& plan, const ProgressCallback& progress, const Outcome& outcome,
                               std::vector<ReadyFile>& files) {
   JudgeOptions options;
+  options.norm = plan.channels.norm;
   options.keep_errors = true;
+  options.weigh = false;
   options.topology = false;
   options.cutline = outcome.cut.judged();
   options.threads = plan.simplify.threads;
   options.progress = progress;
-  static const Channels kNoChannels;
-  Result<Judgement> judged = judge(outcome.field, outcome.simplified.mesh,
-                                   plan.channels.image ? outcome.channels : kNoChannels, plan.channels.norm, options);
+  Result<Judgement> judged =
+      judge_mesh(plan.channels.image ? outcome.view() : outcome.field.view(), outcome.simplified.mesh, options);
   if (!judged) return tl::unexpected(std::move(judged.error()));
   const std::vector<float> errors =
       take_error_raster(std::move(*judged), plan.channels.image ? ErrorsOf::kNorms : ErrorsOf::kHeights);

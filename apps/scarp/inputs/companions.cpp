@@ -5,60 +5,37 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <optional>
 
 #include "options/memory.h"
-#include "scarp/regions.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
 namespace {
 
-/// The raster's values, with the option that named the file in every complaint.
-Result<OwnedHeightField> read_values(const char* option, const std::string& path, const RasterInfo& raster, int cols,
-                                     int rows, const ProgressCallback& progress) {
+/// Names the option that named a file: "--tolerance FILE…".
+tl::unexpected<Error> name_option(const char* option, const char* between, Error error) {
+  if (error.kind == ErrorKind::kInput) error.message = fmt::format("{}{}{}", option, between, error.message);
+  return tl::unexpected(std::move(error));
+}
+
+/// The raster's values, on the grid of `raster`, whole or within the limit.
+Result<OwnedHeightField> read_values(const char* option, const std::string& path, const RasterInfo& raster,
+                                     const OwnedHeightField& field, const CompanionRun& run, bool in_windows) {
   ReadOptions options;
   options.crs = "grid";
-  options.progress = progress;
-  Result<OwnedHeightField> values = read_height_field(path, options);
-  if (!values) {
-    if (values.error().kind == ErrorKind::kInput) {
-      values.error().message = fmt::format("{}: {}", option, values.error().message);
-    }
-    return values;
-  }
-  const Result<void> fits = check_grid(raster, cols, rows, option, values->info, values->cols, values->rows);
+  options.progress = run.progress;
+  Result<OwnedHeightField> values =
+      in_windows ? read_beside(path, options, run.memory) : read_height_field(path, options);
+  if (!values) return name_option(option, ": ", std::move(values.error()));
+  const Result<void> fits =
+      check_grid(raster, field.cols, field.rows, option, values->info, values->cols, values->rows);
   if (!fits) return tl::unexpected(fits.error());
-  const auto negative = std::find_if(values->samples.begin(), values->samples.end(), [](float v) { return v < 0; });
-  if (negative != values->samples.end()) {
-    const std::ptrdiff_t at = negative - values->samples.begin();
-    return refuse_negative(option, path, *negative, at % cols, at / cols);
-  }
   return values;
 }
 
-Result<std::vector<float>> make_mask(OwnedHeightField values) {
-  float largest = 0;
-  for (float& weight : values.samples) {
-    if (std::isnan(weight)) weight = 0;
-    largest = std::max(largest, weight);
-  }
-  if (largest == 0) {
-    return fail(ErrorKind::kInput,
-                fmt::format("--mask {}: no weight is above 0, so no sample would have a bound", values.info.path));
-  }
-  if (largest > 1) {
-    for (float& weight : values.samples) weight /= largest;
-  }
-  return std::move(values.samples);
-}
-
-std::vector<float> make_tolerance(OwnedHeightField values) {
-  const bool is_rounded = values.sample_rounding > 0;
-  for (float& bound : values.samples) bound = bound_of_value(bound, is_rounded);
-  return std::move(values.samples);
+void add_warnings(const OwnedHeightField& values, Companions& companions) {
+  companions.warnings.insert(companions.warnings.end(), values.info.warnings.begin(), values.info.warnings.end());
 }
 
 /// A command that brings a raster onto the grid of `raster`.
@@ -128,57 +105,42 @@ void warn_of_missing(const CompanionArguments& given, const std::vector<bool>& f
   }
 }
 
-/// Lowers the tolerances in and around the regions.
-Result<void> add_regions(const CompanionArguments& given, const RasterInfo& raster, const OwnedHeightField& field,
-                         std::optional<double> bound, const ProgressCallback& progress, Companions& companions) {
-  const auto regions = read_regions(given, raster, progress, companions);
-  if (!regions) return tl::unexpected(regions.error());
-  std::vector<bool> found;
-  std::vector<float> bounds = region_tolerances(*regions, grid_of(given, raster, field, bound), &found);
-  warn_of_missing(given, found, companions);
-  if (companions.tolerance.empty()) {
-    companions.tolerance = std::move(bounds);
-  } else {
-    std::transform(bounds.begin(), bounds.end(), companions.tolerance.begin(), companions.tolerance.begin(),
-                   [](float a, float b) { return std::min(a, b); });
-  }
-  return {};
-}
-
-/// The regions' bounds and what making them takes.
-Result<BoundsInWindows> make_regions(const CompanionArguments& given, const RasterInfo& raster,
-                                     const OwnedHeightField& field, std::optional<double> bound,
-                                     const CompanionRun& run, Companions& companions) {
-  const auto regions = read_regions(given, raster, run.progress, companions);
-  if (!regions) return tl::unexpected(regions.error());
+/// Fails if the memory has no room for what is beside heights that have a source.
+Result<void> check_regions(const OwnedHeightField& field, const std::vector<Region>& regions, std::uint64_t memory) {
   std::uint64_t vertices = 0;
-  for (const Region& region : *regions) {
+  for (const Region& region : regions) {
     for (const Line& line : region.lines) vertices += line.points.size();
   }
   constexpr std::uint64_t kBytesPerVertex = 100;
-  if (auto fits = check_room(field, run.memory, kBytesPerVertex * vertices, "--roi"); !fits)
-    return tl::unexpected(fits.error());
-  RegionBounds bounds = make_region_bounds(*regions, grid_of(given, raster, field, bound), run.threads);
-  warn_of_missing(given, bounds.found, companions);
-  return BoundsInWindows{std::move(bounds.source), bounds.bytes, !bound};
+  return check_room(field, memory, kBytesPerVertex * vertices, "--roi");
 }
 
-/// The bounds of heights that are not in memory.
-Result<void> read_in_windows(const CompanionArguments& given, const RasterInfo& raster, const OwnedHeightField& field,
+/// The tolerances of --tolerance and --roi, in windows where the heights are.
+Result<void> read_tolerances(const CompanionArguments& given, const RasterInfo& raster, const OwnedHeightField& field,
                              std::optional<double> bound, const CompanionRun& run, Companions& companions) {
-  BoundsInWindows& bounds = companions.in_windows;
+  const bool in_windows = field.source != nullptr;
+  std::optional<OwnedHeightField> values;
+  std::uint64_t bytes = 0;
   if (given.tolerance) {
-    auto opened =
-        open_tolerances("--tolerance", *given.tolerance, raster, field, run.memory, run.progress, companions.warnings);
-    if (!opened) return tl::unexpected(std::move(opened.error()));
-    bounds = std::move(*opened);
+    auto read = read_values("--tolerance", *given.tolerance, raster, field, run, in_windows);
+    if (!read) return tl::unexpected(std::move(read.error()));
+    add_warnings(*read, companions);
+    if (in_windows) bytes = bytes_beside(*read, field, run.memory);
+    values = std::move(*read);
   }
-  if (!given.roi.empty()) {
-    auto regions = make_regions(given, raster, field, bound, run, companions);
-    if (!regions) return tl::unexpected(std::move(regions.error()));
-    bounds = bounds.source ? least_of(*regions, bounds) : std::move(*regions);
+  const auto regions = read_regions(given, raster, run.progress, companions);
+  if (!regions) return tl::unexpected(regions.error());
+  if (in_windows && !regions->empty()) {
+    if (auto fits = check_regions(field, *regions, run.memory); !fits) return fits;
   }
-  return check_room(field, run.memory, bounds.bytes, given.find_tolerance());
+  auto made = make_tolerances(std::move(values), *regions, grid_of(given, raster, field, bound),
+                              {in_windows, run.threads, run.progress});
+  if (!made) return name_option("--tolerance", " ", std::move(made.error()));
+  warn_of_missing(given, made->found, companions);
+  made->bytes += bytes;
+  companions.tolerances = std::move(*made);
+  return in_windows ? check_room(field, run.memory, companions.tolerances.bytes, given.find_tolerance())
+                    : Result<void>();
 }
 
 }  // namespace
@@ -263,64 +225,24 @@ bool Companions::ignores_samples() const {
                      [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; });
 }
 
-Exceptions find_exceptions(const HeightField& heights, const Companions& companions, bool has_max_error) {
-  Exceptions found;
-  if (!companions.has_weights() && !companions.ignores_samples()) return found;
-  if (companions.in_windows.source) {
-    if (companions.in_windows.may_lack && !has_max_error) found.source = limits_of(companions.in_windows.source);
-    return found;
-  }
-  constexpr float kNone = std::numeric_limits<float>::infinity();
-  const auto cols = static_cast<std::size_t>(heights.cols);
-  found.limits.resize(cols * static_cast<std::size_t>(heights.rows), 0);
-  for (std::size_t k = 0; k < companions.mask.size(); ++k) {
-    if (companions.mask[k] == 0) found.limits[k] = kNone;
-  }
-  for (std::size_t k = 0; k < companions.tolerance.size() && !has_max_error; ++k) {
-    if (std::isinf(companions.tolerance[k])) found.limits[k] = kNone;
-  }
-  for (const ScriptStep& step : companions.script) {
-    if (step.action != ScriptStep::Action::kIgnore) continue;
-    found.limits[static_cast<std::size_t>(step.row) * cols + static_cast<std::size_t>(step.col)] = kNone;
-  }
-  for (std::size_t k = 0; k < found.limits.size(); ++k) {
-    found.count += found.limits[k] > 0 && std::isfinite(heights.samples[k]);
-  }
-  if (found.count == 0) found.limits.clear();
-  return found;
-}
-
 Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster,
                                    const OwnedHeightField& field, std::optional<double> bound,
                                    const CompanionRun& run) {
   Companions companions;
-  const int cols = field.cols, rows = field.rows;
-  const ProgressCallback& progress = run.progress;
-  const bool is_in_windows = field.source && given.find_tolerance() != nullptr;
-  if (is_in_windows) {
-    const Result<void> read = read_in_windows(given, raster, field, bound, run, companions);
-    if (!read) return tl::unexpected(read.error());
-  }
   if (given.mask) {
-    Result<OwnedHeightField> values = read_values("--mask", *given.mask, raster, cols, rows, progress);
+    Result<OwnedHeightField> values = read_values("--mask", *given.mask, raster, field, run, false);
     if (!values) return tl::unexpected(std::move(values.error()));
-    companions.warnings = values->info.warnings;
-    Result<std::vector<float>> mask = make_mask(std::move(*values));
-    if (!mask) return tl::unexpected(std::move(mask.error()));
+    add_warnings(*values, companions);
+    Result<std::vector<float>> mask = make_weights(std::move(*values));
+    if (!mask) return name_option("--mask", " ", std::move(mask.error()));
     companions.mask = std::move(*mask);
   }
-  if (given.tolerance && !is_in_windows) {
-    Result<OwnedHeightField> values = read_values("--tolerance", *given.tolerance, raster, cols, rows, progress);
-    if (!values) return tl::unexpected(std::move(values.error()));
-    companions.warnings.insert(companions.warnings.end(), values->info.warnings.begin(), values->info.warnings.end());
-    companions.tolerance = make_tolerance(std::move(*values));
-  }
-  if (!given.roi.empty() && !is_in_windows) {
-    const Result<void> read = add_regions(given, raster, field, bound, progress, companions);
+  if (given.find_tolerance() != nullptr) {
+    const Result<void> read = read_tolerances(given, raster, field, bound, run, companions);
     if (!read) return tl::unexpected(read.error());
   }
   if (given.script) {
-    Result<std::vector<ScriptStep>> script = read_script(*given.script, cols, rows);
+    Result<std::vector<ScriptStep>> script = read_script(*given.script, field.cols, field.rows);
     if (!script) return tl::unexpected(std::move(script.error()));
     companions.script = std::move(*script);
     if (companions.script.empty()) {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "inputs/tolerance_source.h"
 #include "options/options.h"
 #include "scarp/io.h"
 #include "scarp/simplify.h"
+#include "scarp/tolerances.h"
 
 namespace CLI {
 class App;
@@ -40,13 +40,12 @@ struct CompanionArguments {
 
 /// What the files hold; empty where none was given.
 struct Companions {
-  std::vector<float> mask;       ///< weights in 0 … 1, one a sample
-  std::vector<float> tolerance;  ///< bounds in z units, one a sample; +infinity: none
-  BoundsInWindows in_windows;    ///< the same in its place where the heights are not in memory as one array
+  std::vector<float> mask;  ///< weights in 0 … 1, one a sample
+  Tolerances tolerances;    ///< with a source where the heights have one
   std::vector<ScriptStep> script;
   std::vector<std::string> warnings;
 
-  bool has_tolerance() const { return !tolerance.empty() || in_windows.source; }
+  bool has_tolerance() const { return !tolerances.values.empty() || tolerances.source; }
   bool has_weights() const { return !mask.empty() || has_tolerance(); }
   /// The script takes samples' bounds away; they count in the largest errors all the same.
   bool ignores_samples() const;
@@ -67,18 +66,6 @@ struct CompanionRun {
 /// heights in memory.
 Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster,
                                    const OwnedHeightField& field, std::optional<double> bound, const CompanionRun& run);
-
-/// The valid samples without a bound: by the script, by weight 0, by an infinite tolerance.
-struct Exceptions {
-  std::vector<float> limits;  ///< +infinity for them, 0 for the others; empty if there are none
-  /// The same in its place, in windows, for heights that are not in memory; not counted, so perhaps there are none.
-  std::shared_ptr<const SampleSource> source;
-  std::uint64_t count = 0;
-
-  bool has(std::size_t sample) const { return !limits.empty() && limits[sample] > 0; }
-};
-/// `has_max_error`: a bound that holds beside the tolerances, also where they are infinite.
-Exceptions find_exceptions(const HeightField& heights, const Companions& companions, bool has_max_error);
 
 /// Fails, with the way out, unless `other` lies on the grid of `raster`. `option` named it.
 Result<void> check_grid(const RasterInfo& raster, int cols, int rows, const char* option, const RasterInfo& other,

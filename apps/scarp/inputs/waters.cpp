@@ -74,43 +74,27 @@ std::string rivers_line(const std::vector<River>& rivers) {
 
 }  // namespace
 
-std::uint64_t WatersFound::bytes() const {
+Result<void> read_waters(const LineArguments& given, const ProgressCallback& progress, const MemoryShare& memory,
+                         OwnedHeightField& field, Features& features, std::vector<std::string>& warnings) {
+  auto lakes = add_lakes(given, progress, memory, field, features.breaklines.affine, warnings);
+  if (!lakes) return tl::unexpected(lakes.error());
+  features.lakes = std::move(*lakes);
+  auto streams = read_streams(given, progress, field, warnings);
+  if (!streams) return tl::unexpected(streams.error());
+  features.rivers = std::move(*streams);
+  return {};
+}
+
+std::uint64_t bytes_of(const std::vector<Lake>& lakes) {
   std::uint64_t bytes = 0;
   for (const Lake& lake : lakes) bytes += lake.bytes;
   return bytes;
 }
 
-Result<WatersFound> add_waters(const LineArguments& given, const ProgressCallback& progress,
-                               const std::optional<double>& max_error, const MemoryShare& memory,
-                               OwnedHeightField& field, LineConstraints& lines, std::vector<std::string>& warnings) {
-  WatersFound found;
-  auto lakes = add_lakes(given, progress, memory, field, lines.affine, warnings);
-  if (!lakes) return tl::unexpected(lakes.error());
-  found.lakes = std::move(*lakes);
-  auto streams = read_streams(given, progress, field, warnings);
-  if (!streams) return tl::unexpected(streams.error());
-  found.streams = std::move(*streams);
-  if (!found.streams.empty()) {
-    auto rivers = carve_rivers(field, found.streams, found.lakes, {lines.affine, max_error.value_or(0) / 2});
-    if (!rivers) return tl::unexpected(rivers.error());
-    found.rivers = std::move(*rivers);
-  }
-  if (found.rivers.size() < found.streams.size())
-    warnings.push_back(fmt::format("--rivers: {} beside the raster or closed: no river",
-                                   format_plural(found.streams.size() - found.rivers.size(), "line")));
-  for (const Lake& lake : found.lakes) lines.lines.insert(lines.lines.end(), lake.shore.begin(), lake.shore.end());
-  if (!max_error) return found;
-  for (const River& river : found.rivers) lines.lines.push_back(river.course);
-  return found;
-}
-
-Result<void> add_rivers(const WatersFound& waters, const OwnedHeightField& field, double max_error,
-                        LineConstraints& lines) {
-  if (waters.streams.empty()) return {};
-  auto rivers = carve_rivers(field, waters.streams, waters.lakes, {lines.affine, max_error / 2});
-  if (!rivers) return tl::unexpected(rivers.error());
-  for (River& river : *rivers) lines.lines.push_back(std::move(river.course));
-  return {};
+void warn_of_dry_lines(const Features& features, const std::vector<River>& rivers, std::vector<std::string>& warnings) {
+  if (rivers.size() == features.rivers.size()) return;
+  warnings.push_back(fmt::format("--rivers: {} beside the raster or closed: no river",
+                                 format_plural(features.rivers.size() - rivers.size(), "line")));
 }
 
 Json describe_lakes(const std::vector<Lake>& lakes) {
@@ -135,6 +119,8 @@ Json describe_rivers(const std::vector<River>& rivers) {
   return list;
 }
 
-std::string waters_lines(const WatersFound& waters) { return lakes_line(waters.lakes) + rivers_line(waters.rivers); }
+std::string waters_lines(const std::vector<Lake>& lakes, const std::vector<River>& rivers) {
+  return lakes_line(lakes) + rivers_line(rivers);
+}
 
 }  // namespace scarp::cli

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <utility>
 
 #include "commands/simplify_run.h"
-#include "options/memory.h"
 #include "reports/report.h"
 #include "terminal/text.h"
 
@@ -31,20 +29,9 @@ Result<void> CliffArguments::check(bool has_error) const {
   return {};
 }
 
-Result<std::optional<Cliffs>> CliffArguments::add_cliffs(const HeightField& field, double max_error,
-                                                         const MemoryShare& memory, LineConstraints& lines) const {
+std::optional<WallGoals> CliffArguments::goals() const {
   if (!height) return std::nullopt;
-  CliffOptions options;
-  options.height = *parse_non_negative("--cliff", *height);
-  options.max_error = max_error;
-  options.affine = lines.affine;
-  options.avoid = lines.lines;
-  options.memory_limit = memory.limit;
-  options.memory_taken = memory.taken;
-  auto cliffs = detect_cliffs(field, options);
-  if (!cliffs) return tl::unexpected(std::move(cliffs.error()));
-  lines.lines.insert(lines.lines.end(), cliffs->lines.begin(), cliffs->lines.end());
-  return std::optional<Cliffs>(std::move(*cliffs));
+  return WallGoals{*parse_non_negative("--cliff", *height)};
 }
 
 Json describe_cliffs(const CliffArguments& given, const std::optional<Cliffs>& cliffs) {

@@ -4,10 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "options/memory.h"
 #include "options/options.h"
 #include "reports/json.h"
-#include "scarp/cliffs.h"
+#include "scarp/features.h"
 
 namespace CLI {
 class App;
@@ -22,9 +21,8 @@ struct CliffArguments {
   /// `has_error`: there is one for all samples, given or to be searched for.
   Result<void> check(bool has_error) const;
   std::string canonical() const { return canonical_option("--cliff", height); }
-  /// Adds the lines of walls to `lines`, around those that are there. Nothing without --cliff.
-  Result<std::optional<Cliffs>> add_cliffs(const HeightField& field, double max_error, const MemoryShare& memory,
-                                           LineConstraints& lines) const;
+  /// Nothing without --cliff.
+  std::optional<WallGoals> goals() const;
 };
 
 /// The "cliffs" object of a report; null without --cliff.

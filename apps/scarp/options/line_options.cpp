@@ -9,7 +9,6 @@
 
 #include "commands/simplify_run.h"
 #include "reports/report.h"
-#include "scarp/edits.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -156,16 +155,6 @@ Result<LineConstraints> LineArguments::read(const RasterInfo& raster, int rows, 
   if (!lines) return tl::unexpected(std::move(lines.error()));
   constraints.lines = std::move(*lines);
   return constraints;
-}
-
-void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field) {
-  if (field.source) {
-    if (!edits.empty()) field.source = edit_source(field.source, edits);
-    return;
-  }
-  for (const SampleEdit& edit : edits)
-    field.samples[static_cast<std::size_t>(edit.row) * static_cast<std::size_t>(field.cols) +
-                  static_cast<std::size_t>(edit.col)] = edit.after;
 }
 
 Json describe_lines(const LineArguments& given, std::uint64_t lines, std::uint64_t laid,

@@ -43,9 +43,6 @@ Result<std::vector<Line>> read_files(const std::vector<std::string>& files, cons
 Result<void> check_frame_of_lines(const LineArguments& given, const Frame& frame, const std::string& crs_option,
                                   const std::string& input);
 
-/// Puts the samples on hard lines at the heights that simplify() gave them.
-void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field);
-
 /// The "breaklines" object of a report; null without lines.
 Json describe_lines(const LineArguments& given, std::uint64_t lines, std::uint64_t laid,
                     const std::vector<SampleEdit>& edits);

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <utility>
 
 #include "commands/simplify_run.h"
-#include "options/memory.h"
 #include "reports/report.h"
 #include "terminal/text.h"
 
@@ -39,25 +37,9 @@ std::string RidgeArguments::canonical() const {
   return canonical_option("--ridges", height) + (are_kept ? " --keep-ridges" : "");
 }
 
-Result<std::optional<Ridges>> RidgeArguments::add_ridges(const HeightField& field, double max_error, int threads,
-                                                         const MemoryShare& memory, const ProgressCallback& progress,
-                                                         LineConstraints& lines) const {
+std::optional<RidgeGoals> RidgeArguments::goals() const {
   if (!height) return std::nullopt;
-  RidgeOptions options;
-  options.height = *parse_non_negative("--ridges", *height);
-  options.max_error = max_error;
-  options.affine = lines.affine;
-  options.avoid = lines.lines;
-  options.are_kept = are_kept;
-  options.threads = threads;
-  options.progress = progress;
-  options.memory_limit = memory.limit;
-  options.memory_taken = memory.taken;
-  auto ridges = detect_ridges(field, options);
-  if (!ridges) return tl::unexpected(std::move(ridges.error()));
-  for (const auto* found : {&ridges->ridges, &ridges->valleys})
-    lines.lines.insert(lines.lines.end(), found->begin(), found->end());
-  return std::optional<Ridges>(std::move(*ridges));
+  return RidgeGoals{*parse_non_negative("--ridges", *height), are_kept};
 }
 
 Json describe_ridges(const RidgeArguments& given, const std::optional<Ridges>& ridges) {

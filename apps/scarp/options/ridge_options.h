@@ -4,10 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "options/memory.h"
 #include "options/options.h"
 #include "reports/json.h"
-#include "scarp/ridges.h"
+#include "scarp/features.h"
 
 namespace CLI {
 class App;
@@ -23,10 +22,8 @@ struct RidgeArguments {
   /// `has_error`: there is one for all samples, given or to be searched for.
   Result<void> check(bool has_error) const;
   std::string canonical() const;
-  /// Adds the lines of ridges and valleys to `lines`, away from those that are there. Nothing without --ridges.
-  Result<std::optional<Ridges>> add_ridges(const HeightField& field, double max_error, int threads,
-                                           const MemoryShare& memory, const ProgressCallback& progress,
-                                           LineConstraints& lines) const;
+  /// Nothing without --ridges.
+  std::optional<RidgeGoals> goals() const;
 };
 
 /// The "ridges" object of a report; null without --ridges.

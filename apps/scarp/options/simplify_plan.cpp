@@ -294,7 +294,7 @@ const char* find_print_obstacle(const SimplifyArguments& given) {
 }
 
 Result<void> plan_solid(const SimplifyArguments& given, SimplifyPlan& plan) {
-  const Result<std::optional<SolidPlan>> solid = given.solid.parse();
+  const Result<std::optional<PrintOptions>> solid = given.solid.parse();
   if (!solid) return tl::unexpected(solid.error());
   plan.solid = *solid;
   if (!plan.solid) return {};

@@ -66,7 +66,7 @@ struct SimplifyPlan {
   double fill_distance = 100;
   float background = 0;
   std::optional<double> base;
-  std::optional<SolidPlan> solid;
+  std::optional<PrintOptions> solid;
   std::optional<std::string> preview, render, error_raster, report;
   bool overwrite = false;
   std::optional<std::uint64_t> memory;       ///< what the process may take

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -25,6 +24,11 @@ std::vector<Pair> split_pairs(const std::string& text) {
   }
   return pairs;
 }
+
+struct Length {
+  double value = 0;
+  bool is_metric = false;  ///< it was given as mm, cm, m or in
+};
 
 /// A length above 0 in millimetres if it has a unit.
 Result<Length> parse_length(const std::string& name, const std::string& text) {
@@ -50,7 +54,7 @@ Result<void> refuse_key(const char* option, const std::string& key, const char* 
   return fail(ErrorKind::kUsage, fmt::format("{} has no key {}: choose {}", option, shell_word(key), keys));
 }
 
-Result<void> take_solid(const Pair& pair, SolidPlan& plan) {
+Result<void> take_solid(const Pair& pair, PrintOptions& plan) {
   const auto& [key, value] = pair;
   const std::string name = "--solid " + key;
   if (key == "walls" && !value) return {};  // a solid always has them
@@ -76,14 +80,15 @@ Result<void> take_solid(const Pair& pair, SolidPlan& plan) {
   const Result<Length> length = parse_length(name, *value);
   if (!length) return tl::unexpected(length.error());
   if (key == "thickness") {
-    plan.thickness = *length;
+    plan.thickness = plan.printed_thickness = std::nullopt;
+    (length->is_metric ? plan.printed_thickness : plan.thickness) = length->value;
   } else {
     plan.size = length->value;
   }
   return {};
 }
 
-Result<void> take_split(const Pair& pair, bool is_first, SolidPlan& plan) {
+Result<void> take_split(const Pair& pair, bool is_first, PrintOptions& plan, bool& is_gap_metric) {
   const auto& [key, value] = pair;
   if (is_first && !value) {
     const std::size_t cross = key.find('x');
@@ -102,7 +107,8 @@ Result<void> take_split(const Pair& pair, bool is_first, SolidPlan& plan) {
   if (key == "gap" && value) {
     const Result<Length> gap = parse_length("--split gap", *value);
     if (!gap) return tl::unexpected(gap.error());
-    plan.gap = *gap;
+    plan.gap = gap->value;
+    is_gap_metric = gap->is_metric;
     return {};
   }
   if (key != "joint" || !value) return refuse_key("--split", key, "joint or gap");
@@ -111,19 +117,6 @@ Result<void> take_split(const Pair& pair, bool is_first, SolidPlan& plan) {
   if (!joint) return tl::unexpected(joint.error());
   plan.dovetail = *joint;
   return {};
-}
-
-/// To six significant digits, if that is below the limit.
-double shorten_below(double value, double limit) {
-  const double shorter = *parse_number("", fmt::format("{:.6g}", value));
-  return shorter < limit ? shorter : value;
-}
-
-/// Down to six significant digits, so that it is short and the print no larger than asked.
-double round_down(double value) {
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 5);
-  const double below = std::floor(value / unit) * unit;
-  return *parse_number("", fmt::format("{:.6g}", below <= value ? below : below - unit));
 }
 
 }  // namespace
@@ -142,65 +135,31 @@ void SolidArguments::add_to(CLI::App& verb) {
       ->group("Output");
 }
 
-Result<std::optional<SolidPlan>> SolidArguments::parse() const {
+Result<std::optional<PrintOptions>> SolidArguments::parse() const {
   if (!solid) {
     if (split) return fail(ErrorKind::kUsage, "--split needs --solid: sheets are solids, such as --solid size=120mm");
-    return std::optional<SolidPlan>();
+    return std::optional<PrintOptions>();
   }
-  SolidPlan plan;
+  PrintOptions plan;
   for (const Pair& pair : split_pairs(*solid)) {
     if (auto taken = take_solid(pair, plan); !taken) return tl::unexpected(taken.error());
   }
-  if (plan.base && plan.thickness)
+  if (plan.base && (plan.thickness || plan.printed_thickness))
     return fail(ErrorKind::kUsage, "--solid base and thickness contradict each other: leave one of them out");
-  bool is_first = true;
+  bool is_first = true, is_gap_metric = false;
   for (const Pair& pair : split ? split_pairs(*split) : std::vector<Pair>()) {
-    if (auto taken = take_split(pair, is_first, plan); !taken) return tl::unexpected(taken.error());
+    if (auto taken = take_split(pair, is_first, plan, is_gap_metric); !taken) return tl::unexpected(taken.error());
     is_first = false;
   }
-  for (const auto& [name, length] :
-       {std::pair{"--solid thickness", &plan.thickness}, std::pair{"--split gap", &plan.gap}}) {
-    if (*length && (*length)->is_metric && !plan.size)
+  for (const auto& [name, is_metric] :
+       {std::pair{"--solid thickness", plan.printed_thickness.has_value()}, std::pair{"--split gap", is_gap_metric}}) {
+    if (is_metric && !plan.size)
       return fail(ErrorKind::kUsage,
                   fmt::format("{} in millimetres needs the size of the print: --solid size=120mm", name));
   }
-  if ((plan.gap || plan.dovetail) && !plan.is_split())
+  if ((plan.gap > 0 || plan.dovetail) && !plan.is_split())
     return fail(ErrorKind::kUsage, "--split 1x1 has no neighbours: leave joint and gap out");
   return std::optional(plan);
-}
-
-Result<SolidPlace> find_place(const SolidPlan& plan, const Mesh& terrain) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::array<double, 3> low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
-  for (std::size_t v = 0; v < terrain.vertex_count(); ++v) {
-    const auto place = terrain.vertex(v);
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], place[k]);
-      high[k] = std::max(high[k], place[k]);
-    }
-  }
-  const double longest = std::max(high[0] - low[0], high[1] - low[1]);
-  const double scale = plan.size ? round_down(*plan.size / longest) : 1;
-  constexpr double kThickness = 0.02;  // of the longest side
-  SolidPlace place;
-  place.placement.scale = {scale, scale, scale * plan.exaggerate};
-  const double up = place.placement.scale[2];
-  if (plan.base) {
-    place.base = *plan.base;
-  } else if (plan.thickness) {
-    const double below = plan.thickness->is_metric ? plan.thickness->value / up : plan.thickness->value;
-    place.base = shorten_below(low[2] - below, low[2]);
-  } else {
-    place.base = shorten_below(low[2] - kThickness * longest * scale / up, low[2]);
-  }
-  if (!(place.base < low[2])) {
-    return fail(
-        ErrorKind::kUsage,
-        fmt::format("--solid base={:.10g} is not below the lowest vertex, which is at {:.10g}: choose a lower one",
-                    place.base, low[2]));
-  }
-  place.placement.origin = {low[0], low[1], place.base};
-  return place;
 }
 
 std::string sheet_path(const std::string& output, int row, int column) {

@@ -22,16 +22,17 @@ std::string describe_place(const std::array<std::int32_t, 2>& at) {
 /// Why the mesh fails by what its errors weigh; nothing if it does not.
 std::optional<std::string> find_excess(const Judged& judged) {
   const double rounding = judged.field.sample_rounding;
-  if (judged.weighted && judged.companions.has_tolerance() && judged.weighted->over > 0) {
-    return fmt::format(
-        "{} above {} tolerance, the worst {:.10g} times {}{}",
-        judged.weighted->over == 1 ? "1 sample is" : format_count(judged.weighted->over) + " samples are",
-        judged.weighted->over == 1 ? "its" : "their", judged.weighted->bounded.value,
-        describe_place(judged.weighted->bounded.at), describe_rounding(rounding));
+  if (judged.judgement.weighted && judged.companions.has_tolerance() && judged.judgement.weighted->over > 0) {
+    return fmt::format("{} above {} tolerance, the worst {:.10g} times {}{}",
+                       judged.judgement.weighted->over == 1
+                           ? "1 sample is"
+                           : format_count(judged.judgement.weighted->over) + " samples are",
+                       judged.judgement.weighted->over == 1 ? "its" : "their", judged.judgement.weighted->bounded.value,
+                       describe_place(judged.judgement.weighted->bounded.at), describe_rounding(rounding));
   }
   if (!judged.fail_above) return std::nullopt;
   const bool has_mask = !judged.companions.mask.empty();
-  const std::optional<WeighedErrors>& errors = has_mask ? judged.weighted : judged.combined;
+  const std::optional<WeighedErrors>& errors = has_mask ? judged.judgement.weighted : judged.judgement.combined;
   if (!errors || errors->over == 0) return std::nullopt;
   return fmt::format("{} max error {:.10g} {}{} exceeds {:.10g}", has_mask ? "weighted" : "combined",
                      errors->bounded.value, describe_place(errors->bounded.at), describe_rounding(rounding),
@@ -67,20 +68,21 @@ std::string describe_weighed(const Judged& judged) {
                              describe_place(channel.max_error_at), format_number(channel.rmse)));
   }
   if (judged.channels.count() > kMostLines) text += line("", "further bands: see --json");
-  if (judged.combined) {
-    text += line("combined", fmt::format("max error {} {} ({})", format_number(judged.combined->largest.value),
-                                         describe_place(judged.combined->largest.at), norm_name(judged.plan.norm)));
+  if (judged.judgement.combined) {
+    text += line("combined",
+                 fmt::format("max error {} {} ({})", format_number(judged.judgement.combined->largest.value),
+                             describe_place(judged.judgement.combined->largest.at), norm_name(judged.plan.norm)));
   }
-  if (judged.weighted) {
+  if (judged.judgement.weighted) {
     const bool has_mask = !judged.companions.mask.empty();
-    text += line("weighted",
-                 fmt::format("{} {} {}, RMS {}", has_mask ? "max error" : "largest error / tolerance",
-                             format_number(judged.weighted->largest.value), describe_place(judged.weighted->largest.at),
-                             format_number(judged.weighted->rmse)));
+    text += line("weighted", fmt::format("{} {} {}, RMS {}", has_mask ? "max error" : "largest error / tolerance",
+                                         format_number(judged.judgement.weighted->largest.value),
+                                         describe_place(judged.judgement.weighted->largest.at),
+                                         format_number(judged.judgement.weighted->rmse)));
   }
-  if (judged.exceptions.count > 0) {
+  if (judged.judgement.ignored > 0) {
     const LargestError bounded = judged.bounded();
-    text += line("samples ignored", format_count(judged.exceptions.count) + ", without a bound");
+    text += line("samples ignored", format_count(judged.judgement.ignored) + ", without a bound");
     text += line("max error, bounded",
                  format_number(bounded.value) + (bounded.at[0] < 0 ? "" : " " + describe_place(bounded.at)));
   }
@@ -92,14 +94,14 @@ std::string describe_pass(const Judged& judged) {
   if (judged.companions.has_tolerance()) kept = "every sample is within its tolerance";
   if (judged.fail_above) {
     const bool has_mask = !judged.companions.mask.empty();
-    const double error = has_mask          ? judged.weighted->bounded.value
-                         : judged.combined ? judged.combined->bounded.value
-                                           : judged.judgement.bounded.value;
+    const double error = has_mask                    ? judged.judgement.weighted->bounded.value
+                         : judged.judgement.combined ? judged.judgement.combined->bounded.value
+                                                     : judged.judgement.bounded.value;
     kept += fmt::format("{}{}max error {}{}{} is within {}", kept.empty() ? "" : ", ",
-                        has_mask          ? "weighted "
-                        : judged.combined ? "combined "
-                                          : "",
-                        format_number(error), judged.exceptions.count > 0 ? " of the bounded samples" : "",
+                        has_mask                    ? "weighted "
+                        : judged.judgement.combined ? "combined "
+                                                    : "",
+                        format_number(error), judged.judgement.ignored > 0 ? " of the bounded samples" : "",
                         describe_rounding(judged.field.sample_rounding), format_number(*judged.fail_above));
   }
   return fmt::format("Passed: {}, every sample is covered, the mesh is sound\n", kept);
@@ -108,17 +110,6 @@ std::string describe_pass(const Judged& judged) {
 }  // namespace
 
 void decide(Judged& judged) {
-  const double bound = judged.fail_above.value_or(HUGE_VAL);
-  if (!judged.channels.empty()) {
-    judged.combined = weigh_errors(judged.judgement, judged.field, judged.channels, {}, judged.exceptions, bound);
-  }
-  if (judged.companions.has_weights()) {
-    const bool has_mask = !judged.companions.mask.empty();
-    judged.weighted = judged.judgement.weighed
-                          ? judged.judgement.weighed
-                          : weigh_errors(judged.judgement, judged.field, judged.channels, judged.companions,
-                                         judged.exceptions, has_mask ? bound : 1);
-  }
   if (!judged.has_verdict()) return;
   judged.broken = find_excess(judged);
   if (judged.broken) return;
@@ -126,9 +117,8 @@ void decide(Judged& judged) {
   Measurement bounded = judged.judgement.heights;
   bounded.max_error = judged.judgement.bounded.value;
   bounded.max_error_at = judged.judgement.bounded.at;
-  judged.broken =
-      find_broken_promise(bounded, judged.field.sample_rounding, bounds_heights ? *judged.fail_above : HUGE_VAL,
-                          judged.judgement.heights.heights, judged.judgement.uncovered_sample);
+  judged.broken = find_broken_promise(bounded, judged.field.sample_rounding,
+                                      bounds_heights ? *judged.fail_above : HUGE_VAL, bounded.heights);
 }
 
 Json make_report(const Judged& judged, const std::string& mesh_path, const CutlineArguments& cutline,
@@ -143,17 +133,17 @@ Json make_report(const Judged& judged, const std::string& mesh_path, const Cutli
   report["triangles"] = judged.judgement.heights.triangles;
   report["full_triangles"] = full_grid_triangles(judged.field);
   if (!judged.plan.image) add_errors(report, judged.judgement.heights, judged.field.sample_rounding);
-  if (judged.weighted) {
-    report["weighted_max_error"] = finite_or_word(judged.weighted->largest.value);
-    report["weighted_rmse"] = finite_or_word(judged.weighted->rmse);
-    if (judged.companions.has_tolerance()) report["over_tolerance"] = judged.weighted->over;
+  if (judged.judgement.weighted) {
+    report["weighted_max_error"] = finite_or_word(judged.judgement.weighted->largest.value);
+    report["weighted_rmse"] = finite_or_word(judged.judgement.weighted->rmse);
+    if (judged.companions.has_tolerance()) report["over_tolerance"] = judged.judgement.weighted->over;
   }
-  if (judged.weighted || !judged.companions.script.empty()) report["ignored"] = judged.exceptions.count;
-  if (judged.exceptions.count > 0) add_bounded(report, judged.bounded());
-  if (judged.combined) {
+  if (judged.judgement.weighted || !judged.companions.script.empty()) report["ignored"] = judged.judgement.ignored;
+  if (judged.judgement.ignored > 0) add_bounded(report, judged.bounded());
+  if (judged.judgement.combined) {
     report["norm"] = norm_name(judged.plan.norm);
     report["height_scale"] = judged.channels.height_scale;
-    report["combined_max_error"] = judged.combined->largest.value;
+    report["combined_max_error"] = judged.judgement.combined->largest.value;
     report["channels"] = describe_channels(judged.channels.names, judged.channels.scales, judged.judgement.channels);
   }
   report["cutline"] = describe_cut(cutline, judged.cut, judged.judgement.heights.cut_off);

@@ -9,8 +9,8 @@
 #include "inputs/companions.h"
 #include "options/cutline_options.h"
 #include "reports/json.h"
-#include "reports/judge.h"
 #include "scarp/height_field.h"
+#include "scarp/judge.h"
 #include "scarp/mesh.h"
 
 namespace scarp::cli {
@@ -20,24 +20,27 @@ struct Judged {
   ChannelPlan plan;
   Channels channels;
   Companions companions;
-  Exceptions exceptions;
   Cut cut;
   Mesh mesh;
   Judgement judgement;
-  std::optional<WeighedErrors> combined;  ///< of heights and channels, compared with fail_above
-  std::optional<WeighedErrors> weighted;  ///< by the mask, compared with fail_above; by the tolerances, with 1
   std::optional<double> fail_above;
   std::optional<std::string> broken;  ///< why the mesh fails; nothing if it passes or nothing was asked
   int band = 1;
   std::vector<std::string> warnings;
   double seconds_read = 0, seconds_measure = 0, seconds_total = 0;
 
+  /// The field with its channels.
+  HeightField view() const {
+    HeightField view = field.view();
+    channels.attach_to(view);
+    return view;
+  }
   /// Of the samples with a bound: the heights' error; of an image, the norm.
-  LargestError bounded() const { return plan.image ? combined->bounded : judgement.bounded; }
+  LargestError bounded() const { return plan.image ? judgement.combined->bounded : judgement.bounded; }
   bool has_verdict() const { return fail_above || companions.has_tolerance(); }
 };
 
-/// Weighs the errors and sets `broken`.
+/// Sets `broken`.
 void decide(Judged& judged);
 
 /// The JSON of --json.

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "reports/json.h"
-#include "reports/judge.h"
 #include "scarp/height_field.h"
+#include "scarp/judge.h"
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
 

@@ -8,10 +8,10 @@
 #include "commands/simplify_run.h"
 #include "inputs/channels.h"
 #include "inputs/companions.h"
-#include "inputs/waters.h"
 #include "options/cutline_options.h"
-#include "reports/judge.h"
+#include "scarp/features.h"
 #include "scarp/height_field.h"
+#include "scarp/judge.h"
 
 namespace scarp::cli {
 
@@ -22,21 +22,13 @@ struct Outcome : SimplifyRun {
   HeightRange heights;  ///< of the samples that were judged
   Channels channels;
   Companions companions;
-  LineConstraints lines;  ///< with shores, rivers and the lines of cliffs and ridges
-  WatersFound waters;
-  std::optional<Cliffs> cliffs;
-  std::optional<Ridges> ridges;
+  Features features;
+  FittedFeatures fitted;  ///< to the max error of the mesh
   Cut cut;
   std::uint64_t filled = 0;
   std::optional<LargestError> bounded;  ///< where samples are ignored: of the others; images: norms
   std::optional<double> bounded_goal;   ///< where a script ignores them: of what the goal bounds
   std::optional<double> psnr;           ///< of the rendering, in dB; +infinity if it is the image
-
-  /// Breaklines and shores.
-  std::uint64_t line_count() const {
-    return lines.lines.size() - (cliffs ? cliffs->lines.size() : 0) -
-           (ridges ? ridges->ridges.size() + ridges->valleys.size() : 0);
-  }
 
   /// The field with its channels.
   HeightField view() const {

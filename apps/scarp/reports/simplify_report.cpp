@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "inputs/waters.h"
 #include "reports/report.h"
 #include "scarp/version.h"
 #include "terminal/text.h"
@@ -136,11 +137,11 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["strategy"]["roi"] = plan.companions.roi.empty() ? Json(nullptr) : Json(plan.companions.roi);
   report["strategy"]["falloff"] = or_null(plan.companions.falloff);
   report["breaklines"] =
-      describe_lines(plan.lines, outcome.line_count(), outcome.simplified.lines_laid, outcome.simplified.edits);
-  report["water"] = describe_lakes(outcome.waters.lakes);
-  report["rivers"] = describe_rivers(outcome.waters.rivers);
-  report["cliffs"] = describe_cliffs(plan.cliff, outcome.cliffs);
-  report["ridges"] = describe_ridges(plan.ridges, outcome.ridges);
+      describe_lines(plan.lines, outcome.fitted.given_lines(), outcome.simplified.lines_laid, outcome.simplified.edits);
+  report["water"] = describe_lakes(outcome.features.lakes);
+  report["rivers"] = describe_rivers(outcome.fitted.rivers);
+  report["cliffs"] = describe_cliffs(plan.cliff, outcome.fitted.walls);
+  report["ridges"] = describe_ridges(plan.ridges, outcome.fitted.ridges);
   report["shape"] = describe_shape(plan.simplify.shape, outcome.simplified);
   report["cutline"] = describe_cut(plan.cut, outcome.cut, outcome.simplified.cut_off);
   report["stopped_by"] = stop_name(outcome.simplified.stop);
@@ -182,11 +183,11 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
       "triangles",
       fmt::format("{}, {} of the full grid's {}", format_count(outcome.triangles),
                   format_share(static_cast<double>(outcome.triangles), static_cast<double>(full)), format_count(full)));
-  text += waters_lines(outcome.waters);
+  text += waters_lines(outcome.features.lakes, outcome.fitted.rivers);
   if (!plan.cut.files.empty()) text += summary_line("cutline", cut_words(outcome.cut, outcome.simplified.cut_off));
-  text += lines_line(outcome.line_count(), outcome.simplified.lines_laid, outcome.simplified.edits);
-  text += cliffs_line(outcome.cliffs);
-  text += ridges_line(outcome.ridges);
+  text += lines_line(outcome.fitted.given_lines(), outcome.simplified.lines_laid, outcome.simplified.edits);
+  text += cliffs_line(outcome.fitted.walls);
+  text += ridges_line(outcome.fitted.ridges);
   text += shape_line(plan.simplify.shape, outcome.simplified);
   text += solid_line(plan, outcome);
   text += describe_errors(plan, outcome);

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "scarp/judge.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -14,20 +13,16 @@ std::string describe_rounding(double sample_rounding) {
   return sample_rounding > 0 ? fmt::format(", and values rounded to float32 by up to {:.3g},", sample_rounding) : "";
 }
 
-double judging_allowance(double bound, const HeightRange& heights) {
-  return 1e-12 * bound + 1e-12 * std::max(std::abs(heights.min), std::abs(heights.max));
-}
-
 std::optional<std::string> find_broken_promise(const Measurement& measured, double sample_rounding, double bound,
-                                               const HeightRange& heights, const std::string& uncovered_sample) {
+                                               const HeightRange& heights) {
   if (!(measured.max_error + sample_rounding <= bound + judging_allowance(bound, heights))) {
     return fmt::format("max error {:.10g} at column {}, row {}{} exceeds {:.10g}", measured.max_error,
                        measured.max_error_at[0], measured.max_error_at[1], describe_rounding(sample_rounding), bound);
   }
   if (measured.uncovered > 0) {
-    return fmt::format("{} covered by no triangle{}",
+    return fmt::format("{} covered by no triangle, the first at column {}, row {}",
                        measured.uncovered == 1 ? "1 sample is" : format_count(measured.uncovered) + " samples are",
-                       uncovered_sample.empty() ? "" : ", " + uncovered_sample);
+                       measured.uncovered_at[0], measured.uncovered_at[1]);
   }
   if (!measured.is_sound()) return "the mesh is not sound: " + list_faults(measured);
   return std::nullopt;

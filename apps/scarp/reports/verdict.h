@@ -9,19 +9,15 @@
 
 namespace scarp::cli {
 
-/// What the judge's max error may exceed `bound` by: the rounding of its own double arithmetic,
-/// 1e-12·bound + 1e-12·max|z|.
-double judging_allowance(double bound, const HeightRange& heights);
-
 /// ", and values rounded to float32 by up to R,": what a max error leaves out; nothing where the samples are the
 /// values.
 std::string describe_rounding(double sample_rounding);
 
 /// The sentence that says why the mesh does not keep `bound` on the values in the raster's file, which lie up to
 /// `sample_rounding` beside the float32 samples that were judged: too large an error and where, samples that no
-/// triangle covers (`uncovered_sample` names one), a fault of its topology. Nothing if it keeps it.
+/// triangle covers and the first of them, a fault of its topology. Nothing if it keeps it.
 std::optional<std::string> find_broken_promise(const Measurement& measured, double sample_rounding, double bound,
-                                               const HeightRange& heights, const std::string& uncovered_sample = {});
+                                               const HeightRange& heights);
 
 /// "1 flipped triangle, 2 overlaps": what is_sound() objects to; empty if it is sound.
 std::string list_faults(const Measurement& measured);

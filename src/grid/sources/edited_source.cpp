@@ -36,4 +36,14 @@ std::shared_ptr<const SampleSource> edit_source(std::shared_ptr<const SampleSour
   return std::make_shared<EditedSource>(std::move(source), std::move(edits));
 }
 
+void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field) {
+  if (field.source) {
+    if (!edits.empty()) field.source = edit_source(field.source, edits);
+    return;
+  }
+  for (const SampleEdit& edit : edits)
+    field.samples[static_cast<std::size_t>(edit.row) * static_cast<std::size_t>(field.cols) +
+                  static_cast<std::size_t>(edit.col)] = edit.after;
+}
+
 }  // namespace scarp

@@ -8,14 +8,10 @@
 
 #include "grid/local_frame.h"
 #include "io/raster/raster_finish.h"
+#include "scarp/degrees.h"
 
 namespace scarp::gdal {
 namespace {
-
-bool is_degenerate(const std::array<double, 6>& a) {
-  const double determinant = a[1] * a[5] - a[2] * a[4];
-  return determinant == 0 || !std::isfinite(determinant) || !std::isfinite(a[0]) || !std::isfinite(a[3]);
-}
 
 /// GDAL's terms are of pixel corners, a Frame's of pixel centres.
 std::array<double, 6> at_centres(const std::array<double, 6>& gt) {
@@ -32,20 +28,17 @@ Position centre_of(const Georeference& geo) {
   return {a[0] + a[1] * col + a[2] * row, a[3] + a[4] * col + a[5] * row};
 }
 
-Ellipsoid ellipsoid_of(const Crs& crs) {
+Geodetic geodetic_of(const Georeference& geo) {
   OGRErr error = OGRERR_NONE;
-  const double semi_major = OSRGetSemiMajor(crs.get(), &error);
-  return {semi_major, OSRGetInvFlattening(crs.get(), &error)};
+  return {OSRGetSemiMajor(geo.crs.get(), &error), OSRGetInvFlattening(geo.crs.get(), &error), geo.unit_in_metres};
 }
 
 /// Metres for one unit of x and one of y at the centre sample; zeros where nothing sensible can be said.
-MetresPerRadian metres_per_unit(const Georeference& geo) {
+MetresPerUnit metres_per_unit(const Georeference& geo) {
   if (!geo.crs) return {};
   if (!geo.geographic) return {geo.unit_in_metres, geo.unit_in_metres};
-  const double latitude = centre_of(geo).y * geo.unit_in_metres;
-  if (!(std::abs(latitude) < std::acos(0.0))) return {};
-  const auto per_radian = metres_per_radian(ellipsoid_of(geo.crs), latitude);
-  return {per_radian.east * geo.unit_in_metres, per_radian.north * geo.unit_in_metres};
+  const auto [east, north] = metres_of_unit(centre_of(geo).y, geodetic_of(geo));
+  return {east, north};
 }
 
 Frame source_frame(const Georeference& geo) {
@@ -83,31 +76,9 @@ void warn_of_distortion(const Georeference& geo, RasterInfo& info) {
   }
 }
 
-Result<Frame> local_frame(const Georeference& geo, RasterInfo& info) {
-  const Position centre = centre_of(geo);
-  const auto metres = metres_per_unit(geo);
-  constexpr double kFlat = 1e-3;  // cos φ nearer to the pole than this is no scale to build on
-  if (!(metres.north > 0) || !(metres.east > kFlat * metres.north)) {
-    return fail(
-        ErrorKind::kUsage,
-        fmt::format("{}: its centre lies at {:.9g}, {:.9g}, at or beyond a pole, where no local frame exists; choose a "
-                    "polar CRS such as EPSG:3413 or EPSG:3031",
-                    info.path, centre.x, centre.y));
-  }
-  const auto& a = geo.samples;
-  Frame frame;
-  frame.kind = Frame::Kind::kLocal;
-  frame.affine = centred_affine({a[1] * metres.east, a[2] * metres.east, a[4] * metres.north, a[5] * metres.north},
-                                geo.cols, geo.rows);
-  if (is_degenerate(frame.affine)) {
-    return fail(ErrorKind::kUsage,
-                fmt::format("{}: its cells are too unequal for a local frame in float32; choose the frame "
-                            "'source'",
-                            info.path));
-  }
-  frame.description = fmt::format("local metres east and north of {:.9g}, {:.9g} ({}), {:.6g} m x {:.6g} m a cell",
-                                  centre.x, centre.y, short_name(geo.crs), std::hypot(frame.affine[1], frame.affine[4]),
-                                  std::hypot(frame.affine[2], frame.affine[5]));
+Result<Frame> metric_frame(const Georeference& geo, RasterInfo& info) {
+  auto frame = local_frame(geo.samples, metres_per_unit(geo), geo.cols, geo.rows, short_name(geo.crs));
+  if (!frame) return fail(frame.error().kind, info.path + ": " + frame.error().message);
   if (geo.geographic) warn_of_distortion(geo, info);
   return frame;
 }
@@ -246,7 +217,7 @@ Result<Frame> choose_frame(const Georeference& geo, const std::string& wanted, R
         "the raster has no CRS, but its coordinates look like degrees, which do not mix with heights: if so, "
         "say so with gdal_edit -a_srs EPSG:4326");
   }
-  if (wanted.empty()) return geo.geographic ? local_frame(geo, info) : source_frame(geo);
+  if (wanted.empty()) return geo.geographic ? metric_frame(geo, info) : source_frame(geo);
   if (wanted == "source") {
     if (geo.geographic) warn_of_degrees(info);
     return source_frame(geo);
@@ -257,7 +228,7 @@ Result<Frame> choose_frame(const Georeference& geo, const std::string& wanted, R
                             "'grid', or give it its CRS first (gdal_edit -a_srs)",
                             info.path, wanted));
   }
-  return wanted == "local" ? local_frame(geo, info) : projected_frame(geo, wanted, info);
+  return wanted == "local" ? metric_frame(geo, info) : projected_frame(geo, wanted, info);
 }
 
 }  // namespace scarp::gdal

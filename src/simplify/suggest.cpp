@@ -7,7 +7,7 @@
 // A large raster is sampled by windows. They are refined together, always the one with the largest error, so that rough
 // windows get the vertices that flat ones do not need, as in the whole raster. Windows have more border for their area
 // than the raster, which makes the estimate a little too large.
-#include "reports/suggest_errors.h"
+#include "scarp/suggest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@
 
 #include "scarp/simplify.h"
 
-namespace scarp::cli {
+namespace scarp {
 namespace {
 
 constexpr std::uint64_t kWholeLimit = 2'000'000;
@@ -41,7 +41,11 @@ int window_start(int k, int n, int side, int length) {
 
 std::vector<Window> choose_windows(const HeightField& field) {
   const std::uint64_t samples = static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(field.rows);
-  if (samples <= kWholeLimit) return {Window{{}, field}};
+  if (samples <= kWholeLimit) {
+    Window whole{{}, field};
+    whole.field.channels.clear();
+    return {whole};
+  }
   const int width = std::min(field.cols, kWindowSide), height = std::min(field.rows, kWindowSide);
   int down = std::clamp(field.rows / height, 1, 4);
   const int across = std::clamp(field.cols / width, 1, kMaxWindows / down);
@@ -123,7 +127,7 @@ class GreedyCurve {
       if (++steps % 512 != 0) continue;
       const Progress now{kPass, kGreedyPart * static_cast<double>(joint.triangles()) / most, joint.vertices(),
                          joint.max_error()};
-      if (!progress(now)) return fail(ErrorKind::kCancelled, "interrupted");
+      if (progress && !progress(now)) return fail(ErrorKind::kCancelled, "interrupted");
     }
     return {};
   }
@@ -156,9 +160,9 @@ Result<double> count_triangles(const std::vector<Window>& windows, double error,
 }
 
 /// Finds the errors, coarse ones first, with which default runs stay within given numbers of triangles.
-class ErrorSearch {
+class ShareSearch {
  public:
-  ErrorSearch(const std::vector<Window>& windows, const GreedyCurve& curve, double sample_rounding)
+  ShareSearch(const std::vector<Window>& windows, const GreedyCurve& curve, double sample_rounding)
       : windows_(windows), curve_(curve), sample_rounding_(sample_rounding) {}
 
   Result<std::optional<double>> find(double target, const ProgressCallback& progress) {
@@ -200,10 +204,24 @@ class ErrorSearch {
   double ratio_ = kUsualRatio;  ///< triangles of a default run per those of greedy insertion, when last seen
 };
 
+Result<void> check_request(const HeightField& field, std::span<const double> shares) {
+  if (field.samples == nullptr)
+    return fail(ErrorKind::kUsage, "errors are suggested for samples in memory: read the raster as a whole");
+  double last = 0;
+  for (const double share : shares) {
+    if (!(share > last) || share > 1)
+      return fail(ErrorKind::kUsage, "shares of the full grid's triangles must ascend, above 0 and at most 1");
+    last = share;
+  }
+  if (shares.empty()) return fail(ErrorKind::kUsage, "no share of the full grid's triangles was given");
+  return {};
+}
+
 }  // namespace
 
 Result<Suggestions> suggest_errors(const HeightField& field, std::span<const double> shares,
                                    const ProgressCallback& progress) {
+  if (auto checked = check_request(field, shares); !checked) return tl::unexpected(checked.error());
   std::vector<Window> windows = choose_windows(field);
   Suggestions suggestions;
   suggestions.is_estimate = !windows.front().samples.empty();
@@ -231,11 +249,13 @@ Result<Suggestions> suggest_errors(const HeightField& field, std::span<const dou
   if (auto followed = curve.follow(joint, shares.back() / kUsualRatio * static_cast<double>(full), progress); !followed)
     return tl::unexpected(followed.error());
   joint = {};
-  ErrorSearch search(valid, curve, field.sample_rounding);
+  ShareSearch search(valid, curve, field.sample_rounding);
   for (std::size_t k = 0; k < shares.size(); ++k) {
     const double done = static_cast<double>(k) / static_cast<double>(shares.size());
     const double fraction = kGreedyPart + (1 - kGreedyPart) * done;
-    const auto report = [&](const Progress& now) { return progress({kPass, fraction, now.vertices, now.max_error}); };
+    const auto report = [&](const Progress& now) {
+      return !progress || progress({kPass, fraction, now.vertices, now.max_error});
+    };
     const auto error = search.find(shares[k] * static_cast<double>(full), report);
     if (!error) return tl::unexpected(error.error());
     suggestions.rows.push_back({shares[k], *error});
@@ -243,4 +263,4 @@ Result<Suggestions> suggest_errors(const HeightField& field, std::span<const dou
   return suggestions;
 }
 
-}  // namespace scarp::cli
+}  // namespace scarp

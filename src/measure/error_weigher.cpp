@@ -1,9 +1,16 @@
-#include "reports/error_weigher.h"
+#include "measure/error_weigher.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace scarp::cli {
+namespace scarp {
+
+double weigh_by_mask(float weight, double error) { return static_cast<double>(weight) * error; }
+double weigh_by_tolerance(float tolerance, double error) {
+  return error == 0 ? 0 : error / static_cast<double>(tolerance);
+}
+
+namespace judge {
 namespace {
 
 double weigh(const ErrorWeigher::Row& row, std::size_t k, double error) {
@@ -12,11 +19,6 @@ double weigh(const ErrorWeigher::Row& row, std::size_t k, double error) {
 }
 
 }  // namespace
-
-double weigh_by_mask(float weight, double error) { return static_cast<double>(weight) * error; }
-double weigh_by_tolerance(float tolerance, double error) {
-  return error == 0 ? 0 : error / static_cast<double>(tolerance);
-}
 
 ErrorWeigher::ErrorWeigher(double bound, double reserve, double allowance)
     : limit_(bound * (1 + std::ldexp(1.0, -23))), reserve_(reserve), allowance_(allowance) {}
@@ -42,4 +44,5 @@ WeighedErrors ErrorWeigher::finish() const {
   return weighed;
 }
 
-}  // namespace scarp::cli
+}  // namespace judge
+}  // namespace scarp

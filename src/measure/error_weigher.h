@@ -1,29 +1,12 @@
 // What errors weigh: under a mask, by tolerances.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 
-namespace scarp::cli {
+#include "scarp/judge.h"
 
-/// The largest of some errors, without sign, and its sample (col, row): none, (−1, −1), if all are 0.
-struct LargestError {
-  double value = 0;
-  std::array<std::int32_t, 2> at{-1, -1};
-};
-
-/// What a bound is compared with: heights' errors or norms, under a mask or tolerances.
-struct WeighedErrors {
-  LargestError largest;    ///< of all judged samples, without their rounding
-  LargestError bounded;    ///< of those with a bound
-  double rmse = 0;         ///< over all judged samples
-  std::uint64_t over = 0;  ///< samples above `bound`, their rounding counted; not those without a bound
-};
-
-/// weight · error, or error / tolerance (0 / 0 is 0).
-double weigh_by_mask(float weight, double error);
-double weigh_by_tolerance(float tolerance, double error);
+namespace scarp::judge {
 
 /// Sums up row after row, from the top.
 class ErrorWeigher {
@@ -37,7 +20,7 @@ class ErrorWeigher {
     std::span<const double> norms = {};     ///< these count in their place, unless it is empty
     std::span<const float> mask = {};       ///< empty: none
     std::span<const float> tolerance = {};  ///< empty: none
-    std::span<const float> limits = {};     ///< as Exceptions::limits; empty: none
+    std::span<const float> limits = {};     ///< above 0: no bound; empty: none
   };
   void add(int row, const Row& values);
   WeighedErrors finish() const;
@@ -49,4 +32,4 @@ class ErrorWeigher {
   std::uint64_t judged_ = 0;
 };
 
-}  // namespace scarp::cli
+}  // namespace scarp::judge

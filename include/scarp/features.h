@@ -1,0 +1,77 @@
+// The land's own lines, declared: what of the land the mesh is to hold, whatever its max error turns out to be.
+//
+// Rivers, walls and ridges are fitted to the max error of the mesh: a coarse mesh needs few vertices along them. With a
+// budget that error is searched for, and the lines are made anew for each run of the search.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "scarp/cliffs.h"
+#include "scarp/height_field.h"
+#include "scarp/lines.h"
+#include "scarp/progress.h"
+#include "scarp/result.h"
+#include "scarp/ridges.h"
+#include "scarp/rivers.h"
+#include "scarp/water.h"
+
+namespace scarp {
+
+/// Walls that the mesh represents by a pair of lines each, see detect_cliffs().
+struct WallGoals {
+  double height = 0;  ///< CliffOptions::height: above 0, in z units
+};
+
+/// Ridges and valleys that the mesh prefers, or keeps, see detect_ridges().
+struct RidgeGoals {
+  double height = 0;      ///< RidgeOptions::height: above 0, in z units
+  bool are_kept = false;  ///< RidgeOptions::are_kept
+};
+
+/// What the mesh is to hold.
+struct Features {
+  /// Lines that do not depend on the error. Their affine map is that of all lines here. DEFAULT: none.
+  LineConstraints breaklines = {};
+  /// What flatten_lakes() or find_flats() made of the field: their shores become lines, rivers flow into them.
+  std::vector<Lake> lakes = {};
+  std::vector<Line> rivers = {};                    ///< courses seen from above, for carve_rivers()
+  std::optional<WallGoals> walls = std::nullopt;    ///< DEFAULT: none
+  std::optional<RidgeGoals> ridges = std::nullopt;  ///< DEFAULT: none
+
+  /// Some lines depend on the max error of the mesh.
+  bool depend_on_error() const { return !rivers.empty() || walls || ridges; }
+  /// The lines that do not: breaklines, then shores.
+  LineConstraints fixed_lines() const;
+};
+
+struct FitOptions {
+  double max_error = 0;            ///< of the mesh to come, in z units, at least 0 and finite
+  int threads = 0;                 ///< 0: all cores; never changes the result
+  ProgressCallback progress = {};  ///< of the pass "ridges"
+  /// Bytes that the process may take, and those that are taken, as in SimplifyOptions. DEFAULT: no limit.
+  std::uint64_t memory_limit = 0, memory_taken = 0;
+};
+
+/// The lines of a mesh of one max error, and where they come from.
+struct FittedFeatures {
+  LineConstraints lines;        ///< for SimplifyOptions::breaklines: breaklines, shores, rivers, walls, ridges, valleys
+  std::vector<River> rivers;    ///< rings, and lines without a height anywhere, are left out
+  std::optional<Cliffs> walls;  ///< nothing where none were asked for
+  std::optional<Ridges> ridges;  ///< nothing where none were asked for
+
+  /// Lines that were given: without those of walls and ridges.
+  std::uint64_t given_lines() const;
+};
+
+/// Makes all lines that a mesh of a max error needs. Courses of rivers leave the exact ones by half of the error at
+/// most; walls are looked for around all lines so far, and ridges around the walls. The same features, field and error
+/// give the same lines. With an error goal call it once, and hand FittedFeatures::lines to simplify() as `breaklines`.
+/// With a budget hand simplify() a `breaklines_for` that calls it; Simplified::lines_for tells the error of the mesh.
+///
+/// Nothing is kept of `field` and `features`. Fails with kUsage for an error below 0 or not finite, and as
+/// carve_rivers(), detect_cliffs() and detect_ridges() do. Cost: theirs.
+Result<FittedFeatures> fit_features(const HeightField& field, const Features& features, const FitOptions& options);
+
+}  // namespace scarp

@@ -1,0 +1,103 @@
+// Judging a mesh by everything that counts: heights, channels, masks, tolerances, samples that are ignored.
+//
+// measure() tells how far a mesh is from the heights. judge_mesh() tells whether it keeps what simplify() promises
+// beside a mask, tolerances, a script or channels. Like measure() it knows nothing of how the mesh was made.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scarp/height_field.h"
+#include "scarp/measure.h"
+#include "scarp/mesh.h"
+#include "scarp/progress.h"
+#include "scarp/result.h"
+#include "scarp/strategy.h"
+
+namespace scarp {
+
+/// The largest of some errors, without sign, and its sample (col, row): (−1, −1) if all are 0.
+struct LargestError {
+  double value = 0;
+  std::array<std::int32_t, 2> at{-1, -1};
+};
+
+/// What a bound is compared with: errors of heights or norms, under a mask or tolerances. Errors are taken as float32.
+struct WeighedErrors {
+  LargestError largest;    ///< of all judged samples, HeightField::sample_rounding not counted
+  LargestError bounded;    ///< of the judged samples that have a bound
+  double rmse = 0;         ///< root of the mean square over all judged samples
+  std::uint64_t over = 0;  ///< samples above their bound, HeightField::sample_rounding counted
+};
+
+/// weight · error.
+double weigh_by_mask(float weight, double error);
+/// error / tolerance; 0 for an error of 0.
+double weigh_by_tolerance(float tolerance, double error);
+
+/// By how much an error that measure() tells may exceed `bound` for the rounding of its own double arithmetic:
+/// 1e-12 · bound + 1e-12 · max |z|.
+double judging_allowance(double bound, const HeightRange& heights);
+
+struct JudgeOptions {
+  /// As SimplifyOptions::mask: weights, one a sample. A sample of weight 0 has no bound. Borrowed. DEFAULT: none.
+  std::span<const float> mask = {};
+  /// As SimplifyOptions::tolerance: bounds, one a sample, in z units, +infinity for none. Not together with a mask.
+  /// Borrowed. DEFAULT: none.
+  std::span<const float> tolerance = {};
+  /// The same, read in windows, in place of the above. Borrowed. DEFAULT: none.
+  const SampleSource* tolerance_source = nullptr;
+  /// As SimplifyOptions::script: samples that its steps ignore have no bound; the other steps do not matter. Borrowed.
+  std::span<const ScriptStep> script = {};
+  /// The bound of all samples, at least 0: of the weighted error under a mask, of the norm with channels, else of the
+  /// height. Beside tolerances it bounds samples whose tolerance is infinite too. DEFAULT: none.
+  std::optional<double> max_error = std::nullopt;
+  /// How a sample's errors in heights and channels become one.
+  Norm norm = Norm::kSum;
+  const Cutline* cutline = nullptr;  ///< as MeasureOptions::cutline. Borrowed.
+  bool topology = true;              ///< as MeasureOptions::topology
+  /// False: Judgement::combined and weighted are left out, and Judgement::ignored where there is a tolerance_source.
+  /// This saves a pass over that source, and the memory of errors. DEFAULT: true.
+  bool weigh = true;
+  bool keep_errors = false;  ///< fill Judgement::height_errors and norms. DEFAULT: false.
+  int threads = 0;           ///< 0: all cores. Never changes the result.
+  ProgressCallback progress = {};
+};
+
+struct Judgement {
+  Measurement heights;                ///< without offenders and over_tolerance
+  std::vector<Measurement> channels;  ///< of each channel, in its own units; without topology
+  std::uint64_t ignored = 0;          ///< valid samples without a bound: by the script, weight 0, an infinite tolerance
+  LargestError bounded;               ///< error of heights, over covered samples that are not ignored
+  std::optional<WeighedErrors> combined;  ///< with channels: norms, compared with max_error
+  /// With a mask: weighted errors, compared with max_error. With tolerances: error / tolerance, compared with 1. With
+  /// channels the errors are norms.
+  std::optional<WeighedErrors> weighted;
+  std::vector<float> height_errors;  ///< kept: mesh − sample, one a sample; NaN where void or uncovered
+  std::vector<double> norms;         ///< kept, with channels: of all errors of a sample, one a sample
+};
+
+/// Judges heights, then each channel as if it were the height, then what both weigh. A sample is above its bound by
+/// more than the rounding of the judge: 1e-12 of the largest value, and 2⁻²³ of the bound, since errors are float32.
+///
+/// `mesh` has as many channels as `field`, values in Mesh::channels. Nothing is kept of what is borrowed. A field with
+/// a source, and a tolerance_source, are read in bands of rows; where some errors are above their tolerance, twice.
+/// Fails with kUsage for a mask or tolerances of another size than the field, both at once, a max_error below 0,
+/// another number of channels than the mesh has, channels, a mask, an array of tolerances or a script beside a field
+/// with a source, and a script step outside the raster; and as measure() and the sources do. Memory: as measure();
+/// beside a mask, an array of tolerances, channels or keep_errors 4 bytes a sample, 8 more with channels, 4 more where
+/// samples are ignored. Cost: as measure(), once for the heights and once a channel.
+Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const JudgeOptions& options = {});
+
+/// What take_error_raster() hands out.
+enum class ErrorsOf {
+  kHeights,  ///< signed errors of the heights
+  kNorms,    ///< norms over heights and channels; as heights without channels
+};
+/// The kept errors as a raster, NaN where void or uncovered. REQUIRES: JudgeOptions::keep_errors.
+std::vector<float> take_error_raster(Judgement judgement, ErrorsOf of);
+
+}  // namespace scarp

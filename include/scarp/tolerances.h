@@ -1,0 +1,52 @@
+// One tolerance a sample, made of a raster of tolerances, regions of interest, or both: the smallest one counts.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scarp/height_field.h"
+#include "scarp/progress.h"
+#include "scarp/regions.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+struct ToleranceOptions {
+  /// True: Tolerances::source makes them where they are read, for heights that have a source. False: Tolerances::values
+  /// holds them, for heights in memory. DEFAULT: false.
+  bool in_windows = false;
+  int threads = 1;                 ///< of those that will read windows; as SimplifyOptions::threads
+  ProgressCallback progress = {};  ///< of the pass "read", where a raster is looked through for windows
+};
+
+/// A tolerance for each sample, in z units, at least 0; +infinity: none.
+struct Tolerances {
+  std::vector<float> values;                   ///< for SimplifyOptions::tolerance; empty where they have a source
+  std::shared_ptr<const SampleSource> source;  ///< for SimplifyOptions::tolerance_source; null where they are values
+  std::vector<bool> found;                     ///< by region, whether any part of it lies in the raster
+  std::uint64_t bytes = 0;                     ///< of memory that the regions take, where there is a source
+};
+
+/// Makes the tolerances of `raster` and of `regions`. A value of the raster that was rounded to float32
+/// (sample_rounding) is rounded towards 0, so that no tolerance is above the one in its file; a sample without a value
+/// has no tolerance. `grid`: of the heights, with what holds beyond the regions, as region_tolerances() takes it. At
+/// least one of raster and regions is given.
+///
+/// `raster` lies on the grid of the heights: find_grid_difference() tells. It is taken over; the regions are not needed
+/// any more then. Read in windows it is looked through once, at once.
+/// Fails with kUsage without raster and regions, for a raster of another size than the grid, and for one with a source
+/// where values are asked for; with kInput, naming the raster's file, for a negative value and where no sample has one;
+/// as the raster's source does; with kCancelled. REQUIRES: of the grid as region_tolerances(), where there are regions.
+/// Cost: O(samples) for the raster; for regions that of region_tolerances() or make_region_bounds().
+Result<Tolerances> make_tolerances(std::optional<OwnedHeightField> raster, std::span<const Region> regions,
+                                   const RegionGrid& grid, const ToleranceOptions& options = {});
+
+/// Weights for SimplifyOptions::mask of a raster of weights, whose samples are in memory: 0 where it has no value; all
+/// divided by the largest if that is above 1. Fails with kInput, naming the raster's file, for a negative weight and
+/// where no weight is above 0; with kUsage for a raster with a source. Cost: O(samples).
+Result<std::vector<float>> make_weights(OwnedHeightField raster);
+
+}  // namespace scarp

@@ -1,0 +1,386 @@
+// What has a bound is found first, as limits of 0 or infinity, so that measure() tells the largest errors of the rest.
+// Errors are then weighed: row by row as they are found where tolerances are read in windows, else when they are all
+// in.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "measure/error_weigher.h"
+#include "scarp/judge.h"
+
+namespace scarp {
+namespace {
+
+using judge::ErrorWeigher;
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoBound = std::numeric_limits<float>::infinity();
+
+std::size_t count_samples(const HeightField& field) {
+  return static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
+}
+
+/// REQUIRES: samples in memory.
+bool is_void(const HeightField& field, std::size_t sample) {
+  const float z = field.samples[sample];
+  return !std::isfinite(z) || (field.nodata && z == *field.nodata);
+}
+
+/// 0 where there is a bound, +infinity where there is none.
+class BoundLimits final : public SampleSource {
+ public:
+  explicit BoundLimits(const SampleSource& bounds) : bounds_(bounds) {}
+
+  Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
+    if (auto read = bounds_.read(col, row, cols, rows, out, stride); !read) return read;
+    for (int y = 0; y < rows; ++y) {
+      for (float* to = out + y * stride; to != out + y * stride + cols; ++to) *to = *to == kNoBound ? kNoBound : 0;
+    }
+    return {};
+  }
+  bool is_in_memory() const override { return bounds_.is_in_memory(); }
+
+ private:
+  const SampleSource& bounds_;
+};
+
+/// The valid samples without a bound.
+struct Exceptions {
+  std::vector<float> limits;            ///< +infinity for them, 0 for the others; empty if there are none
+  std::unique_ptr<BoundLimits> source;  ///< the same in windows; null if there are none
+  std::uint64_t count = 0;
+};
+
+/// The heights without a bound. Both are read once through.
+Result<std::uint64_t> count_unbounded(const HeightField& field, const SampleSource& bounds) {
+  constexpr int kSamples = 1 << 18;
+  const int together = std::clamp(kSamples / field.cols, 1, field.rows);
+  const auto cols = static_cast<std::size_t>(field.cols);
+  std::vector<float> heights, tolerance;
+  std::uint64_t count = 0;
+  for (int row = 0; row < field.rows; row += together) {
+    const int rows = std::min(together, field.rows - row);
+    const std::size_t first = static_cast<std::size_t>(row) * cols, size = static_cast<std::size_t>(rows) * cols;
+    tolerance.resize(size);
+    if (auto read = bounds.read(0, row, field.cols, rows, tolerance.data(), field.cols); !read)
+      return tl::unexpected(read.error());
+    if (field.source != nullptr) {
+      heights.resize(size);
+      if (auto read = field.source->read(0, row, field.cols, rows, heights.data(), field.cols); !read)
+        return tl::unexpected(read.error());
+    }
+    for (std::size_t k = 0; k < size; ++k) {
+      const bool is_height = field.source != nullptr ? std::isfinite(heights[k]) : !is_void(field, first + k);
+      count += tolerance[k] == kNoBound && is_height;
+    }
+  }
+  return count;
+}
+
+Result<Exceptions> find_exceptions(const HeightField& field, const JudgeOptions& options) {
+  Exceptions found;
+  if (options.tolerance_source != nullptr) {
+    if (options.max_error) return found;
+    if (options.weigh) {
+      const auto count = count_unbounded(field, *options.tolerance_source);
+      if (!count) return tl::unexpected(count.error());
+      found.count = *count;
+      if (*count == 0) return found;
+    }
+    found.source = std::make_unique<BoundLimits>(*options.tolerance_source);
+    return found;
+  }
+  const auto ignores = [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; };
+  const bool has_ignored = std::any_of(options.script.begin(), options.script.end(), ignores);
+  if (options.mask.empty() && options.tolerance.empty() && !has_ignored) return found;
+  found.limits.resize(count_samples(field), 0);
+  for (std::size_t k = 0; k < options.mask.size(); ++k) {
+    if (options.mask[k] == 0) found.limits[k] = kNoBound;
+  }
+  for (std::size_t k = 0; k < options.tolerance.size() && !options.max_error; ++k) {
+    if (std::isinf(options.tolerance[k])) found.limits[k] = kNoBound;
+  }
+  for (const ScriptStep& step : options.script) {
+    if (!ignores(step)) continue;
+    found.limits[static_cast<std::size_t>(step.row) * static_cast<std::size_t>(field.cols) +
+                 static_cast<std::size_t>(step.col)] = kNoBound;
+  }
+  for (std::size_t k = 0; k < found.limits.size(); ++k) found.count += found.limits[k] > 0 && !is_void(field, k);
+  if (found.count == 0) found.limits.clear();
+  return found;
+}
+
+/// The largest error of a covered sample; the lowest row, then column, among equals.
+LargestError find_largest(const std::vector<Offender>& offenders) {
+  LargestError largest;
+  for (const Offender& offender : offenders) {
+    const double error = std::abs(offender.error);
+    if (std::isinf(error) || error < largest.value) continue;
+    const bool is_earlier = std::pair(offender.row, offender.col) < std::pair(largest.at[1], largest.at[0]);
+    if (error > largest.value || is_earlier) largest = {error, {offender.col, offender.row}};
+  }
+  return largest;
+}
+
+/// Adds |scaled error| to each sample's norm: squares until they are all in. A missing error adds nothing.
+void add_to_norms(std::span<double> norms, std::span<const float> errors, double scale, Norm norm) {
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    if (std::isnan(errors[k])) continue;
+    const double error = scale * std::abs(static_cast<double>(errors[k]));
+    if (norm == Norm::kSum) norms[k] += error;
+    if (norm == Norm::kSquares) norms[k] += error * error;
+    if (norm == Norm::kMax) norms[k] = std::max(norms[k], error);
+  }
+}
+
+/// Judges one channel as a height: void where the height is.
+class ChannelJudge {
+ public:
+  ChannelJudge(const HeightField& heights, const Mesh& mesh) : heights_(heights), mesh_(mesh) {
+    shape_.origin = {mesh.origin[0], mesh.origin[1], 0};
+    shape_.positions = mesh.positions;
+    shape_.triangles = mesh.triangles;
+  }
+
+  Result<Measurement> judge(std::size_t channel, const MeasureOptions& options) {
+    const float* band = heights_.channels[channel].samples;
+    samples_.assign(band, band + count_samples(heights_));
+    for (std::size_t k = 0; k < samples_.size(); ++k) {
+      if (is_void(heights_, k)) samples_[k] = kNaN;
+    }
+    const auto count = static_cast<std::size_t>(mesh_.channel_count);
+    for (std::size_t v = 0; v < shape_.vertex_count(); ++v) {
+      shape_.positions[3 * v + 2] = static_cast<double>(mesh_.channels[count * v + channel]);
+    }
+    const HeightField field{samples_.data(), heights_.cols, heights_.rows, std::nullopt, heights_.frame, 0, {}, 1};
+    return measure(field, shape_, options);
+  }
+
+ private:
+  const HeightField& heights_;
+  const Mesh& mesh_;
+  Mesh shape_;
+  std::vector<float> samples_;
+};
+
+/// What the judge's own arithmetic may have rounded.
+double rounding_of(const HeightRange& range, double magnitude) {
+  return 1e-12 * (std::max(std::abs(range.min), std::abs(range.max)) + magnitude);
+}
+
+/// The largest norm of the scaled values of the channels, at most.
+double magnitude_of(const HeightField& field) {
+  double magnitude = 0;
+  for (const Channel& channel : field.channels) {
+    double largest = 0;
+    for (std::size_t k = 0; k < count_samples(field); ++k) {
+      if (std::isfinite(channel.samples[k])) largest = std::max(largest, std::abs(double{channel.samples[k]}));
+    }
+    magnitude += channel.scale * largest;
+  }
+  return magnitude;
+}
+
+/// Weighs rows as they are judged, by tolerances that are read along with them.
+class RowWeigher {
+ public:
+  RowWeigher(const HeightField& heights, const SampleSource& tolerances, double allowance)
+      : cols_(heights.cols),
+        rows_(heights.rows),
+        tolerances_(tolerances),
+        weigher_(1, heights.sample_rounding, allowance) {}
+
+  void add(int row, std::span<const float> errors) {
+    if (!read_) return;
+    const auto size = static_cast<std::size_t>(cols_);
+    if (row >= end_) {
+      constexpr int kSamples = 1 << 18;
+      const int count = std::min(std::max(1, kSamples / cols_), rows_ - row);
+      held_.resize(static_cast<std::size_t>(count) * size);
+      read_ = tolerances_.read(0, row, cols_, count, held_.data(), cols_);
+      if (!read_) return;
+      first_ = row;
+      end_ = row + count;
+    }
+    const std::size_t at = static_cast<std::size_t>(row - first_) * size;
+    weigher_.add(row, {.errors = errors, .tolerance = std::span<const float>(held_).subspan(at, size)});
+  }
+  Result<WeighedErrors> finish() const {
+    if (!read_) return tl::unexpected(read_.error());
+    return weigher_.finish();
+  }
+
+ private:
+  int cols_, rows_;
+  const SampleSource& tolerances_;
+  ErrorWeigher weigher_;
+  std::vector<float> held_;  // rows [first_, end_)
+  int first_ = 0, end_ = 0;
+  Result<void> read_;
+};
+
+/// Measures, and weighs by tolerances that are read along. Fails as the sources do.
+Result<Measurement> measure_and_weigh(const HeightField& heights, const Mesh& mesh, const SampleSource& tolerances,
+                                      double allowance, MeasureOptions options, std::optional<WeighedErrors>& weighed) {
+  RowWeigher rows(heights, tolerances, allowance);
+  options.on_row = [&, keep = options.on_row](int row, std::span<const float> errors) {
+    if (keep) keep(row, errors);
+    rows.add(row, errors);
+  };
+  Result<Measurement> measured = measure(heights, mesh, options);
+  if (!measured) return measured;
+  Result<WeighedErrors> found = rows.finish();
+  if (!found) return tl::unexpected(std::move(found.error()));
+  weighed = *found;
+  return measured;
+}
+
+Result<void> check_request(const HeightField& field, const Mesh& mesh, const JudgeOptions& options) {
+  const std::size_t samples = count_samples(field);
+  for (const auto& [values, name] : {std::pair{options.mask, "mask"}, std::pair{options.tolerance, "tolerance"}}) {
+    if (!values.empty() && values.size() != samples)
+      return fail(ErrorKind::kUsage, fmt::format("a {} of {} values for {} samples", name, values.size(), samples));
+  }
+  const int bounds = !options.mask.empty() + !options.tolerance.empty() + (options.tolerance_source != nullptr);
+  if (bounds > 1) return fail(ErrorKind::kUsage, "a mask and tolerances, or tolerances twice: give one of them");
+  if (options.max_error && !(*options.max_error >= 0))
+    return fail(ErrorKind::kUsage, fmt::format("a max error of {}: it must be at least 0", *options.max_error));
+  const bool needs_samples = !field.channels.empty() || !options.mask.empty() || !options.tolerance.empty();
+  if (field.samples == nullptr && (needs_samples || !options.script.empty()))
+    return fail(ErrorKind::kUsage,
+                "channels, masks, scripts and arrays of tolerances go with samples in memory: read the raster as a "
+                "whole, or give the tolerances a source");
+  if (!field.channels.empty() && field.channels.size() != static_cast<std::size_t>(mesh.channel_count))
+    return fail(ErrorKind::kUsage,
+                fmt::format("the mesh has {} channels, the field {}", mesh.channel_count, field.channels.size()));
+  for (const ScriptStep& step : options.script) {
+    if (step.col < 0 || step.row < 0 || step.col >= field.cols || step.row >= field.rows)
+      return fail(ErrorKind::kUsage,
+                  fmt::format("the script names column {}, row {}, outside the raster", step.col, step.row));
+  }
+  return {};
+}
+
+/// Weighs errors that were kept.
+class Scales {
+ public:
+  Scales(const HeightField& field, const Judgement& judgement, const Exceptions& exceptions)
+      : field_(field),
+        judgement_(judgement),
+        exceptions_(exceptions),
+        reserve_(field.sample_rounding * (field.channels.empty() ? 1 : field.height_scale)),
+        allowance_(rounding_of(judgement.heights.heights, magnitude_of(field))) {}
+
+  WeighedErrors weigh(std::span<const float> mask, std::span<const float> tolerance, double bound) const {
+    ErrorWeigher weigher(bound, reserve_, allowance_);
+    const auto cols = static_cast<std::size_t>(field_.cols);
+    for (int row = 0; row < field_.rows; ++row) {
+      const auto row_of = [&](auto values) {
+        return values.empty() ? values : values.subspan(static_cast<std::size_t>(row) * cols, cols);
+      };
+      weigher.add(row, {row_of(std::span(judgement_.height_errors)), row_of(std::span(judgement_.norms)), row_of(mask),
+                        row_of(tolerance), row_of(std::span(exceptions_.limits))});
+    }
+    return weigher.finish();
+  }
+
+ private:
+  const HeightField& field_;
+  const Judgement& judgement_;
+  const Exceptions& exceptions_;
+  double reserve_, allowance_;
+};
+
+}  // namespace
+
+double judging_allowance(double bound, const HeightRange& heights) {
+  return 1e-12 * bound + 1e-12 * std::max(std::abs(heights.min), std::abs(heights.max));
+}
+
+Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const JudgeOptions& request) {
+  if (auto sound = check_request(field, mesh, request); !sound) return tl::unexpected(sound.error());
+  const auto exceptions = find_exceptions(field, request);
+  if (!exceptions) return tl::unexpected(exceptions.error());
+  const bool has_channels = !field.channels.empty();
+  const bool weighs_later = request.weigh && (has_channels || !request.mask.empty() || !request.tolerance.empty());
+  const SampleSource* weigh_by = request.weigh ? request.tolerance_source : nullptr;
+  const bool keeps = request.keep_errors || weighs_later;
+  const auto cols = static_cast<std::size_t>(field.cols);
+  Judgement judgement;
+  judgement.ignored = exceptions->count;
+  if (keeps) judgement.height_errors.resize(count_samples(field), kNaN);
+  if (keeps && has_channels) judgement.norms.resize(count_samples(field), 0);
+
+  MeasureOptions options;
+  options.threads = request.threads;
+  options.progress = request.progress;
+  options.topology = request.topology;
+  options.cutline = request.cutline;
+  options.tolerance = exceptions->limits;
+  options.tolerance_source = exceptions->source.get();
+  const bool has_exceptions = !options.tolerance.empty() || options.tolerance_source != nullptr;
+  const auto keep_errors = [&](int row, std::span<const float> errors) {
+    const std::size_t start = static_cast<std::size_t>(row) * cols;
+    std::copy(errors.begin(), errors.end(), judgement.height_errors.begin() + static_cast<std::ptrdiff_t>(start));
+    if (judgement.norms.empty()) return;
+    add_to_norms(std::span(judgement.norms).subspan(start, cols), errors, field.height_scale, request.norm);
+  };
+  if (keeps) options.on_row = keep_errors;
+  Result<Measurement> measured = weigh_by == nullptr
+                                     ? measure(field, mesh, options)
+                                     : measure_and_weigh(field, mesh, *weigh_by, 0, options, judgement.weighted);
+  if (!measured) return tl::unexpected(std::move(measured.error()));
+  judgement.heights = std::move(*measured);
+  const std::vector<Offender> offenders = std::exchange(judgement.heights.offenders, {});
+  judgement.heights.over_tolerance = 0;
+  judgement.bounded = has_exceptions ? find_largest(offenders)
+                                     : LargestError{judgement.heights.max_error, judgement.heights.max_error_at};
+
+  options.topology = false;
+  options.tolerance = {};
+  options.tolerance_source = nullptr;
+  options.on_row = {};
+  if (judgement.weighted && judgement.weighted->over > 0) {
+    const auto again = measure_and_weigh(field, mesh, *weigh_by, rounding_of(judgement.heights.heights, 0), options,
+                                         judgement.weighted);
+    if (!again) return tl::unexpected(again.error());
+  }
+  ChannelJudge channel_judge(field, mesh);
+  for (std::size_t k = 0; k < field.channels.size(); ++k) {
+    options.on_row = [&, k](int row, std::span<const float> errors) {
+      if (judgement.norms.empty()) return;
+      const std::size_t start = static_cast<std::size_t>(row) * cols;
+      add_to_norms(std::span(judgement.norms).subspan(start, cols), errors, field.channels[k].scale, request.norm);
+    };
+    measured = channel_judge.judge(k, options);
+    if (!measured) return tl::unexpected(std::move(measured.error()));
+    judgement.channels.push_back(std::move(*measured));
+  }
+  if (request.norm == Norm::kSquares) {
+    for (double& value : judgement.norms) value = std::sqrt(value);
+  }
+  if (!weighs_later) return judgement;
+
+  const Scales scales(field, judgement, *exceptions);
+  const double bound = request.max_error.value_or(HUGE_VAL);
+  if (has_channels) judgement.combined = scales.weigh({}, {}, bound);
+  if (!request.mask.empty()) judgement.weighted = scales.weigh(request.mask, {}, bound);
+  if (!request.tolerance.empty()) judgement.weighted = scales.weigh({}, request.tolerance, 1);
+  if (!request.keep_errors) judgement.height_errors = {}, judgement.norms = {};
+  return judgement;
+}
+
+std::vector<float> take_error_raster(Judgement judgement, ErrorsOf of) {
+  std::vector<float> errors = std::move(judgement.height_errors);
+  if (of == ErrorsOf::kHeights) return errors;
+  for (std::size_t k = 0; k < judgement.norms.size(); ++k) {
+    if (!std::isnan(errors[k])) errors[k] = static_cast<float>(judgement.norms[k]);
+  }
+  return errors;
+}
+
+}  // namespace scarp

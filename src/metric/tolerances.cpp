@@ -1,0 +1,195 @@
+#include "scarp/tolerances.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "base/clock.h"
+
+namespace scarp {
+namespace {
+
+constexpr float kUnbounded = std::numeric_limits<float>::infinity();
+
+/// Rows of so many samples at a time.
+int rows_of(int samples, int cols) { return std::max(1, samples / cols); }
+
+/// The tolerance that a value of a raster means; `is_rounded`: to float32, so that it may be above the file's.
+float tolerance_of_value(float value, bool is_rounded) {
+  if (std::isnan(value)) return kUnbounded;
+  return is_rounded ? std::nextafter(value, 0.0F) : value;  // not above the value in the file
+}
+
+/// Of a raster that was opened.
+class RasterTolerances final : public SampleSource {
+ public:
+  explicit RasterTolerances(OwnedHeightField values) : values_(std::move(values)) {}
+
+  Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
+    if (values_.source) {
+      if (auto read = values_.source->read(col, row, cols, rows, out, stride); !read) return read;
+    }
+    const bool is_rounded = values_.sample_rounding > 0;
+    for (int y = 0; y < rows; ++y) {
+      float* to = out + y * stride;
+      if (!values_.source) std::copy_n(&values_.samples[index(col, row + y)], cols, to);
+      for (int x = 0; x < cols; ++x) to[x] = tolerance_of_value(to[x], is_rounded);
+    }
+    return {};
+  }
+  bool is_in_memory() const override { return !values_.source || values_.source->is_in_memory(); }
+
+ private:
+  std::size_t index(int col, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(values_.cols) + static_cast<std::size_t>(col);
+  }
+  OwnedHeightField values_;
+};
+
+class LeastTolerances final : public SampleSource {
+ public:
+  LeastTolerances(std::shared_ptr<const SampleSource> a, std::shared_ptr<const SampleSource> b)
+      : a_(std::move(a)), b_(std::move(b)) {}
+
+  Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
+    if (auto read = a_->read(col, row, cols, rows, out, stride); !read) return read;
+    constexpr int kSamples = 1 << 14;
+    const int most = std::min(rows_of(kSamples, cols), rows);
+    std::vector<float> other(static_cast<std::size_t>(most) * static_cast<std::size_t>(cols));
+    for (int first = 0; first < rows; first += most) {
+      const int count = std::min(most, rows - first);
+      if (auto read = b_->read(col, row + first, cols, count, other.data(), cols); !read) return read;
+      for (int y = 0; y < count; ++y) {
+        float* to = out + (first + y) * stride;
+        const float* from = other.data() + static_cast<std::ptrdiff_t>(y) * cols;
+        for (int x = 0; x < cols; ++x) to[x] = std::min(to[x], from[x]);
+      }
+    }
+    return {};
+  }
+  bool is_in_memory() const override { return a_->is_in_memory() && b_->is_in_memory(); }
+
+ private:
+  std::shared_ptr<const SampleSource> a_, b_;
+};
+
+tl::unexpected<Error> refuse_negative(const OwnedHeightField& raster, float value, int row, std::size_t behind) {
+  const auto at = static_cast<std::int64_t>(behind);
+  return fail(ErrorKind::kInput, fmt::format("{}: the value {} at column {}, row {} is negative: it must be at least 0",
+                                             raster.info.path, value, at % raster.cols, row + at / raster.cols));
+}
+
+/// Reports how far a raster has been looked through, now and then.
+class LookProgress {
+ public:
+  explicit LookProgress(const ProgressCallback& progress) : progress_(progress) {}
+  Result<void> report(const OwnedHeightField& raster, int row) {
+    constexpr double kSecondsBetween = 0.1;
+    if (!progress_ || seconds_since(last_) < kSecondsBetween) return {};
+    last_ = Clock::now();
+    Progress now;
+    now.pass = "read";
+    now.fraction = static_cast<double>(row) / raster.rows;
+    if (progress_(now)) return {};
+    return fail(ErrorKind::kCancelled, raster.info.path + ": reading was cancelled");
+  }
+
+ private:
+  const ProgressCallback& progress_;
+  Clock::time_point last_ = Clock::now();
+};
+
+/// Looks at all values, some rows at a time, from the top: refuses one below 0, or none at all.
+Result<void> look_through(const OwnedHeightField& raster, const ProgressCallback& progress) {
+  constexpr int kSamples = 1 << 18;
+  const int most = rows_of(kSamples, raster.cols);
+  std::vector<float> buffer;
+  std::uint64_t valid = 0;
+  LookProgress look(progress);
+  for (int row = 0, rows; row < raster.rows; row += rows) {
+    rows = std::min(most, raster.rows - row);
+    const std::size_t size = static_cast<std::size_t>(rows) * static_cast<std::size_t>(raster.cols);
+    std::span<const float> values;
+    if (raster.source) {
+      buffer.resize(size);
+      if (auto read = raster.source->read(0, row, raster.cols, rows, buffer.data(), raster.cols); !read) return read;
+      values = buffer;
+    } else {
+      values = {raster.samples.data() + static_cast<std::ptrdiff_t>(row) * raster.cols, size};
+    }
+    for (std::size_t k = 0; k < size; ++k) {
+      if (values[k] < 0) return refuse_negative(raster, values[k], row, k);
+      valid += !std::isnan(values[k]);
+    }
+    if (auto go_on = look.report(raster, row); !go_on) return go_on;
+  }
+  if (valid > 0) return {};
+  return fail(ErrorKind::kInput,
+              fmt::format("{}: none of its {} x {} samples has a value", raster.info.path, raster.cols, raster.rows));
+}
+
+}  // namespace
+
+Result<Tolerances> make_tolerances(std::optional<OwnedHeightField> raster, std::span<const Region> regions,
+                                   const RegionGrid& grid, const ToleranceOptions& options) {
+  if (!raster && regions.empty())
+    return fail(ErrorKind::kUsage, "tolerances are made of a raster or of regions, and there are none");
+  if (raster && (raster->cols != grid.cols || raster->rows != grid.rows))
+    return fail(ErrorKind::kUsage, fmt::format("{} is {} x {} samples instead of {} x {}", raster->info.path,
+                                               raster->cols, raster->rows, grid.cols, grid.rows));
+  if (raster && raster->source && !options.in_windows)
+    return fail(ErrorKind::kUsage, raster->info.path + " is not in memory: ask for tolerances in windows");
+  if (raster) {
+    const ProgressCallback& progress = options.in_windows ? options.progress : ProgressCallback();
+    if (auto sound = look_through(*raster, progress); !sound) return tl::unexpected(sound.error());
+  }
+
+  Tolerances made;
+  if (options.in_windows) {
+    if (raster) made.source = std::make_shared<RasterTolerances>(std::move(*raster));
+    if (regions.empty()) return made;
+    RegionBounds bounds = make_region_bounds(regions, grid, options.threads);
+    made.source = made.source ? std::make_shared<LeastTolerances>(std::move(bounds.source), std::move(made.source))
+                              : std::move(bounds.source);
+    made.found = std::move(bounds.found);
+    made.bytes = bounds.bytes;
+    return made;
+  }
+  if (raster) {
+    const bool is_rounded = raster->sample_rounding > 0;
+    made.values = std::move(raster->samples);
+    for (float& value : made.values) value = tolerance_of_value(value, is_rounded);
+  }
+  if (regions.empty()) return made;
+  std::vector<float> bounds = region_tolerances(regions, grid, &made.found);
+  if (made.values.empty()) {
+    made.values = std::move(bounds);
+  } else {
+    for (std::size_t k = 0; k < bounds.size(); ++k) made.values[k] = std::min(made.values[k], bounds[k]);
+  }
+  return made;
+}
+
+Result<std::vector<float>> make_weights(OwnedHeightField raster) {
+  if (raster.source) return fail(ErrorKind::kUsage, raster.info.path + " is not in memory: read it as a whole");
+  float largest = 0;
+  for (std::size_t k = 0; k < raster.samples.size(); ++k) {
+    float& weight = raster.samples[k];
+    if (weight < 0) return refuse_negative(raster, weight, 0, k);
+    if (std::isnan(weight)) weight = 0;
+    largest = std::max(largest, weight);
+  }
+  if (largest == 0)
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: no weight is above 0, so no sample would have a bound", raster.info.path));
+  if (largest > 1) {
+    for (float& weight : raster.samples) weight /= largest;
+  }
+  return std::move(raster.samples);
+}
+
+}  // namespace scarp

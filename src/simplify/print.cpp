@@ -1,0 +1,290 @@
+// A print is proven as it is written: its tops are put back where the raster's samples are, from float32 positions of
+// the print, and judged. What rounding costs is known then, and the next run reserves twice as much.
+#include "scarp/print.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "scarp/edits.h"
+#include "scarp/judge.h"
+#include "scarp/measure.h"
+
+namespace scarp {
+namespace {
+
+constexpr double kThickness = 0.02;  // of the longest side
+constexpr double kReserve = 0x1p-10;
+constexpr int kMostPrints = 4;
+
+Result<void> check_print(const PrintOptions& print) {
+  const auto is_above_0 = [](double value) { return value > 0 && std::isfinite(value); };
+  const auto refuse = [](const char* name, double value) {
+    return fail(ErrorKind::kUsage, fmt::format("{}={:.10g} is not above 0 and finite", name, value));
+  };
+  if (print.base && !std::isfinite(*print.base))
+    return fail(ErrorKind::kUsage, fmt::format("base={} is not finite", *print.base));
+  if (print.base.has_value() + print.thickness.has_value() + print.printed_thickness.has_value() > 1)
+    return fail(ErrorKind::kUsage, "base and thickness contradict each other: give one of them");
+  if (print.thickness && !is_above_0(*print.thickness)) return refuse("thickness", *print.thickness);
+  if (print.printed_thickness && !is_above_0(*print.printed_thickness))
+    return refuse("printed_thickness", *print.printed_thickness);
+  if (print.size && !is_above_0(*print.size)) return refuse("size", *print.size);
+  if (!is_above_0(print.exaggerate)) return refuse("exaggerate", print.exaggerate);
+  if (print.columns < 1 || print.rows < 1)
+    return fail(ErrorKind::kUsage,
+                fmt::format("sheets: {} x {} are none: there must be at least 1 x 1", print.columns, print.rows));
+  if ((print.gap != 0 || print.dovetail) && !print.is_split())
+    return fail(ErrorKind::kUsage, "sheets: a single one has no neighbours, so no gap and no dovetail");
+  return {};
+}
+
+/// The number that six significant digits of `value` are.
+double keep_six_digits(double value) {
+  std::string text = fmt::format("{:.5e}", value);
+  const std::size_t e = text.find('e');
+  if (e == std::string::npos) return value;  // not finite
+  const long power = std::strtol(text.c_str() + e + 1, nullptr, 10) - 5;
+  text.resize(e);
+  text.erase(std::remove(text.begin(), text.end(), '.'), text.end());
+  const auto digits = static_cast<double>(std::strtol(text.c_str(), nullptr, 10));
+  // Powers up to the 22nd are exact, so that what comes out is the nearest number.
+  double factor = 1;
+  for (long k = 0; k < std::min(std::labs(power), 22L); ++k) factor *= 10;
+  if (std::labs(power) > 22) factor *= std::pow(10.0, static_cast<double>(std::labs(power) - 22));
+  return power < 0 ? digits / factor : digits * factor;
+}
+
+/// To six significant digits, if that is below the limit.
+double shorten_below(double value, double limit) {
+  const double shorter = keep_six_digits(value);
+  return shorter < limit ? shorter : value;
+}
+
+/// Down to six significant digits, so that it is short and the print no larger than asked.
+double round_down(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 5);
+  const double below = std::floor(value / unit) * unit;
+  return keep_six_digits(below <= value ? below : below - unit);
+}
+
+/// Sets base and placement.
+Result<void> place_print(const PrintOptions& options, const Mesh& terrain, Print& print) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::array<double, 3> low{kInfinity, kInfinity, kInfinity}, high{-kInfinity, -kInfinity, -kInfinity};
+  for (std::size_t v = 0; v < terrain.vertex_count(); ++v) {
+    const auto place = terrain.vertex(v);
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], place[k]);
+      high[k] = std::max(high[k], place[k]);
+    }
+  }
+  const double longest = std::max(high[0] - low[0], high[1] - low[1]);
+  const double scale = options.size ? round_down(*options.size / longest) : 1;
+  const double up = scale * options.exaggerate;
+  print.placement.scale = {scale, scale, up};
+  if (options.base) {
+    print.base = *options.base;
+  } else if (options.thickness || options.printed_thickness) {
+    print.base = shorten_below(low[2] - options.thickness.value_or(options.printed_thickness.value_or(0) / up), low[2]);
+  } else {
+    print.base = shorten_below(low[2] - kThickness * longest * scale / up, low[2]);
+  }
+  if (!(print.base < low[2])) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("base={:.10g} is not below the lowest vertex, which is at {:.10g}: choose a lower one",
+                            print.base, low[2]));
+  }
+  print.placement.origin = {low[0], low[1], print.base};
+  return {};
+}
+
+/// The tops of all sheets where the raster's samples are.
+Mesh join_tops(const std::vector<Sheet>& sheets, const std::vector<std::size_t>& top_sizes) {
+  Mesh tops;
+  for (std::size_t k = 0; k < sheets.size(); ++k) {
+    Mesh sheet = sheets[k].mesh;
+    undo_placement(sheet);
+    const auto first = static_cast<std::uint32_t>(tops.vertex_count());
+    tops.origin = sheet.origin;
+    tops.positions.insert(tops.positions.end(), sheet.positions.begin(), sheet.positions.end());
+    for (std::size_t i = 0; i < top_sizes[k]; ++i) tops.triangles.push_back(first + sheet.triangles[i]);
+  }
+  return tops;
+}
+
+/// Width and height of a cell in the frame.
+std::array<double, 2> cell_of(const Frame& frame) {
+  return {std::hypot(frame.affine[1], frame.affine[4]), std::hypot(frame.affine[2], frame.affine[5])};
+}
+
+/// The longest side of what has heights, in the frame. Reads a field that is not in memory once, some rows at a time.
+Result<double> longest_side(const HeightField& field) {
+  int left = field.cols, right = -1, top = field.rows, bottom = -1;
+  constexpr int kSamplesTogether = 1 << 18;
+  const int together = std::clamp(kSamplesTogether / field.cols, 1, field.rows);
+  const auto cols = static_cast<std::size_t>(field.cols);
+  std::vector<float> read;
+  for (int first = 0; first < field.rows; first += together) {
+    const int count = std::min(together, field.rows - first);
+    const float* samples = field.samples + static_cast<std::size_t>(first) * cols;
+    if (field.source != nullptr) {
+      read.resize(static_cast<std::size_t>(count) * cols);
+      if (auto has = field.source->read(0, first, field.cols, count, read.data(), field.cols); !has)
+        return tl::unexpected(has.error());
+      samples = read.data();
+    }
+    for (int row = first; row < first + count; ++row) {
+      for (int col = 0; col < field.cols; ++col) {
+        if (!std::isfinite(samples[static_cast<std::size_t>(row - first) * cols + static_cast<std::size_t>(col)]))
+          continue;
+        left = std::min(left, col);
+        right = std::max(right, col);
+        top = std::min(top, row);
+        bottom = std::max(bottom, row);
+      }
+    }
+  }
+  const auto a = field.frame.apply_affine(left, top), b = field.frame.apply_affine(right, bottom),
+             c = field.frame.apply_affine(left, bottom), d = field.frame.apply_affine(right, top);
+  const auto span = [&](std::size_t k) {
+    return std::max({a[k], b[k], c[k], d[k]}) - std::min({a[k], b[k], c[k], d[k]});
+  };
+  return std::max(span(0), span(1));
+}
+
+/// Nothing if the print is whole.
+Result<std::optional<SheetPlan>> plan_sheets(const PrintOptions& print, const HeightField& field) {
+  if (!print.is_split()) return std::optional<SheetPlan>();
+  if (!field.frame.is_affine())
+    return fail(ErrorKind::kUsage,
+                "sheets: they are cut along rows and columns of the raster, which the frame bends; choose a frame that "
+                "is affine");
+  SheetOptions options;
+  options.columns = print.columns;
+  options.rows = print.rows;
+  options.dovetail = print.dovetail;
+  options.cell = cell_of(field.frame);
+  if (print.gap != 0) {
+    const Result<double> longest = longest_side(field);
+    if (!longest) return tl::unexpected(longest.error());
+    for (double& side : options.cell) side *= print.size ? *print.size / *longest : 1;
+    options.gap = print.gap;
+  }
+  Result<SheetPlan> sheets = SheetPlan::make(field.cols, field.rows, options);
+  if (!sheets) return fail(sheets.error().kind, "sheets: " + sheets.error().message);
+  return std::optional(std::move(*sheets));
+}
+
+/// Places, cuts and closes the terrain, of which the cuts are edges, and judges the tops against the samples, those
+/// within the cutline if there is one.
+Result<Print> make_print(const PrintOptions& options, const HeightField& field, const std::optional<SheetPlan>& sheets,
+                         const Mesh& terrain, const Cutline* cutline, int threads) {
+  Print print;
+  if (auto placed = place_print(options, terrain, print); !placed) return tl::unexpected(placed.error());
+  std::vector<Mesh> tops = sheets ? cut_sheets(terrain, field.frame, *sheets) : std::vector{terrain};
+  std::vector<std::size_t> top_sizes;
+  for (std::size_t k = 0; k < tops.size(); ++k) {
+    if (tops[k].triangles.empty()) {
+      ++print.empty_sheets;
+      continue;
+    }
+    if (options.is_placed()) place_mesh(tops[k], print.placement);
+    top_sizes.push_back(tops[k].triangles.size());
+    Result<Mesh> solid = build_solid(std::move(tops[k]), options.is_placed() ? 0 : print.base);
+    if (!solid) return tl::unexpected(std::move(solid.error()));
+    const int columns = options.columns, at = static_cast<int>(k);
+    SolidFacts facts = measure_solid(*solid);
+    print.sheets.push_back({at / columns + 1, at % columns + 1, std::move(*solid), facts});
+  }
+  MeasureOptions measuring;
+  measuring.topology = false;
+  measuring.cutline = cutline;
+  measuring.threads = threads;
+  const Result<Measurement> judged = measure(field, join_tops(print.sheets, top_sizes), measuring);
+  if (!judged) return tl::unexpected(judged.error());
+  print.max_error = judged->max_error;
+  print.uncovered = judged->uncovered;
+  print.heights = judged->heights;
+  if (judged->uncovered > 0 && options.gap == 0) {
+    return fail(ErrorKind::kPromise,
+                fmt::format("the solid leaves out {} sample{}, the first at column {}, row {}: it is too small for "
+                            "float32 to tell samples apart",
+                            judged->uncovered, judged->uncovered == 1 ? "" : "s", judged->uncovered_at[0],
+                            judged->uncovered_at[1]));
+  }
+  return print;
+}
+
+/// Adds the cuts to the lines that simplify() lays.
+void add_cuts(const SheetPlan& sheets, SimplifyOptions& options) {
+  std::vector<Line> cuts = sheets.lines(options.breaklines.affine);
+  if (options.breaklines_for) {
+    options.breaklines_for = [lines_for = options.breaklines_for, sheets](double error) -> Result<LineConstraints> {
+      auto lines = lines_for(error);
+      if (!lines) return lines;
+      for (Line& line : sheets.lines(lines->affine)) lines->lines.push_back(std::move(line));
+      return lines;
+    };
+  }
+  for (Line& line : cuts) options.breaklines.lines.push_back(std::move(line));
+}
+
+}  // namespace
+
+std::uint64_t Print::vertices() const {
+  std::uint64_t sum = 0;
+  for (const Sheet& sheet : sheets) sum += sheet.mesh.vertex_count();
+  return sum;
+}
+
+std::uint64_t Print::triangles() const {
+  std::uint64_t sum = 0;
+  for (const Sheet& sheet : sheets) sum += sheet.facts.triangles;
+  return sum;
+}
+
+Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOptions& print, SimplifyOptions options) {
+  if (auto sound = check_print(print); !sound) return tl::unexpected(sound.error());
+  const Result<std::optional<SheetPlan>> sheets = plan_sheets(print, field);
+  if (!sheets) return tl::unexpected(sheets.error());
+  const std::size_t lines = options.breaklines.lines.size();
+  if (*sheets) add_cuts(**sheets, options);
+  const std::uint64_t cuts = options.breaklines.lines.size() - lines;
+  options.float32_positions = false;  // they are rounded where the print stands
+  const std::optional<double> asked = options.max_error;
+  const Cutline* cutline = options.cutline.rings.empty() ? nullptr : &options.cutline;
+  if (asked) options.max_error = *asked * (1 - kReserve);
+  std::vector<SampleEdit> edits;
+  for (int run = 1;; ++run) {
+    Result<Simplified> simplified = simplify(field, options);
+    if (!simplified) return tl::unexpected(std::move(simplified.error()));
+    apply_edits(simplified->edits, field);
+    if (run == 1) edits = simplified->edits;
+    Result<Print> made = make_print(print, field, *sheets, simplified->mesh, cutline, options.threads);
+    if (!made) return tl::unexpected(std::move(made.error()));
+    const double excess =
+        asked ? made->max_error + field.sample_rounding - *asked - judging_allowance(*asked, made->heights) : 0;
+    const bool has_budget_ended =
+        simplified->stop == StopReason::kMaxTriangles || simplified->stop == StopReason::kMaxVertices;
+    if (!(excess > 0) || has_budget_ended) {
+      simplified->edits = std::move(edits);
+      simplified->lines_laid -= std::min(cuts, simplified->lines_laid);
+      return PrintedTerrain{std::move(*simplified), std::move(*made)};
+    }
+    options.max_error = *options.max_error - 2 * excess;
+    if (run == kMostPrints || *options.max_error < 0) {
+      return fail(ErrorKind::kPromise,
+                  fmt::format("the solid's max error is {:.6g} and not {:.6g}: its positions are rounded to float32, "
+                              "which costs the rest; ask for a larger error or a larger size",
+                              made->max_error, *asked));
+    }
+  }
+}
+
+}  // namespace scarp
