@@ -9,7 +9,7 @@ CMAKE_FLAGS ?=
 DATA ?= $(or $(SCARP_SHARED),../shared)/data
 export BUILD JOBS
 
-.PHONY: build demo test soak wasm-check bench paper install clean format tidy help
+.PHONY: build demo check test soak wasm-check bench paper install clean format tidy help
 
 build:
 	@tools/install_packages.sh build
@@ -20,6 +20,12 @@ demo:
 	@tools/install_packages.sh build run
 	@$(MAKE) --no-print-directory build
 	@tools/demo.sh $(BUILD)/bin/scarp
+
+check:
+	@tools/install_packages.sh build run test
+	@tools/configure.sh $(BUILD) --preset release $(CMAKE_FLAGS)
+	@cmake --build $(BUILD) -j $(JOBS)
+	@ctest --test-dir $(BUILD) -L fast -j $(JOBS) --output-on-failure --no-tests=error
 
 test:
 	@tools/install_packages.sh build run test
@@ -48,7 +54,7 @@ install: build
 	DESTDIR="$(DESTDIR)" cmake --install $(BUILD) --prefix "$(PREFIX)"
 
 clean:
-	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz $(BUILD)-debug $(BUILD)-core $(BUILD)-wasm demo
+	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz $(BUILD)-debug $(BUILD)-core $(BUILD)-wasm $(BUILD)-tidy demo
 
 format:
 	@tools/install_packages.sh lint
@@ -56,12 +62,13 @@ format:
 
 tidy:
 	@tools/install_packages.sh build test lint
-	@tools/configure.sh $(BUILD) --preset release
-	git ls-files -co --exclude-standard 'src/*.cpp' 'apps/*.cpp' | xargs -P $(JOBS) -n 1 clang-tidy --quiet -p $(BUILD)
+	@tools/configure.sh $(BUILD)-tidy --preset release -DCMAKE_UNITY_BUILD=OFF
+	git ls-files -co --exclude-standard 'src/*.cpp' 'apps/*.cpp' | xargs -P $(JOBS) -n 1 clang-tidy --quiet -p $(BUILD)-tidy
 
 help:
 	@echo 'make          build $(BUILD)/bin/scarp (Release), installing missing packages'
 	@echo 'make demo     build, simplify a bundled DEM into demo/, check the result'
+	@echo 'make check    what to run before every commit: the fast tests'
 	@echo 'make test     everything: tests, sanitizers, a short run of the fuzzers'
 	@echo 'make soak     laws and fuzzers from fresh random seeds, for SOAK_MINUTES (10)'
 	@echo 'make wasm-check  the core compiled with Emscripten, its meshes compared with native ones'

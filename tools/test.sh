@@ -1,7 +1,7 @@
 #!/bin/bash
 # Everything that `make test` runs, in four stages; a stage that fails does not hide the next.
 #
-#   1. Release: all tests through ctest (unit tests, laws, scripts that drive the program).
+#   1. Release: all tests: unit tests and laws, then scripts that drive the program.
 #   2. AddressSanitizer and UndefinedBehaviorSanitizer: unit tests and laws again, asserts on; with a quarter of the
 #      random cases, and of the samples of real rasters a share (tests/laws/sanitized.h). One process runs many tests,
 #      since each start costs. With clang this is the build of the fuzzers, so that the library is compiled once.
@@ -9,9 +9,6 @@
 #   4. ThreadSanitizer: the tests that use threads.
 #
 # Chance begins at the same seed in every run: tests/laws/fixed_seed.cpp, SCARP_FUZZ_SEED; tools/soak.sh takes fresh ones.
-#
-# A fresh build folder compiles sources in batches (CMAKE_UNITY_BUILD), which parses headers once a batch; not the
-# library of stage 1, which is what users run. The program is compiled file by file by cli.test_install_shared.
 #
 # Environment: BUILD (build), JOBS (cores). The last line counts the tests of all stages; exit 1 if one failed.
 set -uo pipefail
@@ -33,20 +30,11 @@ add() {
   total_skipped=$((total_skipped + $3))
 }
 
-# build_stage FOLDER PRESET TARGET...: configures and builds; a failure counts as one failed test. Where batches fail,
-# as they do once two sources of one have a private name in common, each source is compiled alone.
+# build_stage FOLDER PRESET TARGET...: configures and builds; a failure counts as one failed test.
 build_stage() {
-  local folder=$1 preset=$2 options=()
+  local folder=$1 preset=$2
   shift 2
-  [ -f "$folder/CMakeCache.txt" ] || options=(-DCMAKE_UNITY_BUILD=ON)
-  if tools/configure.sh "$folder" --preset "$preset" ${options[@]+"${options[@]}"}; then
-    cmake --build "$folder" -j "$jobs" --target "$@" && return 0
-    if grep -q '^CMAKE_UNITY_BUILD:[A-Z]*=ON' "$folder/CMakeCache.txt"; then
-      echo "the $preset build failed in batches: once more, each source alone"
-      tools/configure.sh "$folder" --preset "$preset" -DCMAKE_UNITY_BUILD=OFF &&
-        cmake --build "$folder" -j "$jobs" --target "$@" && return 0
-    fi
-  fi
+  tools/configure.sh "$folder" --preset "$preset" && cmake --build "$folder" -j "$jobs" --target "$@" && return 0
   echo "FAILED: the $preset build"
   add 0 1 0
   return 1
@@ -110,7 +98,10 @@ install_validator() {
 start=$(date +%s)
 announce "1/4 Release: all tests"
 install_validator
-if build_stage "$build" release all; then run_ctest "$build"; fi
+if build_stage "$build" release all; then
+  run_gtest "$build/bin/scarp_tests" 40
+  run_ctest "$build" -E '^(few_cases|all_cases)[.]'  # what has just run
+fi
 
 announce "2/4 address and undefined behaviour sanitizers: unit tests and laws"
 sanitized=asan targets=(scarp_tests)

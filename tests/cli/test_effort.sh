@@ -28,13 +28,14 @@ assert passes["fit"]["removals"] > 1000 and passes["tiles"]["removals"] == 0, pa
 PYTHON
 grep -aq -- '--effort normal"' normal.glb || fail "the metadata does not tell the effort"
 
-# max goes deeper, and on for as long as it may; a limit that is over before removal begins leaves refinement's mesh, or
-# what removal has made of it.
+# max goes deeper; what it reaches within a limit depends on the machine, but never falls behind refinement. A limit that
+# is over before removal begins leaves refinement's mesh, or what removal has made of it.
 succeeds "$scarp" simplify "$dem" max.glb -e 168 --effort max --report max.json --overwrite
 succeeds "$scarp" simplify "$dem" high.glb -e 168 --effort high --report high.json --overwrite
 holds "$(json max.json triangles) < $(json high.json triangles)"
 succeeds "$scarp" simplify "$dem" longer.glb -e 168 --effort max --time-limit 3 --report longer.json --overwrite
-holds "$(json longer.json triangles) <= $(json max.json triangles)"
+succeeds "$scarp" simplify "$dem" fast.glb -e 168 --effort fast --report fast.json --overwrite
+holds "$(json longer.json triangles) <= $(json fast.json triangles)"
 succeeds "$scarp" simplify "$dem" short.glb -e 8.4 --effort max --time-limit 0 --report short.json --overwrite
 [ "$(json max.json strategy cut_short) $(json short.json strategy cut_short)" = "false true" ] ||
   fail "the report does not tell that the time was up"
@@ -44,7 +45,7 @@ for mesh in max longer; do succeeds "$scarp" measure "$dem" "$mesh.glb" --fail-a
 succeeds "$scarp" measure "$dem" short.glb --fail-above 8.4
 
 # A limit that is not reached changes nothing but for max, and efforts go on from any strategy.
-succeeds "$scarp" simplify "$dem" limited.glb -e 168 --effort high --time-limit 100 --report limited.json
+succeeds "$scarp" simplify "$dem" limited.glb -e 168 --effort high --time-limit 1000000 --report limited.json
 holds "$(json limited.json triangles) == $(json high.json triangles)"
 succeeds "$scarp" simplify "$dem" local.glb -e 20 --importance local --effort high --report local.json
 succeeds "$scarp" simplify "$dem" local_fast.glb -e 20 --importance local --report local_fast.json

@@ -3,27 +3,53 @@
 source "$(dirname "$0")/lib.sh"
 make_big_raster big.tif
 
-# Interrupts COMMAND after the given seconds; its exit code goes to $code.
-interrupt_after() {
-  local signal=$1 seconds=$2 pid
-  shift 2
+# start COMMAND...: in the background, with the number $pid.
+start() {
   # A background job of a script ignores SIGINT unless job control is on.
   set -m
   "$@" > "$logs/out" 2> "$logs/err" &
   pid=$!
   set +m
-  sleep "$seconds"
-  kill "-$signal" "$pid" 2> /dev/null || fail "the run ended by itself before $seconds s"
+}
+
+# await COMMAND...: waits for a moment of the run $pid; nothing here depends on how fast the machine is.
+await() {
+  until "$@"; do
+    kill -0 "$pid" 2> /dev/null || fail "the run ended by itself before this was true: $*"
+    sleep 0.02
+  done
+}
+
+# is_ready SIGNAL: the program takes the signal itself. Where the system does not tell: it has begun to work.
+is_ready() {
+  local caught
+  if [ ! -r "/proc/$pid/status" ]; then is_in_pass; return; fi
+  [ "$(readlink -f "/proc/$pid/exe")" = "$(readlink -f "$scarp")" ] || return 1
+  caught=$(sed -n 's/^SigCgt:[[:space:]]*//p' "/proc/$pid/status")
+  (((0x${caught:-0} >> ($(kill -l "$1") - 1)) & 1))
+}
+
+# is_in_pass [NAME]: the run, which is told --json-progress, works, at this pass.
+is_in_pass() { grep -q "\"pass\":\"${1-}" "$logs/err"; }
+
+# stop SIGNAL: the exit code goes to $code, what is said but for progress to $logs/said.
+stop() {
+  kill "-$1" "$pid" 2> /dev/null || fail "the run ended by itself"
   code=0
   wait "$pid" || code=$?
+  grep -v '^{' "$logs/err" > "$logs/said" || true
 }
 
 for signal in INT TERM HUP; do
-  for seconds in 0.2 1 $([ $signal != INT ] || echo 2); do
-    interrupt_after "$signal" "$seconds" "$scarp" simplify big.tif out.glb -e 0 --preview p.png --report r.json
-    [ "$code" = 5 ] || fail "exit code $code instead of 5 after $signal at $seconds s"
-    [ "$(wc -l < "$logs/err")" = 1 ] || fail "not one line on stderr after $signal at $seconds s"
-    grep -q '^scarp: interrupted; nothing was written$' "$logs/err" || fail "the sentence is missing"
+  for moment in "is_ready $signal" "is_in_pass refine" $([ $signal != INT ] || echo is_in_pass); do
+    start "$scarp" simplify big.tif out.glb -e 0 --preview p.png --report r.json \
+      $([[ $moment = is_ready* ]] || echo --json-progress)
+    # shellcheck disable=SC2086  # words of a command
+    await $moment
+    stop $signal
+    [ "$code" = 5 ] || fail "exit code $code instead of 5 after $signal when $moment"
+    [ "$(wc -l < "$logs/said")" = 1 ] || fail "not one line on stderr after $signal when $moment"
+    grep -q '^scarp: interrupted; nothing was written$' "$logs/said" || fail "the sentence is missing"
     [ ! -s "$logs/out" ] || fail "something on stdout"
     [ "$(find . -type f)" = ./big.tif ] || fail "files are left: $(find . -type f)"
   done
@@ -40,11 +66,8 @@ fi
 
 # The second signal does not wait for the run to notice the first; it may still come too late to matter.
 for wait in 0 0.01 0.05; do
-  set -m
-  "$scarp" simplify big.tif out.glb -e 0 > "$logs/out" 2> "$logs/err" &
-  pid=$!
-  set +m
-  sleep 1
+  start "$scarp" simplify big.tif out.glb -e 0 --json-progress
+  await is_in_pass refine
   kill -INT "$pid"
   sleep "$wait"
   kill -INT "$pid" 2> /dev/null || true
@@ -56,30 +79,20 @@ done
 
 # An old file survives.
 echo mine > out.glb
-interrupt_after INT 1 "$scarp" simplify big.tif out.glb -e 0 --overwrite
+start "$scarp" simplify big.tif out.glb -e 0 --overwrite --json-progress
+await is_in_pass
+stop INT
 [ "$code" = 5 ] || fail "exit code $code instead of 5 with --overwrite"
 [ "$(cat out.glb)" = mine ] || fail "the old file is gone"
 [ "$(find . -type f | sort | tr '\n' ' ')" = "./big.tif ./out.glb " ] || fail "files are left"
 
 # A long effort ends with the mesh so far, but stops without one as long as there is none, and where there is a budget.
 succeeds "$scarp" generate fractal 500 500 hills.tif --seed 7
-wait_for_pass() {
-  for ((i = 0; i < 600; ++i)); do
-    grep -q "\"pass\":\"$1\"" "$logs/err" && return
-    sleep 0.1
-  done
-  fail "the pass $1 does not begin"
-}
 cut_short() {
   local signal=$1 effort=$2
-  set -m
-  "$scarp" simplify hills.tif cut.glb -e 0.2% --effort "$effort" --report cut.json --json-progress > "$logs/out" 2> "$logs/err" &
-  pid=$!
-  set +m
-  wait_for_pass fit
-  kill "-$signal" "$pid" || fail "$effort effort ended by itself"
-  code=0
-  wait "$pid" || code=$?
+  start "$scarp" simplify hills.tif cut.glb -e 0.2% --effort "$effort" --report cut.json --json-progress
+  await is_in_pass fit
+  stop "$signal"
   [ "$code" = 0 ] || fail "exit code $code after $signal in $effort effort"
   grep -q "when the interrupt ended the effort" "$logs/out" || fail "the summary does not tell of the interrupt"
   [ "$(json cut.json strategy cut_short)" = true ] || fail "the report does not tell that the effort was cut short"
@@ -90,12 +103,22 @@ cut_short INT high
 cut_short TERM max
 for option in "-t 20000" "-e 0.2% --memory 200M"; do
   # shellcheck disable=SC2086  # options are meant to be split
-  interrupt_after INT 1 "$scarp" simplify hills.tif cut.glb --effort max $option
+  start "$scarp" simplify hills.tif cut.glb --effort max $option --json-progress
+  await is_in_pass
+  stop INT
   [ "$code" = 5 ] || fail "exit code $code instead of 5 with $option"
   [ ! -e cut.glb ] || fail "a file is left with $option"
 done
 
-# measure and info stop as well.
-succeeds "$scarp" simplify "$dem" small.obj -e 1
-interrupt_after INT 0.3 "$scarp" info big.tif
+# measure and info stop as well, as long as they run.
+start "$scarp" info big.tif
+until is_ready INT || ! kill -0 "$pid" 2> /dev/null; do :; done
+kill -INT "$pid" 2> /dev/null || true
+code=0
+wait "$pid" || code=$?
 [ "$code" = 5 ] || [ "$code" = 0 ] || fail "info ends with $code"
+succeeds "$scarp" simplify big.tif big.obj -e 20
+start "$scarp" measure big.tif big.obj --json-progress
+await is_ready INT
+stop INT
+[ "$code" = 5 ] || fail "measure ends with $code"

@@ -41,8 +41,11 @@ if command -v script > /dev/null; then
   script -qec "'$scarp' simplify big.tif out.glb -e 5 --order greedy --overwrite" typescript < /dev/null > /dev/null
   grep -aq 'refine.*%.*vertices' typescript || fail "no progress on a terminal"
   grep -aq 'Reached the error goal' typescript || fail "no summary on a terminal"
-  script -qec "'$scarp' simplify '$dem' out.glb -e 100 --overwrite" typescript < /dev/null > /dev/null
-  if grep -aq 'vertices.*left' typescript; then fail "progress for a run below one second"; fi
+  script -qec "'$scarp' simplify '$dem' out.glb -e 100 --report quick.json --overwrite" typescript < /dev/null > /dev/null
+  # On a machine that is busy it may take longer, and show it then.
+  if awk "BEGIN { exit !($(json quick.json seconds total) < 1) }" && grep -aq 'vertices.*left' typescript; then
+    fail "progress for a run below one second"
+  fi
   script -qec "'$scarp' simplify big.tif out.glb -e 40 --overwrite -q" typescript < /dev/null > /dev/null
   if grep -aq '%' typescript; then fail "progress on a terminal in spite of -q"; fi
 fi

@@ -87,7 +87,8 @@ struct CutScene {
     return cliffs.faults;
   }
   Result<FieldLines> lines() const {
-    return prepare_lines(streamed, options.breaklines, options.cutline, *options.max_error / 2, 1, side);
+    return prepare_lines(streamed, options.breaklines, options.cutline, *options.max_error / 2, 1,
+                         shared_rows(streamed, side));
   }
   Result<std::optional<Tiled>> refine(const FieldLines& lines) const {
     StripTotals fits;
@@ -282,7 +283,8 @@ TEST(row_cutlines, leave_two_samples_beyond_the_polygons) {
   ring.role = LineRole::kOuter;
   ring.polygon = 0;
   ring.points = {{10.5, 8.5, NAN}, {20.5, 8.5, NAN}, {20.5, 15.5, NAN}, {10.5, 15.5, NAN}, {10.5, 8.5, NAN}};
-  const auto lines = prepare_lines(with_source(field.view(), source), {}, {{ring}}, 1, 1, 16);
+  const HeightField streamed = with_source(field.view(), source);
+  const auto lines = prepare_lines(streamed, {}, {{ring}}, 1, 1, shared_rows(streamed, 16));
   ASSERT_TRUE(lines) << lines.error().message;
   const CutRows& rows = *lines->graph.cut->rows;
   EXPECT_EQ(rows.side({10, 9}), CutSide::kBeyond);

@@ -125,7 +125,8 @@ RC_GTEST_PROP(streamed_bounds, are_kept_beside_lines, ()) {
     }
   }
   const std::int32_t side = *rc::gen::element(8, 16, 31);
-  const auto lines = prepare_lines(scene.streamed, constraints, {}, *scene.options.max_error / 2, 1, side);
+  const auto lines = prepare_lines(scene.streamed, constraints, {}, *scene.options.max_error / 2, 1,
+                                   shared_rows(scene.streamed, side));
   RC_PRE(lines.has_value());
   const auto made = refine(scene, side, &*lines);
   RC_PRE(made.has_value());
