@@ -41,7 +41,7 @@ ROOMS = {
                "insertion: greedy, locally dominant, scattered points, the textbook"),
     "fit": (3, ["base", "grid", "geom", "tin"], ["result", "strategy"], "fewer and better vertices within the bound"),
     "lines": (3, ["base", "grid", "geom", "tin", "metric"],
-              ["cliffs", "cutline", "edits", "frame", "height_field", "lines", "progress", "result", "ridges", "rivers", "simplify", "strategy"],
+              ["cutline", "edits", "frame", "height_field", "lines", "progress", "result", "rivers", "simplify", "strategy"],
               "lines on the lattice, and as constraints in a triangulation; cuts"),
     "shape": (4, ["base", "grid", "geom", "tin", "metric", "refine", "fit", "lines"],
               ["frame", "height_field", "mesh", "progress", "result", "shape", "strategy"],

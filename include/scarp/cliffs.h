@@ -33,18 +33,11 @@ struct CliffOptions {
 
 struct Cliffs {
   /// Two a fault, the line along its top before that along its foot, all with heights, vertices on the lattice of 1/256
-  /// sample. is_fault() holds for them.
+  /// sample. Their kind is kWall.
   std::vector<Line> lines;
   std::uint64_t faults = 0;
   std::uint64_t vertices = 0;  ///< of the lines, each once
 };
-
-inline constexpr std::uint32_t kFaultLine = kNoPolygon - 1;  ///< Line::polygon of the lines of faults
-/// In SimplifyOptions::breaklines such lines are a start and no more: they are laid before the surface is refined, in
-/// the greedy order, and all other lines with them. They yield to other lines, and never change a sample. From normal
-/// effort on their edges may change and their vertices go, and move where vertices are free; where high effort
-/// is to leave vertices on samples they stay.
-inline bool is_fault(const Line& line) { return line.polygon == kFaultLine; }
 
 /// Finds the walls of a raster, and for each part that is worth its vertices two lines: all samples of its upper side
 /// lie on the left of both (seen from above with rows downwards), all of its lower side on the right of both, and none

@@ -20,6 +20,18 @@ enum class LineRole {
 
 inline constexpr std::uint32_t kNoPolygon = 0xffffffff;
 
+/// What a line is to a mesh as a constraint (SimplifyOptions::breaklines).
+enum class LineKind : std::uint8_t {
+  kBreakline,  ///< stays as it is, as a chain of edges
+  kRiver,      ///< the same, but yields
+  /// Found in the raster; inserted before the surface is refined, in the greedy order, and all other lines with them.
+  /// The first two are a start and no more: from normal effort on their edges may change and their vertices go, and
+  /// move where vertices are free; where high effort is to leave vertices on samples they stay.
+  kWall,       ///< along the top or foot of a wall (cliffs.h): yields, and never changes a sample
+  kRidge,      ///< a ridge or valley (ridges.h), a preference
+  kKeptRidge,  ///< a ridge or valley whose edges stay
+};
+
 struct Line {
   /// x, y, z; at least two, and no two successive ones are equal. x and y are finite. z is NaN where the height is not
   /// known (a soft line), else finite (a hard one). A ring ends with its first point and has at least four.
@@ -27,10 +39,17 @@ struct Line {
   LineRole role = LineRole::kLine;
   std::uint32_t polygon = kNoPolygon;  ///< the rings of one polygon share it; counts from 0 in a LineSet
   std::string name;                    ///< for messages: "shores.gpkg:lakes feature 12"
-  bool yields = false;  ///< where it meets a hard line that does not, it takes that one's height: never a conflict
+  LineKind kind = LineKind::kBreakline;
 
   bool is_ring() const { return role != LineRole::kLine; }
+  /// Where it meets a hard line that does not yield, it takes that one's height: never a conflict.
+  bool yields() const { return kind == LineKind::kRiver || kind == LineKind::kWall; }
 };
+
+inline bool is_fault(const Line& line) { return line.kind == LineKind::kWall; }
+inline bool is_ridge_line(const Line& line) {
+  return line.kind == LineKind::kRidge || line.kind == LineKind::kKeptRidge;
+}
 
 /// What a vector layer holds.
 struct LineSet {

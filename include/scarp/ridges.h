@@ -42,18 +42,10 @@ struct RidgeOptions {
 };
 
 struct Ridges {
-  /// Soft lines for SimplifyOptions::breaklines, vertices on samples. is_ridge_line() holds for them.
+  /// Soft lines for SimplifyOptions::breaklines, vertices on samples. Their kind is kRidge or kKeptRidge.
   std::vector<Line> ridges, valleys;
   std::uint64_t vertices = 0;  ///< of the lines; where several meet, once for each
 };
-
-/// Line::polygon of ridges and valleys, and of those that are kept.
-inline constexpr std::uint32_t kRidgeLine = kNoPolygon - 2, kKeptRidgeLine = kNoPolygon - 3;
-/// In SimplifyOptions::breaklines such lines are laid before the surface is refined, in the greedy order, and all other
-/// lines with them. Those that are not kept are a preference: from normal effort on their edges may change, and their
-/// vertices go, and move where vertices are free, where that is cheaper; where high effort is to leave vertices on
-/// samples they stay.
-inline bool is_ridge_line(const Line& line) { return line.polygon == kRidgeLine || line.polygon == kKeptRidgeLine; }
 
 /// Finds the ridges and valleys of a raster, in an order that depends on nothing but it. Each line runs within a sample
 /// of the highest or lowest samples that it stands for, with as few vertices as that and the bound allow; where one

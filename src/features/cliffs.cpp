@@ -22,8 +22,7 @@ constexpr double kCliffShare = 0.9;
 
 Line to_map(const std::vector<FaultVertex>& vertices, const std::array<double, 6>& affine, std::string name) {
   Line line;
-  line.polygon = kFaultLine;
-  line.yields = true;
+  line.kind = LineKind::kWall;
   line.name = std::move(name);
   line.points.reserve(vertices.size());
   for (const FaultVertex& v : vertices) {

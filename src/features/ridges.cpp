@@ -40,7 +40,7 @@ Result<void> check_ridges(const RidgeOptions& options) {
 Line to_map(const std::vector<Point>& vertices, const RidgeOptions& options, std::string name) {
   const auto& affine = options.affine;
   Line line;
-  line.polygon = options.are_kept ? kKeptRidgeLine : kRidgeLine;
+  line.kind = options.are_kept ? LineKind::kKeptRidge : LineKind::kRidge;
   line.name = std::move(name);
   for (const Point p : vertices) {
     line.points.push_back({affine[0] + affine[1] * p.x + affine[2] * p.y, affine[3] + affine[4] * p.x + affine[5] * p.y,

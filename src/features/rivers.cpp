@@ -137,7 +137,7 @@ class Course {
     river.name = line_->name;
     river.is_turned = is_turned_;
     river.course = *line_;
-    river.course.yields = true;
+    river.course.kind = LineKind::kRiver;
     river.course.points.clear();
     const std::vector<std::size_t> kept = fixed_places();
     for (std::size_t k = 0; k < kept.size(); ++k) {

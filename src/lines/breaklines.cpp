@@ -10,8 +10,6 @@
 #include "base/caught.h"
 #include "grid/affine_map.h"
 #include "grid/line_places.h"
-#include "scarp/cliffs.h"
-#include "scarp/ridges.h"
 
 namespace scarp {
 namespace {
@@ -201,7 +199,7 @@ std::vector<Claims> collect_claims(const Arrangement& arranged, const LatticeLin
     const bool is_sample = p.x % kLatticeSteps == 0 && p.y % kLatticeSteps == 0;
     if (is_fault(lines[line]) && (is_sample || at.count > 0)) return;
     if (at.count == 0) at.climb = climb_of(samples, p);
-    at.add(line, lines[line].yields, height, 2 * std::max(climb, at.climb) + std::abs(height) * 0x1p-23);
+    at.add(line, lines[line].yields(), height, 2 * std::max(climb, at.climb) + std::abs(height) * 0x1p-23);
   };
   auto chain = arranged.chains.begin();
   for (std::uint32_t part = 0, end = 0; part < lattice.parts().size(); part = end) {
@@ -270,7 +268,7 @@ Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<do
 }
 
 /// A line that is laid first and need not be held in the end.
-bool is_start(const Line& line) { return is_fault(line) || line.polygon == kRidgeLine; }
+bool is_start(const Line& line) { return is_fault(line) || line.kind == LineKind::kRidge; }
 
 /// By edge: a line runs there that is no start, or the outline. Empty without starts.
 std::vector<bool> held_edges(const Arrangement& arranged, const LatticeLines& lattice, std::span<const Line> lines) {

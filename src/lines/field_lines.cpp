@@ -14,7 +14,6 @@
 #include "lines/breaklines.h"
 #include "lines/field_cut.h"
 #include "lines/profile.h"
-#include "scarp/cliffs.h"
 #include "scarp/edits.h"
 
 namespace scarp {

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "lines/breaklines.h"
-#include "scarp/cliffs.h"
-#include "scarp/ridges.h"
+#include "scarp/lines.h"
 #include "shape/shape_refinement.h"
 
 namespace scarp {

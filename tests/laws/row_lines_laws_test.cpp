@@ -54,7 +54,8 @@ struct RowScene {
   void add_first_lines() {
     auto& lines = options.breaklines.lines;
     for (Line& line : lines) {
-      if (std::isnan(line.points[0][2])) line.polygon = *rc::gen::element(kNoPolygon, kRidgeLine, kKeptRidgeLine);
+      if (std::isnan(line.points[0][2]))
+        line.kind = *rc::gen::element(LineKind::kBreakline, LineKind::kRidge, LineKind::kKeptRidge);
     }
     const auto cliffs = detect_cliffs(streamed, {*rc::gen::element(0.7, 3.0), *options.max_error,
                                                  options.breaklines.affine, options.breaklines.lines});

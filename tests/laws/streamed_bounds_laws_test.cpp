@@ -121,7 +121,8 @@ RC_GTEST_PROP(streamed_bounds, are_kept_beside_lines, ()) {
   LineConstraints& constraints = scene.options.breaklines = testing::any_lines(scene.field);
   if (*rc::gen::arbitrary<bool>()) {
     for (Line& line : constraints.lines) {
-      if (std::isnan(line.points[0][2])) line.polygon = *rc::gen::element(kNoPolygon, kRidgeLine, kKeptRidgeLine);
+      if (std::isnan(line.points[0][2]))
+        line.kind = *rc::gen::element(LineKind::kBreakline, LineKind::kRidge, LineKind::kKeptRidge);
     }
   }
   const std::int32_t side = *rc::gen::element(8, 16, 31);
