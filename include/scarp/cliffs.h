@@ -15,6 +15,8 @@
 #include "scarp/lines.h"
 #include "scarp/result.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 struct CliffOptions {
@@ -52,3 +54,5 @@ struct Cliffs {
 Result<Cliffs> detect_cliffs(const HeightField& field, const CliffOptions& options);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

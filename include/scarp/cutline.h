@@ -11,6 +11,8 @@
 #include "scarp/progress.h"
 #include "scarp/result.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// What lies in one of the polygons, or on its rings, stays. Within a polygon rings count even-odd: holes, rings that
@@ -50,3 +52,5 @@ Result<VoidedOutside> void_outside(OwnedHeightField& field, const Cutline& cutli
                                    const ProgressCallback& progress = {});
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -6,6 +6,8 @@
 #include "scarp/frame.h"
 #include "scarp/result.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// What longitude and latitude are of.
@@ -33,3 +35,5 @@ std::array<double, 2> metres_of_unit(double latitude, const Geodetic& geodetic =
 Result<Frame> frame_of_degrees(const std::array<double, 6>& affine, int cols, int rows, const Geodetic& geodetic = {});
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -7,6 +7,8 @@
 #include "scarp/height_field.h"
 #include "scarp/simplify.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// `source` with the samples that Simplified::edits tells of: what the promise of a mesh with hard lines is about.
@@ -20,3 +22,5 @@ std::shared_ptr<const SampleSource> edit_source(std::shared_ptr<const SampleSour
 void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -17,6 +17,8 @@
 #include "scarp/rivers.h"
 #include "scarp/water.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// Walls that the mesh represents by a pair of lines each, see detect_cliffs().
@@ -75,3 +77,5 @@ struct FittedFeatures {
 Result<FittedFeatures> fit_features(const HeightField& field, const Features& features, const FitOptions& options);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// A map of points that is not affine, such as a map projection. Implementations are immutable and may be
@@ -60,3 +62,5 @@ std::array<double, 2> frame_origin(const Frame& frame, int cols, int rows);
 bool offsets_are_exact(const Frame& frame, int cols, int rows, int steps = 1);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

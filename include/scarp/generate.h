@@ -9,6 +9,8 @@
 #include "scarp/height_field.h"
 #include "scarp/result.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// The letter is genstm's, and so are the formulas: nx, ny are columns and rows, x, y the sample, divisions of whole
@@ -40,3 +42,5 @@ const std::vector<std::string>& field_style_names();
 Result<OwnedHeightField> generate_field(FieldStyle style, int cols, int rows, std::uint64_t seed = 0);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

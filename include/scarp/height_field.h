@@ -11,6 +11,8 @@
 #include "scarp/frame.h"
 #include "scarp/result.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// A further value at each sample, such as a colour: borrowed, on the same grid as the heights.
@@ -116,3 +118,5 @@ std::uint64_t fill_voids(OwnedHeightField& field, double max_distance);
 std::uint64_t fill_background(OwnedHeightField& field, float value);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -14,6 +14,8 @@
 #include "scarp/result.h"
 #include "scarp/strategy.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 enum class Decode { kNone, kTerrarium, kMapbox };
@@ -166,3 +168,5 @@ struct Picture {
 Result<std::vector<std::uint8_t>> encode_png(const Picture& picture);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -17,6 +17,8 @@
 #include "scarp/result.h"
 #include "scarp/strategy.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// The largest of some errors, without sign, and its sample (col, row): (−1, −1) if all are 0.
@@ -101,3 +103,5 @@ enum class ErrorsOf {
 std::vector<float> take_error_raster(Judgement judgement, ErrorsOf of);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -10,6 +10,8 @@
 #include "scarp/progress.h"
 #include "scarp/result.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 enum class LineRole {
@@ -108,3 +110,5 @@ struct ReadLinesOptions {
 Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions& options = {});
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -14,6 +14,8 @@
 #include "scarp/progress.h"
 #include "scarp/result.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 struct Cutline;
@@ -114,3 +116,5 @@ Result<std::vector<float>> resample(const HeightField& field, const Mesh& mesh, 
 Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const MeasureOptions& options = {});
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// A triangle mesh. Vertex v lies at origin + (positions[3v], positions[3v+1], positions[3v+2]); x east, y north, z up.
@@ -53,3 +55,5 @@ void optimize_order(Mesh& mesh);
 bool add_base(Mesh& mesh, double base);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -9,6 +9,8 @@
 #include "scarp/io.h"
 #include "scarp/mesh.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// Hillshade of the field with the mesh's edges over it, at most `max_side` pixels wide or high. Void samples are
@@ -41,3 +43,5 @@ std::vector<std::uint8_t> encode_svg(const Mesh& mesh);
 std::vector<std::uint8_t> encode_eps(const Mesh& mesh);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

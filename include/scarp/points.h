@@ -11,6 +11,8 @@
 #include "scarp/result.h"
 #include "scarp/simplify.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// Samples anywhere: z over (x, y), in one plane coordinate system. x east, y north.
@@ -82,3 +84,5 @@ Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, Dup
                                    const MeasureOptions& options = {});
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

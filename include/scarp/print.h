@@ -11,6 +11,8 @@
 #include "scarp/simplify.h"
 #include "scarp/solid.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// What the print is to be. z units are those of the field; print units are millimetres where there is a size, else
@@ -75,3 +77,5 @@ struct PrintedTerrain {
 Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOptions& print, SimplifyOptions options);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

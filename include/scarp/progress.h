@@ -5,6 +5,8 @@
 #include <functional>
 #include <string_view>
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// A snapshot of a running pass.
@@ -20,3 +22,5 @@ struct Progress {
 using ProgressCallback = std::function<bool(const Progress&)>;
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -11,6 +11,8 @@
 #include "scarp/height_field.h"
 #include "scarp/lines.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 struct Region {
@@ -52,3 +54,5 @@ struct RegionBounds {
 RegionBounds make_region_bounds(std::span<const Region> regions, const RegionGrid& grid, int threads = 1);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

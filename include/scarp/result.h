@@ -4,6 +4,8 @@
 #include <string>
 #include <tl/expected.hpp>
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// What went wrong, in the terms a caller can act on. The command line maps each kind to an exit code.
@@ -34,3 +36,5 @@ inline tl::unexpected<Error> fail(ErrorKind kind, std::string message) {
 }
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -23,6 +23,8 @@
 #include "scarp/progress.h"
 #include "scarp/result.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 struct RidgeOptions {
@@ -60,3 +62,5 @@ struct Ridges {
 Result<Ridges> detect_ridges(const HeightField& field, const RidgeOptions& options);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

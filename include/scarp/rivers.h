@@ -12,6 +12,8 @@
 #include "scarp/result.h"
 #include "scarp/water.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 struct River {
@@ -42,3 +44,5 @@ Result<std::vector<River>> carve_rivers(const HeightField& field, std::span<cons
                                         std::span<const Lake> lakes, const RiverOptions& options);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

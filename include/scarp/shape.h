@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <optional>
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// What triangles shall look like seen from above, in the coordinates of the mesh. Delaunay refinement (Ruppert 1995;
@@ -43,3 +45,5 @@ struct ShapeReport {
 };
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -20,6 +20,8 @@
 #include "scarp/shape.h"
 #include "scarp/strategy.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// What to reach. At least one goal; the first that is reached ends the run.
@@ -239,3 +241,5 @@ class Refiner {
 };
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -12,6 +12,8 @@
 #include "scarp/mesh.h"
 #include "scarp/result.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// Where a solid stands: position = (place in the frame of the raster − origin) · scale. Scales are above 0.
@@ -97,3 +99,5 @@ class SheetPlan {
 std::vector<Mesh> cut_sheets(const Mesh& terrain, const Frame& frame, const SheetPlan& plan);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -7,6 +7,8 @@
 
 #include <cstdint>
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// What makes a sample worth inserting (the report's section 3). Among the samples that break their bound the one with
@@ -150,3 +152,5 @@ struct Work {
 };
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

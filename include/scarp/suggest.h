@@ -10,6 +10,8 @@
 #include "scarp/progress.h"
 #include "scarp/result.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 /// A max error for a share of the triangles.
@@ -40,3 +42,5 @@ Result<Suggestions> suggest_errors(const HeightField& field, std::span<const dou
                                    const ProgressCallback& progress = {});
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -12,6 +12,8 @@
 #include "scarp/regions.h"
 #include "scarp/result.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 struct ToleranceOptions {
@@ -50,3 +52,5 @@ Result<Tolerances> make_tolerances(std::optional<OwnedHeightField> raster, std::
 Result<std::vector<float>> make_weights(OwnedHeightField raster);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

@@ -1,7 +1,9 @@
 // The version of the library.
 #pragma once
 
-#define SCARP_VERSION "0.1.0"
+#define SCARP_VERSION "0.2.0"
+
+#pragma GCC visibility push(default)
 
 namespace scarp {
 
@@ -9,3 +11,5 @@ namespace scarp {
 const char* version();
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

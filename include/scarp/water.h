@@ -12,6 +12,8 @@
 #include "scarp/progress.h"
 #include "scarp/result.h"
 
+#pragma GCC visibility push(default)
+
 namespace scarp {
 
 struct Lake {
@@ -73,3 +75,5 @@ struct FlatOptions {
 Result<std::vector<Lake>> find_flats(const OwnedHeightField& field, const FlatOptions& options);
 
 }  // namespace scarp
+
+#pragma GCC visibility pop

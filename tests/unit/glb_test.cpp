@@ -53,7 +53,7 @@ TEST(Glb, RoundTripKeepsEveryBit) {
 TEST(Glb, IsYUpWithExactBoundsAndEmbeddedReport) {
   const auto bytes = encode_mesh(sample_mesh(), MeshFormat::kGlb);
   const json j = json_of(*bytes);
-  EXPECT_EQ(j["asset"]["generator"], "Scarp 0.1.0");
+  EXPECT_EQ(j["asset"]["generator"], "Scarp 0.2.0");
   EXPECT_EQ(j["asset"]["extras"]["report"]["max_error"], 4.9375);
   EXPECT_EQ(j["asset"]["extras"]["number"], "1.50");
   EXPECT_EQ(j["nodes"][0]["name"], "terrain");
