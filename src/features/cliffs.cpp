@@ -9,8 +9,8 @@
 #include "base/memory_budget.h"
 #include "features/crack_chains.h"
 #include "features/fault_lines.h"
+#include "grid/bands.h"
 #include "grid/line_marks.h"
-#include "grid/row_sweep.h"
 #include "grid/samples.h"
 
 namespace scarp {
@@ -51,7 +51,7 @@ Result<CrackChains> find_cracks(const HeightField& field, double height, const S
                                 const MemoryBudget& memory) {
   CrackChains cracks(field.cols, field.rows, height, [&marks](Point p) { return marks.has(p); });
   const std::uint64_t bytes = sweep_bytes(field, 1);
-  auto swept = sweep_rows(field, 1, [&](const RowStrip& strip) {
+  auto swept = sweep_rows(field, 1, [&](const RowRange& strip) {
     for (std::int32_t row = strip.begin; row < strip.end; ++row)
       cracks.add_row(row, row > 0 ? strip.row(row - 1) : nullptr, strip.row(row),
                      row + 1 < field.rows ? strip.row(row + 1) : nullptr);

@@ -10,8 +10,8 @@
 
 #include "base/memory_budget.h"
 #include "base/reporter.h"
+#include "grid/bands.h"
 #include "grid/outline.h"
-#include "grid/row_reader.h"
 #include "grid/sample_runs.h"
 #include "lines/field_lines.h"
 #include "scarp/water.h"

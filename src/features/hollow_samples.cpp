@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include "grid/row_sweep.h"
+#include "grid/bands.h"
 
 namespace scarp {
 
@@ -23,7 +23,7 @@ Result<HollowSamples> HollowSamples::find(const HeightField& field, const Questi
   const auto cols = static_cast<std::size_t>(field.cols);
   std::vector<float> turned;
   std::vector<std::uint8_t> is_near(cols);
-  const auto visit = [&](const RowStrip& strip) -> Result<void> {
+  const auto visit = [&](const RowRange& strip) -> Result<void> {
     Raster raster = strip.samples;
     if (question.is_upside_down) {
       turned.assign(raster.samples, raster.row(raster.rows));

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geom/plane.h"
-#include "grid/sample_rows.h"
+#include "grid/bands.h"
 #include "grid/vertex_places.h"
 #include "metric/judge.h"
 
@@ -64,7 +64,7 @@ class LatticeJudge final : public Judge {
     if (!bounds.empty()) bounds_ = SampleView(Raster{bounds.data(), samples.cols(), samples.rows()});
   }
   /// With bounds of which somebody holds rows.
-  LatticeJudge(const SampleView& samples, const PlaceHeights& heights, const SampleRows& bounds)
+  LatticeJudge(const SampleView& samples, const PlaceHeights& heights, const Band& bounds)
       : samples_(samples), heights_(heights), bounds_(bounds) {}
 
   Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const override;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "grid/window.h"
+#include "grid/bands.h"
 #include "pieces/border_chain.h"
 #include "pieces/tile_plan.h"
 #include "pieces/tile_room.h"
@@ -73,25 +73,22 @@ std::uint32_t count_unused(const Triangulation& tin) {
 bool is_in_file(const HeightField& field) { return field.samples == nullptr && !field.source->is_in_memory(); }
 
 /// Rows of a field whose source is slow, read once for all the tiles that want them.
-class RowBand final : public SampleSource {
+class StripSource final : public SampleSource {
  public:
-  explicit RowBand(const HeightField& field) : field_(field) {}
+  explicit StripSource(const HeightField& field) : field_(field), band_(field_, 0) {}
 
   Result<void> load(std::int32_t first, std::int32_t rows) {
-    first_ = first;
-    samples_.resize(static_cast<std::size_t>(field_.cols) * static_cast<std::size_t>(rows));
-    return read_window(field_, 0, first, field_.cols, rows, samples_.data(), field_.cols);
+    band_.clear();
+    return band_.load(first, rows);
   }
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
-    for (int y = 0; y < rows; ++y)
-      std::copy_n(samples_.data() + static_cast<std::ptrdiff_t>(row + y - first_) * field_.cols + col, cols,
-                  out + y * stride);
+    for (int y = 0; y < rows; ++y) std::copy_n(band_.samples(col, row + y, cols), cols, out + y * stride);
     return {};
   }
   bool is_in_memory() const override { return true; }
   /// Rows that are loaded.
   Raster raster(std::int32_t row, std::int32_t rows) const {
-    return {samples_.data() + static_cast<std::ptrdiff_t>(row - first_) * field_.cols, field_.cols, rows};
+    return {band_.raster().row(row - band_.first()), field_.cols, rows};
   }
   HeightField view() const {
     HeightField field = field_;
@@ -101,8 +98,7 @@ class RowBand final : public SampleSource {
 
  private:
   const HeightField& field_;
-  std::int32_t first_ = 0;
-  std::vector<float> samples_;
+  Band band_;
 };
 
 /// Rows of tiles are read, and done with, one after the other.
@@ -310,7 +306,7 @@ class TiledRun {
   TilePlan plan_;
   double density_;
   bool is_streamed_;
-  RowBand band_;
+  StripSource band_;
   HeightField field_;
   std::size_t step_;  // tiles that are refined between one reading of rows and the next
   int threads_;

@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "grid/sample_bands.h"
-#include "grid/sample_rows.h"
+#include "grid/bands.h"
 #include "lines/breaklines.h"
 #include "metric/lattice_judge.h"
 #include "refine/refinement.h"
@@ -39,7 +38,7 @@ double dot_of(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[
 /// Whether the angle between u and v is less than the one whose cosine has this square (of 0 … 90 degrees).
 bool is_sharper(double dot, double squares, double cosine2) { return dot > 0 && dot * dot > cosine2 * squares; }
 
-SampleRows::Read aims_of(const SourceBounds& bounds) {
+Band::Read aims_of(const SourceBounds& bounds) {
   return [&bounds](Point first, std::int32_t cols, std::int32_t rows, float* out) {
     return bounds.read_aims(first, cols, rows, out, cols);
   };
@@ -49,12 +48,11 @@ class ShapeRefiner {
  public:
   ShapeRefiner(const Raster& raster, Triangulation& tin, const VertexPlaces& places, const ShapeTask& task)
       : bands_{raster.rows, std::max(task.rows_at_once / 2, 1)},
-        rows_(raster.samples == nullptr ? std::optional<SampleRows>(std::in_place, *task.field, 2 * bands_.side)
+        rows_(raster.samples == nullptr ? std::optional<Band>(std::in_place, *task.field, 2 * bands_.side)
                                         : std::nullopt),
-        bound_rows_(task.source_bounds != nullptr
-                        ? std::optional<SampleRows>(std::in_place, raster.cols, raster.rows,
-                                                    aims_of(*task.source_bounds), 2 * bands_.side)
-                        : std::nullopt),
+        bound_rows_(task.source_bounds != nullptr ? std::optional<Band>(std::in_place, raster.cols, raster.rows,
+                                                                        aims_of(*task.source_bounds), 2 * bands_.side)
+                                                  : std::nullopt),
         samples_(rows_ ? SampleView(*rows_) : SampleView(raster)),
         tin_(tin),
         task_(task),
@@ -536,9 +534,9 @@ class ShapeRefiner {
     for (const Triangle t : refinement_->changed()) enqueue(t);
   }
 
-  SampleBands bands_;
-  std::optional<SampleRows> rows_;  ///< where the samples are not in memory as a whole
-  std::optional<SampleRows> bound_rows_;
+  Bands bands_;
+  std::optional<Band> rows_;  ///< where the samples are not in memory as a whole
+  std::optional<Band> bound_rows_;
   SampleView samples_;
   Triangulation& tin_;
   const ShapeTask& task_;

@@ -7,7 +7,8 @@
 #include <tuple>
 #include <utility>
 
-#include "grid/sample_rows.h"
+#include "grid/bands.h"
+#include "grid/source_failure.h"
 #include "pieces/effort.h"
 #include "pieces/goals.h"
 #include "simplify/search_progress.h"
@@ -170,21 +171,19 @@ class LineErrorSearch {
 
 /// Throws SourceFailure.
 HeightRange read_range(const HeightField& field) {
-  constexpr int kRows = 16;
   HeightRange range;
-  SampleRows rows(field, kRows);
-  for (int row = 0; row < field.rows; row += kRows) {
-    const int count = std::min(kRows, field.rows - row);
-    rows.hold(row, count);
-    HeightField band = field;
-    band.samples = rows.samples(0, row, field.cols);
-    band.rows = count;
-    const HeightRange here = height_range(band);
-    if (here.valid == 0) continue;
+  auto swept = sweep_rows(field, 0, [&](const RowRange& rows) -> Result<void> {
+    HeightField part = field;
+    part.samples = rows.samples.samples;
+    part.rows = rows.samples.rows;
+    const HeightRange here = height_range(part);
+    if (here.valid == 0) return {};
     range.min = range.valid == 0 ? here.min : std::min(range.min, here.min);
     range.max = range.valid == 0 ? here.max : std::max(range.max, here.max);
     range.valid += here.valid;
-  }
+    return {};
+  });
+  if (!swept) throw SourceFailure{swept.error()};
   return range;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "grid/sample_rows.h"
+#include "grid/bands.h"
 #include "laws/array_bounds.h"
 #include "laws/array_source.h"
 #include "laws/fit_meshes.h"
@@ -31,7 +31,7 @@ RC_GTEST_PROP(streamed_shapes, samples_are_those_of_the_raster_whether_rows_are_
   const Field field = testing::any_field();
   const ArraySource source(field.view());
   const HeightField streamed = with_source(field.view(), source);
-  SampleRows rows(streamed, field.rows);
+  Band rows(streamed, field.rows);
   for (int k = 0; k < 5; ++k) {
     const auto first = *rc::gen::inRange(0, field.rows);
     rows.hold(first, *rc::gen::inRange(0, field.rows - first) + 1);
