@@ -32,7 +32,7 @@ namespace scarp {
 namespace {
 
 Result<void> check_options(const HeightField& field, const SimplifyOptions& options) {
-  if (auto goals = check_goals(options, true); !goals) return goals;
+  if (auto goals = check_goals(options); !goals) return goals;
   if (!(options.outline_tolerance >= 0 && std::isfinite(options.outline_tolerance)))
     return fail(ErrorKind::kUsage, fmt::format("outline_tolerance must be a finite number of at least 0, not {}",
                                                options.outline_tolerance));
