@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scarp/cliffs.h"
+#include "scarp/conflicts.h"
 #include "scarp/edits.h"
 #include "scarp/frame.h"
 #include "scarp/generate.h"

@@ -147,6 +147,23 @@ class EngineRun {
     if (inside && raster_.is_valid(p)) domain_->tin.insert(p, location);
   }
 
+  /// Vertices that the script asks for stay, whatever removal could do without.
+  void fix_script_vertices() {
+    const Triangulation& tin = domain_->tin;
+    std::vector<Point> asked;
+    for (const ScriptStep& step : options_.script) {
+      if (step.action == ScriptStep::Action::kInsert)
+        asked.push_back({step.col * places_.steps, step.row * places_.steps});
+    }
+    if (asked.empty()) return;
+    const auto before = [](Point a, Point b) { return std::pair(a.y, a.x) < std::pair(b.y, b.x); };
+    std::sort(asked.begin(), asked.end(), before);
+    places_.fixed.resize(tin.vertex_count(), 0);
+    for (Vertex v = 0; v < tin.vertex_count(); ++v) {
+      if (std::binary_search(asked.begin(), asked.end(), tin.point(v), before)) places_.fixed[v] = 1;
+    }
+  }
+
   std::uint64_t vertices() const { return domain_->tin.vertex_count() - domain_->unused; }
 
   MeshSize size() const { return {vertices(), refinement_->triangle_count()}; }
@@ -310,6 +327,7 @@ class EngineRun {
     if (options_.effort == Effort::kFast || (fits_rows(field_, options_) && !options_.shape.any())) return {};
     const auto start = Clock::now();
     refinement_.reset();
+    fix_script_vertices();
     FitOptions options = fit_options(field_, options_, criterion_.aim());
     options.bounds = criterion_.aims();
     const auto norm = fit_norm(options_, raster_, criterion_);

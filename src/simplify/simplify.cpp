@@ -21,6 +21,7 @@
 #include "pieces/row_fit.h"
 #include "pieces/tile_worker.h"
 #include "pieces/tiled.h"
+#include "simplify/checks.h"
 #include "simplify/engine_run.h"
 #include "simplify/error_search.h"
 #include "simplify/line_budget.h"
@@ -153,15 +154,7 @@ Result<Simplified> simplify_greedily(const HeightField& field, const SimplifyOpt
 Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options, LineWork* lines) {
   if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
-  const char* obstacle = options.order == Order::kGreedy ? "is not the greedy one" : find_obstacle(field, options);
-  if (obstacle != nullptr && field.samples == nullptr)
-    return fail(ErrorKind::kUsage, fmt::format("a raster that is not in memory as a whole is refined in the dominant "
-                                               "order, which {}: leave that out, or read the raster as a whole",
-                                               obstacle));
-  if (obstacle != nullptr && options.order == Order::kDominant)
-    return fail(ErrorKind::kUsage,
-                fmt::format("the dominant order {}: leave that out, or take the greedy order", obstacle));
-  const auto run = obstacle == nullptr ? simplify_tiles : simplify_greedily;
+  const auto run = may_be_dominant(field, options) ? simplify_tiles : simplify_greedily;
   auto result = run(field, options, lines);
   if (result || result.error().kind != ErrorKind::kPromise || options.vertices != Vertices::kAuto) return result;
   if (!vertices_are_free(field, options)) return result;
@@ -182,7 +175,7 @@ Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyO
     auto lines = asked.breaklines_for(*asked.max_error);
     if (!lines) return tl::unexpected(lines.error());
     options.breaklines = std::move(*lines);
-    if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
+    if (auto sound = check_conflicts(field, options); !sound) return tl::unexpected(sound.error());
   }
   options.memory_taken +=
       line_bytes(field, options.breaklines) + line_bytes(field, options.cutline.rings, options.cutline.affine);
@@ -242,16 +235,19 @@ Result<Simplified> simplify_within(const HeightField& field, const SimplifyOptio
 }  // namespace
 
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& asked) try {
+  for (const auto check : {check_options, check_conflicts, check_needs}) {
+    if (auto sound = check(field, asked); !sound) return tl::unexpected(sound.error());
+  }
   SimplifyOptions options = asked;
-  options.effort = choose_effort(asked);
-  if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
-  if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
-  if (has_lines(options) || (field.samples == nullptr && has_budget(options))) return simplify_within(field, options);
+  options.effort = choose_effort(field, asked);
+  const bool inserts_towards_error =
+      field.samples == nullptr || options.order == Order::kDominant || options.shape.any();
+  if (has_lines(options) || (inserts_towards_error && has_budget(options))) return simplify_within(field, options);
   if (options.effort == Effort::kFast || !has_budget(options)) return simplify_once(field, options, nullptr);
   const auto run = [&](const SimplifyOptions& once) { return simplify_once(field, once, nullptr); };
-  if (!has_norm(field)) return search_error(options, run);
-  options.vertices = Vertices::kSamples;
-  return search_error(options, run, Judged::kNorm);
+  if (has_norm(field)) options.vertices = Vertices::kSamples;
+  if (!options.mask.empty()) return search_error(options, run, Judged::kWeighted);
+  return search_error(options, run, has_norm(field) ? Judged::kNorm : Judged::kHeights);
 } catch (const SourceFailure& failure) {
   return tl::unexpected(failure.error);
 } catch (const std::bad_alloc&) {
