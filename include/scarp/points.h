@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,22 @@ struct SimplifiedPoints {
   double lattice_step = 0;       ///< of the integer lattice, in units of x and y
 };
 
+/// What to reach. At least one of the goals; the first that is reached ends the run.
+struct PointOptions {
+  /// |mesh − z| <= max_error at every point, finite and at least 0. DEFAULT: none.
+  std::optional<double> max_error = std::nullopt;
+  /// Upper bounds, as in SimplifyOptions with fast effort. DEFAULT: none.
+  std::optional<std::uint64_t> max_triangles = std::nullopt;
+  std::optional<std::uint64_t> max_vertices = std::nullopt;
+  /// Round positions to float32, as GLB and STL hold them; else they are double. DEFAULT: true.
+  bool float32_positions = true;
+  /// False: a budget that ends the run leaves the last mesh, though an earlier one may have been better. DEFAULT: true.
+  bool best_of_budget = true;
+  DuplicatePolicy duplicates = DuplicatePolicy::kFirst;  ///< DEFAULT: the first point of each place.
+  int threads = 0;  ///< of the proof; 0 = all cores. Never changes the result. DEFAULT: 0.
+  ProgressCallback progress = {};
+};
+
 /// Greedy insertion on scattered samples (the report's section 2 names it, without doing it). The domain is the convex
 /// hull. Each triangle keeps the list of the points in it. Coordinates are snapped to an integer lattice of up to 2^30
 /// steps: the coarsest on which the given decimals lie exactly if there is one, else the finest power of two. Different
@@ -66,14 +83,12 @@ struct SimplifiedPoints {
 ///
 /// Guarantees that |mesh − z| <= max_error at every point that is not given up as a duplicate, at its coordinates as
 /// given, for the positions as they are in the mesh. Vertices are points.
-/// Honours max_error, max_triangles, max_vertices, best_of_budget, float32_positions, threads, progress of the options;
-/// fails with kUsage if anything else is asked for or a budget is below what the hull needs, with kInput (fewer than 3
+/// Fails with kUsage (no goal, a max_error out of range, a budget below what the hull needs), with kInput (fewer than 3
 /// places, all on one line, a value that is not finite or beyond 1e100, an extent below 1e-100, two points nearer to
 /// each other than about 2^-30 of the extent, which are named, as is the far point that makes the extent so large),
 /// with kPromise where float32 positions cannot keep the bound, kCancelled. Cost: expected O(n log m) for n points;
 /// about 50 bytes a point beside the points themselves.
-Result<SimplifiedPoints> simplify_points(const PointSet& points, const SimplifyOptions& options,
-                                         DuplicatePolicy duplicates = DuplicatePolicy::kFirst);
+Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options);
 
 /// Judges a mesh against points by brute force, without knowing how it was made: Measurement::samples counts points,
 /// max_error_at is {index of the point, 0}, and so are offenders; on_row is called once, with all points. Duplicates

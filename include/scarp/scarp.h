@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scarp/cliffs.h"
+#include "scarp/conflicts.h"
 #include "scarp/degrees.h"
 #include "scarp/edits.h"
 #include "scarp/features.h"

@@ -24,7 +24,7 @@
 
 namespace scarp {
 
-/// What to reach. At least one goal; the first that is reached ends the run.
+/// What to reach. At least one goal; the first that is reached ends the run. What does not go together: conflicts.h.
 struct SimplifyOptions {
   /// Vertical error bound in z units, at least 0: |mesh − sample| <= max_error at every valid sample. 0 reproduces
   /// every sample. DEFAULT: none.
@@ -45,19 +45,19 @@ struct SimplifyOptions {
   /// what max_error bounds. Where the weight is 0 there is no bound. Borrowed. DEFAULT: empty, all 1.
   std::span<const float> mask = {};
   /// Bounds, one a sample, at least 0, in z units; +infinity: none. |error| <= tolerance at every valid sample, beside
-  /// max_error if that is given; |error| / tolerance is ranked. A goal of its own. Not together with a mask. Borrowed.
+  /// max_error if that is given; |error| / tolerance is ranked. A goal of its own. Borrowed.
   /// DEFAULT: empty.
   std::span<const float> tolerance = {};
   /// The same where the field has a source, read in windows as its samples are (no NaN): there the above fails with
-  /// kUsage, as this does beside samples in memory, and a budget beside it. Borrowed. DEFAULT: none.
+  /// kUsage, as this does beside samples in memory. Borrowed. DEFAULT: none.
   const SampleSource* tolerance_source = nullptr;
   /// Breaklines. A hard line keeps its heights, a soft one follows the raster. Where a hard line passes through a
   /// sample that has another height, the sample is given the line's, and what is promised holds for the samples as they
-  /// are then (Simplified::edits). Fails with kUsage without a max error or a budget, together with channels, an
-  /// outline tolerance or strategies, and in frames that are not affine; faults (cliffs.h) also without the samples in
-  /// memory; with kInput for lines whose heights contradict each other, named. With a budget an error is searched for,
-  /// whatever the effort (see "Budgets"); fails with kUsage beside a mask, tolerances or a script, and for a budget
-  /// below what lines and outline need. DEFAULT: none.
+  /// are then (Simplified::edits). Fails with kUsage without a max error or a budget, with kInput for lines whose
+  /// heights contradict each other, named.
+  /// With a budget an error is searched for, whatever the effort (see "Budgets"); fails with kUsage for a budget
+  /// below what lines and outline need.
+  /// DEFAULT: none.
   LineConstraints breaklines = {};
   /// Breaklines that depend on the max error of the mesh to come, such as rivers and the lines of cliffs: asked for all
   /// breaklines, in place of the above, before each run that a budget's search makes, or once. DEFAULT: none.
@@ -68,32 +68,32 @@ struct SimplifyOptions {
   /// judged. Fails as faults do, and with kInput where no surface lies in the polygons. DEFAULT: none.
   Cutline cutline = {};
   std::vector<ScriptStep> script = {};  ///< carried out in order before the first scan. DEFAULT: nothing.
-  /// kDominant fails with kUsage together with a budget, a mask, tolerances, a script, channels, an importance, an
-  /// algorithm, batches, data-dependent edges or an outline tolerance; kAuto then is kGreedy. DEFAULT: kAuto.
+  /// kAuto is kDominant towards an error where that order has no conflicts (conflicts.h), else kGreedy. kDominant with
+  /// a budget searches for the error whose mesh fits. DEFAULT: kAuto.
   Order order = Order::kAuto;
-  /// All but kFast fail with kUsage together with a script that inserts, data-dependent edges, or with a budget beside
-  /// a mask, tolerances or a script. DEFAULT: kAuto.
+  /// kAuto is kNormal where min_shape, is_time_up or Objective::kRms ask for more than refinement. Vertices that a
+  /// script inserts stay, whatever the effort. DEFAULT: kAuto.
   Effort effort = Effort::kAuto;
-  /// kFree fails with kUsage below kHigh, with channels and in frames that are not affine. DEFAULT: kAuto.
+  /// kFree fails with kUsage below kHigh. DEFAULT: kAuto.
   Vertices vertices = Vertices::kAuto;
   /// Floor of the shapes of triangles, height over longest edge, 0 … 0.5, 0 for none: no vertex is removed or moved, no
   /// edge flipped if that leaves a triangle below it, unless it takes away one that is as bad. Triangles of refinement,
-  /// and those that the outline of voids forces, may lie below. Fails with kUsage with fast effort.
+  /// and those that the outline of voids forces, may lie below.
   /// DEFAULT: 0.1 where vertices are free, else 0.
   std::optional<double> min_shape = std::nullopt;
   /// Angles, edge lengths and their growth, for simulations: vertices are added until they hold, then removed as far as
-  /// they still do (with a grade the other way round). Fails with kUsage without a max error, together with a budget,
-  /// channels, an outline tolerance or strategies, in frames that are not affine and for goals out of range. DEFAULT:
-  /// none.
+  /// they still do (with a grade the other way round). With a budget an error is searched for, as with lines. Fails
+  /// with kUsage without a max error or a budget, for goals out of range, and for a budget below what they need.
+  /// DEFAULT: none.
   ShapeGoals shape = {};
   /// Asked often, on any thread, by all efforts but kFast; once true, true for good. Then vertices are no longer
-  /// removed, and the mesh so far, which keeps the promise, is the result: it depends on the time. Fails with kUsage
-  /// together with a budget or fast effort. DEFAULT: never.
+  /// removed, and the mesh so far, which keeps the promise, is the result: it depends on the time. With a budget the
+  /// search then ends with the best mesh so far. DEFAULT: never.
   std::function<bool()> is_time_up = {};
   /// Asked and obeyed in the same way, for somebody who stops waiting: it is no time to use up, so kMax does not go on
   /// until then. Not asked by fast effort and with a budget. DEFAULT: never.
   std::function<bool()> is_enough = {};
-  /// kRms fails with kUsage without a budget or with fast effort. DEFAULT: kMax.
+  /// kRms fails with kUsage without a budget. DEFAULT: kMax.
   Objective objective = Objective::kMax;
   Importance importance = {};  ///< DEFAULT: global error
   Algorithm algorithm = Algorithm::kHeap;
@@ -196,7 +196,7 @@ struct Simplified {
 /// % of them, 97 % where that takes long, mostly in two or three runs of that effort after a greedy one; less where
 /// triangles jump because many samples share an error. What the objective names is never larger than in the greedy mesh
 /// for the same budgets. A max_error that fits is a goal of its own, and so is 0 where all samples fit (kExact). With
-/// lines, and where the field has a source, so does fast effort: the mesh is that of an error, which lines follow.
+/// lines or shapes, in the dominant order, and where the field has a source, so does fast effort.
 ///
 /// Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex and some
 /// 20 MB. In the dominant order it is 4.6 bytes a sample plus 72 a vertex until the mesh is frozen, and a tile's
@@ -208,7 +208,7 @@ struct Simplified {
 ///
 /// Strategies (strategy.h) change which samples become vertices, never what is promised.
 ///
-/// Fails with kUsage (no goal, a script step outside the raster, strategies that contradict each other, a mask,
+/// Fails with kUsage (no goal, a script step outside the raster, settings with a conflict (conflicts.h), a mask,
 /// tolerance or channel out of range, a goal out of range, a budget below what the outline needs, a memory_limit that
 /// cannot be kept), kInput (fewer than 2×2 samples, no valid cell), kPromise (a bound that float32 positions or samples
 /// cannot keep, a mesh that rounding or a projection folds over), kCancelled.

@@ -49,14 +49,14 @@ enum class Order {
   kAuto,      ///< kDominant where it applies, else kGreedy
   kGreedy,    ///< the worst sample of the whole raster first, as the report's Algorithm III
   kDominant,  ///< the worst sample of its neighbourhood first, tile by tile: many times faster, on all threads, with as
-              ///< many vertices. For an error goal alone, on heights alone, with Delaunay edges; see simplify().
+              ///< many vertices. For one error, on heights alone, with Delaunay edges; see simplify().
 };
 
 /// How much is done, once the bound is kept, for a smaller mesh that keeps it too; with a budget, for a better mesh of
 /// that size.
 enum class Effort {
-  kAuto,    ///< kNormal where that is possible, the order is not asked to be greedy, memory has no limit and samples no
-            ///< bounds of their own; else kFast
+  kAuto,    ///< kNormal where that is asked for (min_shape, …), or possible, the order is not greedy, memory has no
+            ///< limit and samples no bounds of their own; else kFast
   kFast,    ///< nothing: what refinement inserted stays
   kNormal,  ///< vertices are removed for as long as every sample keeps the bound: half the triangles, for a few times
             ///< the time. Row of tiles by row of tiles if samples are not in memory; see simplify().

@@ -76,8 +76,6 @@ Result<void> Criterion::check_weights() const {
   if (options_->tolerance_source != nullptr && field_->samples != nullptr)
     return usage("tolerances are read in windows where samples are: beside samples in memory give them as an array");
   const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
-  if (!options_->mask.empty() && !options_->tolerance.empty())
-    return usage("a mask and tolerances contradict each other: give one of them");
   for (const auto& [name, values] : {std::pair{"the mask", options_->mask}, {"the tolerance", options_->tolerance}}) {
     if (values.empty()) continue;
     if (values.size() != samples)
@@ -103,7 +101,6 @@ Result<void> Criterion::check_strategy() const {
   if (!importance.global && !has_feature) return usage("an importance needs the global error or a feature");
   if (importance.one_pass && (importance.global || !has_feature))
     return usage("one pass ranks samples by a feature alone: local error or curvature");
-  if (importance.one_pass && options_->batch.rule != Batch::Rule::kSequential) return usage("one pass has no batches");
   const Batch& batch = options_->batch;
   if (batch.rule == Batch::Rule::kFraction && !(batch.fraction > 0 && batch.fraction <= 1))
     return usage(fmt::format("a batch takes a fraction above 0 and at most 1, not {}", batch.fraction));

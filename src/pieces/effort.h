@@ -13,18 +13,7 @@ namespace scarp {
 
 bool has_budget(const SimplifyOptions& options);
 bool has_lines(const SimplifyOptions& options);
-bool has_faults(const SimplifyOptions& options);  ///< among the breaklines
 bool lays_first(const SimplifyOptions& options);  ///< faults, ridges or valleys
-
-/// What keeps a run from the dominant order; null if nothing does.
-const char* find_obstacle(const HeightField& field, const SimplifyOptions& options);
-
-/// The effort that is made: that which was asked for, or what Effort::kAuto stands for.
-Effort choose_effort(const SimplifyOptions& options);
-
-/// Fails with kUsage where effort, objective, vertices or shape contradict each other or the rest. REQUIRES:
-/// options.effort is chosen.
-Result<void> check_effort(const HeightField& field, const SimplifyOptions& options);
 
 /// Whether vertices will be let free.
 bool vertices_are_free(const HeightField& field, const SimplifyOptions& options);

@@ -19,16 +19,16 @@ MemoryBudget memory_budget(const HeightField& field, const SimplifyOptions& opti
           std::max({kProof, kMesh + options.memory_per_vertex, fit, shape})};
 }
 
-Result<void> check_goals(const SimplifyOptions& options, bool may_have_tolerance) {
-  const bool has_tolerance = may_have_tolerance && (!options.tolerance.empty() || options.tolerance_source != nullptr);
+Result<void> check_goals(const SimplifyOptions& options) {
+  const bool has_tolerance = !options.tolerance.empty() || options.tolerance_source != nullptr;
   if (!options.max_error && !options.max_triangles && !options.max_vertices && !has_tolerance)
-    return fail(ErrorKind::kUsage,
-                fmt::format("no goal given: set max_error, max_triangles{} max_vertices{}",
-                            may_have_tolerance ? "," : " or", may_have_tolerance ? " or tolerance" : ""));
-  if (options.max_error && !(*options.max_error >= 0 && std::isfinite(*options.max_error)))
-    return fail(ErrorKind::kUsage,
-                fmt::format("max_error must be a finite number of at least 0, not {}", *options.max_error));
-  return {};
+    return fail(ErrorKind::kUsage, "no goal given: set max_error, max_triangles, max_vertices or tolerance");
+  return check_max_error(options.max_error);
+}
+
+Result<void> check_max_error(const std::optional<double>& max_error) {
+  if (!max_error || (*max_error >= 0 && std::isfinite(*max_error))) return {};
+  return fail(ErrorKind::kUsage, fmt::format("max_error must be a finite number of at least 0, not {}", *max_error));
 }
 
 Result<void> Budget::check(const MeshSize& least, const std::string& culprit, const std::string& advice) const {
@@ -37,16 +37,16 @@ Result<void> Budget::check(const MeshSize& least, const std::string& culprit, co
                                                budget == 1 ? std::string(one) + " is" : std::string(many) + " are",
                                                culprit, needed, advice));
   };
-  if (options_.max_vertices && *options_.max_vertices < least.vertices)
-    return refuse(*options_.max_vertices, "vertex", "vertices", least.vertices);
-  if (options_.max_triangles && *options_.max_triangles < least.triangles)
-    return refuse(*options_.max_triangles, "triangle", "triangles", least.triangles);
+  if (max_vertices_ && *max_vertices_ < least.vertices)
+    return refuse(*max_vertices_, "vertex", "vertices", least.vertices);
+  if (max_triangles_ && *max_triangles_ < least.triangles)
+    return refuse(*max_triangles_, "triangle", "triangles", least.triangles);
   return {};
 }
 
 std::optional<StopReason> Budget::exceeded(const MeshSize& size, std::uint32_t gain) const {
-  if (options_.max_vertices && size.vertices + 1 > *options_.max_vertices) return StopReason::kMaxVertices;
-  if (options_.max_triangles && size.triangles + gain > *options_.max_triangles) return StopReason::kMaxTriangles;
+  if (max_vertices_ && size.vertices + 1 > *max_vertices_) return StopReason::kMaxVertices;
+  if (max_triangles_ && size.triangles + gain > *max_triangles_) return StopReason::kMaxTriangles;
   return std::nullopt;
 }
 
@@ -56,7 +56,7 @@ double Budget::used(const MeshSize& size) const {
   const auto share = [](std::uint64_t count, const std::optional<std::uint64_t>& most) {
     return most ? static_cast<double>(count) / static_cast<double>(*most) : 0;
   };
-  return std::max(share(size.vertices, options_.max_vertices), share(size.triangles, options_.max_triangles));
+  return std::max(share(size.vertices, max_vertices_), share(size.triangles, max_triangles_));
 }
 
 }  // namespace scarp

@@ -15,8 +15,9 @@
 
 namespace scarp {
 
-/// Fails unless there is a goal (tolerances count where they are allowed) and max_error is a number of at least 0.
-Result<void> check_goals(const SimplifyOptions& options, bool may_have_tolerance);
+/// Fails unless there is a goal and max_error is a number of at least 0.
+Result<void> check_goals(const SimplifyOptions& options);
+Result<void> check_max_error(const std::optional<double>& max_error);
 
 /// Bytes a vertex: what a run takes most of, in the proof, while the mesh is written, or where it is fitted as a whole.
 MemoryBudget memory_budget(const HeightField& field, const SimplifyOptions& options);
@@ -25,10 +26,11 @@ struct MeshSize {
   std::uint64_t vertices = 0, triangles = 0;
 };
 
-/// The budgets of the options, which stay alive.
 class Budget {
  public:
-  explicit Budget(const SimplifyOptions& options) : options_(options) {}
+  Budget(std::optional<std::uint64_t> max_triangles, std::optional<std::uint64_t> max_vertices)
+      : max_triangles_(max_triangles), max_vertices_(max_vertices) {}
+  explicit Budget(const SimplifyOptions& options) : Budget(options.max_triangles, options.max_vertices) {}
 
   /// Fails if not even the smallest mesh fits: "N vertices are too few: CULPRIT M; allow moreADVICE".
   Result<void> check(const MeshSize& least, const std::string& culprit, const std::string& advice) const;
@@ -40,7 +42,7 @@ class Budget {
   double used(const MeshSize& size) const;
 
  private:
-  const SimplifyOptions& options_;
+  std::optional<std::uint64_t> max_triangles_, max_vertices_;
 };
 
 /// A mesh on the way, as the number of vertices that the triangulation then had.

@@ -74,12 +74,19 @@ class ErrorSearch {
 
   Result<void> search() {
     if (has_room_) return fit_into_room();
+    if (is_time_up()) return {};
     auto next = guess_by_refinement();
     if (!next) return tl::unexpected(next.error());
     for (double error = *next;; error = guess()) {
       if (auto looked = look(error); !looked) return looked;
-      if (has_ended()) return {};
+      if (has_ended() || is_time_up()) return {};
     }
+  }
+
+  /// Then the best mesh so far is the result.
+  bool is_time_up() {
+    best_.is_cut_short = best_.is_cut_short || (options_.is_time_up && options_.is_time_up());
+    return best_.is_cut_short;
   }
 
   /// Greedy insertion has reached the floor: effort makes that mesh smaller. Where rounding forbids the floor, the
@@ -216,9 +223,11 @@ class ErrorSearch {
   }
 
   double max_error_of(const Simplified& made) const {
+    if (judged_ == Judged::kWeighted) return made.weighted_max_error;
     return judged_ == Judged::kNorm ? made.combined_max_error : made.measurement.max_error;
   }
   double rmse_of(const Simplified& made) const {
+    if (judged_ == Judged::kWeighted) return made.weighted_rmse;
     return judged_ == Judged::kNorm ? made.combined_rmse : made.measurement.rmse;
   }
 

@@ -54,8 +54,9 @@ class LineErrorSearch {
     auto least = run(most, 0.1);
     if (!least) return tl::unexpected(least.error());
     const MeshSize size{least->mesh.vertex_count(), least->mesh.triangle_count()};
-    const char* culprit = has_lines(options_) ? "the lines and the outline of the valid data alone need"
-                                              : "the outline of the valid data and its rows of tiles alone need";
+    const char* culprit = has_lines(options_)    ? "the lines and the outline of the valid data alone need"
+                          : options_.shape.any() ? "the angles and edges alone need"
+                                                 : "the outline of the valid data and its rows of tiles alone need";
     if (auto fits = budget_.check(size, culprit, ""); !fits) return fits;
     best_ = std::move(*least);
     is_at_floor_ = best_.measurement.max_error <= floor_;

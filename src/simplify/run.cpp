@@ -143,6 +143,23 @@ class Run {
     if (inside && raster_.is_valid(p)) piece_->tin.insert(p, location);
   }
 
+  /// Vertices that the script asks for stay, whatever removal could do without.
+  void fix_script_vertices() {
+    const Triangulation& tin = piece_->tin;
+    std::vector<Point> asked;
+    for (const ScriptStep& step : options_.script) {
+      if (step.action == ScriptStep::Action::kInsert)
+        asked.push_back({step.col * piece_->places.steps, step.row * piece_->places.steps});
+    }
+    if (asked.empty()) return;
+    const auto before = [](Point a, Point b) { return std::pair(a.y, a.x) < std::pair(b.y, b.x); };
+    std::sort(asked.begin(), asked.end(), before);
+    piece_->places.fixed.resize(tin.vertex_count(), 0);
+    for (Vertex v = 0; v < tin.vertex_count(); ++v) {
+      if (std::binary_search(asked.begin(), asked.end(), tin.point(v), before)) piece_->places.fixed[v] = 1;
+    }
+  }
+
   void take(Domain domain) {
     is_whole_ = domain.whole;
     unused_ = domain.unused;
@@ -296,6 +313,7 @@ class Run {
     if (!plan_.fits || (plan_.fits_strips && !options_.shape.any())) return {};
     const auto start = Clock::now();
     refinement_.reset();
+    fix_script_vertices();
     FitOptions options = fit_options(field_, options_, criterion_.aim());
     piece_->aims = criterion_.aims();
     const auto norm = fit_norm(options_, raster_, criterion_);

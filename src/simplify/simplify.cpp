@@ -1,4 +1,4 @@
-// The door: options are checked, an effort and an order chosen, lines made ready; engine_run.h does the rest.
+// The door: options are checked, an effort and an order chosen, lines made ready; orders.h does the rest.
 #include "scarp/simplify.h"
 
 #include <fmt/format.h>
@@ -10,29 +10,23 @@
 #include <utility>
 #include <vector>
 
-#include "base/parallel.h"
 #include "grid/raster.h"
-#include "grid/samples.h"
 #include "grid/source_failure.h"
-#include "grid/sources/cut_source.h"
-#include "metric/criterion.h"
 #include "pieces/effort.h"
 #include "pieces/goals.h"
 #include "pieces/plan.h"
-#include "pieces/tile_worker.h"
-#include "pieces/tiled.h"
+#include "simplify/checks.h"
 #include "simplify/error_search.h"
 #include "simplify/line_budget.h"
 #include "simplify/line_work.h"
 #include "simplify/orders.h"
-#include "simplify/proof.h"
 
 namespace scarp {
 
 namespace {
 
 Result<void> check_options(const HeightField& field, const SimplifyOptions& options) {
-  if (auto goals = check_goals(options, true); !goals) return goals;
+  if (auto goals = check_goals(options); !goals) return goals;
   if (!(options.outline_tolerance >= 0 && std::isfinite(options.outline_tolerance)))
     return fail(ErrorKind::kUsage, fmt::format("outline_tolerance must be a finite number of at least 0, not {}",
                                                options.outline_tolerance));
@@ -50,15 +44,7 @@ Result<void> check_options(const HeightField& field, const SimplifyOptions& opti
 Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options, LineWork* lines) {
   if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
-  const char* obstacle = options.order == Order::kGreedy ? "is not the greedy one" : find_obstacle(field, options);
-  if (obstacle != nullptr && field.samples == nullptr)
-    return fail(ErrorKind::kUsage, fmt::format("a raster that is not in memory as a whole is refined in the dominant "
-                                               "order, which {}: leave that out, or read the raster as a whole",
-                                               obstacle));
-  if (obstacle != nullptr && options.order == Order::kDominant)
-    return fail(ErrorKind::kUsage,
-                fmt::format("the dominant order {}: leave that out, or take the greedy order", obstacle));
-  const auto run = obstacle == nullptr ? run_by_tiles : run_greedily;
+  const auto run = may_be_dominant(field, options) ? run_by_tiles : run_greedily;
   const Plan plan(field, options);
   auto result = run(plan, lines);
   if (result || result.error().kind != ErrorKind::kPromise || options.vertices != Vertices::kAuto) return result;
@@ -80,7 +66,7 @@ Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyO
     auto lines = asked.breaklines_for(*asked.max_error);
     if (!lines) return tl::unexpected(lines.error());
     options.breaklines = std::move(*lines);
-    if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
+    if (auto sound = check_conflicts(field, options); !sound) return tl::unexpected(sound.error());
   }
   options.memory_taken +=
       line_bytes(field, options.breaklines) + line_bytes(field, options.cutline.rings, options.cutline.affine);
@@ -140,16 +126,19 @@ Result<Simplified> simplify_within(const HeightField& field, const SimplifyOptio
 }  // namespace
 
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& asked) try {
+  for (const auto check : {check_options, check_conflicts, check_needs}) {
+    if (auto sound = check(field, asked); !sound) return tl::unexpected(sound.error());
+  }
   SimplifyOptions options = asked;
-  options.effort = choose_effort(asked);
-  if (auto sound = check_options(field, options); !sound) return tl::unexpected(sound.error());
-  if (auto sound = check_effort(field, options); !sound) return tl::unexpected(sound.error());
-  if (has_lines(options) || (field.samples == nullptr && has_budget(options))) return simplify_within(field, options);
+  options.effort = choose_effort(field, asked);
+  const bool inserts_towards_error =
+      field.samples == nullptr || options.order == Order::kDominant || options.shape.any();
+  if (has_lines(options) || (inserts_towards_error && has_budget(options))) return simplify_within(field, options);
   if (options.effort == Effort::kFast || !has_budget(options)) return simplify_once(field, options, nullptr);
   const auto run = [&](const SimplifyOptions& once) { return simplify_once(field, once, nullptr); };
-  if (!has_norm(field)) return search_error(options, run);
-  options.vertices = Vertices::kSamples;
-  return search_error(options, run, Judged::kNorm);
+  if (has_norm(field)) options.vertices = Vertices::kSamples;
+  if (!options.mask.empty()) return search_error(options, run, Judged::kWeighted);
+  return search_error(options, run, has_norm(field) ? Judged::kNorm : Judged::kHeights);
 } catch (const SourceFailure& failure) {
   return tl::unexpected(failure.error);
 } catch (const std::bad_alloc&) {

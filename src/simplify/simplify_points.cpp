@@ -25,26 +25,10 @@ namespace scarp {
 
 namespace {
 
-Result<void> check_options(const SimplifyOptions& options) {
-  if (auto goals = check_goals(options, false); !goals) return goals;
-  const std::pair<bool, const char*> refused[] = {
-      {options.outline_tolerance != 0, "outline_tolerance"},
-      {!options.mask.empty(), "mask"},
-      {!options.tolerance.empty() || options.tolerance_source != nullptr, "tolerance"},
-      {!options.script.empty(), "script"},
-      {!(options.importance == Importance{}), "importance"},
-      {options.algorithm != Algorithm::kHeap, "algorithm"},
-      {!(options.batch == Batch{}), "batch"},
-      {!(options.edges == EdgeRule{}), "edges"},
-      {options.norm != Norm::kSum, "norm"},
-      {options.uvs, "uvs"},
-      {options.normals, "normals"},
-  };
-  for (const auto& [is_set, name] : refused) {
-    if (is_set)
-      return fail(ErrorKind::kUsage, fmt::format("{} is for rasters only: leave it out for scattered points", name));
-  }
-  return {};
+Result<void> check_options(const PointOptions& options) {
+  if (!options.max_error && !options.max_triangles && !options.max_vertices)
+    return fail(ErrorKind::kUsage, "no goal given: set max_error, max_triangles or max_vertices");
+  return check_max_error(options.max_error);
 }
 
 /// Heights that vertices have in a mesh of float32 positions.
@@ -83,12 +67,12 @@ double middle(std::span<const double> values) {
 class PointRun {
  public:
   PointRun(const PointSet& points, const PointPlaces& places, std::span<const double> heights,
-           const SimplifyOptions& options, ScatteredDomain domain)
+           const PointOptions& options, ScatteredDomain domain)
       : points_(points),
         places_(places),
         heights_(heights),
         options_(options),
-        budget_(options),
+        budget_(options.max_triangles, options.max_vertices),
         bound_(options.max_error.value_or(0)),
         domain_(std::move(domain)),
         seeds_(domain_.place_of.size()),
@@ -290,7 +274,7 @@ class PointRun {
   const PointSet& points_;
   const PointPlaces& places_;
   std::span<const double> heights_;
-  const SimplifyOptions& options_;
+  const PointOptions& options_;
   Budget budget_;
   double bound_;
   double largest_height_ = 0, thinnest_border_ = 0;
@@ -305,11 +289,10 @@ class PointRun {
 
 }  // namespace
 
-Result<SimplifiedPoints> simplify_points(const PointSet& points, const SimplifyOptions& options,
-                                         DuplicatePolicy duplicates) try {
+Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options) try {
   const auto start = Clock::now();
   if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
-  const auto places = find_places(points, duplicates);
+  const auto places = find_places(points, options.duplicates);
   if (!places) return tl::unexpected(places.error());
   auto domain = build_domain(*places);
   if (!domain) return tl::unexpected(domain.error());

@@ -114,32 +114,35 @@ for effort in normal high; do
   succeeds "$scarp" measure "$dem" ignored.glb --script ignored.txt --fail-above 20
 done
 echo 's 50 50' >inserted.txt
-refuses 1 "also those that a script inserts" "$scarp" simplify "$dem" never.glb -e 20 --effort normal --script inserted.txt
-for bounds in "--mask weights.tif" "--tolerance falling.tif" "--script ignored.txt"; do
+succeeds "$scarp" simplify "$dem" inserted.glb -e 20 --effort normal --script inserted.txt
+succeeds "$scarp" measure "$dem" inserted.glb --fail-above 20
+succeeds "$scarp" simplify "$dem" masked.glb -t 2000 --mask weights.tif --effort normal --report masked.json --overwrite
+holds "$(json masked.json triangles) <= 2000"
+for bounds in "--tolerance falling.tif" "--script ignored.txt"; do
   # shellcheck disable=SC2086
-  refuses 1 "a budget is met by one error" "$scarp" simplify "$dem" never.glb -t 2000 --effort high $bounds
+  refuses 1 "by one error for all samples" "$scarp" simplify "$dem" never.glb -t 2000 --effort high $bounds
 done
 
 # What removal has no place for is named.
-refuses 1 "--effort normal and --edges data" "$scarp" simplify "$dem" never.glb -e 20 --effort normal --edges data
+refuses 1 "--effort normal cannot be combined with --edges data" "$scarp" simplify "$dem" never.glb -e 20 --effort normal --edges data
 refuses 1 "--vertices free needs --effort high" "$scarp" simplify "$dem" never.glb -e 20 --vertices free
 refuses 1 "--vertices" "$scarp" simplify "$dem" never.glb -e 20 --effort high --vertices some
 refuses 1 "regular" "$scarp" simplify "$dem" never.glb -e 20 --effort high --vertices free --crs EPSG:32616
 refuses 1 "--min-shape 0.6 is above 0.5" "$scarp" simplify "$dem" never.glb -e 20 --min-shape 0.6
-refuses 1 "--min-shape needs --effort" "$scarp" simplify "$dem" never.glb -e 20 --effort fast --min-shape 0.1
-refuses 1 "--time-limit needs --effort" "$scarp" simplify "$dem" never.glb -e 20 --effort fast --time-limit 3
-refuses 1 "--time-limit and --max-triangles" "$scarp" simplify "$dem" never.glb -t 2000 --effort high --time-limit 3
+refuses 1 "--effort fast cannot be combined with --min-shape" "$scarp" simplify "$dem" never.glb -e 20 --effort fast --min-shape 0.1
+refuses 1 "--effort fast cannot be combined with --time-limit" "$scarp" simplify "$dem" never.glb -e 20 --effort fast --time-limit 3
+refuses 1 "--time-limit cannot be combined with --max-triangles beside --effort max" \
+  "$scarp" simplify "$dem" never.glb -t 2000 --effort max --time-limit 3
 refuses 1 "--time-limit" "$scarp" simplify "$dem" never.glb -e 20 --effort high --time-limit soon
-# Where fast effort is the default the option that makes it so is named, too.
-for reason in "--mask $dem" "--tolerance $dem" "--script /dev/null" "--importance local" "--batch const" "--algorithm local" "--order greedy" "--memory 1G"; do
-  for needs in "--min-shape 0.1" "--time-limit 5"; do
-    # shellcheck disable=SC2086
-    refuses 1 "${needs% *} needs more than fast effort, which is the default beside ${reason%% *}" "$scarp" simplify "$dem" never.glb -e 20 $needs $reason
-  done
+# Where fast effort is the default, what asks for more gets it.
+for reason in "--mask weights.tif" "--script /dev/null" "--importance local" "--order greedy" "--memory 1G"; do
+  # shellcheck disable=SC2086
+  succeeds "$scarp" simplify "$dem" shaped.glb -e 60 --min-shape 0.1 $reason --report shaped.json --overwrite
+  [ "$(json shaped.json strategy effort)" = '"normal"' ] || fail "--min-shape beside $reason leaves effort fast"
 done
-refuses 1 "--objective rms needs more than fast effort, which is the default beside --order greedy" "$scarp" simplify "$dem" never.glb -t 2000 --objective rms --order greedy
-refuses 1 "--min-shape and --edges data contradict each other" "$scarp" simplify "$dem" never.glb -e 20 --min-shape 0.1 --edges data
-refuses 1 "--time-limit and --max-triangles contradict each other" "$scarp" simplify "$dem" never.glb -t 2000 --time-limit 5
-refuses 1 "--order dominant and --ridges contradict each other" "$scarp" simplify "$dem" never.glb -e 20 --order dominant --ridges 20
+succeeds "$scarp" simplify "$dem" timed.glb -t 2000 --time-limit 100 --overwrite --report timed.json
+holds "$(json timed.json triangles) <= 2000"
+refuses 1 "--min-shape cannot be combined with --edges data" "$scarp" simplify "$dem" never.glb -e 20 --min-shape 0.1 --edges data
+refuses 1 "--order dominant cannot be combined with --ridges" "$scarp" simplify "$dem" never.glb -e 20 --order dominant --ridges 20
 refuses 1 "--effort" "$scarp" simplify "$dem" never.glb -e 20 --effort much
 refuses 1 "no goal" "$scarp" simplify "$dem" never.glb --effort normal

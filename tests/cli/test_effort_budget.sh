@@ -66,7 +66,8 @@ assert not any(line["pass"] in ("refine", "fit") for line in lines), lines
 PYTHON
 
 refuses 1 "needs a budget" "$scarp" simplify "$dem" never.glb -e 20 --effort high --objective rms
-refuses 1 "needs --effort" "$scarp" simplify "$dem" never.glb -t 3000 --effort fast --objective rms
+refuses 1 "--effort fast cannot be combined with --objective rms" "$scarp" simplify "$dem" never.glb -t 3000 --effort fast --objective rms
 refuses 1 "--objective" "$scarp" simplify "$dem" never.glb -t 3000 --effort high --objective least
 refuses 1 "1 triangle is too few" "$scarp" simplify "$dem" never.glb -t 1 --effort high
-refuses 1 "--max-triangles and --mask" "$scarp" simplify "$dem" never.glb -t 3000 --effort high --mask "$dem"
+refuses 1 "--effort high cannot be combined with --max-triangles beside --tolerance" \
+  "$scarp" simplify "$dem" never.glb -t 3000 --effort high --tolerance "$dem"

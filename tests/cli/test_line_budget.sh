@@ -58,6 +58,6 @@ succeeds "$scarp" simplify hills.tif error.obj -t 5000 -e 40 --breaklines soft.g
 [ "$(json r.json stopped_by)" = '"max_error"' ] || fail "an error that fits is not reached"
 holds "$(json r.json max_error) <= 40"
 
-refuses 1 "--breaklines, --max-triangles and --mask contradict" "$scarp" simplify hills.tif x.obj -t 400 --effort fast \
+refuses 1 "--breaklines cannot be combined with --max-triangles beside --mask" "$scarp" simplify hills.tif x.obj -t 400 --effort fast \
   --mask hills.tif --breaklines soft.geojson
 refuses 1 "--split and --max-triangles" "$scarp" simplify hills.tif x.stl -t 400 --breaklines soft.geojson --solid size=9mm --split 2x1

@@ -94,7 +94,7 @@ refuses 1 "--min-angle" "$scarp" simplify hills.tif x.obj -e 10 --min-angle some
 refuses 1 "--max-edge" "$scarp" simplify hills.tif x.obj -e 10 --max-edge 0
 refuses 1 "max edge" "$scarp" simplify hills.tif x.obj -e 10 --max-edge 0.01
 refuses 1 "--grade" "$scarp" simplify hills.tif x.obj -e 10 --grade -1
-refuses 1 "--max-triangles" "$scarp" simplify hills.tif x.obj -t 100 --min-angle 20
+refuses 1 "the angles and edges alone need" "$scarp" simplify hills.tif x.obj -t 1 --min-angle 20
 refuses 1 "--edges" "$scarp" simplify hills.tif x.obj -e 10 --edges data --min-angle 20
 refuses 1 "--outline-tolerance" "$scarp" simplify hills.tif x.obj -e 10 --outline-tolerance 2 --min-angle 20
 refuses 1 "regular" "$scarp" simplify "$dem" x.obj -e 20 --crs EPSG:3857 --min-angle 20

@@ -107,10 +107,8 @@ simplify() { "$scarp" simplify "$dem" out.glb -e 25 "$@"; }
 refuses 1 "--order best is unknown: choose dominant or greedy" simplify --order best
 while read -r option value; do
   # shellcheck disable=SC2086
-  refuses 1 "--order dominant and $option contradict each other" simplify --order dominant $option $value
+  refuses 1 "--order dominant cannot be combined with $option" simplify --order dominant $option $value
 done <<'LIST'
---max-triangles 100
---max-points 100
 --mask weights.tif
 --tolerance bounds.tif
 --script steps.txt
@@ -118,19 +116,21 @@ done <<'LIST'
 --image
 --outline-tolerance 1
 --importance local
---one-pass --importance local
+--importance local --one-pass
 --algorithm heap
 --batch const
 --edges data
 LIST
-refuses 1 "--order dominant" "$scarp" simplify "$dem" out.glb -t 100 --order dominant
+succeeds "$scarp" simplify "$dem" few.glb -t 1000 --order dominant --report few.json
+holds "$(json few.json triangles) <= 1000"
+[ "$(json few.json strategy order)" = '"dominant"' ] || fail "a budget changes the order that was asked for"
 for bad in steep local16 'global*' 'global+local' '(local)' 'local*global' 'sqrt(local)' 'global*(global+1)' ''; do
   refuses 1 "--importance" simplify --importance "$bad"
 done
 refuses 1 "--importance steep is unknown: choose global" simplify --importance steep
 refuses 1 "--one-pass ranks by a feature" simplify --one-pass
 refuses 1 "--one-pass ranks by a feature" simplify --one-pass --importance 'global*local'
-refuses 1 "--one-pass and --batch" simplify --one-pass --importance local --batch const
+refuses 1 "--one-pass cannot be combined with --batch" simplify --one-pass --importance local --batch const
 refuses 1 "--algorithm fast is unknown: choose brute, local or heap" simplify --algorithm fast
 refuses 1 "--batch all is unknown" simplify --batch all
 for bad in 0 -1 1.5 nan x ''; do refuses 1 "--batch frac:" simplify --batch "frac:$bad"; done

@@ -18,11 +18,12 @@ void require(bool holds) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 2) return 0;
-  scarp::SimplifyOptions options;
+  scarp::PointOptions options;
   options.max_error = data[0] / 4.0;
   options.float32_positions = data[1] % 2 == 0;
   options.threads = 1;
   const auto policy = static_cast<scarp::DuplicatePolicy>(data[1] / 2 % 5);
+  options.duplicates = policy;
   const auto points = scarp::decode_columns({data + 2, size - 2}, "fuzz.csv", {});
   if (!points) {
     require(points.error().kind == scarp::ErrorKind::kInput || points.error().kind == scarp::ErrorKind::kUsage);
@@ -30,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   if (points->size() > kMostPoints) return 0;
-  const auto result = scarp::simplify_points(*points, options, policy);
+  const auto result = scarp::simplify_points(*points, options);
   if (!result) {
     require(!result.error().message.empty() && result.error().kind != scarp::ErrorKind::kInternal);
     return 0;

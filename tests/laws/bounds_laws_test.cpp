@@ -279,19 +279,52 @@ RC_GTEST_PROP(bounds, are_kept_in_the_eyes_of_the_judge, ()) {
   RC_ASSERT(m.is_sound());
 }
 
-TEST(bounds, budgets_and_inserted_vertices_are_refused_with_more_than_fast_effort) {
+TEST(bounds, budgets_are_refused_with_more_than_fast_effort) {
   const Field field = testing::random_field(25, 20, 20, Relief::kRidges);
   const std::vector<float> bounds(400, 3.0f);
-  SimplifyOptions inserting, budget;
-  inserting.effort = budget.effort = Effort::kNormal;
-  inserting.max_error = 3;
-  inserting.script = {{ScriptStep::Action::kInsert, 5, 5}};
-  budget.tolerance = bounds;
-  budget.max_triangles = 100;
-  for (const SimplifyOptions& options : {inserting, budget}) {
-    const auto result = simplify(field.view(), options);
-    ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
+  SimplifyOptions options;
+  options.effort = Effort::kNormal;
+  options.tolerance = bounds;
+  options.max_triangles = 100;
+  const auto result = simplify(field.view(), options);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
+}
+
+TEST(bounds, of_a_mask_are_kept_by_efforts_within_a_budget) {
+  const Field field = testing::random_field(25, 60, 50, Relief::kRidges);
+  std::vector<float> mask(field.samples.size(), 1.0f);
+  for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = k % 60 < 30 ? 1.0f : 0.125f;
+  SimplifyOptions options;
+  options.mask = mask;
+  options.max_triangles = 700;
+  options.effort = Effort::kFast;
+  const auto fast = simplify(field.view(), options);
+  options.effort = Effort::kHigh;
+  const auto high = simplify(field.view(), options);
+  ASSERT_TRUE(fast && high);
+  EXPECT_LE(high->mesh.triangle_count(), 700u);
+  EXPECT_LT(high->weighted_max_error, 0.8 * fast->weighted_max_error);
+}
+
+TEST(bounds, vertices_of_a_script_stay_whatever_the_effort) {
+  const Field field = testing::random_field(25, 40, 30, Relief::kRidges);
+  SimplifyOptions options;
+  options.max_error = 5;
+  for (std::int32_t k = 0; k < 12; ++k) options.script.push_back({ScriptStep::Action::kInsert, 3 * k + 2, 2 * k + 3});
+  for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh, Effort::kMax}) {
+    options.effort = effort;
+    const auto made = simplify(field.view(), options);
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_LE(made->measurement.max_error, 5);
+    for (const ScriptStep& step : options.script) {
+      bool is_vertex = false;
+      for (std::size_t v = 0; v < made->mesh.vertex_count(); ++v) {
+        const auto at = made->mesh.vertex(v);
+        is_vertex = is_vertex || (at[0] == step.col && at[1] == 29 - step.row);
+      }
+      EXPECT_TRUE(is_vertex) << step.col << ", " << step.row;
+    }
   }
 }
 

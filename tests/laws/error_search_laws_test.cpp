@@ -112,6 +112,25 @@ TEST(error_search, a_bound_that_fits_is_the_goal) {
   EXPECT_EQ(made.mesh.positions, bounded.mesh.positions);
 }
 
+TEST(error_search, ends_with_its_time_and_the_best_mesh_so_far) {
+  const Field field = testing::random_field(3, 60, 60, Relief::kRidges);
+  const auto with = [&](const std::function<bool()>& is_time_up) {
+    SimplifyOptions options{.max_triangles = 1500, .effort = Effort::kHigh};
+    options.is_time_up = is_time_up;
+    return *simplify(field.view(), options);
+  };
+  int asked = 0;
+  const Simplified whole = with({}), waited = with([] { return false; }), cut = with([] { return true; });
+  const Simplified late = with([&] { return ++asked > 3000; });
+  EXPECT_EQ(waited.mesh.positions, whole.mesh.positions);
+  EXPECT_FALSE(waited.is_cut_short);
+  EXPECT_TRUE(cut.is_cut_short);
+  EXPECT_EQ(cut.mesh.triangles,
+            simplify(field.view(), {.max_triangles = 1500, .effort = Effort::kFast})->mesh.triangles);
+  EXPECT_LE(late.mesh.triangle_count(), 1500u);
+  EXPECT_LE(late.measurement.max_error, cut.measurement.max_error);
+}
+
 TEST(error_search, refuses_what_no_search_can_serve) {
   const Field field = testing::random_field(3, 30, 30, Relief::kReal);
   const auto kind = [&](const SimplifyOptions& options) { return simplify(field.view(), options).error().kind; };

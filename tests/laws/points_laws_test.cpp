@@ -67,7 +67,7 @@ RC_GTEST_PROP(points, keep_the_promise_in_the_eyes_of_the_textbook, ()) {
   const double goal = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
   const auto policy = *rc::gen::element(DuplicatePolicy::kFirst, DuplicatePolicy::kLast, DuplicatePolicy::kHighest,
                                         DuplicatePolicy::kLowest, DuplicatePolicy::kMean);
-  const auto result = simplify_points(points, {.max_error = goal, .float32_positions = false}, policy);
+  const auto result = simplify_points(points, {.max_error = goal, .float32_positions = false, .duplicates = policy});
   if (!result) RC_FAIL(result.error().message);
   const Measurement& m = result->simplified.measurement;
   const auto places = *find_places(points, policy);
@@ -192,10 +192,11 @@ RC_GTEST_PROP(points, give_the_same_mesh_in_any_order_and_on_any_number_of_threa
     shuffled.y.push_back(points.y[i]);
     shuffled.z.push_back(points.z[i]);
   }
-  const SimplifyOptions one{.max_error = 1.0, .float32_positions = false, .threads = 1};
-  const SimplifyOptions four{.max_error = 1.0, .float32_positions = false, .threads = 4};
-  const auto a = simplify_points(points, one, DuplicatePolicy::kHighest);
-  const auto b = simplify_points(shuffled, four, DuplicatePolicy::kHighest);
+  PointOptions options{.max_error = 1.0, .float32_positions = false, .duplicates = DuplicatePolicy::kHighest};
+  options.threads = 1;
+  const auto a = simplify_points(points, options);
+  options.threads = 4;
+  const auto b = simplify_points(shuffled, options);
   if (!a || !b) RC_FAIL("not simplified");
   RC_ASSERT(a->simplified.mesh.positions == b->simplified.mesh.positions);
   RC_ASSERT(a->simplified.mesh.triangles == b->simplified.mesh.triangles);
@@ -237,7 +238,8 @@ RC_GTEST_PROP(points, of_a_raster_give_the_mesh_of_the_raster, ()) {
     }
   }
   const SimplifyOptions options{.max_error = *rc::gen::element(0.5, 5.0, 20.0), .float32_positions = false};
-  const auto scattered = simplify_points(points, options);
+  const auto scattered =
+      simplify_points(points, {.max_error = options.max_error, .float32_positions = options.float32_positions});
   SimplifyOptions greedy = options;
   greedy.order = Order::kGreedy;
   const auto raster = simplify(field.view(), greedy);

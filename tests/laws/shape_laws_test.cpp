@@ -243,12 +243,27 @@ TEST(shape, goals_out_of_range_are_refused_in_a_sentence) {
   refuses({.max_edge = 0.1}, "at least 0.125");
   refuses({.grade = 0}, "above 0");
   SimplifyOptions options;
-  options.max_error = 1;
-  options.max_triangles = 50;
+  options.max_triangles = 1;
   options.shape.min_angle = 20;
   const auto result = simplify(field.view(), options);
   ASSERT_FALSE(result.has_value());
   EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
+  EXPECT_NE(result.error().message.find("the angles and edges alone need"), std::string::npos);
+}
+
+TEST(shape, budgets_are_met_with_all_angles) {
+  const Field field = testing::random_field(5, 60, 50, testing::Relief::kRidges);
+  for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
+    SimplifyOptions options;
+    options.max_triangles = 2500;
+    options.shape.min_angle = 20;
+    options.effort = effort;
+    const auto made = simplify(field.view(), options);
+    ASSERT_TRUE(made) << made.error().message;
+    EXPECT_LE(made->mesh.triangle_count(), 2500u);
+    EXPECT_GE(made->mesh.triangle_count(), 2000u);
+    EXPECT_EQ(made->shape->below, 0u);
+  }
 }
 
 TEST(shape, meshes_that_nobody_could_hold_are_refused_before_they_are_begun) {

@@ -339,18 +339,13 @@ TEST(order, what_the_dominant_one_cannot_do_is_refused_by_name_or_done_greedily)
     EXPECT_EQ(automatic->mesh.positions, greedy->mesh.positions) << words;
     EXPECT_EQ(automatic->mesh.triangles, greedy->mesh.triangles) << words;
   };
-  check("needs a max error", [](auto& o, auto&) {
-    o.max_error.reset();
-    o.max_vertices = 50;
-  });
-  check("budgets", [](auto& o, auto&) { o.max_triangles = 50; });
   check("mask", [&](auto& o, auto&) { o.mask = ones; });
-  check("tolerances", [&](auto& o, auto&) { o.tolerance = ones; });
+  check("tolerance", [&](auto& o, auto&) { o.tolerance = ones; });
   check("channels", [&](auto&, auto& v) { v.channels = {{ones.data(), 1}}; });
   check("script", [](auto& o, auto&) { o.script = {{ScriptStep::Action::kInsert, 3, 3}}; });
-  check("error alone", [](auto& o, auto&) { o.importance.feature = Importance::Feature::kCurvature; });
+  check("importance", [](auto& o, auto&) { o.importance.feature = Importance::Feature::kCurvature; });
   check("algorithm", [](auto& o, auto&) { o.algorithm = Algorithm::kLocal; });
-  check("batches", [](auto& o, auto&) { o.batch.rule = Batch::Rule::kConstant; });
+  check("batch", [](auto& o, auto&) { o.batch.rule = Batch::Rule::kConstant; });
   check("Delaunay", [](auto& o, auto&) { o.edges.data_dependent = true; });
   check("outline", [](auto& o, auto&) { o.outline_tolerance = 1; });
 }
@@ -402,7 +397,7 @@ TEST(strategies, contradictions_are_refused_in_one_sentence) {
     ASSERT_FALSE(result) << words;
     EXPECT_NE(result.error().message.find(words), std::string::npos) << result.error().message;
   };
-  refuses("contradict", [&](auto& o, auto&) { o.mask = o.tolerance = ones; });
+  refuses("cannot be combined", [&](auto& o, auto&) { o.mask = o.tolerance = ones; });
   refuses("5 values for 63 samples", [&](auto& o, auto&) { o.mask = few; });
   refuses("at sample (0, 0)", [&](auto& o, auto&) { o.tolerance = negative; });
   refuses("ranks samples by a feature", [&](auto& o, auto&) { o.importance.one_pass = true; });

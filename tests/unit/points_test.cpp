@@ -182,7 +182,7 @@ PointSet set_of(std::vector<std::array<double, 3>> list) {
 }
 
 TEST(point_sets, without_area_have_no_surface) {
-  const SimplifyOptions options{.max_error = 1.0};
+  const PointOptions options{.max_error = 1.0};
   const auto message = [&](const PointSet& points) {
     const auto result = simplify_points(points, options);
     EXPECT_FALSE(result);
@@ -199,21 +199,16 @@ TEST(point_sets, without_area_have_no_surface) {
   EXPECT_TRUE(contains(message(set_of({{0, 0, 1}, {1, 0, 2}, {0, 1, 1e200}})), "1e100"));
 }
 
-TEST(point_sets, have_no_strategies) {
+TEST(point_sets, need_a_goal_that_makes_sense) {
   const PointSet points = set_of({{0, 0, 1}, {1, 0, 2}, {0, 1, 5}});
-  SimplifyOptions options{.max_error = 1.0};
-  EXPECT_TRUE(simplify_points(points, options));
-  options.norm = Norm::kMax;
-  EXPECT_EQ(simplify_points(points, options).error().kind, ErrorKind::kUsage);
-  options.norm = Norm::kSum;
-  options.edges.data_dependent = true;
-  EXPECT_EQ(simplify_points(points, options).error().kind, ErrorKind::kUsage);
+  EXPECT_TRUE(simplify_points(points, {.max_error = 1.0}));
   EXPECT_EQ(simplify_points(points, {}).error().kind, ErrorKind::kUsage);
+  EXPECT_EQ(simplify_points(points, {.max_error = -1.0}).error().kind, ErrorKind::kUsage);
 }
 
 TEST(point_sets, wider_than_float32_need_double_positions) {
   const PointSet points = set_of({{0, 0, 1}, {1e99, 0, 2}, {0, 1e99, 3}});
-  SimplifyOptions options{.max_error = 1.0};
+  PointOptions options{.max_error = 1.0};
   EXPECT_EQ(simplify_points(points, options).error().kind, ErrorKind::kPromise);
   options.float32_positions = false;
   EXPECT_TRUE(simplify_points(points, options));
@@ -227,7 +222,7 @@ TEST(point_sets, give_up_duplicates_by_the_policy) {
                                                      {DuplicatePolicy::kLowest, 1},
                                                      {DuplicatePolicy::kMean, 3.75}};
   for (const auto& [policy, z] : kept) {
-    const auto result = *simplify_points(points, {.max_error = 0.0}, policy);
+    const auto result = *simplify_points(points, {.max_error = 0.0, .duplicates = policy});
     EXPECT_EQ(result.duplicates, 3u);
     EXPECT_EQ(result.simplified.measurement.samples, 3u);
     EXPECT_EQ(result.simplified.measurement.max_error, 0);

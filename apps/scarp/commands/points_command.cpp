@@ -134,10 +134,15 @@ Result<void> run_simplify_points(const CLI::App& verb, const SimplifyArguments& 
   if (plan->error_goal) outcome.asked = plan->error_goal->absolute(heights.max - heights.min);
   outcome.seconds_read = seconds_since(start);
 
-  SimplifyOptions options = plan->simplify;
+  PointOptions options;
   options.max_error = outcome.asked;
+  options.max_triangles = plan->simplify.max_triangles;
+  options.max_vertices = plan->simplify.max_vertices;
+  options.float32_positions = plan->simplify.float32_positions;
+  options.duplicates = outcome.policy;
+  options.threads = plan->simplify.threads;
   options.progress = display.callback();
-  Result<SimplifiedPoints> simplified = simplify_points(outcome.points, options, outcome.policy);
+  Result<SimplifiedPoints> simplified = simplify_points(outcome.points, options);
   if (!simplified) return tl::unexpected(with_path(std::move(simplified.error()), given.raster.path));
   outcome.simplified = std::move(simplified->simplified);
   outcome.duplicates = simplified->duplicates;

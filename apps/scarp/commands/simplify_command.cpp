@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "inputs/waters.h"
+#include "options/conflicts.h"
 #include "reports/report.h"
 #include "reports/simplify_outcome.h"
 #include "reports/simplify_report.h"
@@ -294,6 +295,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
     display.let_interrupt_finish("fit");
   }
   if (plan->memory) options.memory_taken = memory_of(*plan, outcome).taken + outcome.cut.bytes;
+  if (auto checked = check_conflicts(given_, outcome.view(), options); !checked) return checked;
   Result<Simplified> simplified = simplify_as_planned(*plan, options, outcome);
   if (!simplified) {
     Error error = name_memory(given_.memory, outcome.field, std::move(simplified.error()));

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "options/conflicts.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -125,14 +126,6 @@ const char* find_bounds(const SimplifyArguments& given) {
   return given.companions.script ? "--script" : nullptr;
 }
 
-/// The option beside which the mesh can have no vertices between samples; null if there is none.
-const char* find_lattice_obstacle(const SimplifyArguments& given, const SimplifyPlan& plan) {
-  if (plan.channels.image) return "--image";
-  if (!given.channels.textures.empty()) return "--texture";
-  if (plan.simplify.outline_tolerance > 0) return "--outline-tolerance";
-  return given.strategy.dominant_obstacle();
-}
-
 Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.lines = given.lines;
   plan.cliff = given.cliff;
@@ -142,146 +135,35 @@ Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (auto checked = given.cliff.check(given.max_error || find_budget(given) != nullptr); !checked) return checked;
   if (auto checked = given.ridges.check(given.max_error || find_budget(given) != nullptr); !checked) return checked;
   if (auto checked = given.cut.check(); !checked) return checked;
-  const char* lines = given.cliff.height ? "--cliff" : given.lines.find_lines();
-  if (lines == nullptr && given.ridges.height) lines = "--ridges";
-  const bool is_cut = lines == nullptr && given.cut.find_cut() != nullptr;
-  if (is_cut) lines = given.cut.find_cut();
   const bool is_split = plan.solid && plan.solid->is_split();
-  if (lines == nullptr && is_split) lines = "--split";
-  if (lines == nullptr) return {};
-  const char *obstacle = find_lattice_obstacle(given, plan), *budget = find_budget(given);
-  if (budget != nullptr && is_split) lines = "--split", obstacle = budget;
-  if (const char* bounds = find_bounds(given); obstacle == nullptr && budget != nullptr && bounds != nullptr)
+  const char* of_split = is_split ? find_budget(given) : nullptr;
+  if (is_split && given.cliff.height) of_split = "--cliff";
+  if (of_split != nullptr)
     return fail(ErrorKind::kUsage,
-                fmt::format("{}, {} and {} contradict each other: a budget is met by one error for all samples; leave "
-                            "one of them out",
-                            lines, budget, bounds));
-  if (given.cliff.height && given.shape.find_goal() != nullptr) obstacle = given.shape.find_goal();
-  if (given.cliff.height && is_split) obstacle = "--split";
+                fmt::format("--split and {} contradict each other: leave one of them out", of_split));
   // Water is level where all corners of its triangles are: at samples and on its shore.
   const char* lakes = given.lines.find_lakes();
-  if (lakes != nullptr && plan.simplify.vertices == Vertices::kFree) obstacle = "--vertices free";
+  if (lakes != nullptr && plan.simplify.vertices == Vertices::kFree)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} and --vertices free contradict each other: leave one of them out", lakes));
   if (lakes != nullptr) plan.simplify.vertices = Vertices::kSamples;
-  if (obstacle == nullptr) return {};
-  return fail(ErrorKind::kUsage,
-              fmt::format("{} and {} contradict each other: leave one of them out{}", lines, obstacle,
-                          is_cut ? ", or cut at cells of the grid with --mask-outside" : ""));
+  return {};
 }
 
 Result<void> plan_shape(const SimplifyArguments& given, SimplifyPlan& plan) {
   const Result<ShapeGoals> goals = given.shape.parse();
   if (!goals) return tl::unexpected(goals.error());
   plan.simplify.shape = *goals;
-  const char* goal = given.shape.find_goal();
-  const char* obstacle = goal == nullptr ? nullptr : find_lattice_obstacle(given, plan);
-  if (goal != nullptr && obstacle == nullptr) obstacle = find_budget(given);
-  if (obstacle == nullptr) return {};
-  return fail(ErrorKind::kUsage, fmt::format("{} and {} contradict each other: leave one of them out", goal, obstacle));
-}
-
-/// The option that asks for more than heights; null if there is none.
-const char* find_beyond_heights(const SimplifyArguments& given, const SimplifyPlan& plan) {
-  const std::pair<const char*, bool> options[] = {{"--image", given.channels.image},
-                                                  {"--texture", !given.channels.textures.empty()},
-                                                  {"--outline-tolerance", plan.simplify.outline_tolerance > 0}};
-  for (const auto& [name, is_given] : options) {
-    if (is_given) return name;
-  }
-  return nullptr;
-}
-
-/// The dominant order is for an error goal alone, on heights alone. The library would refuse the rest too, but knows no
-/// options.
-Result<void> plan_order(const SimplifyArguments& given, SimplifyPlan& plan) {
-  if (plan.simplify.order != Order::kDominant) return {};
-  const char* culprit = find_budget(given);
-  if (culprit == nullptr) culprit = find_bounds(given);
-  if (culprit == nullptr) culprit = find_beyond_heights(given, plan);
-  if (culprit == nullptr) culprit = given.strategy.dominant_obstacle();
-  if (culprit == nullptr && !given.memory.memory)
-    culprit = given.cliff.height ? "--cliff" : given.ridges.height ? "--ridges" : nullptr;
-  if (culprit == nullptr) return {};
-  return fail(ErrorKind::kUsage,
-              fmt::format("--order dominant and {} contradict each other: that order is for a max error alone, on "
-                          "heights alone; leave one of them out",
-                          culprit));
-}
-
-/// The option beside which fast effort is the default; null if there is none.
-const char* find_reason_for_fast(const SimplifyArguments& given, const SimplifyPlan& plan) {
-  if (const char* bounds = find_bounds(given)) return bounds;
-  if (const char* strategy = given.strategy.dominant_obstacle()) return strategy;
-  if (plan.simplify.order == Order::kGreedy) return "--order greedy";
-  return given.memory.memory ? "--memory" : nullptr;
-}
-
-/// Where no effort is named, what needs more than the default.
-Result<void> plan_default_effort(const SimplifyArguments& given, const SimplifyPlan& plan) {
-  const char* needs = given.strategy.min_shape                     ? "--min-shape"
-                      : given.strategy.time_limit                  ? "--time-limit"
-                      : plan.simplify.objective == Objective::kRms ? "--objective rms"
-                                                                   : nullptr;
-  const char* reason = find_reason_for_fast(given, plan);
-  if (needs == nullptr || reason == nullptr) return {};
-  if (plan.simplify.edges.data_dependent)
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} and --edges data contradict each other: where vertices are removed edges are chosen "
-                            "anew; leave one of them out",
-                            needs));
-  return fail(
-      ErrorKind::kUsage,
-      fmt::format("{} needs more than fast effort, which is the default beside {}: add --effort normal, high or "
-                  "max",
-                  needs, reason));
-}
-
-/// Removal chooses edges itself, and budgets are met by one error for all samples.
-Result<void> plan_effort(const SimplifyArguments& given, SimplifyPlan& plan) {
-  if (const char* budget = find_budget(given); budget != nullptr && given.strategy.time_limit)
-    return fail(ErrorKind::kUsage,
-                fmt::format("--time-limit and {} contradict each other: whether a mesh fits is known "
-                            "when it is finished; leave one of them out",
-                            budget));
-  if (plan.simplify.effort == Effort::kFast) {
-    const char* needless = given.strategy.min_shape    ? "--min-shape"
-                           : given.strategy.time_limit ? "--time-limit"
-                                                       : nullptr;
-    if (needless == nullptr) return {};
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} needs --effort normal, high or max: fast effort is refinement alone", needless));
-  }
-  if (plan.simplify.effort == Effort::kAuto) return plan_default_effort(given, plan);
-  const char* bounds = find_bounds(given);
-  if (const char* budget = find_budget(given); budget != nullptr && bounds != nullptr) {
-    return fail(ErrorKind::kUsage,
-                fmt::format("--effort {}, {} and {} contradict each other: a budget is met by one error for all "
-                            "samples; leave one of them out",
-                            *given.strategy.effort, budget, bounds));
-  }
-  if (plan.channels.has_channels() && plan.simplify.vertices == Vertices::kFree) {
-    return fail(ErrorKind::kUsage,
-                fmt::format("--vertices free and {} contradict each other: a vertex between samples has no colour; "
-                            "leave one of them out",
-                            plan.channels.image ? "--image" : "--texture"));
-  }
-  if (!plan.simplify.edges.data_dependent) return {};
-  return fail(ErrorKind::kUsage,
-              fmt::format("--effort {} and --edges data contradict each other: where vertices are removed edges are "
-                          "chosen anew; leave one of them out",
-                          *given.strategy.effort));
-}
-
-/// A max error decides the mesh, and so does fast effort.
-Result<void> plan_objective(const SimplifyArguments& given, SimplifyPlan& plan) {
-  if (plan.simplify.objective == Objective::kMax) return {};
-  if (find_budget(given) == nullptr)
-    return fail(ErrorKind::kUsage,
-                "--objective rms needs a budget, -t or -p: a max error alone decides the mesh, whatever its RMSE");
-  if (plan.simplify.effort == Effort::kFast)
-    return fail(ErrorKind::kUsage,
-                "--objective rms needs --effort normal or more: fast effort lowers the max error only");
   return {};
 }
+
+Result<void> plan_objective(const SimplifyArguments& given, SimplifyPlan& plan) {
+  if (plan.simplify.objective == Objective::kMax || find_budget(given) != nullptr) return {};
+  return fail(ErrorKind::kUsage,
+              "--objective rms needs a budget, -t or -p: a max error alone decides the mesh, whatever its RMSE");
+}
+
+Result<void> plan_conflicts(const SimplifyArguments& given, SimplifyPlan& plan) { return check_conflicts(given, plan); }
 
 /// The option that asks for more than one bound on heights, by which alone a print is judged; null if there is none.
 const char* find_print_obstacle(const SimplifyArguments& given) {
@@ -408,27 +290,19 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
 
 /// The first option that was given and cannot do with a few samples at a time; nothing if there is none.
 std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, const SimplifyPlan& plan) {
-  const char *budget = find_budget(given), *bounds = find_bounds(given);
-  if (budget != nullptr && bounds != nullptr) return fmt::format("{} with {}", budget, bounds);
+  if (const auto unstreamed = find_unstreamed(given, plan)) return unstreamed;
   const std::pair<const char*, bool> options[] = {
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
-      {"--outline-tolerance", plan.simplify.outline_tolerance > 0},
       {"--normals", plan.simplify.normals},
       {"--preview", given.preview.has_value()},
       {"--render", given.render.has_value()},
       {"--error-raster", given.error_raster.has_value()},
       {"--of dem", plan.format.kind == OutputKind::kDem},
-      {"--algorithm", given.strategy.algorithm.has_value()},
-      {"--order greedy", plan.simplify.order == Order::kGreedy},
   };
   for (const auto& [name, is_given] : options) {
     if (is_given) return name;
   }
-  if (const char* need = given.companions.find_need_of_samples()) return need;
-  // " --name value --name value": the first of these will do.
-  const std::string others = given.channels.canonical() + given.strategy.canonical_refinement();
-  if (others.empty()) return std::nullopt;
-  return others.substr(1, others.find(' ', 1) - 1);
+  return std::nullopt;
 }
 
 Result<void> plan_memory(const SimplifyArguments& given, SimplifyPlan& plan) {
@@ -499,7 +373,7 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   if (!threads) return tl::unexpected(threads.error());
   plan.simplify.threads = *threads;
   for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_solid, plan_lines, plan_shape,
-                          plan_order, plan_effort, plan_objective, plan_outputs, plan_memory}) {
+                          plan_objective, plan_conflicts, plan_outputs, plan_memory}) {
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());
   }

@@ -277,25 +277,10 @@ Result<void> StrategyArguments::parse_into(SimplifyOptions& options) const {
     if (!parsed) return tl::unexpected(parsed.error());
     options.batch = *parsed;
   }
-  if (one_pass && batch) {
-    return fail(ErrorKind::kUsage, "--one-pass and --batch contradict each other: one pass never looks at the mesh");
-  }
   const Result<EdgeRule> rule = parse_edges(*this);
   if (!rule) return tl::unexpected(rule.error());
   options.edges = *rule;
   return {};
-}
-
-const char* StrategyArguments::dominant_obstacle() const {
-  const std::pair<const char*, bool> greedy_only[] = {{"--one-pass", one_pass},
-                                                      {"--importance", importance && *importance != "global"},
-                                                      {"--algorithm", algorithm.has_value()},
-                                                      {"--batch", batch.has_value()},
-                                                      {"--edges", edges && *edges != "delaunay"}};
-  for (const auto& [name, is_given] : greedy_only) {
-    if (is_given) return name;
-  }
-  return nullptr;
 }
 
 std::string StrategyArguments::canonical() const {

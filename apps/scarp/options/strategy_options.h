@@ -21,8 +21,6 @@ struct StrategyArguments {
   void add_to(CLI::App& verb);
   /// Sets effort, objective, importance, order, algorithm, batch and edges of the options.
   Result<void> parse_into(SimplifyOptions& options) const;
-  /// The option among these that the dominant order has no place for; null if there is none.
-  const char* dominant_obstacle() const;
   /// Whether the greedy order was asked for, by name or by naming one of its algorithms.
   bool asks_for_greedy() const { return algorithm || order == "greedy"; }
   /// The options that can change the mesh, for the canonical command, but for the order.

@@ -1,0 +1,79 @@
+#include "options/conflicts.h"
+
+#include <utility>
+#include <vector>
+
+#include "options/field_options.h"
+
+namespace scarp::cli {
+namespace {
+
+/// Those that the options tell; whether a script inserts or ignores stands in its file.
+Fields fields_given(const SimplifyArguments& given, const SimplifyPlan& plan) {
+  Fields fields = fields_of(HeightField(), plan.simplify);
+  const bool is_split = plan.solid && plan.solid->is_split();
+  const std::pair<Field, bool> others[] = {
+      {Field::kMaxError, given.max_error.has_value()},
+      {Field::kMask, given.companions.mask.has_value()},
+      {Field::kTolerance, given.companions.find_tolerance() != nullptr},
+      {Field::kBreaklines,
+       given.lines.find_lines() != nullptr || given.cliff.height || given.ridges.height || is_split},
+      {Field::kWalls, given.cliff.height.has_value()},
+      {Field::kRidges, given.ridges.height.has_value()},
+      {Field::kCutline, given.cut.find_cut() != nullptr},
+      {Field::kAlgorithm, given.strategy.algorithm.has_value()},
+      {Field::kChannels, plan.channels.has_channels()}};
+  for (const auto& [field, is_given] : others) {
+    if (is_given) fields.add(field);
+  }
+  return fields;
+}
+
+/// The option that gave the setting.
+std::string option_of(Field field, const SimplifyArguments& given) {
+  const char* option = nullptr;
+  if (field == Field::kTolerance || field == Field::kToleranceSource) option = given.companions.find_tolerance();
+  if (field == Field::kBreaklines || field == Field::kBreaklinesFor) {
+    option = given.lines.find_lines();
+    if (option == nullptr) option = given.cliff.height ? "--cliff" : given.ridges.height ? "--ridges" : "--split";
+  }
+  if (field == Field::kOrderGreedy && !given.strategy.order) option = "--algorithm";
+  if (field == Field::kChannels && given.channels.image) option = "--image";
+  if (field == Field::kShape) option = given.shape.find_goal();
+  if (field == Field::kCurvedFrame && given.raster.crs) return "--crs " + shell_word(*given.raster.crs);
+  if (option == nullptr) option = cli::option_of(field);
+  return option != nullptr ? option : std::string(name_of(field));
+}
+
+Result<void> refuse_first(const SimplifyArguments& given, const std::vector<Conflict>& conflicts) {
+  if (conflicts.empty()) return {};
+  const Conflict& first = conflicts.front();
+  const bool is_cut = first.one == Field::kCutline;
+  return fail(ErrorKind::kUsage, describe(first, [&](Field field) { return option_of(field, given); }) +
+                                     (is_cut ? "; --mask-outside cuts at cells of the grid instead" : ""));
+}
+
+}  // namespace
+
+Result<void> check_conflicts(const SimplifyArguments& given, const SimplifyPlan& plan) {
+  return refuse_first(given, find_conflicts(fields_given(given, plan)));
+}
+
+Result<void> check_conflicts(const SimplifyArguments& given, const HeightField& field, const SimplifyOptions& options) {
+  return refuse_first(given, find_conflicts(field, options));
+}
+
+std::optional<std::string> find_unstreamed(const SimplifyArguments& given, const SimplifyPlan& plan) {
+  Fields fields = fields_given(given, plan) | Fields(Field::kSource);
+  if (given.companions.script) fields.add(Field::kScriptIgnores);
+  // Tolerances are read in windows then.
+  if (fields.has(Field::kTolerance)) fields = fields.without(Field::kTolerance) | Fields(Field::kToleranceSource);
+  for (const Conflict& conflict : find_conflicts(fields)) {
+    if (conflict.one == Field::kToleranceSource)
+      return option_of(conflict.other, given) + " with " + option_of(conflict.one, given);
+    if (conflict.one == Field::kSource) return option_of(conflict.other, given);
+  }
+  return std::nullopt;
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,22 @@
+// Options that do not go together, by the library's table.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "options/simplify_plan.h"
+#include "scarp/conflicts.h"
+
+namespace scarp::cli {
+
+/// Refuses options that do not go together, as far as they tell that before a file is read.
+Result<void> check_conflicts(const SimplifyArguments& given, const SimplifyPlan& plan);
+
+/// The same of all that simplify() would refuse, once the files are read.
+Result<void> check_conflicts(const SimplifyArguments& given, const HeightField& field, const SimplifyOptions& options);
+
+/// The first of the library's settings that does not go with streamed samples, as the options that gave it; nothing if
+/// there is none.
+std::optional<std::string> find_unstreamed(const SimplifyArguments& given, const SimplifyPlan& plan);
+
+}  // namespace scarp::cli

@@ -1,0 +1,60 @@
+// The options that stand for the library's settings.
+#pragma once
+
+#include <iterator>
+
+#include "scarp/conflicts.h"
+
+namespace scarp::cli {
+
+/// In the order of Field; null where no option gives the setting.
+inline constexpr const char* kFieldOptions[] = {
+    "--max-error",
+    "--max-triangles",
+    "--max-points",
+    "--outline-tolerance",
+    nullptr,  // positions are as the format has them
+    "--mask",
+    "--tolerance",
+    "--tolerance",
+    "--breaklines",
+    "--cliff",
+    "--ridges",
+    "--rivers",
+    "--cutline",
+    "--script",
+    "--script",
+    "--order greedy",
+    "--order dominant",
+    "--effort fast",
+    "--effort normal",
+    "--effort high",
+    "--effort max",
+    "--vertices samples",
+    "--vertices free",
+    "--min-shape",
+    "--min-angle",
+    "--time-limit",
+    nullptr,  // Ctrl-C
+    "--objective rms",
+    "--importance",
+    "--one-pass",
+    "--algorithm",
+    "--batch",
+    "--edges data",
+    "--norm",
+    nullptr,
+    "--uvs",
+    "--normals",
+    "--num-threads",
+    "--memory",
+    "--texture",
+    "--crs",
+    "--memory",
+};
+static_assert(std::size(kFieldOptions) == kFieldCount);
+
+/// The option that gives a setting, with its value where that matters; null where none does.
+constexpr const char* option_of(Field field) { return kFieldOptions[static_cast<int>(field)]; }
+
+}  // namespace scarp::cli

@@ -1,0 +1,141 @@
+// Which settings do not go together, and why: one table for the library, the program, the docs and the tests.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scarp/height_field.h"
+#include "scarp/simplify.h"
+
+#pragma GCC visibility push(default)
+
+namespace scarp {
+
+/// A setting: a field of SimplifyOptions that differs from its default, one of its values where these differ in what
+/// they go with, or what a HeightField holds.
+enum class Field : std::uint8_t {
+  kMaxError,
+  kMaxTriangles,
+  kMaxVertices,
+  kOutlineTolerance,
+  kDoublePositions,  ///< float32_positions is false
+  kMask,
+  kTolerance,
+  kToleranceSource,
+  kBreaklines,     ///< of any kind
+  kWalls,          ///< among them lines of detect_cliffs()
+  kRidges,         ///< among them lines of detect_ridges()
+  kBreaklinesFor,  ///< breaklines that depend on the max error
+  kCutline,
+  kScriptIgnores,  ///< a script with steps that ignore samples
+  kScriptInserts,  ///< a script with steps that insert samples
+  kOrderGreedy,
+  kOrderDominant,
+  kEffortFast,
+  kEffortNormal,
+  kEffortHigh,
+  kEffortMax,
+  kVerticesSamples,
+  kVerticesFree,
+  kMinShape,
+  kShape,
+  kTimeLimit,  ///< is_time_up
+  kEnough,     ///< is_enough
+  kObjectiveRms,
+  kImportance,  ///< other than the error alone
+  kOnePass,
+  kAlgorithm,  ///< other than the heap
+  kBatch,
+  kDataEdges,  ///< edges that depend on the data
+  kNorm,
+  kLastOfBudget,  ///< best_of_budget is false
+  kUvs,
+  kNormals,
+  kThreads,
+  kMemoryLimit,
+  kChannels,     ///< of the field, or a height_scale other than 1
+  kCurvedFrame,  ///< of the field: not affine
+  kSource,       ///< of the field: samples that are not in memory as a whole
+};
+inline constexpr int kFieldCount = static_cast<int>(Field::kSource) + 1;
+
+/// The library's word for it, such as "max_error" or "order = dominant".
+std::string_view name_of(Field field);
+
+/// Some of the settings.
+class Fields {
+ public:
+  constexpr Fields() = default;
+  template <class... More>
+  constexpr explicit Fields(Field first, More... more) : bits_((bit(first) | ... | bit(more))) {}
+
+  constexpr void add(Field field) { bits_ |= bit(field); }
+  constexpr bool has(Field field) const { return (bits_ & bit(field)) != 0; }
+  constexpr bool has_any(Fields others) const { return (bits_ & others.bits_) != 0; }
+  constexpr bool empty() const { return bits_ == 0; }
+  constexpr Fields without(Field field) const {
+    Fields others = *this;
+    others.bits_ &= ~bit(field);
+    return others;
+  }
+  friend constexpr Fields operator|(Fields a, Fields b) {
+    a.bits_ |= b.bits_;
+    return a;
+  }
+  friend constexpr Fields operator&(Fields a, Fields b) {
+    a.bits_ &= b.bits_;
+    return a;
+  }
+
+ private:
+  static constexpr std::uint64_t bit(Field field) { return std::uint64_t{1} << static_cast<int>(field); }
+  std::uint64_t bits_ = 0;
+};
+static_assert(kFieldCount <= 64);
+
+/// Those that are set.
+Fields fields_of(const HeightField& field, const SimplifyOptions& options);
+
+/// Where a conflict holds.
+enum class Where { kAlways, kInMemory, kStreamed };
+
+/// Each of `one` conflicts with each of `other`; where `beside` is not empty, only if one of these is set, too.
+struct ConflictRule {
+  Fields one, other, beside;
+  Where where;
+  const char* reason;
+};
+
+/// The table.
+std::span<const ConflictRule> conflict_rules();
+
+/// Two settings that do not go together; three, where `beside` is given.
+struct Conflict {
+  Field one{}, other{};
+  std::optional<Field> beside = std::nullopt;
+  std::string reason;
+};
+
+/// All conflicts among the settings, in the order of the table; whether the samples are streamed is one of them
+/// (Field::kSource).
+std::vector<Conflict> find_conflicts(Fields set);
+/// The same of a call of simplify(), which fails with kUsage and describe() of the first.
+std::vector<Conflict> find_conflicts(const HeightField& field, const SimplifyOptions& options);
+
+/// "X cannot be combined with Y: reason", or "X cannot be combined with Y beside Z: reason". `word`: what a setting is
+/// called.
+template <class Word>
+std::string describe(const Conflict& conflict, Word&& word) {
+  std::string text = std::string(word(conflict.one)) + " cannot be combined with " + std::string(word(conflict.other));
+  if (conflict.beside) text += " beside " + std::string(word(*conflict.beside));
+  return text + ": " + conflict.reason;
+}
+std::string describe(const Conflict& conflict);
+
+}  // namespace scarp
+
+#pragma GCC visibility pop

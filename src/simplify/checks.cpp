@@ -1,0 +1,95 @@
+#include "simplify/checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "lines/breaklines.h"
+#include "pieces/effort.h"
+#include "scarp/cliffs.h"
+#include "scarp/conflicts.h"
+#include "scarp/ridges.h"
+#include "shape/shape_refinement.h"
+
+namespace scarp {
+
+namespace {
+
+tl::unexpected<Error> usage(std::string message) { return fail(ErrorKind::kUsage, std::move(message)); }
+
+/// What the lines are called.
+const char* name_lines(const SimplifyOptions& options) {
+  const auto& lines = options.breaklines.lines;
+  const auto all = [&](bool (*kind)(const Line&)) {
+    return !lines.empty() && std::all_of(lines.begin(), lines.end(), kind);
+  };
+  if (all(is_fault)) return "cliffs";
+  if (!options.cutline.rings.empty()) return "a cutline";
+  return all(is_ridge_line) ? "ridges" : "breaklines";
+}
+
+Result<void> check_shape(const HeightField& field, const ShapeGoals& shape) {
+  constexpr double kLargestAngle = 33, kLeastEdge = 0.125;
+  if (!(shape.min_angle >= 0 && shape.min_angle <= kLargestAngle))
+    return usage(fmt::format("the minimum angle must lie in 0 … {} degrees, not {}", kLargestAngle, shape.min_angle));
+  if (shape.grade && !(*shape.grade > 0 && std::isfinite(*shape.grade)))
+    return usage(fmt::format("the grade must be a finite number above 0, not {}", *shape.grade));
+  if (!shape.any()) return {};
+  if (std::max(field.cols, field.rows) > kMaxCoordinate / kLatticeSteps)
+    return usage(
+        fmt::format("a raster of {} x {} samples is too large for goals of angles and edges: at most {} a side",
+                    field.cols, field.rows, kMaxCoordinate / kLatticeSteps));
+  const auto& a = field.frame.affine;
+  const double side = std::max(std::hypot(a[1], a[4]), std::hypot(a[2], a[5]));
+  if (shape.max_edge && !(*shape.max_edge >= kLeastEdge * side))
+    return usage(fmt::format("the max edge must be at least {} of a sample, that is {}, not {}", kLeastEdge,
+                             kLeastEdge * side, *shape.max_edge));
+  return {};
+}
+
+}  // namespace
+
+Result<void> check_conflicts(const HeightField& field, const SimplifyOptions& options) {
+  const std::vector<Conflict> conflicts = find_conflicts(field, options);
+  if (conflicts.empty()) return {};
+  return usage(describe(conflicts.front()));
+}
+
+Result<void> check_needs(const HeightField& field, const SimplifyOptions& options) {
+  const bool has_error_for_all = options.max_error || has_budget(options);
+  if (options.min_shape && !(*options.min_shape >= 0 && *options.min_shape <= 0.5))
+    return usage(fmt::format("the floor of shapes must lie in 0 … 0.5, not {}", *options.min_shape));
+  if (options.objective == Objective::kRms && !has_budget(options))
+    return usage("the rms objective needs a budget of triangles or vertices: a max error alone decides the mesh");
+  if (options.vertices == Vertices::kFree && options.effort != Effort::kHigh && options.effort != Effort::kMax)
+    return usage("free vertices need high effort or more: leave them on samples");
+  if (has_lines(options) && !has_error_for_all)
+    return usage(fmt::format("a mesh with {} needs a max error or a budget", name_lines(options)));
+  if (options.shape.any() && !has_error_for_all)
+    return usage("a mesh with goals for angles and edges needs a max error or a budget");
+  return check_shape(field, options.shape);
+}
+
+bool may_be_dominant(const HeightField& field, const SimplifyOptions& options) {
+  const bool has_goal = options.max_error || options.tolerance_source != nullptr;
+  if (!has_goal || has_budget(options) || options.order == Order::kGreedy) return false;
+  const auto of_order = [](const Conflict& conflict) { return conflict.one == Field::kOrderDominant; };
+  const auto conflicts = find_conflicts(fields_of(field, options) | Fields(Field::kOrderDominant));
+  return std::none_of(conflicts.begin(), conflicts.end(), of_order);
+}
+
+Effort choose_effort(const HeightField& field, const SimplifyOptions& options) {
+  if (options.effort != Effort::kAuto) return options.effort;
+  const Fields set = fields_of(field, options);
+  if (set.has_any(Fields(Field::kMinShape, Field::kTimeLimit, Field::kObjectiveRms))) return Effort::kNormal;
+  // Strategies are asked for to see what they do, so removal stays away from them, and from bounds of samples, which
+  // insertion spends where they are small.
+  constexpr Fields kReasonsForFast(Field::kMask, Field::kTolerance, Field::kToleranceSource, Field::kScriptIgnores,
+                                   Field::kScriptInserts, Field::kOrderGreedy, Field::kImportance, Field::kAlgorithm,
+                                   Field::kBatch, Field::kDataEdges, Field::kLastOfBudget, Field::kMemoryLimit);
+  return set.has_any(kReasonsForFast) ? Effort::kFast : Effort::kNormal;
+}
+
+}  // namespace scarp

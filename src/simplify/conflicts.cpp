@@ -1,0 +1,306 @@
+#include "scarp/conflicts.h"
+
+#include <algorithm>
+#include <array>
+
+#include "lines/breaklines.h"
+#include "pieces/effort.h"
+#include "scarp/cliffs.h"
+#include "scarp/ridges.h"
+
+namespace scarp {
+
+namespace {
+
+constexpr Fields kBudgets(Field::kMaxTriangles, Field::kMaxVertices);
+constexpr Fields kTolerances(Field::kTolerance, Field::kToleranceSource);
+constexpr Fields kBounds = kTolerances | Fields(Field::kMask, Field::kScriptIgnores);
+constexpr Fields kLines(Field::kBreaklines, Field::kBreaklinesFor, Field::kCutline);
+constexpr Fields kLaidFirst(Field::kWalls, Field::kRidges);
+constexpr Fields kShapes(Field::kShape);
+constexpr Fields kInsertion(Field::kImportance, Field::kAlgorithm, Field::kBatch);
+constexpr Fields kEfforts(Field::kEffortNormal, Field::kEffortHigh, Field::kEffortMax);
+/// What asks for an effort above fast.
+constexpr Fields kAsksForEffort(Field::kMinShape, Field::kTimeLimit, Field::kObjectiveRms, Field::kVerticesFree);
+
+constexpr ConflictRule kRules[] = {
+    {Fields(Field::kMask),
+     kTolerances,
+     {},
+     Where::kAlways,
+     "divide the max error by the weights, and give one tolerance for each sample"},
+    {Fields(Field::kOnePass),
+     Fields(Field::kBatch),
+     {},
+     Where::kAlways,
+     "one pass ranks all samples once and never looks at the mesh"},
+
+    {Fields(Field::kOrderDominant),
+     kInsertion,
+     {},
+     Where::kAlways,
+     "the dominant order inserts one sample at a time in each neighbourhood, the one with the largest error"},
+    {Fields(Field::kOrderDominant),
+     Fields(Field::kDataEdges),
+     {},
+     Where::kAlways,
+     "the dominant order keeps Delaunay edges"},
+    {Fields(Field::kOrderDominant),
+     Fields(Field::kMask, Field::kTolerance, Field::kScriptIgnores),
+     {},
+     Where::kAlways,
+     "the dominant order keeps one bound for all samples in memory"},
+    {Fields(Field::kOrderDominant),
+     Fields(Field::kScriptInserts),
+     {},
+     Where::kAlways,
+     "the dominant order starts from the outline alone"},
+    {Fields(Field::kOrderDominant),
+     Fields(Field::kOutlineTolerance),
+     {},
+     Where::kAlways,
+     "the dominant order keeps the exact outline"},
+    {Fields(Field::kOrderDominant),
+     Fields(Field::kChannels),
+     {},
+     Where::kAlways,
+     "the dominant order works on heights alone, without channels"},
+    {Fields(Field::kOrderDominant),
+     kLaidFirst,
+     {},
+     Where::kInMemory,
+     "in memory walls and ridges are inserted before refinement, which then takes the greedy order"},
+
+    {kLines, Fields(Field::kOutlineTolerance), {}, Where::kAlways, "a mesh with lines keeps the exact outline"},
+    {kShapes,
+     Fields(Field::kOutlineTolerance),
+     {},
+     Where::kAlways,
+     "a mesh with goals for angles and edges keeps the exact outline"},
+    {kLines | kShapes,
+     Fields(Field::kChannels),
+     {},
+     Where::kAlways,
+     "vertices come to lie between samples, where channels have no value"},
+    {kLines | kShapes,
+     Fields(Field::kCurvedFrame),
+     {},
+     Where::kAlways,
+     "vertices come to lie between samples, which needs a frame in which the grid is regular"},
+    {kLines | kShapes,
+     Fields(Field::kDataEdges),
+     {},
+     Where::kAlways,
+     "edges around lines and for angles are Delaunay edges"},
+    {kLaidFirst,
+     kInsertion,
+     {},
+     Where::kAlways,
+     "walls and ridges are inserted before refinement, which then ranks samples by their errors"},
+    {Fields(Field::kWalls), kShapes, {}, Where::kAlways, "the two lines of a wall lie too close together for angles"},
+    {kLines | kShapes, kBudgets, kBounds, Where::kAlways,
+     "such a budget is met by one error for all samples, and here samples have bounds of their own"},
+
+    {kEfforts | kAsksForEffort,
+     Fields(Field::kDataEdges),
+     {},
+     Where::kAlways,
+     "an effort above fast chooses edges itself where it removes vertices"},
+    {Fields(Field::kEffortFast), kAsksForEffort, {}, Where::kAlways, "fast effort only refines"},
+    {Fields(Field::kEffortNormal),
+     Fields(Field::kVerticesFree),
+     {},
+     Where::kAlways,
+     "only high and max effort move vertices"},
+    {Fields(Field::kVerticesFree),
+     Fields(Field::kChannels),
+     {},
+     Where::kAlways,
+     "channels have no value between samples"},
+    {Fields(Field::kVerticesFree),
+     Fields(Field::kCurvedFrame),
+     {},
+     Where::kAlways,
+     "free vertices need a frame in which the grid is regular"},
+    {Fields(Field::kTimeLimit), kBudgets, Fields(Field::kEffortMax), Where::kAlways,
+     "max effort takes all of the time for one mesh, and a budget is met by several"},
+    {Fields(Field::kObjectiveRms),
+     kTolerances | Fields(Field::kScriptIgnores),
+     {},
+     Where::kAlways,
+     "the RMSE is lowered by a search for one error, and here samples have bounds of their own"},
+    {kEfforts | kAsksForEffort, kBudgets, kTolerances | Fields(Field::kScriptIgnores), Where::kAlways,
+     "an effort meets a budget by one error for all samples, and here samples have bounds of their own"},
+
+    {Fields(Field::kToleranceSource),
+     kBudgets,
+     {},
+     Where::kAlways,
+     "a streamed budget is met by one error for all samples"},
+    {Fields(Field::kSource),
+     Fields(Field::kOrderGreedy),
+     {},
+     Where::kStreamed,
+     "streamed samples are refined tile by tile, in the dominant order"},
+    {Fields(Field::kSource),
+     kInsertion | Fields(Field::kDataEdges),
+     {},
+     Where::kStreamed,
+     "streamed samples are refined tile by tile, in the dominant order, with Delaunay edges"},
+    {Fields(Field::kSource),
+     Fields(Field::kMask, Field::kTolerance, Field::kScriptIgnores, Field::kScriptInserts),
+     {},
+     Where::kStreamed,
+     "streamed samples take their tolerances from a source"},
+    {Fields(Field::kSource),
+     Fields(Field::kOutlineTolerance),
+     {},
+     Where::kStreamed,
+     "an outline is simplified as a whole"},
+    {Fields(Field::kSource), Fields(Field::kChannels), {}, Where::kStreamed, "channels are held in memory"},
+};
+
+constexpr std::string_view kNames[] = {
+    "max_error",
+    "max_triangles",
+    "max_vertices",
+    "outline_tolerance",
+    "float32_positions = false",
+    "mask",
+    "tolerance",
+    "tolerance_source",
+    "breaklines",
+    "breaklines (walls)",
+    "breaklines (ridges)",
+    "breaklines_for",
+    "cutline",
+    "script (ignore)",
+    "script (insert)",
+    "order = greedy",
+    "order = dominant",
+    "effort = fast",
+    "effort = normal",
+    "effort = high",
+    "effort = max",
+    "vertices = samples",
+    "vertices = free",
+    "min_shape",
+    "shape",
+    "is_time_up",
+    "is_enough",
+    "objective = rms",
+    "importance",
+    "importance.one_pass",
+    "algorithm",
+    "batch",
+    "edges.data_dependent",
+    "norm",
+    "best_of_budget = false",
+    "uvs",
+    "normals",
+    "threads",
+    "memory_limit",
+    "channels of the field",
+    "a curved frame of the field",
+    "a field with a source",
+};
+static_assert(std::size(kNames) == kFieldCount);
+
+bool holds(Where where, bool is_streamed) {
+  return where == Where::kAlways || (where == Where::kStreamed) == is_streamed;
+}
+
+std::vector<Field> list(Fields all) {
+  std::vector<Field> list;
+  for (int k = 0; k < kFieldCount; ++k) {
+    if (all.has(static_cast<Field>(k))) list.push_back(static_cast<Field>(k));
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string_view name_of(Field field) { return kNames[static_cast<int>(field)]; }
+
+std::span<const ConflictRule> conflict_rules() { return kRules; }
+
+Fields fields_of(const HeightField& field, const SimplifyOptions& options) {
+  const auto& script = options.script;
+  const auto& lines = options.breaklines.lines;
+  const auto does = [&](ScriptStep::Action action) {
+    return std::any_of(script.begin(), script.end(), [&](const ScriptStep& step) { return step.action == action; });
+  };
+  const std::pair<Field, bool> all[] = {
+      {Field::kMaxError, options.max_error.has_value()},
+      {Field::kMaxTriangles, options.max_triangles.has_value()},
+      {Field::kMaxVertices, options.max_vertices.has_value()},
+      {Field::kOutlineTolerance, options.outline_tolerance > 0},
+      {Field::kDoublePositions, !options.float32_positions},
+      {Field::kMask, !options.mask.empty()},
+      {Field::kTolerance, !options.tolerance.empty()},
+      {Field::kToleranceSource, options.tolerance_source != nullptr},
+      {Field::kBreaklines, !lines.empty()},
+      {Field::kWalls, std::any_of(lines.begin(), lines.end(), is_fault)},
+      {Field::kRidges, std::any_of(lines.begin(), lines.end(), is_ridge_line)},
+      {Field::kBreaklinesFor, static_cast<bool>(options.breaklines_for)},
+      {Field::kCutline, !options.cutline.rings.empty()},
+      {Field::kScriptIgnores, does(ScriptStep::Action::kIgnore)},
+      {Field::kScriptInserts, does(ScriptStep::Action::kInsert)},
+      {Field::kOrderGreedy, options.order == Order::kGreedy},
+      {Field::kOrderDominant, options.order == Order::kDominant},
+      {Field::kEffortFast, options.effort == Effort::kFast},
+      {Field::kEffortNormal, options.effort == Effort::kNormal},
+      {Field::kEffortHigh, options.effort == Effort::kHigh},
+      {Field::kEffortMax, options.effort == Effort::kMax},
+      {Field::kVerticesSamples, options.vertices == Vertices::kSamples},
+      {Field::kVerticesFree, options.vertices == Vertices::kFree},
+      {Field::kMinShape, options.min_shape.has_value()},
+      {Field::kShape, options.shape.any()},
+      {Field::kTimeLimit, static_cast<bool>(options.is_time_up)},
+      {Field::kEnough, static_cast<bool>(options.is_enough)},
+      {Field::kObjectiveRms, options.objective == Objective::kRms},
+      {Field::kImportance, options.importance != Importance{}},
+      {Field::kOnePass, options.importance.one_pass},
+      {Field::kAlgorithm, options.algorithm != Algorithm::kHeap},
+      {Field::kBatch, options.batch != Batch{}},
+      {Field::kDataEdges, options.edges.data_dependent},
+      {Field::kNorm, options.norm != Norm::kSum},
+      {Field::kLastOfBudget, !options.best_of_budget},
+      {Field::kUvs, options.uvs},
+      {Field::kNormals, options.normals},
+      {Field::kThreads, options.threads != 0},
+      {Field::kMemoryLimit, options.memory_limit > 0},
+      {Field::kChannels, has_norm(field)},
+      {Field::kCurvedFrame, !field.frame.is_affine()},
+      {Field::kSource, field.samples == nullptr && field.source != nullptr},
+  };
+  static_assert(std::size(all) == kFieldCount);
+  Fields fields;
+  for (const auto& [of, is_set] : all) {
+    if (is_set) fields.add(of);
+  }
+  return fields;
+}
+
+std::vector<Conflict> find_conflicts(Fields set) {
+  std::vector<Conflict> conflicts;
+  for (const ConflictRule& rule : kRules) {
+    if (!holds(rule.where, set.has(Field::kSource)) || !set.has_any(rule.one) || !set.has_any(rule.other)) continue;
+    if (!rule.beside.empty() && !set.has_any(rule.beside)) continue;
+    const std::vector<Field> beside = list(set & rule.beside);
+    for (const Field one : list(set & rule.one)) {
+      for (const Field other : list(set & rule.other)) {
+        conflicts.push_back({one, other, beside.empty() ? std::nullopt : std::optional(beside.front()), rule.reason});
+      }
+    }
+  }
+  return conflicts;
+}
+
+std::vector<Conflict> find_conflicts(const HeightField& field, const SimplifyOptions& options) {
+  return find_conflicts(fields_of(field, options));
+}
+
+std::string describe(const Conflict& conflict) { return describe(conflict, name_of); }
+
+}  // namespace scarp

@@ -1,0 +1,332 @@
+// All pairs of settings, in memory and streamed: each runs and is proven, or the table of conflicts refuses it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "laws/array_bounds.h"
+#include "laws/array_source.h"
+#include "laws/fields.h"
+#include "scarp/cliffs.h"
+#include "scarp/conflicts.h"
+#include "scarp/ridges.h"
+#include "scarp/simplify.h"
+
+namespace scarp::conflicts_laws_test {
+namespace {
+
+constexpr double kError = 4;
+constexpr std::uint64_t kTriangles = 1500;
+
+/// Bends straight lines.
+class Bend : public PointTransform {
+ public:
+  bool apply(std::span<double> x, std::span<double> y) const override {
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const double u = x[k], v = y[k];
+      x[k] = 10 * u + 1e-3 * v * v;
+      y[k] = 10 * v - 2e-3 * u * u;
+    }
+    return true;
+  }
+};
+
+/// Land with a wall, and with voids.
+testing::Field make_land() {
+  testing::Field land = testing::random_field(17, 40, 30, testing::Relief::kRidges, 0.01);
+  for (std::int32_t y = 0; y < land.rows; ++y) {
+    for (std::int32_t x = 0; x < land.cols; ++x) {
+      if (3 * x + y > 90) land.samples[static_cast<std::size_t>(y * land.cols + x)] += 120;
+    }
+  }
+  for (const std::size_t k : {12 * 40 + 11, 14 * 40 + 13}) land.samples[k] = 20;
+  return land;
+}
+
+/// What all runs share, and one run's field and options.
+struct Scene {
+  testing::Field land = make_land();
+  std::vector<float> mask = std::vector<float>(land.samples.size(), 0.5f);
+  std::vector<float> tolerance = std::vector<float>(land.samples.size(), 6.0f);
+  std::vector<float> colours = land.samples;
+  testing::ArraySource source{land.view()};
+  testing::ArrayBounds bounds{tolerance, 40};
+  HeightField field = land.view();
+  SimplifyOptions options;
+};
+
+Line line_through(std::vector<std::array<double, 3>> points, std::uint32_t polygon = kNoPolygon) {
+  Line line;
+  line.points = std::move(points);
+  line.polygon = polygon;
+  return line;
+}
+
+void add_lines(Scene& scene, std::vector<Line> lines) {
+  auto& all = scene.options.breaklines.lines;
+  all.insert(all.end(), lines.begin(), lines.end());
+}
+
+Line some_line() { return line_through({{2.5, 3.25, NAN}, {20.5, 11.75, NAN}}); }
+
+struct Setting {
+  Field field;
+  std::function<void(Scene&)> set;
+};
+
+std::vector<Setting> all_settings() {
+  constexpr auto kWithout = [](Scene&) {};
+  return {
+      {Field::kMaxError, [](Scene& s) { s.options.max_error = kError; }},
+      {Field::kMaxTriangles, [](Scene& s) { s.options.max_triangles = kTriangles; }},
+      {Field::kMaxVertices, [](Scene& s) { s.options.max_vertices = kTriangles / 2; }},
+      {Field::kOutlineTolerance, [](Scene& s) { s.options.outline_tolerance = 1; }},
+      {Field::kDoublePositions, [](Scene& s) { s.options.float32_positions = false; }},
+      {Field::kMask, [](Scene& s) { s.options.mask = s.mask; }},
+      {Field::kTolerance, [](Scene& s) { s.options.tolerance = s.tolerance; }},
+      {Field::kToleranceSource, [](Scene& s) { s.options.tolerance_source = &s.bounds; }},
+      {Field::kBreaklines, [](Scene& s) { add_lines(s, {some_line()}); }},
+      {Field::kWalls,
+       [](Scene& s) {
+         add_lines(s, detect_cliffs(s.land.view(), {60, kError})->lines);
+       }},
+      {Field::kRidges,
+       [](Scene& s) {
+         add_lines(s, {line_through({{4, 20, NAN}, {9, 25, NAN}}, kRidgeLine)});
+       }},
+      {Field::kBreaklinesFor,
+       [](Scene& s) {
+         s.options.breaklines_for = [](double) -> Result<LineConstraints> {
+           LineConstraints lines;
+           lines.lines = {some_line()};
+           return lines;
+         };
+       }},
+      {Field::kCutline,
+       [](Scene& s) {
+         Line ring =
+             line_through({{1.5, 1.5, NAN}, {37.5, 2.5, NAN}, {36.5, 27.5, NAN}, {2.5, 26.5, NAN}, {1.5, 1.5, NAN}}, 0);
+         ring.role = LineRole::kOuter;
+         s.options.cutline.rings = {ring};
+       }},
+      {Field::kScriptIgnores,
+       [](Scene& s) {
+         s.options.script.push_back({ScriptStep::Action::kIgnore, 11, 12});
+       }},
+      {Field::kScriptInserts,
+       [](Scene& s) {
+         s.options.script.push_back({ScriptStep::Action::kInsert, 13, 14});
+       }},
+      {Field::kOrderGreedy, [](Scene& s) { s.options.order = Order::kGreedy; }},
+      {Field::kOrderDominant, [](Scene& s) { s.options.order = Order::kDominant; }},
+      {Field::kEffortFast, [](Scene& s) { s.options.effort = Effort::kFast; }},
+      {Field::kEffortNormal, [](Scene& s) { s.options.effort = Effort::kNormal; }},
+      {Field::kEffortHigh, [](Scene& s) { s.options.effort = Effort::kHigh; }},
+      {Field::kEffortMax, [](Scene& s) { s.options.effort = Effort::kMax; }},
+      {Field::kVerticesSamples, [](Scene& s) { s.options.vertices = Vertices::kSamples; }},
+      {Field::kVerticesFree,
+       [](Scene& s) {
+         s.options.vertices = Vertices::kFree;
+         if (s.options.effort == Effort::kAuto) s.options.effort = Effort::kHigh;
+       }},
+      {Field::kMinShape, [](Scene& s) { s.options.min_shape = 0.1; }},
+      {Field::kShape, [](Scene& s) { s.options.shape.min_angle = 15; }},
+      {Field::kTimeLimit, [](Scene& s) { s.options.is_time_up = [] { return false; }; }},
+      {Field::kEnough, [](Scene& s) { s.options.is_enough = [] { return false; }; }},
+      {Field::kObjectiveRms, [](Scene& s) { s.options.objective = Objective::kRms; }},
+      {Field::kImportance, [](Scene& s) { s.options.importance.feature = Importance::Feature::kCurvature; }},
+      {Field::kOnePass,
+       [](Scene& s) {
+         s.options.importance = {false, Importance::Feature::kLocal4, Importance::Damping::kUndamped, true};
+       }},
+      {Field::kAlgorithm, [](Scene& s) { s.options.algorithm = Algorithm::kLocal; }},
+      {Field::kBatch, [](Scene& s) { s.options.batch.rule = Batch::Rule::kIndependent; }},
+      {Field::kDataEdges, [](Scene& s) { s.options.edges.data_dependent = true; }},
+      {Field::kNorm, [](Scene& s) { s.options.norm = Norm::kMax; }},
+      {Field::kLastOfBudget, [](Scene& s) { s.options.best_of_budget = false; }},
+      {Field::kUvs, [](Scene& s) { s.options.uvs = true; }},
+      {Field::kNormals, [](Scene& s) { s.options.normals = true; }},
+      {Field::kThreads, [](Scene& s) { s.options.threads = 2; }},
+      {Field::kMemoryLimit, [](Scene& s) { s.options.memory_limit = 1'000'000'000; }},
+      {Field::kChannels,
+       [](Scene& s) {
+         s.field.channels = {{s.colours.data(), 0.25}};
+       }},
+      {Field::kCurvedFrame,
+       [](Scene& s) {
+         s.field.frame.kind = Frame::Kind::kProjected;
+         s.field.frame.transform = std::make_shared<Bend>();
+       }},
+      {Field::kSource, kWithout},
+  };
+}
+
+/// What each sample may be off by; +infinity where there is no bound.
+std::vector<float> bounds_of(const Scene& scene, bool keeps_error) {
+  const SimplifyOptions& options = scene.options;
+  const bool has_tolerance = !options.tolerance.empty() || options.tolerance_source != nullptr;
+  double bound = keeps_error && options.max_error ? *options.max_error : HUGE_VAL;
+  if (has_tolerance && keeps_error) bound = std::min(bound, 6.0);
+  if (!options.mask.empty()) bound /= 0.5;
+  std::vector<float> bounds(scene.land.samples.size(), static_cast<float>(bound * 1.000001 + 1e-5));
+  for (const ScriptStep& step : options.script) {
+    if (step.action == ScriptStep::Action::kIgnore)
+      bounds[static_cast<std::size_t>(step.row * 40 + step.col)] = testing::kNoBound;
+  }
+  return bounds;
+}
+
+/// In the eyes of the judge, and of what was asked for.
+void expect_kept(const Scene& scene, const Simplified& made) {
+  testing::Field land = scene.land;
+  for (const SampleEdit& edit : made.edits)
+    land.samples[static_cast<std::size_t>(edit.row * 40 + edit.col)] = edit.after;
+  HeightField field = scene.field;
+  field.samples = land.samples.data();
+  field.source = nullptr;
+  const SimplifyOptions& options = scene.options;
+  const bool keeps_error = made.stop == StopReason::kMaxError;
+  const std::vector<float> bounds = bounds_of(scene, keeps_error);
+  MeasureOptions judge;
+  judge.tolerance = bounds;
+  judge.cutline = options.cutline.rings.empty() ? nullptr : &options.cutline;
+  const auto m = measure(field, made.mesh, judge);
+  ASSERT_TRUE(m) << m.error().message;
+  EXPECT_EQ(m->over_tolerance, 0u);
+  EXPECT_EQ(m->uncovered, 0u);
+  EXPECT_TRUE(m->is_sound());
+  EXPECT_LE(made.mesh.triangle_count(), options.max_triangles.value_or(1u << 30));
+  EXPECT_LE(made.mesh.vertex_count(), options.max_vertices.value_or(1u << 30));
+  const bool is_norm = !field.channels.empty() && options.mask.empty() && options.script.empty() && keeps_error;
+  EXPECT_LE(made.combined_max_error, is_norm ? options.max_error.value_or(HUGE_VAL) * 1.000001 : HUGE_VAL);
+  for (const ScriptStep& step : options.script) {
+    if (step.action != ScriptStep::Action::kInsert || !field.frame.is_affine()) continue;
+    bool is_vertex = false;
+    for (std::size_t v = 0; v < made.mesh.vertex_count(); ++v) {
+      const auto at = made.mesh.vertex(v);
+      is_vertex = is_vertex || (at[0] == step.col && at[1] == 29 - step.row);
+    }
+    EXPECT_TRUE(is_vertex);
+  }
+  EXPECT_EQ(made.mesh.normals.size(), options.normals ? made.mesh.positions.size() : 0u);
+}
+
+/// Settings of which one brings the other along.
+bool brings(Field one, Field other) {
+  if (one == Field::kWalls || one == Field::kRidges) return other == Field::kBreaklines;
+  return one == Field::kOnePass && other == Field::kImportance;
+}
+
+bool names(const Conflict& conflict, Field one, Field other) {
+  const auto is = [](Field named, Field setting) { return named == setting || brings(setting, named); };
+  return (is(conflict.one, one) && is(conflict.other, other)) || (is(conflict.one, other) && is(conflict.other, one));
+}
+
+/// Goals beside which two settings may go together.
+const Field kGoals[] = {Field::kMaxError, Field::kMaxTriangles};
+
+/// Runs a pair, with the first goal beside which it can. True if it is refused beside all of them.
+bool is_refused(const Setting& one, const Setting& other, bool is_streamed) {
+  bool is_named = false;
+  for (const Field goal : kGoals) {
+    Scene scene;
+    scene.options.threads = 1;
+    all_settings()[static_cast<std::size_t>(goal)].set(scene);
+    one.set(scene);
+    other.set(scene);
+    if (scene.options.objective == Objective::kRms && goal == Field::kMaxError)
+      scene.options.max_triangles = kTriangles;
+    if (is_streamed) scene.field = testing::with_source(scene.field, scene.source);
+    const auto conflicts = find_conflicts(scene.field, scene.options);
+    const auto made = simplify(scene.field, scene.options);
+    if (conflicts.empty()) {
+      EXPECT_TRUE(made) << made.error().message;
+      if (made) expect_kept(scene, *made);
+      return false;
+    }
+    EXPECT_FALSE(made);
+    if (made) return false;
+    EXPECT_EQ(made.error().kind, ErrorKind::kUsage);
+    EXPECT_EQ(made.error().message, describe(conflicts.front()));
+    for (const Conflict& conflict : conflicts) is_named = is_named || names(conflict, one.field, other.field);
+  }
+  EXPECT_TRUE(is_named);
+  return true;
+}
+
+bool is_alone_refused(const Setting& setting) {
+  Scene scene;
+  setting.set(scene);
+  for (const Conflict& conflict : find_conflicts(testing::with_source(scene.field, scene.source), scene.options)) {
+    if (conflict.one == Field::kSource || conflict.other == Field::kSource) return true;
+  }
+  return false;
+}
+
+TEST(conflicts, every_pair_in_memory_runs_or_is_refused_by_the_table) {
+  const auto settings = all_settings();
+  int pairs = 0, refused = 0, by_values = 0;
+  for (std::size_t k = 0; k < settings.size(); ++k) {
+    ASSERT_EQ(static_cast<std::size_t>(settings[k].field), k);
+    for (std::size_t n = k + 1; n < settings.size(); ++n) {
+      const Field one = settings[k].field, other = settings[n].field;
+      if (one == Field::kToleranceSource || other == Field::kToleranceSource || other == Field::kSource) continue;
+      SCOPED_TRACE(std::string(name_of(one)) + " and " + std::string(name_of(other)));
+      // Two values of one field.
+      Scene a, b, both;
+      settings[k].set(a), settings[n].set(b), settings[k].set(both), settings[n].set(both);
+      if (!fields_of(both.field, both.options).has(one)) continue;
+      ++pairs;
+      if (!is_refused(settings[k], settings[n], false)) continue;
+      ++refused;
+      by_values += one == Field::kWalls || one == Field::kRidges || other == Field::kWalls || other == Field::kRidges ||
+                   one == Field::kOnePass || other == Field::kOnePass;
+    }
+  }
+  RecordProperty("pairs", pairs);
+  RecordProperty("refused", refused);
+  RecordProperty("refused_of_walls_ridges_and_one_pass", by_values);
+  std::cout << refused << " of " << pairs << " pairs are refused in memory, " << by_values
+            << " of them pairs of walls, ridges and one pass\n";
+}
+
+TEST(conflicts, every_pair_of_streamed_samples_runs_or_is_refused_by_the_table) {
+  const auto settings = all_settings();
+  int pairs = 0, refused = 0, alone = 0, more = 0;
+  for (std::size_t k = 0; k < settings.size(); ++k) {
+    const Field one = settings[k].field;
+    if (one == Field::kSource) continue;
+    if (is_alone_refused(settings[k])) {
+      ++alone;
+      SCOPED_TRACE(std::string(name_of(one)));
+      EXPECT_TRUE(is_refused(settings[k], settings[static_cast<std::size_t>(Field::kSource)], true));
+      continue;
+    }
+    for (std::size_t n = k + 1; n < settings.size(); ++n) {
+      const Field other = settings[n].field;
+      if (other == Field::kSource || is_alone_refused(settings[n])) continue;
+      SCOPED_TRACE(std::string(name_of(one)) + " and " + std::string(name_of(other)));
+      Scene both;
+      settings[k].set(both), settings[n].set(both);
+      if (!fields_of(both.field, both.options).has(one)) continue;
+      ++pairs;
+      if (!is_refused(settings[k], settings[n], true)) continue;
+      ++refused;
+      more += find_conflicts(Fields(one, other)).empty() || one == Field::kToleranceSource ||
+              other == Field::kToleranceSource;
+    }
+  }
+  RecordProperty("pairs", pairs);
+  RecordProperty("refused", refused);
+  RecordProperty("refused_streamed_only", more);
+  RecordProperty("settings_refused_alone", alone);
+  std::cout << refused << " of " << pairs << " pairs are refused where samples are streamed, " << more
+            << " of them there only; " << alone << " settings are refused alone\n";
+}
+
+}  // namespace
+}  // namespace scarp::conflicts_laws_test
