@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "grid/raster.h"
+#include "grid/samples.h"
 #include "grid/source_failure.h"
 #include "pieces/effort.h"
 #include "pieces/goals.h"
