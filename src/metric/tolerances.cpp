@@ -13,14 +13,14 @@
 namespace scarp {
 namespace {
 
-constexpr float kUnbounded = std::numeric_limits<float>::infinity();
+constexpr float kNoTolerance = std::numeric_limits<float>::infinity();
 
 /// Rows of so many samples at a time.
 int rows_of(int samples, int cols) { return std::max(1, samples / cols); }
 
 /// The tolerance that a value of a raster means; `is_rounded`: to float32, so that it may be above the file's.
 float tolerance_of_value(float value, bool is_rounded) {
-  if (std::isnan(value)) return kUnbounded;
+  if (std::isnan(value)) return kNoTolerance;
   return is_rounded ? std::nextafter(value, 0.0F) : value;  // not above the value in the file
 }
 
