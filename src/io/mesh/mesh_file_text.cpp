@@ -60,7 +60,7 @@ bool parse_integer(std::string_view word, std::int64_t& value) {
   return parsed.ec == std::errc() && parsed.ptr == end;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMost = 40;
   std::string plain;
   for (const char c : text.substr(0, kMost)) plain += c >= ' ' && c < 127 ? c : '?';

@@ -16,7 +16,7 @@ bool parse_number(std::string_view word, double& value);
 bool parse_integer(std::string_view word, std::int64_t& value);
 
 /// Text in quotes, fit for a sentence: characters that cannot be printed become '?', and long text is cut.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 /// The text with its ASCII letters small, whatever the locale.
 std::string lowered(std::string_view text);
 

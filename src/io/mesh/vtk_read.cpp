@@ -116,10 +116,10 @@ class VtkReader {
     const std::string type = xml_.attribute("type");
     is_polydata_ = type == "PolyData";
     if (!is_polydata_ && type != "UnstructuredGrid") {
-      return fmt::format("it is VTK's {}, and neither PolyData nor UnstructuredGrid", quoted(type));
+      return fmt::format("it is VTK's {}, and neither PolyData nor UnstructuredGrid", in_quotes(type));
     }
     if (const std::string how = xml_.attribute("compressor"); !how.empty()) {
-      return fmt::format("its arrays are compressed ({}): write it without compression", quoted(how));
+      return fmt::format("its arrays are compressed ({}): write it without compression", in_quotes(how));
     }
     file_.order = xml_.attribute("byte_order") == "BigEndian" ? std::endian::big : std::endian::little;
     file_.wide_lengths = xml_.attribute("header_type") == "UInt64";
@@ -143,7 +143,7 @@ class VtkReader {
     } else if (format == "binary") {
       array.format = VtkArray::Format::kBase64;
     } else if (format != "ascii" && !format.empty()) {
-      return fmt::format("an array has the unknown format {}", quoted(format));
+      return fmt::format("an array has the unknown format {}", in_quotes(format));
     }
     array_key = section == "Points" ? section : section + "/" + xml_.attribute("Name");
     pieces_.back().arrays[array_key] = std::move(array);
@@ -168,10 +168,10 @@ class VtkReader {
   /// The numbers of an array that must be there. Arrays that share bytes are refused: a small file could ask for much.
   Result<VtkNumbers> load(const VtkPiece& piece, const std::string& key) {
     const auto found = piece.arrays.find(key);
-    if (found == piece.arrays.end()) return fail(ErrorKind::kInput, fmt::format("it has no array {}", quoted(key)));
+    if (found == piece.arrays.end()) return fail(ErrorKind::kInput, fmt::format("it has no array {}", in_quotes(key)));
     auto numbers = read_vtk_array(file_, found->second);
     if (!numbers) {
-      return fail(ErrorKind::kInput, fmt::format("its array {} {}", quoted(key), numbers.error().message));
+      return fail(ErrorKind::kInput, fmt::format("its array {} {}", in_quotes(key), numbers.error().message));
     }
     if (found->second.format == VtkArray::Format::kAppended) loaded_ += numbers->bytes();
     if (loaded_ > bytes_.size()) return fail(ErrorKind::kInput, "its arrays overlap");

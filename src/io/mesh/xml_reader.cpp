@@ -158,7 +158,7 @@ XmlReader::Event XmlReader::read_tag() {
     skip_blanks();
     if (at_ >= text_.size()) return broken("it ends within a tag: it was cut off");
     if (text_[at_] != '>' || open_.empty() || open_.back() != name) {
-      return broken(fmt::format("line {}: {} ends, which was not the last to begin", line(), quoted(name)));
+      return broken(fmt::format("line {}: {} ends, which was not the last to begin", line(), in_quotes(name)));
     }
     ++at_;
     open_.pop_back();
@@ -168,11 +168,11 @@ XmlReader::Event XmlReader::read_tag() {
   if (open_.empty() && has_root_) return broken(fmt::format("line {}: a second root begins", line()));
   if (!read_attributes()) {
     at_ = start;
-    return broken(fmt::format("line {}: the tag {} is broken or cut off", line(), quoted(name)));
+    return broken(fmt::format("line {}: the tag {} is broken or cut off", line(), in_quotes(name)));
   }
   if (text_[at_] == '/') {
     if (at_ + 1 >= text_.size() || text_[at_ + 1] != '>') {
-      return broken(fmt::format("line {}: the tag {} is broken or cut off", line(), quoted(name)));
+      return broken(fmt::format("line {}: the tag {} is broken or cut off", line(), in_quotes(name)));
     }
     ends_at_once_ = true;
     ++at_;
@@ -197,7 +197,7 @@ XmlReader::Event XmlReader::next() {
     if (at_ >= text_.size()) {
       if (has_root_ && open_.empty()) return Event::kDone;
       return broken(open_.empty() ? "it holds no element"
-                                  : fmt::format("it ends within {}: it was cut off", quoted(open_.back())));
+                                  : fmt::format("it ends within {}: it was cut off", in_quotes(open_.back())));
     }
     if (text_[at_] != '<') {
       const std::size_t end = std::min(text_.find('<', at_), text_.size());

@@ -213,9 +213,9 @@ std::string ZipReader::find(std::string_view name) const {
 Result<std::vector<std::uint8_t>> ZipReader::extract(std::string_view name) const {
   const auto found =
       std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.name == name; });
-  if (found == entries_.end()) return broken(fmt::format("the archive holds no {}", quoted(name)));
+  if (found == entries_.end()) return broken(fmt::format("the archive holds no {}", in_quotes(name)));
   const Entry& entry = *found;
-  const auto damaged = [&] { return broken(fmt::format("{} in the archive is damaged", quoted(name))); };
+  const auto damaged = [&] { return broken(fmt::format("{} in the archive is damaged", in_quotes(name))); };
   const std::uint64_t size = bytes_.size();
   if (entry.offset > size || size - entry.offset < kLocalSize ||
       load_number<std::uint32_t>(&bytes_[entry.offset]) != kLocal)
@@ -223,7 +223,7 @@ Result<std::vector<std::uint8_t>> ZipReader::extract(std::string_view name) cons
   const std::uint64_t start = entry.offset + kLocalSize + load_number<std::uint16_t>(&bytes_[entry.offset + 26]) +
                               load_number<std::uint16_t>(&bytes_[entry.offset + 28]);
   if (start > size || size - start < entry.packed) return damaged();
-  if ((entry.flags & 1) != 0) return broken(fmt::format("{} in the archive is encrypted", quoted(name)));
+  if ((entry.flags & 1) != 0) return broken(fmt::format("{} in the archive is encrypted", in_quotes(name)));
   const std::span<const std::uint8_t> packed = bytes_.subspan(start, entry.packed);
   constexpr std::uint64_t kMostRatio = 1032;  // of deflate
   if (entry.method == kStored ? entry.size != entry.packed : entry.size / kMostRatio > entry.packed) return damaged();
@@ -231,8 +231,8 @@ Result<std::vector<std::uint8_t>> ZipReader::extract(std::string_view name) cons
   if (entry.method == kStored) {
     std::copy(packed.begin(), packed.end(), bytes.begin());
   } else if (entry.method != kDeflated) {
-    return broken(
-        fmt::format("{} in the archive is packed by method {}, which Scarp does not know", quoted(name), entry.method));
+    return broken(fmt::format("{} in the archive is packed by method {}, which Scarp does not know", in_quotes(name),
+                              entry.method));
   } else if (!inflate_into(packed, bytes)) {
     return damaged();
   }

@@ -125,7 +125,7 @@ std::string_view find_decimal_comma(std::string_view line) {
 
 tl::unexpected<Error> refuse_decimal_comma(std::string_view field, const std::string& name, std::uint64_t number) {
   return fail(ErrorKind::kInput, fmt::format("{}: line {}: {} has a decimal comma: write numbers with a decimal point",
-                                             name, number, quoted(field)));
+                                             name, number, in_quotes(field)));
 }
 
 struct Columns {
@@ -152,7 +152,7 @@ Result<Columns> read_header(std::string_view line, const std::string& name, std:
     if (!options.z_field.empty())
       return fail(ErrorKind::kInput, fmt::format("{}: there is no column {}, for no header line names the columns: put "
                                                  "one in front, such as x,y,{}",
-                                                 name, quoted(std::string_view(options.z_field)), options.z_field));
+                                                 name, in_quotes(options.z_field), options.z_field));
     return columns;
   }
   std::vector<std::string> names;
@@ -169,7 +169,7 @@ Result<Columns> read_header(std::string_view line, const std::string& name, std:
       if (const auto field = find_decimal_comma(line); !field.empty()) return refuse_decimal_comma(field, name, number);
       return fail(ErrorKind::kInput,
                   fmt::format("{}: line {} names no column {}: {} has none of the names {}{}", name, number,
-                              std::string_view("xyz").substr(k, 1), quoted(line), fmt::join(wanted[k], ", "),
+                              std::string_view("xyz").substr(k, 1), in_quotes(line), fmt::join(wanted[k], ", "),
                               k == 2 && options.z_field.empty() ? "; --z-field names another" : ""));
     }
     columns.at[k] = static_cast<std::size_t>(std::find(names.begin(), names.end(), *found) - names.begin());
@@ -197,13 +197,13 @@ tl::unexpected<Error> explain(std::string_view line, const Columns& columns, con
     if (field.empty()) return fail(ErrorKind::kInput, fmt::format("{}: line {}: {} is empty", name, number, axis));
     if (!value && field.front() == '"')
       return fail(ErrorKind::kInput, fmt::format("{}: line {}: {} is {}: numbers in quotes are not read", name, number,
-                                                 axis, quoted(field)));
+                                                 axis, in_quotes(field)));
     if (!value)
       return fail(ErrorKind::kInput,
-                  fmt::format("{}: line {}: {} is {}, which is no number", name, number, axis, quoted(field)));
+                  fmt::format("{}: line {}: {} is {}, which is no number", name, number, axis, in_quotes(field)));
     if (!std::isfinite(*value))
       return fail(ErrorKind::kInput, fmt::format("{}: line {}: {} is {}, which is no finite number: remove that point",
-                                                 name, number, axis, quoted(field)));
+                                                 name, number, axis, in_quotes(field)));
   }
   return fail(ErrorKind::kInternal, fmt::format("{}: line {} cannot be read", name, number));
 }

@@ -21,16 +21,16 @@ std::string read_line(TextCursor& cursor, int cols, int rows, std::vector<Script
   const std::string_view action = next();
   if (action.empty()) return {};
   if (action != "s" && action != "i" && action != "u") {
-    return fmt::format("{} is none of s (insert), i (ignore) and u (unknown)", quoted(action));
+    return fmt::format("{} is none of s (insert), i (ignore) and u (unknown)", in_quotes(action));
   }
   std::int64_t place[2] = {};
   for (std::int64_t& number : place) {
     const std::string_view word = next();
     if (word.empty()) return fmt::format("'{}' needs a column and a row", action);
-    if (!parse_integer(word, number)) return fmt::format("{} is no whole number", quoted(word));
+    if (!parse_integer(word, number)) return fmt::format("{} is no whole number", in_quotes(word));
   }
   if (const std::string_view more = next(); !more.empty()) {
-    return fmt::format("{} stands behind the column and the row", quoted(more));
+    return fmt::format("{} stands behind the column and the row", in_quotes(more));
   }
   if (place[0] < 0 || place[0] >= cols || place[1] < 0 || place[1] >= rows) {
     return fmt::format("({}, {}) lies outside of the raster, whose columns are 0 to {} and rows 0 to {}", place[0],
