@@ -59,10 +59,10 @@ struct Scene {
   SimplifyOptions options;
 };
 
-Line line_through(std::vector<std::array<double, 3>> points, std::uint32_t polygon = kNoPolygon) {
+Line line_through(std::vector<std::array<double, 3>> points, LineKind kind = LineKind::kBreakline) {
   Line line;
   line.points = std::move(points);
-  line.polygon = polygon;
+  line.kind = kind;
   return line;
 }
 
@@ -96,7 +96,7 @@ std::vector<Setting> all_settings() {
        }},
       {Field::kRidges,
        [](Scene& s) {
-         add_lines(s, {line_through({{4, 20, NAN}, {9, 25, NAN}}, kRidgeLine)});
+         add_lines(s, {line_through({{4, 20, NAN}, {9, 25, NAN}}, LineKind::kRidge)});
        }},
       {Field::kBreaklinesFor,
        [](Scene& s) {
@@ -109,7 +109,8 @@ std::vector<Setting> all_settings() {
       {Field::kCutline,
        [](Scene& s) {
          Line ring =
-             line_through({{1.5, 1.5, NAN}, {37.5, 2.5, NAN}, {36.5, 27.5, NAN}, {2.5, 26.5, NAN}, {1.5, 1.5, NAN}}, 0);
+             line_through({{1.5, 1.5, NAN}, {37.5, 2.5, NAN}, {36.5, 27.5, NAN}, {2.5, 26.5, NAN}, {1.5, 1.5, NAN}});
+         ring.polygon = 0;
          ring.role = LineRole::kOuter;
          s.options.cutline.rings = {ring};
        }},
