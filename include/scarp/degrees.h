@@ -1,4 +1,4 @@
-// From degrees to metres: the frame of a raster whose x and y are longitude and latitude.
+// From degrees to metres: the frame of a raster in longitude and latitude.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace scarp {
 
-/// What longitude and latitude are of.
+/// The ellipsoid and the unit of longitude and latitude.
 struct Geodetic {
   double semi_major = 6378137;                ///< of the ellipsoid, in metres, above 0. DEFAULT: WGS 84.
   double inverse_flattening = 298.257223563;  ///< of the ellipsoid; 0: a sphere. DEFAULT: WGS 84.
@@ -23,13 +23,13 @@ std::array<double, 2> metres_of_unit(double latitude, const Geodetic& geodetic =
 
 /// The local frame of a raster in degrees: metres east and north of its centre sample (cols / 2, rows / 2), which is at
 /// 0, 0. `affine` maps samples to longitude and latitude, as Frame::affine does. Degrees become metres by two
-/// constants, the ellipsoid's radii of curvature at the centre. So the frame is affine, and what is promised on the
-/// grid is promised in the mesh. Lengths along the centre's parallel and meridian are true; elsewhere lengths from east
-/// to west are off by cos φ_centre / cos φ. The cell is rounded so that each sample's x and y is exactly a float32, by
-/// less than 0.03 % for 5,000 samples from the centre to the border. Knows no GDAL; read_height_field() makes the same
-/// frame of a file's CRS.
+/// constants, the ellipsoid's radii of curvature at the centre. So the frame is affine, and a promise on the grid holds
+/// in the mesh. Lengths along the centre's parallel and meridian are true; elsewhere lengths from east to west are off
+/// by cos φ_centre / cos φ. The cell is rounded so that each sample's x and y is exactly a float32: by less than 0.03 %
+/// for 5,000 samples from the centre to the border. Needs no GDAL; read_height_field() makes the same frame from a
+/// file's CRS.
 ///
-/// Frame::kind is kLocal, Frame::crs is empty, Frame::description tells the centre and the cell.
+/// Frame::kind is kLocal, Frame::crs is empty, Frame::description states the centre and the cell.
 /// Fails with kUsage for fewer than 1 column or row, an affine map that is not finite, a centre at or beyond a pole,
 /// and cells too unequal for float32. Cost: O(1).
 Result<Frame> frame_of_degrees(const std::array<double, 6>& affine, int cols, int rows, const Geodetic& geodetic = {});

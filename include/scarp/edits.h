@@ -1,4 +1,4 @@
-// Samples that lines changed.
+// Samples changed by lines.
 #pragma once
 
 #include <memory>
@@ -11,14 +11,14 @@
 
 namespace scarp {
 
-/// `source` with the samples that Simplified::edits tells of: what the promise of a mesh with hard lines is about.
-/// `edits`: in raster order, of samples that are no voids. Cost: a window's own, and a search for its first edit in
-/// each row.
+/// `source` with the changed samples of Simplified::edits. The promise of a mesh with hard lines refers to these
+/// samples. `edits`: in raster order, of valid samples. Cost: that of a window, and a search for its first edit in each
+/// row.
 std::shared_ptr<const SampleSource> edit_source(std::shared_ptr<const SampleSource> source,
                                                 std::vector<SampleEdit> edits);
 
-/// Gives the samples of `field` the heights after the edits, in memory or by edit_source(). Without edits nothing
-/// changes. `edits`: as above. Cost: O(edits).
+/// Applies the edits to `field`, in memory or by edit_source(). Without edits nothing changes. `edits`: as above. Cost:
+/// O(edits).
 void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field);
 
 }  // namespace scarp

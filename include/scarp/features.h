@@ -1,7 +1,7 @@
-// The land's own lines, declared: what of the land the mesh is to hold, whatever its max error turns out to be.
+// Declared features of the land: the lines that the mesh must hold, whatever its max error.
 //
-// Rivers, walls and ridges are fitted to the max error of the mesh: a coarse mesh needs few vertices along them. With a
-// budget that error is searched for, and the lines are made anew for each run of the search.
+// Rivers, walls and ridges are fitted to the max error of the mesh: a coarse mesh needs few vertices along them. A
+// budget searches for that error, and each run of the search makes the lines again.
 #pragma once
 
 #include <cstdint>
@@ -32,11 +32,11 @@ struct RidgeGoals {
   bool are_kept = false;  ///< RidgeOptions::are_kept
 };
 
-/// What the mesh is to hold.
+/// The features of a mesh.
 struct Features {
-  /// Lines that do not depend on the error. Their affine map is that of all lines here. DEFAULT: none.
+  /// Lines that do not depend on the error. Their affine map applies to all lines here. DEFAULT: none.
   LineConstraints breaklines = {};
-  /// What flatten_lakes() or find_flats() made of the field: their shores become lines, rivers flow into them.
+  /// Results of flatten_lakes() or find_flats() on the field: their shores become lines, rivers flow into them.
   std::vector<Lake> lakes = {};
   std::vector<Line> rivers = {};                    ///< courses seen from above, for carve_rivers()
   std::optional<WallGoals> walls = std::nullopt;    ///< DEFAULT: none
@@ -44,7 +44,7 @@ struct Features {
 
   /// Some lines depend on the max error of the mesh.
   bool depend_on_error() const { return !rivers.empty() || walls || ridges; }
-  /// The lines that do not: breaklines, then shores.
+  /// The lines that do not depend on it: breaklines, then shores.
   LineConstraints fixed_lines() const;
 };
 
@@ -52,25 +52,25 @@ struct FitOptions {
   double max_error = 0;            ///< of the mesh to come, in z units, at least 0 and finite
   int threads = 0;                 ///< 0: all cores; never changes the result
   ProgressCallback progress = {};  ///< of the pass "ridges"
-  /// Bytes that the process may take, and those that are taken, as in SimplifyOptions. DEFAULT: no limit.
+  /// Bytes that the process may use, and bytes in use, as in SimplifyOptions. DEFAULT: no limit.
   std::uint64_t memory_limit = 0, memory_taken = 0;
 };
 
-/// The lines of a mesh of one max error, and where they come from.
+/// The lines of a mesh of one max error, and their origins.
 struct FittedFeatures {
   LineConstraints lines;        ///< for SimplifyOptions::breaklines: breaklines, shores, rivers, walls, ridges, valleys
   std::vector<River> rivers;    ///< rings, and lines without a height anywhere, are left out
   std::optional<Cliffs> walls;  ///< nothing where none were asked for
   std::optional<Ridges> ridges;  ///< nothing where none were asked for
 
-  /// Lines that were given: without those of walls and ridges.
+  /// Number of given lines: without those of walls and ridges.
   std::uint64_t given_lines() const;
 };
 
-/// Makes all lines that a mesh of a max error needs. Courses of rivers leave the exact ones by half of the error at
-/// most; walls are looked for around all lines so far, and ridges around the walls. The same features, field and error
-/// give the same lines. With an error goal call it once, and hand FittedFeatures::lines to simplify() as `breaklines`.
-/// With a budget hand simplify() a `breaklines_for` that calls it; Simplified::lines_for tells the error of the mesh.
+/// Makes all lines for a mesh of a given max error. Courses of rivers differ from the exact ones by at most half of the
+/// error. Walls avoid all lines so far, and ridges avoid the walls. The same features, field and error give the same
+/// lines. With an error goal call it once, and pass FittedFeatures::lines to simplify() as `breaklines`. With a budget
+/// pass simplify() a `breaklines_for` that calls it; Simplified::lines_for is the error of the mesh.
 ///
 /// Nothing is kept of `field` and `features`. Fails with kUsage for an error below 0 or not finite, and as
 /// carve_rivers(), detect_cliffs() and detect_ridges() do. Cost: theirs.

@@ -1,4 +1,4 @@
-// Where the samples of a height field lie in the coordinates of its mesh.
+// The map from the samples of a height field to the coordinates of its mesh.
 #pragma once
 
 #include <array>
@@ -57,8 +57,8 @@ Frame grid_frame(int rows);
 std::array<double, 2> frame_origin(const Frame& frame, int cols, int rows);
 
 /// True if every sample's offset from frame_origin() is exactly a float32, so that a mesh written with
-/// float32 offsets has its vertices exactly on the samples. `steps`: the same for places between samples, so many steps
-/// from one to the next. False for frames that are not affine. Cost: O((cols + rows) · steps).
+/// float32 offsets has its vertices exactly on the samples. `steps`: the same for the lattice of `steps` points a
+/// sample. False for frames that are not affine. Cost: O((cols + rows) · steps).
 bool offsets_are_exact(const Frame& frame, int cols, int rows, int steps = 1);
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-// Synthetic height fields: the report's program genstm, and more, for tests, demonstrations and documents.
+// Synthetic height fields: the paper's program genstm, and more, for tests, demonstrations and documents.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace scarp {
 
-/// The letter is genstm's, and so are the formulas: nx, ny are columns and rows, x, y the sample, divisions of whole
-/// numbers drop the fraction, heights are cut to whole numbers (but kFractal's and kSmooth's).
+/// Letters and formulas are genstm's: nx, ny are columns and rows, x, y the sample. Integer divisions drop the
+/// fraction. Heights are truncated to whole numbers (except for kFractal and kSmooth).
 enum class FieldStyle {
   kCliff,              ///< h: a vertical cliff across x, 1000 where x > nx/2, else 0
   kStep,               ///< x: a soft step in x, 1000 (1 + tanh((x − nx/2) / (nx/8.0)))

@@ -1,4 +1,4 @@
-// What is given: samples on a rectangular grid.
+// Height fields: samples on a rectangular grid.
 #pragma once
 
 #include <cstddef>
@@ -26,16 +26,16 @@ class SampleSource {
  public:
   virtual ~SampleSource() = default;
   /// Writes the window of cols × rows samples whose first is (col, row) to `out`, row-major, `stride` floats from row
-  /// to row; voids as NaN. Several threads may call it at once. Fails with kInput, naming file and row. REQUIRES: the
+  /// to row; nodata as NaN. Several threads may call it at once. Fails with kInput, naming file and row. REQUIRES: the
   /// window lies in the raster.
   virtual Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const = 0;
-  /// True if any window costs about as much as copying it. False: whole rows are asked for, from the top down, each
-  /// once or a few times, and small windows only where there is no other way.
+  /// True if any window costs about as much as copying it. False: callers read whole rows, from the top down, each once
+  /// or a few times, and small windows only where there is no other way.
   virtual bool is_in_memory() const = 0;
 };
 
 /// A source of 16-bit samples in memory, 2 bytes each: `codes` are row-major, and code k stands for the height
-/// heights[k], NaN for a void. REQUIRES: `cols` codes to a row, a height for each code.
+/// heights[k], NaN for nodata. REQUIRES: `cols` codes to a row, a height for each code.
 std::unique_ptr<SampleSource> make_coded_source(std::vector<std::uint16_t> codes, int cols, std::vector<float> heights);
 
 /// A height field that borrows its samples.
@@ -56,14 +56,14 @@ struct HeightField {
   /// |error₁|, …). DEFAULT: none.
   std::vector<Channel> channels = {};
   double height_scale = 1;  ///< weight of the height error in that norm, at least 0. DEFAULT: 1.
-  /// Where `samples` is null: who is asked for them, borrowed. simplify() on heights alone and measure() take it;
-  /// what else needs the samples as one array fails with kUsage. DEFAULT: none.
+  /// The source of the samples, borrowed, if `samples` is null. simplify() on heights alone and measure() accept it;
+  /// functions that need the samples as one array fail with kUsage. DEFAULT: none.
   const SampleSource* source = nullptr;
 };
 
 inline constexpr int kMaxChannels = 64;
 
-/// What a reader found out about a raster besides its samples.
+/// Metadata of a raster that was read.
 struct RasterInfo {
   std::string path;
   std::string format;            ///< "GTiff", "PGM", "STM", …
@@ -71,7 +71,7 @@ struct RasterInfo {
   std::string crs;               ///< of the file, "EPSG:4326" where an authority is known, else WKT; empty if none
   bool is_geographic = false;    ///< x and y of the file are degrees
   std::string unit;              ///< of z where the file says so; else empty
-  std::optional<double> nodata;  ///< the value that was taken as nodata
+  std::optional<double> nodata;  ///< the nodata value used
   std::array<double, 6> geotransform{0, 1, 0, 0, 0, 1};  ///< GDAL's, of the pixel *corner*; identity if none
   bool has_georeference = false;
   double cell_x = 1, cell_y = 1;      ///< size of a cell in the units of the file's CRS
@@ -82,9 +82,9 @@ struct RasterInfo {
   std::vector<std::string> warnings;  ///< sentences for the user: infinities taken as nodata, …
 };
 
-/// A height field that owns its samples, or who is asked for them. nodata samples are NaN.
+/// A height field that owns its samples, or their source. nodata samples are NaN.
 struct OwnedHeightField {
-  std::vector<float> samples;  ///< empty where `source` has them
+  std::vector<float> samples;  ///< empty if there is a `source`
   int cols = 0;
   int rows = 0;
   Frame frame;
@@ -100,21 +100,21 @@ struct OwnedHeightField {
 };
 
 /// Number, minimum and maximum of the samples that are heights. min = max = 0 if there are none, and for a field whose
-/// samples are not in memory: Measurement::heights tells theirs.
+/// samples are not in memory: see Measurement::heights for these.
 struct HeightRange {
   std::uint64_t valid = 0;
   double min = 0, max = 0;
 };
 HeightRange height_range(const HeightField& field);
 
-/// Gives voids heights by interpolation: each void sample within `max_distance` samples (Euclidean, along the eight
-/// compass directions) of a valid one becomes the mean of the nearest valid samples in those directions, weighted by
-/// inverse squared distance. Samples farther away stay void. Returns the number of samples filled.
+/// Fills nodata by interpolation: each nodata sample within `max_distance` samples (Euclidean, along the eight compass
+/// directions) of a valid one becomes the mean of the nearest valid samples in those directions, weighted by inverse
+/// squared distance. Samples farther away stay nodata. Returns the number of samples filled.
 /// REQUIRES: max_distance > 0; the samples are in memory (those of a source stay as they are). Cost: O(cols·rows), 16
-/// extra bytes for each void sample.
+/// extra bytes for each nodata sample.
 std::uint64_t fill_voids(OwnedHeightField& field, double max_distance);
 
-/// Gives every void sample the height `value`. Returns the number of samples filled. REQUIRES: as fill_voids().
+/// Gives every nodata sample the height `value`. Returns the number of samples filled. REQUIRES: as fill_voids().
 std::uint64_t fill_background(OwnedHeightField& field, float value);
 
 }  // namespace scarp

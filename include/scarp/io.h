@@ -1,4 +1,4 @@
-// Files.
+// Reading and writing of rasters and meshes.
 #pragma once
 
 #include <array>
@@ -28,34 +28,36 @@ struct ReadOptions {
   /// projected ones, the grid frame without georeference. "source": the raster's own coordinates. "local": the local
   /// metric frame. "grid": columns and rows. Anything else is a CRS for GDAL ("EPSG:32611", WKT, PROJ string).
   std::string crs = {};
-  /// An empty `crs` leaves geographic rasters in their own coordinates, degrees, for files that are laid on maps.
+  /// An empty `crs` leaves geographic rasters in their own coordinates, degrees, for files drawn on maps.
   /// DEFAULT: false.
   bool keep_degrees = false;
   /// In bytes; 0 = the machine's memory. DEFAULT: 0. read_height_field() refuses to read a raster that needs more;
   /// open_height_field() keeps as much of it in memory.
   std::uint64_t memory_limit = 0;
-  /// open_height_field() reads a raster that stays in its file once through, for its info's range. DEFAULT: false.
+  /// open_height_field() reads a streamed raster once through, for the range in its info. DEFAULT: false.
   bool with_range = false;
   ProgressCallback progress = {};
 };
 
-/// Reads one raster. PGM (P2, P5) and Scape's STM by readers of our own; all else, with any path or URL that GDAL opens
-/// (/vsicurl/, /vsizip/, http:// and https:// included), by GDAL.
+/// Reads one raster. Scarp's own readers read PGM (P2, P5) and Scape's STM; GDAL reads all else, with any path or URL
+/// that it opens (/vsicurl/, /vsizip/, http:// and https:// included).
 /// nodata (declared, overridden, mask band, alpha, NaN, ±infinity) becomes NaN.
 /// Fails with kInput: missing, not a raster, truncated, fewer than 2×2 samples, band out of range, no valid sample;
 /// kUsage for a CRS that is unknown or cannot be reached.
 Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options = {});
 
-/// Opens one raster however large it is, for simplify() and measure(). If memory_limit holds its samples as floats (4
-/// bytes each) they are read as by read_height_field(). If it holds 16-bit samples as they are (2 bytes each: Byte,
-/// Int16 and UInt16 without a mask other than nodata) they are read so, and the field has a source. Else the raster
-/// stays in its file, and the source reads it window by window, one window at a time, through GDAL's block cache, which
-/// is given memory_limit and 8 MB (unless GDAL_CACHEMAX is set). A file whose rows of blocks fit twice is decoded once
-/// or twice a pass, else again for every few rows. Then info has no range unless options.with_range asks for it,
-/// infinities are void without a warning, and a file without any height is no error; but samples that float32 may not
-/// hold (32-bit and larger integers, float64, scaled ones) are read once through all the same, since sample_rounding
-/// must be known. The samples are those of read_height_field(). Fails as it does; of a PGM or STM that memory_limit
-/// does not hold, since they are read as a whole.
+/// Opens one raster of any size, for simplify() and measure(). If memory_limit holds its samples as floats (4 bytes
+/// each) they are read as by read_height_field(). If it holds 16-bit samples as they are (2 bytes each: Byte, Int16 and
+/// UInt16 without a mask other than nodata) they are read so, and the field has a source. Else the raster is streamed:
+/// samples stay in their file, and the source reads them window by window, one window at a time, through GDAL's block
+/// cache, whose size is memory_limit and 8 MB (unless GDAL_CACHEMAX is set). A file whose rows of blocks fit twice is
+/// decoded once or twice a pass, else again for every few rows.
+///
+/// A streamed raster has no range in its info unless options.with_range is set, its infinities are nodata without a
+/// warning, and a file without any height is no error. But samples that may not fit float32 (32-bit and larger
+/// integers, float64, scaled ones) are read once through in any case, since sample_rounding must be known. The samples
+/// are those of read_height_field(). Fails as it does, also for a PGM or STM larger than memory_limit, since these are
+/// read as a whole.
 Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOptions& options = {});
 
 /// The bands of an image as channels: one value a sample and band.
@@ -68,10 +70,10 @@ struct OwnedChannels {
   RasterInfo info;
 };
 
-/// Reads all bands of an image (or `band` of the options alone, if `all_bands` is false) by GDAL, PGM and STM also
-/// without it; palettes become red, green, blue. `info` counts as valid the samples that have a value in every band;
-/// its range is over all bands. Fails as read_height_field(), of which options.crs "grid" asks for nothing, and with
-/// kInput for more than kMaxChannels bands, for an alpha band among them, and for packed heights (options.decode).
+/// Reads all bands of an image (or only `band` of the options, if `all_bands` is false) by GDAL; PGM and STM also
+/// without GDAL. Palettes become red, green, blue. `info` counts samples with a value in every band as valid; its range
+/// is over all bands. Fails as read_height_field() (options.crs "grid" cannot fail), and with kInput for more
+/// than kMaxChannels bands, for an alpha band among them, and for packed heights (options.decode).
 Result<OwnedChannels> read_channels(const std::string& path, const ReadOptions& options = {}, bool all_bands = true);
 
 /// Nothing if two rasters lie on the same grid; else what differs, as the second half of a sentence ("is 10 x 20
@@ -82,7 +84,7 @@ std::optional<std::string> find_grid_difference(const RasterInfo& raster, int co
 
 /// Steps of a script for the engine (Terra's -s): a line each, "s x y" inserts, "i x y" ignores, "u x y" says that the
 /// height is unknown (as i); x and y are column and row from the top left. Empty lines and # comments are skipped.
-/// Fails with kInput for an unknown word, a number missing, a place outside cols × rows (names the line), and for a
+/// Fails with kInput for an unknown word, a missing number, a position outside cols × rows (names the line), and for a
 /// sample that one line inserts and another ignores (names both).
 Result<std::vector<ScriptStep>> read_script(const std::string& path, int cols, int rows);
 
@@ -113,7 +115,7 @@ std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
 /// absolute. STL: binary, float32 offsets from the origin, z up. TIN: text, absolute coordinates that read back to the
 /// same doubles. 2DM, LandXML, DXF: text, absolute coordinates that read back to the same doubles. VTU, VTP: double,
 /// absolute, raw little-endian arrays behind the XML. GeoPackage: double, absolute, in the CRS that metadata["crs"]
-/// names. Colours, uvs and channels where the format has a place: GLB (COLOR_0 as linear float, TEXCOORD_0,
+/// names. Colours, uvs and channels where the format has fields for them: GLB (COLOR_0 as linear float, TEXCOORD_0,
 /// _CHANNEL_n where colours do not say it all), PLY (red green blue uchar, s t float, channel_n float), OBJ (vt,
 /// colours behind the coordinates), VTU and VTP (Colors, TCoords, channel_n); they read back the same, but for PLY's
 /// t = 1 − v, rounded to float32. 3MF: as encode_3mf() with one object. Deterministic; a GeoPackage's bytes also depend
@@ -140,23 +142,22 @@ Result<Mesh> read_mesh(const std::string& path);
 /// Writes bytes to a temporary name beside `path` (".scarp-R.tmp", R: 16 random hexadecimal digits) and renames it.
 /// kOutput on any failure, with nothing left behind; also if `path` exists and `overwrite` is false. A symbolic link is
 /// followed, also to a file that does not exist yet; an existing file keeps its permissions. /dev/stdout, and existing
-/// devices and pipes, are written directly. A program that wants "file too large" as an error rather than as its end
-/// ignores SIGXFSZ.
+/// devices and pipes, are written directly. A program should ignore SIGXFSZ to receive "file too large" as an error
+/// instead of being killed.
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes, bool overwrite = true);
 struct FileBytes {
   std::string path;
   std::span<const std::uint8_t> bytes;
 };
-/// write_file() for several files that belong together: all have temporary names before the first is renamed, so that a
-/// full disk, a folder that may not be written or a name that is taken leaves none of them. Devices and pipes are
-/// written last.
+/// write_file() for several files that belong together. All are written to temporary names before the first is renamed,
+/// so a full disk, a read-only folder or a name that is taken leaves none of them. Devices and pipes are written last.
 Result<void> write_files(std::span<const FileBytes> files, bool overwrite = true);
 /// The whole file (or pipe). kInput if it cannot be read.
 Result<std::vector<std::uint8_t>> read_file(const std::string& path);
 
 /// For signal handlers: the temporary names that write_file() and write_files() hold just now, for unlink(), in
-/// kPendingOutputs places; empty where there is none. Points to a static buffer; async-signal-safe. Beyond so many
-/// files at once, the first ones'.
+/// kPendingOutputs slots; an unused slot is empty. Points to a static buffer; async-signal-safe. With more files at
+/// once, the names of the first ones.
 inline constexpr int kPendingOutputs = 128;
 const char* pending_output(int place = 0);
 

@@ -1,7 +1,7 @@
-// Judging a mesh by everything that counts: heights, channels, masks, tolerances, samples that are ignored.
+// Judging a mesh by heights, channels, masks, tolerances and ignored samples.
 //
-// measure() tells how far a mesh is from the heights. judge_mesh() tells whether it keeps what simplify() promises
-// beside a mask, tolerances, a script or channels. Like measure() it knows nothing of how the mesh was made.
+// measure() gives the distance of a mesh from the heights. judge_mesh() checks the promise of simplify() with a mask,
+// tolerances, a script or channels. Like measure() it knows nothing of how the mesh was made.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct LargestError {
   std::array<std::int32_t, 2> at{-1, -1};
 };
 
-/// What a bound is compared with: errors of heights or norms, under a mask or tolerances. Errors are taken as float32.
+/// Errors that are compared with a bound: of heights or norms, under a mask or tolerances. Errors are taken as float32.
 struct WeighedErrors {
   LargestError largest;    ///< of all judged samples, HeightField::sample_rounding not counted
   LargestError bounded;    ///< of the judged samples that have a bound
@@ -40,14 +40,14 @@ double weigh_by_mask(float weight, double error);
 /// error / tolerance; 0 for an error of 0.
 double weigh_by_tolerance(float tolerance, double error);
 
-/// By how much an error that measure() tells may exceed `bound` for the rounding of its own double arithmetic:
+/// The most by which an error of measure() may exceed `bound` through the rounding of its double arithmetic:
 /// 1e-12 · bound + 1e-12 · max |z|.
 double judging_allowance(double bound, const HeightRange& heights);
 
 struct JudgeOptions {
   /// As SimplifyOptions::mask: weights, one a sample. A sample of weight 0 has no bound. Borrowed. DEFAULT: none.
   std::span<const float> mask = {};
-  /// As SimplifyOptions::tolerance: bounds, one a sample, in z units, +infinity for none. Not together with a mask.
+  /// As SimplifyOptions::tolerance: per-sample tolerances in z units, +infinity for none. Not together with a mask.
   /// Borrowed. DEFAULT: none.
   std::span<const float> tolerance = {};
   /// The same, read in windows, in place of the above. Borrowed. DEFAULT: none.
@@ -55,7 +55,7 @@ struct JudgeOptions {
   /// As SimplifyOptions::script: samples that its steps ignore have no bound; the other steps do not matter. Borrowed.
   std::span<const ScriptStep> script = {};
   /// The bound of all samples, at least 0: of the weighted error under a mask, of the norm with channels, else of the
-  /// height. Beside tolerances it bounds samples whose tolerance is infinite too. DEFAULT: none.
+  /// height. With tolerances it also bounds samples whose tolerance is infinite. DEFAULT: none.
   std::optional<double> max_error = std::nullopt;
   /// How a sample's errors in heights and channels become one.
   Norm norm = Norm::kSum;
@@ -78,12 +78,13 @@ struct Judgement {
   /// With a mask: weighted errors, compared with max_error. With tolerances: error / tolerance, compared with 1. With
   /// channels the errors are norms.
   std::optional<WeighedErrors> weighted;
-  std::vector<float> height_errors;  ///< kept: mesh − sample, one a sample; NaN where void or uncovered
+  std::vector<float> height_errors;  ///< kept: mesh − sample, one a sample; NaN where nodata or uncovered
   std::vector<double> norms;         ///< kept, with channels: of all errors of a sample, one a sample
 };
 
-/// Judges heights, then each channel as if it were the height, then what both weigh. A sample is above its bound by
-/// more than the rounding of the judge: 1e-12 of the largest value, and 2⁻²³ of the bound, since errors are float32.
+/// Judges heights, then each channel as if it were the height, then the combined and weighted errors. A sample counts
+/// as above its bound only if it exceeds the bound by more than the rounding of the judge: 1e-12 of the largest value,
+/// and 2⁻²³ of the bound, since errors are float32.
 ///
 /// `mesh` has as many channels as `field`, values in Mesh::channels. Nothing is kept of what is borrowed. A field with
 /// a source, and a tolerance_source, are read in bands of rows; where some errors are above their tolerance, twice.
@@ -94,12 +95,12 @@ struct Judgement {
 /// samples are ignored. Cost: as measure(), once for the heights and once a channel.
 Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const JudgeOptions& options = {});
 
-/// What take_error_raster() hands out.
+/// The errors that take_error_raster() returns.
 enum class ErrorsOf {
   kHeights,  ///< signed errors of the heights
   kNorms,    ///< norms over heights and channels; as heights without channels
 };
-/// The kept errors as a raster, NaN where void or uncovered. REQUIRES: JudgeOptions::keep_errors.
+/// The kept errors as a raster, NaN where nodata or uncovered. REQUIRES: JudgeOptions::keep_errors.
 std::vector<float> take_error_raster(Judgement judgement, ErrorsOf of);
 
 }  // namespace scarp

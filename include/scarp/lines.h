@@ -22,13 +22,14 @@ enum class LineRole {
 
 inline constexpr std::uint32_t kNoPolygon = 0xffffffff;
 
-/// What a line is to a mesh as a constraint (SimplifyOptions::breaklines).
+/// How a mesh treats a line as a constraint (SimplifyOptions::breaklines).
 enum class LineKind : std::uint8_t {
   kBreakline,  ///< stays as it is, as a chain of edges
   kRiver,      ///< the same, but yields
-  /// Found in the raster; inserted before the surface is refined, in the greedy order, and all other lines with them.
-  /// The first two are a start and no more: from normal effort on their edges may change and their vertices go, and
-  /// move where vertices are free; where high effort is to leave vertices on samples they stay.
+  /// The following are found in the raster. They are inserted before the surface is refined, in the greedy order,
+  /// together with all other lines. kWall and kRidge are only a start: from normal effort on their edges may change,
+  /// and their vertices may be removed, or moved where vertices are free. They stay where high effort must leave
+  /// vertices on samples.
   kWall,       ///< along the top or foot of a wall (cliffs.h): yields, and never changes a sample
   kRidge,      ///< a ridge or valley (ridges.h), a preference
   kKeptRidge,  ///< a ridge or valley whose edges stay
@@ -44,7 +45,7 @@ struct Line {
   LineKind kind = LineKind::kBreakline;
 
   bool is_ring() const { return role != LineRole::kLine; }
-  /// Where it meets a hard line that does not yield, it takes that one's height: never a conflict.
+  /// At a hard line that does not yield, this line takes the other's height; there is never a conflict.
   bool yields() const { return kind == LineKind::kRiver || kind == LineKind::kWall; }
 };
 
@@ -60,10 +61,10 @@ struct LineSet {
   std::string format;       ///< "GPKG", "GeoJSON", …
   std::string crs;          ///< of the layer: "EPSG:32611", WKT, or empty
   std::uint32_t polygons = 0;
-  std::vector<std::string> warnings;  ///< sentences for the user: points that were left out, a CRS that is not known
+  std::vector<std::string> warnings;  ///< sentences for the user: points that were left out, an unknown CRS
 };
 
-/// What becomes of a vertex where hard lines of different heights meet.
+/// The height of a vertex where hard lines of different heights meet.
 enum class LineConflict {
   kError,    ///< the call fails and names the lines
   kFirst,    ///< the height of the line that was given first
@@ -74,17 +75,17 @@ enum class LineConflict {
 /// Breaklines: lines that become chains of edges of the mesh.
 struct LineConstraints {
   std::vector<Line> lines;  ///< as read_lines() gives them; polygons count by their rings. EMPTY: no constraints
-  /// From samples to the coordinates of the lines, as Frame::affine; map_affine() tells it. DEFAULT: columns and rows.
+  /// From samples to the coordinates of the lines, as Frame::affine; see map_affine(). DEFAULT: columns and rows.
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
   LineConflict conflict = LineConflict::kError;
 };
 
-/// From samples to the map coordinates in which lines are drawn: those of the raster's file, or x = col, y = rows − 1 −
-/// row where it has none.
+/// From samples to the map coordinates of lines: those of the raster's file, or x = col, y = rows − 1 − row if the file
+/// has none.
 std::array<double, 6> map_affine(const RasterInfo& info, int rows);
 
 struct ReadLinesOptions {
-  /// Where x and y are wanted, as RasterInfo::crs. DEFAULT: as they are in the layer.
+  /// The CRS of x and y, as RasterInfo::crs. DEFAULT: the layer's.
   std::string crs = {};
   /// The attribute that holds the height of a whole feature, such as a contour's; features without a value are soft.
   /// DEFAULT: the third coordinate, soft where there is none.
@@ -94,19 +95,20 @@ struct ReadLinesOptions {
 };
 
 /// Reads the lines and polygons of one layer, by GDAL: GeoPackage, GeoJSON, Shapefile, FlatGeobuf, DXF, CSV with WKT, …
-/// `path` is a file, a URL or a /vsi… name; behind a colon it may name the layer: "dem.gpkg:ridges". Without, the file
-/// must have one layer that can hold lines or polygons.
+/// `path` is a file, a URL or a /vsi… name. A layer may follow a colon: "dem.gpkg:ridges". Without a layer name, the
+/// file must have exactly one layer that can hold lines or polygons.
 ///
 /// Multilines, multipolygons and collections become their parts; arcs become chords of 4 degrees at most. x and y are
-/// transformed vertex by vertex from the layer's CRS: what runs between two vertices is straight in the wanted one.
-/// Heights stay; NaN among others on a line lies between these. A layer without CRS is taken to be in the wanted one.
-/// Points, features without geometry, and lines and rings of no extent are left out and counted. Warnings tell it all.
+/// transformed vertex by vertex from the layer's CRS; between two vertices a line is straight in the wanted CRS.
+/// Heights stay; NaN heights are interpolated between the other heights of the line. A layer without CRS is taken to be
+/// in the wanted CRS. Points, features without geometry, and lines and rings of no extent are left out and counted.
+/// Warnings report all of this.
 ///
 /// Fails in one sentence that names file, layer and feature: kInput for a missing file or layer, none or several layers
 /// to choose from (they are named), no lines in the layer, a coordinate that is not finite (z may be NaN: unknown), a
-/// vertex that has no place in the wanted CRS, a missing attribute, or one that is no finite number; kUsage for a
-/// wanted CRS that GDAL does not know; kCancelled. Cost: a few tenths of a second for a million vertices of a
-/// GeoPackage, a second with a transformation (bench/speed/speed_lines.cpp).
+/// vertex without coordinates in the wanted CRS, a missing attribute, or an attribute that is no finite number; kUsage
+/// for a wanted CRS unknown to GDAL; kCancelled. Cost: a few tenths of a second for a million vertices of a GeoPackage,
+/// a second with a transformation (bench/speed/speed_lines.cpp).
 Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions& options = {});
 
 }  // namespace scarp

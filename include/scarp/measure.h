@@ -1,4 +1,4 @@
-// Judging a mesh, by brute force and without knowing how it was made.
+// Measuring a mesh against its raster, by brute force and without knowing how it was made.
 #pragma once
 
 #include <array>
@@ -21,25 +21,26 @@ namespace scarp {
 struct Cutline;
 
 struct MeasureOptions {
-  /// A sample farther than this from every triangle (in samples, horizontally) is uncovered; a nearer one is judged
-  /// against the plane of the nearest triangle (of one thinner than this, against its nearest point). Absorbs the
-  /// rounding of positions in the file. DEFAULT: 1/256.
+  /// A sample farther than this from every triangle (in samples, horizontally) is uncovered. A nearer sample is
+  /// compared with the plane of the nearest triangle (with the nearest point of a triangle thinner than this). Absorbs
+  /// the rounding of positions in the file. DEFAULT: 1/256.
   double coverage_tolerance = 1.0 / 256;
   /// Also check angles, orientation, overlaps, open edges and T-junctions. DEFAULT: true.
   bool topology = true;
   /// Collect `Measurement::offenders`: samples whose error is above this. DEFAULT: do not.
   std::optional<double> collect_above = std::nullopt;
-  /// Empty, or cols·rows bounds, one a sample (+infinity: none): `Measurement::over_tolerance` counts the samples whose
-  /// error is above theirs, and they are offenders. Borrowed. DEFAULT: empty.
+  /// Empty, or cols·rows per-sample tolerances (+infinity: none). `Measurement::over_tolerance` counts the samples
+  /// whose error is above their tolerance; they are offenders. Borrowed. DEFAULT: empty.
   std::span<const float> tolerance = {};
   /// The same, read in windows, in place of the above. Borrowed. DEFAULT: none.
   const SampleSource* tolerance_source = nullptr;
-  /// Where the mesh was cut: samples in a polygon, farther than 1/64 sample from its rings, are to be covered; nearer
-  /// ones, on either side, are judged where they are covered; others are not. Edges along the rings are no gaps. The
-  /// rings are taken as they are, not as the mesh rounded them. Borrowed. DEFAULT: null, the whole domain.
+  /// The cutline of the mesh. Samples in a polygon, farther than 1/64 sample from its rings, must be covered. Samples
+  /// nearer to the rings, on either side, are judged where they are covered. All others are not judged. Edges along the
+  /// rings are no gaps. The rings count as given, not as rounded in the mesh. Borrowed. DEFAULT: null, the whole
+  /// domain.
   const Cutline* cutline = nullptr;
   /// If set, called once for each row in ascending order with the signed error (mesh − sample) of every sample; NaN
-  /// where the sample is void or uncovered. The span is valid during the call only.
+  /// where the sample is nodata or uncovered. The span is valid during the call only.
   std::function<void(int row, std::span<const float> errors)> on_row = {};
   int threads = 1;  ///< worker threads, 0 = all cores. Never changes the result. DEFAULT: 1.
   ProgressCallback progress = {};
@@ -82,10 +83,11 @@ struct Measurement {
   std::uint64_t open_edges = 0;               ///< edges with one triangle
   std::uint64_t border_loops = 0;             ///< closed loops that the open edges form
   std::uint64_t t_junctions = 0;              ///< vertices inside an open edge of another triangle
-  /// Open edges of an open mesh that border on surface of the domain: the mesh has a hole there. Looked for beside the
-  /// middle of each piece into which lattice lines cut the edge, 1/64 sample outside it (4 coverage_tolerance if that
-  /// is more). Edges at vertices that the inverse of a frame with a transform is not found for are left out. A part
-  /// of the domain that hangs on the rest by corners only has no such edge: missing as a whole it is not seen here.
+  /// Open edges of an open mesh that border on surface of the domain: the mesh has a hole there. Lattice lines cut each
+  /// edge into pieces; the test point lies beside the middle of each piece, 1/64 sample outside the edge (4
+  /// coverage_tolerance if that is more). In a frame with a transform, edges at vertices without an inverse are left
+  /// out. A part of the domain that touches the rest at corners only has no such edge; if it is missing as a whole, it
+  /// is not counted here.
   std::uint64_t gaps = 0;
   std::uint64_t overlaps =
       0;                ///< pairs of triangles whose interiors overlap seen from above (up-facing only if closed)
@@ -103,16 +105,16 @@ struct Measurement {
 };
 
 /// Heights of the mesh at the samples of the field's grid, row-major: the approximation resampled (Terra's `dem`). NaN
-/// where the sample is void or uncovered. At samples that two triangles share, the one with the larger error counts, as
-/// in measure(). Same failures and cost as measure(), and 8 bytes a sample. kUsage for a field without samples in
+/// where the sample is nodata or uncovered. At samples that two triangles share, the one with the larger error counts,
+/// as in measure(). Same failures and cost as measure(), and 8 bytes a sample. kUsage for a field without samples in
 /// memory.
 Result<std::vector<float>> resample(const HeightField& field, const Mesh& mesh, int threads = 1);
 
 /// Judges `mesh` against every valid sample of `field`, in the field's frame. Shares no scan code with simplify().
 /// Fails with kInput if the mesh has an index out of range, a position that is not finite or beyond 1e100 (in its own
-/// coordinates or, in affine frames, in cells), or no triangles; with
-/// kCancelled if the callback says so; as the field's source does. A field with a source is read by bands of rows, of
-/// which two a thread are in memory. Cost: O(samples + triangles).
+/// coordinates or, in affine frames, in cells), or no triangles; with kCancelled if the callback says so; as the
+/// field's source does. A field with a source is read in bands of rows; two bands a thread are in memory. Cost:
+/// O(samples + triangles).
 Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const MeasureOptions& options = {});
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-// What is given back: triangles.
+// Triangle meshes.
 #pragma once
 
 #include <array>
@@ -14,21 +14,21 @@ namespace scarp {
 
 /// A triangle mesh. Vertex v lies at origin + (positions[3v], positions[3v+1], positions[3v+2]); x east, y north, z up.
 ///
-/// Meshes made by simplify() have an origin whose z is 0, so z is the sample itself, and x, y that are exactly float32
-/// values unless double ones were asked for. Meshes read from files keep the file's precision, so that a judge does not
-/// round what it judges.
+/// Meshes made by simplify() have an origin with z = 0, so z is the sample itself. Their x and y are exactly float32
+/// values unless the options ask for double. Meshes read from files keep the file's precision, so that measuring them
+/// rounds nothing.
 struct Mesh {
   std::array<double, 3> origin{0, 0, 0};
   std::vector<double> positions;         ///< 3 per vertex: x, y, z offsets from origin
   std::vector<std::uint32_t> triangles;  ///< 3 vertex ids per triangle, counter-clockwise seen from +z
   std::vector<float> normals;            ///< empty, or 3 per vertex, unit length, z > 0
   std::vector<float>
-      uvs;  ///< empty, or 2 per vertex: place in the raster's image, (0, 0) top left, (1, 1) bottom right
+      uvs;  ///< empty, or 2 per vertex: position in the raster's image, (0, 0) top left, (1, 1) bottom right
   std::vector<std::uint8_t> colors;  ///< empty, or red, green, blue per vertex, sRGB as in an image
   int channel_count = 0;             ///< further values per vertex
   std::vector<float> channels;       ///< channel_count per vertex, as they are in HeightField::channels
-  /// What the mesh is, for file headers: "generator", "command", "frame", "crs", … Written by every writer whose
-  /// format has a place for it, and read back.
+  /// Description of the mesh, for file headers: "generator", "command", "frame", "crs", … Written to every format that
+  /// has a field for it, and read back.
   std::map<std::string, std::string> metadata;
 
   std::size_t vertex_count() const { return positions.size() / 3; }
@@ -46,9 +46,9 @@ void optimize_order(Mesh& mesh);
 /// Closes an open terrain mesh into a solid: a flat base at z = `base` (absolute) and vertical walls along every border
 /// edge, outward-oriented, so that each edge has exactly two triangles. Border vertices between their neighbours on a
 /// line along x or y have no vertex below them: a part with n border vertices, of which c have one, and h holes gets
-/// n + c triangles for its walls and c + 2h − 2 for its base. Vertices where
-/// two parts of the domain meet in a single point are duplicated, one for each part: the solid is closed in its
-/// indices, though formats that know places only (STL) show four walls along that vertical edge (solid.h parts them).
+/// n + c triangles for its walls and c + 2h − 2 for its base. Vertices where two parts of the domain meet in a single
+/// point are duplicated, one for each part. The solid is then closed by its indices; formats with positions only (STL)
+/// show four walls along that vertical edge (solid.h separates them).
 /// Normals are dropped; uvs, colours and channels of a new vertex are those of the vertex above it.
 /// REQUIRES: every edge has one or two triangles, all counter-clockwise from above; base below every vertex.
 /// Returns false (mesh unchanged) if the base is not below every vertex, in float32 offsets too. Cost: O(n log n).

@@ -13,16 +13,16 @@
 
 namespace scarp {
 
-/// Hillshade of the field with the mesh's edges over it, at most `max_side` pixels wide or high. Void samples are
+/// Hillshade of the field with the mesh's edges over it, at most `max_side` pixels wide or high. Nodata samples are
 /// white.
 Picture draw_preview(const HeightField& field, const Mesh& mesh, int max_side = 1400);
 
-/// Map of signed errors (row-major, cols·rows, NaN = void or uncovered) in diverging colours, blue below and red above
-/// the samples, with a scale bar from −limit to +limit in z units. `limit` <= 0: the largest |error|.
+/// Map of signed errors (row-major, cols·rows, NaN = nodata or uncovered) in diverging colours, blue below and red
+/// above the samples, with a scale bar from −limit to +limit in z units. `limit` <= 0: the largest |error|.
 Picture draw_error_map(std::span<const float> errors, int cols, int rows, double limit = 0, int max_side = 1400);
 
 /// The approximation as an image of one pixel a sample, Gouraud-shaded: the mesh's colours, interpolated in each
-/// triangle; without colours its hillshade. White where the mesh is not. The mesh lies in the field's frame.
+/// triangle; without colours its hillshade. White outside the mesh. The mesh lies in the field's frame.
 Picture draw_gouraud(const HeightField& field, const Mesh& mesh);
 
 /// Channels as a picture: three as red, green, blue, else the first as grey; 8-bit values as they are, others stretched

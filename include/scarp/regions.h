@@ -1,4 +1,4 @@
-// Regions of interest: a tolerance for each sample, small where it matters, that grows with the distance.
+// Regions of interest: per-sample tolerances, small in a region, that grow with the distance from it.
 #pragma once
 
 #include <array>
@@ -16,32 +16,32 @@
 namespace scarp {
 
 struct Region {
-  /// As read_lines() gives them. A polygon holds what is in its outer ring and in no hole of it (even-odd, so bow-ties
-  /// and rings that overlap are decided too), and its rings; a line is its own course.
+  /// As read_lines() gives them. A polygon contains its rings and all points in its outer ring but not in its holes
+  /// (even-odd, which also decides bow-ties and overlapping rings). A line contains only its own points.
   std::vector<Line> lines;
   double tolerance = 0;  ///< in it, in z units, at least 0
 };
 
-/// Where samples lie, and what holds beyond the regions.
+/// The grid of the samples, and the tolerance beyond the regions.
 struct RegionGrid {
   int cols = 0, rows = 0;
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of the lines: map_affine()
   double cell_x = 1, cell_y = 1;                   ///< distances between samples, in the unit of `falloff`
-  double falloff = 0;                              ///< how far from a region its tolerance reaches `beyond`; 0: at once
+  double falloff = 0;                              ///< distance at which the tolerance reaches `beyond`; 0: at once
   std::optional<double> beyond = {};               ///< nothing: no bound there. REQUIRED where falloff > 0.
 };
 
-/// A bound for each sample, row-major, as SimplifyOptions::tolerance: t in a region of tolerance t, t + (beyond − t) ·
-/// min(1, d / falloff) at a distance d from it; of several regions the smallest; +infinity where there is none. The
-/// samples nearest to rings and lines belong to their region, so that one smaller than a cell has some; distances are
-/// those between samples (exact, Euclidean). Bounds are rounded to float32 downwards. `found`: by region, whether any
-/// part of it lies in the raster; may be null.
-/// REQUIRES: cols, rows, cell_x, cell_y > 0; falloff >= 0; the affine map can be inverted.
-/// Cost: O(samples + segments · rows that they cross) a region; beside the bounds, what RegionBounds takes.
+/// A tolerance for each sample, row-major, as SimplifyOptions::tolerance: t in a region of tolerance t, t + (beyond −
+/// t) · min(1, d / falloff) at a distance d from it; the smallest of several regions; +infinity where there is none.
+/// The samples nearest to rings and lines belong to their region, so a region smaller than a cell has samples too.
+/// Distances are those between samples (exact, Euclidean). Tolerances are rounded to float32 downwards. `found`: by
+/// region, whether any part of it lies in the raster; may be null. REQUIRES: cols, rows, cell_x, cell_y > 0; falloff >=
+/// 0; the affine map can be inverted. Cost: O(samples + segments · rows that they cross) a region; beside the bounds,
+/// what RegionBounds takes.
 std::vector<float> region_tolerances(std::span<const Region> regions, const RegionGrid& grid,
                                      std::vector<bool>* found = nullptr);
 
-/// The same bounds, to the last bit, made where they are read.
+/// The same tolerances, to the last bit, computed on reading.
 struct RegionBounds {
   /// For SimplifyOptions and MeasureOptions::tolerance_source; never fails. Cost of a window: O(samples), and, where
   /// falloff > 0, no less than rows of a thousand samples, or six times as wide as the falloff, a region near it.
@@ -50,7 +50,7 @@ struct RegionBounds {
   /// Of memory: 8 a region and column, and for each sample on its outline; and what each of `threads` needs to read.
   std::uint64_t bytes = 0;
 };
-/// `threads`: as SimplifyOptions::threads. The regions are not needed any more then. REQUIRES: as region_tolerances().
+/// `threads`: as SimplifyOptions::threads. The regions are not needed after the call. REQUIRES: as region_tolerances().
 RegionBounds make_region_bounds(std::span<const Region> regions, const RegionGrid& grid, int threads = 1);
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-// The whole door.
+// All public headers of the library.
 #pragma once
 
 #include "scarp/cliffs.h"

@@ -1,4 +1,4 @@
-// From a terrain to solids that can be printed: closed, in millimetres, whole or in sheets that fit together.
+// From a terrain to printable solids: closed, in millimetres, whole or in print tiles that fit together.
 #pragma once
 
 #include <array>
@@ -16,35 +16,35 @@
 
 namespace scarp {
 
-/// Where a solid stands: position = (place in the frame of the raster − origin) · scale. Scales are above 0.
+/// Placement of a solid: position = (position in the frame of the raster − origin) · scale. Scales are above 0.
 struct Placement {
   std::array<double, 3> origin{0, 0, 0};
   std::array<double, 3> scale{1, 1, 1};
 };
 
-/// Puts the mesh in its place: origin becomes 0, positions are rounded to float32, metadata["placement"] tells the
-/// numbers. Normals are dropped. Every writer with a place for metadata, and STL, hands them on.
+/// Places the mesh: origin becomes 0, positions are rounded to float32, metadata["placement"] holds the numbers.
+/// Normals are dropped. STL, and every format with metadata, stores the numbers.
 void place_mesh(Mesh& mesh, const Placement& placement);
 
-/// The reverse, by metadata["placement"]: positions are in the raster's frame again, as the rounded ones stand for it.
-/// False, and the mesh unchanged, if it was not placed.
+/// The inverse, by metadata["placement"]: maps the rounded positions back to the raster's frame. Returns false, and
+/// leaves the mesh unchanged, if it was not placed.
 bool undo_placement(Mesh& mesh);
 
-/// Closes a terrain into a solid as add_base() does, for readers that know places only and take positions as float32:
-/// positions are rounded to float32 offsets, and where parts of the terrain meet in a single point all but the first
-/// step back from it by a few units in the last place. Attributes and normals are dropped.
+/// Closes a terrain into a solid as add_base() does, for readers that identify vertices by float32 positions. Positions
+/// are rounded to float32 offsets. Where parts of the terrain meet in a single point, all but the first move back from
+/// it by a few units in the last place. Attributes and normals are dropped.
 /// Fails with kUsage if the base is not below the lowest vertex (names its height), with kPromise if the result is no
-/// closed 2-manifold: rounding has laid vertices on each other, and the mesh is too fine for its size.
+/// closed 2-manifold: rounding has merged vertices, and the mesh is too fine for its size.
 /// REQUIRES: as add_base(). Cost: O(n log n).
 Result<Mesh> build_solid(Mesh terrain, double base);
 
-/// What a reader finds that rounds positions to float32 and takes vertices at one place for one, as those of STL do.
+/// Facts for a reader that rounds positions to float32 and merges vertices at the same position, as STL readers do.
 struct SolidFacts {
   std::uint64_t triangles = 0;
   std::uint64_t degenerate = 0;    ///< triangles without area
   std::uint64_t faulty_edges = 0;  ///< edges without exactly two triangles that run along them in opposite directions
   std::uint64_t pinched_vertices = 0;  ///< vertices with more than one fan of triangles
-  std::uint64_t parts = 0;             ///< that no edge connects
+  std::uint64_t parts = 0;             ///< parts not connected by edges
   std::uint64_t inside_out = 0;        ///< parts whose volume is not positive
   double volume = 0;
   std::array<double, 3> low{}, high{};  ///< of all vertices, the mesh's origin included
@@ -59,10 +59,10 @@ struct SolidFacts {
 /// Exact but for volume and size. Cost: O(n log n).
 SolidFacts measure_solid(const Mesh& mesh);
 
-/// How a terrain is cut into sheets.
+/// How a terrain is cut into print tiles.
 struct SheetOptions {
-  int columns = 1, rows = 1;  ///< of sheets, at least 1
-  bool dovetail = false;      ///< a trapezoid tab in the middle of each edge that two sheets share. DEFAULT: none.
+  int columns = 1, rows = 1;  ///< of print tiles, at least 1
+  bool dovetail = false;      ///< a trapezoid tab in the middle of each edge that two tiles share. DEFAULT: none.
   double gap = 0;             ///< between neighbours, in the unit of `cell`, at least 0
   std::array<double, 2> cell{1, 1};  ///< width and height of a cell of the raster
 };
@@ -70,14 +70,13 @@ struct SheetOptions {
 /// Cuts along rows and columns of samples, from which tabs stand out.
 class SheetPlan {
  public:
-  /// Fails with kUsage where a sheet would be too narrow for two cells, its tabs or its gap: names the number of
-  /// samples.
+  /// Fails with kUsage if a tile would be too narrow for two cells, its tabs or its gap: names the number of samples.
   static Result<SheetPlan> make(int cols, int rows, const SheetOptions& options);
 
-  /// The cuts as soft lines for SimplifyOptions::breaklines, one after the other along which sheets end; `affine` as
+  /// The cuts as soft lines for SimplifyOptions::breaklines, one for each line along which tiles end; `affine` as
   /// LineConstraints::affine.
   std::vector<Line> lines(const std::array<double, 6>& affine) const;
-  /// The sheet of a place between the samples, row by row from the top left; nothing in a gap.
+  /// The tile at a position in the grid, counted row by row from the top left; nothing in a gap.
   std::optional<int> sheet_at(double col, double row) const;
   int columns() const { return options_.columns; }
   int rows() const { return options_.rows; }
@@ -85,7 +84,7 @@ class SheetPlan {
  private:
   using Point2 = std::array<double, 2>;  // column, row
   struct Cut {
-    std::vector<Point2> low, high;  // where the sheet before ends, and where the one behind begins; equal without a gap
+    std::vector<Point2> low, high;  // the end of the tile before, and the start of the one behind; equal without a gap
   };
   std::optional<int> interval_at(const std::vector<Cut>& cuts, bool across_columns, Point2 at) const;
 
@@ -93,8 +92,8 @@ class SheetPlan {
   std::vector<Cut> column_cuts_, row_cuts_;
 };
 
-/// The triangles of each sheet, by their centres, as meshes with vertices of their own, which have the same positions
-/// in both neighbours of a cut. Sheets without triangles are empty. Attributes are dropped.
+/// The triangles of each tile, by their centres, as meshes with vertices of their own. Vertices along a cut have the
+/// same positions on both sides. Tiles without triangles are empty. Attributes are dropped.
 /// REQUIRES: the frame is affine, and it is the mesh's. Cost: O(n).
 std::vector<Mesh> cut_sheets(const Mesh& terrain, const Frame& frame, const SheetPlan& plan);
 

@@ -1,8 +1,8 @@
-// How greedy insertion goes about its work: what is worth inserting, how it is found, and which edges are kept.
+// Strategies of greedy insertion: the importance of samples, the search for the next one, and the rule for edges.
 //
-// Everything of the report "Fast Polygonal Approximation of Terrains and Height Fields" (Garland & Heckbert,
-// CMU-CS-95-181, 1995) and of its programs Scape and Terra. Whatever is chosen here, the promise is the same: no sample
-// breaks its bound when the run ends at its error goal.
+// They cover the paper "Fast Polygonal Approximation of Terrains and Height Fields" (Garland & Heckbert, CMU-CS-95-181,
+// 1995) and its programs Scape and Terra. The promise is the same for all strategies: no sample breaks its bound when
+// the run ends at its error goal.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace scarp {
 
-/// What makes a sample worth inserting (the report's section 3). Among the samples that break their bound the one with
-/// the largest importance is inserted. The errors that are promised and reported are always the true ones.
+/// The importance of a sample (the paper's section 3). Among the samples that break their bound the one with the
+/// largest importance is inserted. The promised and reported errors are always the true ones.
 ///
-/// importance = |error| (if `global`) · feature (if any, damped), where the features are measured on the raster and do
-/// not depend on the mesh:
+/// importance = |error| (if `global`) · feature (if any, damped). Features are measured on the raster and do not depend
+/// on the mesh:
 ///   kLocal4, kLocal8   |z − mean of the 4 or 8 neighbours|
 ///   kCurvature         √(z_xx² + 2 z_xy² + z_yy²) by central differences
-/// Opposite neighbours count in pairs: a pair that is not complete (void, beyond the border) is left out, so that a
-/// plane has no feature on its border either.
+/// Opposite neighbours count in pairs. An incomplete pair (nodata, beyond the border) is left out, so a plane has no
+/// feature on its border either.
 struct Importance {
   enum class Feature { kNoFeature, kLocal4, kLocal8, kCurvature };
   enum class Damping {
@@ -37,37 +37,36 @@ struct Importance {
   friend bool operator==(const Importance&, const Importance&) = default;
 };
 
-/// How the next candidate is found (section 4). All three insert the same samples in the same order.
+/// How the next candidate is found (the paper's section 4). All three insert the same samples in the same order.
 enum class Algorithm {
   kBruteForce,  ///< I: scan everything before each insertion. O(m n)
-  kLocal,       ///< II: rescan what changed, look through all triangles. O(n log m + m²)
-  kHeap,        ///< III: rescan what changed, keep triangles in a heap. O((n + m) log m)
+  kLocal,       ///< II: rescan changed triangles, look through all triangles. O(n log m + m²)
+  kHeap,        ///< III: rescan changed triangles, keep triangles in a heap. O((n + m) log m)
 };
 
 /// In which order candidates are inserted.
 enum class Order {
   kAuto,      ///< kDominant where it applies, else kGreedy
-  kGreedy,    ///< the worst sample of the whole raster first, as the report's Algorithm III
+  kGreedy,    ///< the worst sample of the whole raster first, as the paper's Algorithm III
   kDominant,  ///< the worst sample of its neighbourhood first, tile by tile: many times faster, on all threads, with as
               ///< many vertices. For one error, on heights alone, with Delaunay edges; see simplify().
 };
 
-/// How much is done, once the bound is kept, for a smaller mesh that keeps it too; with a budget, for a better mesh of
-/// that size.
+/// How much work follows refinement: for a smaller mesh that satisfies the same bound; with a budget, for a better mesh
+/// of the same size.
 enum class Effort {
-  kAuto,    ///< kNormal where that is asked for (min_shape, …), or possible, the order is not greedy, memory has no
-            ///< limit and samples no bounds of their own; else kFast
-  kFast,    ///< nothing: what refinement inserted stays
-  kNormal,  ///< vertices are removed for as long as every sample keeps the bound: half the triangles, for a few times
-            ///< the time. Row of tiles by row of tiles if samples are not in memory; see simplify().
-  kHigh,  ///< more are removed, and what that breaks is repaired by flipping edges and moving vertices (see Vertices):
-          ///< a third of the triangles, for some ten times the time of the greedy order. Where kNormal is
-          ///< possible.
-  kMax,   ///< the same, deeper, for some hundred times the time; goes on for as long as SimplifyOptions::is_time_up
-          ///< lets it and there is something to gain. Where kNormal is possible.
+  kAuto,  ///< kNormal if min_shape or the like asks for it, or if it is possible, the order is not set to greedy, and
+          ///< there is neither a memory limit nor a per-sample tolerance; else kFast
+  kFast,    ///< none: the refined mesh stays
+  kNormal,  ///< removes vertices while every sample stays within the bound: half the triangles, for a few times the
+            ///< time. Works strip by strip if samples are not in memory; see simplify().
+  kHigh,  ///< removes more, and repairs broken bounds by flipping edges and moving vertices (see Vertices): a third of
+          ///< the triangles, for some ten times the time of the greedy order. Possible where kNormal is.
+  kMax,   ///< the same, deeper, for some hundred times the time. Ends when SimplifyOptions::is_time_up says so, or when
+          ///< there is nothing left to gain. Possible where kNormal is.
 };
 
-/// What a budget makes as small as it can.
+/// What a budget minimises.
 enum class Objective {
   kMax,  ///< the max error
   kRms,  ///< the root of the mean square error (with channels: of the norm, as the max error is). With a budget and
@@ -78,12 +77,11 @@ enum class Objective {
 enum class Vertices {
   kAuto,     ///< kFree where kHigh and kMax can move them: in affine frames, without channels; else kSamples
   kSamples,  ///< on samples, with their heights
-  kFree,     ///< between samples too, in steps of an eighth, with heights of their own that are float32. For kHigh and
-             ///< kMax, in affine frames, on heights alone; vertices of the outline of voids, and corners, stay on
-             ///< samples
+  kFree,     ///< between samples too, in steps of an eighth, with float32 heights of their own. For kHigh and kMax, in
+             ///< affine frames, on heights alone; vertices on outlines of nodata, and corners, stay on samples
 };
 
-/// Inserting many samples between two looks at the mesh ("parallel" insertion of the report; Scape's thresholds).
+/// Inserting several samples per pass ("parallel" insertion in the paper; Scape's thresholds).
 struct Batch {
   enum class Rule {
     kSequential,   ///< one at a time: the best meshes
@@ -103,8 +101,8 @@ enum class EdgeScore {
   kMax,      ///< the larger of them
   kSquares,  ///< sum of squared errors over both triangles
   kNormals,  ///< angle between the two triangles' normals (Dyn, Levin, Rippa 1990), in samples and units of z
-  kTight,    ///< sum of the squares of the two largest errors, under a rule of shape of its own, with the edges around
-             ///< each new vertex tried until none improves: the fewest triangles (docs/algorithm.md)
+  kTight,    ///< sum of the squares of the two largest errors, with its own rule of shape; the edges around each new
+             ///< vertex are tried until none improves: the fewest triangles (docs/algorithm.md)
 };
 
 /// Which diagonal of a quadrilateral is kept.
@@ -119,8 +117,8 @@ struct EdgeRule {
   /// Finer lattice for triangles that hold few samples: errors for the *score* are then measured against the bilinear
   /// interpolant, ⌈(width + height) / (2 · area · supersample)⌉ times finer. 0: off. Scape calls 0.8 moderate.
   double supersample = 0;
-  /// After the last insertion edges are flipped as long as that lowers the sum of squared errors and raises no largest
-  /// error. Not for kNormals. False: as the report's program.
+  /// After the last insertion, flip edges while that lowers the sum of squared errors and raises no largest error. Not
+  /// for kNormals. False: as the paper's program.
   bool settle = true;
 
   friend bool operator==(const EdgeRule&, const EdgeRule&) = default;
@@ -146,9 +144,9 @@ struct ScriptStep {
 /// What a run did.
 struct Work {
   std::uint64_t samples_scanned = 0;    ///< samples compared with a plane
-  std::uint64_t triangles_scanned = 0;  ///< triangles looked at
+  std::uint64_t triangles_scanned = 0;  ///< triangles scanned
   std::uint64_t queue_moves = 0;        ///< entries moved in the queue (kHeap) or looked through (kLocal)
-  std::uint64_t passes = 0;             ///< looks at the mesh: insertions, or batches
+  std::uint64_t passes = 0;             ///< passes over the mesh: insertions, or batches
 };
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-// One tolerance a sample, made of a raster of tolerances, regions of interest, or both: the smallest one counts.
+// Per-sample tolerances from a raster of tolerances, regions of interest, or both: the smallest one counts.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@
 namespace scarp {
 
 struct ToleranceOptions {
-  /// True: Tolerances::source makes them where they are read, for heights that have a source. False: Tolerances::values
+  /// True: Tolerances::source computes tolerances on reading, for heights with a source. False: Tolerances::values
   /// holds them, for heights in memory. DEFAULT: false.
   bool in_windows = false;
-  int threads = 1;                 ///< of those that will read windows; as SimplifyOptions::threads
-  ProgressCallback progress = {};  ///< of the pass "read", where a raster is looked through for windows
+  int threads = 1;                 ///< threads that will read windows; as SimplifyOptions::threads
+  ProgressCallback progress = {};  ///< of the pass "read", where a raster is read through for windows
 };
 
 /// A tolerance for each sample, in z units, at least 0; +infinity: none.
@@ -34,11 +34,11 @@ struct Tolerances {
 
 /// Makes the tolerances of `raster` and of `regions`. A value of the raster that was rounded to float32
 /// (sample_rounding) is rounded towards 0, so that no tolerance is above the one in its file; a sample without a value
-/// has no tolerance. `grid`: of the heights, with what holds beyond the regions, as region_tolerances() takes it. At
-/// least one of raster and regions is given.
+/// has no tolerance. `grid`: the grid of the heights, with the tolerance beyond the regions, as for
+/// region_tolerances(). At least one of raster and regions is given.
 ///
-/// `raster` lies on the grid of the heights: find_grid_difference() tells. It is taken over; the regions are not needed
-/// any more then. Read in windows it is looked through once, at once.
+/// `raster` lies on the grid of the heights; find_grid_difference() checks that. The call takes ownership of it. The
+/// regions are not needed after the call. With in_windows the call reads the raster through once.
 /// Fails with kUsage without raster and regions, for a raster of another size than the grid, and for one with a source
 /// where values are asked for; with kInput, naming the raster's file, for a negative value and where no sample has one;
 /// as the raster's source does; with kCancelled. REQUIRES: of the grid as region_tolerances(), where there are regions.
