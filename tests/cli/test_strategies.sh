@@ -105,6 +105,7 @@ grep -q '^  tiles ' "$logs/err" || fail "the passes are not on stderr where the 
 
 simplify() { "$scarp" simplify "$dem" out.glb -e 25 "$@"; }
 refuses 1 "--order best is unknown: choose dominant or greedy" simplify --order best
+echo 's 3 3' >steps.txt
 while read -r option value; do
   # shellcheck disable=SC2086
   refuses 1 "--order dominant cannot be combined with $option" simplify --order dominant $option $value
