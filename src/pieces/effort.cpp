@@ -19,7 +19,7 @@ bool has_tolerances(const SimplifyOptions& options) {
   return !options.tolerance.empty() || options.tolerance_source != nullptr;
 }
 
-/// Whether samples have bounds of their own.
+/// Whether there are per-sample tolerances.
 bool has_bounds(const SimplifyOptions& options) {
   return !options.mask.empty() || has_tolerances(options) || !options.script.empty();
 }
@@ -28,20 +28,20 @@ bool inserts(const ScriptStep& step) { return step.action == ScriptStep::Action:
 
 static_assert(kMostFitFields > kMaxChannels);
 
-/// What asks for more than heights; null if nothing does.
+/// The option that needs more than heights; null if there is none.
 const char* find_beyond_heights(const HeightField& field, const SimplifyOptions& options) {
   if (has_norm(field)) return "has no channels";
   return options.outline_tolerance > 0 ? "keeps the exact outline" : nullptr;
 }
 
-/// What asks for more than heights and one error; null if nothing does.
+/// The option that needs more than heights and one error; null if there is none.
 const char* find_beyond_one_error(const HeightField& field, const SimplifyOptions& options) {
   if (!options.mask.empty() || !options.tolerance.empty()) return "has no mask and no tolerances";
   if (!options.script.empty()) return "has no script";
   return find_beyond_heights(field, options);
 }
 
-/// What changes how insertion goes about it; null if nothing does.
+/// The option that changes the strategy of insertion; null if there is none.
 const char* find_strategy(const SimplifyOptions& options) {
   if (options.edges.data_dependent) return "has Delaunay edges only";
   if (options.importance != Importance{}) return "ranks by the error alone";
@@ -49,7 +49,7 @@ const char* find_strategy(const SimplifyOptions& options) {
   return nullptr;
 }
 
-/// What keeps a run from removing vertices; null if nothing does.
+/// The obstacle to removing vertices; null if there is none.
 const char* find_fit_obstacle(const SimplifyOptions& options) {
   if (std::any_of(options.script.begin(), options.script.end(), inserts))
     return "takes vertices away, also those that a script inserts";
@@ -61,7 +61,7 @@ const char* find_fit_obstacle(const SimplifyOptions& options) {
 
 bool moves_vertices(Effort effort) { return effort == Effort::kHigh || effort == Effort::kMax; }
 
-/// What contradicts fast effort; null if nothing does.
+/// The option that cannot be combined with fast effort; null if there is none.
 const char* find_need_of_effort(const SimplifyOptions& options) {
   if (options.objective == Objective::kRms) return "the rms objective";
   if (options.min_shape) return "a floor of shapes";
@@ -75,14 +75,14 @@ Question either(const Question& first, const Question& second) {
   return [first, second] { return first() || second(); };
 }
 
-/// What keeps a run from vertices between samples beside the bound; null if nothing does.
+/// The obstacle to vertices between samples, besides the bound; null if there is none.
 const char* find_lattice_obstacle(const HeightField& field, const SimplifyOptions& options) {
   if (const char* obstacle = find_beyond_heights(field, options)) return obstacle;
   if (!field.frame.is_affine()) return "needs a frame in which the grid is regular";
   return find_strategy(options) != nullptr ? "has no strategies of insertion" : nullptr;
 }
 
-/// Whether lines can be laid.
+/// Whether constraints can be inserted.
 Result<void> check_lines(const HeightField& field, const SimplifyOptions& options) {
   const char* obstacle = has_lines(options) ? find_lattice_obstacle(field, options) : nullptr;
   if (has_lines(options) && obstacle == nullptr && !has_budget(options) && !options.max_error)
@@ -104,7 +104,7 @@ Result<void> check_lines(const HeightField& field, const SimplifyOptions& option
   return fail(ErrorKind::kUsage, fmt::format("a mesh with {} {}: leave out one or the other", what, obstacle));
 }
 
-/// Whether shapes can be had.
+/// Whether goals of shapes are possible.
 Result<void> check_shape(const HeightField& field, const SimplifyOptions& options) {
   const ShapeGoals& shape = options.shape;
   constexpr double kLargestAngle = 33, kLeastEdge = 0.125;
@@ -156,8 +156,8 @@ const char* find_obstacle(const HeightField& field, const SimplifyOptions& optio
 
 Effort choose_effort(const SimplifyOptions& options) {
   if (options.effort != Effort::kAuto) return options.effort;
-  // Strategies are asked for to see what they do, so removal stays away from them, and from bounds of samples, which
-  // insertion spends where they are small.
+  // Users choose strategies to see their effect, so removal is not combined with them, nor with per-sample tolerances:
+  // there insertion spends vertices where tolerances are small.
   const bool is_default = options.order != Order::kGreedy && options.memory_limit == 0 && options.best_of_budget &&
                           !has_bounds(options) && find_strategy(options) == nullptr &&
                           find_fit_obstacle(options) == nullptr;
