@@ -1,4 +1,4 @@
-// A height field's rows, one after the other, wherever they are.
+// A height field's rows, one after the other, in memory or from a source.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +19,8 @@ class RowReader {
         most_(std::clamp<int>(kSamplesTogether / field.cols, 1, field.rows)),
         samples_(static_cast<std::size_t>(most_) * static_cast<std::size_t>(field.cols)) {}
 
-  /// The samples of a row, voids as NaN, the caller's to change, until the next call. Fails as the field's source does.
-  /// Rows that are asked for from the top down are read once, some at a time.
+  /// The samples of a row, nodata as NaN, the caller's to change, until the next call. Fails as the field's source
+  /// does. Rows that are asked for from the top down are read once, some at a time.
   Result<float*> read(int row) {
     if (row < first_ || row >= end_) {
       first_ = row;

@@ -1,4 +1,4 @@
-// The rows of a raster from the top down, some of them at a time, wherever the samples are.
+// The rows of a raster from the top down, some of them at a time, in memory or from a source.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace scarp {
 
 /// Rows [begin, end) of a raster, and up to a given number more above and below.
 struct RowStrip {
-  Raster samples;          ///< NaN where void
+  Raster samples;          ///< NaN where nodata
   std::int32_t first = 0;  ///< of its rows, in the raster
   std::int32_t begin = 0, end = 0;
 

@@ -1,4 +1,4 @@
-// Rows of a raster in bands, for who works through a mesh from the top down and looks beyond a band but a little.
+// Rows of a raster in bands, for passes over a mesh from the top down that look only a little beyond a band.
 #pragma once
 
 #include <algorithm>

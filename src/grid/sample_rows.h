@@ -1,5 +1,5 @@
-// Samples, or what else there is for each of them, of which some rows at a time are in memory, for those who work
-// through a raster from the top down and seldom look beyond.
+// Samples, or other per-sample values, with some rows at a time in memory, for passes over a raster from the top down
+// that seldom look beyond these rows.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@
 
 namespace scarp {
 
-/// Rows of a field with a source, or of who is asked in its place. For one thread.
+/// Rows of a field with a source, or of a reader in its place. For one thread.
 class SampleRows {
  public:
   /// Reads a window, row-major.
@@ -42,7 +42,7 @@ class SampleRows {
   mutable std::vector<float> apart_;
 };
 
-/// A raster, or rows that somebody holds: both stay alive.
+/// A raster, or rows held elsewhere: both stay alive.
 class SampleView {
  public:
   SampleView(const Raster& raster) : raster_(raster) {}  // NOLINT: either will do
