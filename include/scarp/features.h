@@ -48,7 +48,7 @@ struct Features {
   LineConstraints fixed_lines() const;
 };
 
-struct FitOptions {
+struct FeatureFitOptions {
   double max_error = 0;            ///< of the mesh to come, in z units, at least 0 and finite
   int threads = 0;                 ///< 0: all cores; never changes the result
   ProgressCallback progress = {};  ///< of the pass "ridges"
@@ -74,7 +74,7 @@ struct FittedFeatures {
 ///
 /// Nothing is kept of `field` and `features`. Fails with kUsage for an error below 0 or not finite, and as
 /// carve_rivers(), detect_cliffs() and detect_ridges() do. Cost: theirs.
-Result<FittedFeatures> fit_features(const HeightField& field, const Features& features, const FitOptions& options);
+Result<FittedFeatures> fit_features(const HeightField& field, const Features& features, const FeatureFitOptions& options);
 
 }  // namespace scarp
 

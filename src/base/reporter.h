@@ -1,4 +1,4 @@
-// Progress of a pass, told to a callback.
+// Progress of a pass, reported to a callback.
 #pragma once
 
 #include <cstdint>

@@ -9,7 +9,7 @@
 
 namespace scarp::draw {
 
-/// Heights by pixel, NaN = void.
+/// Heights by pixel, NaN = nodata.
 struct Relief {
   int width = 0, height = 0;
   std::vector<double> z;
@@ -18,7 +18,7 @@ struct Relief {
   }
 };
 
-/// Hillshade by pixel, tinted by height, white where void. The relief shows all of a grid of cols × rows samples in
+/// Hillshade by pixel, tinted by height, white where nodata. The relief shows all of a grid of cols × rows samples in
 /// `frame`, whose cells make slopes true.
 std::vector<Colour> shade(const Relief& relief, const Frame& frame, int cols, int rows);
 

@@ -1,12 +1,11 @@
-// Where a raster steps between neighbours, and how the steps hang together.
+// Cracks: steps of a raster between neighbours, and the chains that they form.
 //
-// A crack lies between two samples side by side, or one below the other, whose heights differ by more than a given
-// one. In a cell of four samples with two cracked sides a wall runs in through one and out through the other; so
-// cracks hang together in chains, along which all high samples lie on the left (as rasters are looked at, rows
-// downwards) and all low ones on the right. A line that crosses the cracks of a chain one after the other, each between
-// its samples, tells the two apart.
+// A crack lies between two neighbours in a row or column whose heights differ by more than a given height. In a cell of
+// four samples with two cracked sides a wall enters through one and leaves through the other. So cracks form chains:
+// all high samples lie on the left (rows run downwards), all low samples on the right. A line that crosses the cracks
+// of a chain one after the other, each between its samples, separates high from low samples.
 //
-// Rows of samples are looked at once, from the top down, three at a time: rasters larger than memory have cracks too.
+// Rows of samples are read once, from the top down, three at a time, so this works on rasters larger than memory.
 #pragma once
 
 #include <array>

@@ -21,7 +21,7 @@ Result<void> fit_rivers(const HeightField& field, const Features& features, doub
   return {};
 }
 
-Result<void> fit_walls(const HeightField& field, const WallGoals& goals, const FitOptions& options,
+Result<void> fit_walls(const HeightField& field, const WallGoals& goals, const FeatureFitOptions& options,
                        FittedFeatures& fitted) {
   CliffOptions cliffs;
   cliffs.height = goals.height;
@@ -37,7 +37,7 @@ Result<void> fit_walls(const HeightField& field, const WallGoals& goals, const F
   return {};
 }
 
-Result<void> fit_ridges(const HeightField& field, const RidgeGoals& goals, const FitOptions& options,
+Result<void> fit_ridges(const HeightField& field, const RidgeGoals& goals, const FeatureFitOptions& options,
                         FittedFeatures& fitted) {
   RidgeOptions asked;
   asked.height = goals.height;
@@ -70,7 +70,7 @@ std::uint64_t FittedFeatures::given_lines() const {
          (ridges ? ridges->ridges.size() + ridges->valleys.size() : 0);
 }
 
-Result<FittedFeatures> fit_features(const HeightField& field, const Features& features, const FitOptions& options) {
+Result<FittedFeatures> fit_features(const HeightField& field, const Features& features, const FeatureFitOptions& options) {
   if (!(options.max_error >= 0) || !std::isfinite(options.max_error))
     return fail(ErrorKind::kUsage,
                 fmt::format("features are fitted to a max error of at least 0, not {}", options.max_error));

@@ -1,4 +1,4 @@
-// Samples that lie lower than what is on both sides of them, and those beside them, of a raster larger than memory.
+// Samples lower than the land on both sides of them, and their neighbours, of a raster larger than memory.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Where a raster lies lower than what is on both sides.
+// Hollows: samples lower than the land on both sides.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,14 @@
 
 namespace scarp {
 
-/// How clearly a sample lies lower than both sides of it.
+/// How clearly a sample lies lower than the land on both sides of it.
 enum class Hollow : std::uint8_t {
   kNone,
   kFaint,  ///< by half the height asked for
   kClear,  ///< by all of it
 };
 
-inline constexpr std::int32_t kHollowReach = 16;  ///< how far a profile is looked along, in samples
+inline constexpr std::int32_t kHollowReach = 16;  ///< length of a side of a profile, in samples
 
 /// Of each sample: the second best of the four profiles through it, the row, the column and both diagonals. A profile
 /// is as good as the lower one of its two sides, and a side as the highest rise within kHollowReach samples before it

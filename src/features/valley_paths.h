@@ -27,7 +27,7 @@ struct ValleyPath {
 std::vector<ValleyPath> follow_valleys(const Raster& raster, const std::vector<Hollow>& hollows,
                                        const std::function<bool(Point)>& is_left_out);
 
-/// The same where low samples and what is near them are known. Memory: 26 bytes each of these.
+/// The same from known low samples and their neighbourhood. Memory: 26 bytes for each of these samples.
 std::vector<ValleyPath> follow_valleys(const HollowSamples& samples);
 
 }  // namespace scarp

@@ -299,7 +299,7 @@ struct LakesFound {
   std::vector<Rings> rings;
 };
 
-/// Those with a level, at it. All levels are told before any change: a lake's shore is the raster's, not what its
+/// Those with a level, at it. All levels are found before any change: a lake's shore is the raster's, not what its
 /// neighbour has made of it.
 Result<LakesFound> find_lakes(const Shores& shores, const std::vector<Rings>& polygons) {
   const auto samples = shores.read_samples(polygons);

@@ -1,7 +1,7 @@
-// Collapse: two neighbours make way for one new vertex between them.
+// Collapse: one new vertex replaces two neighbours.
 //
-// Removal with repair takes one vertex and lets its neighbours make up for it. Where none can go that way two often
-// can, for a third that stands better than either. For each edge u–v within the patch the polygon around both stars
+// Removal with repair removes one vertex, and its neighbours repair the bound. Where no vertex can go that way, a
+// better placed third vertex can often replace two. For each edge u–v within the patch the polygon around both stars
 // becomes a fan about a new vertex w. Its place is searched for: the better one of three on the edge, then steps along
 // both axes, 0.3, 0.15 and 0.07 of the edge long, while the energy Σ t⁸ of the fan falls; at each place w has its best
 // height (height_step.h), or the nearest with room (height_room.h). Fans that promise too little are left early. The

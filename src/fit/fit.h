@@ -1,17 +1,17 @@
-// The door of fitting: a mesh that keeps a bound is made smaller, and keeps it.
+// The interface of fitting, which makes a mesh smaller while it satisfies the same bound.
 //
-// The mesh is cut into patches (cut.h), each is worked on alone (removal.h), then squares shifted by half take what the
-// borders of the first held back. Rounds of removal with repair (schedule.h) follow where they are wanted, on squares
-// that grow as triangles become fewer, shifted in turn; a last one takes up what lies near the borders of the others,
+// The mesh is cut into patches (cut.h), and each patch is reduced alone (removal.h). Squares shifted by half then
+// remove the vertices along the first borders. Rounds of removal with repair (schedule.h) follow if wanted, on squares
+// that grow as triangles become fewer, shifted in turn. A last round treats vertices near the borders of the others,
 // and polishes heights. Patches depend on the mesh only, so the result is the same on any number of threads.
 //
 // Against one patch for all, over 32 cases of eight rasters from 2 to 0.2 % of the relief, kHighDepth in patches leaves
 // 98.9 to 100.6 % of the triangles. With squares that stay, and without the last round, it was 101.1 to 101.3 % on one
 // of 1197 x 643 samples; that round takes some 3 % of the time (bench/quality/fit.cpp).
 //
-// Where there is a time to use up, rounds go on: repair alone soon finds nothing more, but once all vertices have been
-// moved a little, wherever the bound lets them, it does. Max at 1 % of the relief, with shapes of at least a tenth,
-// leaves 0.237 of greedy's triangles on Fuji, 0.263 on Crater Lake; after five to six times its time 0.230, 0.254.
+// If there is time left, rounds go on. Repair alone soon finds nothing more; but it does after all vertices have been
+// moved a little, within the bound. Max at 1 % of the relief, with shapes of at least a tenth, leaves 0.237 of greedy's
+// triangles on Fuji, 0.263 on Crater Lake; after five to six times its time 0.230, 0.254.
 #pragma once
 
 #include <cstdint>
@@ -55,7 +55,7 @@ struct FitOptions {
   /// alive. DEFAULT: null, of heights alone.
   const FitNorm* norm = nullptr;
   int threads = 0;
-  /// Vertices must stay on sides that are no straight lines in the mesh's frame, or that somebody else shares.
+  /// Vertices must stay on sides that are no straight lines in the mesh's frame, or that are shared with others.
   FreeSides free_sides = {};
   /// Where it has rounds, vertices are other samples afterwards than before.
   FitDepth depth = {};
@@ -63,7 +63,7 @@ struct FitOptions {
   /// of the triangles and saves time. Triangles of the mesh that is given may lie below; no move makes the worst worse.
   double min_shape = 0;
   double aspect = 1;  ///< of a sample: its height over its width, which shapes are reckoned with
-  /// Stands in for these two: angles, lengths of edges. DEFAULT: none.
+  /// Replaces these two: angles, lengths of edges. DEFAULT: none.
   std::optional<ShapeRule> shape = std::nullopt;
   /// Repair may put vertices between samples, on the lattice of fitting, and at heights of their own.
   bool vertices_are_free = false;

@@ -1,4 +1,4 @@
-// Errors of several fields that count together, for fitting: heights and channels.
+// Combined errors of several fields, for fitting: heights and channels.
 #pragma once
 
 #include <algorithm>

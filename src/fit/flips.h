@@ -1,4 +1,4 @@
-// Flips by energy: the diagonal of two triangles is changed where that brings the surface nearer to the samples.
+// Flips by energy: the diagonal of two triangles is flipped if that brings the surface nearer to the samples.
 //
 // Greedy insertion keeps its edges Delaunay, that is, blind to heights; removal chooses the edges of each ring, but not
 // those between rings. A flip that lowers the energy Σ (error / threshold)⁸ lets edges run along ridges, and carries an

@@ -1,8 +1,8 @@
-// The order in which vertices are tried: the cheapest first, prices looked at again only when their turn comes.
+// The queue of vertices to try: the cheapest first, prices updated only when their turn comes.
 //
-// A change makes the prices around it stale. What is queued stays where its old price put it and is priced anew at the
-// front; what is not queued, because it could not go, waits until the queue is empty, when most changes around it have
-// happened. Equal prices go in the order of the items, so the order is a function of the prices alone.
+// A change makes the prices around it stale. A queued item keeps the position of its old price, and is priced anew at
+// the front. An item that could not go waits outside the queue until the queue is empty, when most changes around it
+// have happened. Equal prices go in the order of the items, so the order is a function of the prices alone.
 #pragma once
 
 #include <algorithm>

@@ -1,9 +1,9 @@
-// How far the samples of one trial triangle lie off its planes, where heights and channels count together.
+// Errors of the samples of one trial triangle, with heights and channels combined.
 //
 // Each field has a plane of its own, through its values at the corners, which are samples. The error of a sample is the
 // norm of the fields' errors, each times its scale. As for heights alone (triangle_error.h) the scan is of float32,
-// eight samples at a time, and ends at the first row that breaks the bound. What lies within the guard of the bound is
-// decided by the judge of refinement (FitNorm::find_breach), so that fitting lets through what refinement would.
+// eight samples at a time, and ends at the first row that breaks the bound. Within the guard of the bound, the error
+// metric of refinement decides (FitNorm::find_breach), so fitting accepts the same triangles as refinement.
 //
 // Errors are reckoned in units of the threshold, or with bounds of samples in a power of two near them. u = 2⁻²⁴. To
 // the planes' guards, which are those of a threshold of 0 (scan_plane.h), times the scales, come roundings that grow

@@ -1,16 +1,16 @@
-// Exact removal: takes vertices out of a mesh that keeps a bound, for as long as the bound allows.
+// Exact removal: removes vertices from a mesh while every sample stays within the bound.
 //
 // A vertex may go if the ring that it leaves behind can be triangulated so that every sample of every triangle keeps
-// the threshold (ring_search.h). Nobody else is moved: what is left are samples with their own heights, as after
-// insertion. Which vertices go is decided greedily, by what it costs:
+// the threshold (ring_search.h). No other vertex moves: the remaining ones are samples with their own heights, as after
+// insertion. Vertices are removed greedily, by price:
 //
 //   price of v = energy of the best triangles of its ring - energy of the triangles around v,
 //   energy of a triangle = Σ (error / threshold)² over its samples:
 //
-// the band of errors that the bound allows is used up where it buys most. The cheapest goes first. Prices around it are
-// then out of date, but are looked at again only when their turn comes (a lazy queue); vertices that could not go wait
-// at the end for their turn, when most changes around them have happened. So the pass ends with a mesh in which no
-// vertex can go alone. It takes away 45 to 50 % of what greedy insertion left.
+// so the errors that the bound allows are spent where they save most. The cheapest goes first. Prices around it become
+// stale, but are updated only when their turn comes (a lazy queue). Vertices that could not go wait until the end, when
+// most changes around them have happened. So the pass ends with a mesh in which no vertex can go alone. It removes 45
+// to 50 % of what greedy insertion left.
 //
 // Vertices of equal price go in the order of the patch, so the outcome is a function of the patch alone.
 #pragma once

@@ -1,4 +1,4 @@
-// Removal with repair: a vertex goes although its ring cannot hold the bound, and the neighbours make up for it.
+// Removal with repair: a vertex is removed although its ring breaks the bound, and its neighbours repair the bound.
 //
 // The ring is triangulated with up to a slack times the threshold. Then, a few times over, each vertex of the ring
 // takes a step (vertex_step.h) and edges around the ring are flipped (flips.h), where triangles are near the bound,

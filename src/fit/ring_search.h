@@ -1,4 +1,4 @@
-// The best triangulation of the ring that a removed vertex leaves behind.
+// The best triangulation of the ring around a removed vertex.
 //
 // Klincsek's dynamic programme: the best triangulation between corners i and j of the ring is the best of those whose
 // triangle at the edge i–j ends in q, for all q between. Of k³/6 triangles most break the bound, so little is scanned:

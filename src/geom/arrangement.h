@@ -1,4 +1,4 @@
-// Lines made fit for a triangulation: cut where they cross, in vertices that lie on the lattice.
+// Arrangements: lines prepared for a triangulation, cut at their crossings in vertices on the lattice.
 //
 // Crossings of lattice segments are fractions. Rounding them bends the segments, and bent ones may cross anew. Snap
 // rounding (Hobby 1999; Guibas and Marimont 1998) has the cure: a lattice point is hot if a segment ends there or a

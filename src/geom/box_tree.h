@@ -1,4 +1,4 @@
-// Which of many boxes meet something: a packed tree over boxes in the order of a space-filling curve (Kamel and
+// A search tree for intersecting boxes: a packed tree over boxes in the order of a space-filling curve (Kamel and
 // Faloutsos 1993, with Morton's curve instead of Hilbert's). Clusters, long and short boxes cost it nothing extra.
 #pragma once
 

@@ -1,4 +1,4 @@
-// How many polygons cover each side of the edges that they are made of.
+// The number of polygons that cover each side of their edges.
 //
 // Polygons are rings of a planar graph: nothing crosses (arrangement.h), but rings may run along each other, and over
 // themselves. Within one polygon rings count even-odd, so of each polygon those edges count that it passes an odd

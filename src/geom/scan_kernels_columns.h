@@ -1,4 +1,4 @@
-// Which blocks a triangle has in each row of blocks. Private to the scan kernels; no instruction set is known here.
+// The blocks of a triangle in each row of blocks. Private to the scan kernels; independent of the instruction set.
 #pragma once
 
 #include "geom/scan_kernels_task.h"

@@ -1,4 +1,4 @@
-// One triangle as every scan kernel sees it: plane, box, edge functions. Private to the scan kernels.
+// One triangle for all scan kernels: plane, box, edge functions. Private to the scan kernels.
 #pragma once
 
 #include <algorithm>

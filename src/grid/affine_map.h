@@ -6,12 +6,12 @@
 
 namespace scarp {
 
-/// A place or a way in samples, not rounded.
+/// A position or a difference of positions in samples, not rounded.
 struct SamplePlace {
   double col = 0, row = 0;
 };
 
-/// Farther away doubles do not tell a step of the lattice, so nobody knows where a line enters the raster.
+/// Farther away doubles do not resolve a step of the lattice, so the point where a line enters the raster is unknown.
 inline constexpr double kFarthestSample = 0x1p41;
 inline bool can_be_placed(const SamplePlace& at) {
   return std::abs(at.col) <= kFarthestSample && std::abs(at.row) <= kFarthestSample;

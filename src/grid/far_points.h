@@ -1,4 +1,4 @@
-// The few points that lie far from all others, which are mostly errors of the survey.
+// Outliers: few points far from all others, which are mostly errors of the survey.
 #pragma once
 
 #include <string>

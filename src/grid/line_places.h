@@ -1,4 +1,4 @@
-// Whether the place of a line on a raster can be told.
+// Checks that the position of a line on a raster can be computed.
 #pragma once
 
 #include <array>

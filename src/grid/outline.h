@@ -1,7 +1,7 @@
-// The domain: which part of the grid is surface.
+// The domain: the part of the grid that is surface.
 //
 // A grid cell whose four corner samples are heights is surface; one with three such corners is surface on the half
-// between them; any other cell is void. The outline of the union is a set of closed lattice polygons.
+// between them; any other cell is nodata. The outline of the union is a set of closed lattice polygons.
 #pragma once
 
 #include <array>
@@ -25,8 +25,8 @@ bool is_whole(const Raster& raster);
 /// edges.
 Outline trace_outline(const Raster& raster);
 
-/// The same of the surface of some samples alone, as if all others were void. `runs`: in raster order, apart from each
-/// other. Cost: O(samples + L log L), and bytes in proportion to L and a row, not to the samples.
+/// The same of the surface of some samples alone, as if all others were nodata. `runs`: in raster order, apart from
+/// each other. Cost: O(samples + L log L), and bytes in proportion to L and a row, not to the samples.
 Outline trace_outline(std::span<const SampleRun> runs);
 
 /// Which corners of the cell [x, x+1] × [y, y+1] are heights: bit k for corner k of (x,y), (x+1,y), (x+1,y+1), (x,y+1).

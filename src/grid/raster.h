@@ -1,4 +1,4 @@
-// The samples as the engine sees them.
+// The samples of the engine.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace scarp {
 
-/// Borrowed float32 samples, row-major; void samples are NaN (there are no infinities).
+/// Borrowed float32 samples, row-major; nodata samples are NaN (there are no infinities).
 struct Raster {
   const float* samples = nullptr;
   std::int32_t cols = 0, rows = 0;

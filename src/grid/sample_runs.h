@@ -1,4 +1,4 @@
-// Sets of samples, row by row: as long as their outline, however many they are.
+// Sets of samples, row by row, whose memory grows with their outline only.
 #pragma once
 
 #include <compare>

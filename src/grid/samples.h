@@ -1,4 +1,4 @@
-// A caller's samples made fit for the engine.
+// A caller's samples, prepared for the engine.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace scarp {
 /// Fails with kInput if the field is smaller than 2×2 or larger than the lattice, or has neither samples nor source.
 Result<void> check_size(const HeightField& field);
 
-/// Borrows the field's samples where void is NaN already (as readers deliver them); else owns a cleaned copy, 4 bytes a
+/// Borrows the field's samples if nodata is NaN already (as readers deliver them); else owns a cleaned copy, 4 bytes a
 /// sample.
 class Samples {
  public:

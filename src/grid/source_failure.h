@@ -1,4 +1,4 @@
-// What a source of samples said, where no Result can carry it.
+// The error of a source of samples, where no Result can carry it.
 #pragma once
 
 #include "scarp/result.h"

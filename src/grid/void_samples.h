@@ -1,4 +1,4 @@
-// Samples beside runs made void.
+// Makes samples outside runs nodata.
 #pragma once
 
 #include <algorithm>

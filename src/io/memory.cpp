@@ -1,4 +1,4 @@
-// How large a raster may be.
+// The largest size of a raster.
 #include <sys/resource.h>
 #include <unistd.h>
 

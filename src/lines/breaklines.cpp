@@ -267,7 +267,7 @@ Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<do
   return lattice;
 }
 
-/// A line that is laid first and need not be held in the end.
+/// A line that is inserted first and need not stay in the end.
 bool is_start(const Line& line) { return is_fault(line) || line.kind == LineKind::kRidge; }
 
 /// By edge: a line runs there that is no start, or the outline. Empty without starts.

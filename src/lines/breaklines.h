@@ -33,7 +33,7 @@ struct Breaklines {
   std::vector<Arrangement::Edge> edges;
   std::vector<bool> is_held;  ///< of each edge: more than starts run there; EMPTY: there are none
 
-  std::uint64_t outside = 0;  ///< lines of which nothing is left
+  std::uint64_t outside = 0;  ///< lines without any remaining part
 
   /// A line, or a part of it within the rectangle: points[passed[begin]], …, points[passed[end − 1]].
   struct Chain {
@@ -48,17 +48,17 @@ struct Breaklines {
   }
 };
 
-/// A line that was found in the raster, and is laid before refinement.
+/// A line found in the raster, which is inserted before refinement.
 bool is_laid_first(const Line& line);
 
-/// Places lines on the lattice of a raster: a vertex of a line moves by half a step, 1/512 sample, at most, what runs
-/// between its vertices by one and a half. `affine` takes samples to the coordinates of the lines, as
-/// Frame::affine does; `outline` is trace_outline()'s, not simplified. Outline and rectangle are the rigid edges.
+/// Snaps lines to the lattice of a raster. A vertex of a line moves by at most half a step, 1/512 sample; its segments
+/// move by at most one and a half steps. `affine` maps samples to the coordinates of the lines, as Frame::affine does;
+/// `outline` is trace_outline()'s, not simplified. Outline and rectangle are the rigid edges.
 ///
 /// Along a hard line heights run from vertex to vertex; between a vertex with a height and one without the line is
-/// soft. Two hard lines meet in peace if their heights differ by no more than what they, or the raster in that cell,
-/// climb within two steps each, and the rounding of float32: so far the lattice moves them. Then the line given first
-/// has its way, as it does in kFirst.
+/// soft. Two hard lines do not conflict if their heights differ by no more than they, or the raster in that cell, climb
+/// within two steps each, and the rounding of float32: the lattice moves lines that far. Then the height of the line
+/// given first is used, as in kFirst.
 ///
 /// Fails with kInput where hard lines disagree (kError: names both and the place in map coordinates) and for
 /// coordinates that are too large for the raster to mean anything; with kUsage for a raster of more than 2^30 /
@@ -68,21 +68,20 @@ Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::arra
                                     const Raster& raster, const Outline& outline,
                                     LineConflict conflict = LineConflict::kError, bool with_chains = false);
 
-/// The same with samples that need but lie near lines. `rigid`: beside the rectangle, in kLatticeSteps: the outline, as
-/// far as lines pass, and whatever else they are to be cut at.
+/// The same with samples near lines only. `rigid`: edges beside the rectangle, in kLatticeSteps: the outline wherever
+/// lines pass, and all other edges at which they are cut.
 Result<Breaklines> place_breaklines(std::span<const Line> lines, const std::array<double, 6>& affine,
                                     const LineSamples& samples, std::span<const Segment> rigid, LineConflict conflict,
                                     bool with_chains);
 
-/// Where lines run in the raster and a sample around it, in kLatticeSteps. Fails with kInput for coordinates that are
-/// too large.
+/// The lines within the raster and one sample around it, in kLatticeSteps. Fails with kInput for too large coordinates.
 Result<std::vector<Segment>> find_courses(std::span<const Line> lines, const std::array<double, 6>& affine,
                                           std::int32_t cols, std::int32_t rows);
 
 /// The surface of `heights` above, at a point in kLatticeSteps of a sample within the raster.
 double height_between_samples(const SampleView& heights, Point place);
 
-/// The same at the lattice place next to this one; NaN beyond the raster.
+/// The same at the nearest lattice point; NaN beyond the raster.
 double surface_at(const Raster& raster, SamplePlace place);
 double surface_at(const LineSamples& samples, SamplePlace place);
 

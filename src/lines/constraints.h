@@ -1,4 +1,4 @@
-// Lines that a mesh must hold: laid into the triangulation after refinement, which then goes on around them.
+// Constraints: lines inserted into the triangulation after refinement, which then continues around them.
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@
 
 namespace scarp {
 
-/// Vertices, and edges between them that have nothing but ends in common and hold no vertex in their interior.
+/// Vertices, and edges between them. Edges share end points only, and contain no vertex in their interior.
 struct ConstraintGraph {
   std::vector<Point> points;                        ///< in kLatticeSteps, in the raster, each once
-  std::vector<float> heights;                       ///< of the points; what a sample has counts before it
+  std::vector<float> heights;                       ///< of the points; the height of a sample takes precedence
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< indices of points
   std::vector<std::uint8_t> is_shared;  ///< by point: 1 where it is laid beside the domain too; EMPTY: none is
   std::vector<std::uint8_t> is_start;   ///< by edge: 1 where the mesh need not hold it in the end; EMPTY: all stay
@@ -26,7 +26,7 @@ struct ConstraintGraph {
   std::optional<SurfaceCut> cut;        ///< nothing: all of the surface stays
 };
 
-/// The workbench with lines in it.
+/// A triangulation with constraints.
 class ConstrainedMesh {
  public:
   /// Turns the points of `tin` from samples into kLatticeSteps, and makes the graph's edges chains of its edges,
@@ -36,11 +36,11 @@ class ConstrainedMesh {
   /// constrained edge of `tin` but in points of the graph.
   static Result<ConstrainedMesh> lay(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph);
 
-  /// Whether a cut, if there is one, has left some surface.
+  /// Whether some surface remains after a cut, if there is one.
   bool has_surface() const { return has_surface_; }
-  /// Triangles that are others than before, ascending.
+  /// Changed triangles, ascending.
   const std::vector<Triangle>& changed() const { return changed_; }
-  /// Gives edges free that are but a start, and vertices that no other edge of the graph has.
+  /// Frees the edges that are only a start, and the vertices that belong to no other edge of the graph.
   void release_starts(Triangulation& tin);
 
   const PlaceHeights& heights() const { return heights_; }

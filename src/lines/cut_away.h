@@ -1,4 +1,4 @@
-// Triangles beyond a cut of the surface, taken out of the domain.
+// Removes triangles beyond a cutline from the domain.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ struct SurfaceCut {
   std::int32_t first = 0;               ///< of these: that of the first row of samples here
 };
 
-/// What is to be said where nothing stays.
+/// The error message if nothing stays.
 inline constexpr const char* kNothingInCutline = "no part of the raster's surface lies in the cutline";
 
 /// Marks the triangles that a cut takes away as outside. `tin`: in kLatticeSteps; `vertices`: what the graph's points

@@ -1,4 +1,4 @@
-// The rings of a cutline where they meet a height field.
+// The rings of a cutline, clipped to a height field.
 #pragma once
 
 #include <cstdint>

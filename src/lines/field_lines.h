@@ -1,4 +1,4 @@
-// What breaklines and cutlines ask of a height field, made ready for the engine.
+// Breaklines and cutlines of a height field, prepared for the engine.
 #pragma once
 
 #include <array>
@@ -23,19 +23,19 @@ struct FieldLines {
   /// Instead, where the field has one and samples are edited; nothing of it is cut.
   std::shared_ptr<const SampleSource> source;
   std::vector<SampleEdit> edits;  ///< of these samples
-  std::uint64_t laid = 0;         ///< breaklines of which some part lies in the raster, but for those laid first
+  std::uint64_t laid = 0;         ///< breaklines with some part in the raster, except those inserted first
   std::uint64_t valid = 0;        ///< samples, before the cut; 0: not known
 
   /// `field` with these samples, which stay here.
   HeightField apply(const HeightField& field) const;
 };
 
-/// Soft lines, and the rings of the cutline, are given vertices of their own where they are straight for so long that
-/// the raster beside them leaves them by more than `tolerance`. Of breaklines the graph has what lies in the cutline.
-/// Fails as place_breaklines(), as the field's source, and with kInput where no surface lies in the cutline, as far as
-/// that is known. `shared_rows`: where the field has a source, the rows of samples that strips
-/// share, where lines are cut; what lines look at is read before. REQUIRES: the field is no larger than the lattice;
-/// tolerance >= 0; lines and cutline in the same coordinates.
+/// Soft lines, and the rings of the cutline, get additional vertices where the raster differs from a straight segment
+/// by more than `tolerance`. The graph contains the parts of breaklines within the cutline. Fails as
+/// place_breaklines(), as the field's source, and with kInput if it is known that no surface lies in the cutline.
+/// `shared_rows`: for a field with a source, the rows of samples that strips share, where lines are cut; the samples
+/// near lines are read before. REQUIRES: the field is no larger than the lattice; tolerance >= 0; lines and cutline in
+/// the same coordinates.
 Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
                                  double tolerance, int threads, std::span<const std::int32_t> shared_rows = {});
 

@@ -1,4 +1,4 @@
-// What lies in the polygons that a mesh was cut to.
+// The region within the cutline of a mesh.
 //
 // The rings are taken as they are, in double arithmetic; the mesh has them rounded to its lattice, by 3/512 sample at
 // most. So near the rings nothing is asked: kNear is twice as far and more.

@@ -1,4 +1,4 @@
-// What errors weigh: under a mask, by tolerances.
+// Weighted errors: under a mask, by tolerances.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class ErrorWeigher {
   ErrorWeigher(double bound, double reserve, double allowance);
 
   struct Row {
-    std::span<const float> errors;          ///< signed, NaN where void or uncovered
+    std::span<const float> errors;          ///< signed, NaN where nodata or uncovered
     std::span<const double> norms = {};     ///< these count in their place, unless it is empty
     std::span<const float> mask = {};       ///< empty: none
     std::span<const float> tolerance = {};  ///< empty: none

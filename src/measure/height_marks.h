@@ -1,4 +1,4 @@
-// Which samples of a field are heights, asked here and there.
+// Marks of the samples of a field that are heights, for random access.
 #pragma once
 
 #include <algorithm>

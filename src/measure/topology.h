@@ -1,4 +1,4 @@
-// How triangles hang together.
+// Topology of triangles.
 #pragma once
 
 #include <cstdint>

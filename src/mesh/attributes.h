@@ -1,4 +1,4 @@
-// What a vertex carries besides its position and normal.
+// Attributes of a vertex besides its position and normal.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Which triangle lies across each edge of a mesh.
+// The triangle across each edge of a mesh.
 #pragma once
 
 #include <cstdint>

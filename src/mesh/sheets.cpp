@@ -1,6 +1,6 @@
-// A large print is made of sheets. The cuts run along rows and columns of samples, where the mesh can have edges whose
-// ends lie on samples; a tab in the middle of each shared edge is a trapezoid that is wider at its head, so that sheets
-// hook into each other as the pieces of a jigsaw do and slide together from above.
+// A large print is made of print tiles. The cuts run along rows and columns of samples, where the mesh can have edges
+// whose ends lie on samples; a tab in the middle of each shared edge is a trapezoid that is wider at its head, so that
+// sheets hook into each other as the pieces of a jigsaw do and slide together from above.
 //
 // Every cut is a polyline from one end of the raster to the other. simplify() lays it into the mesh as a soft line, so
 // that triangles lie on one side of it, and each triangle belongs to the sheet that its centre lies in. Both neighbours
@@ -26,7 +26,7 @@ constexpr int kLeastCells = 2;                               // of a sheet, acro
 constexpr int kLeastTabCells = 12;                           // of a sheet that has tabs
 constexpr double kHead = 0.30, kNeck = 0.18, kDepth = 0.12;  // shares of the sheet that the tab stands on or in
 
-/// Where sheets begin and end, in samples.
+/// Where print tiles begin and end, in samples.
 std::vector<int> divide(int samples, int parts) {
   std::vector<int> at;
   for (int k = 0; k <= parts; ++k) {

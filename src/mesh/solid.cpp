@@ -1,4 +1,4 @@
-// What a printer's software will see of a solid, and solids that stand it.
+// Facts of a solid as a printer's software reads it, and solids that pass these checks.
 //
 // Such software reads positions as float32 and joins vertices by their places. So we round before we judge, join what
 // has come to lie at one place, and then ask what makes a surface: every edge runs once in each direction, the

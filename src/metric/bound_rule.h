@@ -1,4 +1,4 @@
-// What is promised at a sample, and what refinement aims at, from what was asked for there.
+// The promised bound of a sample, and the aim of refinement, from the requested bound.
 #pragma once
 
 #include <cmath>

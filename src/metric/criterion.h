@@ -1,4 +1,4 @@
-// What the options and the field say about errors, made ready for the engine and for the proof.
+// The criterion of errors from the options and the field, prepared for the engine and for the proof.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace scarp {
 
-/// Owns the arrays that the engine's judge reads: at most 12 bytes a sample, none for plain heights and bounds that are
+/// Owns the arrays of the engine's error metric: at most 12 bytes a sample, none for plain heights and for tolerances
 /// read in windows.
 class Criterion {
  public:
@@ -37,7 +37,7 @@ class Criterion {
   const SourceBounds* source_bounds() const { return source_bounds_.get(); }
   /// Those that the judge holds to.
   std::span<const float> aims() const { return aims_.empty() ? bounds_ : aims_; }
-  /// The engine's importance is an error that grows and shrinks with what is promised.
+  /// The engine's importance is an error that grows and shrinks with the promised error.
   bool importance_is_error() const { return importance_is_error_; }
   /// Order of insertion for one pass, without the samples that have no bound; empty otherwise.
   std::vector<Point> ranking() const;

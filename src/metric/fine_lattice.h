@@ -1,4 +1,4 @@
-// Samples of a raster between its samples: the refined lattice of the report's supersampling (Scape's -frac).
+// Interpolated samples of a raster: the refined lattice of the paper's supersampling (Scape's -frac).
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace scarp {
 /// than all the rest.
 inline constexpr int kFinestLattice = 32;
 
-/// Bilinear interpolant at the lattice point (x, y) / lattice; NaN beside a void sample that has a share in it.
+/// Bilinear interpolant at the lattice point (x, y) / lattice; NaN if a nodata sample has a share in it.
 inline double interpolate(const float* samples, std::int32_t cols, std::int64_t x, std::int64_t y, int lattice) {
   const std::int64_t col = x / lattice, row = y / lattice;
   const double u = static_cast<double>(x % lattice) / lattice, v = static_cast<double>(y % lattice) / lattice;

@@ -1,4 +1,4 @@
-// The plain judge: vertical errors of heights against one threshold.
+// The plain error metric: vertical errors of heights against one threshold.
 #pragma once
 
 #include "grid/raster.h"

@@ -1,7 +1,7 @@
-// What a triangle is worth: the one question that the engine asks about samples.
+// The error metric: it measures how well a triangle fits the samples. The engine reads samples in no other way.
 //
-// Everything that can be chosen about errors (weights, tolerances, importance, channels) lives behind this door;
-// refinement, batches and data-dependent edges do not know which samples they are refining.
+// All options of errors (weights, tolerances, importance, channels) are implemented behind this interface; refinement,
+// batches and data-dependent edges do not depend on them.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct Fit {
   bool complete = true;       ///< false: given up, max_error or sum_squares is above what was asked for
 };
 
-/// How carefully a triangle is to be looked at.
+/// How carefully to scan a triangle.
 struct FitQuestion {
   bool squares = false;
   int lattice = 1;  ///< errors for scores on a lattice this many times finer

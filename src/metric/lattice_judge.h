@@ -1,4 +1,4 @@
-// The judge of triangles whose corners lie between samples, at heights of their own.
+// The error metric of triangles whose corners lie between samples, at heights of their own.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace scarp {
 
-/// Heights at places of the lattice: those that were given, else the sample's.
+/// Heights of lattice points: given ones, else the sample's.
 class PlaceHeights {
  public:
   explicit PlaceHeights(const SampleView& samples) : samples_(samples), slots_(kFewest) {}
@@ -63,7 +63,7 @@ class LatticeJudge final : public Judge {
       : samples_(samples), heights_(heights), threshold_(threshold) {
     if (!bounds.empty()) bounds_ = SampleView(Raster{bounds.data(), samples.cols(), samples.rows()});
   }
-  /// With bounds of which somebody holds rows.
+  /// With per-sample bounds of which rows are held elsewhere.
   LatticeJudge(const SampleView& samples, const PlaceHeights& heights, const Band& bounds)
       : samples_(samples), heights_(heights), bounds_(bounds) {}
 

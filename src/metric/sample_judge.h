@@ -1,4 +1,5 @@
-// The general judge: errors of heights and channels combined, a bound and a factor of importance for each sample.
+// The general error metric: combined errors of heights and channels, with a bound and a factor of importance for each
+// sample.
 #pragma once
 
 #include <algorithm>

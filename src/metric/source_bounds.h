@@ -1,4 +1,4 @@
-// Bounds of samples that are not in memory as a whole: read in windows, as the samples are.
+// Per-sample tolerances of streamed rasters: read in windows, as the samples are.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// The plain judge of samples that are not in memory as floats.
+// The plain error metric of samples that are not in memory as floats.
 #pragma once
 
 #include "metric/judge.h"

@@ -1,7 +1,7 @@
 // The border between two tiles: a line of samples, simplified on its own.
 //
-// A pure function of the samples on the line and of the cells beside it: both tiles that share a border compute the
-// same points, whatever else they hold, so that their meshes fit without a crack and without talking to each other.
+// A pure function of the samples on the line and of the cells beside it. Both tiles that share a border compute the
+// same points, whatever else they hold. So their meshes fit without a crack, and the tiles exchange no data.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct BorderLine {
   bool is_vertical = false;
 };
 
-/// What samples of a line may be off by.
+/// The bounds of the samples of a line.
 struct LineBound {
   LineBound(double same) : of_all(same) {}                     // NOLINT: either will do
   LineBound(std::span<const float> by_step) : own(by_step) {}  // NOLINT
@@ -31,20 +31,20 @@ struct LineBound {
   double rank(double error, double bound) const { return own.empty() ? error : error / bound; }
 };
 
-/// Steps, ascending and strictly between 0 and line.steps, that become vertices, such that every sample of the line
-/// that belongs to the surface on either side lies within its bound, as a real number, of the chain that they make:
-/// the farthest sample of a chord splits it (first among equals), again and again. Where the surface beside the line
-/// changes (a cell with a void sample), the sample is kept too, so that every corner of an outline on the line is a
-/// vertex. A line inside the raster; its field may have voids. Cost: O(steps · log steps), expected.
+/// Returns the steps that become vertices, ascending and strictly between 0 and line.steps. Every sample of the line
+/// that belongs to the surface on either side lies within its bound, as a real number, of their chain. The farthest
+/// sample of a chord splits it (first among equals), again and again. A sample where the surface beside the line
+/// changes (a cell with a nodata sample) is kept too, so every corner of an outline on the line is a vertex. The line
+/// lies inside the raster; its field may have nodata. Cost: O(steps · log steps), expected.
 /// Fails as the field's source does.
 Result<std::vector<std::int32_t>> simplify_border(const HeightField& field, const BorderLine& line,
                                                   const LineBound& bound);
 
-/// Those that are missing where `kept`, ascending, are vertices for a larger bound, as the above made them.
+/// The missing steps where `kept`, ascending, are the vertices that simplify_border() made for a larger bound.
 Result<std::vector<std::int32_t>> split_border(const HeightField& field, const BorderLine& line,
                                                std::span<const std::int32_t> kept, const LineBound& bound);
 
-/// Steps of a line between which the surface beside it, on either side, stays as it is: cells of four heights, or none.
+/// A run of steps of a line with the same surface beside it, on either side: cells of four heights, or none.
 struct BorderRun {
   std::int32_t begin = 0, end = 0;
   bool has_surface = false;  ///< on one side at least

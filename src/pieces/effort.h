@@ -1,4 +1,4 @@
-// What an effort is possible for, and what it asks of fitting.
+// Checks and choices of efforts, and the options of fitting that follow from them.
 #pragma once
 
 #include <cstdint>
@@ -13,31 +13,31 @@ namespace scarp {
 
 bool has_budget(const SimplifyOptions& options);
 bool has_lines(const SimplifyOptions& options);
-bool lays_first(const SimplifyOptions& options);  ///< faults, ridges or valleys
+bool lays_first(const SimplifyOptions& options);  ///< walls, ridges or valleys
 
-/// Whether vertices will be let free.
+/// Whether vertices will be free.
 bool vertices_are_free(const HeightField& field, const SimplifyOptions& options);
 
 /// Whether removal comes after refinement for shapes, which it keeps: that leaves far fewer triangles.
 bool removes_last(const HeightField& field, const SimplifyOptions& options);
 
-/// Whether places so many steps from sample to sample are held exactly by the mesh.
+/// Whether the mesh holds all lattice points exactly, at so many steps between two samples.
 bool places_are_exact(const HeightField& field, const SimplifyOptions& options, std::int32_t steps);
 
-/// How many places vertices may take between two samples, and one of these.
+/// The lattice steps from one sample to the next that vertices may use.
 std::int32_t place_steps(const HeightField& field, const SimplifyOptions& options);
 
-/// The share of every bound that is asked of the engine. Vertices between samples leave a little to the rounding of
-/// positions: no sample can be inserted among them to mend what that breaks.
+/// The share of every bound at which the engine aims. With vertices between samples it leaves a little for the rounding
+/// of positions, because no sample can be inserted among them to repair the damage.
 double aim_of(const HeightField& field, const SimplifyOptions& options);
 
 /// Whether errors are norms over heights and channels.
 bool has_norm(const HeightField& field);
 
-/// The norm that fitting keeps; nothing where heights alone, as they are, decide. The criterion stays alive.
+/// The norm that fitting keeps; nothing if unweighted heights alone decide. The criterion stays alive.
 std::optional<FitNorm> fit_norm(const SimplifyOptions& options, const Raster& raster, const Criterion& criterion);
 
-/// But for the norm, bounds of samples, threads and progress. `threshold`: what the mesh that is fitted keeps.
+/// All but the norm, per-sample tolerances, threads and progress. `threshold`: the bound that the given mesh satisfies.
 FitOptions fit_options(const HeightField& field, const SimplifyOptions& options, double threshold);
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-// From the workbench to the mesh that is given away.
+// From the triangulation to the final mesh.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@
 
 namespace scarp {
 
-/// Heights of samples, wherever they are. Throws SourceFailure where a source fails.
+/// Heights of samples, in memory or in a source. Throws SourceFailure if a source fails.
 class SampleHeights {
  public:
   explicit SampleHeights(const Raster& raster) : raster_(raster) {}
@@ -24,7 +24,7 @@ class SampleHeights {
 
   std::int32_t cols() const { return raster_.cols; }
   std::int32_t rows() const { return raster_.rows; }
-  float at(Point p) const;  ///< NaN is void
+  float at(Point p) const;  ///< NaN is nodata
   float at_vertex(Vertex v, Point p) const { return v < known_.size() ? known_[v] : at(p); }
 
  private:
@@ -39,11 +39,11 @@ class SampleHeights {
 Mesh freeze(const SampleHeights& heights, const Triangulation& tin, const VertexPlaces& places, const Frame& frame,
             bool round_to_float32);
 
-/// The same, and gives the triangulation's memory back on the way: at most 72 bytes a vertex are in use at a time.
+/// The same, but frees the triangulation step by step: at most 72 bytes a vertex are in use at a time.
 Mesh melt_down(const SampleHeights& heights, Triangulation tin, const VertexPlaces& places, const Frame& frame,
                bool round_to_float32);
 
-/// Lattice points, so many steps from one sample to the next.
+/// Lattice points, with `steps` steps from one sample to the next.
 struct LatticePoints {
   std::int32_t steps = 1;
   std::vector<Point> points;
@@ -52,12 +52,12 @@ struct LatticePoints {
 /// Those of freeze()'s vertices, in its order.
 LatticePoints frozen_points(const Triangulation& tin, const VertexPlaces& places);
 
-/// Unit normals of the full-resolution surface, in the frame: at samples central differences, one-sided beside voids
-/// and borders; between samples the bilinear mean of the valid ones around; 3 values a point, z > 0. Vertical where no
-/// sample around is valid.
+/// Unit normals of the full-resolution surface, in the frame: at samples central differences, one-sided beside nodata
+/// and borders; between samples the bilinear mean of the valid samples around; 3 values a point, z > 0. Vertical where
+/// no sample around is valid.
 std::vector<float> sample_normals(const SampleHeights& heights, const Frame& frame, const LatticePoints& at);
 
-/// Places in the raster's image: pixel centres, (0, 0) the image's top left corner and (1, 1) its bottom right; 2
+/// Positions in the raster's image: pixel centres, (0, 0) the image's top left corner and (1, 1) its bottom right; 2
 /// values a point.
 std::vector<float> sample_uvs(std::int32_t cols, std::int32_t rows, const LatticePoints& at);
 

@@ -1,4 +1,4 @@
-// Goals, budgets and progress of a run: what rasters and scattered points have in common.
+// Goals, budgets and progress of a run, for rasters and scattered points alike.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace scarp {
 Result<void> check_goals(const SimplifyOptions& options);
 Result<void> check_max_error(const std::optional<double>& max_error);
 
-/// Bytes a vertex: what a run takes most of, in the proof, while the mesh is written, or where it is fitted as a whole.
+/// Bytes a vertex: the peak of a run, in the proof, while the mesh is written, or while it is fitted as a whole.
 MemoryBudget memory_budget(const HeightField& field, const SimplifyOptions& options);
 
 struct MeshSize {
@@ -36,16 +36,16 @@ class Budget {
   Result<void> check(const MeshSize& least, const std::string& culprit, const std::string& advice) const;
   /// The budget that one more vertex with `gain` more triangles would break.
   std::optional<StopReason> exceeded(const MeshSize& size, std::uint32_t gain) const;
-  /// The last 5 % of what is allowed: where the best prefix is looked for.
+  /// The last 5 % of the budget, where the best prefix is searched for.
   bool in_last_stretch(const MeshSize& size) const;
-  /// The larger share of what is allowed; 0 without budgets.
+  /// The larger used share of the budgets; 0 without budgets.
   double used(const MeshSize& size) const;
 
  private:
   std::optional<std::uint64_t> max_triangles_, max_vertices_;
 };
 
-/// A mesh on the way, as the number of vertices that the triangulation then had.
+/// An intermediate mesh, identified by the number of vertices of the triangulation at that time.
 struct Prefix {
   std::size_t vertices = 0;
   double error = 0;

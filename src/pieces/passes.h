@@ -2,7 +2,7 @@
 //
 //     seed → insert constraints → refine → fit
 //
-// Each leaves the piece ready for the next; which are made, and with which goals, is decided by the plan of a run.
+// Each leaves the piece ready for the next. The plan of a run decides which passes run, and with which goals.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@
 
 namespace scarp {
 
-/// Seeds the mesh of a piece between neighbours: its domain, with no vertices but the outline's; outside where no cell
-/// is surface. Edges along shared rows are free: whether the domain ends there the neighbour decides, too.
+/// Seeds the mesh of a piece between neighbours: its domain, with the outline's vertices only. All is outside if no
+/// cell is surface. Edges along shared rows are free, since the neighbour also decides whether the domain ends there.
 Result<void> seed(Piece& piece);
 
 /// How constraints are inserted.
 struct ConstraintGoals {
   double threshold = 0;          ///< of the errors, where the piece has no aims of its own
-  bool releases_starts = false;  ///< edges that are but a start are given free in the end, with their vertices
+  bool releases_starts = false;  ///< edges that are only a start become free in the end, with their vertices
   int threads = 1;
 };
 

@@ -1,10 +1,10 @@
-// A window of the raster with its mesh: what the passes (passes.h) work on.
+// A piece: a window of the raster with its mesh. The passes (passes.h) work on pieces.
 //
 //     in memory      one piece: the whole raster, nothing shared
 //     streamed       a strip after the other: the upper and the lower row of samples shared with the neighbours
 //
-// A piece never looks beyond its samples and a row more around them. What lies on a shared row is a function of that
-// row's samples and tolerances alone, so that both neighbours find the same, and neither adds to it.
+// A piece never reads beyond its samples and one more row around them. The vertices on a shared row are a function of
+// that row's samples and tolerances only. So both neighbours find the same vertices, and neither adds any.
 #pragma once
 
 #include <cstdint>
@@ -25,14 +25,14 @@ struct Piece {
   bool has_above = false, has_below = false;  ///< neighbours, which have the vertices on their shared row too
   Raster around = {};                         ///< `samples`, and a row more on each side where there is a neighbour
   VertexPlaces places = {};                   ///< of the vertices of `tin`
-  /// What refinement aims at, by sample; EMPTY: at the run's threshold everywhere.
+  /// The aim of refinement, by sample; EMPTY: the run's threshold everywhere.
   std::span<const float> aims = {};
   /// Whether each sample keeps what refinement aims at, by now.
   bool is_refined = false;
   /// Whether some surface is left, behind a cut.
   bool has_surface = true;
-  /// Asked from time to time, with the share of the pass that is done and the largest error left: fails where memory
-  /// does not hold so many vertices, and with kCancelled. EMPTY: nobody asks.
+  /// Called from time to time, with the finished share of the pass and the largest error left. Fails if memory does not
+  /// hold so many vertices, and with kCancelled. EMPTY: never called.
   std::function<Result<void>(std::uint64_t vertices, double share, double error)> check = {};
 };
 

@@ -1,4 +1,4 @@
-// What a run was asked to do, resolved once: every pass reads the answers here and asks nothing again.
+// The plan of a run: all decisions that follow from its options, made once. Every pass reads them here.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace scarp {
 
 /// A run towards its goals. The field and the options stay alive.
 struct Plan {
-  /// REQUIRES: options that were checked, with an effort that was chosen.
+  /// REQUIRES: checked options with a chosen effort.
   Plan(const HeightField& field, const SimplifyOptions& options);
 
   const HeightField& field;
@@ -25,10 +25,10 @@ struct Plan {
   bool fits_pieces;            ///< so do goals of shapes, where a piece is a strip
   bool removes_last;           ///< after refinement for shapes, which removal then keeps
   bool fits_strips;            ///< vertices are removed strip by strip
-  bool finishes_strips;        ///< a strip is worked on while its samples are there, in whatever way
+  bool finishes_strips;        ///< some pass works on a strip while its samples are in memory
   std::int32_t lattice_steps;  ///< lattice points between two samples that vertices may take, and one of these
   bool is_exact;               ///< the mesh holds each of these points exactly
-  double aim;                  ///< the share of every bound that is asked of the engine
+  double aim;                  ///< the share of every bound at which the engine aims
   MemoryBudget memory;
 };
 

@@ -25,7 +25,7 @@ EdgeVerdict judge_edge(const Triangulation& tin, const Judge& judge, HalfEdge h)
   const auto corner = [&](HalfEdge g) { return tin.point(tin.origin(g)); };
   const Point a = corner(h), b = corner(Triangulation::next(h)), c = corner(Triangulation::previous(h));
   const Point d = corner(Triangulation::previous(tin.twin(h)));
-  // An error so far above the goal is a breach beyond any rounding; should it not be, the edge only stays as it is.
+  // An error so far above the goal is a breach beyond any rounding. If it were not, the edge would only stay as it is.
   FitQuestion question;
   if (judge.goal() > 0) question.give_up_max = 1.001 * judge.goal();
   const auto keeps_bound = [&](const std::array<Point, 3>& corners) {

@@ -1,4 +1,4 @@
-// How much of the samples a run holds at a time that works on the whole mesh while they stay in their source.
+// The part of streamed samples that a pass over the whole mesh holds at a time.
 #pragma once
 
 #include <cstdint>

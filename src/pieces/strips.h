@@ -1,5 +1,5 @@
-// A raster whose samples stay in their source, strip by strip: each is given its lines, refined to its tolerances and
-// fitted while its samples are there.
+// A streamed raster, strip by strip. Each strip gets its lines, is refined to its tolerances and fitted while its
+// samples are in memory.
 //
 //     strip above, done ──────────────    its lower row of samples is the next one's upper row: the vertices on it
 //     stay, strip at hand     │     │     │     and everything between, across the tiles' own borders too, is one piece
@@ -16,7 +16,7 @@
 
 namespace scarp {
 
-/// What the passes over strips have done so far.
+/// Totals of the passes over strips so far.
 struct StripTotals {
   double seconds_of_fit = 0, seconds_of_lines = 0, seconds_of_refinement = 0;
   Work lines;                 ///< of inserting constraints

@@ -9,18 +9,18 @@
 
 namespace scarp {
 
-/// Gives each tile that begins a share of the room that the mesh so far leaves, so that none outgrows it together with
-/// its neighbours. What a tile gets depends on the others at work, unless it is alone: then it has all of the room.
+/// Gives each new tile a share of the memory that the mesh leaves free, so that all tiles at work fit together. The
+/// share depends on the other tiles at work. A tile alone gets all of the free memory.
 class TileRoom {
  public:
   /// `base`: bytes taken whatever the mesh. `vertices`: of the mesh so far. `tiles`: side by side, at most.
   TileRoom(const MemoryBudget& memory, std::uint64_t base, std::uint64_t vertices, int tiles);
 
-  /// The most vertices that a tile may have that begins now; none without a limit.
+  /// The most vertices of a tile that begins now; no limit without a memory limit.
   std::size_t begin();
-  /// It has so many of them, and waits.
+  /// The tile is finished with so many vertices, and waits.
   void end(std::size_t most, std::size_t vertices);
-  /// One that waited has become part of the mesh.
+  /// A waiting tile has become part of the mesh.
   void commit(std::size_t vertices);
 
   /// Bytes a vertex of a tile at work.

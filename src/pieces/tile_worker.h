@@ -16,7 +16,7 @@
 
 namespace scarp {
 
-/// What a finished tile hands over.
+/// The result of a tile.
 struct TileOutcome {
   Result<void> status;
   TilePiece piece;

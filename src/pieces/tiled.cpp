@@ -101,7 +101,7 @@ class StripSource final : public SampleSource {
   Band band_;
 };
 
-/// Rows of tiles are read, and done with, one after the other.
+/// Strips are read and finished one after the other.
 bool goes_by_rows(const HeightField& field, const TiledOptions& options) {
   return is_in_file(field) || options.finish_row != nullptr;
 }
@@ -140,7 +140,7 @@ class TiledRun {
         outcomes_(plan.count()),
         assembly_(options.finish_row ? 1 : plan.per_row()),
         row_(plan.per_row()) {
-    // Who finishes a row may copy its samples.
+    // finish_row may copy the samples of its strip.
     if (is_streamed_) base_bytes_ += row_bytes(field, plan) / sizeof(float) * bytes_per_sample(options);
     base_bytes_ += std::min<std::uint64_t>(workers_.size(), step_) * worker_bytes(plan);
   }
@@ -324,7 +324,7 @@ class TiledRun {
 
 }  // namespace
 
-/// Rows fit a quarter of the memory, half with what finishes them. That pays for each line between two of them.
+/// Strips fit a quarter of the memory, half with their post-processing. That pays for each line between two strips.
 std::int32_t streamed_side(const HeightField& field, const TiledOptions& options) {
   const MemoryBudget& memory = options.memory;
   std::int32_t side = options.finish_row ? 1024 : 512;

@@ -5,7 +5,7 @@
 // scanned again. When no candidate is left, every sample of every triangle keeps its bound - not by bookkeeping of
 // rounded numbers: near the bound the judge decides exactly.
 //
-// How we differ from the report's program: closed integer scans (no sample falls between two triangles), ties broken by
+// How we differ from the paper's program: closed integer scans (no sample falls between two triangles), ties broken by
 // raster order instead of memory order, a proven stop at any threshold including 0, voids (NaN samples, triangles
 // marked outside).
 //

@@ -1,4 +1,4 @@
-// Algorithms I and II of the report, as short as they can be said.
+// Algorithms I and II of the paper, as short as possible.
 //
 // Slow on purpose: they are the oracle for Refinement and for every faster engine. Same rule for ties, same arithmetic
 // for an error (Plane::height_at), but no scan conversion, no queue, no caches that could go stale.

@@ -1,4 +1,4 @@
-// Triangles that wait for what goals of shapes ask of them.
+// The queue of triangles that break goals of shapes.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace scarp {
 
-/// The order of work: what is too large before what is too sharp, larger excess first, shorter edges first.
+/// The order of work: too large triangles before too sharp ones, larger excess first, shorter edges first.
 struct ShapeFault {
   bool is_long = false;
   double key = 0;  ///< larger first

@@ -1,4 +1,4 @@
-// What goals for the lengths of edges cost at least.
+// A lower bound on the triangles that goals for the lengths of edges need.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Triangles that are fit for simulation: Delaunay refinement over the lattice between samples, beside the error bound.
+// Triangles for simulation: Delaunay refinement on the lattice between samples, together with the error bound.
 //
 // A triangle with too small an angle is given a vertex near the centre of its circle: the off-centre (A. Üngör, 2004),
 // which makes the angle over its shortest edge just what was asked, else the centre. Where that lies beyond an outline
@@ -8,16 +8,15 @@
 // sides get edges of the same lengths. A triangle that is too large gets the centre of its circle, or else its longest
 // edge is halved.
 //
-// How we differ: edges that no bad triangle asks for are not split, though they hold vertices in their circle; every
-// vertex has a place of its own on the raster's lattice, on samples where that is fine enough; between any two steps
-// samples that break the bound are inserted, worst first, as ever. For the sake of angles none comes nearer to
-// another than 1/32 of a sample, edges are split for size only while they are longer than what is allowed, and samples
-// are finite: so it ends for any goal.
+// Differences: edges with vertices in their circle are split only if a bad triangle requires it. Every vertex has a
+// lattice point of its own, on samples where that is fine enough. Between any two steps samples that break the bound
+// are inserted, worst first, as always. Refinement ends for any goal: vertices added for angles stay 1/32 of a sample
+// from all others, edges are split for size only while they are longer than allowed, and samples are finite.
 //
-// Where the samples are not in memory as a whole, the mesh is, and bands of rows are gone through from the top down:
-// what is bad in a band is dealt with while its samples and some around are held. Triangles that this changes further
-// up or down are seen to at once as far as the bound is concerned, else in their own bands, if need be in the next
-// sweep. So there are no borders between bands, and the goals hold as they do in memory.
+// If the samples are streamed, the mesh is in memory, and bands of rows are processed from the top down. Bad triangles
+// of a band are treated while its samples and some around are held. Triangles changed further up or down are refined to
+// the bound at once; their shapes are treated in their own bands, if necessary in the next sweep. So there are no
+// borders between bands, and the goals hold as they do in memory.
 #pragma once
 
 #include <array>
@@ -77,7 +76,7 @@ inline constexpr std::uint64_t kShapeBytesPerVertex = 240;
 /// Nothing where only insertion can: with a grade, and where rows and columns of the frame are not at right angles.
 std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame);
 
-/// What a finished mesh looks like. `forced`: see ShapeWork.
+/// Shapes of a finished mesh. `forced`: see ShapeWork.
 ShapeReport report_shapes(const Mesh& mesh, const ShapeGoals& goals, std::uint64_t forced);
 
 }  // namespace scarp

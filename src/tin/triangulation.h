@@ -41,7 +41,7 @@ class FlipRule {
 class Triangulation {
  public:
   /// The rectangle [0, cols − 1] × [0, rows − 1] as two triangles, the diagonal from the last
-  /// row's first sample to the first row's last: from south-west to north-east, as in the report's program.
+  /// row's first sample to the first row's last: from south-west to north-east, as in the paper's program.
   /// REQUIRES: cols, rows in 2 … kMaxCoordinate + 1.
   Triangulation(std::int32_t cols, std::int32_t rows);
 

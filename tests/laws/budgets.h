@@ -28,7 +28,7 @@ inline bool is_within(const Simplified& made, const SimplifyOptions& options) {
          made.mesh.triangle_count() <= options.max_triangles.value_or(made.mesh.triangle_count());
 }
 
-/// For laws: the mesh keeps the budgets, is sound, and as near to the samples as was told and promised.
+/// For laws: the mesh keeps the budgets, is sound, and as near to the samples as reported and promised.
 inline void check_budget(const Measurement& seen, const Simplified& made, const SimplifyOptions& options) {
   RC_ASSERT(is_within(made, options));
   RC_ASSERT(seen.is_sound());

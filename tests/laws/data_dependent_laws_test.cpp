@@ -49,7 +49,7 @@ Errors errors_in(const Raster& raster, const Corners& corners) {
   return errors;
 }
 
-/// The rule as the report's program states it, without cache, early end or any other haste.
+/// The rule of the paper's program, without cache, early end or any other optimisation.
 class TextbookRule final : public FlipRule {
  public:
   TextbookRule(const Raster& raster, EdgeScore score, double threshold)

@@ -1,4 +1,4 @@
-// The engine against the report's own program: 20 runs of Scape 1.2 on its five fields.
+// The engine against the paper's program: 20 runs of Scape 1.2 on its five fields.
 #include "../../apps/scarp/paper/reference_rows.h"
 
 #include <gtest/gtest.h>

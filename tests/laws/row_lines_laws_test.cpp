@@ -50,7 +50,7 @@ struct RowScene {
     if (*rc::gen::arbitrary<bool>()) add_first_lines();
   }
   RowScene(const RowScene&) = delete;
-  /// Lines that are laid before the surface is refined.
+  /// Lines that are inserted before the surface is refined.
   void add_first_lines() {
     auto& lines = options.breaklines.lines;
     for (Line& line : lines) {

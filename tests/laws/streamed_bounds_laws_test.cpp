@@ -1,5 +1,5 @@
-// Laws of bounds that are read in windows: each sample keeps its own across all rows of tiles, and what is told about
-// them is what is told of an array.
+// Laws of tolerances read in windows: each sample satisfies its own across all strips, and results report the same as
+// for an array.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -152,7 +152,7 @@ RC_GTEST_PROP(streamed_bounds, make_the_same_mesh_on_any_number_of_threads, ()) 
   for (HalfEdge h = 0; h < 3 * a.triangle_count(); ++h) RC_ASSERT(a.origin(h) == b.origin(h));
 }
 
-/// In memory and at the public door, where all is one row: what is told is told of the same samples.
+/// In memory and in the public interface, where all is one row: results report the same samples.
 RC_GTEST_PROP(streamed_bounds, are_promised_and_counted_as_those_in_memory, ()) {
   Scene scene;
   HeightField view = scene.field.view();

@@ -1,4 +1,4 @@
-// What a band's values mean.
+// The meaning of a band's values.
 #include <cpl_string.h>
 #include <fmt/format.h>
 

@@ -19,7 +19,7 @@ namespace scarp::gdal {
 /// The band to read and what its values mean.
 struct BandPlan {
   GDALRasterBandH band = nullptr;
-  GDALRasterBandH mask = nullptr;  ///< bytes, 0 = void; null if there is none
+  GDALRasterBandH mask = nullptr;  ///< bytes, 0 = nodata; null if there is none
   GDALDataType type = GDT_Unknown;
   bool signed_byte = false;                  ///< GDT_Byte that holds −128 … 127
   std::optional<double> nodata;              ///< compared with raw values, before scale and offset
@@ -40,7 +40,7 @@ struct Findings {
   double rounding = 0;           ///< largest |value − float32 sample|
 };
 
-/// Reads windows of heights, void as NaN. Not for several threads at once.
+/// Reads windows of heights, nodata as NaN. Not for several threads at once.
 class WindowReader {
  public:
   virtual ~WindowReader() = default;

@@ -1,4 +1,4 @@
-// What GDAL reads, without GDAL's headers.
+// Rasters read by GDAL, without GDAL's headers.
 #pragma once
 
 #include <cstdint>
