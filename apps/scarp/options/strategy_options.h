@@ -18,7 +18,7 @@ struct StrategyArguments {
       shape_threshold, supersample;
   bool one_pass = false;
 
-  void add_to(CLI::App& verb);
+  void add_to(CLI::App& command);
   /// Sets effort, objective, importance, order, algorithm, batch and edges of the options.
   Result<void> parse_into(SimplifyOptions& options) const;
   /// The option among these that the dominant order has no place for; null if there is none.
