@@ -1,83 +1,160 @@
-# bash completion for scarp: verbs, options, and what an option takes.
+# bash completion for scarp. Written by tools/generate_docs.py from `scarp help --json`, not by hand.
 
 _scarp() {
-  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} verb='' word
+  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command='' options='' word
   COMPREPLY=()
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
-    case $word in simplify | measure | info | generate | paper) verb=$word && break ;; esac
+    case $word in simplify | measure | info | generate | paper | help) command=$word && break ;; esac
   done
-
-  if [[ -z $verb ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure info generate paper --help --version' -- "$current"))
+  if [[ -z $command ]]; then
+    COMPREPLY=($(compgen -W 'simplify measure info generate paper help --help --version' -- "$current"))
     return
   fi
 
-  case $previous in
-    --of)
-      local formats='glb obj ply stl tin 2dm vtu vtp landxml dxf gpkg svg eps dem'
-      [[ $verb == generate ]] && formats='tif pgm'
-      COMPREPLY=($(compgen -W "$formats" -- "$current")) && return
-      ;;
-    --data | --out) COMPREPLY=($(compgen -d -- "$current")) && return ;;
-    --decode) COMPREPLY=($(compgen -W 'terrarium mapbox' -- "$current")) && return ;;
-    --nodata-policy) COMPREPLY=($(compgen -W 'hole fill background' -- "$current")) && return ;;
-    --crs) COMPREPLY=($(compgen -W 'source local grid EPSG:' -- "$current")) && return ;;
-    --importance)
-      COMPREPLY=($(compgen -W 'global local local8 curvature global*local global*local8 global*curvature' -- "$current"))
+  case "$command $previous" in
+    "simplify -e" | "simplify --max-error" | "simplify -t" | "simplify --max-triangles" | "simplify -p" | \
+      "simplify --max-points" | "simplify --band" | "simplify --min-shape" | "simplify --time-limit" | \
+      "simplify --nodata" | "simplify --fill-distance" | "simplify --background" | "simplify --outline-tolerance" | \
+      "simplify --falloff" | "simplify --breakline-z" | "simplify --inset" | "simplify --cliff" | \
+      "simplify --ridges" | "simplify --water-percentile" | "simplify --detect-flats" | "simplify --min-angle" | \
+      "simplify --max-edge" | "simplify --grade" | "simplify --base" | "simplify --split" | \
+      "simplify --texture-weight" | "simplify --channel-weights" | "simplify --layer" | "simplify --z-field" | \
+      "simplify --shape-threshold" | "simplify --supersample" | "simplify --memory" | "simplify -j" | \
+      "simplify --num-threads" | "measure --fail-above" | "measure --band" | "measure --nodata" | \
+      "measure --falloff" | "measure --inset" | "measure --texture-weight" | "measure --channel-weights" | \
+      "measure --layer" | "measure --z-field" | "measure --memory" | "measure -j" | "measure --num-threads" | \
+      "info --band" | "info --nodata" | "generate --seed" | "generate --range" | "generate --size")
       return
       ;;
-    --effort) COMPREPLY=($(compgen -W 'fast normal high max' -- "$current")) && return ;;
-    --vertices) COMPREPLY=($(compgen -W 'free samples' -- "$current")) && return ;;
-    --objective) COMPREPLY=($(compgen -W 'max rms' -- "$current")) && return ;;
-    --order) COMPREPLY=($(compgen -W 'dominant greedy' -- "$current")) && return ;;
-    --algorithm) COMPREPLY=($(compgen -W 'brute local heap' -- "$current")) && return ;;
-    --batch) COMPREPLY=($(compgen -W 'const frac: independent' -- "$current")) && return ;;
-    --edges) COMPREPLY=($(compgen -W 'delaunay data' -- "$current")) && return ;;
-    --edge-score) COMPREPLY=($(compgen -W 'sum max sqerr abn tight' -- "$current")) && return ;;
-    --duplicates) COMPREPLY=($(compgen -W 'first last highest lowest mean' -- "$current")) && return ;;
-    --line-conflict) COMPREPLY=($(compgen -W 'error first mean highest' -- "$current")) && return ;;
-    --norm) COMPREPLY=($(compgen -W 'l1 l2 linf' -- "$current")) && return ;;
-    --preview | --render | --error-raster | --report | --map | --mask | --tolerance | --script | --texture | --breaklines | --water | --rivers | --cutline | --roi)
+    "simplify --objective")
+      COMPREPLY=($(compgen -W 'max rms' -- "$current"))
+      return
+      ;;
+    "simplify --decode" | "measure --decode" | "info --decode")
+      COMPREPLY=($(compgen -W 'terrarium mapbox' -- "$current"))
+      return
+      ;;
+    "simplify --crs" | "measure --crs" | "info --crs")
+      COMPREPLY=($(compgen -W 'source local grid EPSG:' -- "$current"))
+      return
+      ;;
+    "simplify --of")
+      COMPREPLY=($(compgen -W 'glb obj ply stl tin 2dm vtu vtp landxml dxf gpkg 3mf svg eps dem' -- "$current"))
+      return
+      ;;
+    "simplify --preview" | "simplify --render" | "simplify --error-raster" | "simplify --report" | \
+      "simplify --mask" | "simplify --tolerance" | "simplify --roi" | "simplify --script" | "simplify --breaklines" | \
+      "simplify --cutline" | "simplify --water" | "simplify --rivers" | "simplify --texture" | "measure --map" | \
+      "measure --error-raster" | "measure --mask" | "measure --tolerance" | "measure --roi" | "measure --script" | \
+      "measure --cutline" | "measure --texture")
       COMPREPLY=($(compgen -f -- "$current"))
       return
       ;;
-    -e | --max-error | -t | --max-triangles | -p | --max-points | --band | --nodata | --fill-distance | --background | \
-      --outline-tolerance | --base | --solid | --split | --shape-threshold | --supersample | --texture-weight | --channel-weights | -j | \
-      --num-threads | --memory | --fail-above | --layer | --z-field | --breakline-z | --water-percentile | --detect-flats | --inset | --min-angle | --max-edge | --grade | --cliff | --ridges | --falloff | --seed | --range | --size)
+    "simplify --effort")
+      COMPREPLY=($(compgen -W 'fast normal high max' -- "$current"))
+      return
+      ;;
+    "simplify --vertices")
+      COMPREPLY=($(compgen -W 'free samples' -- "$current"))
+      return
+      ;;
+    "simplify --nodata-policy")
+      COMPREPLY=($(compgen -W 'hole fill background' -- "$current"))
+      return
+      ;;
+    "simplify --line-conflict")
+      COMPREPLY=($(compgen -W 'error first mean highest' -- "$current"))
+      return
+      ;;
+    "simplify --solid")
+      COMPREPLY=($(compgen -W 'size= base= thickness= exaggerate=' -- "$current"))
+      return
+      ;;
+    "simplify --norm" | "measure --norm")
+      COMPREPLY=($(compgen -W 'l1 l2 linf' -- "$current"))
+      return
+      ;;
+    "simplify --duplicates" | "measure --duplicates")
+      COMPREPLY=($(compgen -W 'first last highest lowest mean' -- "$current"))
+      return
+      ;;
+    "simplify --order")
+      COMPREPLY=($(compgen -W 'dominant greedy' -- "$current"))
+      return
+      ;;
+    "simplify --importance")
+      COMPREPLY=($(compgen -W 'global local local8 curvature global*local global*local8 global*curvature' -- "$current"))
+      return
+      ;;
+    "simplify --algorithm")
+      COMPREPLY=($(compgen -W 'brute local heap' -- "$current"))
+      return
+      ;;
+    "simplify --batch")
+      COMPREPLY=($(compgen -W 'const frac: independent' -- "$current"))
+      return
+      ;;
+    "simplify --edges")
+      COMPREPLY=($(compgen -W 'delaunay data' -- "$current"))
+      return
+      ;;
+    "simplify --edge-score")
+      COMPREPLY=($(compgen -W 'sum max sqerr abn tight' -- "$current"))
+      return
+      ;;
+    "generate --of")
+      COMPREPLY=($(compgen -W 'tif pgm' -- "$current"))
+      return
+      ;;
+    "paper --data" | "paper --out")
+      COMPREPLY=($(compgen -d -- "$current"))
       return
       ;;
   esac
 
   if [[ $current == -* ]]; then
-    local options='--help --version --band --nodata --decode --crs --quiet --json-progress'
-    case $verb in
-      generate) options='--help --version --seed --range --size --of --overwrite --quiet' ;;
-      paper) options='--help --version --data --out --no-timing --overwrite --quiet' ;;
+    case $command in
       simplify)
-        options+=' --max-error --max-triangles --max-points --nodata-policy --fill-distance --background'
-        options+=' --outline-tolerance --of --normals --base --solid --split --preview --report --overwrite --num-threads --memory'
-        options+=' --mask --tolerance --roi --falloff --script --image --texture --texture-weight --norm --channel-weights'
-        options+=' --timing --effort --vertices --min-shape --time-limit --objective --importance --one-pass --order --algorithm --batch --edges --edge-score --shape-threshold --supersample'
-        options+=' --breaklines --breakline-z --soft-breaklines --line-conflict --water --water-percentile --detect-flats --rivers --cliff --ridges --keep-ridges'
-        options+=' --min-angle --max-edge --grade'
-        options+=' --cutline --inset --mask-outside'
-        options+=' --uvs --render --error-raster'
-        options+=' --points --duplicates --layer --z-field'
+        options+=' --max-error --max-triangles --max-points --objective --band --decode --crs --of'
+        options+=' --normals --uvs --preview --render --error-raster --report --overwrite --effort'
+        options+=' --vertices --min-shape --time-limit --nodata --nodata-policy --fill-distance --background --outline-tolerance'
+        options+=' --mask --tolerance --roi --falloff --script --breaklines --breakline-z --soft-breaklines'
+        options+=' --line-conflict --cutline --inset --mask-outside --cliff --ridges --keep-ridges --water'
+        options+=' --water-percentile --detect-flats --rivers --min-angle --max-edge --grade --base --solid'
+        options+=' --split --texture --texture-weight --image --norm --channel-weights --points --duplicates'
+        options+=' --layer --z-field --order --importance --one-pass --algorithm --batch --edges'
+        options+=' --edge-score --shape-threshold --supersample --memory --num-threads --quiet --timing --json-progress'
+        options+=' --help --version'
         ;;
       measure)
-        options+=' --points --duplicates --layer --z-field'
-        options+=' --fail-above --json --map --error-raster --overwrite --num-threads --memory'
-        options+=' --cutline --inset --mask-outside'
-        options+=' --mask --tolerance --roi --falloff --script --image --texture --texture-weight --norm --channel-weights'
+        options+=' --fail-above --band --decode --crs --json --map --error-raster --overwrite'
+        options+=' --nodata --mask --tolerance --roi --falloff --script --cutline --inset'
+        options+=' --mask-outside --texture --texture-weight --image --norm --channel-weights --points --duplicates'
+        options+=' --layer --z-field --memory --num-threads --quiet --json-progress --help --version'
         ;;
-      info) options+=' --json' ;;
+      info)
+        options+=' --band --decode --crs --json --nodata --quiet --json-progress --help'
+        options+=' --version'
+        ;;
+      generate)
+        options+=' --seed --range --size --of --overwrite --quiet --help --version'
+        ;;
+      paper)
+        options+=' --data --out --no-timing --overwrite --quiet --help --version'
+        ;;
+      help)
+        options+=' --json --help --version'
+        ;;
     esac
     COMPREPLY=($(compgen -W "$options" -- "$current"))
     return
   fi
-  if [[ $verb == generate && $COMP_CWORD -eq 2 ]]; then
-    COMPREPLY=($(compgen -W 'cliff step sharp-step diagonal-step sharp-diagonal-step parabola paraboloid
-      scaled-paraboloid pyramid diagonal-pyramid fractal smooth' -- "$current"))
+  if [[ $command == generate && $COMP_CWORD -eq 2 ]]; then
+    COMPREPLY=($(compgen -W 'cliff step sharp-step diagonal-step sharp-diagonal-step parabola paraboloid scaled-paraboloid pyramid diagonal-pyramid fractal smooth' -- "$current"))
+    return
+  fi
+  if [[ $command == help && $COMP_CWORD -eq 2 ]]; then
+    COMPREPLY=($(compgen -W 'simplify measure info generate paper help' -- "$current"))
     return
   fi
   COMPREPLY=($(compgen -f -- "$current"))

@@ -1,4 +1,5 @@
-// scarp VERB [OPTIONS] …: picks the verb, prints its one sentence if it fails, and turns the error into an exit code.
+// scarp COMMAND [OPTIONS] …: picks the command, prints its one sentence if it fails, and turns the error into an exit
+// code.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -10,10 +11,12 @@
 #include <string_view>
 
 #include "commands/generate_command.h"
+#include "commands/help_command.h"
 #include "commands/info_command.h"
 #include "commands/measure_command.h"
 #include "commands/paper_command.h"
 #include "commands/simplify_command.h"
+#include "options/help.h"
 #include "options/missing_value.h"
 #include "scarp/version.h"
 #include "terminal/signals.h"
@@ -31,16 +34,12 @@ std::string join_command_line(int argc, char** argv) {
   return line;
 }
 
-/// The verb's help, or the program's, without CLI11's runs of empty lines.
+/// The help of the command that was chosen, or the program's.
 std::string help_text(const CLI::App& program) {
-  const CLI::App* chosen = &program;
-  for (const CLI::App* verb : program.get_subcommands()) chosen = verb;
-  std::string text;
-  for (const char c : chosen->help(chosen == &program ? "" : program.get_name())) {
-    const bool third = c == '\n' && text.size() >= 2 && text.compare(text.size() - 2, 2, "\n\n") == 0;
-    if (!third) text += c;
-  }
-  return text;
+  check_table(program);
+  const CommandRow* chosen = nullptr;
+  for (const CLI::App* command : program.get_subcommands()) chosen = find_command(command->get_name());
+  return chosen != nullptr ? command_help(*chosen) : program_help();
 }
 
 /// CLI11's complaint about the number of values, in words.
@@ -50,28 +49,19 @@ std::string describe_mismatch(const std::string& message) {
   return option + (is_missing ? " needs a value" : " is given more than once");
 }
 
-/// "simplify, measure or info": the verbs in their order.
-std::string list_verbs(const CLI::App& program) {
-  std::string text;
-  const auto verbs = program.get_subcommands([](const CLI::App*) { return true; });
-  for (std::size_t k = 0; k < verbs.size(); ++k)
-    text += (k == 0 ? "" : k + 1 == verbs.size() ? " or " : ", ") + verbs[k]->get_name();
-  return text;
-}
-
-Error end_usage(const std::string& sentence, const std::string& verb) {
-  return {ErrorKind::kUsage, fmt::format("{}; see scarp{} --help", sentence, verb)};
+Error end_usage(const std::string& sentence, const std::string& command) {
+  return {ErrorKind::kUsage, fmt::format("{}; see scarp{} --help", sentence, command)};
 }
 
 /// What CLI11 objects to, as one sentence that ends with where to read more.
 Error describe(const CLI::ParseError& error, const CLI::App& program) {
-  std::string verb, sentence;
-  for (const CLI::App* chosen : program.get_subcommands()) verb = " " + chosen->get_name();
+  std::string command, sentence;
+  for (const CLI::App* chosen : program.get_subcommands()) command = " " + chosen->get_name();
   const std::vector<std::string> unknown = program.remaining(true);
-  if (verb.empty() && !unknown.empty() && unknown.front().rfind('-', 0) != 0) {
-    sentence = fmt::format("there is no verb {}: choose {}", shell_word(unknown.front()), list_verbs(program));
-  } else if (verb.empty() && unknown.empty()) {
-    sentence = "no verb is given: choose " + list_verbs(program);
+  if (command.empty() && !unknown.empty() && unknown.front().rfind('-', 0) != 0) {
+    return unknown_command(unknown.front());
+  } else if (command.empty() && unknown.empty()) {
+    sentence = "no command given: " + choose_command();
   } else if (!unknown.empty()) {
     const bool is_option = unknown.front().rfind('-', 0) == 0;
     sentence = fmt::format("{} {} is unknown", is_option ? "option" : "argument", shell_word(unknown.front()));
@@ -80,7 +70,7 @@ Error describe(const CLI::ParseError& error, const CLI::App& program) {
   } else {
     sentence = error.what();
   }
-  return end_usage(sentence, verb);
+  return end_usage(sentence, command);
 }
 
 /// Prints the error, if there is one, and returns the exit code.
@@ -92,28 +82,16 @@ int report_end(const scarp::Result<void>& result) {
 }
 
 int run_program(int argc, char** argv) {
-  CLI::App program("Height fields to triangle meshes with a proven error bound.", "scarp");
-  program.set_version_flag("--version", fmt::format("scarp {}", scarp::version()), "Print the version");
-  program.set_help_flag("-h,--help", "Print this help");
-  program.get_formatter()->column_width(34);
-  program.get_formatter()->label("SUBCOMMAND", "VERB");
-  program.get_formatter()->label("REQUIRED", "");
-  program.footer(
-      "Try:\n"
-      "  scarp info dem.tif                                what is in it, and which errors suit it\n"
-      "  scarp simplify dem.tif hills.glb -e 1             a mesh within 1 m of every sample\n"
-      "  scarp measure dem.tif hills.glb --fail-above 1    check it independently\n"
-      "'scarp VERB --help' lists a verb's options.");
+  CLI::App program("", "scarp");
+  program.set_version_flag("--version", fmt::format("scarp {}", scarp::version()));
+  program.set_help_flag("-h,--help");
   program.require_subcommand(1);
   SimplifyCommand simplify(program);
   MeasureCommand measure(program);
   InfoCommand info(program);
   GenerateCommand generate(program);
   PaperCommand paper(program);
-  for (CLI::App* verb : program.get_subcommands(nullptr)) {
-    verb->group("Verbs");
-    verb->set_version_flag("--version", fmt::format("scarp {}", scarp::version()), "Print the version");
-  }
+  HelpCommand help(program);
 
   if (const auto complaint = find_missing_value(program, argc, argv))
     return report_end(tl::unexpected(end_usage(*complaint, std::string(" ") + argv[1])));
@@ -132,7 +110,8 @@ int run_program(int argc, char** argv) {
                     : measure.is_chosen()  ? measure.run(command_line)
                     : info.is_chosen()     ? info.run(command_line)
                     : generate.is_chosen() ? generate.run()
-                                           : paper.run());
+                    : paper.is_chosen()    ? paper.run()
+                                           : help.run());
 }
 
 /// A standard stream that the caller has closed would lend its number to the next file that is opened, which messages

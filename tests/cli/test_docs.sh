@@ -1,6 +1,6 @@
 #!/bin/bash
-# What --help prints, the man page and the completions say the same: every verb and every long option is in all of them,
-# and they name no option that the program does not have. No line of Markdown is too long to read in a terminal.
+# One table of options says the same to --help, the man page, the completions and docs/cli.md, and what it says of
+# choices is what the program takes. No line of Markdown is too long to read in a terminal.
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 man=$SCARP_SOURCE/docs/man/scarp.1
 completions=$SCARP_SOURCE/completions
@@ -12,31 +12,39 @@ sed -e 's/\\-/-/g' -e 's/\\f[RIBP]//g' "$man" >man.txt
 # fish says `-l max-error` for --max-error.
 sed -nE '/^complete/s/ -l ([a-z-]+)/ --\1/gp' "$completions/scarp.fish" >fish.txt
 
-verbs=$("$scarp" --help | sed -n '/^Verbs:/,/^$/s/^  \([a-z]*\) .*/\1/p')
-[ -n "$verbs" ] || fail "--help lists no verbs"
+commands=$("$scarp" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
+[ "$(wc -w <<<"$commands")" = 6 ] || fail "--help lists other commands: $commands"
+"$scarp" help >help.txt
+"$scarp" --help | cmp - help.txt || fail "scarp help and scarp --help differ"
 : >all_options
-for verb in $verbs; do
+for command in $commands; do
   for text in man.txt "$completions/scarp.bash" "$completions/_scarp" fish.txt; do
-    grep -qw -- "$verb" "$text" || fail "the verb $verb is missing in $text"
+    grep -qw -- "$command" "$text" || fail "the command $command is missing in $text"
   done
-  options=$("$scarp" "$verb" --help | sed -n '/^Examples:/q;p' | grep -oE -- '^ +(-[a-z],)?--[a-z-]+' | grep -oE -- '--[a-z-]+')
-  [ "$(wc -w <<<"$options")" -gt 3 ] || fail "scarp $verb --help lists hardly any option"
+  "$scarp" help "$command" >help.txt
+  "$scarp" "$command" --help | cmp - help.txt || fail "scarp help $command and scarp $command --help differ"
+  [ -z "$(awk 'length > 100' help.txt)" ] || fail "$command --help has a long line: $(awk 'length > 100' help.txt)"
+  options=$(sed '/^Examples:/q' help.txt | grep -oE -- '^(  -[a-z], |      )--[a-z-]+' | grep -oE -- '--[a-z-]+')
+  [ "$(wc -w <<<"$options")" -ge 3 ] || fail "scarp $command --help lists hardly any option"
   for option in $options; do
     echo "$option" >>all_options
     for text in man.txt "$completions/_scarp" fish.txt; do
-      names_option "$option" "$text" || fail "$option of $verb is missing in $text"
+      names_option "$option" "$text" || fail "$option of $command is missing in $text"
     done
   done
 
-  # bash: what is offered after the verb is exactly what --help lists.
+  # bash: what is offered after the command is exactly what --help lists.
   offered=$(bash -c 'source "$1"; COMP_WORDS=(scarp "$2" --); COMP_CWORD=2; _scarp; printf "%s\n" "${COMPREPLY[@]}"' \
-    _ "$completions/scarp.bash" "$verb" | sort)
-  [ "$offered" = "$(sort <<<"$options")" ] || fail "bash offers after $verb: $offered"
+    _ "$completions/scarp.bash" "$command" | sort)
+  [ "$offered" = "$(sort <<<"$options")" ] || fail "bash offers after $command: $offered"
 done
+offered=$(bash -c 'source "$1"; COMP_WORDS=(scarp simplify --effort h); COMP_CWORD=3; _scarp; echo "${COMPREPLY[@]}"' \
+  _ "$completions/scarp.bash")
+[ "$offered" = high ] || fail "bash offers after --effort: $offered"
 
 for text in man.txt "$completions/_scarp" fish.txt; do
   for option in $(grep -v '^#' "$text" | grep -oE -- '(^|[^[:alnum:]-])--[a-z][a-z-]+' | grep -oE -- '--[a-z-]+' | sort -u); do
-    grep -qxF -- "$option" all_options || fail "$text names $option, which no verb has"
+    grep -qxF -- "$option" all_options || fail "$text names $option, which no command has"
   done
 done
 
@@ -49,6 +57,54 @@ if command -v groff >/dev/null; then
 fi
 
 if command -v python3 >/dev/null; then
+  generate=$SCARP_SOURCE/tools/generate_docs.py
+  python3 "$generate" "$scarp" --check --tree "$SCARP_SOURCE" >docs.txt || fail "$(cat docs.txt)"
+  for file in docs/man/scarp.1 docs/cli.md completions/scarp.bash completions/_scarp completions/scarp.fish; do
+    mkdir -p "tree/$(dirname $file)"
+    sed 's/At most this many triangles/At most this much/; s/--max-triangles/--most-triangles/' "$SCARP_SOURCE/$file" >"tree/$file"
+  done
+  if python3 "$generate" "$scarp" --check --tree tree >docs.txt; then fail "changed files were not noticed"; fi
+  [ "$(wc -l <docs.txt)" = 5 ] || fail "five files differ: $(cat docs.txt)"
+
+  # A table of options that can be relied upon, and the choices that the program itself names.
+  "$scarp" help --json >table.json
+  python3 - table.json >choices.txt <<'END' || fail "the table of options is wrong"
+import json, re, sys
+table = json.load(open(sys.argv[1]))
+seen = set()
+for row in table["options"]:
+    key = row["command"], row["name"]
+    assert key not in seen, f"{key} twice"
+    seen.add(key)
+    assert list(row) == ["name", "short", "command", "group", "type", "value", "unit", "default", "range", "choices",
+                         "repeatable", "required", "help"], row
+    assert row["help"].endswith(".") and row["help"][0].isupper(), row["help"]
+    assert len(re.split(r"\.(?: |$)", row["help"])[0]) <= 160, f"{key}: a first sentence too long for completions"
+    assert (row["type"] != "choice") or len(row["choices"]) > 1, row
+    if row["type"] == "choice" and row["name"].startswith("-"):
+        print(row["command"], row["name"], *row["choices"])
+names = [command["name"] for command in table["commands"]]
+assert names == [row["choices"] for row in table["options"] if row["name"] == "COMMAND"][0], names
+END
+  printf 'x,y,z\n0,0,1\n9,0,2\n0,9,3\n' >points.csv
+  while read -r command option choices; do
+    case "$command $option" in
+      "simplify --duplicates") try "$scarp" simplify points.csv out.obj -e 1 "$option" nonsense ;;
+      "measure --duplicates") continue ;; # asked after the mesh is read
+      "simplify --norm") try "$scarp" simplify "$dem" out.obj -e 1 --image "$option" nonsense ;;
+      "simplify --edge-score") try "$scarp" simplify "$dem" out.obj -e 1 --edges data "$option" nonsense ;;
+      "simplify --line-conflict") try "$scarp" simplify "$dem" out.obj -e 1 --breaklines lines "$option" nonsense ;;
+      "measure --norm") try "$scarp" measure "$dem" out.obj --image "$option" nonsense ;;
+      simplify*) try "$scarp" simplify "$dem" out.obj -e 1 "$option" nonsense ;;
+      measure*) try "$scarp" measure "$dem" out.obj "$option" nonsense ;;
+      info*) try "$scarp" info "$dem" "$option" nonsense ;;
+      generate*) try "$scarp" generate cliff 9 9 out.tif "$option" nonsense ;;
+    esac
+    [ "$code" = 1 ] || fail "$command $option nonsense ends with $code"
+    named=$(sed -E 's/.*choose //; s/ or /, /; s/,//g' "$logs/err" | tr ' ' '\n' | sort | xargs)
+    [ "$named" = "$(tr ' ' '\n' <<<"$choices" | sort | xargs)" ] || fail "$command $option: $choices, but the program says $named"
+  done <choices.txt
+
   check_words=$SCARP_SOURCE/tools/check_words.py
   python3 "$check_words" "$SCARP_SOURCE" >words.txt || fail "a line of Markdown is too long: $(head -n 3 words.txt)"
   mkdir pages
@@ -59,4 +115,4 @@ if command -v python3 >/dev/null; then
   if python3 "$check_words" pages >words.txt; then fail "a line of 161 characters was not noticed"; fi
   [ "$(cat words.txt)" = "planted.md:2: 161 characters, at most 160" ] || fail "wrong words: $(cat words.txt)"
 fi
-echo "man page and completions agree with --help"
+echo "man page, completions and docs/cli.md agree with the table of options"

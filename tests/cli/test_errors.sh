@@ -4,8 +4,9 @@ source "$(dirname "$0")/lib.sh"
 need gdal_translate gdal_create python3
 
 # Options.
-refuses 1 "no verb" "$scarp"
-refuses 1 "there is no verb simplfy" "$scarp" simplfy "$dem" out.glb
+refuses 1 "no command given: choose simplify" "$scarp"
+refuses 1 "unknown command 'simplfy'" "$scarp" simplfy "$dem" out.glb
+refuses 1 "unknown command 'simplfy'" "$scarp" help simplfy
 refuses 1 "scarp info" "$scarp" simplify "$dem" out.glb
 refuses 1 "INPUT" "$scarp" simplify
 refuses 1 "OUTPUT" "$scarp" simplify "$dem" -e 1
@@ -23,6 +24,7 @@ refuses 1 "--crs needs a value, and -q behind it" "$scarp" info "$dem" --crs -q
 succeeds "$scarp" simplify "$dem" "$root/o.glb" -e 100 --report=--plain -q # a value that reads like an option
 [ -s ./--plain ] || fail "--report=--plain wrote no file of that name"
 rm ./--plain "$root/o.glb"
+refuses 2 "nofile: no such file" "$scarp" simplify --breaklines nofile "$dem" out.glb -e 100 # one value each time
 refuses 1 "--max-error is given more than once" "$scarp" simplify "$dem" out.glb -e 1 -e 2
 for bad in -5 -0.1% nan NaN inf -inf garbage 5m 1e999 % "" "5 %" 0x10; do
   refuses 1 "" "$scarp" simplify "$dem" out.glb "--max-error=$bad"

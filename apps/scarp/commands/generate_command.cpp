@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "options/option_table.h"
 #include "scarp/generate.h"
 #include "terminal/text.h"
 
@@ -68,33 +69,17 @@ void place(OwnedHeightField& field, double size) {
 
 }  // namespace
 
-GenerateCommand::GenerateCommand(CLI::App& program)
-    : verb_(program.add_subcommand("generate", "Make a synthetic raster of heights")) {
-  verb_->add_option("STYLE", style_, "What to make, by name or by genstm's letter (below)")->type_name("")->required();
-  verb_->add_option("COLS", cols_, "Columns, at least 2")->type_name("")->required();
-  verb_->add_option("ROWS", rows_, "Rows, at least 2")->type_name("")->required();
-  verb_->add_option("OUTPUT", output_, "Raster to write: .tif (GeoTIFF, float32) or .pgm (16-bit)")
-      ->type_name("")
-      ->required();
-  verb_->add_option("--seed", seed_, "fractal, smooth: which one of them (default 0)")->type_name("N")->group("Field");
-  verb_->add_option("--range", range_, "Stretch the heights to 0 ... R")->type_name("R")->group("Field");
-  verb_->add_option("--size", size_, "Side of a cell: gives a GeoTIFF coordinates, the lower\nleft corner at 0, 0")
-      ->type_name("S")
-      ->group("Field");
-  verb_->add_option("--of", format_, "Raster format: tif or pgm (default: by OUTPUT's extension)")
-      ->type_name("FORMAT")
-      ->group("Output");
-  verb_->add_flag("--overwrite", overwrite_, "Replace a file that exists (default: refuse)")->group("Output");
-  verb_->add_flag("-q,--quiet", quiet_, "No summary")->group("Run");
-  verb_->footer(
-      "Styles: cliff (h), step (x), sharp-step (X), diagonal-step (d), sharp-diagonal-step (D), parabola (q),\n"
-      "paraboloid (p), scaled-paraboloid (P), pyramid (o), diagonal-pyramid (r), fractal, smooth.\n"
-      "Examples:\n"
-      "  scarp generate cliff 256 256 cliff.tif\n"
-      "  scarp generate fractal 1000 800 hills.tif --seed 7 --range 1200 --size 30\n"
-      "  scarp generate D 256 256 step.pgm\n"
-      "The same bytes on every machine.\n"
-      "Exit codes: 0 ok, 1 usage, 4 output, 70 internal error.");
+GenerateCommand::GenerateCommand(CLI::App& program) : verb_(add_command(program, kGenerate)) {
+  add_option(*verb_, OptionId::kStyle, style_);
+  add_option(*verb_, OptionId::kCols, cols_);
+  add_option(*verb_, OptionId::kRows, rows_);
+  add_option(*verb_, OptionId::kOutput, output_);
+  add_option(*verb_, OptionId::kSeed, seed_);
+  add_option(*verb_, OptionId::kRange, range_);
+  add_option(*verb_, OptionId::kSize, size_);
+  add_option(*verb_, OptionId::kOf, format_);
+  add_flag(*verb_, OptionId::kOverwrite, overwrite_);
+  add_flag(*verb_, OptionId::kQuiet, quiet_);
 }
 
 Result<void> GenerateCommand::run() const {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "options/option_table.h"
 #include "reports/report.h"
 #include "scarp/suggest.h"
 #include "scarp/version.h"
@@ -90,22 +91,12 @@ std::string make_table(const OwnedHeightField& field, const Suggestions& suggest
 
 }  // namespace
 
-InfoCommand::InfoCommand(CLI::App& program)
-    : verb_(program.add_subcommand("info", "Describe a raster and suggest errors for it")) {
-  verb_->add_option("RASTER", raster_.path, "Raster of heights: a file or URL that GDAL opens, PGM or STM")
-      ->type_name("")
-      ->required();
-  raster_.add_to(*verb_, "Coordinates that a mesh would have: source, local, grid\nor a CRS such as EPSG:32611");
-  verb_->add_flag("--json", json_, "The report as JSON on stdout")->group("Output");
-  verb_->add_flag("-q,--quiet", quiet_, "No progress, no warnings")->group("Run");
-  verb_->add_flag("--json-progress", json_progress_, "Progress as one JSON object a line on stderr")->group("Run");
-  verb_->footer(
-      "Examples:\n"
-      "  scarp info dem.tif\n"
-      "  scarp info N27E086.hgt.zip --json\n"
-      "The suggested errors are found by running the engine, on the whole raster up to 2 million samples and on\n"
-      "windows of it beyond (an estimate).\n"
-      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.");
+InfoCommand::InfoCommand(CLI::App& program) : verb_(add_command(program, kInfo)) {
+  add_option(*verb_, OptionId::kRaster, raster_.path);
+  raster_.add_to(*verb_);
+  add_flag(*verb_, OptionId::kJson, json_);
+  add_flag(*verb_, OptionId::kQuiet, quiet_);
+  add_flag(*verb_, OptionId::kJsonProgress, json_progress_);
 }
 
 Result<void> InfoCommand::run(const std::string& command_line) const {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "options/option_table.h"
 #include "reports/measure_report.h"
 #include "reports/report.h"
 #include "scarp/picture.h"
@@ -43,62 +44,23 @@ Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::s
 
 }  // namespace
 
-MeasureCommand::MeasureCommand(CLI::App& program)
-    : verb_(program.add_subcommand("measure", "Judge a mesh file against its raster, sample by sample")) {
-  verb_
-      ->add_option(
-          "RASTER", raster_.path,
-          "Raster of heights: a file or URL that GDAL opens, PGM\nor STM; with --image any image; or scattered points")
-      ->type_name("")
-      ->required();
-  verb_
-      ->add_option("MESH", mesh_,
-                   "Mesh to judge: GLB, OBJ, PLY, STL, TIN, 2DM, VTU, VTP,\nLandXML, DXF or 3MF, recognised by content")
-      ->type_name("")
-      ->required();
-  raster_.add_to(
-      *verb_,
-      "Coordinates of the mesh: source, local, grid or a CRS\nsuch as EPSG:32611. Default: what the mesh file "
-      "says of\nitself, else what simplify does by default");
+MeasureCommand::MeasureCommand(CLI::App& program) : verb_(add_command(program, kMeasure)) {
+  add_option(*verb_, OptionId::kRaster, raster_.path);
+  add_option(*verb_, OptionId::kMesh, mesh_);
+  raster_.add_to(*verb_);
   points_.add_to(*verb_);
-  verb_
-      ->add_option(
-          "--fail-above", fail_above_,
-          "End with exit code 3 if any error is above this (units\nof the heights; weighted, with a mask; combined, "
-          "with\nchannels; samples without a bound left out), a sample\nis uncovered or the mesh is not "
-          "sound. --tolerance\nfails without it")
-      ->type_name("E")
-      ->group("Verdict");
-  companions_.add_to(*verb_, "Samples that its lines 'i COL ROW' and 'u COL ROW'\nname have no bound (as in simplify)");
+  add_option(*verb_, OptionId::kFailAbove, fail_above_);
+  companions_.add_to(*verb_);
   cut_.add_to(*verb_);
   channels_.add_to(*verb_);
-  verb_->add_flag("--json", json_, "The report as JSON on stdout")->group("Output");
-  verb_->add_option("--map", map_, "Draw the signed errors in diverging colours")
-      ->type_name("FILE.png")
-      ->group("Output");
-  verb_
-      ->add_option("--error-raster", error_raster_,
-                   "Write the errors, mesh minus sample, as GeoTIFF\n(--image: their norm over the bands)")
-      ->type_name("FILE.tif")
-      ->group("Output");
-  verb_->add_flag("--overwrite", overwrite_, "Replace files that exist (default: refuse)")->group("Output");
-  verb_->add_option("-j,--num-threads", threads_, "Threads, 0 = all cores (default); never changes the result")
-      ->type_name("N")
-      ->group("Run");
-  memory_.add_to(*verb_,
-                 "Most memory that this run may take, such as 1G; a\nlarger raster is read row by row as it is judged");
-  verb_->add_flag("-q,--quiet", quiet_, "No table, no progress, no warnings")->group("Run");
-  verb_->add_flag("--json-progress", json_progress_, "Progress as one JSON object a line on stderr")->group("Run");
-  verb_->footer(
-      "Examples:\n"
-      "  scarp measure dem.tif hills.glb                   a table of errors and faults\n"
-      "  scarp measure dem.tif hills.glb --fail-above 1    exit code 3 unless every error is within 1 m\n"
-      "  scarp measure dem.tif hills.obj --json --map error.png\n"
-      "  scarp measure dem.tif hills.glb --tolerance t.tif exit code 3 if a sample is above its bound\n"
-      "  scarp measure dem.tif hills.glb --script outliers.txt --fail-above 1\n"
-      "  scarp measure photo.png photo.glb --image --fail-above 8\n"
-      "Errors are vertical, mesh minus sample, in the units of the heights.\n"
-      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.");
+  add_flag(*verb_, OptionId::kJson, json_);
+  add_option(*verb_, OptionId::kMap, map_);
+  add_option(*verb_, OptionId::kErrorRaster, error_raster_);
+  add_flag(*verb_, OptionId::kOverwrite, overwrite_);
+  add_option(*verb_, OptionId::kThreads, threads_);
+  memory_.add_to(*verb_);
+  add_flag(*verb_, OptionId::kQuiet, quiet_);
+  add_flag(*verb_, OptionId::kJsonProgress, json_progress_);
 }
 
 Result<void> MeasureCommand::check_outputs_of_run() const {

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "options/option_table.h"
 #include "paper/study.h"
 #include "scarp/version.h"
 #include "terminal/signals.h"
@@ -35,8 +36,7 @@ void add_header(paper::Study& study) {
         "Crater Lake, Ashby Gap, Ozark, the National Training Center (ntc) and the western US. Errors are vertical, in "
         "metres, over all samples.");
   } else {
-    study.page.paragraph(
-        "The folder holds none of the paper's fields, so there are no figures to compare with.");
+    study.page.paragraph("The folder holds none of the paper's fields, so there are no figures to compare with.");
   }
   study.page.paragraph(
       study.timing
@@ -76,31 +76,12 @@ Result<void> write_all(const paper::Study& study, const fs::path& page, bool ove
 
 }  // namespace
 
-PaperCommand::PaperCommand(CLI::App& program)
-    : verb_(program.add_subcommand("paper", "Repeat the experiments of Garland & Heckbert's report")) {
-  verb_
-      ->add_option("--data", data_,
-                   "Folder with the report's fields (crater, ashby, ozark,\nntc, westUS; .stm, .pgm or .tif, also "
-                   "scape_crater.stm),\nelse with any rasters")
-      ->type_name("DIR")
-      ->required()
-      ->group("Input");
-  verb_->add_option("--out", out_, "Folder for paper.md and images/paper (default docs)")
-      ->type_name("DIR")
-      ->group("Output");
-  verb_->add_flag("--no-timing", no_timing_, "Leave out what is measured: times and memory")->group("Output");
-  verb_->add_flag("--overwrite", overwrite_, "Replace files that exist (default: refuse)")->group("Output");
-  verb_->add_flag("-q,--quiet", quiet_, "Do not tell what is being done")->group("Run");
-  verb_->footer(
-      "Examples:\n"
-      "  scarp paper --data scape/Samples --overwrite\n"
-      "  scarp paper --data my_rasters --out my_report --no-timing\n"
-      "Plots are drawn by gnuplot (Debian: gnuplot-nox). Rasters with missing samples are left out, and so are rasters "
-      "of\n"
-      "more than 4 million samples. An astronaut.png, kodim05.png or kodim23.png, and a pair santa_barbara_elev.tif "
-      "and\n"
-      "santa_barbara_aerial.tif in the folder are used for the experiments with colours.\n"
-      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.");
+PaperCommand::PaperCommand(CLI::App& program) : verb_(add_command(program, kPaper)) {
+  add_option(*verb_, OptionId::kData, data_);
+  add_option(*verb_, OptionId::kOut, out_);
+  add_flag(*verb_, OptionId::kNoTiming, no_timing_);
+  add_flag(*verb_, OptionId::kOverwrite, overwrite_);
+  add_flag(*verb_, OptionId::kQuiet, quiet_);
 }
 
 Result<void> PaperCommand::run() const {

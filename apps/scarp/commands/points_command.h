@@ -17,7 +17,7 @@ struct PointsArguments {
   bool points = false;
   Given duplicates, layer, z_field;
 
-  void add_to(CLI::App& verb);
+  void add_to(CLI::App& command);
   /// True if the input is to be read as points: it was asked for, or its name says so.
   bool are_meant(const std::string& path) const { return points || is_point_file(path); }
   /// Fails if an option for points was given, for an input that is a raster.

@@ -8,6 +8,7 @@
 
 #include "inputs/waters.h"
 #include "options/conflicts.h"
+#include "options/option_table.h"
 #include "reports/report.h"
 #include "reports/simplify_outcome.h"
 #include "reports/simplify_report.h"
@@ -245,9 +246,7 @@ Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyO
 
 }  // namespace
 
-SimplifyCommand::SimplifyCommand(CLI::App& program)
-    : verb_(
-          program.add_subcommand("simplify", "Turn a raster of heights into a small mesh with a proven error bound")) {
+SimplifyCommand::SimplifyCommand(CLI::App& program) : verb_(add_command(program, kSimplify)) {
   given_.add_to(*verb_);
   points_.add_to(*verb_);
 }

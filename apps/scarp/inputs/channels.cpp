@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "inputs/companions.h"
+#include "options/option_table.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -113,29 +113,12 @@ void append(OwnedChannels& channels, OwnedChannels more) {
 
 }  // namespace
 
-void ChannelArguments::add_to(CLI::App& verb) {
-  const char* group = "Textures and images";
-  verb.add_flag("--image", image,
-                "INPUT is a planar image: the heights are 0, all bands\n(or --band N) are approximated; errors are in "
-                "grey\nlevels")
-      ->group(group);
-  verb.add_option("--texture", textures,
-                  "Image on the grid of the heights, whose bands count\nas errors too (repeatable)")
-      ->type_name("FILE")
-      ->allow_extra_args(false)
-      ->group(group);
-  verb.add_option("--texture-weight", texture_weight,
-                  "From 0 (heights only) to 1 (textures only); default\n0.5. Ranges of heights and bands count alike")
-      ->type_name("W")
-      ->group(group);
-  verb.add_option("--norm", norm,
-                  "How errors of heights and bands become one: l1 (sum;\ndefault), l2 or linf (the largest; default of "
-                  "--image)")
-      ->type_name("NORM")
-      ->group(group);
-  verb.add_option("--channel-weights", weights, "Weights of the bands, at least 0 (default: all alike)")
-      ->type_name("W1,W2,...")
-      ->group(group);
+void ChannelArguments::add_to(CLI::App& command) {
+  add_flag(command, OptionId::kImage, image);
+  add_option(command, OptionId::kTexture, textures);
+  add_option(command, OptionId::kTextureWeight, texture_weight);
+  add_option(command, OptionId::kNorm, norm);
+  add_option(command, OptionId::kChannelWeights, weights);
 }
 
 Result<ChannelPlan> ChannelArguments::parse(const RasterArguments& raster) const {

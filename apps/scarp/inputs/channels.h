@@ -32,7 +32,7 @@ struct ChannelArguments {
   std::vector<std::string> textures;
   Given texture_weight, norm, weights;
 
-  void add_to(CLI::App& verb);
+  void add_to(CLI::App& command);
   Result<ChannelPlan> parse(const RasterArguments& raster) const;
   std::string canonical() const;
 };

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <optional>
 
 #include "options/memory.h"
+#include "options/option_table.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -145,30 +145,12 @@ Result<void> read_tolerances(const CompanionArguments& given, const RasterInfo& 
 
 }  // namespace
 
-void CompanionArguments::add_to(CLI::App& verb, const char* script_help) {
-  const char* group = "Where it matters (rasters on the grid of the heights)";
-  verb.add_option("--mask", mask,
-                  "Weights of the samples' errors, 0 (no bound) to 1;\nif the largest is above 1, all are divided by "
-                  "it")
-      ->type_name("FILE")
-      ->group(group);
-  verb.add_option("--tolerance", tolerance,
-                  "Bounds of the samples' errors, in the units of the\nheights; no value means no bound. A goal of its "
-                  "own")
-      ->type_name("FILE")
-      ->group(group);
-  verb.add_option(
-          "--roi", roi,
-          "Region of interest: in the polygons, and on the lines,\nof a vector file errors are at most M. May be "
-          "given\nagain; the smallest bound counts")
-      ->type_name("FILE[:LAYER]=M")
-      ->group(group);
-  verb.add_option("--falloff", falloff,
-                  "Around regions the bound grows to that of all samples\nover this distance, in metres where they are "
-                  "known,\nelse units of the CRS (default 0: at once)")
-      ->type_name("D")
-      ->group(group);
-  verb.add_option("--script", script, script_help)->type_name("FILE")->group(group);
+void CompanionArguments::add_to(CLI::App& command) {
+  add_option(command, OptionId::kMask, mask);
+  add_option(command, OptionId::kTolerance, tolerance);
+  add_option(command, OptionId::kRoi, roi);
+  add_option(command, OptionId::kFalloff, falloff);
+  add_option(command, OptionId::kScript, script);
 }
 
 const char* CompanionArguments::find_tolerance() const {

@@ -22,9 +22,8 @@ struct CompanionArguments {
   Given mask, tolerance, script, falloff;
   std::vector<std::string> roi;  ///< FILE[:LAYER]=M
 
-  /// `script_help` is the verb's own sentence on --script.
-  void add_to(CLI::App& verb, const char* script_help);
-  /// Refuses what contradicts each other. `bound_option`: the verb's own for a bound of all samples; `has_bound`:
+  void add_to(CLI::App& command);
+  /// Refuses what contradicts each other. `bound_option`: the command's own for a bound of all samples; `has_bound`:
   /// whether it was given.
   Result<void> check(const char* bound_option, bool has_bound) const;
   /// The option that gives samples bounds of their own, other than weights; null if there is none.

@@ -2,22 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <utility>
 
 #include "commands/simplify_run.h"
+#include "options/memory.h"
+#include "options/option_table.h"
 #include "reports/report.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
 
-void CliffArguments::add_to(CLI::App& verb) {
-  verb.add_option(
-          "--cliff", height,
-          "Walls, where neighbouring samples differ by more than\nthis, in the raster's units, become two straight "
-          "lines a\npiece: fewer triangles around buildings and quarries")
-      ->type_name("H")
-      ->group("Cliffs");
-}
+void CliffArguments::add_to(CLI::App& command) { add_option(command, OptionId::kCliff, height); }
 
 Result<void> CliffArguments::check(bool has_error) const {
   if (!height) return {};

@@ -17,7 +17,7 @@ namespace scarp::cli {
 struct CliffArguments {
   Given height;
 
-  void add_to(CLI::App& verb);
+  void add_to(CLI::App& command);
   /// `has_error`: there is one for all samples, given or to be searched for.
   Result<void> check(bool has_error) const;
   std::string canonical() const { return canonical_option("--cliff", height); }

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <utility>
 
 #include "options/line_options.h"
+#include "options/option_table.h"
 #include "reports/report.h"
 #include "terminal/text.h"
 
@@ -27,21 +27,10 @@ std::array<double, 2> unit_of(const RasterInfo& raster) {
 
 }  // namespace
 
-void CutlineArguments::add_to(CLI::App& verb) {
-  const char* group = "Cutline";
-  verb.add_option("--cutline", files,
-                  "The surface ends at the polygons of a vector file;\ntheir rings become edges of the mesh, at the "
-                  "raster's\nheights. May be given again: what any of them holds")
-      ->type_name("FILE[:LAYER]")
-      ->group(group);
-  verb.add_option("--inset", inset,
-                  "Move the outline of the polygons inwards by D, or\noutwards if below 0; in metres where they are "
-                  "known,\nelse units of the CRS")
-      ->type_name("D")
-      ->group(group);
-  verb.add_flag("--mask-outside", mask_outside,
-                "Samples outside the polygons are void instead: the\nsurface ends at cells of the grid")
-      ->group(group);
+void CutlineArguments::add_to(CLI::App& command) {
+  add_option(command, OptionId::kCutline, files);
+  add_option(command, OptionId::kInset, inset);
+  add_flag(command, OptionId::kMaskOutside, mask_outside);
 }
 
 Result<void> CutlineArguments::check() const {

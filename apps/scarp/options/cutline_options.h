@@ -21,7 +21,7 @@ struct CutlineArguments {
   Given inset;
   bool mask_outside = false;
 
-  void add_to(CLI::App& verb);
+  void add_to(CLI::App& command);
   /// Refuses options that need others, and words that are unknown.
   Result<void> check() const;
   /// The option that asks for a cut along the polygons; null if there is none.

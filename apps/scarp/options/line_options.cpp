@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "commands/simplify_run.h"
+#include "options/option_table.h"
 #include "reports/report.h"
 #include "terminal/text.h"
 
@@ -44,38 +44,15 @@ Result<std::vector<Line>> read_files(const std::vector<std::string>& files, cons
   return lines;
 }
 
-void LineArguments::add_to(CLI::App& verb) {
-  const char* group = "Breaklines";
-  verb.add_option("--breaklines", breaklines,
-                  "Lines, and rings of polygons, that become edges of\nthe mesh, from any vector file that GDAL opens. "
-                  "With\nheights of their own they keep them, without they\nfollow the raster. May be given again")
-      ->type_name("FILE[:LAYER]")
-      ->group(group);
-  verb.add_option("--breakline-z", z_field, "Attribute that holds the height of a line, such as a\ncontour's")
-      ->type_name("FIELD")
-      ->group(group);
-  verb.add_flag("--soft-breaklines", are_soft, "Lines follow the raster, whatever heights they have")->group(group);
-  verb.add_option("--line-conflict", conflict,
-                  "Where lines of different heights meet: error\n(default), first, mean or highest")
-      ->type_name("RULE")
-      ->group(group);
-  verb.add_option(
-          "--water", water,
-          "Lakes: each polygon of a vector file becomes flat, at\na low height of its shore, and the shore edges "
-          "of\nthe mesh. May be given again")
-      ->type_name("FILE[:LAYER]")
-      ->group("Water");
-  verb.add_option("--water-percentile", percentile, "Share of the shore that lies below the lake's level\n(default 5)")
-      ->type_name("P")
-      ->group("Water");
-  verb.add_option("--detect-flats", flats,
-                  "Keep areas of at least N samples of one height flat:\ntheir shores become edges of the mesh")
-      ->type_name("N")
-      ->group("Water");
-  verb.add_option("--rivers", rivers,
-                  "Lines that become edges of the mesh and never rise\ndownstream. May be given again")
-      ->type_name("FILE[:LAYER]")
-      ->group("Water");
+void LineArguments::add_to(CLI::App& command) {
+  add_option(command, OptionId::kBreaklines, breaklines);
+  add_option(command, OptionId::kBreaklineZ, z_field);
+  add_flag(command, OptionId::kSoftBreaklines, are_soft);
+  add_option(command, OptionId::kLineConflict, conflict);
+  add_option(command, OptionId::kWater, water);
+  add_option(command, OptionId::kWaterPercentile, percentile);
+  add_option(command, OptionId::kDetectFlats, flats);
+  add_option(command, OptionId::kRivers, rivers);
 }
 
 const char* LineArguments::find_lines() const {

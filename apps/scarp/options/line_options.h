@@ -21,7 +21,7 @@ struct LineArguments {
   Given z_field, conflict, percentile, flats;
   bool are_soft = false;
 
-  void add_to(CLI::App& verb);
+  void add_to(CLI::App& command);
   /// Refuses options that need others, and words that are unknown.
   Result<void> check() const;
   /// The option that asks for lines in the mesh; null if there is none.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -11,6 +10,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "options/option_table.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -57,9 +57,7 @@ double megabytes_in_memory(const OwnedHeightField& field, const MemoryNeeds& nee
 
 }  // namespace
 
-void MemoryArguments::add_to(CLI::App& verb, const std::string& help) {
-  verb.add_option("--memory", memory, help)->type_name("SIZE")->group("Run");
-}
+void MemoryArguments::add_to(CLI::App& command) { add_option(command, OptionId::kMemory, memory); }
 
 Result<std::optional<std::uint64_t>> MemoryArguments::parse() const {
   if (!memory) return std::nullopt;

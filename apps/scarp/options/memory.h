@@ -17,8 +17,7 @@ namespace scarp::cli {
 struct MemoryArguments {
   Given memory;
 
-  /// `help` is the verb's own sentence.
-  void add_to(CLI::App& verb, const std::string& help);
+  void add_to(CLI::App& command);
   /// Bytes that the process may take; nothing if not given.
   Result<std::optional<std::uint64_t>> parse() const;
 };

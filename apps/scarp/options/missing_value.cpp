@@ -10,19 +10,19 @@ namespace scarp::cli {
 namespace {
 
 /// The option of which the word is a name, null if there is none.
-const CLI::Option* find_option(const CLI::App& verb, const std::string& word) {
-  return word.rfind('-', 0) == 0 ? verb.get_option_no_throw(word) : nullptr;
+const CLI::Option* find_option(const CLI::App& command, const std::string& word) {
+  return word.rfind('-', 0) == 0 ? command.get_option_no_throw(word) : nullptr;
 }
 
-/// True for a verb's options and for all that begins like a long one; -5 is a value.
-bool reads_as_option(const CLI::App& verb, const std::string& word) {
+/// True for a command's options and for all that begins like a long one; -5 is a value.
+bool reads_as_option(const CLI::App& command, const std::string& word) {
   const bool is_long = word.size() > 2 && word.rfind("--", 0) == 0 && std::isalpha(static_cast<unsigned char>(word[2]));
-  return is_long || find_option(verb, word) != nullptr;
+  return is_long || find_option(command, word) != nullptr;
 }
 
-const CLI::App* find_verb(const CLI::App& program, std::string_view name) {
-  for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; })) {
-    if (verb->get_name() == name) return verb;
+const CLI::App* find_chosen(const CLI::App& program, std::string_view name) {
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == name) return command;
   }
   return nullptr;
 }
@@ -30,13 +30,13 @@ const CLI::App* find_verb(const CLI::App& program, std::string_view name) {
 }  // namespace
 
 std::optional<std::string> find_missing_value(const CLI::App& program, int argc, const char* const* argv) {
-  const CLI::App* verb = argc > 1 ? find_verb(program, argv[1]) : nullptr;
-  if (verb == nullptr) return std::nullopt;
+  const CLI::App* command = argc > 1 ? find_chosen(program, argv[1]) : nullptr;
+  if (command == nullptr) return std::nullopt;
   for (int k = 2; k + 1 < argc && std::string_view(argv[k]) != "--"; ++k) {
-    const CLI::Option* option = find_option(*verb, argv[k]);
+    const CLI::Option* option = find_option(*command, argv[k]);
     if (option == nullptr || option->get_items_expected_max() == 0) continue;
     ++k;
-    if (reads_as_option(*verb, argv[k]))
+    if (reads_as_option(*command, argv[k]))
       return fmt::format("{} needs a value, and {} behind it reads as an option", option->get_name(), argv[k]);
   }
   return std::nullopt;

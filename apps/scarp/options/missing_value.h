@@ -12,7 +12,7 @@ namespace scarp::cli {
 
 /// The complaint about the first word that reads as an option where the value of the one before it belongs, as in
 /// "--report --overwrite", which CLI11 would take for a value. A value that reads like an option is given as
-/// "--report=--overwrite". Nothing if there is none. Looks at the options of the verb that argv names.
+/// "--report=--overwrite". Nothing if there is none. Looks at the options of the command that argv names.
 std::optional<std::string> find_missing_value(const CLI::App& program, int argc, const char* const* argv);
 
 }  // namespace scarp::cli

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+
+#include "options/option_table.h"
 
 namespace scarp::cli {
 namespace {
@@ -101,18 +102,11 @@ Error name_goal(const ErrorGoal& goal, double relief, Error error) {
   return error;
 }
 
-void RasterArguments::add_to(CLI::App& verb, const std::string& crs_help) {
-  verb.add_option("--band", band, "Band to read, counted from 1 (default 1)")->type_name("N")->group("Input");
-  verb.add_option("--nodata", nodata,
-                  "Value that marks missing samples, in place of what\nthe file declares (a number or nan)")
-      ->type_name("V")
-      ->group("Input");
-  verb.add_option("--decode", decode,
-                  "Heights packed into red, green and blue:\nterrarium (R*256 + G + B/256 - 32768 m) or\n"
-                  "mapbox ((R*65536 + G*256 + B)/10 - 10000 m)")
-      ->type_name("SCHEME")
-      ->group("Input");
-  verb.add_option("--crs", crs, crs_help)->type_name("CRS")->group("Input");
+void RasterArguments::add_to(CLI::App& command) {
+  add_option(command, OptionId::kBand, band);
+  add_option(command, OptionId::kNodata, nodata);
+  add_option(command, OptionId::kDecode, decode);
+  add_option(command, OptionId::kCrs, crs);
 }
 
 Result<ReadOptions> RasterArguments::parse() const {

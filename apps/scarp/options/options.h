@@ -1,4 +1,4 @@
-// What the verbs' options have in common: reading numbers, rasters' options, checks of output files.
+// What the commands' options have in common: reading numbers, rasters' options, checks of output files.
 #pragma once
 
 #include <fmt/format.h>
@@ -74,13 +74,13 @@ Result<ErrorGoal> parse_error_goal(std::string_view option, const std::string& t
 /// What the library says of a max error, with the share of the relief that was asked for.
 Error name_goal(const ErrorGoal& goal, double relief, Error error);
 
-/// The options of every verb that reads a raster.
+/// The options of every command that reads a raster.
 struct RasterArguments {
   std::string path;
   Given band, nodata, decode, crs;
 
-  /// Adds INPUT's companions; `crs_help` is the verb's own sentence on --crs.
-  void add_to(CLI::App& verb, const std::string& crs_help);
+  /// Adds the options; the path is an argument of its own.
+  void add_to(CLI::App& command);
   Result<ReadOptions> parse() const;
 };
 

@@ -1,28 +1,17 @@
 // The options for scattered points.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 #include "commands/points_command.h"
+#include "options/option_table.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
 
-void PointsArguments::add_to(CLI::App& verb) {
-  constexpr const char* kGroup = "Scattered points (.csv .xyz .gpkg .geojson .shp ...)";
-  verb.add_flag("--points", points, "INPUT is points, whatever its name ends in")->group(kGroup);
-  verb.add_option("--duplicates", duplicates,
-                  "Of several points at one place take the first\n(default), last, highest, lowest or their mean")
-      ->type_name("POLICY")
-      ->group(kGroup);
-  verb.add_option("--layer", layer, "Layer to read (default: the first one with points)")
-      ->type_name("NAME")
-      ->group(kGroup);
-  verb.add_option("--z-field", z_field,
-                  "Column or attribute with the heights (default: the\nthird coordinate, else z, height, elevation, "
-                  "elev, h)")
-      ->type_name("NAME")
-      ->group(kGroup);
+void PointsArguments::add_to(CLI::App& command) {
+  add_flag(command, OptionId::kPoints, points);
+  add_option(command, OptionId::kDuplicates, duplicates);
+  add_option(command, OptionId::kLayer, layer);
+  add_option(command, OptionId::kZField, z_field);
 }
 
 Result<void> PointsArguments::check_unused(const std::string& path) const {

@@ -2,24 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <utility>
 
 #include "commands/simplify_run.h"
+#include "options/memory.h"
+#include "options/option_table.h"
 #include "reports/report.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
 
-void RidgeArguments::add_to(CLI::App& verb) {
-  const char* group = "Ridges and valleys";
-  verb.add_option("--ridges", height,
-                  "Prefer edges along ridges and valleys: lines that the\nland falls from, or rises from, by this much "
-                  "on both\nsides, in the raster's units. Best at the max error or\nabove")
-      ->type_name("H")
-      ->group(group);
-  verb.add_flag("--keep-ridges", are_kept,
-                "Keep all of these lines as edges of the mesh, whatever\nthe effort: this takes more triangles")
-      ->group(group);
+void RidgeArguments::add_to(CLI::App& command) {
+  add_option(command, OptionId::kRidges, height);
+  add_flag(command, OptionId::kKeepRidges, are_kept);
 }
 
 Result<void> RidgeArguments::check(bool has_error) const {

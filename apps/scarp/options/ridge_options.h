@@ -18,7 +18,7 @@ struct RidgeArguments {
   Given height;
   bool are_kept = false;
 
-  void add_to(CLI::App& verb);
+  void add_to(CLI::App& command);
   /// `has_error`: there is one for all samples, given or to be searched for.
   Result<void> check(bool has_error) const;
   std::string canonical() const;

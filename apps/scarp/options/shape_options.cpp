@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <tuple>
 
 #include "commands/simplify_run.h"
+#include "options/option_table.h"
 #include "reports/report.h"
 #include "terminal/text.h"
 
@@ -23,22 +23,10 @@ Result<std::optional<double>> parse_above_zero(const char* option, const Given& 
 
 }  // namespace
 
-void ShapeArguments::add_to(CLI::App& verb) {
-  const char* group = "Shape (for simulation: vertices are added until it holds)";
-  verb.add_option(
-          "--min-angle", min_angle,
-          "No triangle has a smaller angle seen from above, in\ndegrees, 0 to 33; what corners between lines or\n"
-          "outline force is left and counted")
-      ->type_name("DEG")
-      ->group(group);
-  verb.add_option("--max-edge", max_edge, "No edge is longer seen from above, in the units of\nx and y of the mesh")
-      ->type_name("LENGTH")
-      ->group(group);
-  verb.add_option("--grade", grade,
-                  "How fast edges may grow: none is longer than\n2 (s + G d), d from its far end to an edge of\n"
-                  "length s; 0.2 is moderate")
-      ->type_name("G")
-      ->group(group);
+void ShapeArguments::add_to(CLI::App& command) {
+  add_option(command, OptionId::kMinAngle, min_angle);
+  add_option(command, OptionId::kMaxEdge, max_edge);
+  add_option(command, OptionId::kGrade, grade);
 }
 
 Result<ShapeGoals> ShapeArguments::parse() const {

@@ -17,7 +17,7 @@ namespace scarp::cli {
 struct ShapeArguments {
   Given min_angle, max_edge, grade;
 
-  void add_to(CLI::App& verb);
+  void add_to(CLI::App& command);
   Result<ShapeGoals> parse() const;
   /// The option that asks for shapes; null if there is none.
   const char* find_goal() const;

@@ -47,7 +47,7 @@ struct SimplifyArguments {
   SolidArguments solid;
   bool normals = false, uvs = false, overwrite = false, quiet = false, timing = false, json_progress = false;
 
-  void add_to(CLI::App& verb);
+  void add_to(CLI::App& command);
 };
 
 struct SimplifyPlan {

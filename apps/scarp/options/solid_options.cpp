@@ -1,10 +1,11 @@
 #include "options/solid_options.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
+
+#include "options/option_table.h"
 
 namespace scarp::cli {
 namespace {
@@ -121,18 +122,9 @@ Result<void> take_split(const Pair& pair, bool is_first, PrintOptions& plan, boo
 
 }  // namespace
 
-void SolidArguments::add_to(CLI::App& verb) {
-  verb.add_option("--solid", solid,
-                  "Close the mesh into a solid for printing, proven\nclosed: base=H (height in the raster's units) or\n"
-                  "thickness=T (below the lowest vertex, 3mm or in the\nraster's units), size=120mm (longest side), "
-                  "exaggerate=F\n(heights), in .stl, .3mf, .obj or .ply")
-      ->type_name("KEY=VALUE,...")
-      ->group("Output");
-  verb.add_option("--split", split,
-                  "Cut the solid into sheets, each a file (OUT-r1-c1.stl)\nor an object of one .3mf; joint=dovetail "
-                  "lets them hook\ninto each other, gap=0.2mm leaves room between")
-      ->type_name("CxR[,KEY=VALUE]")
-      ->group("Output");
+void SolidArguments::add_to(CLI::App& command) {
+  add_option(command, OptionId::kSolid, solid);
+  add_option(command, OptionId::kSplit, split);
 }
 
 Result<std::optional<PrintOptions>> SolidArguments::parse() const {

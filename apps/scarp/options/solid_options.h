@@ -16,7 +16,7 @@ namespace scarp::cli {
 struct SolidArguments {
   Given solid, split;
 
-  void add_to(CLI::App& verb);
+  void add_to(CLI::App& command);
   /// Nothing without --solid.
   Result<std::optional<PrintOptions>> parse() const;
   std::string canonical() const { return canonical_option("--solid", solid) + canonical_option("--split", split); }

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <chrono>
 #include <string_view>
 
+#include "options/option_table.h"
 #include "reports/report.h"
 #include "terminal/text.h"
 
@@ -138,79 +138,21 @@ std::string importance_name(const Importance& importance) {
   return importance.global ? "global*" + name : name;
 }
 
-void StrategyArguments::add_to(CLI::App& verb) {
-  verb.add_option(
-          "--effort", effort,
-          "fast: the mesh as refined. normal (default where possible):\nthen removes vertices for as long as "
-          "every sample keeps the\nbound: about half the triangles. high: and repairs what that\nbreaks: three "
-          "tenths, for ten times the time. max: deeper, a hundred\ntimes. With -t or -p: a smaller error instead.\n"
-          "Not with --edges data")
-      ->type_name("LEVEL");
-  verb.add_option("--vertices", vertices,
-                  "Where --effort high and max may put vertices: free (default;\nbetween samples too, with heights of "
-                  "their own; not\nwith --texture and --image) or samples (a fourth more triangles)")
-      ->type_name("WHERE");
-  verb.add_option(
-          "--min-shape", min_shape,
-          "No triangle is made thinner than this by an effort: height\nover longest edge, 0 to 0.5 (default: 0.1 "
-          "with free vertices,\nelse 0)")
-      ->type_name("Q");
-  verb.add_option("--time-limit", time_limit,
-                  "After so many seconds efforts end, with the mesh so far; until\nthen max goes on for as long as "
-                  "there is something to gain.\nThe mesh then depends on the time")
-      ->type_name("SECONDS");
-  verb.add_option("--objective", objective,
-                  "What -t and -p make as small as they can with --effort\nnormal or more: the max error (max, "
-                  "default) or the RMSE\n(rms)")
-      ->type_name("NAME");
-  const char* group = "Strategy (which samples become vertices; the promise stays the same)";
-  verb.add_option("--importance", importance,
-                  "What is inserted next: the sample with the largest\nglobal (error of the mesh; default), local or "
-                  "local8\n(difference from its 4 or 8 neighbours' mean) or\ncurvature; or products of them: "
-                  "global*local,\n'global*(local+1)', 'global*sqrt(curvature+1)'")
-      ->type_name("FORMULA")
-      ->group(group);
-  verb.add_flag("--one-pass", one_pass,
-                "Rank all samples once, by a feature of the raster,\nand insert the best until a goal is reached: for "
-                "-t\nand -p (with -e it inserts nearly everything)")
-      ->group(group);
-  verb.add_option(
-          "--order", order,
-          "dominant: the worst sample of its neighbourhood\nfirst, on all threads; for -e alone, and then the\n"
-          "default. greedy: the worst of the whole raster\nfirst, as the report has it; the default of all else")
-      ->type_name("NAME")
-      ->group(group);
-  verb.add_option(
-          "--algorithm", algorithm,
-          "How the greedy order finds the next sample: brute,\nlocal or heap (default): the report's algorithms "
-          "I,\nII and III. The mesh is the same")
-      ->type_name("NAME")
-      ->group(group);
-  verb.add_option("--batch", batch,
-                  "Insert many samples between two looks at the mesh:\nconst (all that break the bound), frac:A (all "
-                  "of at\nleast A times the worst) or independent (in\ntriangles not yet changed). Default: one at a "
-                  "time")
-      ->type_name("RULE")
-      ->group(group);
-  verb.add_option("--edges", edges,
-                  "Which diagonals are kept: delaunay (default; well-\nshaped triangles) or data (those that fit the "
-                  "heights)")
-      ->type_name("RULE")
-      ->group(group);
-  verb.add_option("--edge-score", edge_score,
-                  "data: what a diagonal is judged by: sum (default) or\nmax of its triangles' worst errors, sqerr "
-                  "(squared\nerrors), abn (angle between normals), tight (fewest\ntriangles at equal error)")
-      ->type_name("SCORE")
-      ->group(group);
-  verb.add_option("--shape-threshold", shape_threshold,
-                  "data: 0 looks at the data alone, 1 at the shape\nalone (default 0.5; tight: 0.1)")
-      ->type_name("Q")
-      ->group(group);
-  verb.add_option(
-          "--supersample", supersample,
-          "data: judge thin triangles on a finer lattice of\nbilinear heights; 0.8 is moderate (default 0, off)")
-      ->type_name("F")
-      ->group(group);
+void StrategyArguments::add_to(CLI::App& command) {
+  add_option(command, OptionId::kEffort, effort);
+  add_option(command, OptionId::kVertices, vertices);
+  add_option(command, OptionId::kMinShape, min_shape);
+  add_option(command, OptionId::kTimeLimit, time_limit);
+  add_option(command, OptionId::kObjective, objective);
+  add_option(command, OptionId::kImportance, importance);
+  add_flag(command, OptionId::kOnePass, one_pass);
+  add_option(command, OptionId::kOrder, order);
+  add_option(command, OptionId::kAlgorithm, algorithm);
+  add_option(command, OptionId::kBatch, batch);
+  add_option(command, OptionId::kEdges, edges);
+  add_option(command, OptionId::kEdgeScore, edge_score);
+  add_option(command, OptionId::kShapeThreshold, shape_threshold);
+  add_option(command, OptionId::kSupersample, supersample);
 }
 
 Result<void> StrategyArguments::parse_into(SimplifyOptions& options) const {

@@ -18,7 +18,7 @@ struct StrategyArguments {
       shape_threshold, supersample;
   bool one_pass = false;
 
-  void add_to(CLI::App& verb);
+  void add_to(CLI::App& command);
   /// Sets effort, objective, importance, order, algorithm, batch and edges of the options.
   Result<void> parse_into(SimplifyOptions& options) const;
   /// Whether the greedy order was asked for, by name or by naming one of its algorithms.

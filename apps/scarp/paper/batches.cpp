@@ -84,10 +84,9 @@ Result<void> add_batches(Study& study) {
     }
   }
   std::vector<std::string> remarks{
-      sequential_best
-          ? "Of the paper's rules, one at a time makes the smallest meshes on every field: a batch inserts "
-            "samples whose error its own earlier insertions have already mended."
-          : "One at a time is not the smallest of the paper's rules on every field here."};
+      sequential_best ? "Of the paper's rules, one at a time makes the smallest meshes on every field: a batch inserts "
+                        "samples whose error its own earlier insertions have already mended."
+                      : "One at a time is not the smallest of the paper's rules on every field here."};
   if (independent_better) {
     remarks.push_back(
         "Independent candidates need fewer vertices than any threshold on every field: none of them is stale when it "

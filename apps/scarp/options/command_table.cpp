@@ -1,0 +1,71 @@
+// The commands, and what their help says below the options.
+#include "options/option_table.h"
+
+namespace scarp::cli {
+namespace {
+
+constexpr CommandRow kCommandRows[] = {
+    {kSimplify, "simplify", "Turn a raster of heights into a small mesh with a proven error bound",
+     "INPUT OUTPUT [OPTIONS]",
+     "Examples:\n"
+     "  scarp simplify dem.tif hills.glb -e 1                  every sample within 1 m\n"
+     "  scarp simplify dem.tif hills.glb -e 1 --effort high    fewer triangles, more time\n"
+     "  scarp simplify dem.tif hills.glb -e 1 --crs local      metres around the centre, for viewers\n"
+     "  scarp simplify dem.tif hills.obj -e 0.5%               within half a percent of the relief\n"
+     "  scarp simplify dem.tif hills.glb -t 5000 --preview hills.png --report hills.json\n"
+     "  scarp simplify dem.tif print.3mf -e 1 --solid size=120mm    a solid for a 3-D printer\n"
+     "  scarp simplify tile.png tile.glb -e 1 --decode terrarium    a tile from the web\n"
+     "  scarp simplify survey.csv hills.glb -e 0.5             scattered points: x, y, z\n"
+     "  scarp simplify dem.tif hills.glb -e 1 --texture ortho.tif   colours count too\n"
+     "  scarp simplify photo.png photo.glb -p 2000 --image --render seen.png\n"
+     "'scarp info dem.tif' suggests errors. 'scarp measure dem.tif hills.glb' checks a mesh.\n"
+     "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
+    {kMeasure, "measure", "Judge a mesh file against its raster, sample by sample", "RASTER MESH [OPTIONS]",
+     "Give --mask, --script, --cutline, --texture and --image as they were given to simplify.\n"
+     "Errors are vertical, mesh minus sample, in the units of the heights.\n"
+     "Examples:\n"
+     "  scarp measure dem.tif hills.glb                      a table of errors and faults\n"
+     "  scarp measure dem.tif hills.glb --fail-above 1       exit code 3 unless every error is within 1 m\n"
+     "  scarp measure dem.tif hills.obj --json --map error.png\n"
+     "  scarp measure dem.tif hills.glb --tolerance t.tif    exit code 3 if a sample breaks its tolerance\n"
+     "  scarp measure dem.tif hills.glb --script outliers.txt --fail-above 1\n"
+     "  scarp measure photo.png photo.glb --image --fail-above 8\n"
+     "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
+    {kInfo, "info", "Describe a raster and suggest errors for it", "RASTER [OPTIONS]",
+     "The suggested errors are found by running the engine: on the whole raster up to 2 million samples,\n"
+     "on windows of it beyond that (an estimate).\n"
+     "Examples:\n"
+     "  scarp info dem.tif\n"
+     "  scarp info N27E086.hgt.zip --json\n"
+     "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
+    {kGenerate, "generate", "Make a synthetic raster of heights", "STYLE COLS ROWS OUTPUT [OPTIONS]",
+     "Styles: cliff (h), step (x), sharp-step (X), diagonal-step (d), sharp-diagonal-step (D),\n"
+     "parabola (q), paraboloid (p), scaled-paraboloid (P), pyramid (o), diagonal-pyramid (r), fractal,\n"
+     "smooth.\n"
+     "The bytes are the same on every machine.\n"
+     "Examples:\n"
+     "  scarp generate cliff 256 256 cliff.tif\n"
+     "  scarp generate fractal 1000 800 hills.tif --seed 7 --range 1200 --size 30\n"
+     "  scarp generate D 256 256 step.pgm\n"
+     "Exit codes: 0 ok, 1 usage, 4 output, 70 internal error.\n"},
+    {kPaper, "paper", "Repeat the experiments of the 1995 paper", "--data DIR [OPTIONS]",
+     "The paper is Garland & Heckbert, Fast Polygonal Approximation of Terrains and Height Fields.\n"
+     "Plots are drawn by gnuplot (Debian: gnuplot-nox). Rasters with missing samples, or with more than\n"
+     "4 million samples, are left out. Experiments with colours use astronaut.png, kodim05.png,\n"
+     "kodim23.png and the pair santa_barbara_elev.tif, santa_barbara_aerial.tif where the folder has them.\n"
+     "Examples:\n"
+     "  scarp paper --data scape/Samples --overwrite\n"
+     "  scarp paper --data my_rasters --out my_experiments --no-timing\n"
+     "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
+    {kHelpCommand, "help", "Explain a command, or print the table of options", "[COMMAND] [OPTIONS]",
+     "Examples:\n"
+     "  scarp help simplify              the same as scarp simplify --help\n"
+     "  scarp help --json                every command and option, for programs that build on Scarp\n"
+     "Exit codes: 0 ok, 1 usage, 4 output, 70 internal error.\n"},
+};
+
+}  // namespace
+
+std::span<const CommandRow> command_rows() { return kCommandRows; }
+
+}  // namespace scarp::cli

@@ -1,0 +1,108 @@
+// What a mesh must reach, and how much work Scarp does for it.
+#include "options/option_rows.h"
+
+namespace scarp::cli {
+namespace {
+
+using enum OptionId;
+using enum OptionType;
+
+constexpr OptionRow kGoalRows[] = {
+    {.id = kMaxError,
+     .name = "--max-error",
+     .short_name = "-e",
+     .commands = kSimplify,
+     .group = OptionGroup::kGoals,
+     .type = kNumber,
+     .value = "M|P%",
+     .unit = "units of the heights, or % of the relief",
+     .range = "at least 0",
+     .help = "No sample is farther than this from the mesh, measured vertically. M is in the units of the heights, "
+             "P% (0.5%) is a share of the relief. 0 reproduces every sample."},
+    {.id = kMaxTriangles,
+     .name = "--max-triangles",
+     .short_name = "-t",
+     .commands = kSimplify,
+     .group = OptionGroup::kGoals,
+     .type = kCount,
+     .value = "N",
+     .unit = "triangles",
+     .range = "at least 1",
+     .help = "At most this many triangles."},
+    {.id = kMaxPoints,
+     .name = "--max-points",
+     .short_name = "-p",
+     .commands = kSimplify,
+     .group = OptionGroup::kGoals,
+     .type = kCount,
+     .value = "N",
+     .unit = "vertices",
+     .range = "at least 1",
+     .help = "At most this many vertices."},
+    {.id = kObjective,
+     .name = "--objective",
+     .commands = kSimplify,
+     .group = OptionGroup::kGoals,
+     .type = kChoice,
+     .choices = "max rms",
+     .by_default = "max",
+     .help = "What to minimise under -t or -p: the max error or the RMSE. Needs --effort normal or more."},
+
+    {.id = kFailAbove,
+     .name = "--fail-above",
+     .commands = kMeasure,
+     .group = OptionGroup::kVerdict,
+     .type = kNumber,
+     .value = "E",
+     .unit = "units of the heights",
+     .range = "at least 0",
+     .help = "End with exit code 3 if an error is above this, a sample is uncovered or the mesh is not sound. Errors "
+             "are in the units of the heights: weighted with --mask, combined with --texture and --image."},
+
+    {.id = kEffort,
+     .name = "--effort",
+     .commands = kSimplify,
+     .group = OptionGroup::kEffort,
+     .type = kChoice,
+     .value = "LEVEL",
+     .choices = "fast normal high max",
+     .by_default = "normal; fast with tolerances, strategies or --memory",
+     .help = "How much work to do for fewer triangles. fast: refine only. normal: also remove vertices; 0.56 of the "
+             "triangles of fast. high: also move vertices; 0.36. max: try more of that; 0.30. CPU time is 0.5, 1.2, "
+             "6.5 and 62 times that of --order greedy. With -t or -p: a smaller error instead."},
+    {.id = kVertices,
+     .name = "--vertices",
+     .commands = kSimplify,
+     .group = OptionGroup::kEffort,
+     .type = kChoice,
+     .choices = "free samples",
+     .by_default = "free where possible",
+     .help = "Where high and max may place vertices. free: between samples too. samples: only on them; mostly 15 to "
+             "45 % more triangles."},
+    {.id = kMinShape,
+     .name = "--min-shape",
+     .commands = kSimplify,
+     .group = OptionGroup::kEffort,
+     .type = kNumber,
+     .value = "Q",
+     .unit = "height over longest edge",
+     .by_default = "0.1 with free vertices, else 0",
+     .range = "0 to 0.5",
+     .help = "Do not create triangles thinner than this (height over longest edge)."},
+    {.id = kTimeLimit,
+     .name = "--time-limit",
+     .commands = kSimplify,
+     .group = OptionGroup::kEffort,
+     .type = kNumber,
+     .value = "SECONDS",
+     .unit = "seconds",
+     .range = "at least 0",
+     .help = "Stop improving after SECONDS and write the best mesh so far. It still meets the bound, but depends on "
+             "timing; max uses all of the time."},
+};
+
+}  // namespace
+
+std::span<const OptionRow> goal_rows() { return kGoalRows; }
+
+}  // namespace scarp::cli

@@ -1,0 +1,199 @@
+// The one table of options: `--help`, `scarp help --json`, CLI11's registration, the man page, the completions and the
+// tables of docs/cli.md are made from it.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace scarp::cli {
+
+enum class OptionId {
+  kInput,
+  kOutput,
+  kRaster,
+  kMesh,
+  kStyle,
+  kCols,
+  kRows,
+  kCommand,
+  kMaxError,
+  kMaxTriangles,
+  kMaxPoints,
+  kObjective,
+  kFailAbove,
+  kBand,
+  kDecode,
+  kCrs,
+  kOf,
+  kNormals,
+  kUvs,
+  kPreview,
+  kRender,
+  kErrorRaster,
+  kMap,
+  kReport,
+  kJson,
+  kOverwrite,
+  kEffort,
+  kVertices,
+  kMinShape,
+  kTimeLimit,
+  kNodata,
+  kNodataPolicy,
+  kFillDistance,
+  kBackground,
+  kOutlineTolerance,
+  kMask,
+  kTolerance,
+  kRoi,
+  kFalloff,
+  kScript,
+  kBreaklines,
+  kBreaklineZ,
+  kSoftBreaklines,
+  kLineConflict,
+  kCutline,
+  kInset,
+  kMaskOutside,
+  kCliff,
+  kRidges,
+  kKeepRidges,
+  kWater,
+  kWaterPercentile,
+  kDetectFlats,
+  kRivers,
+  kMinAngle,
+  kMaxEdge,
+  kGrade,
+  kBase,
+  kSolid,
+  kSplit,
+  kTexture,
+  kTextureWeight,
+  kImage,
+  kNorm,
+  kChannelWeights,
+  kPoints,
+  kDuplicates,
+  kLayer,
+  kZField,
+  kImportance,
+  kOnePass,
+  kOrder,
+  kAlgorithm,
+  kBatch,
+  kEdges,
+  kEdgeScore,
+  kShapeThreshold,
+  kSupersample,
+  kSeed,
+  kRange,
+  kSize,
+  kData,
+  kOut,
+  kNoTiming,
+  kMemory,
+  kThreads,
+  kQuiet,
+  kTiming,
+  kJsonProgress,
+  kHelp,
+  kVersion,
+};
+
+/// In the order in which help lists them.
+enum class OptionGroup {
+  kArguments,
+  kGoals,
+  kVerdict,
+  kField,
+  kInput,
+  kOutput,
+  kEffort,
+  kNodata,
+  kWhereItMatters,
+  kLines,
+  kWater,
+  kShape,
+  kSolids,
+  kTextures,
+  kPoints,
+  kStrategies,
+  kMemory,
+  kRun,
+};
+
+enum class OptionType {
+  kFlag,    ///< takes no value
+  kNumber,  ///< a number, perhaps with a unit behind it
+  kCount,   ///< a whole number
+  kText,    ///< any text; `choices` are proposals
+  kChoice,  ///< one of `choices`
+  kFile,    ///< `choices` are the endings of its name, if not any will do
+  kFolder,
+};
+
+/// Commands as bits, so that a row can belong to several.
+using Commands = unsigned;
+inline constexpr Commands kSimplify = 1, kMeasure = 2, kInfo = 4, kGenerate = 8, kPaper = 16, kHelpCommand = 32;
+inline constexpr Commands kEveryCommand = 63;
+
+struct OptionRow {
+  OptionId id;
+  const char* name;             ///< "--max-error"; "INPUT" for an argument without a name
+  const char* short_name = "";  ///< "-e"
+  Commands commands;
+  OptionGroup group;
+  OptionType type;
+  const char* value = "";    ///< what help calls the value; empty: the choices
+  const char* choices = "";  ///< words, separated by blanks
+  const char* unit = "";
+  const char* by_default = "";  ///< empty: the option does nothing unless it is given
+  const char* range = "";
+  bool is_repeatable = false;
+  bool is_required = false;
+  const char* help;  ///< one or two sentences; completions take the first
+
+  bool is_argument() const { return name[0] != '-'; }
+  std::vector<std::string> list_choices() const;
+  /// "M|P%", "hole|fill|background"; empty for a flag.
+  std::string value_text() const;
+};
+
+struct CommandRow {
+  Commands command;  ///< one bit
+  const char* name;
+  const char* summary;
+  const char* usage;  ///< behind the name
+  const char* notes;  ///< examples and exit codes, ends of lines included
+};
+
+struct GroupRow {
+  OptionGroup group;
+  const char* name;
+  const char* note;  ///< behind the name where help lists the group; may be empty
+};
+
+std::span<const CommandRow> command_rows();
+std::span<const GroupRow> group_rows();
+/// Every row that the command has, in the order in which help lists them.
+std::vector<const OptionRow*> rows_of(Commands command);
+/// Null if there is no such command.
+const CommandRow* find_command(std::string_view name);
+
+/// Registers the option as its row says. Throws std::logic_error if the command has no such row.
+void add_option(CLI::App& command, OptionId id, std::string& value);
+void add_option(CLI::App& command, OptionId id, std::optional<std::string>& value);
+void add_option(CLI::App& command, OptionId id, std::vector<std::string>& values);
+void add_flag(CLI::App& command, OptionId id, bool& value);
+/// The command of the program, with its --version.
+CLI::App* add_command(CLI::App& program, Commands command);
+
+}  // namespace scarp::cli

@@ -1,0 +1,306 @@
+#!/usr/bin/env python3
+"""Writes what the table of options says into the man page, the completions and the tables of docs/cli.md.
+
+usage: generate_docs.py PROGRAM [--check] [--tree TREE]
+
+PROGRAM is build/bin/scarp, whose `help --json` prints the table. Completions are written as a whole. In
+docs/man/scarp.1 the lines between `options begin` and `options end` are written, in docs/cli.md the tables between
+`<!-- options COMMAND: WHAT … -->` and `<!-- end -->`, where WHAT is a group (`where-it-matters`) or an option
+(`--cutline`). With --check nothing is written: the exit code is 1, and the files that differ are named.
+"""
+
+import argparse
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+WIDTH = 116
+NOTE = "Written by tools/generate_docs.py from `scarp help --json`, not by hand"
+
+
+class Table:
+    def __init__(self, program):
+        table = json.loads(subprocess.run([program, "help", "--json"], check=True, stdout=subprocess.PIPE).stdout)
+        self.commands = [command["name"] for command in table["commands"]]
+        self.summaries = {command["name"]: command["help"] for command in table["commands"]}
+        self.options = table["options"]
+
+    def of(self, command):
+        return [option for option in self.options if option["command"] == command]
+
+    def named(self, command):
+        """The options, without arguments such as INPUT."""
+        return [option for option in self.of(command) if option["name"].startswith("-")]
+
+    def arguments(self, command):
+        return [option for option in self.of(command) if not option["name"].startswith("-")]
+
+
+def slug(group):
+    return re.sub("[^a-z0-9]+", "-", group.lower()).strip("-")
+
+
+def first_sentence(option):
+    return re.split(r"\.(?: |$)", option["help"])[0]
+
+
+def sentences(option, with_default=True):
+    """The help, and what the table says besides: as --help has it."""
+    text = option["help"]
+    if option["range"] and " to " in option["range"]:
+        text += f" From {option['range']}."
+    if option["default"] and with_default:
+        text += f" Default: {option['default']}."
+    if option["repeatable"]:
+        text += " May be given again."
+    return text
+
+
+# The man page.
+
+
+def roff(text):
+    text = text.replace("\\", "\\e").replace("-", "\\-")
+    text = re.sub(r"(?<![\w\\])((?:\\-){1,2}[a-z][a-z\\-]*)", r"\\fB\1\\fR", text)
+    return text
+
+
+def man_lines(table):
+    for command in table.commands:
+        yield f".SH OPTIONS OF {command.upper()}"
+        group = None
+        for option in table.of(command):
+            if option["group"] != group:
+                group = option["group"]
+                yield f'.SS "{group}"'
+            yield ".TP"
+            names = [name for name in (option["short"], option["name"]) if name]
+            text = ", ".join("\\fB" + name.replace("-", "\\-") + "\\fR" for name in names)
+            if not option["name"].startswith("-"):
+                text = f"\\fI{option['name']}\\fR"
+            if option["value"]:
+                text += " \\fI" + option["value"].replace("-", "\\-") + "\\fR"
+            yield text
+            for sentence in re.split(r"(?<=\.) ", sentences(option)):
+                line = roff(sentence)
+                yield "\\&" + line if line[0] in ".'" else line
+
+
+def man_page(table, old):
+    begin, end = f'.\\" options begin. {NOTE}.', '.\\" options end'
+    head, rest = re.split(r'^\.\\" options begin.*\n', old, maxsplit=1, flags=re.M)
+    tail = rest[rest.index(end):]
+    return head + begin + "\n" + "\n".join(man_lines(table)) + "\n" + tail
+
+
+# docs/cli.md.
+
+
+def cell(text, choices=()):
+    text = re.sub(r"([*_<|])", r"\\\1", text)
+    for choice in choices:  # "fast: refine only"; a default that is a choice
+        text = re.sub(rf"(?<![\w-]){re.escape(choice)}(?=:)|^{re.escape(choice)}(?=$|;|,| where| with)", f"`{choice}`", text)
+    return re.sub(r"(?<![\w`-])(--[a-z][a-z-]*|-[a-z])(?![\w-])", r"`\1`", text)
+
+
+def markdown_table(table, command, wanted, shown):
+    groups = {slug(option["group"]) for option in table.of(command)}
+    names = {option["name"] for option in table.of(command)}
+    for word in wanted:
+        if word not in groups and word not in names:
+            raise SystemExit(f"docs/cli.md: {command} has no group or option {word}")
+    rows = [option for word in wanted for option in table.of(command) if word in (slug(option["group"]), option["name"])]
+    has_default = any(option["default"] for option in rows)
+    lines = ["| option | meaning | default |", "|---|---|---|"] if has_default else ["| option | meaning |", "|---|---|"]
+    for option in rows:
+        shown.add(option["name"])
+        value = " " + option["value"].replace("|", "\\|") if option["value"] else ""
+        name = (f"`{option['short']}`, " if option["short"] else "") + f"`{option['name']}{value}`"
+        default = f" {cell(option['default'] or '', option['choices'])} |" if has_default else ""
+        lines.append(f"| {name} | {cell(sentences(option, False), option['choices'])} |{default}".replace("|  |", "| |"))
+    return "\n".join(lines)
+
+
+def cli_page(table, old):
+    shown = set()
+
+    def fill(match):
+        words = match.group(2).split()
+        return f"{match.group(1)}\n{markdown_table(table, match.group(0).split()[2].rstrip(':'), words, shown)}\n<!-- end -->"
+
+    new = re.sub(r"(<!-- options [a-z]+: ([a-z0-9 -]+?) -->)\n(?:[^\n]*\n)*?<!-- end -->", fill, old)
+    missing = {option["name"] for option in table.options if option["name"].startswith("-")} - shown - {"--help", "--version"}
+    if missing:
+        raise SystemExit(f"docs/cli.md: no table has {', '.join(sorted(missing))}")
+    return new
+
+
+# Completions.
+
+
+def by_value(table, kind):
+    """Options whose values are completed alike: {kind(option): [(command, option)]}."""
+    alike = {}
+    for command in table.commands:
+        for option in table.named(command):
+            alike.setdefault(kind(option), []).append((command, option))
+    return alike
+
+
+def names_of(option):
+    return [name for name in (option["short"], option["name"]) if name]
+
+
+def bash_kind(option):
+    if option["type"] == "flag":
+        return None
+    if option["type"] == "file":
+        return "-f"
+    if option["type"] == "folder":
+        return "-d"
+    return f"-W '{' '.join(option['choices'])}'" if option["choices"] else ""
+
+
+def bash(table, _old):
+    lines = [f"# bash completion for scarp. {NOTE}.", "", "_scarp() {",
+             "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command='' options='' word",
+             "  COMPREPLY=()", '  for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do',
+             f"    case $word in {' | '.join(table.commands)}) command=$word && break ;; esac", "  done",
+             "  if [[ -z $command ]]; then",
+             f"    COMPREPLY=($(compgen -W '{' '.join(table.commands)} --help --version' -- \"$current\"))",
+             "    return", "  fi", "", '  case "$command $previous" in']
+    for kind, members in by_value(table, bash_kind).items():
+        if kind is None:
+            continue
+        words = [f'"{command} {name}"' for command, option in members for name in names_of(option)]
+        lines += [f"    {words[0]}{'' if len(words) > 1 else ')'}"]
+        for word in words[1:]:
+            joined = f"{lines[-1]} | {word}"
+            if len(joined) < WIDTH:
+                lines[-1] = joined
+            else:
+                lines[-1] += " | \\"
+                lines.append(f"      {word}")
+        lines[-1] += ")" if len(words) > 1 else ""
+        if kind:
+            lines.append(f"      COMPREPLY=($(compgen {kind} -- \"$current\"))")
+        lines += ["      return", "      ;;"]
+    lines += ["  esac", "", "  if [[ $current == -* ]]; then", "    case $command in"]
+    for command in table.commands:
+        names = [option["name"] for option in table.named(command)]
+        lines += [f"      {command})"] + [f"        options+=' {' '.join(names[k:k + 8])}'" for k in range(0, len(names), 8)]
+        lines.append("        ;;")
+    lines += ["    esac", '    COMPREPLY=($(compgen -W "$options" -- "$current"))', "    return", "  fi"]
+    for command in table.commands:
+        first = table.arguments(command)[:1]
+        if first and first[0]["type"] != "file" and first[0]["choices"]:
+            lines += [f"  if [[ $command == {command} && $COMP_CWORD -eq 2 ]]; then",
+                      f"    COMPREPLY=($(compgen -W '{' '.join(first[0]['choices'])}' -- \"$current\"))", "    return", "  fi"]
+    lines += ['  COMPREPLY=($(compgen -f -- "$current"))', "}", "",
+              "complete -o filenames -o bashdefault -F _scarp scarp"]
+    return "\n".join(lines) + "\n"
+
+
+def zsh_text(text):
+    return re.sub(r"([\[\]:\\])", r"\\\1", text).replace("'", "'\\''")
+
+
+def zsh_action(option):
+    if option["type"] == "file":
+        endings = "|".join(choice.lstrip(".") for choice in option["choices"])
+        return f'_files -g "*.({endings})"' if endings else "_files"
+    if option["type"] == "folder":
+        return "_files -/"
+    return "(" + re.sub(r"([*:()'])", r"\\\1", " ".join(option["choices"])) + ")" if option["choices"] else " "
+
+
+def zsh_line(option):
+    names = names_of(option)
+    value = ""
+    if option["type"] != "flag":
+        value = f":{zsh_text(option['value'] or option['name'])}:{zsh_action(option)}"
+    before = "*" if option["repeatable"] else f"({' '.join(names)})" if len(names) > 1 else ""
+    if option["name"] in ("--help", "--version"):
+        before = "(- *)"
+    words = "'{" + ",".join(names) + "}'" if len(names) > 1 else names[0]
+    return f"'{before}{words}[{zsh_text(first_sentence(option))}]{value}'"
+
+
+def zsh(table, _old):
+    lines = ["#compdef scarp", f"# zsh completion for scarp. {NOTE}.", "", "_scarp() {", "  if (( CURRENT == 2 )); then",
+             "    local -a commands", "    commands=("]
+    lines += [f"      '{command}:{zsh_text(table.summaries[command])}'" for command in table.commands]
+    lines += ["    )", "    _describe -t commands 'command' commands",
+              "    _arguments '--help[Print this help]' '--version[Print the version]'", "    return", "  fi", "",
+              "  local command=$words[2]", "  shift words", "  (( CURRENT-- ))", "  case $command in"]
+    for command in table.commands:
+        words = [zsh_line(option) for option in table.named(command)]
+        words += [f"'{k}:{option['name']}:{zsh_action(option)}'" for k, option in enumerate(table.arguments(command), 1)]
+        lines += [f"    {command})", "      _arguments -s \\"] + [f"        {word} \\" for word in words[:-1]]
+        lines += [f"        {words[-1]}", "      ;;"]
+    lines += ["  esac", "}", "", '_scarp "$@"']
+    return "\n".join(lines) + "\n"
+
+
+def fish_text(text):
+    return "'" + text.replace("\\", "\\\\").replace("'", "\\'") + "'"
+
+
+def fish_kind(option):
+    text = (f" -s {option['short'][1:]}" if option["short"] else "") + f" -l {option['name'][2:]}"
+    if option["type"] == "file":
+        text += " -r -F"
+    elif option["type"] == "folder":
+        text += " -x -a '(__fish_complete_directories)'"
+    elif option["type"] != "flag":
+        text += " -x" + (f" -a {fish_text(' '.join(option['choices']))}" if option["choices"] else "")
+    return text + f" -d {fish_text(first_sentence(option))}"
+
+
+def fish(table, _old):
+    lines = [f"# fish completion for scarp. {NOTE}.", ""]
+    for command in table.commands:
+        lines.append(f"complete -c scarp -n __fish_use_subcommand -f -a {command} -d {fish_text(table.summaries[command])}")
+    for kind, members in by_value(table, fish_kind).items():
+        commands = [command for command, _ in members]
+        seen = f" -n '__fish_seen_subcommand_from {' '.join(commands)}'" if commands != table.commands else ""
+        lines.append(f"complete -c scarp{seen}{kind}")
+    for command in table.commands:
+        first = table.arguments(command)[:1]
+        if first and first[0]["type"] != "file" and first[0]["choices"]:
+            lines.append(f"complete -c scarp -n '__fish_seen_subcommand_from {command}' -f "
+                         f"-a {fish_text(' '.join(first[0]['choices']))}")
+    return "\n".join(lines) + "\n"
+
+
+FILES = {"docs/man/scarp.1": man_page, "docs/cli.md": cli_page, "completions/scarp.bash": bash,
+         "completions/_scarp": zsh, "completions/scarp.fish": fish}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("program")
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--tree", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
+    given = parser.parse_args()
+    table = Table(given.program)
+    is_wrong = False
+    for name, make in FILES.items():
+        path = given.tree / name
+        old = path.read_text(encoding="utf-8")
+        new = make(table, old)
+        if new == old:
+            continue
+        if given.check:
+            print(f"{name} is not what `scarp help --json` says: run tools/generate_docs.py {given.program}")
+            is_wrong = True
+        else:
+            path.write_text(new, encoding="utf-8")
+            print(f"{name} written")
+    return 1 if is_wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
