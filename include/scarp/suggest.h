@@ -17,8 +17,8 @@ namespace scarp {
 /// A max error for a share of the triangles.
 struct Suggestion {
   double share = 0;             ///< of the full grid's triangles, above 0, at most 1
-  std::optional<double> error;  ///< max error, in z units: a default run with it stays within the share; hardly any
-                                ///< smaller error does. Three significant digits. None: the outline alone needs more.
+  std::optional<double> error;  ///< max error, in z units: a default run with it stays within the share, and may
+                                ///< take far less of it. Three significant digits. None: the outline alone needs more.
 };
 
 struct Suggestions {

@@ -9,9 +9,9 @@ import concurrent.futures
 import hashlib
 import os
 import pathlib
-import re
 import subprocess
 import sys
+import zipfile
 
 # File, height of a step or ridge, and the --memory that leaves less than the samples need: `hills` and `coast` stay in
 # their file, `fault` and `town` are kept in 16 bits.
@@ -19,17 +19,25 @@ RASTERS = {"fault": ("fault.tif", 80, "72900k"), "hills": ("hills.bil", 200, "72
            "coast": ("coast.bil", 200, "72500k"), "town": ("town.bil", 8, "72500k")}
 FILES = {"lines": "lines.geojson", "hard": "hard.geojson", "river": "river.geojson", "pond": "pond.geojson", "site": "site.geojson",
          "cut": "cut.geojson", "mask": "mask.bil", "near": "near.bil", "photo": "photo.ppm", "steps": "steps.txt"}
-VERSION = re.compile(rb"[Ss]carp \d+\.\d+\.\d+")
 
 
-def hash_of(folder):
+def contents(path):
+    """Of a file, or of each file in an archive, whose checksums know the version."""
+    if not zipfile.is_zipfile(path):
+        return [(path.name, path.read_bytes())]
+    with zipfile.ZipFile(path) as archive:
+        return [(name, archive.read(name)) for name in archive.namelist()]
+
+
+def hash_of(folder, version):
     digest = hashlib.sha256()
     for path in sorted(folder.iterdir()):
-        digest.update(path.name.encode() + b"\0" + VERSION.sub(b"scarp", path.read_bytes()))
+        for name, data in contents(path):
+            digest.update(name.encode() + b"\0" + data.replace(version, b"VERSION"))
     return digest.hexdigest()[:12]
 
 
-def run(program, number, line, raster, is_streamed):
+def run(program, version, number, line, raster, is_streamed):
     words = line.split()
     from_points = words[0] == "points"
     ending, options = words[from_points], words[1 + from_points:]
@@ -44,18 +52,19 @@ def run(program, number, line, raster, is_streamed):
     if done.returncode:
         sentence = done.stderr.decode().strip().replace(os.getcwd() + "/", "")
         return f"exit {done.returncode}", sentence
-    return hash_of(folder), ""
+    return hash_of(folder, version), ""
 
 
 def main():
     program, dem, table = (os.path.abspath(path) for path in sys.argv[1:4])
+    version = subprocess.run([program, "--version"], stdout=subprocess.PIPE, check=True).stdout.split()[-1]
     lines = (pathlib.Path(__file__).parent / "options.txt").read_text().splitlines()
     lines = [line for line in lines if line and not line.startswith("#")]
     subprocess.run([sys.executable, str(pathlib.Path(__file__).parent / "make_inputs.py"), dem], check=True)
     jobs = [(number, line, raster, is_streamed) for number, line in enumerate(lines) for raster in RASTERS
             for is_streamed in (False, True) if not (is_streamed and line.startswith("points"))]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 2) as pool:
-        results = list(pool.map(lambda job: run(program, *job), jobs))
+        results = list(pool.map(lambda job: run(program, version, *job), jobs))
     rows, sentences = {}, {}
     for (_, line, raster, is_streamed), (result, sentence) in zip(jobs, results):
         row = f"{line} | {'streamed' if is_streamed else 'memory'}"

@@ -48,7 +48,7 @@ inline Mesh sample_mesh(bool normals = false) {
   Mesh mesh = grid_mesh(
       4, 3, [](int, int) { return true; }, normals);
   mesh.origin = {512345.625, 4023456.0625, 0};
-  mesh.metadata = {{"generator", "Scarp 0.1.0"},
+  mesh.metadata = {{"generator", "Scarp 0.2.0"},
                    {"command", "scarp simplify \"a b.tif\" c.glb -e 5%\\\nsecond line: \ttabbed"},
                    {"crs", "EPSG:32611"},
                    {"a:key", ": value "},

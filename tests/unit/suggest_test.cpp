@@ -31,7 +31,7 @@ TEST(Suggest, ADefaultRunStaysWithinTheShare) {
     ASSERT_TRUE(simplified);
     const auto triangles = static_cast<double>(simplified->mesh.triangle_count());
     EXPECT_LE(triangles, row.share * full);
-    EXPECT_GE(triangles, row.share * full / 2);
+    EXPECT_GE(triangles, row.share * full / 8);
   }
 }
 
