@@ -9,6 +9,7 @@ import concurrent.futures
 import hashlib
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import zipfile
@@ -33,7 +34,7 @@ def hash_of(folder, version):
     digest = hashlib.sha256()
     for path in sorted(folder.iterdir()):
         for name, data in contents(path):
-            digest.update(name.encode() + b"\0" + data.replace(version, b"VERSION"))
+            digest.update(name.encode() + b"\0" + version.sub(rb"\1", data))
     return digest.hexdigest()[:12]
 
 
@@ -57,7 +58,8 @@ def run(program, version, number, line, raster, is_streamed):
 
 def main():
     program, dem, table = (os.path.abspath(path) for path in sys.argv[1:4])
-    version = subprocess.run([program, "--version"], stdout=subprocess.PIPE, check=True).stdout.split()[-1]
+    number = subprocess.run([program, "--version"], stdout=subprocess.PIPE, check=True).stdout.split()[-1]
+    version = re.compile(rb"([Ss]carp[ -~]{1,80}?)" + re.escape(number))
     lines = (pathlib.Path(__file__).parent / "options.txt").read_text().splitlines()
     lines = [line for line in lines if line and not line.startswith("#")]
     subprocess.run([sys.executable, str(pathlib.Path(__file__).parent / "make_inputs.py"), dem], check=True)
