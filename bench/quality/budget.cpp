@@ -33,25 +33,25 @@ double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 
 bool measure(const std::string& name, const scarp::OwnedHeightField& field) {
   scarp::SimplifyOptions options;
-  options.max_error = kErrorOfRelief * (field.info.max - field.info.min);
-  options.order = scarp::Order::kGreedy;
-  options.threads = 1;
+  options.goals.max_error = kErrorOfRelief * (field.info.max - field.info.min);
+  options.quality.order = scarp::Order::kGreedy;
+  options.run.threads = 1;
   const double start = cpu_seconds();
   const auto greedy = scarp::simplify(field, options);
   if (!greedy) return false;
   const double greedy_seconds = cpu_seconds() - start;
-  options.order = scarp::Order::kAuto;
-  options.max_error = std::nullopt;
-  options.max_triangles = greedy->mesh.triangle_count();
+  options.quality.order = scarp::Order::kAuto;
+  options.goals.max_error = std::nullopt;
+  options.goals.max_triangles = greedy->mesh.triangle_count();
   for (const Level& level : kLevels) {
-    options.effort = level.effort;
-    options.objective = level.objective;
+    options.quality.effort = level.effort;
+    options.goals.objective = level.objective;
     const double begin = cpu_seconds();
     const auto made = scarp::simplify(field, options);
     if (!made) return false;
     const scarp::Measurement &before = greedy->measurement, &after = made->measurement;
-    fmt::print("{:20}{:>9}  {:10}{:9.4f}{:12.3f}{:8.3f}{:8.1f}\n", name, *options.max_triangles, level.name,
-               static_cast<double>(made->mesh.triangle_count()) / static_cast<double>(*options.max_triangles),
+    fmt::print("{:20}{:>9}  {:10}{:9.4f}{:12.3f}{:8.3f}{:8.1f}\n", name, *options.goals.max_triangles, level.name,
+               static_cast<double>(made->mesh.triangle_count()) / static_cast<double>(*options.goals.max_triangles),
                after.max_error / before.max_error, after.rmse / before.rmse, (cpu_seconds() - begin) / greedy_seconds);
     std::fflush(stdout);
   }

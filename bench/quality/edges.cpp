@@ -37,10 +37,10 @@ const Rule kRules[] = {
 
 std::optional<std::uint64_t> count_triangles(const scarp::OwnedHeightField& field, double error, const Rule& rule) {
   scarp::SimplifyOptions options;
-  options.max_error = error;
-  options.order = scarp::Order::kGreedy;
-  options.edges = rule.edges;
-  options.batch = rule.batch;
+  options.goals.max_error = error;
+  options.quality.order = scarp::Order::kGreedy;
+  options.strategy.edges = rule.edges;
+  options.strategy.batch = rule.batch;
   const auto result = scarp::simplify(field, options);
   if (!result) {
     fmt::print(stderr, "{}, {}: {}\n", field.info.path, rule.name, result.error().message);

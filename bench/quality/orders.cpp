@@ -20,9 +20,9 @@ constexpr double kErrorsOfRelief[] = {0.05, 0.02, 0.01, 0.005, 0.002};
 
 std::optional<scarp::Simplified> refine(const scarp::OwnedHeightField& field, double error, scarp::Order order) {
   scarp::SimplifyOptions options;
-  options.max_error = error;
-  options.order = order;
-  options.effort = scarp::Effort::kFast;
+  options.goals.max_error = error;
+  options.quality.order = order;
+  options.quality.effort = scarp::Effort::kFast;
   auto result = scarp::simplify(field, options);
   if (!result) {
     fmt::print(stderr, "{}: {}\n", field.info.path, result.error().message);

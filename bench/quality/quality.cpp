@@ -29,14 +29,15 @@ constexpr const char* kHeader =
 std::string run(const std::string& name, const scarp::OwnedHeightField& field, const Goal& goal) {
   const double relief = field.info.max - field.info.min;
   scarp::SimplifyOptions options;
-  options.effort = scarp::Effort::kFast;
+  options.quality.effort = scarp::Effort::kFast;
   double asked = 0;
   if (goal.error_of_relief > 0) {
     asked = goal.error_of_relief * relief;
-    options.max_error = asked;
+    options.goals.max_error = asked;
   } else {
-    options.max_vertices = static_cast<std::uint64_t>(goal.vertices_of_valid * static_cast<double>(field.info.valid));
-    asked = static_cast<double>(*options.max_vertices);
+    options.goals.max_vertices =
+        static_cast<std::uint64_t>(goal.vertices_of_valid * static_cast<double>(field.info.valid));
+    asked = static_cast<double>(*options.goals.max_vertices);
   }
   const std::string key = fmt::format("{},{},{},{},{:.9g},{},{:.9g}", name, field.cols, field.rows, field.info.valid,
                                       relief, goal.name, asked);

@@ -169,19 +169,19 @@ enum class Lines { kNone, kPreferred, kKept };
 scarp::Result<std::string> row_of(const scarp::OwnedHeightField& field, double error, scarp::Effort effort,
                                   Lines lines) {
   scarp::SimplifyOptions options;
-  options.max_error = error;
-  options.effort = effort;
-  options.threads = 0;
+  options.goals.max_error = error;
+  options.quality.effort = effort;
+  options.run.threads = 0;
   scarp::RidgeOptions asked;
   asked.height = 2 * error;
   asked.max_error = error;
-  asked.affine = options.breaklines.affine = scarp::map_affine(field.info, field.rows);
+  asked.affine = options.features.breaklines.affine = scarp::map_affine(field.info, field.rows);
   asked.are_kept = lines == Lines::kKept;
   auto ridges = scarp::detect_ridges(field.view(), asked);
   if (!ridges) return tl::unexpected(ridges.error());
   for (const auto* found : {&ridges->ridges, &ridges->valleys}) {
     if (lines != Lines::kNone)
-      options.breaklines.lines.insert(options.breaklines.lines.end(), found->begin(), found->end());
+      options.features.breaklines.lines.insert(options.features.breaklines.lines.end(), found->begin(), found->end());
   }
   const auto result = scarp::simplify(field, options);
   if (!result) return tl::unexpected(result.error());
@@ -189,7 +189,7 @@ scarp::Result<std::string> row_of(const scarp::OwnedHeightField& field, double e
   std::vector<float> errors;
   scarp::MeasureOptions measuring;
   measuring.topology = false;
-  measuring.threads = 0;
+  measuring.run.threads = 0;
   measuring.on_row = [&](int, std::span<const float> row) { errors.insert(errors.end(), row.begin(), row.end()); };
   const auto measured = scarp::measure(field, result->mesh, measuring);
   if (!measured) return tl::unexpected(measured.error());

@@ -37,11 +37,11 @@ inline const Variant* find_variant(std::string_view name) {
 /// One thread, so that CPU times compare.
 inline scarp::SimplifyOptions options_of(const Variant& variant, double max_error) {
   scarp::SimplifyOptions options;
-  options.max_error = max_error;
-  options.order = variant.order;
-  options.effort = variant.effort;
-  options.vertices = variant.vertices == "free" ? scarp::Vertices::kFree : scarp::Vertices::kSamples;
-  options.threads = 1;
+  options.goals.max_error = max_error;
+  options.quality.order = variant.order;
+  options.quality.effort = variant.effort;
+  options.quality.vertices = variant.vertices == "free" ? scarp::Vertices::kFree : scarp::Vertices::kSamples;
+  options.run.threads = 1;
   return options;
 }
 

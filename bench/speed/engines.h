@@ -13,11 +13,12 @@
 #include "refine/domain.h"
 #include "refine/refinement.h"
 #include "scarp/height_field.h"
+#include "scarp/quality.h"
 
 namespace bench {
 
 struct EngineRun {
-  scarp::Domain domain;
+  scarp::DomainMesh domain;
   scarp::Order order = scarp::Order::kGreedy;  // the one that did the work
   scarp::Work work;
 };
@@ -33,7 +34,7 @@ inline scarp::HeightField field_of(const RawRaster& raw) {
   return field;
 }
 
-inline scarp::Domain start_greedy(const scarp::Raster& raster) {
+inline scarp::DomainMesh start_greedy(const scarp::Raster& raster) {
   auto domain = scarp::build_domain(raster, 0, scarp::grid_frame(raster.rows));
   if (!domain) die(domain.error().message);
   return std::move(*domain);

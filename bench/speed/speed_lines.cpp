@@ -152,7 +152,7 @@ bool time_meshes(const char* terrain, const std::string& raster, std::vector<Kin
   std::vector<scarp::Simplified> meshes(kinds.size());
   for (int run = 0; run < kRuns; ++run) {
     for (std::size_t k = 0; k < kinds.size(); ++k) {
-      options.breaklines = kinds[k].lines;
+      options.features.breaklines = kinds[k].lines;
       const auto times = time_mesh(raster, options, meshes[k]);
       if (!times) return false;
       least[k] = {std::min(least[k].cpu, times->cpu), std::min(least[k].wall, times->wall)};
@@ -165,7 +165,7 @@ bool time_meshes(const char* terrain, const std::string& raster, std::vector<Kin
       if (pass.name == "lines") lay += pass.seconds;
     }
     std::printf("| %s | %s | %g | %s | %zu | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n", terrain, effort,
-                *options.max_error, kinds[k].name, meshes[k].mesh.triangle_count(), least[k].cpu,
+                *options.goals.max_error, kinds[k].name, meshes[k].mesh.triangle_count(), least[k].cpu,
                 least[k].cpu / least[0].cpu, least[k].wall, least[k].wall / least[0].wall, arrange, lay);
   }
   std::fflush(stdout);
@@ -206,8 +206,8 @@ bool time_terrain(const char* terrain, const scarp::OwnedHeightField& field, con
        {std::pair{"fast", scarp::Effort::kFast}, std::pair{"normal", scarp::Effort::kNormal}}) {
     for (const double error : errors) {
       scarp::SimplifyOptions options;
-      options.max_error = error;
-      options.effort = effort;
+      options.goals.max_error = error;
+      options.quality.effort = effort;
       is_timed = is_timed && time_meshes(terrain, raster, kinds, name, std::move(options));
     }
   }

@@ -76,7 +76,7 @@ bench::EngineRun refine(const bench::RawRaster& raw, const Options& options) {
 /// Max error is not monotone in the vertices: the smallest that was seen on the way to each share.
 void print_errors(const bench::RawRaster& raw, const std::vector<double>& shares) {
   const scarp::Raster raster = bench::view_of(raw);
-  scarp::Domain domain = bench::start_greedy(raster);
+  scarp::DomainMesh domain = bench::start_greedy(raster);
   const scarp::HeightJudge judge(raster, 0);
   scarp::Refinement refinement(judge, domain.tin);
   double error = std::numeric_limits<double>::infinity();

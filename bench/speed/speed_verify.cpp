@@ -125,7 +125,7 @@ int main(int argc, char** argv) {
   if (argc != 5 && argc != 6) bench::die("usage: speed_verify RASTER COLS ROWS ERROR [SIDE]");
   const bench::RawRaster raster = bench::read_raw(argv[1], argv[2], argv[3]);
   const double error = std::atof(argv[4]);
-  const scarp::Domain domain = bench::refine_dominantly(raster, error, 1).domain;
+  const scarp::DomainMesh domain = bench::refine_dominantly(raster, error, 1).domain;
   const auto patches = sort_by_tiles(domain.tin, argc == 6 ? std::atoi(argv[5]) : 256);
   Verifier verifier(raster, error);
   verifier.verify(patches);

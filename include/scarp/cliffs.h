@@ -14,6 +14,7 @@
 #include "scarp/height_field.h"
 #include "scarp/lines.h"
 #include "scarp/result.h"
+#include "scarp/run.h"
 
 #pragma GCC visibility push(default)
 
@@ -31,7 +32,7 @@ struct CliffOptions {
   std::span<const Line> avoid = {};                ///< lines that no wall may cross or touch
   /// For a field with a source: bytes that the process may use, and bytes in use, as in SimplifyOptions. Walls
   /// that do not fit are refused with kUsage, before memory runs out. DEFAULT: no limit.
-  std::uint64_t memory_limit = 0, memory_taken = 0;
+  Run run = {};
 };
 
 struct Cliffs {

@@ -5,16 +5,18 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "scarp/cliffs.h"
+#include "scarp/cutline.h"
 #include "scarp/height_field.h"
 #include "scarp/lines.h"
-#include "scarp/progress.h"
 #include "scarp/result.h"
 #include "scarp/ridges.h"
 #include "scarp/rivers.h"
+#include "scarp/run.h"
 #include "scarp/water.h"
 
 #pragma GCC visibility push(default)
@@ -36,11 +38,19 @@ struct RidgeGoals {
 struct Features {
   /// Lines that do not depend on the error. Their affine map applies to all lines here. DEFAULT: none.
   LineConstraints breaklines = {};
+  /// Breaklines that depend on the max error of the mesh to come, such as rivers and the lines of cliffs: asked for all
+  /// breaklines, in place of the above, before each run that a budget's search makes, or once. DEFAULT: none.
+  std::function<Result<LineConstraints>(double max_error)> breaklines_for = {};
   /// Results of flatten_lakes() or find_flats() on the field: their shores become lines, rivers flow into them.
   std::vector<Lake> lakes = {};
   std::vector<Line> rivers = {};                    ///< courses seen from above, for carve_rivers()
   std::optional<WallGoals> walls = std::nullopt;    ///< DEFAULT: none
   std::optional<RidgeGoals> ridges = std::nullopt;  ///< DEFAULT: none
+  /// Polygons that the surface is cut to: of guarantee (2)'s domain what lies in them. Their rings become edges of the
+  /// mesh, moved by 1/512 sample at most (3/512 where lines cross), at the heights of the raster between its samples;
+  /// they follow it to within half of max_error, all of it within a sample of their vertices. Samples outside are not
+  /// judged. Fails as faults do, and with kInput where no surface lies in the polygons. DEFAULT: none.
+  Cutline cutline = {};
 
   /// Some lines depend on the max error of the mesh.
   bool depend_on_error() const { return !rivers.empty() || walls || ridges; }
@@ -50,15 +60,12 @@ struct Features {
 
 struct FeatureFitOptions {
   double max_error = 0;            ///< of the mesh to come, in z units, at least 0 and finite
-  int threads = 0;                 ///< 0: all cores; never changes the result
-  ProgressCallback progress = {};  ///< of the pass "ridges"
-  /// Bytes that the process may use, and bytes in use, as in SimplifyOptions. DEFAULT: no limit.
-  std::uint64_t memory_limit = 0, memory_taken = 0;
+  Run run = {};                    ///< progress: of the pass "ridges"
 };
 
 /// The lines of a mesh of one max error, and their origins.
 struct FittedFeatures {
-  LineConstraints lines;        ///< for SimplifyOptions::breaklines: breaklines, shores, rivers, walls, ridges, valleys
+  LineConstraints lines;        ///< for Features::breaklines: breaklines, shores, rivers, walls, ridges, valleys
   std::vector<River> rivers;    ///< rings, and lines without a height anywhere, are left out
   std::optional<Cliffs> walls;  ///< nothing where none were asked for
   std::optional<Ridges> ridges;  ///< nothing where none were asked for

@@ -12,6 +12,7 @@
 #include "scarp/mesh.h"
 #include "scarp/progress.h"
 #include "scarp/result.h"
+#include "scarp/run.h"
 #include "scarp/strategy.h"
 
 #pragma GCC visibility push(default)
@@ -31,12 +32,11 @@ struct ReadOptions {
   /// An empty `crs` leaves geographic rasters in their own coordinates, degrees, for files drawn on maps.
   /// DEFAULT: false.
   bool keep_degrees = false;
-  /// In bytes; 0 = the machine's memory. DEFAULT: 0. read_height_field() refuses to read a raster that needs more;
-  /// open_height_field() keeps as much of it in memory.
-  std::uint64_t memory_limit = 0;
+  /// Memory::limit, 0: the machine's memory. read_height_field() refuses to read a raster that needs more;
+  /// open_height_field() keeps as much of it in memory. And progress.
+  Run run = {};
   /// open_height_field() reads a streamed raster once through, for the range in its info. DEFAULT: false.
   bool with_range = false;
-  ProgressCallback progress = {};
 };
 
 /// Reads one raster. Scarp's own readers read PGM (P2, P5) and Scape's STM; GDAL reads all else, with any path or URL
@@ -46,18 +46,18 @@ struct ReadOptions {
 /// kUsage for a CRS that is unknown or cannot be reached.
 Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options = {});
 
-/// Opens one raster of any size, for simplify() and measure(). If memory_limit holds its samples as floats (4 bytes
+/// Opens one raster of any size, for simplify() and measure(). If the memory limit holds its samples as floats (4 bytes
 /// each) they are read as by read_height_field(). If it holds 16-bit samples as they are (2 bytes each: Byte, Int16 and
 /// UInt16 without a mask other than nodata) they are read so, and the field has a source. Else the raster is streamed:
 /// samples stay in their file, and the source reads them window by window, one window at a time, through GDAL's block
-/// cache, whose size is memory_limit and 8 MB (unless GDAL_CACHEMAX is set). A file whose rows of blocks fit twice is
-/// decoded once or twice a pass, else again for every few rows.
+/// cache, whose size is the memory limit and 8 MB (unless GDAL_CACHEMAX is set). A file whose rows of blocks fit twice
+/// is decoded once or twice a pass, else again for every few rows.
 ///
 /// A streamed raster has no range in its info unless options.with_range is set, its infinities are nodata without a
 /// warning, and a file without any height is no error. But samples that may not fit float32 (32-bit and larger
 /// integers, float64, scaled ones) are read once through in any case, since sample_rounding must be known. The samples
-/// are those of read_height_field(). Fails as it does, also for a PGM or STM larger than memory_limit, since these are
-/// read as a whole.
+/// are those of read_height_field(). Fails as it does, also for a PGM or STM larger than the memory limit, since these
+/// are read as a whole.
 Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOptions& options = {});
 
 /// The bands of an image as channels: one value a sample and band.

@@ -10,12 +10,14 @@
 #include <span>
 #include <vector>
 
+#include "scarp/goals.h"
 #include "scarp/height_field.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
-#include "scarp/progress.h"
 #include "scarp/result.h"
+#include "scarp/run.h"
 #include "scarp/strategy.h"
+#include "scarp/tolerances.h"
 
 #pragma GCC visibility push(default)
 
@@ -45,14 +47,8 @@ double weigh_by_tolerance(float tolerance, double error);
 double judging_allowance(double bound, const HeightRange& heights);
 
 struct JudgeOptions {
-  /// As SimplifyOptions::mask: weights, one a sample. A sample of weight 0 has no bound. Borrowed. DEFAULT: none.
-  std::span<const float> mask = {};
-  /// As SimplifyOptions::tolerance: per-sample tolerances in z units, +infinity for none. Not together with a mask.
-  /// Borrowed. DEFAULT: none.
-  std::span<const float> tolerance = {};
-  /// The same, read in windows, in place of the above. Borrowed. DEFAULT: none.
-  const SampleSource* tolerance_source = nullptr;
-  /// As SimplifyOptions::script: samples that its steps ignore have no bound; the other steps do not matter. Borrowed.
+  Tolerances tolerances = {};  ///< as SimplifyOptions::tolerances; not values beside weights
+  /// As Strategy::script: samples that its steps ignore have no bound; the other steps do not matter. Borrowed.
   std::span<const ScriptStep> script = {};
   /// The bound of all samples, at least 0: of the weighted error under a mask, of the norm with channels, else of the
   /// height. With tolerances it also bounds samples whose tolerance is infinite. DEFAULT: none.
@@ -61,12 +57,11 @@ struct JudgeOptions {
   Norm norm = Norm::kSum;
   const Cutline* cutline = nullptr;  ///< as MeasureOptions::cutline. Borrowed.
   bool topology = true;              ///< as MeasureOptions::topology
-  /// False: Judgement::combined and weighted are left out, and Judgement::ignored where there is a tolerance_source.
+  /// False: Judgement::combined and weighted are left out, and Judgement::ignored where tolerances have a source.
   /// This saves a pass over that source, and the memory of errors. DEFAULT: true.
   bool weigh = true;
   bool keep_errors = false;  ///< fill Judgement::height_errors and norms. DEFAULT: false.
-  int threads = 0;           ///< 0: all cores. Never changes the result.
-  ProgressCallback progress = {};
+  Run run = {};
 };
 
 struct Judgement {
@@ -87,8 +82,8 @@ struct Judgement {
 /// and 2⁻²³ of the bound, since errors are float32.
 ///
 /// `mesh` has as many channels as `field`, values in Mesh::channels. Nothing is kept of what is borrowed. A field with
-/// a source, and a tolerance_source, are read in bands of rows; where some errors are above their tolerance, twice.
-/// Fails with kUsage for a mask or tolerances of another size than the field, both at once, a max_error below 0,
+/// a source, and tolerances with a source, are read in bands of rows; where some errors are above their tolerance,
+/// twice. Fails with kUsage for a mask or tolerances of another size than the field, both at once, a max_error below 0,
 /// another number of channels than the mesh has, channels, a mask, an array of tolerances or a script beside a field
 /// with a source, and a script step outside the raster; and as measure() and the sources do. Memory: as measure();
 /// beside a mask, an array of tolerances, channels or keep_errors 4 bytes a sample, 8 more with channels, 4 more where

@@ -22,7 +22,7 @@ enum class LineRole {
 
 inline constexpr std::uint32_t kNoPolygon = 0xffffffff;
 
-/// How a mesh treats a line as a constraint (SimplifyOptions::breaklines).
+/// How a mesh treats a line as a constraint (Features::breaklines).
 enum class LineKind : std::uint8_t {
   kBreakline,  ///< stays as it is, as a chain of edges
   kRiver,      ///< the same, but yields

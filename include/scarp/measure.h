@@ -11,8 +11,8 @@
 
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
-#include "scarp/progress.h"
 #include "scarp/result.h"
+#include "scarp/run.h"
 
 #pragma GCC visibility push(default)
 
@@ -42,8 +42,7 @@ struct MeasureOptions {
   /// If set, called once for each row in ascending order with the signed error (mesh − sample) of every sample; NaN
   /// where the sample is nodata or uncovered. The span is valid during the call only.
   std::function<void(int row, std::span<const float> errors)> on_row = {};
-  int threads = 1;  ///< worker threads, 0 = all cores. Never changes the result. DEFAULT: 1.
-  ProgressCallback progress = {};
+  Run run = {};  ///< threads and progress
 };
 
 /// A sample that breaks the bound.

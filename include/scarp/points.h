@@ -10,6 +10,7 @@
 #include "scarp/mesh.h"
 #include "scarp/progress.h"
 #include "scarp/result.h"
+#include "scarp/run.h"
 #include "scarp/simplify.h"
 
 #pragma GCC visibility push(default)
@@ -70,8 +71,7 @@ struct PointOptions {
   /// False: a budget that ends the run leaves the last mesh, though an earlier one may have been better. DEFAULT: true.
   bool best_of_budget = true;
   DuplicatePolicy duplicates = DuplicatePolicy::kFirst;  ///< DEFAULT: the first point of each place.
-  int threads = 0;  ///< of the proof; 0 = all cores. Never changes the result. DEFAULT: 0.
-  ProgressCallback progress = {};
+  Run run = {};                                          ///< threads, of the proof, and progress
 };
 
 /// Greedy insertion on scattered samples (the report's section 2 names it, without doing it). The domain is the convex

@@ -31,7 +31,7 @@ struct RegionGrid {
   std::optional<double> beyond = {};               ///< nothing: no bound there. REQUIRED where falloff > 0.
 };
 
-/// A tolerance for each sample, row-major, as SimplifyOptions::tolerance: t in a region of tolerance t, t + (beyond −
+/// A tolerance for each sample, row-major, as Tolerances::values: t in a region of tolerance t, t + (beyond −
 /// t) · min(1, d / falloff) at a distance d from it; the smallest of several regions; +infinity where there is none.
 /// The samples nearest to rings and lines belong to their region, so a region smaller than a cell has samples too.
 /// Distances are those between samples (exact, Euclidean). Tolerances are rounded to float32 downwards. `found`: by
@@ -43,14 +43,14 @@ std::vector<float> region_tolerances(std::span<const Region> regions, const Regi
 
 /// The same tolerances, to the last bit, computed on reading.
 struct RegionBounds {
-  /// For SimplifyOptions and MeasureOptions::tolerance_source; never fails. Cost of a window: O(samples), and, where
+  /// For Tolerances::source and MeasureOptions::tolerance_source; never fails. Cost of a window: O(samples), and, where
   /// falloff > 0, no less than rows of a thousand samples, or six times as wide as the falloff, a region near it.
   std::shared_ptr<const SampleSource> source;
   std::vector<bool> found;  ///< by region, whether any part of it lies in the raster
   /// Of memory: 8 a region and column, and for each sample on its outline; and what each of `threads` needs to read.
   std::uint64_t bytes = 0;
 };
-/// `threads`: as SimplifyOptions::threads. The regions are not needed after the call. REQUIRES: as region_tolerances().
+/// `threads`: as Run::threads. The regions are not needed after the call. REQUIRES: as region_tolerances().
 RegionBounds make_region_bounds(std::span<const Region> regions, const RegionGrid& grid, int threads = 1);
 
 }  // namespace scarp

@@ -20,8 +20,8 @@
 
 #include "scarp/height_field.h"
 #include "scarp/lines.h"
-#include "scarp/progress.h"
 #include "scarp/result.h"
+#include "scarp/run.h"
 
 #pragma GCC visibility push(default)
 
@@ -37,15 +37,13 @@ struct RidgeOptions {
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of lines: map_affine()
   std::span<const Line> avoid = {};                ///< no ridge is searched for near these lines
   bool are_kept = false;                           ///< the final mesh holds all lines, whatever the effort
-  int threads = 0;                                 ///< 0: all cores; never changes the result
-  ProgressCallback progress = {};                  ///< of the pass "ridges"
   /// For a field with a source: bytes that the process may use, and bytes in use, as in SimplifyOptions.
   /// Ridges that do not fit are refused with kUsage, before memory runs out. DEFAULT: no limit.
-  std::uint64_t memory_limit = 0, memory_taken = 0;
+  Run run = {};
 };
 
 struct Ridges {
-  /// Soft lines for SimplifyOptions::breaklines, vertices on samples. Their kind is kRidge or kKeptRidge.
+  /// Soft lines for Features::breaklines, vertices on samples. Their kind is kRidge or kKeptRidge.
   std::vector<Line> ridges, valleys;
   std::uint64_t vertices = 0;  ///< of the lines; where several meet, once for each
 };

@@ -21,7 +21,7 @@ struct River {
   double source = 0, mouth = 0;  ///< heights of its ends, or of its first and last point in the raster
   double deepest_cut = 0;        ///< its largest depth below the raster
   bool is_turned = false;        ///< it flows against the order of its points as given
-  Line course;                   ///< with heights: a breakline for SimplifyOptions::breaklines that yields to shores
+  Line course;                   ///< with heights: a breakline for Features::breaklines that yields to shores
 };
 
 struct RiverOptions {

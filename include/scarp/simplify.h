@@ -2,121 +2,53 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
-#include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
-#include "scarp/cutline.h"
+#include "scarp/features.h"
+#include "scarp/goals.h"
 #include "scarp/height_field.h"
-#include "scarp/lines.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
-#include "scarp/progress.h"
+#include "scarp/quality.h"
 #include "scarp/result.h"
+#include "scarp/run.h"
 #include "scarp/shape.h"
 #include "scarp/strategy.h"
+#include "scarp/tolerances.h"
 
 #pragma GCC visibility push(default)
 
 namespace scarp {
 
-/// What to reach. At least one goal; the first that is reached ends the run. What does not go together: conflicts.h.
-struct SimplifyOptions {
-  /// Vertical error bound in z units, at least 0: |mesh − sample| <= max_error at every valid sample. 0 reproduces
-  /// every sample. DEFAULT: none.
-  std::optional<double> max_error = std::nullopt;
-  /// Upper bounds. If one of them ends the run, the result is the mesh with the smallest max error among those with at
-  /// least 95 % of the budget (max error is not monotone in the number of points); with more than fast effort what the
-  /// search for an error has found (see "Budgets"). DEFAULT: none.
-  std::optional<std::uint64_t> max_triangles = std::nullopt;
-  std::optional<std::uint64_t> max_vertices = std::nullopt;
+/// Which part of the raster the mesh covers.
+struct Domain {
   /// How far, in samples, the outline of the valid data may be simplified, at least 0. It only moves outwards, over
-  /// void samples: no valid sample is cut off. DEFAULT: 0, the exact outline.
+  /// nodata: no valid sample is cut off. DEFAULT: 0, the exact outline.
   double outline_tolerance = 0;
+};
+
+/// What the mesh holds.
+struct Output {
   /// Round positions to float32, as GLB and STL hold them, so that what is proven is what is written. False: positions
   /// are double, as OBJ and PLY hold them, and vertices lie on their samples in every affine frame. DEFAULT: true.
   bool float32_positions = true;
+  bool normals = false;  ///< fill Mesh::normals from the full-resolution samples. DEFAULT: false.
+  bool uvs = false;      ///< fill Mesh::uvs. DEFAULT: false.
+};
 
-  /// Weights, one a sample, at least 0 and finite (Terra's importance mask): weight · |error| is what is ranked and
-  /// what max_error bounds. Where the weight is 0 there is no bound. Borrowed. DEFAULT: empty, all 1.
-  std::span<const float> mask = {};
-  /// Bounds, one a sample, at least 0, in z units; +infinity: none. |error| <= tolerance at every valid sample, beside
-  /// max_error if that is given; |error| / tolerance is ranked. A goal of its own. Borrowed.
-  /// DEFAULT: empty.
-  std::span<const float> tolerance = {};
-  /// The same where the field has a source, read in windows as its samples are (no NaN): there the above fails with
-  /// kUsage, as this does beside samples in memory. Borrowed. DEFAULT: none.
-  const SampleSource* tolerance_source = nullptr;
-  /// Breaklines. A hard line keeps its heights, a soft one follows the raster. Where a hard line passes through a
-  /// sample that has another height, the sample is given the line's, and what is promised holds for the samples as they
-  /// are then (Simplified::edits). Fails with kUsage without a max error or a budget, with kInput for lines whose
-  /// heights contradict each other, named.
-  /// With a budget an error is searched for, whatever the effort (see "Budgets"); fails with kUsage for a budget
-  /// below what lines and outline need.
-  /// DEFAULT: none.
-  LineConstraints breaklines = {};
-  /// Breaklines that depend on the max error of the mesh to come, such as rivers and the lines of cliffs: asked for all
-  /// breaklines, in place of the above, before each run that a budget's search makes, or once. DEFAULT: none.
-  std::function<Result<LineConstraints>(double max_error)> breaklines_for = {};
-  /// Polygons that the surface is cut to: of guarantee (2)'s domain what lies in them. Their rings become edges of the
-  /// mesh, moved by 1/512 sample at most (3/512 where lines cross), at the heights of the raster between its samples;
-  /// they follow it to within half of max_error, all of it within a sample of their vertices. Samples outside are not
-  /// judged. Fails as faults do, and with kInput where no surface lies in the polygons. DEFAULT: none.
-  Cutline cutline = {};
-  std::vector<ScriptStep> script = {};  ///< carried out in order before the first scan. DEFAULT: nothing.
-  /// kAuto is kDominant towards an error where that order has no conflicts (conflicts.h), else kGreedy. kDominant with
-  /// a budget searches for the error whose mesh fits. DEFAULT: kAuto.
-  Order order = Order::kAuto;
-  /// kAuto is kNormal where min_shape, is_time_up or Objective::kRms ask for more than refinement. Vertices that a
-  /// script inserts stay, whatever the effort. DEFAULT: kAuto.
-  Effort effort = Effort::kAuto;
-  /// kFree fails with kUsage below kHigh. DEFAULT: kAuto.
-  Vertices vertices = Vertices::kAuto;
-  /// Floor of the shapes of triangles, height over longest edge, 0 … 0.5, 0 for none: no vertex is removed or moved, no
-  /// edge flipped if that leaves a triangle below it, unless it takes away one that is as bad. Triangles of refinement,
-  /// and those that the outline of voids forces, may lie below.
-  /// DEFAULT: 0.1 where vertices are free, else 0.
-  std::optional<double> min_shape = std::nullopt;
-  /// Angles, edge lengths and their growth, for simulations: vertices are added until they hold, then removed as far as
-  /// they still do (with a grade the other way round). With a budget an error is searched for, as with lines. Fails
-  /// with kUsage without a max error or a budget, for goals out of range, and for a budget below what they need.
-  /// DEFAULT: none.
-  ShapeGoals shape = {};
-  /// Asked often, on any thread, by all efforts but kFast; once true, true for good. Then vertices are no longer
-  /// removed, and the mesh so far, which keeps the promise, is the result: it depends on the time. With a budget the
-  /// search then ends with the best mesh so far. DEFAULT: never.
-  std::function<bool()> is_time_up = {};
-  /// Asked and obeyed in the same way, for somebody who stops waiting: it is no time to use up, so kMax does not go on
-  /// until then. Not asked by fast effort and with a budget. DEFAULT: never.
-  std::function<bool()> is_enough = {};
-  /// kRms fails with kUsage without a budget. DEFAULT: kMax.
-  Objective objective = Objective::kMax;
-  Importance importance = {};  ///< DEFAULT: global error
-  Algorithm algorithm = Algorithm::kHeap;
-  Batch batch = {};        ///< DEFAULT: one at a time
-  EdgeRule edges = {};     ///< DEFAULT: Delaunay
-  Norm norm = Norm::kSum;  ///< over heights and channels, where the field has channels. DEFAULT: L1, as the report.
-  /// False: a budget that ends the run leaves the last mesh, as Scape does, though an earlier one may have been better.
-  /// DEFAULT: true. Always so where importance is not an error: one pass, products.
-  bool best_of_budget = true;
-  bool uvs = false;  ///< fill Mesh::uvs. DEFAULT: false.
-
-  /// Vertex normals from the full-resolution samples. DEFAULT: false.
-  bool normals = false;
-  int threads = 0;  ///< 0 = all cores. Never changes the result. DEFAULT: 0.
-  /// Bytes that the whole process is to stay under; 0 = no limit. Rows of tiles, threads and the file's blocks are
-  /// chosen to fit it, and what cannot fit is refused: before the first tile, or as soon as the mesh outgrows it. What
-  /// simplify() takes is estimated (see "Memory"), not counted. DEFAULT: 0.
-  std::uint64_t memory_limit = 0;
-  /// Of memory_limit, what others take: the program, the samples or the cache of their file. DEFAULT: 0.
-  std::uint64_t memory_taken = 0;
-  /// Bytes a vertex that the caller will take beside the mesh, to write it. DEFAULT: 80, more than GLB takes.
-  std::uint64_t memory_per_vertex = 80;
-  ProgressCallback progress = {};
+/// What to reach, and how. What does not go together: conflicts.h.
+struct SimplifyOptions {
+  Goals goals = {};
+  Tolerances tolerances = {};
+  Features features = {};
+  Quality quality = {};
+  Domain domain = {};
+  Output output = {};
+  Strategy strategy = {};
+  Run run = {};
 };
 
 /// A pass of simplify() and what it cost.
@@ -152,12 +84,12 @@ struct Simplified {
   Order order = Order::kGreedy;                   ///< the order that was taken, never kAuto
   Effort effort = Effort::kFast;                  ///< the effort that was made, never kAuto
   Vertices vertices = Vertices::kSamples;         ///< where they are, never kAuto
-  bool is_cut_short = false;                      ///< by SimplifyOptions::is_time_up or is_enough
+  bool is_cut_short = false;                      ///< by Run::is_time_up or is_enough
   std::vector<SampleEdit> edits;                  ///< by breaklines, in raster order
   std::uint64_t lines_laid = 0;                   ///< breaklines of which some part lies in the raster
   double lines_for = 0;                           ///< the max error that lines were laid for, given or found
   std::uint64_t cut_off = 0;                      ///< valid samples outside the cutline
-  std::optional<ShapeReport> shape;               ///< of `mesh`, where SimplifyOptions::shape asks for something
+  std::optional<ShapeReport> shape;               ///< of `mesh`, where Quality::shape asks for something
   std::vector<Pass> passes;                       ///< in the order in which they ended
   double seconds_refine = 0;                      ///< outline, refinement and freezing
   double seconds_measure = 0;                     ///< the proof
@@ -209,10 +141,12 @@ struct Simplified {
 /// Strategies (strategy.h) change which samples become vertices, never what is promised.
 ///
 /// Fails with kUsage (no goal, a script step outside the raster, settings with a conflict (conflicts.h), a mask,
-/// tolerance or channel out of range, a goal out of range, a budget below what the outline needs, a memory_limit that
+/// tolerance or channel out of range, a goal out of range, a budget below what the outline needs, a memory limit that
 /// cannot be kept), kInput (fewer than 2×2 samples, no valid cell), kPromise (a bound that float32 positions or samples
 /// cannot keep, a mesh that rounding or a projection folds over), kCancelled.
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& options);
+/// The same towards goals alone: `simplify(field, {.max_error = 1.5})`.
+Result<Simplified> simplify(const HeightField& field, const Goals& goals);
 
 /// The same engine, one vertex at a time, by heights alone: channels are not looked at. Works on a copy of nothing:
 /// the samples must stay alive.

@@ -73,7 +73,7 @@ class SheetPlan {
   /// Fails with kUsage if a tile would be too narrow for two cells, its tabs or its gap: names the number of samples.
   static Result<SheetPlan> make(int cols, int rows, const SheetOptions& options);
 
-  /// The cuts as soft lines for SimplifyOptions::breaklines, one for each line along which tiles end; `affine` as
+  /// The cuts as soft lines for Features::breaklines, one for each line along which tiles end; `affine` as
   /// LineConstraints::affine.
   std::vector<Line> lines(const std::array<double, 6>& affine) const;
   /// The tile at a position in the grid, counted row by row from the top left; nothing in a gap.

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #pragma GCC visibility push(default)
 
@@ -42,43 +43,6 @@ enum class Algorithm {
   kBruteForce,  ///< I: scan everything before each insertion. O(m n)
   kLocal,       ///< II: rescan changed triangles, look through all triangles. O(n log m + m²)
   kHeap,        ///< III: rescan changed triangles, keep triangles in a heap. O((n + m) log m)
-};
-
-/// In which order candidates are inserted.
-enum class Order {
-  kAuto,      ///< kDominant where it applies, else kGreedy
-  kGreedy,    ///< the worst sample of the whole raster first, as the paper's Algorithm III
-  kDominant,  ///< the worst sample of its neighbourhood first, tile by tile: many times faster, on all threads, with as
-              ///< many vertices. For one error, on heights alone, with Delaunay edges; see simplify().
-};
-
-/// How much work follows refinement: for a smaller mesh that satisfies the same bound; with a budget, for a better mesh
-/// of the same size.
-enum class Effort {
-  kAuto,  ///< kNormal if min_shape or the like asks for it, or if it is possible, the order is not set to greedy, and
-          ///< there is neither a memory limit nor a per-sample tolerance; else kFast
-  kFast,    ///< none: the refined mesh stays
-  kNormal,  ///< removes vertices while every sample stays within the bound: half the triangles, for a few times the
-            ///< time. Works strip by strip if samples are not in memory; see simplify().
-  kHigh,  ///< removes more, and repairs broken bounds by flipping edges and moving vertices (see Vertices): a third of
-          ///< the triangles, for some ten times the time of the greedy order. Possible where kNormal is.
-  kMax,   ///< the same, deeper, for some hundred times the time. Ends when SimplifyOptions::is_time_up says so, or when
-          ///< there is nothing left to gain. Possible where kNormal is.
-};
-
-/// What a budget minimises.
-enum class Objective {
-  kMax,  ///< the max error
-  kRms,  ///< the root of the mean square error (with channels: of the norm, as the max error is). With a budget and
-         ///< more than fast effort only; see simplify().
-};
-
-/// Where vertices may be.
-enum class Vertices {
-  kAuto,     ///< kFree where kHigh and kMax can move them: in affine frames, without channels; else kSamples
-  kSamples,  ///< on samples, with their heights
-  kFree,     ///< between samples too, in steps of an eighth, with float32 heights of their own. For kHigh and kMax, in
-             ///< affine frames, on heights alone; vertices on outlines of nodata, and corners, stay on samples
 };
 
 /// Inserting several samples per pass ("parallel" insertion in the paper; Scape's thresholds).
@@ -124,13 +88,6 @@ struct EdgeRule {
   friend bool operator==(const EdgeRule&, const EdgeRule&) = default;
 };
 
-/// How a sample's errors in heights and channels are combined into one.
-enum class Norm {
-  kSum,      ///< L1
-  kSquares,  ///< L2
-  kMax,      ///< L∞
-};
-
 /// An instruction on one sample, before the first scan (Terra's scripts).
 struct ScriptStep {
   enum class Action {
@@ -139,6 +96,18 @@ struct ScriptStep {
   };
   Action action = Action::kInsert;
   std::int32_t col = 0, row = 0;
+};
+
+/// How samples are inserted.
+struct Strategy {
+  Importance importance = {};  ///< DEFAULT: global error
+  Algorithm algorithm = Algorithm::kHeap;
+  Batch batch = {};     ///< DEFAULT: one at a time
+  EdgeRule edges = {};  ///< DEFAULT: Delaunay
+  /// False: a budget that ends the run leaves the last mesh, as Scape does, though an earlier one may have been better.
+  /// DEFAULT: true. Always so where importance is not an error: one pass, products.
+  bool best_of_budget = true;
+  std::vector<ScriptStep> script = {};  ///< carried out in order before the first scan. DEFAULT: nothing.
 };
 
 /// What a run did.

@@ -8,26 +8,39 @@
 #include <vector>
 
 #include "scarp/height_field.h"
-#include "scarp/progress.h"
 #include "scarp/regions.h"
 #include "scarp/result.h"
+#include "scarp/run.h"
 
 #pragma GCC visibility push(default)
 
 namespace scarp {
 
+/// Bounds of their own for samples.
+struct Tolerances {
+  /// Bounds, one a sample, at least 0, in z units; +infinity: none. |error| <= tolerance at every valid sample, beside
+  /// max_error if that is given; |error| / tolerance is ranked. A goal of its own. Borrowed. DEFAULT: empty.
+  std::span<const float> values = {};
+  /// The same where the field has a source, read in windows as its samples are (no NaN): there the above fails with
+  /// kUsage, as this does beside samples in memory. Borrowed. DEFAULT: none.
+  const SampleSource* source = nullptr;
+  /// Weights, one a sample, at least 0 and finite (Terra's importance mask): weight · |error| is what is ranked and
+  /// what max_error bounds. Where the weight is 0 there is no bound. Borrowed. DEFAULT: empty, all 1.
+  std::span<const float> weights = {};
+};
+
 struct ToleranceOptions {
-  /// True: Tolerances::source computes tolerances on reading, for heights with a source. False: Tolerances::values
-  /// holds them, for heights in memory. DEFAULT: false.
+  /// True: OwnedTolerances::source computes tolerances on reading, for heights with a source. False:
+  /// OwnedTolerances::values holds them, for heights in memory. DEFAULT: false.
   bool in_windows = false;
-  int threads = 1;                 ///< threads that will read windows; as SimplifyOptions::threads
-  ProgressCallback progress = {};  ///< of the pass "read", where a raster is read through for windows
+  Run run =
+      {};  ///< threads: those that will read windows; progress: of the pass "read", where a raster is read through
 };
 
 /// A tolerance for each sample, in z units, at least 0; +infinity: none.
-struct Tolerances {
-  std::vector<float> values;                   ///< for SimplifyOptions::tolerance; empty where they have a source
-  std::shared_ptr<const SampleSource> source;  ///< for SimplifyOptions::tolerance_source; null where they are values
+struct OwnedTolerances {
+  std::vector<float> values;                   ///< for Tolerances::values; empty where they have a source
+  std::shared_ptr<const SampleSource> source;  ///< for Tolerances::source; null where they are values
   std::vector<bool> found;                     ///< by region, whether any part of it lies in the raster
   std::uint64_t bytes = 0;                     ///< of memory that the regions take, where there is a source
 };
@@ -43,10 +56,10 @@ struct Tolerances {
 /// where values are asked for; with kInput, naming the raster's file, for a negative value and where no sample has one;
 /// as the raster's source does; with kCancelled. REQUIRES: of the grid as region_tolerances(), where there are regions.
 /// Cost: O(samples) for the raster; for regions that of region_tolerances() or make_region_bounds().
-Result<Tolerances> make_tolerances(std::optional<OwnedHeightField> raster, std::span<const Region> regions,
-                                   const RegionGrid& grid, const ToleranceOptions& options = {});
+Result<OwnedTolerances> make_tolerances(std::optional<OwnedHeightField> raster, std::span<const Region> regions,
+                                        const RegionGrid& grid, const ToleranceOptions& options = {});
 
-/// Weights for SimplifyOptions::mask of a raster of weights, whose samples are in memory: 0 where it has no value; all
+/// Weights for Tolerances::weights of a raster of weights, whose samples are in memory: 0 where it has no value; all
 /// divided by the largest if that is above 1. Fails with kInput, naming the raster's file, for a negative weight and
 /// where no weight is above 0; with kUsage for a raster with a source. Cost: O(samples).
 Result<std::vector<float>> make_weights(OwnedHeightField raster);

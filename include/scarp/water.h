@@ -9,8 +9,8 @@
 
 #include "scarp/height_field.h"
 #include "scarp/lines.h"
-#include "scarp/progress.h"
 #include "scarp/result.h"
+#include "scarp/run.h"
 
 #pragma GCC visibility push(default)
 
@@ -23,7 +23,7 @@ struct Lake {
   std::uint64_t raised = 0;   ///< samples around it put above the level
   double largest_change = 0;  ///< of a sample
   std::uint64_t bytes = 0;    ///< that the field keeps for it, where its samples are not in memory as one array
-  std::vector<Line> shore;    ///< its rings, at the level: breaklines for SimplifyOptions::breaklines
+  std::vector<Line> shore;    ///< its rings, at the level: breaklines for Features::breaklines
 };
 
 /// How lakes are made flat.
@@ -36,8 +36,7 @@ struct WaterOptions {
   double freeboard = 0.01;
   /// As in SimplifyOptions: the memory limit of the process in bytes, 0 for none, and the bytes that others take of it.
   /// Lakes that do not fit are refused with kUsage. DEFAULT: no limit.
-  std::uint64_t memory_limit = 0, memory_taken = 0;
-  ProgressCallback progress = {};  ///< of the pass "water"
+  Run run = {};  ///< memory; progress: of the pass "water"
 };
 
 /// Makes each polygon of `lines` flat: all valid samples in it, even-odd by its rings, take the level given by the
@@ -62,8 +61,7 @@ struct FlatOptions {
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of shores: map_affine()
   std::uint64_t min_samples = 100;                 ///< at least 3
   /// As in WaterOptions; the memory of the shores as breaklines counts. DEFAULT: no limit.
-  std::uint64_t memory_limit = 0, memory_taken = 0;
-  ProgressCallback progress = {};  ///< of the pass "flats"
+  Run run = {};  ///< memory; progress: of the pass "flats"
 };
 
 /// The flat areas of the raster: at least min_samples samples of one height, connected side by side. The field does not

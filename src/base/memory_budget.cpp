@@ -26,7 +26,7 @@ Result<void> MemoryBudget::check_start(std::uint64_t work) const {
   const std::uint64_t needed = work + kSmallMesh * per_vertex;
   if (!is_limited() || needed <= rest()) return {};
   return fail(ErrorKind::kUsage,
-              fmt::format("memory_limit is too little: {}M are needed before the mesh has a thousand "
+              fmt::format("the memory limit is too little: {}M are needed before the mesh has a thousand "
                           "vertices; allow that much and what the mesh needs",
                           megabytes(static_cast<double>(taken + needed))));
 }
@@ -37,7 +37,7 @@ Result<void> MemoryBudget::check_mesh(std::uint64_t work, std::uint64_t vertices
   // A quarter more, since what is left may be rougher than what is done.
   const double needed = static_cast<double>(taken + work) + 1.25 * whole * static_cast<double>(per_vertex);
   return fail(ErrorKind::kUsage,
-              fmt::format("memory_limit is too little: the mesh has {} vertices when {:.0f} % of the run is done, and "
+              fmt::format("the memory limit is too little: the mesh has {} vertices when {:.0f} % of the run is done, and "
                           "the whole would need about {}M; allow that much, or a larger max error",
                           vertices, 100 * share, megabytes(needed)));
 }
@@ -46,7 +46,7 @@ Result<void> MemoryBudget::check_part(std::uint64_t bytes, double share, const c
   if (!is_limited() || bytes <= rest()) return {};
   const double needed = static_cast<double>(taken) + 1.25 * static_cast<double>(bytes) / std::clamp(share, 1e-6, 1.0);
   return fail(ErrorKind::kUsage,
-              fmt::format("memory_limit is too little: {} take {}M when {:.0f} % of the raster is seen, and the whole "
+              fmt::format("the memory limit is too little: {} take {}M when {:.0f} % of the raster is seen, and the whole "
                           "would need about {}M; allow that much, or {}",
                           what, megabytes(static_cast<double>(bytes)), 100 * share, megabytes(needed), advice));
 }

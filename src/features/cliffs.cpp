@@ -74,7 +74,7 @@ Result<Cliffs> detect_cliffs(const HeightField& field, const CliffOptions& optio
   for (const Line& line : options.avoid) runs.add_course(line);
   const SampleSet marks(runs.runs(), field.rows);
   MemoryBudget memory;
-  if (field.samples == nullptr) memory = {options.memory_limit, options.memory_taken, 0};
+  if (field.samples == nullptr) memory = {options.run.memory.limit, options.run.memory.taken, 0};
   auto cracks = find_cracks(field, options.height, marks, memory);
   if (!cracks) return tl::unexpected(cracks.error());
   cracks->link();

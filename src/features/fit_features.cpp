@@ -28,8 +28,8 @@ Result<void> fit_walls(const HeightField& field, const WallGoals& goals, const F
   cliffs.max_error = options.max_error;
   cliffs.affine = fitted.lines.affine;
   cliffs.avoid = fitted.lines.lines;
-  cliffs.memory_limit = options.memory_limit;
-  cliffs.memory_taken = options.memory_taken;
+  cliffs.run.memory.limit = options.run.memory.limit;
+  cliffs.run.memory.taken = options.run.memory.taken;
   auto walls = detect_cliffs(field, cliffs);
   if (!walls) return tl::unexpected(std::move(walls.error()));
   add_lines(walls->lines, fitted.lines);
@@ -45,10 +45,10 @@ Result<void> fit_ridges(const HeightField& field, const RidgeGoals& goals, const
   asked.affine = fitted.lines.affine;
   asked.avoid = fitted.lines.lines;
   asked.are_kept = goals.are_kept;
-  asked.threads = options.threads;
-  asked.progress = options.progress;
-  asked.memory_limit = options.memory_limit;
-  asked.memory_taken = options.memory_taken;
+  asked.run.threads = options.run.threads;
+  asked.run.progress = options.run.progress;
+  asked.run.memory.limit = options.run.memory.limit;
+  asked.run.memory.taken = options.run.memory.taken;
   auto ridges = detect_ridges(field, asked);
   if (!ridges) return tl::unexpected(std::move(ridges.error()));
   add_lines(ridges->ridges, fitted.lines);

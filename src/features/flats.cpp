@@ -160,8 +160,8 @@ class Flats {
   Flats(const OwnedHeightField& field, const FlatOptions& options)
       : field_(field.view()),
         options_(options),
-        memory_{options.memory_limit, options.memory_taken, 0},
-        reporter_(options.progress) {}
+        memory_{options.run.memory.limit, options.run.memory.taken, 0},
+        reporter_(options.run.progress) {}
 
   Result<std::vector<Lake>> find() {
     AreaSweep sweep(options_.min_samples);

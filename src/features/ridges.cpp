@@ -74,9 +74,9 @@ class Detection {
   Detection(const HeightField& field, const RidgeOptions& options)
       : field_(field),
         options_(options),
-        reporter_(options.progress),
+        reporter_(options.run.progress),
         marks_(runs_of(field, options), field.rows),
-        memory_{field.samples == nullptr ? options.memory_limit : 0, options.memory_taken, 0} {}
+        memory_{field.samples == nullptr ? options.run.memory.limit : 0, options.run.memory.taken, 0} {}
 
   Result<Ridges> run() {
     Ridges found;
@@ -108,7 +108,7 @@ class Detection {
       for (float& height : turned) height = -height;
       raster.samples = turned.data();
     }
-    const std::vector<Hollow> hollows = find_hollows(raster, options_.height, options_.threads);
+    const std::vector<Hollow> hollows = find_hollows(raster, options_.height, options_.run.threads);
     if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
     const std::vector<ValleyPath> paths = follow_valleys(raster, hollows, [&](Point p) { return marks_.has(p); });
     if (auto goes_on = take_step(); !goes_on) return tl::unexpected(goes_on.error());
@@ -121,7 +121,7 @@ class Detection {
     question.height = options_.height;
     question.is_upside_down = is_upside_down;
     question.is_left_out = [&](Point p) { return marks_.has(p); };
-    question.threads = options_.threads;
+    question.threads = options_.run.threads;
     const std::uint64_t rows = HollowSamples::bytes(field_);
     question.check = [&, rows](std::uint64_t count, double share) {
       return memory_.check_part(lines_ + rows + kBytesPerSample * count, share, "ridges and valleys",
@@ -141,7 +141,7 @@ class Detection {
 
   std::vector<Line> draw(const std::vector<ValleyPath>& paths, const LineSamples& samples, const char* name) {
     std::vector<Line> lines(paths.size());
-    parallel_for(paths.size(), options_.threads, [&](std::size_t k) {
+    parallel_for(paths.size(), options_.run.threads, [&](std::size_t k) {
       lines[k] = to_map(fewest_vertices(samples, paths[k], kRidgeShare * options_.max_error), options_,
                         fmt::format("{} {}", name, k + 1));
     });

@@ -272,7 +272,7 @@ std::vector<LakeRun> find_runs(const Shores& shores, const std::vector<Rings>& r
 Result<void> flatten_field(std::span<const LakeRun> runs, const WaterOptions& options, std::vector<Lake>& lakes,
                            OwnedHeightField& field) {
   Flattening flattening(runs, options.freeboard, field.cols, lakes);
-  Reporter reporter(options.progress);
+  Reporter reporter(options.run.progress);
   std::optional<RowReader> reader;
   std::vector<LevelRun> levels;
   if (field.source) reader.emplace(field.view());
@@ -330,7 +330,7 @@ Result<std::vector<Lake>> flatten_lakes(OwnedHeightField& field, std::span<const
   const std::vector<Rings> polygons = shores.find_polygons(lines);
   std::uint64_t bytes = 0;
   for (const Rings& rings : polygons) bytes += line_bytes(field, rings, options.affine);
-  const MemoryBudget memory{options.memory_limit, options.memory_taken, 0};
+  const MemoryBudget memory{options.run.memory.limit, options.run.memory.taken, 0};
   if (auto fits = memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
   auto found = find_lakes(shores, polygons);
   if (!found) return tl::unexpected(found.error());

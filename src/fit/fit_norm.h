@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/point.h"
-#include "scarp/strategy.h"
+#include "scarp/goals.h"
 
 namespace scarp {
 

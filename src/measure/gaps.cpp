@@ -26,9 +26,9 @@ struct Point {
 };
 
 /// Which points of the grid belong to the domain.
-class Domain {
+class ValidDomain {
  public:
-  explicit Domain(const HeightField& field) : field_(field), marks_(field) {}
+  explicit ValidDomain(const HeightField& field) : field_(field), marks_(field) {}
 
   double last_col() const { return field_.cols - 1.0; }
   double last_row() const { return field_.rows - 1.0; }
@@ -63,7 +63,7 @@ class Domain {
 
 /// Where the line from a to b crosses lattice lines, within the raster: ascending, in parts of the line, with both
 /// ends. Empty if it runs beside the raster.
-void cut_at_lattice(const Domain& domain, const Point& a, const Point& b, std::vector<double>& cuts) {
+void cut_at_lattice(const ValidDomain& domain, const Point& a, const Point& b, std::vector<double>& cuts) {
   cuts.clear();
   double first = 0, last = 1;
   const auto clip = [&](double from, double to, double least, double most) {
@@ -202,7 +202,7 @@ Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, std
     }
   }
   const std::vector<Point> points = map_to_grid(field, mesh, vertices);
-  Domain domain(field);
+  ValidDomain domain(field);
   const double step = std::clamp(4 * tolerance, 1.0 / 64, 0.25);
   // Less than any wedge between lattice edges of a raster in memory, more than the rounding of a mapped vertex.
   constexpr double kNoise = 1e-7;

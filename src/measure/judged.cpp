@@ -83,26 +83,26 @@ Result<std::uint64_t> count_unbounded(const HeightField& field, const SampleSour
 
 Result<Exceptions> find_exceptions(const HeightField& field, const JudgeOptions& options) {
   Exceptions found;
-  if (options.tolerance_source != nullptr) {
+  if (options.tolerances.source != nullptr) {
     if (options.max_error) return found;
     if (options.weigh) {
-      const auto count = count_unbounded(field, *options.tolerance_source);
+      const auto count = count_unbounded(field, *options.tolerances.source);
       if (!count) return tl::unexpected(count.error());
       found.count = *count;
       if (*count == 0) return found;
     }
-    found.source = std::make_unique<BoundLimits>(*options.tolerance_source);
+    found.source = std::make_unique<BoundLimits>(*options.tolerances.source);
     return found;
   }
   const auto ignores = [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; };
   const bool has_ignored = std::any_of(options.script.begin(), options.script.end(), ignores);
-  if (options.mask.empty() && options.tolerance.empty() && !has_ignored) return found;
+  if (options.tolerances.weights.empty() && options.tolerances.values.empty() && !has_ignored) return found;
   found.limits.resize(count_samples(field), 0);
-  for (std::size_t k = 0; k < options.mask.size(); ++k) {
-    if (options.mask[k] == 0) found.limits[k] = kNoBound;
+  for (std::size_t k = 0; k < options.tolerances.weights.size(); ++k) {
+    if (options.tolerances.weights[k] == 0) found.limits[k] = kNoBound;
   }
-  for (std::size_t k = 0; k < options.tolerance.size() && !options.max_error; ++k) {
-    if (std::isinf(options.tolerance[k])) found.limits[k] = kNoBound;
+  for (std::size_t k = 0; k < options.tolerances.values.size() && !options.max_error; ++k) {
+    if (std::isinf(options.tolerances.values[k])) found.limits[k] = kNoBound;
   }
   for (const ScriptStep& step : options.script) {
     if (!ignores(step)) continue;
@@ -241,15 +241,18 @@ Result<Measurement> measure_and_weigh(const HeightField& heights, const Mesh& me
 
 Result<void> check_request(const HeightField& field, const Mesh& mesh, const JudgeOptions& options) {
   const std::size_t samples = count_samples(field);
-  for (const auto& [values, name] : {std::pair{options.mask, "mask"}, std::pair{options.tolerance, "tolerance"}}) {
+  for (const auto& [values, name] :
+       {std::pair{options.tolerances.weights, "mask"}, std::pair{options.tolerances.values, "tolerance"}}) {
     if (!values.empty() && values.size() != samples)
       return fail(ErrorKind::kUsage, fmt::format("a {} of {} values for {} samples", name, values.size(), samples));
   }
-  const int bounds = !options.mask.empty() + !options.tolerance.empty() + (options.tolerance_source != nullptr);
+  const int bounds =
+      !options.tolerances.weights.empty() + !options.tolerances.values.empty() + (options.tolerances.source != nullptr);
   if (bounds > 1) return fail(ErrorKind::kUsage, "a mask and tolerances, or tolerances twice: give one of them");
   if (options.max_error && !(*options.max_error >= 0))
     return fail(ErrorKind::kUsage, fmt::format("a max error of {}: it must be at least 0", *options.max_error));
-  const bool needs_samples = !field.channels.empty() || !options.mask.empty() || !options.tolerance.empty();
+  const bool needs_samples =
+      !field.channels.empty() || !options.tolerances.weights.empty() || !options.tolerances.values.empty();
   if (field.samples == nullptr && (needs_samples || !options.script.empty()))
     return fail(ErrorKind::kUsage,
                 "channels, masks, scripts and arrays of tolerances go with samples in memory: read the raster as a "
@@ -306,8 +309,9 @@ Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const J
   const auto exceptions = find_exceptions(field, request);
   if (!exceptions) return tl::unexpected(exceptions.error());
   const bool has_channels = !field.channels.empty();
-  const bool weighs_later = request.weigh && (has_channels || !request.mask.empty() || !request.tolerance.empty());
-  const SampleSource* weigh_by = request.weigh ? request.tolerance_source : nullptr;
+  const bool weighs_later =
+      request.weigh && (has_channels || !request.tolerances.weights.empty() || !request.tolerances.values.empty());
+  const SampleSource* weigh_by = request.weigh ? request.tolerances.source : nullptr;
   const bool keeps = request.keep_errors || weighs_later;
   const auto cols = static_cast<std::size_t>(field.cols);
   Judgement judgement;
@@ -316,8 +320,8 @@ Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const J
   if (keeps && has_channels) judgement.norms.resize(count_samples(field), 0);
 
   MeasureOptions options;
-  options.threads = request.threads;
-  options.progress = request.progress;
+  options.run.threads = request.run.threads;
+  options.run.progress = request.run.progress;
   options.topology = request.topology;
   options.cutline = request.cutline;
   options.tolerance = exceptions->limits;
@@ -368,8 +372,8 @@ Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const J
   const Scales scales(field, judgement, *exceptions);
   const double bound = request.max_error.value_or(HUGE_VAL);
   if (has_channels) judgement.combined = scales.weigh({}, {}, bound);
-  if (!request.mask.empty()) judgement.weighted = scales.weigh(request.mask, {}, bound);
-  if (!request.tolerance.empty()) judgement.weighted = scales.weigh({}, request.tolerance, 1);
+  if (!request.tolerances.weights.empty()) judgement.weighted = scales.weigh(request.tolerances.weights, {}, bound);
+  if (!request.tolerances.values.empty()) judgement.weighted = scales.weigh({}, request.tolerances.values, 1);
   if (!request.keep_errors) judgement.height_errors = {}, judgement.norms = {};
   return judgement;
 }

@@ -188,14 +188,14 @@ Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const jud
   const double guard = error_guard(mesh);
   const int height = Band::rows_per_band(field.cols);
   const int bands = (field.rows - 1) / height + 1;
-  const int window = 2 * std::min(thread_count(options.threads), 1024);
+  const int window = 2 * std::min(thread_count(options.run.threads), 1024);
   // Histograms stay with their place in the window: counts add up to the same whoever made them.
   std::vector<Histogram> histograms(static_cast<std::size_t>(std::min(window, bands)));
   Verdict verdict(options, field.cols, result);
   for (int first = 0; first < bands; first += window) {
     if (!gate.go_on("measure", static_cast<double>(first) / bands, verdict.max_error())) return cancelled();
     std::vector<Result<BandReport>> reports(static_cast<std::size_t>(std::min(window, bands - first)));
-    parallel_for(reports.size(), options.threads, [&](std::size_t i) {
+    parallel_for(reports.size(), options.run.threads, [&](std::size_t i) {
       const int row = (first + static_cast<int>(i)) * height;
       Result<Band> band = Band::read(field, row, std::min(height, field.rows - row), limits, guard);
       if (!band) {
@@ -250,7 +250,7 @@ std::unique_ptr<judge::Scanner> make_scanner(const HeightField& field, const Mes
 
 Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const MeasureOptions& options) try {
   if (auto checked = check_input(field, mesh, options); !checked) return tl::unexpected<Error>(checked.error());
-  ProgressGate gate(options.progress);
+  ProgressGate gate(options.run.progress);
 
   Measurement result;
   result.vertices = mesh.vertex_count();
@@ -281,7 +281,7 @@ Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const Me
     if (!gaps) return tl::unexpected(gaps.error());
     result.gaps = *gaps;
     bool is_stopped = false;
-    result.overlaps = judge::count_overlaps(mesh, judged, options.threads, [&](double fraction) {
+    result.overlaps = judge::count_overlaps(mesh, judged, options.run.threads, [&](double fraction) {
       is_stopped = !gate.go_on("topology", fraction);
       return !is_stopped;
     });
@@ -294,7 +294,7 @@ Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const Me
 
 Result<std::vector<float>> resample(const HeightField& field, const Mesh& mesh, int threads) try {
   MeasureOptions options;
-  options.threads = threads;
+  options.run.threads = threads;
   if (auto checked = check_input(field, mesh, options); !checked) return tl::unexpected<Error>(checked.error());
   if (field.samples == nullptr) {
     return fail(ErrorKind::kUsage,
@@ -306,7 +306,7 @@ Result<std::vector<float>> resample(const HeightField& field, const Mesh& mesh, 
     std::copy(values.begin(), values.end(), heights.begin() + std::ptrdiff_t{row} * field.cols);
   };
   const auto scanner = make_scanner(field, mesh, find_surface(mesh, false).judged, options.coverage_tolerance);
-  ProgressGate gate(options.progress);
+  ProgressGate gate(options.run.progress);
   Measurement ignored;
   auto judged = judge_heights(field, mesh, *scanner, nullptr, options, judge::Keep::kHeights, gate, ignored);
   if (!judged) return tl::unexpected(std::move(judged.error()));

@@ -164,7 +164,7 @@ Result<Measurement> judge_points(const PointSet& points, const PointPlaces& plac
                                  const MeasureOptions& options) {
   if (auto checked = check_mesh(mesh); !checked) return tl::unexpected(checked.error());
   if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
-  ProgressGate gate(options.progress);
+  ProgressGate gate(options.run.progress);
   const auto cancelled = [] { return fail(ErrorKind::kCancelled, "measuring was cancelled"); };
 
   Measurement result;
@@ -198,10 +198,10 @@ Result<Measurement> judge_points(const PointSet& points, const PointPlaces& plac
   std::vector<std::uint32_t> triangles(options.collect_above ? places.size() : 0);
   constexpr std::size_t kChunk = 1 << 14;
   const std::size_t chunks = (places.size() + kChunk - 1) / kChunk;
-  const std::size_t window = 4 * static_cast<std::size_t>(std::min(thread_count(options.threads), 1024));
+  const std::size_t window = 4 * static_cast<std::size_t>(std::min(thread_count(options.run.threads), 1024));
   for (std::size_t first = 0; first < chunks; first += window) {
     if (!gate.go_on("measure", static_cast<double>(first) / static_cast<double>(chunks))) return cancelled();
-    parallel_for(std::min(window, chunks - first), options.threads, [&](std::size_t i) {
+    parallel_for(std::min(window, chunks - first), options.run.threads, [&](std::size_t i) {
       const std::size_t begin = (first + i) * kChunk, end = std::min(places.size(), begin + kChunk);
       for (std::size_t place = begin; place < end; ++place) {
         const Verdict verdict = judge.judge(place);
@@ -239,7 +239,7 @@ Result<Measurement> judge_points(const PointSet& points, const PointPlaces& plac
     result.t_junctions = count_t_junctions(mesh, welded, edges.open);
     result.gaps = count_hull_gaps(points, places, mesh, edges.open, tolerance);
     bool is_stopped = false;
-    result.overlaps = count_overlaps(mesh, judged, options.threads, [&](double fraction) {
+    result.overlaps = count_overlaps(mesh, judged, options.run.threads, [&](double fraction) {
       is_stopped = !gate.go_on("topology", fraction);
       return !is_stopped;
     });

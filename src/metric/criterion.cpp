@@ -38,13 +38,13 @@ Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOption
   for (const auto check : {&Criterion::check_weights, &Criterion::check_strategy, &Criterion::check_channels}) {
     if (auto sound = (criterion.*check)(); !sound) return tl::unexpected(sound.error());
   }
-  if (options.max_error) criterion.bound_ = tightened(*options.max_error, field.sample_rounding);
+  if (options.goals.max_error) criterion.bound_ = tightened(*options.goals.max_error, field.sample_rounding);
   if (auto set = criterion.set_bounds(); !set) return tl::unexpected(set.error());
   criterion.set_factors();
   if (aim < 1) {
     for (const float of : criterion.bounds_) criterion.aims_.push_back(criterion.rule().aim_at(of));
   }
-  const Importance& importance = options.importance;
+  const Importance& importance = options.strategy.importance;
   criterion.importance_is_error_ = importance.global && importance.feature == Importance::Feature::kNoFeature;
   const double bound = criterion.aim();
   const bool plain =
@@ -56,12 +56,12 @@ Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOption
       criterion.judge_ = std::make_unique<SourceJudge>(field, bound, criterion.source_bounds());
     }
   } else {
-    Judging judging{raster, criterion.judged_fields(), options.norm, bound};
+    Judging judging{raster, criterion.judged_fields(), options.goals.norm, bound};
     if (!criterion.bounds_.empty()) judging.bounds = criterion.aims().data();
     if (!criterion.factors_.empty()) judging.factors = criterion.factors_.data();
-    judging.per_bound = !options.tolerance.empty() && criterion.factors_.empty();
+    judging.per_bound = !options.tolerances.values.empty() && criterion.factors_.empty();
     judging.by_error = importance.global;
-    if (criterion.importance_is_error_) judging.goal = options.tolerance.empty() ? bound : 1;
+    if (criterion.importance_is_error_) judging.goal = options.tolerances.values.empty() ? bound : 1;
     criterion.judge_ = std::make_unique<SampleJudge>(std::move(judging));
   }
   return criterion;
@@ -73,21 +73,22 @@ Point Criterion::place(std::size_t index) const {
 }
 
 Result<void> Criterion::check_weights() const {
-  if (options_->tolerance_source != nullptr && field_->samples != nullptr)
+  if (options_->tolerances.source != nullptr && field_->samples != nullptr)
     return usage("tolerances are read in windows where samples are: beside samples in memory give them as an array");
   const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
-  for (const auto& [name, values] : {std::pair{"the mask", options_->mask}, {"the tolerance", options_->tolerance}}) {
+  for (const auto& [name, values] :
+       {std::pair{"the mask", options_->tolerances.weights}, {"the tolerance", options_->tolerances.values}}) {
     if (values.empty()) continue;
     if (values.size() != samples)
       return usage(fmt::format("{} has {} values for {} samples", name, values.size(), samples));
-    const bool is_mask = values.data() == options_->mask.data();
+    const bool is_mask = values.data() == options_->tolerances.weights.data();
     const auto bad =
         std::find_if(values.begin(), values.end(), [&](float v) { return !(v >= 0) || (is_mask && v == kUnbounded); });
     if (bad != values.end())
       return tl::unexpected(refuse_value(name, place(static_cast<std::size_t>(bad - values.begin())), *bad,
                                          is_mask ? ", and finite" : ""));
   }
-  for (const ScriptStep& step : options_->script) {
+  for (const ScriptStep& step : options_->strategy.script) {
     if (step.col < 0 || step.row < 0 || step.col >= raster_.cols || step.row >= raster_.rows)
       return usage(fmt::format("the script names sample ({}, {}), but the raster has {} x {} samples", step.col,
                                step.row, raster_.cols, raster_.rows));
@@ -96,18 +97,20 @@ Result<void> Criterion::check_weights() const {
 }
 
 Result<void> Criterion::check_strategy() const {
-  const Importance& importance = options_->importance;
+  const Importance& importance = options_->strategy.importance;
   const bool has_feature = importance.feature != Importance::Feature::kNoFeature;
   if (!importance.global && !has_feature) return usage("an importance needs the global error or a feature");
   if (importance.one_pass && (importance.global || !has_feature))
     return usage("one pass ranks samples by a feature alone: local error or curvature");
-  const Batch& batch = options_->batch;
+  const Batch& batch = options_->strategy.batch;
   if (batch.rule == Batch::Rule::kFraction && !(batch.fraction > 0 && batch.fraction <= 1))
     return usage(fmt::format("a batch takes a fraction above 0 and at most 1, not {}", batch.fraction));
-  if (!(options_->edges.shape_threshold <= 1))
-    return usage(fmt::format("the shape threshold must lie in 0 … 1, not {}", options_->edges.shape_threshold));
-  if (!(options_->edges.supersample >= 0))
-    return usage(fmt::format("supersampling needs a number of at least 0, not {}", options_->edges.supersample));
+  if (!(options_->strategy.edges.shape_threshold <= 1))
+    return usage(
+        fmt::format("the shape threshold must lie in 0 … 1, not {}", options_->strategy.edges.shape_threshold));
+  if (!(options_->strategy.edges.supersample >= 0))
+    return usage(
+        fmt::format("supersampling needs a number of at least 0, not {}", options_->strategy.edges.supersample));
   return {};
 }
 
@@ -145,25 +148,25 @@ std::vector<JudgedField> Criterion::judged_fields() const {
 
 Result<void> Criterion::set_bounds() {
   const auto ignores = [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; };
-  const bool has_ignored = std::any_of(options_->script.begin(), options_->script.end(), ignores);
-  if (options_->tolerance_source != nullptr)
-    source_bounds_ =
-        std::make_unique<SourceBounds>(*options_->tolerance_source, options_->max_error.value_or(HUGE_VAL), rule());
-  if (options_->mask.empty() && options_->tolerance.empty() && !has_ignored) return {};
+  const bool has_ignored = std::any_of(options_->strategy.script.begin(), options_->strategy.script.end(), ignores);
+  if (options_->tolerances.source != nullptr)
+    source_bounds_ = std::make_unique<SourceBounds>(*options_->tolerances.source,
+                                                    options_->goals.max_error.value_or(HUGE_VAL), rule());
+  if (options_->tolerances.weights.empty() && options_->tolerances.values.empty() && !has_ignored) return {};
   const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
   bounds_.resize(samples);
   for (std::size_t i = 0; i < samples; ++i) {
-    double asked = options_->max_error.value_or(options_->tolerance.empty() ? 0 : HUGE_VAL);
-    if (!options_->tolerance.empty()) asked = std::min(asked, double{options_->tolerance[i]});
-    if (!options_->mask.empty()) {
-      const double weight = options_->mask[i];
+    double asked = options_->goals.max_error.value_or(options_->tolerances.values.empty() ? 0 : HUGE_VAL);
+    if (!options_->tolerances.values.empty()) asked = std::min(asked, double{options_->tolerances.values[i]});
+    if (!options_->tolerances.weights.empty()) {
+      const double weight = options_->tolerances.weights[i];
       asked = weight > 0 ? divide_down(asked, weight) : HUGE_VAL;
     }
     if (has_error_goal() && asked < rule().reserve && !std::isnan(raster_.samples[i]))
       return tl::unexpected(rule().refuse(place(i), asked));
     bounds_[i] = rule().bound(asked);
   }
-  for (const ScriptStep& step : options_->script) {
+  for (const ScriptStep& step : options_->strategy.script) {
     if (ignores(step))
       bounds_[static_cast<std::size_t>(step.row) * static_cast<std::size_t>(raster_.cols) +
               static_cast<std::size_t>(step.col)] = kUnbounded;
@@ -173,17 +176,18 @@ Result<void> Criterion::set_bounds() {
 }
 
 void Criterion::set_factors() {
-  const bool has_feature = options_->importance.feature != Importance::Feature::kNoFeature;
-  if (has_feature) factors_ = measure_feature(raster_, options_->importance);
-  const bool has_tolerance = !options_->tolerance.empty();
-  if (options_->mask.empty() && !(has_tolerance && has_feature)) return;
+  const bool has_feature = options_->strategy.importance.feature != Importance::Feature::kNoFeature;
+  if (has_feature) factors_ = measure_feature(raster_, options_->strategy.importance);
+  const bool has_tolerance = !options_->tolerances.values.empty();
+  if (options_->tolerances.weights.empty() && !(has_tolerance && has_feature)) return;
   factors_.resize(bounds_.size(), 1);
   for (std::size_t i = 0; i < factors_.size(); ++i)
-    factors_[i] = std::min(factors_[i] * (has_tolerance ? per_bound(bounds_[i]) : options_->mask[i]), kMostFactor);
+    factors_[i] =
+        std::min(factors_[i] * (has_tolerance ? per_bound(bounds_[i]) : options_->tolerances.weights[i]), kMostFactor);
 }
 
 std::vector<Point> Criterion::ranking() const {
-  if (!options_->importance.one_pass) return {};
+  if (!options_->strategy.importance.one_pass) return {};
   std::vector<Point> points = rank_samples(raster_, factors_);
   std::erase_if(points, [this](Point p) {
     const auto row = static_cast<std::size_t>(p.y) * static_cast<std::size_t>(raster_.cols);

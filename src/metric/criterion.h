@@ -46,7 +46,7 @@ class Criterion {
   /// The fields whose errors count.
   std::vector<JudgedField> judged_fields() const;
   bool has_error_goal() const {
-    return bound_.has_value() || !options_->tolerance.empty() || options_->tolerance_source != nullptr;
+    return bound_.has_value() || !options_->tolerances.values.empty() || options_->tolerances.source != nullptr;
   }
 
  private:

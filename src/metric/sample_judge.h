@@ -9,7 +9,7 @@
 #include "geom/plane.h"
 #include "grid/raster.h"
 #include "metric/judge.h"
-#include "scarp/strategy.h"
+#include "scarp/goals.h"
 
 namespace scarp {
 

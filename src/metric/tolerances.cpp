@@ -134,8 +134,8 @@ Result<void> look_through(const OwnedHeightField& raster, const ProgressCallback
 
 }  // namespace
 
-Result<Tolerances> make_tolerances(std::optional<OwnedHeightField> raster, std::span<const Region> regions,
-                                   const RegionGrid& grid, const ToleranceOptions& options) {
+Result<OwnedTolerances> make_tolerances(std::optional<OwnedHeightField> raster, std::span<const Region> regions,
+                                        const RegionGrid& grid, const ToleranceOptions& options) {
   if (!raster && regions.empty())
     return fail(ErrorKind::kUsage, "tolerances are made of a raster or of regions, and there are none");
   if (raster && (raster->cols != grid.cols || raster->rows != grid.rows))
@@ -144,15 +144,15 @@ Result<Tolerances> make_tolerances(std::optional<OwnedHeightField> raster, std::
   if (raster && raster->source && !options.in_windows)
     return fail(ErrorKind::kUsage, raster->info.path + " is not in memory: ask for tolerances in windows");
   if (raster) {
-    const ProgressCallback& progress = options.in_windows ? options.progress : ProgressCallback();
+    const ProgressCallback& progress = options.in_windows ? options.run.progress : ProgressCallback();
     if (auto sound = look_through(*raster, progress); !sound) return tl::unexpected(sound.error());
   }
 
-  Tolerances made;
+  OwnedTolerances made;
   if (options.in_windows) {
     if (raster) made.source = std::make_shared<RasterTolerances>(std::move(*raster));
     if (regions.empty()) return made;
-    RegionBounds bounds = make_region_bounds(regions, grid, options.threads);
+    RegionBounds bounds = make_region_bounds(regions, grid, options.run.threads);
     made.source = made.source ? std::make_shared<LeastTolerances>(std::move(bounds.source), std::move(made.source))
                               : std::move(bounds.source);
     made.found = std::move(bounds.found);

@@ -27,31 +27,32 @@ Question either(const Question& first, const Question& second) {
 }  // namespace
 
 bool has_lines(const SimplifyOptions& options) {
-  return !options.breaklines.lines.empty() || options.breaklines_for || !options.cutline.rings.empty();
+  return !options.features.breaklines.lines.empty() || options.features.breaklines_for ||
+         !options.features.cutline.rings.empty();
 }
 
 bool lays_first(const SimplifyOptions& options) {
-  return std::any_of(options.breaklines.lines.begin(), options.breaklines.lines.end(), is_laid_first);
+  return std::any_of(options.features.breaklines.lines.begin(), options.features.breaklines.lines.end(), is_laid_first);
 }
 
-bool has_budget(const SimplifyOptions& options) { return options.max_triangles || options.max_vertices; }
+bool has_budget(const SimplifyOptions& options) { return options.goals.max_triangles || options.goals.max_vertices; }
 
 bool vertices_are_free(const HeightField& field, const SimplifyOptions& options) {
-  return moves_vertices(options.effort) && options.vertices != Vertices::kSamples && field.frame.is_affine() &&
-         !has_norm(field);
+  return moves_vertices(options.quality.effort) && options.quality.vertices != Vertices::kSamples &&
+         field.frame.is_affine() && !has_norm(field);
 }
 
 bool removes_last(const HeightField& field, const SimplifyOptions& options) {
-  return options.shape.any() && shape_rule(options.shape, field.frame);
+  return options.quality.shape.any() && shape_rule(options.quality.shape, field.frame);
 }
 
 bool places_are_exact(const HeightField& field, const SimplifyOptions& options, std::int32_t steps) {
   return field.frame.is_affine() &&
-         (!options.float32_positions || offsets_are_exact(field.frame, field.cols, field.rows, steps));
+         (!options.output.float32_positions || offsets_are_exact(field.frame, field.cols, field.rows, steps));
 }
 
 std::int32_t place_steps(const HeightField& field, const SimplifyOptions& options) {
-  if (has_lines(options) || options.shape.any()) return kLatticeSteps;
+  if (has_lines(options) || options.quality.shape.any()) return kLatticeSteps;
   return vertices_are_free(field, options) ? kLatticeSteps / kFreeStep : 1;
 }
 
@@ -68,7 +69,7 @@ std::optional<FitNorm> fit_norm(const SimplifyOptions& options, const Raster& ra
   if (fields.size() == 1 && fields[0].samples == raster.samples && fields[0].scale == 1) return std::nullopt;
   FitNorm norm;
   for (const JudgedField& field : fields) norm.fields.push_back({field.samples, field.scale});
-  norm.norm = options.norm;
+  norm.norm = options.goals.norm;
   norm.find_breach = [&judge = criterion.judge()](const std::array<Point, 3>& corners) {
     const auto candidate = judge.find_candidate(corners, judge.fit(corners, {}));
     return candidate ? std::optional(candidate->at) : std::nullopt;
@@ -84,13 +85,13 @@ FitOptions fit_options(const HeightField& field, const SimplifyOptions& options,
   fit.threshold = threshold;
   if (!field.frame.is_affine()) fit.free_sides = {false, false, false, false};
   fit.vertices_are_free = vertices_are_free(field, options);
-  if (options.effort == Effort::kHigh) fit.depth = kHighDepth;
-  if (options.effort == Effort::kMax) fit.depth = kMaxDepth;
-  fit.min_shape = options.min_shape.value_or(fit.vertices_are_free ? kUsualShape : 0);
+  if (options.quality.effort == Effort::kHigh) fit.depth = kHighDepth;
+  if (options.quality.effort == Effort::kMax) fit.depth = kMaxDepth;
+  fit.min_shape = options.quality.min_shape.value_or(fit.vertices_are_free ? kUsualShape : 0);
   fit.aspect = std::hypot(a[2], a[5]) / std::hypot(a[1], a[4]);
-  if (options.shape.any()) fit.shape = shape_rule(options.shape, field.frame);
-  if (!has_budget(options)) fit.is_time_up = either(options.is_time_up, options.is_enough);
-  fit.goes_on = options.effort == Effort::kMax && options.is_time_up;
+  if (options.quality.shape.any()) fit.shape = shape_rule(options.quality.shape, field.frame);
+  if (!has_budget(options)) fit.is_time_up = either(options.run.is_time_up, options.run.is_enough);
+  fit.goes_on = options.quality.effort == Effort::kMax && options.run.is_time_up;
   return fit;
 }
 

@@ -12,18 +12,19 @@ namespace scarp {
 
 MemoryBudget memory_budget(const HeightField& field, const SimplifyOptions& options) {
   constexpr std::uint64_t kMesh = 48, kProof = 145;
-  const bool is_fitted_whole = options.effort > Effort::kFast && (field.samples != nullptr || options.shape.any());
+  const bool is_fitted_whole =
+      options.quality.effort > Effort::kFast && (field.samples != nullptr || options.quality.shape.any());
   const std::uint64_t fit = is_fitted_whole ? kFitBytesPerVertex + kFitBytesPerVertexAndThread : 0;
-  const std::uint64_t shape = options.shape.any() ? kShapeBytesPerVertex : 0;
-  return {options.memory_limit, options.memory_taken,
-          std::max({kProof, kMesh + options.memory_per_vertex, fit, shape})};
+  const std::uint64_t shape = options.quality.shape.any() ? kShapeBytesPerVertex : 0;
+  return {options.run.memory.limit, options.run.memory.taken,
+          std::max({kProof, kMesh + options.run.memory.per_vertex, fit, shape})};
 }
 
 Result<void> check_goals(const SimplifyOptions& options) {
-  const bool has_tolerance = !options.tolerance.empty() || options.tolerance_source != nullptr;
-  if (!options.max_error && !options.max_triangles && !options.max_vertices && !has_tolerance)
+  const bool has_tolerance = !options.tolerances.values.empty() || options.tolerances.source != nullptr;
+  if (!options.goals.max_error && !options.goals.max_triangles && !options.goals.max_vertices && !has_tolerance)
     return fail(ErrorKind::kUsage, "no goal given: set max_error, max_triangles, max_vertices or tolerance");
-  return check_max_error(options.max_error);
+  return check_max_error(options.goals.max_error);
 }
 
 Result<void> check_max_error(const std::optional<double>& max_error) {

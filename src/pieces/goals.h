@@ -30,7 +30,7 @@ class Budget {
  public:
   Budget(std::optional<std::uint64_t> max_triangles, std::optional<std::uint64_t> max_vertices)
       : max_triangles_(max_triangles), max_vertices_(max_vertices) {}
-  explicit Budget(const SimplifyOptions& options) : Budget(options.max_triangles, options.max_vertices) {}
+  explicit Budget(const SimplifyOptions& options) : Budget(options.goals.max_triangles, options.goals.max_vertices) {}
 
   /// Fails if not even the smallest mesh fits: "N vertices are too few: CULPRIT M; allow moreADVICE".
   Result<void> check(const MeshSize& least, const std::string& culprit, const std::string& advice) const;

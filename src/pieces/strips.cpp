@@ -27,10 +27,10 @@ bool has_room(const HeightField& field) { return std::max(field.cols, field.rows
 
 FitOptions strip_fit(const Plan& plan, double threshold) {
   FitOptions fit = fit_options(plan.field, plan.options, threshold);
-  fit.threads = plan.options.threads;
+  fit.threads = plan.options.run.threads;
   fit.vertices_are_free = fit.vertices_are_free && has_room(plan.field);
   fit.goes_on = false;
-  if (plan.options.shape.any()) {
+  if (plan.options.quality.shape.any()) {
     fit.depth = {};
     fit.vertices_are_free = false;
   }
@@ -43,7 +43,7 @@ class StripWork {
   StripWork(const Plan& plan, const ConstraintGraph* lines, const SourceBounds* tolerances, double threshold,
             std::int32_t side, StripTotals& totals)
       : tolerances_(tolerances),
-        goals_{threshold, plan.fits_pieces && plan.releases_starts, plan.options.threads},
+        goals_{threshold, plan.fits_pieces && plan.releases_starts, plan.options.run.threads},
         side_(side),
         fit_(plan.fits_pieces ? std::optional(strip_fit(plan, threshold)) : std::nullopt),
         totals_(totals) {
@@ -134,7 +134,7 @@ class StripWork {
 
 void work_by_strips(const Plan& plan, const ConstraintGraph* lines, const SourceBounds* tolerances, double threshold,
                     StripTotals& totals, TiledOptions& tiles) {
-  const auto threads = static_cast<std::uint64_t>(thread_count(plan.options.threads));
+  const auto threads = static_cast<std::uint64_t>(thread_count(plan.options.run.threads));
   if (plan.fits_pieces) tiles.finish_bytes_per_vertex = kFitBytesPerVertex + kFitBytesPerVertexAndThread * threads;
   if (tolerances != nullptr) tiles.finish_bytes_per_sample = kAimBytesPerSample;
   if (tolerances != nullptr || lines != nullptr)
@@ -148,7 +148,7 @@ void work_by_strips(const Plan& plan, const ConstraintGraph* lines, const Source
 std::int32_t strip_side(const Plan& plan) {
   TiledOptions tiles;
   tiles.memory = plan.memory;
-  if (plan.options.tolerance_source != nullptr) tiles.finish_bytes_per_sample = kAimBytesPerSample;
+  if (plan.options.tolerances.source != nullptr) tiles.finish_bytes_per_sample = kAimBytesPerSample;
   tiles.finish_row = [](Piece&) -> Result<void> { return fail(ErrorKind::kInternal, "no strip is there yet"); };
   return streamed_side(plan.field, tiles);
 }

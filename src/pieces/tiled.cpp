@@ -161,7 +161,7 @@ class TiledRun {
     const bool is_whole = assembly_.is_whole();
     if (!fixed_.empty()) fixed_.resize(assembly_.vertex_count(), 0);
     std::vector<HalfEdge> seams;
-    Domain domain{assembly_.finish(seams), is_whole};
+    DomainMesh domain{assembly_.finish(seams), is_whole};
     if (!is_whole) domain.unused = count_unused(domain.tin);
     if (domain.unused == domain.tin.vertex_count())
       return fail(

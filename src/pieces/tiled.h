@@ -52,7 +52,7 @@ struct TiledOptions {
 };
 
 struct Tiled {
-  Domain domain;
+  DomainMesh domain;
   std::vector<HalfEdge> seams;  ///< edges between tiles, for release_seams()
   std::vector<float> heights;   ///< of the vertices, where rows were finished, or the field has a source for samples
   std::int32_t steps = 1;       ///< of the domain's points between two samples

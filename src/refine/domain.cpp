@@ -104,8 +104,8 @@ void follow_curved_border(const Raster& raster, Triangulation& tin, const Frame&
   }
 }
 
-Result<Domain> build_domain(const Raster& raster, double outline_tolerance, const Frame& frame) {
-  Domain domain{Triangulation(raster.cols, raster.rows)};
+Result<DomainMesh> build_domain(const Raster& raster, double outline_tolerance, const Frame& frame) {
+  DomainMesh domain{Triangulation(raster.cols, raster.rows)};
   domain.whole = is_whole(raster);
   if (!domain.whole) {
     const Outline outline = trace_outline(raster);

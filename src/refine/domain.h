@@ -11,7 +11,7 @@
 
 namespace scarp {
 
-struct Domain {
+struct DomainMesh {
   Triangulation tin;
   bool whole = true;         ///< every sample is a height: the domain is the rectangle
   std::uint32_t unused = 0;  ///< rectangle corners that are no vertex of the domain (void or stray)
@@ -20,7 +20,7 @@ struct Domain {
 /// The rectangle as two triangles if every sample is a height; else the outline's vertices, its edges constrained, all
 /// else marked outside. In frames that are not affine the border follows the samples (follow_curved_border()).
 /// Fails with kInput if no cell is surface.
-Result<Domain> build_domain(const Raster& raster, double outline_tolerance, const Frame& frame);
+Result<DomainMesh> build_domain(const Raster& raster, double outline_tolerance, const Frame& frame);
 
 /// In a frame that is not affine: adds samples to the domain's border until each border edge runs, in the frame, within
 /// 1/512 sample of the samples under it.

@@ -21,12 +21,12 @@ tl::unexpected<Error> usage(std::string message) { return fail(ErrorKind::kUsage
 
 /// What the lines are called.
 const char* name_lines(const SimplifyOptions& options) {
-  const auto& lines = options.breaklines.lines;
+  const auto& lines = options.features.breaklines.lines;
   const auto all = [&](bool (*kind)(const Line&)) {
     return !lines.empty() && std::all_of(lines.begin(), lines.end(), kind);
   };
   if (all(is_fault)) return "cliffs";
-  if (!options.cutline.rings.empty()) return "a cutline";
+  if (!options.features.cutline.rings.empty()) return "a cutline";
   return all(is_ridge_line) ? "ridges" : "breaklines";
 }
 
@@ -58,30 +58,31 @@ Result<void> check_conflicts(const HeightField& field, const SimplifyOptions& op
 }
 
 Result<void> check_needs(const HeightField& field, const SimplifyOptions& options) {
-  const bool has_error_for_all = options.max_error || has_budget(options);
-  if (options.min_shape && !(*options.min_shape >= 0 && *options.min_shape <= 0.5))
-    return usage(fmt::format("the floor of shapes must lie in 0 … 0.5, not {}", *options.min_shape));
-  if (options.objective == Objective::kRms && !has_budget(options))
+  const bool has_error_for_all = options.goals.max_error || has_budget(options);
+  if (options.quality.min_shape && !(*options.quality.min_shape >= 0 && *options.quality.min_shape <= 0.5))
+    return usage(fmt::format("the floor of shapes must lie in 0 … 0.5, not {}", *options.quality.min_shape));
+  if (options.goals.objective == Objective::kRms && !has_budget(options))
     return usage("the rms objective needs a budget of triangles or vertices: a max error alone decides the mesh");
-  if (options.vertices == Vertices::kFree && options.effort != Effort::kHigh && options.effort != Effort::kMax)
+  if (options.quality.vertices == Vertices::kFree && options.quality.effort != Effort::kHigh &&
+      options.quality.effort != Effort::kMax)
     return usage("free vertices need high effort or more: leave them on samples");
   if (has_lines(options) && !has_error_for_all)
     return usage(fmt::format("a mesh with {} needs a max error or a budget", name_lines(options)));
-  if (options.shape.any() && !has_error_for_all)
+  if (options.quality.shape.any() && !has_error_for_all)
     return usage("a mesh with goals for angles and edges needs a max error or a budget");
-  return check_shape(field, options.shape);
+  return check_shape(field, options.quality.shape);
 }
 
 bool may_be_dominant(const HeightField& field, const SimplifyOptions& options) {
-  const bool has_goal = options.max_error || options.tolerance_source != nullptr;
-  if (!has_goal || has_budget(options) || options.order == Order::kGreedy) return false;
+  const bool has_goal = options.goals.max_error || options.tolerances.source != nullptr;
+  if (!has_goal || has_budget(options) || options.quality.order == Order::kGreedy) return false;
   const auto of_order = [](const Conflict& conflict) { return conflict.one == Field::kOrderDominant; };
   const auto conflicts = find_conflicts(fields_of(field, options) | Fields(Field::kOrderDominant));
   return std::none_of(conflicts.begin(), conflicts.end(), of_order);
 }
 
 Effort choose_effort(const HeightField& field, const SimplifyOptions& options) {
-  if (options.effort != Effort::kAuto) return options.effort;
+  if (options.quality.effort != Effort::kAuto) return options.quality.effort;
   const Fields set = fields_of(field, options);
   if (set.has_any(Fields(Field::kMinShape, Field::kTimeLimit, Field::kObjectiveRms))) return Effort::kNormal;
   // Strategies are asked for to see what they do, so removal stays away from them, and from bounds of samples, which

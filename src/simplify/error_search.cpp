@@ -41,8 +41,8 @@ class ErrorSearch {
         run_(run),
         judged_(judged),
         budget_(options),
-        progress_(options.progress),
-        floor_(options.max_error.value_or(0)) {}
+        progress_(options.run.progress),
+        floor_(options.goals.max_error.value_or(0)) {}
 
   Result<Simplified> execute() {
     const auto start = Clock::now();
@@ -85,7 +85,7 @@ class ErrorSearch {
 
   /// Then the best mesh so far is the result.
   bool is_time_up() {
-    best_.is_cut_short = best_.is_cut_short || (options_.is_time_up && options_.is_time_up());
+    best_.is_cut_short = best_.is_cut_short || (options_.run.is_time_up && options_.run.is_time_up());
     return best_.is_cut_short;
   }
 
@@ -122,7 +122,7 @@ class ErrorSearch {
 
   Result<double> expect_by_refinement(double error) {
     SimplifyOptions refine = without_effort(towards(error));
-    refine.normals = refine.uvs = false;
+    refine.output.normals = refine.output.uvs = false;
     const auto made = run(std::move(refine), 0.05);
     if (!made && made.error().kind == ErrorKind::kPromise) return std::log(kAim);
     if (!made) return tl::unexpected(made.error());
@@ -135,9 +135,9 @@ class ErrorSearch {
   double expected_after(const Simplified& refined) const {
     const auto full = 2 * static_cast<double>(std::max<std::uint64_t>(refined.measurement.samples, 1));
     const double density = std::min(static_cast<double>(refined.mesh.triangle_count()) / full, 1.0);
-    const bool is_free = options_.vertices != Vertices::kSamples;
+    const bool is_free = options_.quality.vertices != Vertices::kSamples;
     double kept = is_free ? 0.26 + 0.35 * std::sqrt(density) : 0.33 + 0.4 * std::sqrt(density);
-    if (options_.effort == Effort::kNormal) kept = 0.52 + 0.2 * density;
+    if (options_.quality.effort == Effort::kNormal) kept = 0.52 + 0.2 * density;
     return std::log(kept * used_by(refined));
   }
 
@@ -217,7 +217,7 @@ class ErrorSearch {
 
   StopReason stop_of(const Simplified& made) const {
     if (is_at_floor_ || max_error_of(made) <= floor_)
-      return options_.max_error ? StopReason::kMaxError : StopReason::kExact;
+      return options_.goals.max_error ? StopReason::kMaxError : StopReason::kExact;
     const MeshSize vertices{made.mesh.vertex_count(), 0}, triangles{0, made.mesh.triangle_count()};
     return budget_.used(vertices) > budget_.used(triangles) ? StopReason::kMaxVertices : StopReason::kMaxTriangles;
   }
@@ -234,30 +234,30 @@ class ErrorSearch {
   bool is_better(const Simplified& made) const {
     const auto rank = [this](const Simplified& of) {
       const double largest = max_error_of(of), rmse = rmse_of(of);
-      return options_.objective == Objective::kMax ? std::tuple(largest, rmse, of.mesh.triangle_count())
-                                                   : std::tuple(rmse, largest, of.mesh.triangle_count());
+      return options_.goals.objective == Objective::kMax ? std::tuple(largest, rmse, of.mesh.triangle_count())
+                                                         : std::tuple(rmse, largest, of.mesh.triangle_count());
     };
     return rank(made) < rank(best_);
   }
 
   Result<Simplified> run(SimplifyOptions options, double share) {
     if (!progress_.begin(share)) return fail(ErrorKind::kCancelled, "cancelled while searching an error");
-    options.progress = progress_.of_run(options.effort != Effort::kFast);
+    options.run.progress = progress_.of_run(options.quality.effort != Effort::kFast);
     constexpr std::uint64_t kBytesPerVertex = 48;
-    options.memory_taken += kBytesPerVertex * best_.mesh.vertex_count();
+    options.run.memory.taken += kBytesPerVertex * best_.mesh.vertex_count();
     return run_(options);
   }
 
   static SimplifyOptions without_effort(SimplifyOptions options) {
-    options.effort = Effort::kFast;
+    options.quality.effort = Effort::kFast;
     return options;
   }
 
   SimplifyOptions towards(double error) const {
     SimplifyOptions options = options_;
-    options.max_triangles = options.max_vertices = std::nullopt;
-    options.max_error = error;
-    options.objective = Objective::kMax;  // of the search, not of a run
+    options.goals.max_triangles = options.goals.max_vertices = std::nullopt;
+    options.goals.max_error = error;
+    options.goals.objective = Objective::kMax;  // of the search, not of a run
     return options;
   }
 

@@ -28,8 +28,8 @@ class LineErrorSearch {
       : options_(options),
         run_(run),
         budget_(options),
-        progress_(options.progress),
-        floor_(options.max_error.value_or(0)) {}
+        progress_(options.run.progress),
+        floor_(options.goals.max_error.value_or(0)) {}
 
   Result<Simplified> execute(double most) {
     const auto start = Clock::now();
@@ -54,9 +54,10 @@ class LineErrorSearch {
     auto least = run(most, 0.1);
     if (!least) return tl::unexpected(least.error());
     const MeshSize size{least->mesh.vertex_count(), least->mesh.triangle_count()};
-    const char* culprit = has_lines(options_)    ? "the lines and the outline of the valid data alone need"
-                          : options_.shape.any() ? "the angles and edges alone need"
-                                                 : "the outline of the valid data and its rows of tiles alone need";
+    const char* culprit = has_lines(options_) ? "the lines and the outline of the valid data alone need"
+                          : options_.quality.shape.any()
+                              ? "the angles and edges alone need"
+                              : "the outline of the valid data and its rows of tiles alone need";
     if (auto fits = budget_.check(size, culprit, ""); !fits) return fits;
     best_ = std::move(*least);
     is_at_floor_ = best_.measurement.max_error <= floor_;
@@ -133,7 +134,7 @@ class LineErrorSearch {
 
   StopReason stop_of_best() const {
     if (is_at_floor_ || best_.measurement.max_error <= floor_)
-      return options_.max_error ? StopReason::kMaxError : StopReason::kExact;
+      return options_.goals.max_error ? StopReason::kMaxError : StopReason::kExact;
     const MeshSize vertices{best_.mesh.vertex_count(), 0}, triangles{0, best_.mesh.triangle_count()};
     return budget_.used(vertices) > budget_.used(triangles) ? StopReason::kMaxVertices : StopReason::kMaxTriangles;
   }
@@ -141,12 +142,12 @@ class LineErrorSearch {
   Result<Simplified> run(double error, double share) {
     if (!progress_.begin(share)) return fail(ErrorKind::kCancelled, "cancelled while searching an error");
     SimplifyOptions options = options_;
-    options.max_triangles = options.max_vertices = std::nullopt;
-    options.max_error = error;
-    options.objective = Objective::kMax;  // of the search, not of a run
-    options.progress = progress_.of_run(false);
+    options.goals.max_triangles = options.goals.max_vertices = std::nullopt;
+    options.goals.max_error = error;
+    options.goals.objective = Objective::kMax;  // of the search, not of a run
+    options.run.progress = progress_.of_run(false);
     constexpr std::uint64_t kBytesPerVertex = 48;
-    options.memory_taken += kBytesPerVertex * best_.mesh.vertex_count();
+    options.run.memory.taken += kBytesPerVertex * best_.mesh.vertex_count();
     return run_(options);
   }
 
@@ -197,7 +198,7 @@ Result<Simplified> search_line_error(const SimplifyOptions& options, double most
 double largest_line_error(const HeightField& field, const SimplifyOptions& options) {
   const HeightRange samples = field.samples != nullptr ? height_range(field) : read_range(field);
   double low = samples.min, high = samples.max;
-  for (const Line& line : options.breaklines.lines) {
+  for (const Line& line : options.features.breaklines.lines) {
     for (const auto& point : line.points) {
       if (std::isnan(point[2])) continue;
       low = std::min(low, point[2]);

@@ -17,10 +17,10 @@ LineWork::LineWork(const HeightField& field, const SimplifyOptions& options, dou
     : field_(field), options_(options), tolerance_(tolerance) {}
 
 bool LineWork::may_wait() const {
-  const LineConstraints& given = options_.breaklines;
-  if (thread_count(options_.threads) == 1) return false;
+  const LineConstraints& given = options_.features.breaklines;
+  if (thread_count(options_.run.threads) == 1) return false;
   const bool is_too_large = std::max(field_.cols, field_.rows) > kMaxCoordinate / kLatticeSteps;
-  if (field_.samples == nullptr || is_too_large || !options_.cutline.rings.empty()) return false;
+  if (field_.samples == nullptr || is_too_large || !options_.features.cutline.rings.empty()) return false;
   return std::all_of(given.lines.begin(), given.lines.end(), [&](const Line& line) {
     const bool is_soft =
         std::all_of(line.points.begin(), line.points.end(), [](const auto& p) { return std::isnan(p[2]); });
@@ -33,7 +33,8 @@ Result<void> LineWork::prepare() {
   const auto start = Clock::now();
   std::vector<std::int32_t> rows;
   if (field_.samples == nullptr) rows = shared_rows(field_, strip_side(Plan(field_, options_)));
-  auto lines = prepare_lines(field_, options_.breaklines, options_.cutline, tolerance_, options_.threads, rows);
+  auto lines = prepare_lines(field_, options_.features.breaklines, options_.features.cutline, tolerance_,
+                             options_.run.threads, rows);
   if (!lines) return tl::unexpected(lines.error());
   lines_ = std::move(*lines);
   is_prepared_ = true;

@@ -27,11 +27,11 @@ Result<std::optional<Tiled>> refine_tiles(const Plan& plan, const Criterion& cri
   const SimplifyOptions& options = plan.options;
   TiledOptions tiles;
   tiles.threshold = criterion.aim();
-  tiles.threads = options.threads;
+  tiles.threads = options.run.threads;
   tiles.memory = plan.memory;
-  tiles.may_decline = options.order == Order::kAuto && !plan.is_streamed;
-  Reporter reporter(options.progress);
-  if (options.progress) {
+  tiles.may_decline = options.quality.order == Order::kAuto && !plan.is_streamed;
+  Reporter reporter(options.run.progress);
+  if (options.run.progress) {
     if (!reporter.report("refine", 0, 0, 0)) return fail(ErrorKind::kCancelled, "cancelled while refining");
     tiles.progress = [&](double share, std::uint64_t vertices) {
       return !reporter.due() || reporter.report("refine", share, vertices, 0);
@@ -52,7 +52,7 @@ Result<std::optional<Tiled>> refine_beside_lines(const Plan& plan, const Criteri
   Result<void> prepared;
   Result<std::optional<Tiled>> tiled;
   run_beside(
-      plan.options.threads, [&] { prepared = lines->prepare(); },
+      plan.options.run.threads, [&] { prepared = lines->prepare(); },
       [&] { tiled = refine_tiles(plan, criterion, nullptr, strips); });
   if (!prepared) return tl::unexpected(prepared.error());
   return tiled;
@@ -80,7 +80,7 @@ Result<Simplified> run_by_tiles(const Plan& plan, LineWork* lines) {
   // The engine reads nodata as such; what else looks at samples beyond the mesh's own needs them cleaned.
   Raster raster{field.samples, field.cols, field.rows};
   std::optional<Samples> samples;
-  const bool looks_beyond = plan.options.normals || !field.frame.is_affine() || plan.fits || lines != nullptr;
+  const bool looks_beyond = plan.options.output.normals || !field.frame.is_affine() || plan.fits || lines != nullptr;
   if (!plan.is_streamed && looks_beyond) {
     auto cleaned = Samples::of(field);
     if (!cleaned) return tl::unexpected(cleaned.error());
@@ -100,7 +100,7 @@ Result<Simplified> run_by_tiles(const Plan& plan, LineWork* lines) {
                   "heights of such different magnitudes can only be refined in memory: read the raster as a whole");
     return run_greedily(plan, lines);
   }
-  const Domain& domain = (*tiled)->domain;
+  const DomainMesh& domain = (*tiled)->domain;
   if (auto has_room = plan.memory.check_mesh(bytes, domain.tin.vertex_count() - domain.unused, 1); !has_room)
     return tl::unexpected(has_room.error());
   const double seconds = seconds_since(start);

@@ -205,7 +205,7 @@ Result<Print> make_print(const PrintOptions& options, const HeightField& field, 
   MeasureOptions measuring;
   measuring.topology = false;
   measuring.cutline = cutline;
-  measuring.threads = threads;
+  measuring.run.threads = threads;
   const Result<Measurement> judged = measure(field, join_tops(print.sheets, top_sizes), measuring);
   if (!judged) return tl::unexpected(judged.error());
   print.max_error = judged->max_error;
@@ -223,16 +223,17 @@ Result<Print> make_print(const PrintOptions& options, const HeightField& field, 
 
 /// Adds the cuts to the lines that simplify() lays.
 void add_cuts(const SheetPlan& sheets, SimplifyOptions& options) {
-  std::vector<Line> cuts = sheets.lines(options.breaklines.affine);
-  if (options.breaklines_for) {
-    options.breaklines_for = [lines_for = options.breaklines_for, sheets](double error) -> Result<LineConstraints> {
+  std::vector<Line> cuts = sheets.lines(options.features.breaklines.affine);
+  if (options.features.breaklines_for) {
+    options.features.breaklines_for = [lines_for = options.features.breaklines_for,
+                                       sheets](double error) -> Result<LineConstraints> {
       auto lines = lines_for(error);
       if (!lines) return lines;
       for (Line& line : sheets.lines(lines->affine)) lines->lines.push_back(std::move(line));
       return lines;
     };
   }
-  for (Line& line : cuts) options.breaklines.lines.push_back(std::move(line));
+  for (Line& line : cuts) options.features.breaklines.lines.push_back(std::move(line));
 }
 
 }  // namespace
@@ -253,20 +254,20 @@ Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOp
   if (auto sound = check_print(print); !sound) return tl::unexpected(sound.error());
   const Result<std::optional<SheetPlan>> sheets = plan_sheets(print, field);
   if (!sheets) return tl::unexpected(sheets.error());
-  const std::size_t lines = options.breaklines.lines.size();
+  const std::size_t lines = options.features.breaklines.lines.size();
   if (*sheets) add_cuts(**sheets, options);
-  const std::uint64_t cuts = options.breaklines.lines.size() - lines;
-  options.float32_positions = false;  // they are rounded where the print stands
-  const std::optional<double> asked = options.max_error;
-  const Cutline* cutline = options.cutline.rings.empty() ? nullptr : &options.cutline;
-  if (asked) options.max_error = *asked * (1 - kReserve);
+  const std::uint64_t cuts = options.features.breaklines.lines.size() - lines;
+  options.output.float32_positions = false;  // they are rounded where the print stands
+  const std::optional<double> asked = options.goals.max_error;
+  const Cutline* cutline = options.features.cutline.rings.empty() ? nullptr : &options.features.cutline;
+  if (asked) options.goals.max_error = *asked * (1 - kReserve);
   std::vector<SampleEdit> edits;
   for (int run = 1;; ++run) {
     Result<Simplified> simplified = simplify(field, options);
     if (!simplified) return tl::unexpected(std::move(simplified.error()));
     apply_edits(simplified->edits, field);
     if (run == 1) edits = simplified->edits;
-    Result<Print> made = make_print(print, field, *sheets, simplified->mesh, cutline, options.threads);
+    Result<Print> made = make_print(print, field, *sheets, simplified->mesh, cutline, options.run.threads);
     if (!made) return tl::unexpected(std::move(made.error()));
     const double excess =
         asked ? made->max_error + field.sample_rounding - *asked - judging_allowance(*asked, made->heights) : 0;
@@ -277,8 +278,8 @@ Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOp
       simplified->lines_laid -= std::min(cuts, simplified->lines_laid);
       return PrintedTerrain{std::move(*simplified), std::move(*made)};
     }
-    options.max_error = *options.max_error - 2 * excess;
-    if (run == kMostPrints || *options.max_error < 0) {
+    options.goals.max_error = *options.goals.max_error - 2 * excess;
+    if (run == kMostPrints || *options.goals.max_error < 0) {
       return fail(ErrorKind::kPromise,
                   fmt::format("the solid's max error is {:.6g} and not {:.6g}: its positions are rounded to float32, "
                               "which costs the rest; ask for a larger error or a larger size",

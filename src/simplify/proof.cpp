@@ -77,7 +77,7 @@ Result<void> measure_channels(const HeightField& field, const SimplifyOptions& o
     raised.channels.clear();
     MeasureOptions judge;
     judge.topology = false;
-    judge.threads = options.threads;
+    judge.run.threads = options.run.threads;
     judge.on_row = tally.adder(field.channels[k].scale);
     auto measured = measure(raised, raise_channel(result.mesh, static_cast<int>(k)), judge);
     if (!measured) return tl::unexpected(measured.error());
@@ -167,7 +167,7 @@ void judge_samples(const SimplifyOptions& options, const Criterion& criterion, c
   for (std::size_t y = 0; y < static_cast<std::size_t>(field.rows); ++y) {
     const auto of_row = [&](std::span<const float> all) { return all.empty() ? all : all.subspan(y * cols, cols); };
     verdict.add(static_cast<int>(y), tally.row(y),
-                {of_row(options.mask), of_row(options.tolerance), of_row(criterion.bounds())});
+                {of_row(options.tolerances.weights), of_row(options.tolerances.values), of_row(criterion.bounds())});
   }
   verdict.finish();
 }
@@ -250,25 +250,25 @@ class WindowedVerdict {
 /// Of the band that a thread judges.
 std::uint64_t band_bytes(const HeightField& field, const SimplifyOptions& options) {
   constexpr std::uint64_t kPerSample = 16, kOfReports = 8;
-  return (kPerSample + (options.tolerance_source != nullptr ? kOfReports : 0)) *
+  return (kPerSample + (options.tolerances.source != nullptr ? kOfReports : 0)) *
          static_cast<std::uint64_t>(field.cols) * static_cast<unsigned>(judge::Band::rows_per_band(field.cols));
 }
 
 /// As many as the memory holds bands at work.
 int threads_within(const HeightField& field, const SimplifyOptions& options) {
-  return memory_budget(field, options).threads_within(band_bytes(field, options), thread_count(options.threads));
+  return memory_budget(field, options).threads_within(band_bytes(field, options), thread_count(options.run.threads));
 }
 
 std::string describe_breach(const Measurement& m, const SimplifyOptions& options) {
   if (m.uncovered > 0) return fmt::format("{} valid samples are not covered by the mesh", m.uncovered);
   return fmt::format("a max error of {} cannot be kept: at sample ({}, {}) the mesh is off by {}",
-                     options.max_error.value_or(0), m.max_error_at[0], m.max_error_at[1], m.max_error);
+                     options.goals.max_error.value_or(0), m.max_error_at[0], m.max_error_at[1], m.max_error);
 }
 
 }  // namespace
 
 std::uint64_t proof_bytes(const HeightField& field, const SimplifyOptions& options) {
-  const std::uint64_t held = options.tolerance_source != nullptr ? WindowedVerdict::most_held(field) : 0;
+  const std::uint64_t held = options.tolerances.source != nullptr ? WindowedVerdict::most_held(field) : 0;
   return static_cast<std::uint64_t>(threads_within(field, options)) * band_bytes(field, options) + held * sizeof(float);
 }
 
@@ -279,14 +279,14 @@ Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, co
   const bool by_sample = is_tallied || windowed != nullptr;
   MeasureOptions judge;
   judge.topology = !exact;
-  if (!options.cutline.rings.empty()) judge.cutline = &options.cutline;
-  judge.threads = threads_within(field, options);
-  judge.progress = options.progress;
+  if (!options.features.cutline.rings.empty()) judge.cutline = &options.features.cutline;
+  judge.run.threads = threads_within(field, options);
+  judge.run.progress = options.run.progress;
   if (result.stop == StopReason::kMaxError) judge.collect_above = by_sample ? HUGE_VAL : *criterion.bound();
   Proof proof;
   std::optional<Tally> tally;
   std::optional<WindowedVerdict> rows;
-  if (is_tallied) judge.on_row = tally.emplace(field, options.norm).adder(field.height_scale);
+  if (is_tallied) judge.on_row = tally.emplace(field, options.goals.norm).adder(field.height_scale);
   if (windowed != nullptr) {
     rows.emplace(field, *windowed, SampleVerdict(criterion, exact, 1, result, proof));
     judge.on_row = [&rows](int row, std::span<const float> errors) { rows->add(row, errors); };

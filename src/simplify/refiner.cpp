@@ -11,7 +11,7 @@
 namespace scarp {
 
 struct Refiner::Impl {
-  Impl(const HeightField& field_, Samples samples_, Domain domain_)
+  Impl(const HeightField& field_, Samples samples_, DomainMesh domain_)
       : field(field_),
         samples(std::move(samples_)),
         raster(samples.raster()),
@@ -21,7 +21,7 @@ struct Refiner::Impl {
   HeightField field;
   Samples samples;
   Raster raster;
-  Domain domain;
+  DomainMesh domain;
   HeightJudge judge;
   Refinement refinement;
 };

@@ -34,9 +34,9 @@ namespace scarp {
 namespace {
 
 /// One run of the engine towards the goals.
-class Run {
+class EngineRun {
  public:
-  Run(const Plan& plan, const Raster& raster, const Criterion& criterion, const ConstraintGraph* lines)
+  EngineRun(const Plan& plan, const Raster& raster, const Criterion& criterion, const ConstraintGraph* lines)
       : plan_(plan),
         field_(plan.field),
         raster_(raster),
@@ -45,7 +45,7 @@ class Run {
         lines_(lines),
         budget_(options_),
         exact_(places_are_exact(field_, options_, lines == nullptr ? 1 : kLatticeSteps)),
-        reporter_(options_.progress) {}
+        reporter_(options_.run.progress) {}
 
   /// In the dominant order where `tiled` is given, else greedily.
   Result<Simplified> execute(std::optional<Tiled> tiled) {
@@ -53,7 +53,7 @@ class Run {
     Simplified result;
     result.ignored = criterion_.ignored();
     result.order = tiled ? Order::kDominant : Order::kGreedy;
-    result.effort = options_.effort;
+    result.effort = options_.quality.effort;
     auto refined = tiled ? free_seams(std::move(*tiled), result) : insert_greedily(result);
     if (!refined) return tl::unexpected(refined.error());
     if (auto laid = insert_lines(result); !laid) return tl::unexpected(laid.error());
@@ -67,7 +67,7 @@ class Run {
     order(result);
     result.seconds_refine += seconds_since(start);
     if (auto proven = prove_and_mend(result); !proven) return tl::unexpected(proven.error());
-    if (options_.shape.any()) result.shape = report_shapes(result.mesh, options_.shape, shaped->forced);
+    if (options_.quality.shape.any()) result.shape = report_shapes(result.mesh, options_.quality.shape, shaped->forced);
     return result;
   }
 
@@ -79,16 +79,16 @@ class Run {
 
   Result<void> insert_greedily(Simplified& result) {
     auto start = Clock::now();
-    auto domain = build_domain(raster_, options_.outline_tolerance, field_.frame);
+    auto domain = build_domain(raster_, options_.domain.outline_tolerance, field_.frame);
     if (!domain) return tl::unexpected(domain.error());
     take(std::move(*domain));
     follow_script();
     record(result, "domain", start);
     if (lays_first()) return {};
     start = Clock::now();
-    refinement_.emplace(criterion_.judge(), piece_->tin, options_.algorithm, options_.edges);
-    const char* culprit = options_.script.empty() ? "the outline of the valid data alone needs"
-                                                  : "the outline of the valid data and the script need";
+    refinement_.emplace(criterion_.judge(), piece_->tin, options_.strategy.algorithm, options_.strategy.edges);
+    const char* culprit = options_.strategy.script.empty() ? "the outline of the valid data alone needs"
+                                                           : "the outline of the valid data and the script need";
     const char* advice = is_whole_ ? "" : ", or simplify the outline with an outline tolerance";
     if (auto fits = budget_.check(size(), culprit, advice); !fits) return fits;
     if (auto refined = refine(result.stop); !refined) return refined;
@@ -106,12 +106,12 @@ class Run {
     result.work = tiled.work;
     if (plan_.finishes_strips) {
       // Who works on the whole later has no raster to take heights of samples from.
-      if (options_.shape.any() && tiled.steps == 1) piece_->tin.scale(tiled.steps = kLatticeSteps);
+      if (options_.quality.shape.any() && tiled.steps == 1) piece_->tin.scale(tiled.steps = kLatticeSteps);
       piece_->places = {tiled.steps, tiled.steps > 1 ? std::move(heights_) : std::vector<float>(),
                         std::move(tiled.fixed)};
       note_places(result);
     } else if (!plan_.is_streamed || field_.source->is_in_memory()) {
-      const Work work = release_seams(piece_->tin, criterion_.judge(), std::move(tiled.seams), options_.threads);
+      const Work work = release_seams(piece_->tin, criterion_.judge(), std::move(tiled.seams), options_.run.threads);
       result.work.samples_scanned += work.samples_scanned;
       result.work.triangles_scanned += work.triangles_scanned;
       record(result, "seams", start, work);
@@ -130,7 +130,7 @@ class Run {
 
   /// Inserts what the script wants; samples outside the domain cannot become vertices.
   void follow_script() {
-    for (const ScriptStep& step : options_.script) {
+    for (const ScriptStep& step : options_.strategy.script) {
       if (step.action == ScriptStep::Action::kInsert) insert_seed({step.col, step.row});
     }
     seeds_ = piece_->tin.vertex_count();
@@ -147,7 +147,7 @@ class Run {
   void fix_script_vertices() {
     const Triangulation& tin = piece_->tin;
     std::vector<Point> asked;
-    for (const ScriptStep& step : options_.script) {
+    for (const ScriptStep& step : options_.strategy.script) {
       if (step.action == ScriptStep::Action::kInsert)
         asked.push_back({step.col * piece_->places.steps, step.row * piece_->places.steps});
     }
@@ -160,7 +160,7 @@ class Run {
     }
   }
 
-  void take(Domain domain) {
+  void take(DomainMesh domain) {
     is_whole_ = domain.whole;
     unused_ = domain.unused;
     piece_.emplace(Piece{raster_, 0, std::move(domain.tin)});
@@ -187,8 +187,8 @@ class Run {
         return {};
       }
       if (refinement_->is_full()) return fail(ErrorKind::kInput, kTooManyTriangles);
-      if ((step < 1024 || step % 256 == 0 || options_.batch.rule != Batch::Rule::kSequential) && reporter_.due() &&
-          !reporter_.report("refine", fraction(first_error), vertices(), refinement_->worst_error()))
+      if ((step < 1024 || step % 256 == 0 || options_.strategy.batch.rule != Batch::Rule::kSequential) &&
+          reporter_.due() && !reporter_.report("refine", fraction(first_error), vertices(), refinement_->worst_error()))
         return fail(ErrorKind::kCancelled, "cancelled while refining");
       if (step % 256 == 0) {
         if (auto fits = plan_.memory.check_mesh(0, vertices(), fraction(first_error)); !fits) return fits;
@@ -204,16 +204,16 @@ class Run {
 
   /// Returns the budget that stopped it. REQUIRES: !reached().
   std::optional<StopReason> take_step() {
-    if (options_.batch.rule != Batch::Rule::kSequential) return insert_batch();
-    if (options_.importance.one_pass) return insert_ranked();
+    if (options_.strategy.batch.rule != Batch::Rule::kSequential) return insert_batch();
+    if (options_.strategy.importance.one_pass) return insert_ranked();
     refinement_->insert_worst();
     return std::nullopt;
   }
 
   std::optional<StopReason> insert_batch() {
     std::optional<StopReason> budget;
-    for (const auto& [candidate, triangle] : refinement_->collect(options_.batch)) {
-      if (options_.batch.rule == Batch::Rule::kIndependent && refinement_->has_changed(triangle)) continue;
+    for (const auto& [candidate, triangle] : refinement_->collect(options_.strategy.batch)) {
+      if (options_.strategy.batch.rule == Batch::Rule::kIndependent && refinement_->has_changed(triangle)) continue;
       const std::uint32_t gain = refinement_->gain_near(candidate.at, triangle);
       if (gain == 0) continue;  // on an edge, named by both triangles
       budget = exceeded(gain);
@@ -246,8 +246,8 @@ class Run {
 
   /// Where the best prefix is looked for.
   bool in_last_stretch() const {
-    return options_.best_of_budget && criterion_.importance_is_error() && !options_.importance.one_pass &&
-           budget_.in_last_stretch(size());
+    return options_.strategy.best_of_budget && criterion_.importance_is_error() &&
+           !options_.strategy.importance.one_pass && budget_.in_last_stretch(size());
   }
 
   /// Max error is not monotone: a budget may stop on a spike. Insertion is deterministic, so an earlier mesh is had by
@@ -257,10 +257,10 @@ class Run {
     std::vector<Point> points;
     for (std::size_t v = seeds_; v < best_.vertices; ++v) points.push_back(piece_->tin.point(static_cast<Vertex>(v)));
     refinement_.reset();
-    take(*build_domain(raster_, options_.outline_tolerance, field_.frame));
+    take(*build_domain(raster_, options_.domain.outline_tolerance, field_.frame));
     follow_script();
     std::optional<DataDependentRule> rule;
-    if (options_.edges.data_dependent) rule.emplace(criterion_.judge(), options_.edges);
+    if (options_.strategy.edges.data_dependent) rule.emplace(criterion_.judge(), options_.strategy.edges);
     Triangulation& tin = piece_->tin;
     for (Point p : points) {
       const auto location = tin.locate(p, tin.last_touched());
@@ -271,7 +271,7 @@ class Run {
   void finish_edges(Simplified& result) {
     result.work = refinement_->work();
     take_best_prefix();
-    const Work settling = settle_edges(piece_->tin, criterion_.judge(), options_.edges,
+    const Work settling = settle_edges(piece_->tin, criterion_.judge(), options_.strategy.edges,
                                        result.stop == StopReason::kMaxError || result.stop == StopReason::kExact);
     result.work.samples_scanned += settling.samples_scanned;
     result.work.triangles_scanned += settling.triangles_scanned;
@@ -290,7 +290,7 @@ class Run {
       return plan_.memory.check_mesh(0, count - unused_, share);
     };
     Work work;
-    const ConstraintGoals goals{criterion_.aim(), plan_.fits && plan_.releases_starts, options_.threads};
+    const ConstraintGoals goals{criterion_.aim(), plan_.fits && plan_.releases_starts, options_.run.threads};
     if (auto inserted = insert_constraints(*piece_, *lines_, goals, work); !inserted) return inserted;
     if (!piece_->has_surface) return fail(ErrorKind::kInput, kNothingInCutline);
     if (lays_first()) result.work = work;
@@ -310,7 +310,7 @@ class Run {
 
   /// Vertices that the bound can do without go.
   Result<void> remove_vertices(Simplified& result) {
-    if (!plan_.fits || (plan_.fits_strips && !options_.shape.any())) return {};
+    if (!plan_.fits || (plan_.fits_strips && !options_.quality.shape.any())) return {};
     const auto start = Clock::now();
     refinement_.reset();
     fix_script_vertices();
@@ -322,8 +322,8 @@ class Run {
     options.threads = fit_threads(window_bytes(options));
     const std::uint64_t windows = window_bytes(options) * static_cast<unsigned>(options.threads);
     if (auto fits = plan_.memory.check_mesh(windows, vertices(), 1); !fits) return fits;
-    Reporter reporter(options_.progress);
-    if (options_.progress) {
+    Reporter reporter(options_.run.progress);
+    if (options_.run.progress) {
       options.progress = [&](double share, std::uint64_t vertices) {
         return !reporter.due() || reporter.report("fit", share, vertices, 0);
       };
@@ -339,10 +339,10 @@ class Run {
 
   /// Vertices that angles and sizes of triangles need come, and others that the bound then needs.
   Result<ShapeWork> add_for_shapes(Simplified& result) {
-    if (!options_.shape.any()) return ShapeWork{};
+    if (!options_.quality.shape.any()) return ShapeWork{};
     const auto start = Clock::now();
     refinement_.reset();
-    ShapeTask task{options_.shape, field_.frame.affine, criterion_.aim(), criterion_.aims()};
+    ShapeTask task{options_.quality.shape, field_.frame.affine, criterion_.aim(), criterion_.aims()};
     task.all_may_go = plan_.releases_starts;
     std::uint64_t rows = 0;
     if (plan_.is_streamed) {
@@ -375,7 +375,7 @@ class Run {
 
   /// As many as the memory leaves room for, each with a window of samples.
   int fit_threads(std::uint64_t window) const {
-    const int threads = thread_count(options_.threads);
+    const int threads = thread_count(options_.run.threads);
     if (!plan_.memory.is_limited()) return threads;
     const std::uint64_t vertices = piece_->tin.vertex_count(), taken = plan_.memory.per_vertex * vertices;
     const std::uint64_t most =
@@ -393,17 +393,17 @@ class Run {
   void freeze_into(Simplified& result, bool is_last) {
     const auto start = Clock::now();
     const SampleHeights heights = !plan_.is_streamed ? SampleHeights(raster_) : SampleHeights(field_, heights_);
-    const bool has_more = options_.normals || options_.uvs || !field_.channels.empty();
+    const bool has_more = options_.output.normals || options_.output.uvs || !field_.channels.empty();
     const LatticePoints at = has_more ? frozen_points(piece_->tin, piece_->places) : LatticePoints{};
     if (is_last) {
       result.mesh =
-          melt_down(heights, std::move(piece_->tin), piece_->places, field_.frame, options_.float32_positions);
+          melt_down(heights, std::move(piece_->tin), piece_->places, field_.frame, options_.output.float32_positions);
       piece_.reset();
     } else {
-      result.mesh = freeze(heights, piece_->tin, piece_->places, field_.frame, options_.float32_positions);
+      result.mesh = freeze(heights, piece_->tin, piece_->places, field_.frame, options_.output.float32_positions);
     }
-    if (options_.normals) result.mesh.normals = sample_normals(heights, field_.frame, at);
-    if (options_.uvs) result.mesh.uvs = sample_uvs(raster_.cols, raster_.rows, at);
+    if (options_.output.normals) result.mesh.normals = sample_normals(heights, field_.frame, at);
+    if (options_.output.uvs) result.mesh.uvs = sample_uvs(raster_.cols, raster_.rows, at);
     result.mesh.channel_count = static_cast<int>(field_.channels.size());
     for (Point p : field_.channels.empty() ? std::vector<Point>() : at.points) {
       for (const Channel& channel : field_.channels)
@@ -453,7 +453,7 @@ class Run {
       if (proof->kept) return {};
       if (!piece_) return fail(exact_ ? ErrorKind::kInternal : ErrorKind::kPromise, proof->broken);
       if (!refinement_)
-        refinement_.emplace(criterion_.judge(), piece_->tin, options_.algorithm, options_.edges,
+        refinement_.emplace(criterion_.judge(), piece_->tin, options_.strategy.algorithm, options_.strategy.edges,
                             Refinement::Start::kClean);
       const auto again = Clock::now();
       const auto mended = mend(proof->offenders, result);
@@ -495,7 +495,7 @@ class Run {
 
 Result<Simplified> run_passes(const Plan& plan, const Raster& raster, const Criterion& criterion,
                               const ConstraintGraph* lines, std::optional<Tiled> tiled) {
-  return Run(plan, raster, criterion, lines).execute(std::move(tiled));
+  return EngineRun(plan, raster, criterion, lines).execute(std::move(tiled));
 }
 
 }  // namespace scarp

@@ -28,16 +28,16 @@ namespace {
 
 Result<void> check_options(const HeightField& field, const SimplifyOptions& options) {
   if (auto goals = check_goals(options); !goals) return goals;
-  if (!(options.outline_tolerance >= 0 && std::isfinite(options.outline_tolerance)))
+  if (!(options.domain.outline_tolerance >= 0 && std::isfinite(options.domain.outline_tolerance)))
     return fail(ErrorKind::kUsage, fmt::format("outline_tolerance must be a finite number of at least 0, not {}",
-                                               options.outline_tolerance));
-  if (options.max_error && *options.max_error < field.sample_rounding)
+                                               options.domain.outline_tolerance));
+  if (options.goals.max_error && *options.goals.max_error < field.sample_rounding)
     return fail(
         ErrorKind::kPromise,
         fmt::format(
             "a max error of {} cannot be kept: the raster's values do not fit float32 and are rounded by up to {}; "
             "ask for at least that much",
-            *options.max_error, field.sample_rounding));
+            *options.goals.max_error, field.sample_rounding));
   return {};
 }
 
@@ -48,10 +48,11 @@ Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions
   const auto run = may_be_dominant(field, options) ? run_by_tiles : run_greedily;
   const Plan plan(field, options);
   auto result = run(plan, lines);
-  if (result || result.error().kind != ErrorKind::kPromise || options.vertices != Vertices::kAuto) return result;
+  if (result || result.error().kind != ErrorKind::kPromise || options.quality.vertices != Vertices::kAuto)
+    return result;
   if (!plan.frees_vertices) return result;
   SimplifyOptions on_samples = options;
-  on_samples.vertices = Vertices::kSamples;
+  on_samples.quality.vertices = Vertices::kSamples;
   return run(Plan(field, on_samples), lines);
 }
 
@@ -63,16 +64,16 @@ Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyO
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
   const auto start = Clock::now();
   SimplifyOptions options = asked;
-  if (asked.breaklines_for) {
-    auto lines = asked.breaklines_for(*asked.max_error);
+  if (asked.features.breaklines_for) {
+    auto lines = asked.features.breaklines_for(*asked.goals.max_error);
     if (!lines) return tl::unexpected(lines.error());
-    options.breaklines = std::move(*lines);
+    options.features.breaklines = std::move(*lines);
     if (auto sound = check_conflicts(field, options); !sound) return tl::unexpected(sound.error());
   }
-  options.memory_taken +=
-      line_bytes(field, options.breaklines) + line_bytes(field, options.cutline.rings, options.cutline.affine);
+  options.run.memory.taken += line_bytes(field, options.features.breaklines) +
+                              line_bytes(field, options.features.cutline.rings, options.features.cutline.affine);
   if (auto fits = memory_budget(field, options).check_start(0); !fits) return tl::unexpected(fits.error());
-  LineWork work(field, options, kLineShare * *options.max_error);
+  LineWork work(field, options, kLineShare * *options.goals.max_error);
   const double seconds = seconds_since(start);
   if (!work.may_wait()) {
     if (auto prepared = work.prepare(); !prepared) return tl::unexpected(prepared.error());
@@ -83,7 +84,7 @@ Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyO
   result->passes.insert(result->passes.begin(), Pass{"arrange", seconds + work.seconds()});
   result->edits = std::move(lines->edits);
   result->lines_laid = lines->laid;
-  result->lines_for = *options.max_error;
+  result->lines_for = *options.goals.max_error;
   const Measurement& measured = result->measurement;
   // Where the field has a source, what lies beyond a cut is void to refinement only.
   const std::uint64_t valid = lines->valid > 0 ? lines->valid : measured.heights.valid;
@@ -117,7 +118,7 @@ Result<Simplified> simplify_within(const HeightField& field, const SimplifyOptio
   const RunOnce run = [&](const SimplifyOptions& once) {
     return has_budget(once) ? search_line_error(once, most, towards_error) : towards_error(once);
   };
-  auto made = options.effort == Effort::kFast ? run(options) : search_error(options, run);
+  auto made = options.quality.effort == Effort::kFast ? run(options) : search_error(options, run);
   if (!made || !no_room || made->stop == StopReason::kMaxError || made->stop == StopReason::kExact) return made;
   const double used = Budget(options).used({made->mesh.vertex_count(), made->mesh.triangle_count()});
   if (used < kNearlyFull) return tl::unexpected(*no_room);
@@ -131,14 +132,14 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& ask
     if (auto sound = check(field, asked); !sound) return tl::unexpected(sound.error());
   }
   SimplifyOptions options = asked;
-  options.effort = choose_effort(field, asked);
+  options.quality.effort = choose_effort(field, asked);
   const bool inserts_towards_error =
-      field.samples == nullptr || options.order == Order::kDominant || options.shape.any();
+      field.samples == nullptr || options.quality.order == Order::kDominant || options.quality.shape.any();
   if (has_lines(options) || (inserts_towards_error && has_budget(options))) return simplify_within(field, options);
-  if (options.effort == Effort::kFast || !has_budget(options)) return simplify_once(field, options, nullptr);
+  if (options.quality.effort == Effort::kFast || !has_budget(options)) return simplify_once(field, options, nullptr);
   const auto run = [&](const SimplifyOptions& once) { return simplify_once(field, once, nullptr); };
-  if (has_norm(field)) options.vertices = Vertices::kSamples;
-  if (!options.mask.empty()) return search_error(options, run, Judged::kWeighted);
+  if (has_norm(field)) options.quality.vertices = Vertices::kSamples;
+  if (!options.tolerances.weights.empty()) return search_error(options, run, Judged::kWeighted);
   return search_error(options, run, has_norm(field) ? Judged::kNorm : Judged::kHeights);
 } catch (const SourceFailure& failure) {
   return tl::unexpected(failure.error);
@@ -146,6 +147,12 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& ask
   return fail(ErrorKind::kInput, "not enough memory for this raster and goal: allow a larger error or fewer triangles");
 } catch (const std::exception& e) {
   return fail(ErrorKind::kInternal, fmt::format("an exception while simplifying: {}", e.what()));
+}
+
+Result<Simplified> simplify(const HeightField& field, const Goals& goals) {
+  SimplifyOptions options;
+  options.goals = goals;
+  return simplify(field, options);
 }
 
 }  // namespace scarp

@@ -77,7 +77,7 @@ class PointRun {
         domain_(std::move(domain)),
         seeds_(domain_.place_of.size()),
         refinement_(std::in_place, places, heights, domain_, bound_),
-        reporter_(options.progress) {
+        reporter_(options.run.progress) {
     for (double z : places.z) largest_height_ = std::max(largest_height_, std::abs(z));
   }
 
@@ -227,8 +227,8 @@ class PointRun {
   /// the bound, the points that break it are inserted and refinement goes on.
   Result<void> prove(Simplified& result) {
     MeasureOptions judge;
-    judge.threads = options_.threads;
-    judge.progress = options_.progress;
+    judge.run.threads = options_.run.threads;
+    judge.run.progress = options_.run.progress;
     if (options_.max_error) judge.collect_above = bound_ + allowance();
     for (;;) {
       const auto start = Clock::now();

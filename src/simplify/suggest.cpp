@@ -147,8 +147,8 @@ class GreedyCurve {
 /// Triangles of the windows' meshes in default runs; infinity where the error cannot be promised.
 Result<double> count_triangles(const std::vector<Window>& windows, double error, const ProgressCallback& progress) {
   SimplifyOptions options;
-  options.max_error = error;
-  options.progress = progress;
+  options.goals.max_error = error;
+  options.run.progress = progress;
   double triangles = 0;
   for (const Window& window : windows) {
     const Result<Simplified> simplified = simplify(window.field, options);

@@ -18,7 +18,7 @@ int main() {
   field.frame = scarp::grid_frame(kRows);
 
   scarp::SimplifyOptions options;
-  options.max_error = 0.5;
+  options.goals.max_error = 0.5;
   const auto result = scarp::simplify(field, options);
   if (!result) {
     std::fprintf(stderr, "simplify: %s\n", result.error().message.c_str());

@@ -39,8 +39,8 @@ int main() {
                                      {"normal", scarp::Effort::kNormal},
                                      {"high", scarp::Effort::kHigh}}) {
     scarp::SimplifyOptions options;
-    options.max_error = 20;
-    options.effort = effort;
+    options.goals.max_error = 20;
+    options.quality.effort = effort;
     const auto made = scarp::simplify(field->view(), options);
     if (!made) {
       std::printf("%s\n", made.error().message.c_str());

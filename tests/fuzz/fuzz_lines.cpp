@@ -55,16 +55,16 @@ Task read_task(Bytes& bytes) {
   task.are_lakes = (kinds & 4) != 0;
   task.are_rivers = (kinds & 8) != 0;
   task.is_cut = (kinds & 16) != 0;
-  task.options.max_error = static_cast<double>(bytes.next()) * static_cast<double>(step) / 16;
-  if ((kinds & 32) != 0) task.cliff = *task.options.max_error * 2 + static_cast<double>(step);
-  task.options.breaklines.conflict = static_cast<scarp::LineConflict>(kinds / 64);
-  task.options.effort = static_cast<scarp::Effort>(effort % 5);
-  if (effort / 5 % 3 == 1) task.options.vertices = scarp::Vertices::kSamples;
-  task.options.float32_positions = effort < 128;
-  task.options.threads = 1;
-  if ((shapes & 3) == 1) task.options.shape.min_angle = shapes / 8;
-  if ((shapes & 3) == 2) task.options.shape.max_edge = 0.5 + shapes / 16.0;
-  if ((shapes & 7) == 3) task.options.shape.grade = 0.1 + shapes / 200.0;
+  task.options.goals.max_error = static_cast<double>(bytes.next()) * static_cast<double>(step) / 16;
+  if ((kinds & 32) != 0) task.cliff = *task.options.goals.max_error * 2 + static_cast<double>(step);
+  task.options.features.breaklines.conflict = static_cast<scarp::LineConflict>(kinds / 64);
+  task.options.quality.effort = static_cast<scarp::Effort>(effort % 5);
+  if (effort / 5 % 3 == 1) task.options.quality.vertices = scarp::Vertices::kSamples;
+  task.options.output.float32_positions = effort < 128;
+  task.options.run.threads = 1;
+  if ((shapes & 3) == 1) task.options.quality.shape.min_angle = shapes / 8;
+  if ((shapes & 3) == 2) task.options.quality.shape.max_edge = 0.5 + shapes / 16.0;
+  if ((shapes & 7) == 3) task.options.quality.shape.grade = 0.1 + shapes / 200.0;
   if ((shapes & 7) == 4) task.ridge = (shapes / 64 + 1) * static_cast<double>(step);
   task.are_ridges_kept = (shapes & 8) != 0;
   if ((shapes & 19) == 16) task.budget = 2 + 3 * (shapes / 32U) + bytes.next();
@@ -204,7 +204,7 @@ void judge(const Task& task, const scarp::Simplified& result) {
     sample = edit.after;
   }
   scarp::MeasureOptions options;
-  if (task.is_cut) options.cutline = &task.options.cutline;
+  if (task.is_cut) options.cutline = &task.options.features.cutline;
   const auto judged = scarp::measure(edited, result.mesh, options);
   require(judged.has_value());
   require(judged->is_sound());
@@ -212,7 +212,7 @@ void judge(const Task& task, const scarp::Simplified& result) {
   if (task.budget > 0) {
     require(result.mesh.triangle_count() <= task.budget);
   } else {
-    require(judged->max_error <= *task.options.max_error + 1e-12 * largest_height(edited));
+    require(judged->max_error <= *task.options.goals.max_error + 1e-12 * largest_height(edited));
   }
   require(judged->max_error == result.measurement.max_error);
   require(judged->void_cells_covered == 0);
@@ -221,7 +221,7 @@ void judge(const Task& task, const scarp::Simplified& result) {
 void walk(const Task& task, const scarp::Mesh& mesh) {
   if (task.has_voids || task.is_cut) return;  // lines then have pieces
   const Walk walk(mesh);
-  for (const scarp::Line& line : task.options.breaklines.lines) {
+  for (const scarp::Line& line : task.options.features.breaklines.lines) {
     if (scarp::is_fault(line) || scarp::is_ridge_line(line)) continue;
     for (std::size_t k = 1; k < line.points.size(); ++k) {
       const auto &from = line.points[k - 1], &to = line.points[k];
@@ -234,11 +234,11 @@ void walk(const Task& task, const scarp::Mesh& mesh) {
 /// Lakes and rivers are lines with heights, cliffs and ridges more lines; a cut is none.
 bool constrain(Task& task, std::vector<scarp::Line> lines) {
   const std::array<double, 6>& affine = task.field.frame.affine;
-  scarp::LineConstraints& constraints = task.options.breaklines;
-  constraints.affine = task.options.cutline.affine = affine;
+  scarp::LineConstraints& constraints = task.options.features.breaklines;
+  constraints.affine = task.options.features.cutline.affine = affine;
   task.is_cut = task.is_cut && !lines.empty();
   if (task.is_cut) {
-    task.options.cutline.rings = lines;
+    task.options.features.cutline.rings = lines;
   } else if (!task.are_lakes && !task.are_rivers) {
     constraints.lines = lines;
   }
@@ -260,7 +260,7 @@ bool constrain(Task& task, std::vector<scarp::Line> lines) {
         line.points.pop_back();
       }
     }
-    const auto rivers = scarp::carve_rivers(task.field, lines, lakes, {affine, *task.options.max_error / 2});
+    const auto rivers = scarp::carve_rivers(task.field, lines, lakes, {affine, *task.options.goals.max_error / 2});
     require(rivers.has_value());
     for (const scarp::River& river : *rivers) {
       require(river.source >= river.mouth || !lakes.empty());
@@ -269,20 +269,21 @@ bool constrain(Task& task, std::vector<scarp::Line> lines) {
   }
   if (task.cliff > 0) {
     const auto cliffs =
-        scarp::detect_cliffs(task.field, {task.cliff, *task.options.max_error, affine, constraints.lines});
+        scarp::detect_cliffs(task.field, {task.cliff, *task.options.goals.max_error, affine, constraints.lines});
     if (!cliffs) return false;
     constraints.lines.insert(constraints.lines.end(), cliffs->lines.begin(), cliffs->lines.end());
   }
   if (task.ridge > 0) {
     const auto ridges = scarp::detect_ridges(
-        task.field, {task.ridge, *task.options.max_error, affine, constraints.lines, task.are_ridges_kept, 1, {}});
+        task.field,
+        {task.ridge, *task.options.goals.max_error, affine, constraints.lines, task.are_ridges_kept, 1, {}});
     require(ridges.has_value());
     for (const auto* found : {&ridges->ridges, &ridges->valleys})
       constraints.lines.insert(constraints.lines.end(), found->begin(), found->end());
   }
   if (task.budget > 0) {
-    task.options.max_triangles = task.budget;
-    task.options.max_error.reset();
+    task.options.goals.max_triangles = task.budget;
+    task.options.goals.max_error.reset();
   }
   return true;
 }

@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   scarp::PointOptions options;
   options.max_error = data[0] / 4.0;
   options.float32_positions = data[1] % 2 == 0;
-  options.threads = 1;
+  options.run.threads = 1;
   const auto policy = static_cast<scarp::DuplicatePolicy>(data[1] / 2 % 5);
   options.duplicates = policy;
   const auto points = scarp::decode_columns({data + 2, size - 2}, "fuzz.csv", {});

@@ -44,41 +44,41 @@ void check_simplify(const scarp::HeightField& field, const scarp::SimplifyOption
   }
   const scarp::Measurement& proof = result->measurement;
   if (result->stop == scarp::StopReason::kMaxError) {
-    require(options.max_error || !options.tolerance.empty());
+    require(options.goals.max_error || !options.tolerances.values.empty());
     // Planes through vertices between samples are no numbers of double; the judge's own rounding is not the mesh's.
     const double rounding = result->vertices == scarp::Vertices::kFree ? 1e-12 * largest_height(field) : 0;
-    if (options.max_error) require(proof.max_error <= *options.max_error + rounding);
+    if (options.goals.max_error) require(proof.max_error <= *options.goals.max_error + rounding);
   }
   if (result->stop == scarp::StopReason::kExact) require(proof.max_error == 0);
-  if (options.max_triangles) require(result->mesh.triangle_count() <= *options.max_triangles);
-  if (options.max_vertices) require(result->mesh.vertex_count() <= *options.max_vertices);
+  if (options.goals.max_triangles) require(result->mesh.triangle_count() <= *options.goals.max_triangles);
+  if (options.goals.max_vertices) require(result->mesh.vertex_count() <= *options.goals.max_vertices);
   require(proof.uncovered == 0);
 
   scarp::MeasureOptions judge;
-  judge.tolerance = options.tolerance;
+  judge.tolerance = options.tolerances.values;
   const auto judged = scarp::measure(field, result->mesh, judge);
   require(judged.has_value());
   require(judged->is_sound());
   require(judged->max_error == proof.max_error && judged->rmse == proof.rmse && judged->uncovered == 0);
   require(judged->over_tolerance == 0 || result->stop != scarp::StopReason::kMaxError);
-  require(judged->void_cells_covered == 0 || options.outline_tolerance > 0);
+  require(judged->void_cells_covered == 0 || options.domain.outline_tolerance > 0);
 }
 
 /// Two bytes choose how the engine goes about it; combinations that contradict each other must be refused with words.
 void choose_strategy(Bytes& bytes, scarp::SimplifyOptions& options) {
   const std::uint8_t first = bytes.next(), second = bytes.next();
-  options.algorithm = static_cast<scarp::Algorithm>(first % 3);
-  options.batch = {static_cast<scarp::Batch::Rule>(first / 3 % 4), (second % 8) / 7.0};
-  options.importance.feature = static_cast<scarp::Importance::Feature>(first / 12 % 4);
-  options.importance.global = first < 200;
-  options.importance.one_pass = first > 230;
-  options.importance.damping = static_cast<scarp::Importance::Damping>(second % 3);
-  options.edges.data_dependent = second % 2 == 1;
-  options.edges.score = static_cast<scarp::EdgeScore>(second / 2 % 5);
-  options.edges.shape_threshold = second / 10 % 5 / 4.0 - 0.25;
-  options.edges.supersample = second / 50 % 2 * 0.8;
-  options.edges.settle = second > 127;
-  options.order = static_cast<scarp::Order>((first ^ second) % 3);
+  options.strategy.algorithm = static_cast<scarp::Algorithm>(first % 3);
+  options.strategy.batch = {static_cast<scarp::Batch::Rule>(first / 3 % 4), (second % 8) / 7.0};
+  options.strategy.importance.feature = static_cast<scarp::Importance::Feature>(first / 12 % 4);
+  options.strategy.importance.global = first < 200;
+  options.strategy.importance.one_pass = first > 230;
+  options.strategy.importance.damping = static_cast<scarp::Importance::Damping>(second % 3);
+  options.strategy.edges.data_dependent = second % 2 == 1;
+  options.strategy.edges.score = static_cast<scarp::EdgeScore>(second / 2 % 5);
+  options.strategy.edges.shape_threshold = second / 10 % 5 / 4.0 - 0.25;
+  options.strategy.edges.supersample = second / 50 % 2 * 0.8;
+  options.strategy.edges.settle = second > 127;
+  options.quality.order = static_cast<scarp::Order>((first ^ second) % 3);
 }
 
 void check_refiner(const scarp::HeightField& field, double outline_tolerance, int steps) {
@@ -111,16 +111,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const float step = std::ldexp(1.0F, bytes.next() % 24 - 12);
   const std::uint8_t goals = bytes.next();
   scarp::SimplifyOptions options;
-  if (goals & 1) options.max_error = static_cast<double>(bytes.next()) * static_cast<double>(step) / 16;
-  if (goals & 2) options.max_triangles = bytes.next();
-  if (goals & 4) options.max_vertices = bytes.next();
-  if (goals & 8) options.outline_tolerance = bytes.next() / 32.0;
-  options.normals = (goals & 16) != 0;
-  options.threads = 1;
+  if (goals & 1) options.goals.max_error = static_cast<double>(bytes.next()) * static_cast<double>(step) / 16;
+  if (goals & 2) options.goals.max_triangles = bytes.next();
+  if (goals & 4) options.goals.max_vertices = bytes.next();
+  if (goals & 8) options.domain.outline_tolerance = bytes.next() / 32.0;
+  options.output.normals = (goals & 16) != 0;
+  options.run.threads = 1;
   const std::uint8_t steps_and_effort = bytes.next();
   const int steps = steps_and_effort % 32;
-  options.effort = static_cast<scarp::Effort>(steps_and_effort / 32 % 5);
-  if (steps_and_effort % 2 == 1) options.vertices = scarp::Vertices::kSamples;
+  options.quality.effort = static_cast<scarp::Effort>(steps_and_effort / 32 % 5);
+  if (steps_and_effort % 2 == 1) options.quality.vertices = scarp::Vertices::kSamples;
   if (goals & 64) choose_strategy(bytes, options);
 
   std::vector<float> samples(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows));
@@ -138,10 +138,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       const std::uint8_t byte = bytes.next();
       tolerance.push_back(byte == 255 ? std::numeric_limits<float>::infinity() : static_cast<float>(byte) * step / 8);
     }
-    options.tolerance = tolerance;
+    options.tolerances.values = tolerance;
   }
 
   check_simplify(field, options);
-  check_refiner(field, options.outline_tolerance, steps);
+  check_refiner(field, options.domain.outline_tolerance, steps);
   return 0;
 }

@@ -224,10 +224,10 @@ TEST(bounds, that_fall_across_a_field_take_fewer_triangles_with_each_effort) {
                                          {Effort::kHigh, Vertices::kSamples},
                                          {Effort::kHigh, Vertices::kFree}}) {
     SimplifyOptions options;
-    options.tolerance = bounds;
-    options.effort = effort;
-    options.vertices = vertices;
-    if (effort != Effort::kFast) options.min_shape = 0;
+    options.tolerances.values = bounds;
+    options.quality.effort = effort;
+    options.quality.vertices = vertices;
+    if (effort != Effort::kFast) options.quality.min_shape = 0;
     const auto result = simplify(field.view(), options);
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_LT(static_cast<double>(result->mesh.triangle_count()), 0.9 * static_cast<double>(before));
@@ -239,25 +239,25 @@ RC_GTEST_PROP(bounds, are_kept_in_the_eyes_of_the_judge, ()) {
   const Field field = any_field();
   std::vector<float> bounds = any_bounds(field), mask;
   SimplifyOptions options;
-  options.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
-  options.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
-  options.float32_positions = *rc::gen::arbitrary<bool>();
+  options.quality.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
+  options.quality.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
+  options.output.float32_positions = *rc::gen::arbitrary<bool>();
   const int kind = *rc::gen::inRange(0, 3);
-  if (kind == 0) options.tolerance = bounds;
+  if (kind == 0) options.tolerances.values = bounds;
   if (kind == 1) {
-    options.max_error = 2;
+    options.goals.max_error = 2;
     for (float& bound : bounds) {
       mask.push_back(std::isinf(bound) || bound == 0 ? 0 : 1 / bound);
       bound = mask.back() > 0 ? 2 / mask.back() : kNoBound;
     }
-    options.mask = mask;
+    options.tolerances.weights = mask;
   }
   if (kind == 2) {
-    options.max_error = 0.5;
+    options.goals.max_error = 0.5;
     bounds.assign(bounds.size(), 0.5f);
     bounds[bounds.size() / 2] = kNoBound;
     const auto at = static_cast<std::int32_t>(bounds.size() / 2);
-    options.script = {{ScriptStep::Action::kIgnore, at % field.cols, at / field.cols}};
+    options.strategy.script = {{ScriptStep::Action::kIgnore, at % field.cols, at / field.cols}};
   }
   HeightField view = field.view();
   if (*rc::gen::arbitrary<bool>()) {
@@ -267,7 +267,7 @@ RC_GTEST_PROP(bounds, are_kept_in_the_eyes_of_the_judge, ()) {
   const auto result = simplify(view, options);
   if (!result) {
     RC_ASSERT(result.error().kind == ErrorKind::kInput || result.error().kind == ErrorKind::kPromise);
-    RC_ASSERT(result.error().kind == ErrorKind::kInput || options.float32_positions);
+    RC_ASSERT(result.error().kind == ErrorKind::kInput || options.output.float32_positions);
     return;
   }
   for (float& bound : bounds) bound = bound * 1.000001f + 1e-6f;
@@ -283,9 +283,9 @@ TEST(bounds, budgets_are_refused_with_more_than_fast_effort) {
   const Field field = testing::random_field(25, 20, 20, Relief::kRidges);
   const std::vector<float> bounds(400, 3.0f);
   SimplifyOptions options;
-  options.effort = Effort::kNormal;
-  options.tolerance = bounds;
-  options.max_triangles = 100;
+  options.quality.effort = Effort::kNormal;
+  options.tolerances.values = bounds;
+  options.goals.max_triangles = 100;
   const auto result = simplify(field.view(), options);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
@@ -296,11 +296,11 @@ TEST(bounds, of_a_mask_are_kept_by_efforts_within_a_budget) {
   std::vector<float> mask(field.samples.size(), 1.0f);
   for (std::size_t k = 0; k < mask.size(); ++k) mask[k] = k % 60 < 30 ? 1.0f : 0.125f;
   SimplifyOptions options;
-  options.mask = mask;
-  options.max_triangles = 700;
-  options.effort = Effort::kFast;
+  options.tolerances.weights = mask;
+  options.goals.max_triangles = 700;
+  options.quality.effort = Effort::kFast;
   const auto fast = simplify(field.view(), options);
-  options.effort = Effort::kHigh;
+  options.quality.effort = Effort::kHigh;
   const auto high = simplify(field.view(), options);
   ASSERT_TRUE(fast && high);
   EXPECT_LE(high->mesh.triangle_count(), 700u);
@@ -310,14 +310,15 @@ TEST(bounds, of_a_mask_are_kept_by_efforts_within_a_budget) {
 TEST(bounds, vertices_of_a_script_stay_whatever_the_effort) {
   const Field field = testing::random_field(25, 40, 30, Relief::kRidges);
   SimplifyOptions options;
-  options.max_error = 5;
-  for (std::int32_t k = 0; k < 12; ++k) options.script.push_back({ScriptStep::Action::kInsert, 3 * k + 2, 2 * k + 3});
+  options.goals.max_error = 5;
+  for (std::int32_t k = 0; k < 12; ++k)
+    options.strategy.script.push_back({ScriptStep::Action::kInsert, 3 * k + 2, 2 * k + 3});
   for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh, Effort::kMax}) {
-    options.effort = effort;
+    options.quality.effort = effort;
     const auto made = simplify(field.view(), options);
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_LE(made->measurement.max_error, 5);
-    for (const ScriptStep& step : options.script) {
+    for (const ScriptStep& step : options.strategy.script) {
       bool is_vertex = false;
       for (std::size_t v = 0; v < made->mesh.vertex_count(); ++v) {
         const auto at = made->mesh.vertex(v);

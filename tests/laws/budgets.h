@@ -24,8 +24,8 @@ inline Field hills(int cols, int rows) {
 }
 
 inline bool is_within(const Simplified& made, const SimplifyOptions& options) {
-  return made.mesh.vertex_count() <= options.max_vertices.value_or(made.mesh.vertex_count()) &&
-         made.mesh.triangle_count() <= options.max_triangles.value_or(made.mesh.triangle_count());
+  return made.mesh.vertex_count() <= options.goals.max_vertices.value_or(made.mesh.vertex_count()) &&
+         made.mesh.triangle_count() <= options.goals.max_triangles.value_or(made.mesh.triangle_count());
 }
 
 /// For laws: the mesh keeps the budgets, is sound, and as near to the samples as reported and promised.
@@ -34,7 +34,7 @@ inline void check_budget(const Measurement& seen, const Simplified& made, const 
   RC_ASSERT(seen.is_sound());
   RC_ASSERT(seen.uncovered == 0u);
   RC_ASSERT(seen.max_error == made.measurement.max_error);
-  if (made.stop == StopReason::kMaxError) RC_ASSERT(seen.max_error <= *options.max_error + 1e-9);
+  if (made.stop == StopReason::kMaxError) RC_ASSERT(seen.max_error <= *options.goals.max_error + 1e-9);
   if (made.stop == StopReason::kExact) RC_ASSERT(seen.max_error <= 1e-9);
 }
 

@@ -198,20 +198,20 @@ TEST(Cliffs, TellWhatTheSourceSaysAndWhatMemoryTheyNeed) {
   const testing::ArraySource broken(field.view(), 130), source(field.view());
   EXPECT_EQ(detect_cliffs(testing::with_source(field.view(), broken), {4, 1}).error().message, "row 130 is broken");
   CliffOptions options{4, 1};
-  options.memory_limit = 1'000'000;
-  options.memory_taken = 950'000;
+  options.run.memory.limit = 1'000'000;
+  options.run.memory.taken = 950'000;
   const auto refused = detect_cliffs(testing::with_source(field.view(), source), options);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::kUsage);
-  EXPECT_NE(refused.error().message.find("memory_limit is too little: walls take 1M"), std::string::npos);
-  options.memory_taken = 0;
+  EXPECT_NE(refused.error().message.find("the memory limit is too little: walls take 1M"), std::string::npos);
+  options.run.memory.taken = 0;
   EXPECT_TRUE(detect_cliffs(testing::with_source(field.view(), source), options));
 }
 
 Result<Simplified> with_cliffs(const Field& field, double height, SimplifyOptions options) {
-  const auto cliffs = detect_cliffs(field.view(), {height, *options.max_error});
+  const auto cliffs = detect_cliffs(field.view(), {height, *options.goals.max_error});
   if (!cliffs) return tl::unexpected(cliffs.error());
-  options.breaklines.lines = cliffs->lines;
+  options.features.breaklines.lines = cliffs->lines;
   return simplify(field.view(), options);
 }
 
@@ -220,21 +220,21 @@ RC_GTEST_PROP(CliffLaws, MeshesWithWallsKeepTheBoundAndAreSound, ()) {
   const Field field = random_city(seed);
   constexpr Effort kEfforts[] = {Effort::kFast, Effort::kNormal, Effort::kHigh};
   SimplifyOptions options;
-  options.max_error = 0.5 + 0.25 * (seed % 4);
-  options.effort = kEfforts[seed / 7 % 3];
-  if (options.effort == Effort::kHigh && seed % 2 == 0) options.vertices = Vertices::kSamples;
-  options.threads = 1;
+  options.goals.max_error = 0.5 + 0.25 * (seed % 4);
+  options.quality.effort = kEfforts[seed / 7 % 3];
+  if (options.quality.effort == Effort::kHigh && seed % 2 == 0) options.quality.vertices = Vertices::kSamples;
+  options.run.threads = 1;
   const auto one = with_cliffs(field, 4, options);
   if (!one && one.error().kind == ErrorKind::kInput) RC_DISCARD("no cell is valid");
   RC_ASSERT(one.has_value());
-  RC_ASSERT(one->measurement.max_error <= *options.max_error);
+  RC_ASSERT(one->measurement.max_error <= *options.goals.max_error);
   RC_ASSERT(one->measurement.uncovered == 0u);
   RC_ASSERT(one->edits.empty());
   const auto judged = measure(field.view(), one->mesh);
   RC_ASSERT(judged.has_value());
-  RC_ASSERT(judged->max_error <= *options.max_error);
+  RC_ASSERT(judged->max_error <= *options.goals.max_error);
   RC_ASSERT(judged->is_sound());
-  options.threads = 3;
+  options.run.threads = 3;
   const auto three = with_cliffs(field, 4, options);
   RC_ASSERT(three.has_value());
   RC_ASSERT(three->mesh.triangles == one->mesh.triangles);
@@ -255,8 +255,8 @@ TEST(Cliffs, AHouseAskewTakesTensOfTriangles) {
   EXPECT_LE(cliffs->vertices, 16u);
   for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
     SimplifyOptions options;
-    options.max_error = 0.5;
-    options.effort = effort;
+    options.goals.max_error = 0.5;
+    options.quality.effort = effort;
     const auto with = with_cliffs(field, 3, options), without = simplify(field.view(), options);
     ASSERT_TRUE(with && without);
     EXPECT_LE(with->mesh.triangle_count(), 40u);

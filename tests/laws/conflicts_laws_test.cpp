@@ -67,7 +67,7 @@ Line line_through(std::vector<std::array<double, 3>> points, LineKind kind = Lin
 }
 
 void add_lines(Scene& scene, std::vector<Line> lines) {
-  auto& all = scene.options.breaklines.lines;
+  auto& all = scene.options.features.breaklines.lines;
   all.insert(all.end(), lines.begin(), lines.end());
 }
 
@@ -81,14 +81,14 @@ struct Setting {
 std::vector<Setting> all_settings() {
   constexpr auto kWithout = [](Scene&) {};
   return {
-      {Field::kMaxError, [](Scene& s) { s.options.max_error = kError; }},
-      {Field::kMaxTriangles, [](Scene& s) { s.options.max_triangles = kTriangles; }},
-      {Field::kMaxVertices, [](Scene& s) { s.options.max_vertices = kTriangles / 2; }},
-      {Field::kOutlineTolerance, [](Scene& s) { s.options.outline_tolerance = 1; }},
-      {Field::kDoublePositions, [](Scene& s) { s.options.float32_positions = false; }},
-      {Field::kMask, [](Scene& s) { s.options.mask = s.mask; }},
-      {Field::kTolerance, [](Scene& s) { s.options.tolerance = s.tolerance; }},
-      {Field::kToleranceSource, [](Scene& s) { s.options.tolerance_source = &s.bounds; }},
+      {Field::kMaxError, [](Scene& s) { s.options.goals.max_error = kError; }},
+      {Field::kMaxTriangles, [](Scene& s) { s.options.goals.max_triangles = kTriangles; }},
+      {Field::kMaxVertices, [](Scene& s) { s.options.goals.max_vertices = kTriangles / 2; }},
+      {Field::kOutlineTolerance, [](Scene& s) { s.options.domain.outline_tolerance = 1; }},
+      {Field::kDoublePositions, [](Scene& s) { s.options.output.float32_positions = false; }},
+      {Field::kMask, [](Scene& s) { s.options.tolerances.weights = s.mask; }},
+      {Field::kTolerance, [](Scene& s) { s.options.tolerances.values = s.tolerance; }},
+      {Field::kToleranceSource, [](Scene& s) { s.options.tolerances.source = &s.bounds; }},
       {Field::kBreaklines, [](Scene& s) { add_lines(s, {some_line()}); }},
       {Field::kWalls,
        [](Scene& s) {
@@ -100,7 +100,7 @@ std::vector<Setting> all_settings() {
        }},
       {Field::kBreaklinesFor,
        [](Scene& s) {
-         s.options.breaklines_for = [](double) -> Result<LineConstraints> {
+         s.options.features.breaklines_for = [](double) -> Result<LineConstraints> {
            LineConstraints lines;
            lines.lines = {some_line()};
            return lines;
@@ -112,47 +112,47 @@ std::vector<Setting> all_settings() {
              line_through({{1.5, 1.5, NAN}, {37.5, 2.5, NAN}, {36.5, 27.5, NAN}, {2.5, 26.5, NAN}, {1.5, 1.5, NAN}});
          ring.polygon = 0;
          ring.role = LineRole::kOuter;
-         s.options.cutline.rings = {ring};
+         s.options.features.cutline.rings = {ring};
        }},
       {Field::kScriptIgnores,
        [](Scene& s) {
-         s.options.script.push_back({ScriptStep::Action::kIgnore, 11, 12});
+         s.options.strategy.script.push_back({ScriptStep::Action::kIgnore, 11, 12});
        }},
       {Field::kScriptInserts,
        [](Scene& s) {
-         s.options.script.push_back({ScriptStep::Action::kInsert, 13, 14});
+         s.options.strategy.script.push_back({ScriptStep::Action::kInsert, 13, 14});
        }},
-      {Field::kOrderGreedy, [](Scene& s) { s.options.order = Order::kGreedy; }},
-      {Field::kOrderDominant, [](Scene& s) { s.options.order = Order::kDominant; }},
-      {Field::kEffortFast, [](Scene& s) { s.options.effort = Effort::kFast; }},
-      {Field::kEffortNormal, [](Scene& s) { s.options.effort = Effort::kNormal; }},
-      {Field::kEffortHigh, [](Scene& s) { s.options.effort = Effort::kHigh; }},
-      {Field::kEffortMax, [](Scene& s) { s.options.effort = Effort::kMax; }},
-      {Field::kVerticesSamples, [](Scene& s) { s.options.vertices = Vertices::kSamples; }},
+      {Field::kOrderGreedy, [](Scene& s) { s.options.quality.order = Order::kGreedy; }},
+      {Field::kOrderDominant, [](Scene& s) { s.options.quality.order = Order::kDominant; }},
+      {Field::kEffortFast, [](Scene& s) { s.options.quality.effort = Effort::kFast; }},
+      {Field::kEffortNormal, [](Scene& s) { s.options.quality.effort = Effort::kNormal; }},
+      {Field::kEffortHigh, [](Scene& s) { s.options.quality.effort = Effort::kHigh; }},
+      {Field::kEffortMax, [](Scene& s) { s.options.quality.effort = Effort::kMax; }},
+      {Field::kVerticesSamples, [](Scene& s) { s.options.quality.vertices = Vertices::kSamples; }},
       {Field::kVerticesFree,
        [](Scene& s) {
-         s.options.vertices = Vertices::kFree;
-         if (s.options.effort == Effort::kAuto) s.options.effort = Effort::kHigh;
+         s.options.quality.vertices = Vertices::kFree;
+         if (s.options.quality.effort == Effort::kAuto) s.options.quality.effort = Effort::kHigh;
        }},
-      {Field::kMinShape, [](Scene& s) { s.options.min_shape = 0.1; }},
-      {Field::kShape, [](Scene& s) { s.options.shape.min_angle = 15; }},
-      {Field::kTimeLimit, [](Scene& s) { s.options.is_time_up = [] { return false; }; }},
-      {Field::kEnough, [](Scene& s) { s.options.is_enough = [] { return false; }; }},
-      {Field::kObjectiveRms, [](Scene& s) { s.options.objective = Objective::kRms; }},
-      {Field::kImportance, [](Scene& s) { s.options.importance.feature = Importance::Feature::kCurvature; }},
+      {Field::kMinShape, [](Scene& s) { s.options.quality.min_shape = 0.1; }},
+      {Field::kShape, [](Scene& s) { s.options.quality.shape.min_angle = 15; }},
+      {Field::kTimeLimit, [](Scene& s) { s.options.run.is_time_up = [] { return false; }; }},
+      {Field::kEnough, [](Scene& s) { s.options.run.is_enough = [] { return false; }; }},
+      {Field::kObjectiveRms, [](Scene& s) { s.options.goals.objective = Objective::kRms; }},
+      {Field::kImportance, [](Scene& s) { s.options.strategy.importance.feature = Importance::Feature::kCurvature; }},
       {Field::kOnePass,
        [](Scene& s) {
-         s.options.importance = {false, Importance::Feature::kLocal4, Importance::Damping::kUndamped, true};
+         s.options.strategy.importance = {false, Importance::Feature::kLocal4, Importance::Damping::kUndamped, true};
        }},
-      {Field::kAlgorithm, [](Scene& s) { s.options.algorithm = Algorithm::kLocal; }},
-      {Field::kBatch, [](Scene& s) { s.options.batch.rule = Batch::Rule::kIndependent; }},
-      {Field::kDataEdges, [](Scene& s) { s.options.edges.data_dependent = true; }},
-      {Field::kNorm, [](Scene& s) { s.options.norm = Norm::kMax; }},
-      {Field::kLastOfBudget, [](Scene& s) { s.options.best_of_budget = false; }},
-      {Field::kUvs, [](Scene& s) { s.options.uvs = true; }},
-      {Field::kNormals, [](Scene& s) { s.options.normals = true; }},
-      {Field::kThreads, [](Scene& s) { s.options.threads = 2; }},
-      {Field::kMemoryLimit, [](Scene& s) { s.options.memory_limit = 1'000'000'000; }},
+      {Field::kAlgorithm, [](Scene& s) { s.options.strategy.algorithm = Algorithm::kLocal; }},
+      {Field::kBatch, [](Scene& s) { s.options.strategy.batch.rule = Batch::Rule::kIndependent; }},
+      {Field::kDataEdges, [](Scene& s) { s.options.strategy.edges.data_dependent = true; }},
+      {Field::kNorm, [](Scene& s) { s.options.goals.norm = Norm::kMax; }},
+      {Field::kLastOfBudget, [](Scene& s) { s.options.strategy.best_of_budget = false; }},
+      {Field::kUvs, [](Scene& s) { s.options.output.uvs = true; }},
+      {Field::kNormals, [](Scene& s) { s.options.output.normals = true; }},
+      {Field::kThreads, [](Scene& s) { s.options.run.threads = 2; }},
+      {Field::kMemoryLimit, [](Scene& s) { s.options.run.memory.limit = 1'000'000'000; }},
       {Field::kChannels,
        [](Scene& s) {
          s.field.channels = {{s.colours.data(), 0.25}};
@@ -169,12 +169,12 @@ std::vector<Setting> all_settings() {
 /// What each sample may be off by; +infinity where there is no bound.
 std::vector<float> bounds_of(const Scene& scene, bool keeps_error) {
   const SimplifyOptions& options = scene.options;
-  const bool has_tolerance = !options.tolerance.empty() || options.tolerance_source != nullptr;
-  double bound = keeps_error && options.max_error ? *options.max_error : HUGE_VAL;
+  const bool has_tolerance = !options.tolerances.values.empty() || options.tolerances.source != nullptr;
+  double bound = keeps_error && options.goals.max_error ? *options.goals.max_error : HUGE_VAL;
   if (has_tolerance && keeps_error) bound = std::min(bound, 6.0);
-  if (!options.mask.empty()) bound /= 0.5;
+  if (!options.tolerances.weights.empty()) bound /= 0.5;
   std::vector<float> bounds(scene.land.samples.size(), static_cast<float>(bound * 1.000001 + 1e-5));
-  for (const ScriptStep& step : options.script) {
+  for (const ScriptStep& step : options.strategy.script) {
     if (step.action == ScriptStep::Action::kIgnore)
       bounds[static_cast<std::size_t>(step.row * 40 + step.col)] = testing::kNoBound;
   }
@@ -194,17 +194,18 @@ void expect_kept(const Scene& scene, const Simplified& made) {
   const std::vector<float> bounds = bounds_of(scene, keeps_error);
   MeasureOptions judge;
   judge.tolerance = bounds;
-  judge.cutline = options.cutline.rings.empty() ? nullptr : &options.cutline;
+  judge.cutline = options.features.cutline.rings.empty() ? nullptr : &options.features.cutline;
   const auto m = measure(field, made.mesh, judge);
   ASSERT_TRUE(m) << m.error().message;
   EXPECT_EQ(m->over_tolerance, 0u);
   EXPECT_EQ(m->uncovered, 0u);
   EXPECT_TRUE(m->is_sound());
-  EXPECT_LE(made.mesh.triangle_count(), options.max_triangles.value_or(1u << 30));
-  EXPECT_LE(made.mesh.vertex_count(), options.max_vertices.value_or(1u << 30));
-  const bool is_norm = !field.channels.empty() && options.mask.empty() && options.script.empty() && keeps_error;
-  EXPECT_LE(made.combined_max_error, is_norm ? options.max_error.value_or(HUGE_VAL) * 1.000001 : HUGE_VAL);
-  for (const ScriptStep& step : options.script) {
+  EXPECT_LE(made.mesh.triangle_count(), options.goals.max_triangles.value_or(1u << 30));
+  EXPECT_LE(made.mesh.vertex_count(), options.goals.max_vertices.value_or(1u << 30));
+  const bool is_norm =
+      !field.channels.empty() && options.tolerances.weights.empty() && options.strategy.script.empty() && keeps_error;
+  EXPECT_LE(made.combined_max_error, is_norm ? options.goals.max_error.value_or(HUGE_VAL) * 1.000001 : HUGE_VAL);
+  for (const ScriptStep& step : options.strategy.script) {
     if (step.action != ScriptStep::Action::kInsert || !field.frame.is_affine()) continue;
     bool is_vertex = false;
     for (std::size_t v = 0; v < made.mesh.vertex_count(); ++v) {
@@ -213,7 +214,7 @@ void expect_kept(const Scene& scene, const Simplified& made) {
     }
     EXPECT_TRUE(is_vertex);
   }
-  EXPECT_EQ(made.mesh.normals.size(), options.normals ? made.mesh.positions.size() : 0u);
+  EXPECT_EQ(made.mesh.normals.size(), options.output.normals ? made.mesh.positions.size() : 0u);
 }
 
 /// Settings of which one brings the other along.
@@ -235,12 +236,12 @@ bool is_refused(const Setting& one, const Setting& other, bool is_streamed) {
   bool is_named = false;
   for (const Field goal : kGoals) {
     Scene scene;
-    scene.options.threads = 1;
+    scene.options.run.threads = 1;
     all_settings()[static_cast<std::size_t>(goal)].set(scene);
     one.set(scene);
     other.set(scene);
-    if (scene.options.objective == Objective::kRms && goal == Field::kMaxError)
-      scene.options.max_triangles = kTriangles;
+    if (scene.options.goals.objective == Objective::kRms && goal == Field::kMaxError)
+      scene.options.goals.max_triangles = kTriangles;
     if (is_streamed) scene.field = testing::with_source(scene.field, scene.source);
     const auto conflicts = find_conflicts(scene.field, scene.options);
     const auto made = simplify(scene.field, scene.options);

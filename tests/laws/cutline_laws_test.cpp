@@ -29,11 +29,11 @@ using testing::triangles_of;
 
 SimplifyOptions any_options(const Cutline& cutline) {
   SimplifyOptions options;
-  options.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
-  options.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
-  options.order = *rc::gen::element(Order::kAuto, Order::kGreedy);
-  options.float32_positions = *rc::gen::arbitrary<bool>();
-  options.cutline = cutline;
+  options.goals.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
+  options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
+  options.quality.order = *rc::gen::element(Order::kAuto, Order::kGreedy);
+  options.output.float32_positions = *rc::gen::arbitrary<bool>();
+  options.features.cutline = cutline;
   return options;
 }
 
@@ -46,15 +46,15 @@ RC_GTEST_PROP(cutlines, cover_what_lies_in_the_polygons_and_has_data_within_the_
   constexpr double kDoubt = 1.0 / 64;
   const auto triangles =
       result ? triangles_of(result->mesh, field.rows) : std::vector<std::array<testing::Corner, 3>>();
-  RC_ASSERT(find_wrong_cover(field, options.cutline, triangles, draughtsman) == "");
+  RC_ASSERT(find_wrong_cover(field, options.features.cutline, triangles, draughtsman) == "");
   if (!result) RC_ASSERT(result.error().kind == ErrorKind::kInput);
   for (std::int32_t row = 0; result && row < field.rows; ++row) {
     for (std::int32_t col = 0; col < field.cols; ++col) {
       const double sample{field.raster().at({col, row})};
-      if (std::isnan(sample) || distance_to_rings(options.cutline, col, row) < kDoubt) continue;
+      if (std::isnan(sample) || distance_to_rings(options.features.cutline, col, row) < kDoubt) continue;
       const auto heights = heights_at(triangles, col, row);
-      RC_ASSERT(heights.empty() || is_in_polygons(options.cutline, col, row));
-      for (const double height : heights) RC_ASSERT(std::abs(height - sample) <= *options.max_error + 1e-6);
+      RC_ASSERT(heights.empty() || is_in_polygons(options.features.cutline, col, row));
+      for (const double height : heights) RC_ASSERT(std::abs(height - sample) <= *options.goals.max_error + 1e-6);
     }
   }
 }
@@ -62,9 +62,9 @@ RC_GTEST_PROP(cutlines, cover_what_lies_in_the_polygons_and_has_data_within_the_
 /// The judge's own look, which finds the bound kept and the mesh whole.
 Measurement judged(const Field& field, const SimplifyOptions& options, const Simplified& result) {
   MeasureOptions judge;
-  judge.cutline = &options.cutline;
+  judge.cutline = &options.features.cutline;
   const Measurement m = *measure(field.view(), result.mesh, judge);
-  RC_ASSERT(m.max_error <= *options.max_error + 1e-9);
+  RC_ASSERT(m.max_error <= *options.goals.max_error + 1e-9);
   RC_ASSERT(m.uncovered == 0u);
   RC_ASSERT(m.void_cells_covered == 0u);
   RC_ASSERT(m.is_sound());
@@ -84,7 +84,7 @@ RC_GTEST_PROP(cutlines, keep_the_bound_in_the_eyes_of_the_judge, ()) {
   const Measurement m = judged(field, options, *result);
   RC_ASSERT(m.samples + m.stray + m.cut_off == m.heights.valid);
   RC_ASSERT(result->measurement.samples == m.samples);
-  options.threads = 3;
+  options.run.threads = 3;
   const auto again = simplify(field.view(), options);
   RC_ASSERT(again->mesh.positions == result->mesh.positions && again->mesh.triangles == result->mesh.triangles);
 }
@@ -93,17 +93,17 @@ RC_GTEST_PROP(cutlines, hold_shapes_or_the_lines_of_walls_within_the_bound, ()) 
   const Field field = any_field(24);
   Draughtsman draughtsman(*rc::gen::arbitrary<std::uint32_t>());
   SimplifyOptions options = any_options(draughtsman.rings(field));
-  options.max_error = *rc::gen::element(0.5, 1.0, 3.0, 20.0);
+  options.goals.max_error = *rc::gen::element(0.5, 1.0, 3.0, 20.0);
   const bool has_walls = *rc::gen::arbitrary<bool>();
   if (has_walls) {
-    options.order = Order::kAuto;
+    options.quality.order = Order::kAuto;
     const auto cliffs =
-        detect_cliffs(field.view(), {.height = 2 * *options.max_error, .max_error = *options.max_error});
+        detect_cliffs(field.view(), {.height = 2 * *options.goals.max_error, .max_error = *options.goals.max_error});
     RC_ASSERT(cliffs.has_value());
-    options.breaklines.lines = cliffs->lines;
+    options.features.breaklines.lines = cliffs->lines;
   } else {
-    options.shape.min_angle = *rc::gen::element(0.0, 15.0, 28.0);
-    options.shape.max_edge = *rc::gen::element(1.5, 6.0);
+    options.quality.shape.min_angle = *rc::gen::element(0.0, 15.0, 28.0);
+    options.quality.shape.max_edge = *rc::gen::element(1.5, 6.0);
   }
   const auto result = simplify(field.view(), options);
   if (!result) {
@@ -112,8 +112,8 @@ RC_GTEST_PROP(cutlines, hold_shapes_or_the_lines_of_walls_within_the_bound, ()) 
     return;
   }
   const Measurement m = judged(field, options, *result);
-  if (!has_walls) RC_ASSERT(result->shape->longest_edge <= *options.shape.max_edge + 1e-4);
-  options.threads = 3;
+  if (!has_walls) RC_ASSERT(result->shape->longest_edge <= *options.quality.shape.max_edge + 1e-4);
+  options.run.threads = 3;
   const auto again = simplify(field.view(), options);
   RC_ASSERT(again->mesh.positions == result->mesh.positions && again->mesh.triangles == result->mesh.triangles);
 }
@@ -122,7 +122,7 @@ RC_GTEST_PROP(cutlines, leave_exactly_the_area_of_the_polygons_that_has_data, ()
   const Field field = any_field(14);
   Draughtsman draughtsman(*rc::gen::arbitrary<std::uint32_t>());
   SimplifyOptions options = any_options(draughtsman.rectangles(field));
-  options.float32_positions = false;
+  options.output.float32_positions = false;
   const auto result = simplify(field.view(), options);
   double area = 0;
   if (result) {
@@ -130,18 +130,18 @@ RC_GTEST_PROP(cutlines, leave_exactly_the_area_of_the_polygons_that_has_data, ()
   } else {
     RC_ASSERT(result.error().kind == ErrorKind::kInput);
   }
-  RC_ASSERT(area * kLatticeSteps * kLatticeSteps == static_cast<double>(doubled_area(field, options.cutline)));
+  RC_ASSERT(area * kLatticeSteps * kLatticeSteps == static_cast<double>(doubled_area(field, options.features.cutline)));
 }
 
 TEST(cutlines, of_the_whole_raster_change_nothing_but_what_lines_change) {
   const Field field = testing::random_field(5, 40, 30, testing::Relief::kRidges);
   SimplifyOptions options;
-  options.max_error = 2;
+  options.goals.max_error = 2;
   Line ring;
   ring.role = LineRole::kOuter;
   ring.polygon = 0;
   ring.points = {{-9, -9, 0}, {60, -9, 0}, {60, 50, 0}, {-9, 50, 0}, {-9, -9, 0}};
-  options.cutline.rings = {ring};
+  options.features.cutline.rings = {ring};
   const auto whole = simplify(field.view(), options);
   ASSERT_TRUE(whole);
   EXPECT_EQ(whole->cut_off, 0u);
@@ -154,13 +154,13 @@ TEST(cutlines, beside_the_raster_or_on_voids_are_refused) {
     for (std::int32_t col = 0; col < 20; ++col) field.samples[static_cast<std::size_t>(20 * row + col)] = NAN;
   }
   SimplifyOptions options;
-  options.max_error = 2;
+  options.goals.max_error = 2;
   const auto refuse = [&](double x, double y) {
     Line ring;
     ring.role = LineRole::kOuter;
     ring.polygon = 0;
     ring.points = {{x, y, 0}, {x + 4, y, 0}, {x, y + 4, 0}, {x, y, 0}};
-    options.cutline.rings = {ring};
+    options.features.cutline.rings = {ring};
     const auto result = simplify(field.view(), options);
     return result ? std::string() : result.error().message;
   };

@@ -72,28 +72,29 @@ RC_GTEST_PROP(channels_of_efforts, keep_their_norm_with_no_more_triangles_on_any
   const Coloured coloured = any_coloured(18);
   const HeightField view = coloured.view();
   SimplifyOptions options;
-  options.norm = *rc::gen::element(Norm::kSum, Norm::kSquares, Norm::kMax);
-  options.max_error = *rc::gen::element(0.0, 1.0, 2.0, 7.0, 40.0);
-  options.effort = Effort::kFast;
-  options.threads = 1;
+  options.goals.norm = *rc::gen::element(Norm::kSum, Norm::kSquares, Norm::kMax);
+  options.goals.max_error = *rc::gen::element(0.0, 1.0, 2.0, 7.0, 40.0);
+  options.quality.effort = Effort::kFast;
+  options.run.threads = 1;
   const auto fast = simplify(view, options);
   RC_PRE(fast.has_value());
-  options.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh, Effort::kMax);
+  options.quality.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh, Effort::kMax);
   const auto made = simplify(view, options);
   RC_ASSERT(made.has_value());
   RC_ASSERT(made->vertices == Vertices::kSamples);
   RC_ASSERT(made->mesh.triangle_count() <= fast->mesh.triangle_count());
-  RC_ASSERT(made->combined_max_error <= *options.max_error * (1 + 1e-6));
+  RC_ASSERT(made->combined_max_error <= *options.goals.max_error * (1 + 1e-6));
   RC_ASSERT(made->measurement.uncovered == 0u);
   RC_ASSERT(measure(view, made->mesh)->is_sound());
   for (int row = 0; row < view.rows; ++row) {
     for (int col = 0; col < view.cols; ++col) {
       if (std::isnan(testing::error_at(made->mesh, view, col, row))) continue;
-      RC_ASSERT(norm_at(made->mesh, view, options.norm, col, row) <= *options.max_error * (1 + 1e-9) + 1e-9);
+      RC_ASSERT(norm_at(made->mesh, view, options.goals.norm, col, row) <=
+                *options.goals.max_error * (1 + 1e-9) + 1e-9);
     }
   }
   for (const int threads : {2, 4}) {
-    options.threads = threads;
+    options.run.threads = threads;
     RC_ASSERT(is_same_mesh(*simplify(view, options), *made));
   }
 }
@@ -106,23 +107,23 @@ RC_GTEST_PROP(channels_of_efforts, keep_bounds_of_samples, ()) {
   std::vector<float> bounds, mask;
   for (std::size_t i = 0; i < coloured.heights.samples.size(); ++i) bounds.push_back(levels[random() % 6]);
   SimplifyOptions options;
-  options.norm = *rc::gen::element(Norm::kSum, Norm::kSquares, Norm::kMax);
-  options.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
+  options.goals.norm = *rc::gen::element(Norm::kSum, Norm::kSquares, Norm::kMax);
+  options.quality.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
   if (*rc::gen::arbitrary<bool>()) {
-    options.tolerance = bounds;
+    options.tolerances.values = bounds;
   } else {
-    options.max_error = 3;
+    options.goals.max_error = 3;
     for (float& bound : bounds) {
       mask.push_back(bound > 0 ? 3 / bound : 4);
       bound = 3 / mask.back();
     }
-    options.mask = mask;
+    options.tolerances.weights = mask;
   }
   const auto made = simplify(view, options);
   RC_PRE(made.has_value());
   for (int row = 0; row < view.rows; ++row) {
     for (int col = 0; col < view.cols; ++col) {
-      const double norm = norm_at(made->mesh, view, options.norm, col, row);
+      const double norm = norm_at(made->mesh, view, options.goals.norm, col, row);
       const double bound = bounds[static_cast<std::size_t>(row * view.cols + col)];
       RC_ASSERT(std::isnan(norm) || norm <= bound * (1 + 1e-6) + 1e-9);
     }
@@ -133,17 +134,17 @@ RC_GTEST_PROP(channels_of_efforts, spend_budgets_on_their_norm, ()) {
   const Coloured coloured = any_coloured(30);
   const HeightField view = coloured.view();
   SimplifyOptions options;
-  options.norm = *rc::gen::element(Norm::kSum, Norm::kSquares, Norm::kMax);
-  options.max_triangles = *rc::gen::inRange<std::uint64_t>(4, 600);
-  options.effort = Effort::kFast;
+  options.goals.norm = *rc::gen::element(Norm::kSum, Norm::kSquares, Norm::kMax);
+  options.goals.max_triangles = *rc::gen::inRange<std::uint64_t>(4, 600);
+  options.quality.effort = Effort::kFast;
   const auto greedy = simplify(view, options);
-  options.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
-  options.objective = *rc::gen::element(Objective::kMax, Objective::kRms);
+  options.quality.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
+  options.goals.objective = *rc::gen::element(Objective::kMax, Objective::kRms);
   const auto made = simplify(view, options);
   RC_ASSERT(made.has_value() == greedy.has_value());
   RC_PRE(made.has_value());
-  RC_ASSERT(made->mesh.triangle_count() <= *options.max_triangles);
-  if (options.objective == Objective::kMax) {
+  RC_ASSERT(made->mesh.triangle_count() <= *options.goals.max_triangles);
+  if (options.goals.objective == Objective::kMax) {
     RC_ASSERT(made->combined_max_error <= greedy->combined_max_error * (1 + 1e-6));
   } else {
     RC_ASSERT(made->combined_rmse <= greedy->combined_rmse * (1 + 1e-6));
@@ -160,9 +161,9 @@ TEST(channels_of_efforts, take_fewer_triangles_with_each_level) {
     std::size_t before = SIZE_MAX;
     for (const Effort effort : {Effort::kFast, Effort::kAuto, Effort::kHigh, Effort::kMax}) {
       SimplifyOptions options;
-      options.norm = norm;
-      options.max_error = 20;
-      options.effort = effort;
+      options.goals.norm = norm;
+      options.goals.max_error = 20;
+      options.quality.effort = effort;
       const auto made = simplify(coloured.view(), options);
       ASSERT_TRUE(made) << made.error().message;
       EXPECT_EQ(made->effort, effort == Effort::kAuto ? Effort::kNormal : effort);
@@ -177,9 +178,9 @@ TEST(channels_of_efforts, refuse_free_vertices) {
   coloured.layers.push_back(coloured.heights);
   coloured.scales.push_back(1);
   SimplifyOptions options;
-  options.max_error = 1;
-  options.effort = Effort::kHigh;
-  options.vertices = Vertices::kFree;
+  options.goals.max_error = 1;
+  options.quality.effort = Effort::kHigh;
+  options.quality.vertices = Vertices::kFree;
   const auto made = simplify(coloured.view(), options);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().kind, ErrorKind::kUsage);
@@ -199,25 +200,25 @@ double area_of(const Mesh& mesh) {
 RC_GTEST_PROP(simplified_outlines, of_efforts_keep_the_promise_and_the_domain, ()) {
   const Field field = any_field(40);
   SimplifyOptions options;
-  options.outline_tolerance = *rc::gen::element(0.5, 1.0, 3.0, 20.0);
-  options.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
-  options.effort = Effort::kFast;
-  options.threads = 1;
+  options.domain.outline_tolerance = *rc::gen::element(0.5, 1.0, 3.0, 20.0);
+  options.goals.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
+  options.quality.effort = Effort::kFast;
+  options.run.threads = 1;
   const auto fast = simplify(field.view(), options);
   RC_PRE(fast.has_value());
-  options.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh, Effort::kMax);
-  options.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
+  options.quality.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh, Effort::kMax);
+  options.quality.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
   const auto made = simplify(field.view(), options);
   RC_ASSERT(made.has_value());
   RC_ASSERT(made->mesh.triangle_count() <= fast->mesh.triangle_count());
   const Measurement m = *measure(field.view(), made->mesh), before = *measure(field.view(), fast->mesh);
-  RC_ASSERT(m.max_error <= *options.max_error + 1e-9);
+  RC_ASSERT(m.max_error <= *options.goals.max_error + 1e-9);
   RC_ASSERT(m.uncovered == 0u);
   RC_ASSERT(m.samples == before.samples);
   RC_ASSERT(m.is_sound());
   RC_ASSERT(area_of(made->mesh) == area_of(fast->mesh));
   for (const int threads : {2, 4}) {
-    options.threads = threads;
+    options.run.threads = threads;
     RC_ASSERT(is_same_mesh(*simplify(field.view(), options), *made));
   }
 }
@@ -227,9 +228,9 @@ TEST(simplified_outlines, take_fewer_triangles_with_each_level) {
   std::size_t before = SIZE_MAX;
   for (const Effort effort : {Effort::kFast, Effort::kAuto, Effort::kHigh}) {
     SimplifyOptions options;
-    options.max_error = 8;
-    options.outline_tolerance = 3;
-    options.effort = effort;
+    options.goals.max_error = 8;
+    options.domain.outline_tolerance = 3;
+    options.quality.effort = effort;
     const auto made = simplify(field.view(), options);
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_EQ(made->effort, effort == Effort::kAuto ? Effort::kNormal : effort);

@@ -22,9 +22,9 @@ using testing::Relief;
 
 SimplifyOptions with_effort(double max_error, Effort effort, Vertices vertices = Vertices::kAuto) {
   SimplifyOptions options;
-  options.max_error = max_error;
-  options.effort = effort;
-  options.vertices = vertices;
+  options.goals.max_error = max_error;
+  options.quality.effort = effort;
+  options.quality.vertices = vertices;
   return options;
 }
 
@@ -42,12 +42,12 @@ RC_GTEST_PROP(effort, keeps_the_promise_in_the_eyes_of_the_judge, ()) {
   const double goal = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
   auto options = with_effort(goal, *rc::gen::element(Effort::kNormal, Effort::kHigh, Effort::kMax),
                              *rc::gen::element(Vertices::kAuto, Vertices::kSamples));
-  options.order = *rc::gen::element(Order::kAuto, Order::kGreedy);
-  options.float32_positions = *rc::gen::arbitrary<bool>();
+  options.quality.order = *rc::gen::element(Order::kAuto, Order::kGreedy);
+  options.output.float32_positions = *rc::gen::arbitrary<bool>();
   const auto result = simplify(view, options);
   if (!result) {
     RC_ASSERT(result.error().kind == ErrorKind::kInput || result.error().kind == ErrorKind::kPromise);
-    RC_ASSERT(result.error().kind == ErrorKind::kInput || (goal == 0 && options.float32_positions));
+    RC_ASSERT(result.error().kind == ErrorKind::kInput || (goal == 0 && options.output.float32_positions));
     return;
   }
   const Measurement m = *measure(view, result->mesh);
@@ -63,7 +63,7 @@ TEST(effort, errors_that_equal_the_bound_are_kept_by_free_vertices_far_from_the_
     const Field field = testing::random_field(static_cast<std::uint32_t>(seed), 30, 25, Relief::kTies);
     const HeightField view = odd_cells(field);
     auto options = with_effort(1, seed % 2 == 0 ? Effort::kHigh : Effort::kMax);
-    options.float32_positions = false;
+    options.output.float32_positions = false;
     const auto result = simplify(view, options);
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_EQ(result->vertices, Vertices::kFree);
@@ -106,7 +106,7 @@ TEST(effort, each_level_takes_fewer_triangles) {
                                          {Effort::kHigh, Vertices::kFree},
                                          {Effort::kMax, Vertices::kFree}}) {
     auto options = with_effort(4, effort, vertices);
-    if (effort != Effort::kFast) options.min_shape = 0;  // as normal effort has it
+    if (effort != Effort::kFast) options.quality.min_shape = 0;  // as normal effort has it
     const auto result = simplify(field.view(), options);
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_LT(result->mesh.triangle_count(), before);
@@ -136,7 +136,7 @@ TEST(effort, normals_and_uvs_of_free_vertices_are_those_of_their_places) {
     for (std::size_t x = 0; x < 60; ++x)
       field.samples[60 * y + x] = static_cast<float>(0.75 * static_cast<double>(x)) + (x * y % 7 == 0 ? 0.01f : 0.0f);
   auto options = with_effort(0.02, Effort::kHigh, Vertices::kFree);
-  options.normals = options.uvs = true;
+  options.output.normals = options.output.uvs = true;
   const auto result = simplify(field.view(), options);
   ASSERT_TRUE(result) << result.error().message;
   const Mesh& mesh = result->mesh;
@@ -168,7 +168,7 @@ TEST(effort, threads_change_nothing) {
   std::optional<Mesh> first;
   for (const int threads : {1, 2, 5}) {
     auto options = with_effort(1, Effort::kHigh);
-    options.threads = threads;
+    options.run.threads = threads;
     const auto result = simplify(field.view(), options);
     ASSERT_TRUE(result);
     if (!first) first = result->mesh;
@@ -182,7 +182,7 @@ TEST(effort, a_run_whose_time_is_up_keeps_the_promise) {
   for (const int questions : {0, 1, 40, 1000}) {
     std::atomic<int> asked = 0;
     auto options = with_effort(2, Effort::kMax);
-    options.is_time_up = [&] { return asked++ >= questions; };
+    options.run.is_time_up = [&] { return asked++ >= questions; };
     const auto result = simplify(field.view(), options);
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_TRUE(result->is_cut_short || questions == 1000);
@@ -197,7 +197,7 @@ TEST(effort, somebody_who_has_enough_ends_it_and_else_changes_nothing) {
   const Field field = testing::random_field(26, 120, 90, Relief::kRidges, 0.02);
   const auto with = [&](const std::function<bool()>& is_enough) {
     auto options = with_effort(2, Effort::kMax);
-    options.is_enough = is_enough;
+    options.run.is_enough = is_enough;
     return *simplify(field.view(), options);
   };
   const Simplified whole = with({}), waited = with([] { return false; }), cut = with([] { return true; });
@@ -211,9 +211,9 @@ TEST(effort, somebody_who_has_enough_ends_it_and_else_changes_nothing) {
 TEST(effort, what_needs_more_than_fast_effort_is_refused_with_it) {
   const Field field = testing::random_field(25, 20, 20, Relief::kRidges);
   auto shaped = with_effort(4, Effort::kFast), timed = shaped, thin = with_effort(4, Effort::kHigh);
-  shaped.min_shape = 0.1;
-  timed.is_time_up = [] { return false; };
-  thin.min_shape = 0.6;
+  shaped.quality.min_shape = 0.1;
+  timed.run.is_time_up = [] { return false; };
+  thin.quality.min_shape = 0.6;
   for (const SimplifyOptions& options : {shaped, timed, thin}) {
     const auto result = simplify(field.view(), options);
     ASSERT_FALSE(result);

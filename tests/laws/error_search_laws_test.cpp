@@ -23,19 +23,19 @@ using testing::Relief;
 SimplifyOptions any_budget() {
   SimplifyOptions options;
   const auto budget = *rc::gen::inRange<std::uint64_t>(2, 400);
-  if (*rc::gen::arbitrary<bool>()) options.max_vertices = budget;
-  if (!options.max_vertices || *rc::gen::arbitrary<bool>()) options.max_triangles = 2 * budget;
-  if (*rc::gen::element(false, false, true)) options.max_error = *rc::gen::element(0.0, 0.7, 5.0);
+  if (*rc::gen::arbitrary<bool>()) options.goals.max_vertices = budget;
+  if (!options.goals.max_vertices || *rc::gen::arbitrary<bool>()) options.goals.max_triangles = 2 * budget;
+  if (*rc::gen::element(false, false, true)) options.goals.max_error = *rc::gen::element(0.0, 0.7, 5.0);
   return options;
 }
 
 RC_GTEST_PROP(error_search, budgets_are_kept_and_greedy_insertion_is_never_better, ()) {
   const Field field = any_field(40);
   SimplifyOptions options = any_budget();
-  options.effort = Effort::kFast;
+  options.quality.effort = Effort::kFast;
   const auto greedy = simplify(field.view(), options);
-  options.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
-  options.objective = *rc::gen::element(Objective::kMax, Objective::kRms);
+  options.quality.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
+  options.goals.objective = *rc::gen::element(Objective::kMax, Objective::kRms);
   const auto made = simplify(field.view(), options);
   RC_ASSERT(made.has_value() == greedy.has_value());
   if (!made) {
@@ -48,7 +48,7 @@ RC_GTEST_PROP(error_search, budgets_are_kept_and_greedy_insertion_is_never_bette
   if (greedy->stop == StopReason::kMaxError || greedy->stop == StopReason::kExact) {
     RC_ASSERT(made->stop == greedy->stop);
     RC_ASSERT(made->mesh.triangle_count() <= greedy->mesh.triangle_count());
-  } else if (made->stop != StopReason::kMaxError && options.objective == Objective::kMax) {
+  } else if (made->stop != StopReason::kMaxError && options.goals.objective == Objective::kMax) {
     RC_ASSERT(seen.max_error <= greedy->measurement.max_error);
   } else if (made->stop != StopReason::kMaxError) {
     RC_ASSERT(seen.rmse <= greedy->measurement.rmse);
@@ -58,12 +58,12 @@ RC_GTEST_PROP(error_search, budgets_are_kept_and_greedy_insertion_is_never_bette
 RC_GTEST_PROP(error_search, threads_change_nothing, ()) {
   const Field field = any_field(40);
   SimplifyOptions options = any_budget();
-  options.effort = Effort::kHigh;
-  options.threads = 1;
+  options.quality.effort = Effort::kHigh;
+  options.run.threads = 1;
   const auto first = simplify(field.view(), options);
   RC_PRE(first.has_value());
   for (const int threads : {2, 5}) {
-    options.threads = threads;
+    options.run.threads = threads;
     const auto again = simplify(field.view(), options);
     RC_ASSERT(again.has_value());
     RC_ASSERT(again->mesh.positions == first->mesh.positions);
@@ -75,9 +75,12 @@ RC_GTEST_PROP(error_search, threads_change_nothing, ()) {
 TEST(error_search, uses_the_budget_and_lowers_the_error_of_greedy_insertion) {
   const Field field = hills(200, 150);
   for (const std::uint64_t budget : {300u, 1000u, 3000u}) {
-    const auto greedy = *simplify(field.view(), {.max_triangles = budget, .effort = Effort::kFast});
-    const auto normal = *simplify(field.view(), {.max_triangles = budget, .effort = Effort::kNormal});
-    const auto high = *simplify(field.view(), {.max_triangles = budget, .effort = Effort::kHigh});
+    const auto greedy =
+        *simplify(field.view(), {.goals = {.max_triangles = budget}, .quality = {.effort = Effort::kFast}});
+    const auto normal =
+        *simplify(field.view(), {.goals = {.max_triangles = budget}, .quality = {.effort = Effort::kNormal}});
+    const auto high =
+        *simplify(field.view(), {.goals = {.max_triangles = budget}, .quality = {.effort = Effort::kHigh}});
     EXPECT_LT(normal.measurement.max_error, 0.85 * greedy.measurement.max_error) << budget;
     EXPECT_LT(high.measurement.max_error, 0.95 * normal.measurement.max_error) << budget;
     for (const Simplified* made : {&normal, &high}) {
@@ -93,7 +96,8 @@ TEST(error_search, a_much_larger_budget_never_has_a_larger_error) {
     const Field field = testing::random_field(3, 50, 40, relief);
     double last = std::numeric_limits<double>::infinity();
     for (std::uint64_t budget = 20; budget < 10000; budget *= 4) {
-      const auto made = simplify(field.view(), {.max_vertices = budget, .effort = Effort::kHigh});
+      const auto made =
+          simplify(field.view(), {.goals = {.max_vertices = budget}, .quality = {.effort = Effort::kHigh}});
       ASSERT_TRUE(made) << made.error().message;
       EXPECT_LE(made->measurement.max_error, last) << budget;
       last = made->measurement.max_error;
@@ -103,11 +107,12 @@ TEST(error_search, a_much_larger_budget_never_has_a_larger_error) {
 
 TEST(error_search, a_bound_that_fits_is_the_goal) {
   const Field field = testing::random_field(3, 60, 60, Relief::kRidges);
-  const auto bounded = *simplify(field.view(), {.max_error = 30.0, .effort = Effort::kHigh});
+  const auto bounded = *simplify(field.view(), {.goals = {.max_error = 30.0}, .quality = {.effort = Effort::kHigh}});
   // Less than greedy insertion needs for it, so that the search has to find out.
   const std::uint64_t budget = bounded.mesh.triangle_count() * 11 / 10;
   ASSERT_LT(budget, simplify(field.view(), {.max_error = 30.0})->mesh.triangle_count());
-  const auto made = *simplify(field.view(), {.max_error = 30.0, .max_triangles = budget, .effort = Effort::kHigh});
+  const auto made = *simplify(
+      field.view(), {.goals = {.max_error = 30.0, .max_triangles = budget}, .quality = {.effort = Effort::kHigh}});
   EXPECT_EQ(made.stop, StopReason::kMaxError);
   EXPECT_EQ(made.mesh.positions, bounded.mesh.positions);
 }
@@ -115,8 +120,8 @@ TEST(error_search, a_bound_that_fits_is_the_goal) {
 TEST(error_search, ends_with_its_time_and_the_best_mesh_so_far) {
   const Field field = testing::random_field(3, 60, 60, Relief::kRidges);
   const auto with = [&](const std::function<bool()>& is_time_up) {
-    SimplifyOptions options{.max_triangles = 1500, .effort = Effort::kHigh};
-    options.is_time_up = is_time_up;
+    SimplifyOptions options{.goals = {.max_triangles = 1500}, .quality = {.effort = Effort::kHigh}};
+    options.run.is_time_up = is_time_up;
     return *simplify(field.view(), options);
   };
   int asked = 0;
@@ -125,8 +130,9 @@ TEST(error_search, ends_with_its_time_and_the_best_mesh_so_far) {
   EXPECT_EQ(waited.mesh.positions, whole.mesh.positions);
   EXPECT_FALSE(waited.is_cut_short);
   EXPECT_TRUE(cut.is_cut_short);
-  EXPECT_EQ(cut.mesh.triangles,
-            simplify(field.view(), {.max_triangles = 1500, .effort = Effort::kFast})->mesh.triangles);
+  EXPECT_EQ(
+      cut.mesh.triangles,
+      simplify(field.view(), {.goals = {.max_triangles = 1500}, .quality = {.effort = Effort::kFast}})->mesh.triangles);
   EXPECT_LE(late.mesh.triangle_count(), 1500u);
   EXPECT_LE(late.measurement.max_error, cut.measurement.max_error);
 }
@@ -134,20 +140,21 @@ TEST(error_search, ends_with_its_time_and_the_best_mesh_so_far) {
 TEST(error_search, refuses_what_no_search_can_serve) {
   const Field field = testing::random_field(3, 30, 30, Relief::kReal);
   const auto kind = [&](const SimplifyOptions& options) { return simplify(field.view(), options).error().kind; };
-  EXPECT_EQ(kind({.max_triangles = 1, .effort = Effort::kHigh}), ErrorKind::kUsage);
-  EXPECT_EQ(kind({.max_error = 1, .effort = Effort::kHigh, .objective = Objective::kRms}), ErrorKind::kUsage);
-  EXPECT_EQ(kind({.max_triangles = 99, .objective = Objective::kRms}), ErrorKind::kUsage);
-  SimplifyOptions tight{.max_triangles = 99, .effort = Effort::kNormal};
-  tight.edges.data_dependent = true;
+  EXPECT_EQ(kind({.goals = {.max_triangles = 1}, .quality = {.effort = Effort::kHigh}}), ErrorKind::kUsage);
+  EXPECT_EQ(kind({.goals = {.max_error = 1, .objective = Objective::kRms}, .quality = {.effort = Effort::kHigh}}),
+            ErrorKind::kUsage);
+  EXPECT_EQ(kind({.goals = {.max_triangles = 99, .objective = Objective::kRms}}), ErrorKind::kUsage);
+  SimplifyOptions tight{.goals = {.max_triangles = 99}, .quality = {.effort = Effort::kNormal}};
+  tight.strategy.edges.data_dependent = true;
   EXPECT_EQ(kind(tight), ErrorKind::kUsage);
 }
 
 TEST(error_search, is_told_as_one_pass_and_can_be_cancelled) {
   const Field field = hills(200, 150);
-  SimplifyOptions options{.max_triangles = 1000, .effort = Effort::kHigh};
+  SimplifyOptions options{.goals = {.max_triangles = 1000}, .quality = {.effort = Effort::kHigh}};
   double last = 0;
   int calls = 0;
-  options.progress = [&](const Progress& progress) {
+  options.run.progress = [&](const Progress& progress) {
     EXPECT_EQ(progress.pass, "search");
     EXPECT_GE(progress.fraction, last);
     last = progress.fraction;
@@ -157,7 +164,7 @@ TEST(error_search, is_told_as_one_pass_and_can_be_cancelled) {
   EXPECT_GT(calls, 3);
   for (const int allowed : {0, 1, 2, 3}) {
     calls = 0;
-    options.progress = [&](const Progress&) { return calls++ < allowed; };
+    options.run.progress = [&](const Progress&) { return calls++ < allowed; };
     const auto cancelled = simplify(field.view(), options);
     ASSERT_FALSE(cancelled);
     EXPECT_EQ(cancelled.error().kind, ErrorKind::kCancelled);
@@ -172,13 +179,13 @@ struct MadeUp {
   int runs = 0;      // with effort
 
   Result<Simplified> operator()(const SimplifyOptions& options) {
-    const bool has_effort = options.effort != Effort::kFast;
+    const bool has_effort = options.quality.effort != Effort::kFast;
     runs += has_effort ? 1 : 0;
-    double error = options.max_error.value_or(0);
+    double error = options.goals.max_error.value_or(0);
     Simplified made;
-    if (options.max_triangles) {
+    if (options.goals.max_triangles) {
       error = 1e6;
-      while (triangles(0.999 * error) <= static_cast<double>(*options.max_triangles)) error *= 0.999;
+      while (triangles(0.999 * error) <= static_cast<double>(*options.goals.max_triangles)) error *= 0.999;
       made.stop = StopReason::kMaxTriangles;
     }
     if (error < least) return fail(ErrorKind::kPromise, "too small");
@@ -193,7 +200,7 @@ TEST(error_search, takes_few_runs_where_triangles_follow_a_power) {
   for (const double power : {0.8, 1.0, 1.3, 2.0}) {
     for (const double share : {0.25, 0.42, 0.7}) {
       MadeUp made_up{[&](double error) { return 1e6 * std::pow(error, -power); }, share};
-      const SimplifyOptions options{.max_triangles = 50000, .effort = Effort::kHigh};
+      const SimplifyOptions options{.goals = {.max_triangles = 50000}, .quality = {.effort = Effort::kHigh}};
       const auto found = *search_error(options, std::ref(made_up));
       EXPECT_GE(found.mesh.triangle_count(), 49500u) << power << " " << share;
       EXPECT_LE(found.mesh.triangle_count(), 50000u) << power << " " << share;
@@ -205,7 +212,7 @@ TEST(error_search, takes_few_runs_where_triangles_follow_a_power) {
 TEST(error_search, stops_where_triangles_jump_over_the_budget) {
   // 10,000 triangles from an error of 1 on, far too many below it.
   MadeUp made_up{[](double error) { return error >= 1 ? 20000 + 30000 / error : 1e6; }};
-  const SimplifyOptions options{.max_triangles = 50000, .effort = Effort::kHigh};
+  const SimplifyOptions options{.goals = {.max_triangles = 50000}, .quality = {.effort = Effort::kHigh}};
   const auto found = *search_error(options, std::ref(made_up));
   EXPECT_LE(found.measurement.max_error, 1.05);
   EXPECT_LE(made_up.runs, kMostRuns);
@@ -213,7 +220,7 @@ TEST(error_search, stops_where_triangles_jump_over_the_budget) {
 
 TEST(error_search, goes_around_bounds_that_cannot_be_kept) {
   MadeUp made_up{[](double error) { return 1e5 / error; }, 0.42, 0.9};
-  const SimplifyOptions options{.max_triangles = 100000, .effort = Effort::kHigh};
+  const SimplifyOptions options{.goals = {.max_triangles = 100000}, .quality = {.effort = Effort::kHigh}};
   const auto found = *search_error(options, std::ref(made_up));
   EXPECT_LE(found.measurement.max_error, 0.95);
   EXPECT_GE(found.measurement.max_error, 0.9);

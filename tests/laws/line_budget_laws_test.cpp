@@ -25,24 +25,25 @@ using testing::is_within;
 /// Lines, or polygons, or both, and a budget that may be too small.
 SimplifyOptions any_lines_and_budget(const Field& field) {
   SimplifyOptions options;
-  options.breaklines = any_lines(field);
+  options.features.breaklines = any_lines(field);
   if (*rc::gen::inRange(0, 3) == 0) {
     LineConstraints rings = any_lines(field);
-    options.cutline.affine = rings.affine;
+    options.features.cutline.affine = rings.affine;
     for (std::uint32_t k = 0; k < rings.lines.size(); ++k) {
       Line& ring = rings.lines[k];
       ring.role = LineRole::kOuter;
       ring.polygon = k;
       ring.points.push_back(ring.points.front());
-      if (ring.points.size() >= 4) options.cutline.rings.push_back(ring);
+      if (ring.points.size() >= 4) options.features.cutline.rings.push_back(ring);
     }
-    if (!options.cutline.rings.empty() && *rc::gen::arbitrary<bool>()) options.breaklines.lines.clear();
+    if (!options.features.cutline.rings.empty() && *rc::gen::arbitrary<bool>())
+      options.features.breaklines.lines.clear();
   }
   const auto budget = *rc::gen::inRange<std::uint64_t>(2, 500);
-  if (*rc::gen::arbitrary<bool>()) options.max_vertices = budget;
-  if (!options.max_vertices || *rc::gen::arbitrary<bool>()) options.max_triangles = 2 * budget;
-  if (*rc::gen::element(false, false, true)) options.max_error = *rc::gen::element(0.0, 0.7, 5.0);
-  options.effort = Effort::kFast;
+  if (*rc::gen::arbitrary<bool>()) options.goals.max_vertices = budget;
+  if (!options.goals.max_vertices || *rc::gen::arbitrary<bool>()) options.goals.max_triangles = 2 * budget;
+  if (*rc::gen::element(false, false, true)) options.goals.max_error = *rc::gen::element(0.0, 0.7, 5.0);
+  options.quality.effort = Effort::kFast;
   return options;
 }
 
@@ -68,13 +69,13 @@ RC_GTEST_PROP(line_budget, is_kept_and_the_mesh_is_that_of_the_error_it_was_made
     return;
   }
   MeasureOptions judging;
-  if (!options.cutline.rings.empty()) judging.cutline = &options.cutline;
+  if (!options.features.cutline.rings.empty()) judging.cutline = &options.features.cutline;
   const Measurement seen = *measure(edited(field, *made).view(), made->mesh, judging);
   check_budget(seen, *made, options);
   RC_ASSERT(seen.max_error <= made->lines_for + 1e-9);
   SimplifyOptions towards_error = options;
-  towards_error.max_triangles = towards_error.max_vertices = std::nullopt;
-  towards_error.max_error = made->lines_for;
+  towards_error.goals.max_triangles = towards_error.goals.max_vertices = std::nullopt;
+  towards_error.goals.max_error = made->lines_for;
   const auto again = simplify(field.view(), towards_error);
   RC_ASSERT(again.has_value());
   RC_ASSERT(again->mesh.positions == made->mesh.positions);
@@ -84,17 +85,17 @@ RC_GTEST_PROP(line_budget, is_kept_and_the_mesh_is_that_of_the_error_it_was_made
 RC_GTEST_PROP(line_budget, that_is_too_small_is_refused_with_the_least_that_will_do, ()) {
   const Field field = any_field(30);
   SimplifyOptions options = any_lines_and_budget(field);
-  options.max_triangles = std::nullopt;
-  options.max_vertices = 1;
+  options.goals.max_triangles = std::nullopt;
+  options.goals.max_vertices = 1;
   const auto none = simplify(field.view(), options);
   RC_ASSERT(!none.has_value());
   if (none.error().kind == ErrorKind::kInput) return;
   RC_ASSERT(none.error().kind == ErrorKind::kUsage);
   const std::uint64_t least = needed(none.error().message);
   RC_ASSERT(least >= 3u);
-  options.max_vertices = least - 1;
+  options.goals.max_vertices = least - 1;
   RC_ASSERT(!simplify(field.view(), options).has_value());
-  options.max_vertices = least;
+  options.goals.max_vertices = least;
   const auto made = simplify(field.view(), options);
   RC_ASSERT(made.has_value());
   RC_ASSERT(made->mesh.vertex_count() == least);
@@ -104,7 +105,7 @@ RC_GTEST_PROP(line_budget, effort_never_has_the_larger_error, ()) {
   const Field field = any_field(30);
   SimplifyOptions options = any_lines_and_budget(field);
   const auto fast = simplify(field.view(), options);
-  options.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
+  options.quality.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
   const auto made = simplify(field.view(), options);
   RC_ASSERT(made.has_value() == fast.has_value());
   if (!made) {
@@ -122,10 +123,10 @@ RC_GTEST_PROP(line_budget, effort_never_has_the_larger_error, ()) {
 RC_GTEST_PROP(line_budget, threads_change_nothing, ()) {
   const Field field = any_field(40);
   SimplifyOptions options = any_lines_and_budget(field);
-  options.effort = *rc::gen::element(Effort::kFast, Effort::kNormal);
-  options.threads = 1;
+  options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal);
+  options.run.threads = 1;
   const auto one = simplify(field.view(), options);
-  options.threads = 3;
+  options.run.threads = 3;
   const auto three = simplify(field.view(), options);
   RC_ASSERT(one.has_value() == three.has_value());
   if (!one) return;
@@ -136,14 +137,14 @@ RC_GTEST_PROP(line_budget, threads_change_nothing, ()) {
 TEST(line_budget, is_used_where_triangles_grow_smoothly) {
   const Field field = hills(200, 150);
   SimplifyOptions options;
-  options.breaklines.affine = grid_frame(field.rows).affine;
+  options.features.breaklines.affine = grid_frame(field.rows).affine;
   Line line;
   line.points = {{10.3, 5.5, NAN}, {150.2, 120.7, NAN}, {190.4, 11.6, NAN}};
-  options.breaklines.lines = {line};
+  options.features.breaklines.lines = {line};
   for (const std::uint64_t budget : {500u, 1000u, 5000u}) {
-    options.max_triangles = budget;
+    options.goals.max_triangles = budget;
     for (const Effort effort : {Effort::kFast, Effort::kNormal}) {
-      options.effort = effort;
+      options.quality.effort = effort;
       const auto made = simplify(field.view(), options);
       ASSERT_TRUE(made) << made.error().message;
       EXPECT_GE(made->mesh.triangle_count(), 97 * budget / 100);
@@ -157,10 +158,10 @@ TEST(line_budget, is_used_where_triangles_grow_smoothly) {
 TEST(line_budget, asks_for_lines_that_depend_on_the_error) {
   const Field field = testing::random_field(5, 60, 50, testing::Relief::kRidges);
   SimplifyOptions options;
-  options.max_vertices = 200;
-  options.effort = Effort::kFast;
+  options.goals.max_vertices = 200;
+  options.quality.effort = Effort::kFast;
   std::vector<double> asked;
-  options.breaklines_for = [&](double max_error) -> Result<LineConstraints> {
+  options.features.breaklines_for = [&](double max_error) -> Result<LineConstraints> {
     asked.push_back(max_error);
     LineConstraints lines;
     lines.lines.resize(1);
@@ -172,7 +173,7 @@ TEST(line_budget, asks_for_lines_that_depend_on_the_error) {
   EXPECT_GT(asked.size(), 2u);
   EXPECT_NE(std::find(asked.begin(), asked.end(), made->lines_for), asked.end());
   EXPECT_LE(made->mesh.vertex_count(), 200u);
-  options.breaklines_for = [](double) -> Result<LineConstraints> {
+  options.features.breaklines_for = [](double) -> Result<LineConstraints> {
     return tl::unexpected(Error{ErrorKind::kInput, "no lines today"});
   };
   EXPECT_EQ(simplify(field.view(), options).error().message, "no lines today");

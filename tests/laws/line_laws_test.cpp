@@ -16,11 +16,11 @@ using testing::Field;
 RC_GTEST_PROP(lines, keep_the_bound_against_the_edited_raster_in_the_eyes_of_the_judge, ()) {
   Field field = any_field(40);
   SimplifyOptions options;
-  options.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
-  options.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
-  options.order = *rc::gen::element(Order::kAuto, Order::kGreedy);
-  options.float32_positions = *rc::gen::arbitrary<bool>();
-  options.breaklines = any_lines(field);
+  options.goals.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
+  options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
+  options.quality.order = *rc::gen::element(Order::kAuto, Order::kGreedy);
+  options.output.float32_positions = *rc::gen::arbitrary<bool>();
+  options.features.breaklines = any_lines(field);
   const auto result = simplify(field.view(), options);
   if (!result) {
     RC_ASSERT(result.error().kind == ErrorKind::kInput);
@@ -33,7 +33,7 @@ RC_GTEST_PROP(lines, keep_the_bound_against_the_edited_raster_in_the_eyes_of_the
     sample = edit.after;
   }
   const Measurement m = *measure(field.view(), result->mesh);
-  RC_ASSERT(m.max_error <= *options.max_error + 1e-9);
+  RC_ASSERT(m.max_error <= *options.goals.max_error + 1e-9);
   RC_ASSERT(m.uncovered == 0u);
   RC_ASSERT(m.void_cells_covered == 0u);
   RC_ASSERT(m.is_sound());
@@ -42,12 +42,12 @@ RC_GTEST_PROP(lines, keep_the_bound_against_the_edited_raster_in_the_eyes_of_the
 RC_GTEST_PROP(lines, give_the_same_mesh_on_any_number_of_threads, ()) {
   const Field field = any_field(60);
   SimplifyOptions options;
-  options.max_error = 2;
-  options.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
-  options.breaklines = any_lines(field);
-  options.threads = 1;
+  options.goals.max_error = 2;
+  options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
+  options.features.breaklines = any_lines(field);
+  options.run.threads = 1;
   const auto one = simplify(field.view(), options);
-  options.threads = 3;
+  options.run.threads = 3;
   const auto three = simplify(field.view(), options);
   RC_ASSERT(one.has_value() == three.has_value());
   if (!one) return;
@@ -60,26 +60,26 @@ TEST(lines, contradict_strategies_and_budgets_of_samples_with_bounds) {
   SimplifyOptions options;
   Line line;
   line.points = {{1, 1, 5}, {20, 10, 5}};
-  options.breaklines.lines = {line};
-  options.max_error = 1;
+  options.features.breaklines.lines = {line};
+  options.goals.max_error = 1;
   ASSERT_TRUE(simplify(field.view(), options));
   const std::vector<float> ones(field.samples.size(), 1);
   auto with_mask = options;
-  with_mask.max_vertices = 50;
+  with_mask.goals.max_vertices = 50;
   ASSERT_TRUE(simplify(field.view(), with_mask));
-  with_mask.mask = ones;
+  with_mask.tolerances.weights = ones;
   for (const Effort effort : {Effort::kFast, Effort::kNormal}) {
-    with_mask.effort = effort;
+    with_mask.quality.effort = effort;
     const auto refused = simplify(field.view(), with_mask);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().kind, ErrorKind::kUsage);
     EXPECT_NE(refused.error().message.find("here samples have bounds of their own"), std::string::npos);
   }
   auto with_edges = options;
-  with_edges.edges.data_dependent = true;
+  with_edges.strategy.edges.data_dependent = true;
   EXPECT_EQ(simplify(field.view(), with_edges).error().kind, ErrorKind::kUsage);
   auto with_outline = options;
-  with_outline.outline_tolerance = 1;
+  with_outline.domain.outline_tolerance = 1;
   EXPECT_EQ(simplify(field.view(), with_outline).error().kind, ErrorKind::kUsage);
 }
 

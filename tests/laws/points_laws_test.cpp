@@ -193,9 +193,9 @@ RC_GTEST_PROP(points, give_the_same_mesh_in_any_order_and_on_any_number_of_threa
     shuffled.z.push_back(points.z[i]);
   }
   PointOptions options{.max_error = 1.0, .float32_positions = false, .duplicates = DuplicatePolicy::kHighest};
-  options.threads = 1;
+  options.run.threads = 1;
   const auto a = simplify_points(points, options);
-  options.threads = 4;
+  options.run.threads = 4;
   const auto b = simplify_points(shuffled, options);
   if (!a || !b) RC_FAIL("not simplified");
   RC_ASSERT(a->simplified.mesh.positions == b->simplified.mesh.positions);
@@ -237,11 +237,12 @@ RC_GTEST_PROP(points, of_a_raster_give_the_mesh_of_the_raster, ()) {
       points.z.push_back(field.samples[static_cast<std::size_t>(y * cols + x)]);
     }
   }
-  const SimplifyOptions options{.max_error = *rc::gen::element(0.5, 5.0, 20.0), .float32_positions = false};
-  const auto scattered =
-      simplify_points(points, {.max_error = options.max_error, .float32_positions = options.float32_positions});
+  const SimplifyOptions options{.goals = {.max_error = *rc::gen::element(0.5, 5.0, 20.0)},
+                                .output = {.float32_positions = false}};
+  const auto scattered = simplify_points(
+      points, {.max_error = options.goals.max_error, .float32_positions = options.output.float32_positions});
   SimplifyOptions greedy = options;
-  greedy.order = Order::kGreedy;
+  greedy.quality.order = Order::kGreedy;
   const auto raster = simplify(field.view(), greedy);
   if (!scattered) RC_FAIL(scattered.error().message);
   RC_ASSERT(scattered->lattice_step == spacing);

@@ -128,16 +128,16 @@ TEST_P(RealRasters, AreRepairedWithinTheBoundWhateverTheFreedom) {
 
 TEST_P(RealRasters, KeepThePromiseAtThePublicDoorWhateverTheThreads) {
   const double goal = 0.01 * relief_ + field_.sample_rounding;
-  SimplifyOptions options{.max_error = goal};
-  options.order = Order::kDominant;
-  options.float32_positions = false;
-  options.threads = 1;
+  SimplifyOptions options{.goals = {.max_error = goal}};
+  options.quality.order = Order::kDominant;
+  options.output.float32_positions = false;
+  options.run.threads = 1;
   const auto one = simplify(field_, options);
   ASSERT_TRUE(one) << one.error().message;
   EXPECT_EQ(one->order, Order::kDominant);
   EXPECT_LE(one->measurement.max_error, goal);
   EXPECT_EQ(one->measurement.uncovered, 0u);
-  options.threads = 3;
+  options.run.threads = 3;
   const auto three = simplify(field_, options);
   ASSERT_TRUE(three) << three.error().message;
   EXPECT_EQ(one->mesh.positions, three->mesh.positions);

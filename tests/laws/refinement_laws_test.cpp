@@ -72,9 +72,9 @@ RC_GTEST_PROP(oracle, simplify_in_the_greedy_order_takes_the_textbooks_vertices,
   auto domain = build_domain(raster, c.outline_tolerance, grid_frame(c.field.rows));
   RC_PRE(domain.has_value());
   insert_by_local_search(raster, domain->tin, c.threshold, 1u << 20);
-  SimplifyOptions options{.max_error = c.threshold, .outline_tolerance = c.outline_tolerance};
-  options.order = Order::kGreedy;
-  options.threads = *rc::gen::inRange(1, 4);
+  SimplifyOptions options{.goals = {.max_error = c.threshold}, .domain = {.outline_tolerance = c.outline_tolerance}};
+  options.quality.order = Order::kGreedy;
+  options.run.threads = *rc::gen::inRange(1, 4);
   const auto result = simplify(c.field.view(), options);
   RC_ASSERT(result.has_value());
   RC_ASSERT(result->order == Order::kGreedy);

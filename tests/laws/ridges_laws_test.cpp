@@ -174,7 +174,7 @@ RC_GTEST_PROP(RidgeLaws, OfASourceAreThoseOfTheSameSamplesInMemory, ()) {
   RidgeOptions options;
   options.height = *rc::gen::element(0.5, 2.0, 8.0);
   options.max_error = *rc::gen::element(0.0, 1.0, 5.0);
-  options.threads = *rc::gen::element(1, 2);
+  options.run.threads = *rc::gen::element(1, 2);
   if (seed % 3 == 0) options.avoid = {&line, 1};
   const testing::ArraySource source(field.view());
   const auto held = detect_ridges(field.view(), options),
@@ -191,25 +191,26 @@ TEST(Ridges, TellWhatTheSourceSaysAndWhatMemoryTheyNeed) {
   const testing::ArraySource broken(field.view(), 130), source(field.view());
   EXPECT_EQ(detect_ridges(testing::with_source(field.view(), broken), {1, 1}).error().message, "row 130 is broken");
   RidgeOptions options{1, 1};
-  options.memory_limit = 1'000'000;
-  options.memory_taken = 900'000;
+  options.run.memory.limit = 1'000'000;
+  options.run.memory.taken = 900'000;
   const auto refused = detect_ridges(testing::with_source(field.view(), source), options);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::kUsage);
-  EXPECT_NE(refused.error().message.find("memory_limit is too little: ridges and valleys take"), std::string::npos);
-  options.memory_taken = 0;
-  options.memory_limit = 4'000'000;
+  EXPECT_NE(refused.error().message.find("the memory limit is too little: ridges and valleys take"), std::string::npos);
+  options.run.memory.taken = 0;
+  options.run.memory.limit = 4'000'000;
   EXPECT_TRUE(detect_ridges(testing::with_source(field.view(), source), options));
 }
 
 Result<Simplified> with_ridges(const Field& field, bool are_kept, SimplifyOptions options) {
-  RidgeOptions asked{10, *options.max_error};
+  RidgeOptions asked{10, *options.goals.max_error};
   asked.are_kept = are_kept;
-  asked.threads = options.threads;
+  asked.run.threads = options.run.threads;
   const auto ridges = detect_ridges(field.view(), asked);
   if (!ridges) return tl::unexpected(ridges.error());
-  options.breaklines.lines = ridges->ridges;
-  options.breaklines.lines.insert(options.breaklines.lines.end(), ridges->valleys.begin(), ridges->valleys.end());
+  options.features.breaklines.lines = ridges->ridges;
+  options.features.breaklines.lines.insert(options.features.breaklines.lines.end(), ridges->valleys.begin(),
+                                           ridges->valleys.end());
   return simplify(field.view(), options);
 }
 
@@ -218,22 +219,22 @@ RC_GTEST_PROP(RidgeLaws, MeshesWithRidgesKeepTheBoundAndAreSound, ()) {
   const Field field = hills(seed);
   constexpr Effort kEfforts[] = {Effort::kFast, Effort::kNormal, Effort::kHigh};
   SimplifyOptions options;
-  options.max_error = 1.5 + 0.5 * (seed % 4);
-  options.effort = kEfforts[seed / 7 % 3];
-  if (options.effort == Effort::kHigh && seed % 2 == 0) options.vertices = Vertices::kSamples;
-  options.threads = 1;
+  options.goals.max_error = 1.5 + 0.5 * (seed % 4);
+  options.quality.effort = kEfforts[seed / 7 % 3];
+  if (options.quality.effort == Effort::kHigh && seed % 2 == 0) options.quality.vertices = Vertices::kSamples;
+  options.run.threads = 1;
   const bool are_kept = seed / 21 % 2 == 0;
   const auto one = with_ridges(field, are_kept, options);
   RC_ASSERT(one.has_value());
-  RC_ASSERT(one->measurement.max_error <= *options.max_error);
+  RC_ASSERT(one->measurement.max_error <= *options.goals.max_error);
   RC_ASSERT(one->measurement.uncovered == 0u);
   RC_ASSERT(one->edits.empty());
   RC_ASSERT(one->lines_laid == 0u);
   const auto judged = measure(field.view(), one->mesh);
   RC_ASSERT(judged.has_value());
-  RC_ASSERT(judged->max_error <= *options.max_error);
+  RC_ASSERT(judged->max_error <= *options.goals.max_error);
   RC_ASSERT(judged->is_sound());
-  options.threads = 3;
+  options.run.threads = 3;
   const auto three = with_ridges(field, are_kept, options);
   RC_ASSERT(three.has_value());
   RC_ASSERT(three->mesh.triangles == one->mesh.triangles);
@@ -265,8 +266,8 @@ TEST(Ridges, StayEdgesWhereTheyAreKept) {
   ASSERT_FALSE(ridges->valleys.empty());
   for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
     SimplifyOptions options;
-    options.max_error = 4;
-    options.effort = effort;
+    options.goals.max_error = 4;
+    options.quality.effort = effort;
     const auto result = with_ridges(field, true, options);
     ASSERT_TRUE(result);
     const Mesh& mesh = result->mesh;
@@ -298,7 +299,7 @@ TEST(Ridges, StayEdgesWhereTheyAreKept) {
 TEST(Ridges, EndWhereTheyAreToldTo) {
   const Field field = hills(4);
   RidgeOptions options{10, 2};
-  options.progress = [](const Progress& progress) {
+  options.run.progress = [](const Progress& progress) {
     EXPECT_EQ(progress.pass, "ridges");
     return false;
   };

@@ -46,16 +46,16 @@ struct CutScene {
 
   explicit CutScene(std::int32_t largest) : CutScene(any_field(largest)) {}
   explicit CutScene(Field any) : field(std::move(any)) {
-    options.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0, 1e6);
-    options.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh, Effort::kMax);
-    options.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
-    options.threads = *rc::gen::element(1, 2);
+    options.goals.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0, 1e6);
+    options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh, Effort::kMax);
+    options.quality.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
+    options.run.threads = *rc::gen::element(1, 2);
   }
   CutScene(const CutScene&) = delete;
 
   void add_lines() {
-    options.breaklines = testing::any_lines(field);
-    options.breaklines.affine = options.cutline.affine;
+    options.features.breaklines = testing::any_lines(field);
+    options.features.breaklines.affine = options.features.cutline.affine;
   }
   /// A town within a polygon, whose walls stay away from its ring. Returns how many there are.
   std::uint64_t add_town() {
@@ -68,7 +68,7 @@ struct CutScene {
       ring.points.push_back({std::clamp(x * width + draughtsman.between(-3, 3), -2.0, width + 2),
                              std::clamp(y * height + draughtsman.between(-3, 3), -2.0, height + 2), NAN});
     ring.points.push_back(ring.points.front());
-    options.cutline.rings = {ring};
+    options.features.cutline.rings = {ring};
     for (int blocks = draughtsman.below(4) + 1; blocks-- > 0;) {
       const std::int32_t left = 5 + draughtsman.below(field.cols - 10), top = 5 + draughtsman.below(field.rows - 10);
       const std::int32_t right = std::min(left + 2 + draughtsman.below(20), field.cols - 5);
@@ -79,21 +79,21 @@ struct CutScene {
                         static_cast<std::size_t>(x)] += kBlock;
       }
     }
-    CliffOptions walls{kBlock / 2, *options.max_error, options.cutline.affine};
-    walls.avoid = options.cutline.rings;
+    CliffOptions walls{kBlock / 2, *options.goals.max_error, options.features.cutline.affine};
+    walls.avoid = options.features.cutline.rings;
     const auto cliffs = *detect_cliffs(streamed, walls);
-    options.breaklines.affine = options.cutline.affine;
-    options.breaklines.lines = cliffs.lines;
+    options.features.breaklines.affine = options.features.cutline.affine;
+    options.features.breaklines.lines = cliffs.lines;
     return cliffs.faults;
   }
   Result<FieldLines> lines() const {
-    return prepare_lines(streamed, options.breaklines, options.cutline, *options.max_error / 2, 1,
-                         shared_rows(streamed, side));
+    return prepare_lines(streamed, options.features.breaklines, options.features.cutline, *options.goals.max_error / 2,
+                         1, shared_rows(streamed, side));
   }
   Result<std::optional<Tiled>> refine(const FieldLines& lines) const {
     StripTotals fits;
-    TiledOptions tiles{.threshold = *options.max_error, .threads = options.threads, .tile_side = side};
-    work_by_strips(Plan(streamed, options), &lines.graph, nullptr, *options.max_error, fits, tiles);
+    TiledOptions tiles{.threshold = *options.goals.max_error, .threads = options.run.threads, .tile_side = side};
+    work_by_strips(Plan(streamed, options), &lines.graph, nullptr, *options.goals.max_error, fits, tiles);
     const HeightField edited = lines.apply(streamed);
     const CutSource near(*edited.source, lines.graph.cut->rows);
     return refine_tiled(with_source(edited, near), tiles);
@@ -111,7 +111,7 @@ void check_cut(CutScene& scene) {
   if (!made) {
     RC_LOG() << made.error().message;
     RC_ASSERT(made.error().kind == ErrorKind::kInput);
-    RC_ASSERT(testing::find_wrong_cover(scene.field, scene.options.cutline, {}, scene.draughtsman) == "");
+    RC_ASSERT(testing::find_wrong_cover(scene.field, scene.options.features.cutline, {}, scene.draughtsman) == "");
     return;
   }
   const Tiled& tiled = **made;
@@ -121,12 +121,12 @@ void check_cut(CutScene& scene) {
   RC_ASSERT(unsound == "");
   const Mesh mesh = scene.mesh(tiled);
   const auto triangles = testing::triangles_of(mesh, scene.field.rows);
-  RC_ASSERT(testing::find_wrong_cover(scene.field, scene.options.cutline, triangles, scene.draughtsman) == "");
+  RC_ASSERT(testing::find_wrong_cover(scene.field, scene.options.features.cutline, triangles, scene.draughtsman) == "");
   MeasureOptions judge;
-  judge.cutline = &scene.options.cutline;
+  judge.cutline = &scene.options.features.cutline;
   const auto judged = measure(lines->apply(scene.streamed), mesh, judge);
   RC_ASSERT(judged.has_value());
-  RC_ASSERT(judged->max_error <= *scene.options.max_error + 1e-9);
+  RC_ASSERT(judged->max_error <= *scene.options.goals.max_error + 1e-9);
   RC_ASSERT(judged->uncovered == 0u);
   RC_ASSERT(judged->void_cells_covered == 0u);
   RC_ASSERT(judged->is_sound());
@@ -134,7 +134,7 @@ void check_cut(CutScene& scene) {
 
 RC_GTEST_PROP(row_cutlines, cover_what_lies_in_the_polygons_and_has_data_within_the_bound_and_nothing_else, ()) {
   CutScene scene(40);
-  scene.options.cutline =
+  scene.options.features.cutline =
       *rc::gen::arbitrary<bool>() ? scene.draughtsman.rings(scene.field) : scene.draughtsman.rectangles(scene.field);
   if (*rc::gen::arbitrary<bool>()) scene.add_lines();
   check_cut(scene);
@@ -150,7 +150,7 @@ RC_GTEST_PROP(row_cutlines, around_walls_keep_the_bound_and_the_domain_too, ()) 
 
 RC_GTEST_PROP(row_cutlines, leave_exactly_the_area_of_the_polygons_that_has_data, ()) {
   CutScene scene(30);
-  scene.options.cutline = scene.draughtsman.rectangles(scene.field);
+  scene.options.features.cutline = scene.draughtsman.rectangles(scene.field);
   const auto lines = scene.lines();
   const auto made = lines ? scene.refine(*lines) : tl::unexpected(lines.error());
   double area = 0;
@@ -160,18 +160,18 @@ RC_GTEST_PROP(row_cutlines, leave_exactly_the_area_of_the_polygons_that_has_data
     RC_ASSERT(made.error().kind == ErrorKind::kInput);
   }
   RC_ASSERT(area * kLatticeSteps * kLatticeSteps ==
-            static_cast<double>(testing::doubled_area(scene.field, scene.options.cutline)));
+            static_cast<double>(testing::doubled_area(scene.field, scene.options.features.cutline)));
 }
 
 RC_GTEST_PROP(row_cutlines, are_laid_alike_by_any_number_of_threads, ()) {
   CutScene scene(40);
-  scene.options.cutline = scene.draughtsman.rings(scene.field);
-  scene.options.threads = 1;
+  scene.options.features.cutline = scene.draughtsman.rings(scene.field);
+  scene.options.run.threads = 1;
   const auto lines = scene.lines();
   RC_PRE(lines.has_value());
   const auto first = scene.refine(*lines);
   RC_PRE(first.has_value());
-  scene.options.threads = 3;
+  scene.options.run.threads = 3;
   const auto again = scene.refine(*lines);
   RC_ASSERT(again.has_value());
   const Mesh a = scene.mesh(**first), b = scene.mesh(**again);
@@ -180,12 +180,12 @@ RC_GTEST_PROP(row_cutlines, are_laid_alike_by_any_number_of_threads, ()) {
 
 RC_GTEST_PROP(row_cutlines, in_one_row_are_those_of_a_raster_in_memory, ()) {
   CutScene scene(40);
-  scene.options.cutline = scene.draughtsman.rings(scene.field);
+  scene.options.features.cutline = scene.draughtsman.rings(scene.field);
   scene.add_lines();
   scene.side = 4096;
   const auto streamed = scene.lines();
-  const auto held = prepare_lines(scene.field.view(), scene.options.breaklines, scene.options.cutline,
-                                  *scene.options.max_error / 2, 1);
+  const auto held = prepare_lines(scene.field.view(), scene.options.features.breaklines, scene.options.features.cutline,
+                                  *scene.options.goals.max_error / 2, 1);
   RC_ASSERT(streamed.has_value() || !held.has_value());
   // Beside voids the outline is cut at every sample.
   const bool is_whole =
@@ -202,8 +202,8 @@ RC_GTEST_PROP(row_cutlines, in_one_row_are_those_of_a_raster_in_memory, ()) {
 
 RC_GTEST_PROP(row_cutlines, make_windows_void_as_they_make_the_whole, ()) {
   CutScene scene(40);
-  scene.options.cutline = scene.draughtsman.rings(scene.field);
-  const auto held = prepare_lines(scene.field.view(), {}, scene.options.cutline, 1, 1);
+  scene.options.features.cutline = scene.draughtsman.rings(scene.field);
+  const auto held = prepare_lines(scene.field.view(), {}, scene.options.features.cutline, 1, 1);
   RC_PRE(held.has_value());
   const CutSource source(scene.source, held->graph.cut->rows);
   const std::int32_t cols = scene.field.cols, rows = scene.field.rows;
@@ -259,19 +259,19 @@ TEST(row_cutlines, say_what_the_source_says) {
   const Field field = testing::random_field(3, 60, 50, testing::Relief::kRidges);
   const ArraySource broken(field.view(), 30);
   SimplifyOptions options;
-  options.max_error = 1;
+  options.goals.max_error = 1;
   Line ring;
   ring.role = LineRole::kOuter;
   ring.polygon = 0;
   ring.points = {{5, 5, NAN}, {50, 45, NAN}, {20, 45, NAN}, {5, 5, NAN}};
-  options.cutline.rings = {ring};
+  options.features.cutline.rings = {ring};
   EXPECT_EQ(simplify(with_source(field.view(), broken), options).error().message, "row 30 is broken");
   OwnedHeightField streamed;
   streamed.cols = field.cols;
   streamed.rows = field.rows;
   streamed.source = std::make_shared<ArraySource>(field.view(), 30);
-  EXPECT_EQ(void_outside(streamed, options.cutline).error().message, "row 30 is broken");
-  const auto stop = void_outside(streamed, options.cutline, [](const Progress&) { return false; });
+  EXPECT_EQ(void_outside(streamed, options.features.cutline).error().message, "row 30 is broken");
+  const auto stop = void_outside(streamed, options.features.cutline, [](const Progress&) { return false; });
   EXPECT_EQ(stop.error().kind, ErrorKind::kCancelled);
 }
 
@@ -317,20 +317,20 @@ TEST(row_cutlines, at_the_public_door_leave_the_samples_that_a_raster_in_memory_
     return ring;
   };
   SimplifyOptions options;
-  options.max_error = 5;
-  options.memory_limit = 2'200'000;  // rows of tiles meet at the rows 233 and 466
+  options.goals.max_error = 5;
+  options.run.memory.limit = 2'200'000;  // rows of tiles meet at the rows 233 and 466
   // Along a row that tiles share, and across one, with a hole.
-  options.cutline.rings = {
+  options.features.cutline.rings = {
       ring_of(LineRole::kOuter, 0, {{20, 150, 0}, {200, 150, 0}, {200, 233, 0}, {20, 233, 0}}),
       ring_of(LineRole::kOuter, 1, {{30.5, 300, 0}, {290.25, 450.75, 0}, {40, 620, 0}}),
       ring_of(LineRole::kHole, 1, {{80.3, 420, 0}, {120.1, 440.7, 0}, {100.6, 480.2, 0}}),
   };
   for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
-    options.effort = effort;
+    options.quality.effort = effort;
     const auto made = simplify(streamed, options);
     ASSERT_TRUE(made) << made.error().message;
     SimplifyOptions in_memory = options;
-    in_memory.memory_limit = 0;
+    in_memory.run.memory.limit = 0;
     const auto held = simplify(field.view(), in_memory);
     ASSERT_TRUE(held);
     EXPECT_LE(made->measurement.max_error, 5 + 1e-9);
@@ -339,23 +339,23 @@ TEST(row_cutlines, at_the_public_door_leave_the_samples_that_a_raster_in_memory_
     EXPECT_TRUE(made->edits.empty() && held->edits.empty());  // whatever heights the rings have
     EXPECT_EQ(made->measurement.heights.valid, field.samples.size());
   }
-  options.shape.min_angle = 20;
+  options.quality.shape.min_angle = 20;
   const auto shaped = simplify(streamed, options);
   ASSERT_TRUE(shaped) << shaped.error().message;
   EXPECT_EQ(shaped->measurement.samples + shaped->cut_off, field.samples.size());
   MeasureOptions judge;
-  judge.cutline = &options.cutline;
+  judge.cutline = &options.features.cutline;
   const Measurement m = *measure(streamed, shaped->mesh, judge);
   EXPECT_LE(m.max_error, 5 + 1e-9);
   EXPECT_EQ(m.uncovered, 0u);
   EXPECT_TRUE(m.is_sound());
-  options.shape = {};
-  options.cutline.rings = {ring_of(LineRole::kOuter, 0, {{900, 900, 0}, {950, 900, 0}, {950, 950, 0}})};
+  options.quality.shape = {};
+  options.features.cutline.rings = {ring_of(LineRole::kOuter, 0, {{900, 900, 0}, {950, 900, 0}, {950, 950, 0}})};
   EXPECT_NE(simplify(streamed, options).error().message.find("beside the raster"), std::string::npos);
   for (std::int32_t y = 100; y < 200; ++y) {
     for (std::int32_t x = 0; x < 300; ++x) field.samples[static_cast<std::size_t>(300 * y + x)] = NAN;
   }
-  options.cutline.rings = {ring_of(LineRole::kOuter, 0, {{20, 110, 0}, {200, 120, 0}, {100, 180, 0}})};
+  options.features.cutline.rings = {ring_of(LineRole::kOuter, 0, {{20, 110, 0}, {200, 120, 0}, {100, 180, 0}})};
   EXPECT_NE(simplify(streamed, options).error().message.find("no part of the raster's surface"), std::string::npos);
 }
 

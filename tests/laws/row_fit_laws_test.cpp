@@ -35,17 +35,17 @@ Field any_field() {
 
 SimplifyOptions any_options() {
   SimplifyOptions options;
-  options.max_error = *rc::gen::element(0.0, 1e-7, 0.5, 1.0, 2.0, 7.3, 30.0, 1e6);
-  options.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh, Effort::kMax);
-  options.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
-  options.threads = *rc::gen::element(1, 2);
+  options.goals.max_error = *rc::gen::element(0.0, 1e-7, 0.5, 1.0, 2.0, 7.3, 30.0, 1e6);
+  options.quality.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh, Effort::kMax);
+  options.quality.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
+  options.run.threads = *rc::gen::element(1, 2);
   return options;
 }
 
 Result<std::optional<Tiled>> refine_and_fit(const HeightField& field, const SimplifyOptions& options,
                                             std::int32_t tile_side, StripTotals& fits) {
-  TiledOptions tiles{.threshold = *options.max_error, .threads = options.threads, .tile_side = tile_side};
-  work_by_strips(Plan(field, options), nullptr, nullptr, *options.max_error, fits, tiles);
+  TiledOptions tiles{.threshold = *options.goals.max_error, .threads = options.run.threads, .tile_side = tile_side};
+  work_by_strips(Plan(field, options), nullptr, nullptr, *options.goals.max_error, fits, tiles);
   return refine_tiled(field, tiles);
 }
 
@@ -77,7 +77,7 @@ RC_GTEST_PROP(rows, that_are_fitted_keep_the_bound_and_the_domain, ()) {
   RC_ASSERT(judged->uncovered == 0u);
   RC_ASSERT(judged->void_cells_covered == 0u);
   RC_ASSERT(judged->is_sound());
-  RC_ASSERT(judged->max_error <= *options.max_error + 1e-9);
+  RC_ASSERT(judged->max_error <= *options.goals.max_error + 1e-9);
 }
 
 RC_GTEST_PROP(rows, are_fitted_alike_by_any_number_of_threads, ()) {
@@ -85,11 +85,11 @@ RC_GTEST_PROP(rows, are_fitted_alike_by_any_number_of_threads, ()) {
   SimplifyOptions options = any_options();
   const ArraySource source(field.view());
   const std::int32_t side = *rc::gen::element(8, 31);
-  options.threads = 1;
+  options.run.threads = 1;
   StripTotals fits;
   const auto first = refine_and_fit(with_source(field.view(), source), options, side, fits);
   RC_PRE(first.has_value());
-  options.threads = 3;
+  options.run.threads = 3;
   const auto again = refine_and_fit(with_source(field.view(), source), options, side, fits);
   RC_ASSERT(again.has_value());
   const Triangulation &a = (*first)->domain.tin, &b = (*again)->domain.tin;
@@ -102,10 +102,10 @@ RC_GTEST_PROP(rows, are_fitted_alike_by_any_number_of_threads, ()) {
 /// So much that there are several rows of tiles.
 SimplifyOptions in_little_memory(const HeightField& field, double max_error, Effort effort) {
   SimplifyOptions options;
-  options.max_error = max_error;
-  options.effort = effort;
-  options.memory_limit = 4ull * 4 * 256 * static_cast<std::uint64_t>(field.cols);
-  options.threads = 1;
+  options.goals.max_error = max_error;
+  options.quality.effort = effort;
+  options.run.memory.limit = 4ull * 4 * 256 * static_cast<std::uint64_t>(field.cols);
+  options.run.threads = 1;
   return options;
 }
 
@@ -152,8 +152,8 @@ TEST(rows, are_cancelled_while_they_are_fitted) {
   const Field field = testing::random_field(31, 300, 200, Relief::kRidges);
   const ArraySource source(field.view());
   SimplifyOptions options;
-  options.max_error = 4;
-  options.effort = Effort::kHigh;
+  options.goals.max_error = 4;
+  options.quality.effort = Effort::kHigh;
   StripTotals fits;
   TiledOptions tiles{.threshold = 4, .threads = 1, .tile_side = 64};
   int calls = 0;

@@ -42,33 +42,35 @@ struct RowScene {
   SimplifyOptions options;
 
   RowScene() {
-    options.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0, 1e6);
-    options.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
-    options.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
-    options.breaklines = any_lines(field);
-    options.threads = *rc::gen::element(1, 2);
+    options.goals.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0, 1e6);
+    options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
+    options.quality.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
+    options.features.breaklines = any_lines(field);
+    options.run.threads = *rc::gen::element(1, 2);
     if (*rc::gen::arbitrary<bool>()) add_first_lines();
   }
   RowScene(const RowScene&) = delete;
   /// Lines that are inserted before the surface is refined.
   void add_first_lines() {
-    auto& lines = options.breaklines.lines;
+    auto& lines = options.features.breaklines.lines;
     for (Line& line : lines) {
       if (std::isnan(line.points[0][2]))
         line.kind = *rc::gen::element(LineKind::kBreakline, LineKind::kRidge, LineKind::kKeptRidge);
     }
-    const auto cliffs = detect_cliffs(streamed, {*rc::gen::element(0.7, 3.0), *options.max_error,
-                                                 options.breaklines.affine, options.breaklines.lines});
+    const auto cliffs =
+        detect_cliffs(streamed, {*rc::gen::element(0.7, 3.0), *options.goals.max_error,
+                                 options.features.breaklines.affine, options.features.breaklines.lines});
     RC_ASSERT(cliffs.has_value());
     lines.insert(lines.end(), cliffs->lines.begin(), cliffs->lines.end());
   }
   Result<FieldLines> lines() const {
-    return prepare_lines(streamed, options.breaklines, {}, *options.max_error / 2, 1, shared_rows(streamed, side));
+    return prepare_lines(streamed, options.features.breaklines, {}, *options.goals.max_error / 2, 1,
+                         shared_rows(streamed, side));
   }
   Result<std::optional<Tiled>> refine(const FieldLines& lines) const {
     StripTotals fits;
-    TiledOptions tiles{.threshold = *options.max_error, .threads = options.threads, .tile_side = side};
-    work_by_strips(Plan(streamed, options), &lines.graph, nullptr, *options.max_error, fits, tiles);
+    TiledOptions tiles{.threshold = *options.goals.max_error, .threads = options.run.threads, .tile_side = side};
+    work_by_strips(Plan(streamed, options), &lines.graph, nullptr, *options.goals.max_error, fits, tiles);
     return refine_tiled(lines.apply(streamed), tiles);
   }
 };
@@ -133,7 +135,7 @@ RC_GTEST_PROP(row_lines, are_chains_of_edges_and_the_bound_holds_against_the_edi
       testing::verify_triangulation(tin, (scene.field.cols - 1) * kLatticeSteps + 1,
                                     (scene.field.rows - 1) * kLatticeSteps + 1, testing::Edges::kAny);
   RC_ASSERT(unsound == "");
-  RC_ASSERT(holds_lines(tiled, lines->graph, scene.options.effort == Effort::kFast));
+  RC_ASSERT(holds_lines(tiled, lines->graph, scene.options.quality.effort == Effort::kFast));
   const HeightField edited = lines->apply(scene.streamed);
   const auto judged = measure(edited, freeze(SampleHeights(edited, {}), tin, {tiled.steps, tiled.heights, {}},
                                              scene.field.view().frame, false));
@@ -141,17 +143,17 @@ RC_GTEST_PROP(row_lines, are_chains_of_edges_and_the_bound_holds_against_the_edi
   RC_ASSERT(judged->uncovered == 0u);
   RC_ASSERT(judged->void_cells_covered == 0u);
   RC_ASSERT(judged->is_sound());
-  RC_ASSERT(judged->max_error <= *scene.options.max_error + 1e-9);
+  RC_ASSERT(judged->max_error <= *scene.options.goals.max_error + 1e-9);
 }
 
 RC_GTEST_PROP(row_lines, are_laid_alike_by_any_number_of_threads, ()) {
   RowScene scene;
   const auto lines = scene.lines();
   RC_PRE(lines.has_value());
-  scene.options.threads = 1;
+  scene.options.run.threads = 1;
   const auto first = scene.refine(*lines);
   RC_PRE(first.has_value());
-  scene.options.threads = 3;
+  scene.options.run.threads = 3;
   const auto again = scene.refine(*lines);
   RC_ASSERT(again.has_value());
   const Triangulation &a = (*first)->domain.tin, &b = (*again)->domain.tin;
@@ -165,9 +167,10 @@ RC_GTEST_PROP(row_lines, are_laid_alike_by_any_number_of_threads, ()) {
 
 RC_GTEST_PROP(row_lines, in_one_row_are_those_of_a_raster_in_memory, ()) {
   const RowScene scene;
-  const auto streamed = prepare_lines(scene.streamed, scene.options.breaklines, {}, *scene.options.max_error / 2, 1,
-                                      shared_rows(scene.streamed, 4096));
-  const auto held = prepare_lines(scene.field.view(), scene.options.breaklines, {}, *scene.options.max_error / 2, 1);
+  const auto streamed = prepare_lines(scene.streamed, scene.options.features.breaklines, {},
+                                      *scene.options.goals.max_error / 2, 1, shared_rows(scene.streamed, 4096));
+  const auto held =
+      prepare_lines(scene.field.view(), scene.options.features.breaklines, {}, *scene.options.goals.max_error / 2, 1);
   RC_ASSERT(streamed.has_value() == held.has_value());
   if (!held) return;
   RC_ASSERT(streamed->laid == held->laid);
@@ -196,15 +199,15 @@ TEST(row_lines, at_the_public_door_change_the_samples_that_hard_lines_pass) {
   const ArraySource source(field.view());
   const HeightField streamed = with_source(field.view(), source);
   SimplifyOptions options;
-  options.max_error = 5;
-  options.memory_limit = 4ull * 4 * 256 * static_cast<std::uint64_t>(field.cols);
-  options.threads = 1;
+  options.goals.max_error = 5;
+  options.run.memory.limit = 4ull * 4 * 256 * static_cast<std::uint64_t>(field.cols);
+  options.run.threads = 1;
   Line hard, soft;
   hard.points = {{100, 20, 200}, {100, 850, 200}};
   soft.points = {{10.3, 5.5, NAN}, {650.2, 880.7, NAN}};
-  options.breaklines.lines = {hard, soft};
+  options.features.breaklines.lines = {hard, soft};
   for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
-    options.effort = effort;
+    options.quality.effort = effort;
     const auto made = simplify(streamed, options);
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_EQ(made->lines_laid, 2u);
@@ -216,8 +219,8 @@ TEST(row_lines, at_the_public_door_change_the_samples_that_hard_lines_pass) {
     EXPECT_EQ(seen.max_error, made->measurement.max_error);
     EXPECT_GT(measure(field.view(), made->mesh)->max_error, 100);
   }
-  options.effort = Effort::kFast;
-  options.shape.max_edge = 40;
+  options.quality.effort = Effort::kFast;
+  options.quality.shape.max_edge = 40;
   const auto shaped = simplify(streamed, options);
   ASSERT_TRUE(shaped) << shaped.error().message;
   EXPECT_LE(shaped->shape->longest_edge, 40);
@@ -228,10 +231,10 @@ TEST(row_lines, tell_what_the_source_says) {
   const Field field = testing::random_field(3, 60, 50, testing::Relief::kRidges);
   const ArraySource broken(field.view(), 30);
   SimplifyOptions options;
-  options.max_error = 1;
+  options.goals.max_error = 1;
   Line line;
   line.points = {{5, 5, NAN}, {50, 45, NAN}};
-  options.breaklines.lines = {line};
+  options.features.breaklines.lines = {line};
   EXPECT_EQ(simplify(with_source(field.view(), broken), options).error().message, "row 30 is broken");
 }
 

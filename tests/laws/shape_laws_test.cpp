@@ -83,11 +83,11 @@ double worst_growth(const Mesh& mesh, double grade, double least) {
 
 SimplifyOptions any_run() {
   SimplifyOptions options;
-  options.max_error = *rc::gen::element(0.0, 0.5, 2.0, 20.0, 2000.0);
-  options.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
-  options.order = *rc::gen::element(Order::kAuto, Order::kGreedy);
-  options.float32_positions = *rc::gen::arbitrary<bool>();
-  options.threads = 1;
+  options.goals.max_error = *rc::gen::element(0.0, 0.5, 2.0, 20.0, 2000.0);
+  options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
+  options.quality.order = *rc::gen::element(Order::kAuto, Order::kGreedy);
+  options.output.float32_positions = *rc::gen::arbitrary<bool>();
+  options.run.threads = 1;
   return options;
 }
 
@@ -126,13 +126,13 @@ std::vector<Line> any_two_lines(const Field& field) {
 Simplified simplified(const HeightField& field, SimplifyOptions options) {
   const testing::ArraySource source(field);
   const bool is_streamed = *rc::gen::arbitrary<bool>();
-  if (is_streamed) options.order = Order::kAuto;
+  if (is_streamed) options.quality.order = Order::kAuto;
   auto result = simplify(is_streamed ? testing::with_source(field, source) : field, options);
   RC_ASSERT(result.has_value() || result.error().kind == ErrorKind::kInput);
   RC_PRE(result.has_value());
   const auto judged = measure(field, result->mesh);
   RC_ASSERT(judged.has_value());
-  RC_ASSERT(judged->max_error <= *options.max_error * (1 + 1e-9) + 1e-9 || !result->edits.empty());
+  RC_ASSERT(judged->max_error <= *options.goals.max_error * (1 + 1e-9) + 1e-9 || !result->edits.empty());
   RC_ASSERT(judged->uncovered == 0u);
   RC_ASSERT(judged->is_sound());
   RC_ASSERT(result->shape.has_value());
@@ -149,14 +149,14 @@ RC_GTEST_PROP(shape, angles_that_theory_grants_hold_without_an_exception, ()) {
   HeightField view = field.view();
   view.frame = any_frame(field.rows);
   SimplifyOptions options = any_run();
-  options.shape.min_angle = *rc::gen::element(5.0, 15.0, 20.0);
+  options.quality.shape.min_angle = *rc::gen::element(5.0, 15.0, 20.0);
   const Simplified result = simplified(view, options);
   // Corners of voids have 45 degrees at least where samples are squares.
   const bool has_squares = view.frame.kind == Frame::Kind::kGrid && view.frame.affine[1] == -view.frame.affine[5] &&
                            view.frame.affine[2] == 0 && view.frame.affine[4] == 0;
   RC_CLASSIFY(has_squares);
-  if (has_squares) RC_ASSERT(count_below(result.mesh, options.shape.min_angle) == 0u);
-  RC_ASSERT(count_below(result.mesh, options.shape.min_angle) <= result.shape->below);
+  if (has_squares) RC_ASSERT(count_below(result.mesh, options.quality.shape.min_angle) == 0u);
+  RC_ASSERT(count_below(result.mesh, options.quality.shape.min_angle) <= result.shape->below);
 }
 
 RC_GTEST_PROP(shape, edges_are_never_too_long, ()) {
@@ -164,14 +164,14 @@ RC_GTEST_PROP(shape, edges_are_never_too_long, ()) {
   HeightField view = field.view();
   view.frame = any_frame(field.rows);
   SimplifyOptions options = any_run();
-  options.shape.max_edge = longer_side(view.frame) * *rc::gen::element(0.3, 1.0, 2.5, 7.0);
-  if (*rc::gen::arbitrary<bool>()) options.shape.min_angle = 25;
+  options.quality.shape.max_edge = longer_side(view.frame) * *rc::gen::element(0.3, 1.0, 2.5, 7.0);
+  if (*rc::gen::arbitrary<bool>()) options.quality.shape.min_angle = 25;
   if (*rc::gen::arbitrary<bool>()) {
-    options.breaklines.lines = any_two_lines(field);
-    options.breaklines.affine = {0, 1, 0, 0, 0, 1};
+    options.features.breaklines.lines = any_two_lines(field);
+    options.features.breaklines.affine = {0, 1, 0, 0, 0, 1};
   }
   const Simplified result = simplified(view, options);
-  RC_ASSERT(longest_edge(result.mesh) <= *options.shape.max_edge);
+  RC_ASSERT(longest_edge(result.mesh) <= *options.quality.shape.max_edge);
 }
 
 RC_GTEST_PROP(shape, edges_grow_no_faster_than_asked, ()) {
@@ -179,18 +179,18 @@ RC_GTEST_PROP(shape, edges_grow_no_faster_than_asked, ()) {
   HeightField view = field.view();
   view.frame = any_frame(field.rows);
   SimplifyOptions options = any_run();
-  options.shape.grade = *rc::gen::element(0.05, 0.2, 1.0);
-  if (*rc::gen::arbitrary<bool>()) options.shape.min_angle = 25;
+  options.quality.shape.grade = *rc::gen::element(0.05, 0.2, 1.0);
+  if (*rc::gen::arbitrary<bool>()) options.quality.shape.min_angle = 25;
   const Simplified result = simplified(view, options);
-  RC_ASSERT(worst_growth(result.mesh, *options.shape.grade, longer_side(view.frame) / 2) <= 1);
+  RC_ASSERT(worst_growth(result.mesh, *options.quality.shape.grade, longer_side(view.frame) / 2) <= 1);
 }
 
 RC_GTEST_PROP(shape, it_ends_whatever_is_asked, ()) {
   const Field field = testing::any_field(12);
   SimplifyOptions options = any_run();
-  options.shape.min_angle = 33;
-  options.breaklines.lines = any_two_lines(field);
-  options.breaklines.affine = {0, 1, 0, 0, 0, 1};
+  options.quality.shape.min_angle = 33;
+  options.features.breaklines.lines = any_two_lines(field);
+  options.features.breaklines.affine = {0, 1, 0, 0, 0, 1};
   const Simplified result = simplified(field.view(), options);
   RC_ASSERT(count_below(result.mesh, 33) <= result.shape->below);
   RC_ASSERT(result.shape->forced <= result.shape->below);
@@ -199,15 +199,15 @@ RC_GTEST_PROP(shape, it_ends_whatever_is_asked, ()) {
 TEST(shape, lines_that_are_halved_stay_where_they_are) {
   const Field field = testing::random_field(3, 60, 40, testing::Relief::kRidges);
   SimplifyOptions options;
-  options.max_error = 5;
-  options.threads = 1;
-  options.float32_positions = false;
-  options.shape.max_edge = 0.7;
+  options.goals.max_error = 5;
+  options.run.threads = 1;
+  options.output.float32_positions = false;
+  options.quality.shape.max_edge = 0.7;
   Line line;
   line.name = "dike";
   line.points = {{3.3, 2.1, 100}, {50.7, 33.9, 160}};
-  options.breaklines.lines = {line};
-  options.breaklines.affine = {0, 1, 0, 0, 0, 1};
+  options.features.breaklines.lines = {line};
+  options.features.breaklines.affine = {0, 1, 0, 0, 0, 1};
   const auto result = simplify(field.view(), options);
   ASSERT_TRUE(result.has_value()) << result.error().message;
   // The way along the line, by vertices within a step and a half of it that have its height.
@@ -231,8 +231,8 @@ TEST(shape, goals_out_of_range_are_refused_in_a_sentence) {
   const Field field = testing::random_field(1, 9, 9, testing::Relief::kRidges);
   const auto refuses = [&](const ShapeGoals& goals, const char* words) {
     SimplifyOptions options;
-    options.max_error = 1;
-    options.shape = goals;
+    options.goals.max_error = 1;
+    options.quality.shape = goals;
     const auto result = simplify(field.view(), options);
     ASSERT_FALSE(result.has_value());
     EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
@@ -243,8 +243,8 @@ TEST(shape, goals_out_of_range_are_refused_in_a_sentence) {
   refuses({.max_edge = 0.1}, "at least 0.125");
   refuses({.grade = 0}, "above 0");
   SimplifyOptions options;
-  options.max_triangles = 1;
-  options.shape.min_angle = 20;
+  options.goals.max_triangles = 1;
+  options.quality.shape.min_angle = 20;
   const auto result = simplify(field.view(), options);
   ASSERT_FALSE(result.has_value());
   EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
@@ -255,9 +255,9 @@ TEST(shape, budgets_are_met_with_all_angles) {
   const Field field = testing::random_field(5, 60, 50, testing::Relief::kRidges);
   for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
     SimplifyOptions options;
-    options.max_triangles = 2500;
-    options.shape.min_angle = 20;
-    options.effort = effort;
+    options.goals.max_triangles = 2500;
+    options.quality.shape.min_angle = 20;
+    options.quality.effort = effort;
     const auto made = simplify(field.view(), options);
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_LE(made->mesh.triangle_count(), 2500u);
@@ -274,15 +274,15 @@ TEST(shape, meshes_that_nobody_could_hold_are_refused_before_they_are_begun) {
   field.cols = field.rows = kSide;
   field.frame = grid_frame(kSide);
   SimplifyOptions options;
-  options.max_error = 1;
-  options.effort = Effort::kFast;
-  options.shape.max_edge = 0.125;
+  options.goals.max_error = 1;
+  options.quality.effort = Effort::kFast;
+  options.quality.shape.max_edge = 0.125;
   const auto none = simplify(field, options);
   ASSERT_FALSE(none.has_value());
   EXPECT_EQ(none.error().kind, ErrorKind::kInput);
   EXPECT_NE(none.error().message.find("at least 1513 million triangles"), std::string::npos) << none.error().message;
-  options.shape.max_edge = 0.2;
-  options.memory_limit = 1'000'000'000;
+  options.quality.shape.max_edge = 0.2;
+  options.run.memory.limit = 1'000'000'000;
   const auto large = simplify(field, options);
   ASSERT_FALSE(large.has_value());
   EXPECT_EQ(large.error().kind, ErrorKind::kUsage);

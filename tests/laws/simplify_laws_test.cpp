@@ -22,7 +22,7 @@ Measurement judge(const HeightField& field, const Mesh& mesh) { return *measure(
 RC_GTEST_PROP(simplify, keeps_the_promise_in_the_eyes_of_the_judge, ()) {
   const Field field = any_field(40);
   const double goal = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
-  const auto result = simplify(field.view(), {.max_error = goal});
+  const auto result = simplify(field.view(), {.goals = {.max_error = goal}});
   RC_PRE(result.has_value() || result.error().kind != ErrorKind::kInput);
   RC_ASSERT(result.has_value());
   const Measurement m = judge(field.view(), result->mesh);
@@ -40,7 +40,7 @@ RC_GTEST_PROP(simplify, budgets_are_upper_bounds, ()) {
   const auto budget = *rc::gen::inRange<std::uint64_t>(4, 500);
   const bool count_triangles = *rc::gen::arbitrary<bool>();
   SimplifyOptions options;
-  (count_triangles ? options.max_triangles : options.max_vertices) = budget;
+  (count_triangles ? options.goals.max_triangles : options.goals.max_vertices) = budget;
   const auto result = simplify(field.view(), options);
   if (!result) {
     RC_ASSERT(result.error().kind == ErrorKind::kInput || result.error().kind == ErrorKind::kUsage);
@@ -53,7 +53,8 @@ RC_GTEST_PROP(simplify, budgets_are_upper_bounds, ()) {
 TEST(simplify, a_budget_takes_the_best_of_the_last_stretch_not_a_spike) {
   const Field field = testing::random_field(11, 120, 90, Relief::kRidges);
   for (const std::uint64_t budget : {200u, 333u, 500u, 777u}) {
-    const auto result = simplify(field.view(), {.max_vertices = budget, .effort = Effort::kFast});
+    const auto result =
+        simplify(field.view(), {.goals = {.max_vertices = budget}, .quality = {.effort = Effort::kFast}});
     ASSERT_TRUE(result);
     Refiner refiner = *Refiner::create(field.view());
     double best = std::numeric_limits<double>::infinity();
@@ -78,13 +79,13 @@ TEST(simplify, refuses_goals_that_make_no_sense) {
   const Field field = testing::random_field(3, 9, 9, Relief::kReal);
   const auto kind = [&](const SimplifyOptions& options) { return simplify(field.view(), options).error().kind; };
   EXPECT_EQ(kind({}), ErrorKind::kUsage);
-  EXPECT_EQ(kind({.max_error = -1.0}), ErrorKind::kUsage);
-  EXPECT_EQ(kind({.max_error = std::nan("")}), ErrorKind::kUsage);
-  EXPECT_EQ(kind({.max_error = std::numeric_limits<double>::infinity()}), ErrorKind::kUsage);
-  EXPECT_EQ(kind({.max_vertices = 3}), ErrorKind::kUsage);
-  EXPECT_EQ(kind({.max_triangles = 1}), ErrorKind::kUsage);
-  SimplifyOptions negative_tolerance{.max_error = 1.0};
-  negative_tolerance.outline_tolerance = -1;
+  EXPECT_EQ(kind({.goals = {.max_error = -1.0}}), ErrorKind::kUsage);
+  EXPECT_EQ(kind({.goals = {.max_error = std::nan("")}}), ErrorKind::kUsage);
+  EXPECT_EQ(kind({.goals = {.max_error = std::numeric_limits<double>::infinity()}}), ErrorKind::kUsage);
+  EXPECT_EQ(kind({.goals = {.max_vertices = 3}}), ErrorKind::kUsage);
+  EXPECT_EQ(kind({.goals = {.max_triangles = 1}}), ErrorKind::kUsage);
+  SimplifyOptions negative_tolerance{.goals = {.max_error = 1.0}};
+  negative_tolerance.domain.outline_tolerance = -1;
   EXPECT_EQ(kind(negative_tolerance), ErrorKind::kUsage);
 }
 
@@ -100,7 +101,7 @@ TEST(simplify, refuses_fields_without_a_surface) {
 TEST(simplify, three_valid_corners_make_one_triangle) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const std::vector<float> samples{1, 2, 3, nan};
-  const auto result = simplify({samples.data(), 2, 2}, {.max_error = 0.0});
+  const auto result = simplify({samples.data(), 2, 2}, {.goals = {.max_error = 0.0}});
   ASSERT_TRUE(result);
   EXPECT_EQ(result->mesh.triangle_count(), 1u);
   EXPECT_EQ(result->mesh.vertex_count(), 3u);
@@ -115,7 +116,8 @@ TEST(simplify, nodata_and_infinities_are_never_heights) {
   }
   HeightField declared = field.view();
   declared.nodata = -9999.0f;
-  const auto a = simplify(declared, {.max_error = 2.0}), b = simplify(voids.view(), {.max_error = 2.0});
+  const auto a = simplify(declared, {.goals = {.max_error = 2.0}}),
+             b = simplify(voids.view(), {.goals = {.max_error = 2.0}});
   ASSERT_TRUE(a && b);
   EXPECT_EQ(a->mesh.positions, b->mesh.positions);
   EXPECT_EQ(a->mesh.triangles, b->mesh.triangles);
@@ -124,9 +126,9 @@ TEST(simplify, nodata_and_infinities_are_never_heights) {
 
 TEST(simplify, heights_times_a_power_of_two_give_the_same_triangles) {
   Field field = testing::random_field(6, 50, 40, Relief::kRidges, 0.1);
-  const auto one = simplify(field.view(), {.max_error = 3.0});
+  const auto one = simplify(field.view(), {.goals = {.max_error = 3.0}});
   for (float& z : field.samples) z *= 1024;
-  const auto two = simplify(field.view(), {.max_error = 3.0 * 1024});
+  const auto two = simplify(field.view(), {.goals = {.max_error = 3.0 * 1024}});
   ASSERT_TRUE(one && two);
   EXPECT_EQ(one->mesh.triangles, two->mesh.triangles);
 }
@@ -148,9 +150,9 @@ TEST(simplify, the_first_vertices_do_not_depend_on_transposition) {
 
 TEST(simplify, threads_and_repetition_never_change_a_bit) {
   const Field field = testing::random_field(9, 150, 130, Relief::kRidges, 0.05);
-  const auto first = simplify(field.view(), {.max_error = 2.0, .threads = 1});
+  const auto first = simplify(field.view(), {.goals = {.max_error = 2.0}, .run = {.threads = 1}});
   for (const int threads : {1, 2, 7}) {
-    const auto again = simplify(field.view(), {.max_error = 2.0, .threads = threads});
+    const auto again = simplify(field.view(), {.goals = {.max_error = 2.0}, .run = {.threads = threads}});
     EXPECT_EQ(again->mesh.positions, first->mesh.positions);
     EXPECT_EQ(again->mesh.triangles, first->mesh.triangles);
     EXPECT_EQ(again->measurement.rmse, first->measurement.rmse);
@@ -160,16 +162,16 @@ TEST(simplify, threads_and_repetition_never_change_a_bit) {
 
 RC_GTEST_PROP(simplify, both_orders_keep_the_promise_and_threads_change_neither, ()) {
   const Field field = any_field(60);
-  SimplifyOptions options{.max_error = *rc::gen::element(0.0, 0.5, 3.0, 20.0)};
-  options.order = *rc::gen::element(Order::kDominant, Order::kGreedy);
-  options.threads = 1;
+  SimplifyOptions options{.goals = {.max_error = *rc::gen::element(0.0, 0.5, 3.0, 20.0)}};
+  options.quality.order = *rc::gen::element(Order::kDominant, Order::kGreedy);
+  options.run.threads = 1;
   const auto first = simplify(field.view(), options);
   RC_PRE(first.has_value() || first.error().kind != ErrorKind::kInput);
   RC_ASSERT(first.has_value());
-  RC_ASSERT(first->order == options.order);
-  RC_ASSERT(first->measurement.max_error <= *options.max_error);
+  RC_ASSERT(first->order == options.quality.order);
+  RC_ASSERT(first->measurement.max_error <= *options.goals.max_error);
   for (const int threads : {2, 3, 8}) {
-    options.threads = threads;
+    options.run.threads = threads;
     const auto again = simplify(field.view(), options);
     RC_ASSERT(again.has_value());
     RC_ASSERT(again->mesh.positions == first->mesh.positions);
@@ -181,18 +183,18 @@ RC_GTEST_PROP(simplify, both_orders_keep_the_promise_and_threads_change_neither,
 TEST(simplify, takes_the_dominant_order_towards_an_error_and_the_greedy_one_within_a_budget) {
   const Field field = testing::random_field(9, 40, 30, Relief::kRidges);
   const auto order = [&](SimplifyOptions options) {
-    options.effort = Effort::kFast;
+    options.quality.effort = Effort::kFast;
     return simplify(field.view(), options)->order;
   };
-  EXPECT_EQ(order({.max_error = 2.0}), Order::kDominant);
-  EXPECT_EQ(order({.max_vertices = 50}), Order::kGreedy);
-  EXPECT_EQ(order({.max_error = 2.0, .max_vertices = 50}), Order::kGreedy);
+  EXPECT_EQ(order({.goals = {.max_error = 2.0}}), Order::kDominant);
+  EXPECT_EQ(order({.goals = {.max_vertices = 50}}), Order::kGreedy);
+  EXPECT_EQ(order({.goals = {.max_error = 2.0, .max_vertices = 50}}), Order::kGreedy);
 }
 
 TEST(simplify, is_cancelled_by_its_callback) {
   const Field field = testing::random_field(10, 700, 700, Relief::kReal);
-  SimplifyOptions options{.max_error = 0.0};
-  options.progress = [](const Progress&) { return false; };
+  SimplifyOptions options{.goals = {.max_error = 0.0}};
+  options.run.progress = [](const Progress&) { return false; };
   const auto result = simplify(field.view(), options);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, ErrorKind::kCancelled);
@@ -205,7 +207,7 @@ TEST(simplify, long_rasters_are_exact_beyond_the_limits_of_32_bits) {
       for (std::int32_t y = 0; y < 3; ++y)
         field.samples[static_cast<std::size_t>(y) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(x)] =
             static_cast<float>((x / 900) % 2 ? x % 900 : 900 - x % 900) + static_cast<float>(y);
-    const auto result = simplify(field.view(), {.max_error = 1.0});
+    const auto result = simplify(field.view(), {.goals = {.max_error = 1.0}});
     ASSERT_TRUE(result) << result.error().message;
     const Measurement m = judge(field.view(), result->mesh);
     EXPECT_LE(m.max_error, 1.0 + 1e-9);
@@ -227,7 +229,7 @@ TEST(simplify, rounded_positions_keep_the_promise_too) {
   const HeightField view = odd_cells(field, 6.7218131);
   ASSERT_FALSE(offsets_are_exact(view.frame, view.cols, view.rows));
   for (const double goal : {0.05, 1.0, 10.0}) {
-    const auto result = simplify(view, {.max_error = goal});
+    const auto result = simplify(view, {.goals = {.max_error = goal}});
     ASSERT_TRUE(result) << result.error().message;
     const Measurement m = judge(view, result->mesh);
     EXPECT_LE(m.max_error, goal);
@@ -237,8 +239,8 @@ TEST(simplify, rounded_positions_keep_the_promise_too) {
 
 TEST(simplify, double_positions_reproduce_every_sample_at_any_cell_size) {
   const Field field = testing::random_field(12, 100, 80, Relief::kRidges, 0.02);
-  SimplifyOptions options{.max_error = 0.0};
-  options.float32_positions = false;
+  SimplifyOptions options{.goals = {.max_error = 0.0}};
+  options.output.float32_positions = false;
   const auto result = simplify(odd_cells(field, 6.7218131), options);
   ASSERT_TRUE(result) << result.error().message;
   for (const MeshFormat format : {MeshFormat::kObj, MeshFormat::kPly}) {
@@ -251,7 +253,7 @@ TEST(simplify, double_positions_reproduce_every_sample_at_any_cell_size) {
 
 TEST(simplify, a_bound_below_what_rounding_costs_is_refused_with_the_figure) {
   const Field field = testing::random_field(12, 300, 200, Relief::kRidges);
-  const auto result = simplify(odd_cells(field, 6.7218131), {.max_error = 1e-9});
+  const auto result = simplify(odd_cells(field, 6.7218131), {.goals = {.max_error = 1e-9}});
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, ErrorKind::kPromise);
   EXPECT_NE(result.error().message.find("float32"), std::string::npos);
@@ -263,7 +265,7 @@ TEST(simplify, rotated_and_south_up_frames_face_up) {
        {std::array<double, 6>{100, 0.5, 0.25, -7, 0.25, -0.5}, {100, 2, 0, -7, 0, 2}, {0, 0, 3, 0, 3, 0}}) {
     HeightField view = field.view();
     view.frame.affine = affine;
-    const auto result = simplify(view, {.max_error = 2.0});
+    const auto result = simplify(view, {.goals = {.max_error = 2.0}});
     ASSERT_TRUE(result);
     const Measurement m = judge(view, result->mesh);
     EXPECT_EQ(m.down_facing, 0u);
@@ -291,7 +293,7 @@ TEST(simplify, a_curved_frame_keeps_the_promise_and_covers_its_border) {
   view.frame.kind = Frame::Kind::kProjected;
   view.frame.transform = std::make_shared<Bend>();
   for (const double goal : {1.0, 15.0}) {
-    const auto result = simplify(view, {.max_error = goal});
+    const auto result = simplify(view, {.goals = {.max_error = goal}});
     ASSERT_TRUE(result) << result.error().message;
     const Measurement m = judge(view, result->mesh);
     EXPECT_LE(m.max_error, goal);
@@ -309,12 +311,12 @@ HeightField bent(const Field& field) {
 
 TEST(simplify, budgets_hold_where_the_judge_asks_for_more_vertices) {
   const Field field = testing::random_field(16, 120, 90, Relief::kRidges);
-  const auto free_run = simplify(bent(field), {.max_error = 12.0});
+  const auto free_run = simplify(bent(field), {.goals = {.max_error = 12.0}});
   ASSERT_TRUE(free_run);
   const std::uint64_t triangles = free_run->mesh.triangle_count();
   constexpr std::uint64_t kStep = testing::kIsSanitized ? 12 : 3;
   for (std::uint64_t budget = triangles - 60; budget < triangles + 4; budget += kStep) {
-    const auto result = simplify(bent(field), {.max_error = 12.0, .max_triangles = budget});
+    const auto result = simplify(bent(field), {.goals = {.max_error = 12.0, .max_triangles = budget}});
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_LE(result->mesh.triangle_count(), budget);
     if (result->stop == StopReason::kMaxError) {
@@ -328,7 +330,7 @@ TEST(simplify, a_simplified_outline_in_a_curved_frame_has_no_void_vertices) {
   for (std::int32_t y = 0; y < 90; ++y)
     for (std::int32_t x = 0; x < 90; ++x)
       if (3 * x + y % 3 > 200 - y) field.samples[static_cast<std::size_t>(90 * y + x)] = std::nanf("");
-  const auto result = simplify(bent(field), {.max_error = 10.0, .outline_tolerance = 2.0});
+  const auto result = simplify(bent(field), {.goals = {.max_error = 10.0}, .domain = {.outline_tolerance = 2.0}});
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_EQ(judge(bent(field), result->mesh).uncovered, 0u);
 }
@@ -340,7 +342,8 @@ TEST(simplify, the_best_prefix_may_be_the_outline_alone) {
     const std::uint64_t seeds = refiner.vertex_count();
     const double outline_error = refiner.max_error();
     if (!refiner.insert_worst()) continue;
-    const auto result = simplify(field.view(), {.max_vertices = seeds + 1, .effort = Effort::kFast});
+    const auto result =
+        simplify(field.view(), {.goals = {.max_vertices = seeds + 1}, .quality = {.effort = Effort::kFast}});
     ASSERT_TRUE(result);
     EXPECT_NEAR(result->measurement.max_error, std::min(outline_error, refiner.max_error()), 1e-9) << seed;
   }
@@ -350,7 +353,7 @@ TEST(simplify, a_level_plane_is_judged_exactly) {
   // 2^24 − (−10⁻¹⁰) is more than 2^24, but not in double.
   std::vector<float> samples(9, 16777216.0f);
   samples[4] = -1e-10f;
-  const auto result = simplify({samples.data(), 3, 3}, {.max_error = 16777216.0});
+  const auto result = simplify({samples.data(), 3, 3}, {.goals = {.max_error = 16777216.0}});
   ASSERT_TRUE(result);
   EXPECT_EQ(result->mesh.vertex_count(), 5u);
 }
@@ -359,7 +362,7 @@ TEST(simplify, values_that_were_rounded_keep_their_reserve) {
   const Field field = testing::random_field(18, 60, 60, Relief::kRidges);
   HeightField view = field.view();
   view.sample_rounding = 0.25;
-  const auto result = simplify(view, {.max_error = 2.0});
+  const auto result = simplify(view, {.goals = {.max_error = 2.0}});
   ASSERT_TRUE(result);
   EXPECT_LE(result->measurement.max_error, 1.75);
   EXPECT_EQ(simplify(view, {.max_error = 0.2}).error().kind, ErrorKind::kPromise);
@@ -369,7 +372,7 @@ TEST(simplify, normals_are_those_of_the_samples) {
   Field field{20, 20, std::vector<float>(400)};
   for (std::size_t y = 0; y < 20; ++y)
     for (std::size_t x = 0; x < 20; ++x) field.samples[20 * y + x] = static_cast<float>(0.75 * static_cast<double>(x));
-  const auto result = simplify(field.view(), {.max_error = 1.0, .normals = true});
+  const auto result = simplify(field.view(), {.goals = {.max_error = 1.0}, .output = {.normals = true}});
   ASSERT_TRUE(result);
   ASSERT_EQ(result->mesh.normals.size(), 3 * result->mesh.vertex_count());
   for (std::size_t v = 0; v < result->mesh.vertex_count(); ++v) {
@@ -385,8 +388,8 @@ TEST(simplify, a_simplified_outline_loses_no_sample) {
   for (std::size_t k = 0; k < field.samples.size(); ++k) {
     if (!std::isnan(field.samples[k])) field.samples[k] = static_cast<float>(k % 80) / 4;
   }
-  const auto exact = simplify(field.view(), {.max_error = 5.0}),
-             loose = simplify(field.view(), {.max_error = 5.0, .outline_tolerance = 2.0});
+  const auto exact = simplify(field.view(), {.goals = {.max_error = 5.0}}),
+             loose = simplify(field.view(), {.goals = {.max_error = 5.0}, .domain = {.outline_tolerance = 2.0}});
   ASSERT_TRUE(exact && loose);
   const Measurement m = judge(field.view(), loose->mesh);
   EXPECT_EQ(m.uncovered, 0u);

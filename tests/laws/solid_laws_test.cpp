@@ -40,7 +40,7 @@ Placement any_placement(double base) {
 
 RC_GTEST_PROP(SolidLaws, ClosedAndAsLargeAsWhatLiesUnderTheSurface, ()) {
   const auto field = any_field(14);
-  const auto simplified = simplify(field.view(), {.max_error = *rc::gen::element(0.0, 0.7, 20.0)});
+  const auto simplified = simplify(field.view(), {.goals = {.max_error = *rc::gen::element(0.0, 0.7, 20.0)}});
   if (!simplified) RC_DISCARD("no valid cell");
   Mesh terrain = simplified->mesh;
   const double base = lowest_of(terrain) - *rc::gen::element(0.5, 3.0, 100.0);
@@ -82,8 +82,8 @@ RC_GTEST_PROP(SolidLaws, SheetsAreTheWholeAndKeepTheBound, ()) {
   options.gap = *rc::gen::element(0.0, 0.0, 0.11);
   const auto plan = SheetPlan::make(field.cols, field.rows, options);
   if (!plan) RC_DISCARD("too few samples");
-  SimplifyOptions simplify_options{.max_error = bound, .float32_positions = false};
-  simplify_options.breaklines.lines = plan->lines(simplify_options.breaklines.affine);
+  SimplifyOptions simplify_options{.goals = {.max_error = bound}, .output = {.float32_positions = false}};
+  simplify_options.features.breaklines.lines = plan->lines(simplify_options.features.breaklines.affine);
   const HeightField view = field.view();
   const auto simplified = simplify(view, simplify_options);
   if (!simplified) RC_DISCARD("no valid cell");

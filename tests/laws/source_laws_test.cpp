@@ -65,16 +65,16 @@ RC_GTEST_PROP(sources, are_judged_as_the_same_samples_in_memory, ()) {
   const Field field = any_field(2, 90);
   Field other = testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), field.cols, field.rows, Relief::kRidges,
                                       *rc::gen::element(0.0, 0.3));
-  const auto result = simplify(other.view(), {.max_error = *rc::gen::element(0.0, 2.0, 20.0)});
+  const auto result = simplify(other.view(), {.goals = {.max_error = *rc::gen::element(0.0, 2.0, 20.0)}});
   RC_PRE(result.has_value());
   HeightField in_core = field.view();
   if (*rc::gen::arbitrary<bool>()) in_core.nodata = 2.0f;
   const ArraySource source(in_core);
   MeasureOptions options;
-  options.threads = 1;
+  options.run.threads = 1;
   options.collect_above = *rc::gen::element(0.0, 5.0);
   const auto from_memory = measure(in_core, result->mesh, options);
-  options.threads = *rc::gen::element(1, 3);
+  options.run.threads = *rc::gen::element(1, 3);
   const auto from_source = measure(with_source(in_core, source), result->mesh, options);
   RC_ASSERT(from_memory.has_value() && from_source.has_value());
   expect_same(*from_memory, *from_source);
@@ -108,12 +108,12 @@ RC_GTEST_PROP(sources, of_16_bit_codes_give_the_heights_of_their_table, ()) {
 
 TEST(sources, that_break_in_the_middle_end_the_judging_with_their_own_error) {
   const Field field = testing::random_field(3, 60, 200, Relief::kRidges);
-  const auto result = simplify(field.view(), {.max_error = 5.0});
+  const auto result = simplify(field.view(), {.goals = {.max_error = 5.0}});
   ASSERT_TRUE(result);
   for (const int threads : {1, 4}) {
     const ArraySource source(field.view(), 130);
     MeasureOptions options;
-    options.threads = threads;
+    options.run.threads = threads;
     const auto measured = measure(with_source(field.view(), source), result->mesh, options);
     ASSERT_FALSE(measured);
     EXPECT_EQ(measured.error().kind, ErrorKind::kInput);
@@ -123,7 +123,7 @@ TEST(sources, that_break_in_the_middle_end_the_judging_with_their_own_error) {
 
 TEST(sources, are_refused_by_what_needs_all_samples_at_once) {
   const Field field = testing::random_field(3, 12, 10, Relief::kRidges);
-  const auto result = simplify(field.view(), {.max_error = 5.0});
+  const auto result = simplify(field.view(), {.goals = {.max_error = 5.0}});
   ASSERT_TRUE(result);
   const ArraySource source(field.view());
   const HeightField streamed = with_source(field.view(), source);
@@ -137,7 +137,7 @@ TEST(sources, are_refused_by_what_needs_all_samples_at_once) {
 TEST(measuring, tells_the_range_of_all_samples_and_the_first_uncovered_one) {
   Field field = testing::random_field(3, 12, 10, Relief::kRidges);
   const HeightRange range = height_range(field.view());
-  auto result = simplify(field.view(), {.max_error = 0.0});
+  auto result = simplify(field.view(), {.goals = {.max_error = 0.0}});
   ASSERT_TRUE(result);
   auto measured = measure(field.view(), result->mesh);
   ASSERT_TRUE(measured);

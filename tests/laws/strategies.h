@@ -36,19 +36,20 @@ inline Importance any_importance() {
 /// Everything that may be combined, at a small scale.
 inline SimplifyOptions any_strategy() {
   SimplifyOptions options;
-  options.threads = 1;
-  options.algorithm = *rc::gen::element(Algorithm::kHeap, Algorithm::kHeap, Algorithm::kLocal, Algorithm::kBruteForce);
-  options.importance = any_importance();
-  const bool one_pass = !options.importance.global && *rc::gen::arbitrary<bool>();
-  options.importance.one_pass = one_pass;
+  options.run.threads = 1;
+  options.strategy.algorithm =
+      *rc::gen::element(Algorithm::kHeap, Algorithm::kHeap, Algorithm::kLocal, Algorithm::kBruteForce);
+  options.strategy.importance = any_importance();
+  const bool one_pass = !options.strategy.importance.global && *rc::gen::arbitrary<bool>();
+  options.strategy.importance.one_pass = one_pass;
   if (!one_pass) {
-    options.batch.rule = *rc::gen::element(Batch::Rule::kSequential, Batch::Rule::kConstant, Batch::Rule::kFraction,
-                                           Batch::Rule::kIndependent);
-    options.batch.fraction = *rc::gen::element(1.0, 0.7, 0.2);
+    options.strategy.batch.rule = *rc::gen::element(Batch::Rule::kSequential, Batch::Rule::kConstant,
+                                                    Batch::Rule::kFraction, Batch::Rule::kIndependent);
+    options.strategy.batch.fraction = *rc::gen::element(1.0, 0.7, 0.2);
   }
-  if (*rc::gen::arbitrary<bool>()) options.edges = any_edge_rule();
-  options.order = *rc::gen::element(Order::kAuto, Order::kGreedy);
-  options.norm = *rc::gen::element(Norm::kSum, Norm::kSquares, Norm::kMax);
+  if (*rc::gen::arbitrary<bool>()) options.strategy.edges = any_edge_rule();
+  options.quality.order = *rc::gen::element(Order::kAuto, Order::kGreedy);
+  options.goals.norm = *rc::gen::element(Norm::kSum, Norm::kSquares, Norm::kMax);
   return options;
 }
 

@@ -39,12 +39,12 @@ std::vector<float> any_values(const Field& field, std::vector<float> choices) {
 RC_GTEST_PROP(strategies, keep_the_bound_whatever_is_chosen, ()) {
   const Field field = any_field(26);
   SimplifyOptions options = testing::any_strategy();
-  options.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
+  options.goals.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
   const auto result = simplify(field.view(), options);
   RC_PRE(result.has_value() || result.error().kind != ErrorKind::kInput);
   RC_ASSERT(result.has_value());
   const Measurement m = *measure(field.view(), result->mesh);
-  RC_ASSERT(m.max_error <= *options.max_error + 1e-9);
+  RC_ASSERT(m.max_error <= *options.goals.max_error + 1e-9);
   RC_ASSERT(m.uncovered == 0u);
   RC_ASSERT(m.void_cells_covered == 0u);
   RC_ASSERT(m.is_sound());
@@ -55,23 +55,23 @@ RC_GTEST_PROP(strategies, budgets_are_upper_bounds_whatever_is_chosen, ()) {
   const Field field = any_field(30, {0.0});
   SimplifyOptions options = testing::any_strategy();
   const auto budget = *rc::gen::inRange<std::uint64_t>(4, 400);
-  (*rc::gen::arbitrary<bool>() ? options.max_vertices : options.max_triangles) = budget;
-  options.best_of_budget = *rc::gen::arbitrary<bool>();
+  (*rc::gen::arbitrary<bool>() ? options.goals.max_vertices : options.goals.max_triangles) = budget;
+  options.strategy.best_of_budget = *rc::gen::arbitrary<bool>();
   const auto result = simplify(field.view(), options);
   RC_ASSERT(result.has_value());
-  RC_ASSERT(!options.max_vertices || result->mesh.vertex_count() <= budget);
-  RC_ASSERT(!options.max_triangles || result->mesh.triangle_count() <= budget);
+  RC_ASSERT(!options.goals.max_vertices || result->mesh.vertex_count() <= budget);
+  RC_ASSERT(!options.goals.max_triangles || result->mesh.triangle_count() <= budget);
   RC_ASSERT(measure(field.view(), result->mesh)->is_sound());
 }
 
 RC_GTEST_PROP(strategies, algorithms_one_two_and_three_make_the_same_mesh, ()) {
   const Field field = any_field(18);
   SimplifyOptions options = testing::any_strategy();
-  options.max_error = *rc::gen::element(0.0, 1.0, 5.0);
-  options.order = Order::kGreedy;
+  options.goals.max_error = *rc::gen::element(0.0, 1.0, 5.0);
+  options.quality.order = Order::kGreedy;
   std::vector<Mesh> meshes;
   for (const Algorithm algorithm : {Algorithm::kHeap, Algorithm::kLocal, Algorithm::kBruteForce}) {
-    options.algorithm = algorithm;
+    options.strategy.algorithm = algorithm;
     auto result = simplify(field.view(), options);
     RC_PRE(result.has_value());
     meshes.push_back(std::move(result->mesh));
@@ -86,8 +86,8 @@ RC_GTEST_PROP(strategies, every_tolerance_is_kept, ()) {
   const Field field = any_field(22);
   SimplifyOptions options = testing::any_strategy();
   const auto tolerance = any_values(field, {0.0f, 0.25f, 1.0f, 2.0f, 50.0f, INFINITY});
-  options.tolerance = tolerance;
-  if (*rc::gen::arbitrary<bool>()) options.max_error = 3.0;
+  options.tolerances.values = tolerance;
+  if (*rc::gen::arbitrary<bool>()) options.goals.max_error = 3.0;
   const auto result = simplify(field.view(), options);
   RC_PRE(result.has_value() || result.error().kind != ErrorKind::kInput);
   RC_ASSERT(result.has_value());
@@ -96,7 +96,8 @@ RC_GTEST_PROP(strategies, every_tolerance_is_kept, ()) {
     for (int col = 0; col < field.cols; ++col) {
       const double error = testing::error_at(result->mesh, view, col, row);
       const double allowed = tolerance[static_cast<std::size_t>(row * field.cols + col)];
-      if (!std::isnan(error)) RC_ASSERT(error <= std::min(allowed, options.max_error.value_or(HUGE_VAL)) + kRounding);
+      if (!std::isnan(error))
+        RC_ASSERT(error <= std::min(allowed, options.goals.max_error.value_or(HUGE_VAL)) + kRounding);
     }
   }
   RC_ASSERT(result->weighted_max_error <= 1 + kRounding || std::isinf(result->weighted_max_error));
@@ -107,8 +108,8 @@ RC_GTEST_PROP(strategies, a_mask_bounds_the_weighted_error_and_reports_the_true_
   const Field field = any_field(22);
   SimplifyOptions options = testing::any_strategy();
   const auto mask = any_values(field, {0.0f, 0.1f, 0.5f, 1.0f, 1.0f});
-  options.mask = mask;
-  options.max_error = *rc::gen::element(0.5, 2.0);
+  options.tolerances.weights = mask;
+  options.goals.max_error = *rc::gen::element(0.5, 2.0);
   const auto result = simplify(field.view(), options);
   RC_PRE(result.has_value() || result.error().kind != ErrorKind::kInput);
   RC_ASSERT(result.has_value());
@@ -121,7 +122,7 @@ RC_GTEST_PROP(strategies, a_mask_bounds_the_weighted_error_and_reports_the_true_
       ignored += mask[i] == 0 && !std::isnan(field.samples[i]);
       const double error = testing::error_at(result->mesh, view, col, row);
       if (std::isnan(error)) continue;
-      RC_ASSERT(mask[i] * error <= *options.max_error + kRounding);
+      RC_ASSERT(mask[i] * error <= *options.goals.max_error + kRounding);
       largest = std::max(largest, error);
       weighted = std::max(weighted, mask[i] * error);
     }
@@ -134,17 +135,18 @@ RC_GTEST_PROP(strategies, a_mask_bounds_the_weighted_error_and_reports_the_true_
 RC_GTEST_PROP(strategies, a_mask_of_ones_changes_nothing, ()) {
   const Field field = any_field(22);
   SimplifyOptions options = testing::any_strategy();
-  options.max_error = *rc::gen::element(0.5, 1.0, 8.0);
-  options.order = Order::kGreedy;
+  options.goals.max_error = *rc::gen::element(0.5, 1.0, 8.0);
+  options.quality.order = Order::kGreedy;
   const auto without = simplify(field.view(), options);
   RC_PRE(without.has_value());
   const std::vector<float> ones(field.samples.size(), 1.0f);
-  options.mask = ones;
+  options.tolerances.weights = ones;
   const auto with = simplify(field.view(), options);
   RC_ASSERT(with.has_value());
   RC_ASSERT(with->mesh.positions == without->mesh.positions);
   RC_ASSERT(with->mesh.triangles == without->mesh.triangles);
-  RC_ASSERT(std::abs(with->weighted_max_error - with->measurement.max_error) <= kRounding * (1 + *options.max_error));
+  RC_ASSERT(std::abs(with->weighted_max_error - with->measurement.max_error) <=
+            kRounding * (1 + *options.goals.max_error));
 }
 
 RC_GTEST_PROP(strategies, channels_are_bounded_by_their_norm_with_the_heights, ()) {
@@ -158,7 +160,7 @@ RC_GTEST_PROP(strategies, channels_are_bounded_by_their_norm_with_the_heights, (
   HeightField view = field.view();
   view.height_scale = *rc::gen::element(1.0, 1.0, 0.0, 2.0);
   for (const Field& layer : layers) view.channels.push_back({layer.samples.data(), *rc::gen::element(0.5, 1.0, 3.0)});
-  options.max_error = *rc::gen::element(0.0, 1.0, 7.0);
+  options.goals.max_error = *rc::gen::element(0.0, 1.0, 7.0);
   const auto result = simplify(view, options);
   RC_PRE(result.has_value() || result.error().kind != ErrorKind::kInput);
   RC_ASSERT(result.has_value());
@@ -177,14 +179,14 @@ RC_GTEST_PROP(strategies, channels_are_bounded_by_their_norm_with_the_heights, (
       }
       if (!covered) continue;
       // The test takes each field's worst triangle at a shared sample; all agree there up to rounding.
-      const double norm = options.norm == Norm::kSum       ? sum
-                          : options.norm == Norm::kSquares ? std::sqrt(squares)
-                                                           : largest;
-      RC_ASSERT(norm <= *options.max_error + 1e-4 * (1 + norm));
+      const double norm = options.goals.norm == Norm::kSum       ? sum
+                          : options.goals.norm == Norm::kSquares ? std::sqrt(squares)
+                                                                 : largest;
+      RC_ASSERT(norm <= *options.goals.max_error + 1e-4 * (1 + norm));
     }
   }
   RC_ASSERT(result->channel_measurements.size() == static_cast<std::size_t>(count));
-  RC_ASSERT(result->combined_max_error <= *options.max_error * (1 + 1e-6));
+  RC_ASSERT(result->combined_max_error <= *options.goals.max_error * (1 + 1e-6));
 }
 
 // One field of scale 1 under one bound is what the plain judge judges: the general one must not see it otherwise.
@@ -215,13 +217,13 @@ RC_GTEST_PROP(judges, the_general_one_agrees_with_the_plain_one, ()) {
 RC_GTEST_PROP(script, inserted_samples_are_vertices_and_ignored_ones_are_not_bound, ()) {
   const Field field = any_field(20, {0.0, 0.2});
   SimplifyOptions options = testing::any_strategy();
-  options.max_error = 1.0;
+  options.goals.max_error = 1.0;
   std::set<std::pair<int, int>> inserted, ignored;
   const auto steps = *rc::gen::inRange(0, 30);
   for (int k = 0; k < steps; ++k) {
     const ScriptStep step{*rc::gen::element(ScriptStep::Action::kInsert, ScriptStep::Action::kIgnore),
                           *rc::gen::inRange(0, field.cols), *rc::gen::inRange(0, field.rows)};
-    options.script.push_back(step);
+    options.strategy.script.push_back(step);
     (step.action == ScriptStep::Action::kInsert ? inserted : ignored).insert({step.col, step.row});
   }
   const auto result = simplify(field.view(), options);
@@ -245,8 +247,8 @@ RC_GTEST_PROP(script, inserted_samples_are_vertices_and_ignored_ones_are_not_bou
 
 TEST(script, a_step_outside_the_raster_is_refused) {
   const Field field = testing::random_field(1, 9, 7, Relief::kReal);
-  SimplifyOptions options{.max_error = 1.0};
-  options.script = {{ScriptStep::Action::kIgnore, 9, 0}};
+  SimplifyOptions options{.goals = {.max_error = 1.0}};
+  options.strategy.script = {{ScriptStep::Action::kIgnore, 9, 0}};
   const auto result = simplify(field.view(), options);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
@@ -255,11 +257,11 @@ TEST(script, a_step_outside_the_raster_is_refused) {
 
 TEST(one_pass, keeps_the_samples_with_the_largest_feature) {
   const Field field = testing::random_field(5, 40, 31, Relief::kReal);
-  SimplifyOptions options{.max_vertices = 60};
-  options.importance = {false, Importance::Feature::kCurvature, Importance::Damping::kUndamped, true};
+  SimplifyOptions options{.goals = {.max_vertices = 60}};
+  options.strategy.importance = {false, Importance::Feature::kCurvature, Importance::Damping::kUndamped, true};
   const auto result = simplify(field.view(), options);
   ASSERT_TRUE(result);
-  const auto values = measure_feature(field.raster(), options.importance);
+  const auto values = measure_feature(field.raster(), options.strategy.importance);
   std::set<std::pair<int, int>> expected{{0, 0}, {39, 0}, {0, 30}, {39, 30}};
   for (Point p : rank_samples(field.raster(), values)) {
     if (expected.size() == 60) break;
@@ -275,11 +277,11 @@ TEST(one_pass, keeps_the_samples_with_the_largest_feature) {
 
 TEST(one_pass, leaves_out_the_samples_that_a_script_ignores) {
   const Field field = testing::random_field(5, 40, 31, Relief::kReal);
-  SimplifyOptions options{.max_vertices = 60};
-  options.importance = {false, Importance::Feature::kCurvature, Importance::Damping::kUndamped, true};
-  const auto ranked = rank_samples(field.raster(), measure_feature(field.raster(), options.importance));
+  SimplifyOptions options{.goals = {.max_vertices = 60}};
+  options.strategy.importance = {false, Importance::Feature::kCurvature, Importance::Damping::kUndamped, true};
+  const auto ranked = rank_samples(field.raster(), measure_feature(field.raster(), options.strategy.importance));
   for (std::size_t k = 0; k < 20; ++k)
-    options.script.push_back({ScriptStep::Action::kIgnore, ranked[k].x, ranked[k].y});
+    options.strategy.script.push_back({ScriptStep::Action::kIgnore, ranked[k].x, ranked[k].y});
   const auto result = simplify(field.view(), options);
   ASSERT_TRUE(result);
   const std::set<std::pair<int, int>> corners{{0, 0}, {39, 0}, {0, 30}, {39, 30}};
@@ -297,8 +299,8 @@ TEST(channels, no_sample_is_lost_where_squares_overflow) {
   HeightField view = field.view();
   view.channels = {{layer.samples.data(), 1e160}};
   for (const bool data_dependent : {false, true}) {
-    SimplifyOptions options{.max_error = 5e160};
-    options.edges.data_dependent = data_dependent;
+    SimplifyOptions options{.goals = {.max_error = 5e160}};
+    options.strategy.edges.data_dependent = data_dependent;
     const auto result = simplify(view, options);
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_GT(result->channel_measurements[0].max_error, 0);
@@ -310,8 +312,8 @@ TEST(mask, must_be_finite) {
   const Field field = testing::random_field(1, 9, 7, Relief::kReal);
   std::vector<float> mask(63, 1.0f);
   mask[10] = std::numeric_limits<float>::infinity();
-  SimplifyOptions options{.max_error = 1.0};
-  options.mask = mask;
+  SimplifyOptions options{.goals = {.max_error = 1.0}};
+  options.tolerances.weights = mask;
   const auto result = simplify(field.view(), options);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
@@ -322,32 +324,32 @@ TEST(order, what_the_dominant_one_cannot_do_is_refused_by_name_or_done_greedily)
   const Field field = testing::random_field(1, 20, 17, Relief::kReal);
   const std::vector<float> ones(field.samples.size(), 1.0f);
   const auto check = [&](const char* words, auto change) {
-    SimplifyOptions options{.max_error = 5.0, .effort = Effort::kFast};
+    SimplifyOptions options{.goals = {.max_error = 5.0}, .quality = {.effort = Effort::kFast}};
     HeightField view = field.view();
     change(options, view);
-    options.order = Order::kDominant;
+    options.quality.order = Order::kDominant;
     const auto refused = simplify(view, options);
     ASSERT_FALSE(refused) << words;
     EXPECT_EQ(refused.error().kind, ErrorKind::kUsage) << words;
     EXPECT_NE(refused.error().message.find(words), std::string::npos) << refused.error().message;
-    options.order = Order::kAuto;
+    options.quality.order = Order::kAuto;
     const auto automatic = simplify(view, options);
-    options.order = Order::kGreedy;
+    options.quality.order = Order::kGreedy;
     const auto greedy = simplify(view, options);
     ASSERT_TRUE(automatic && greedy) << words;
     EXPECT_EQ(automatic->order, Order::kGreedy) << words;
     EXPECT_EQ(automatic->mesh.positions, greedy->mesh.positions) << words;
     EXPECT_EQ(automatic->mesh.triangles, greedy->mesh.triangles) << words;
   };
-  check("mask", [&](auto& o, auto&) { o.mask = ones; });
-  check("tolerance", [&](auto& o, auto&) { o.tolerance = ones; });
+  check("mask", [&](auto& o, auto&) { o.tolerances.weights = ones; });
+  check("tolerance", [&](auto& o, auto&) { o.tolerances.values = ones; });
   check("channels", [&](auto&, auto& v) { v.channels = {{ones.data(), 1}}; });
-  check("script", [](auto& o, auto&) { o.script = {{ScriptStep::Action::kInsert, 3, 3}}; });
-  check("importance", [](auto& o, auto&) { o.importance.feature = Importance::Feature::kCurvature; });
-  check("algorithm", [](auto& o, auto&) { o.algorithm = Algorithm::kLocal; });
-  check("batch", [](auto& o, auto&) { o.batch.rule = Batch::Rule::kConstant; });
-  check("Delaunay", [](auto& o, auto&) { o.edges.data_dependent = true; });
-  check("outline", [](auto& o, auto&) { o.outline_tolerance = 1; });
+  check("script", [](auto& o, auto&) { o.strategy.script = {{ScriptStep::Action::kInsert, 3, 3}}; });
+  check("importance", [](auto& o, auto&) { o.strategy.importance.feature = Importance::Feature::kCurvature; });
+  check("algorithm", [](auto& o, auto&) { o.strategy.algorithm = Algorithm::kLocal; });
+  check("batch", [](auto& o, auto&) { o.strategy.batch.rule = Batch::Rule::kConstant; });
+  check("Delaunay", [](auto& o, auto&) { o.strategy.edges.data_dependent = true; });
+  check("outline", [](auto& o, auto&) { o.domain.outline_tolerance = 1; });
 }
 
 TEST(features, vanish_on_a_plane_and_know_a_quadratic) {
@@ -372,12 +374,12 @@ TEST(features, vanish_on_a_plane_and_know_a_quadratic) {
 
 TEST(batches, independent_ones_cost_few_vertices_and_few_passes) {
   const Field field = testing::random_field(21, 200, 160, Relief::kRidges);
-  SimplifyOptions options{.max_error = 4.0};
-  options.order = Order::kGreedy;
+  SimplifyOptions options{.goals = {.max_error = 4.0}};
+  options.quality.order = Order::kGreedy;
   const auto sequential = simplify(field.view(), options);
-  options.batch.rule = Batch::Rule::kIndependent;
+  options.strategy.batch.rule = Batch::Rule::kIndependent;
   const auto independent = simplify(field.view(), options);
-  options.batch.rule = Batch::Rule::kConstant;
+  options.strategy.batch.rule = Batch::Rule::kConstant;
   const auto constant = simplify(field.view(), options);
   ASSERT_TRUE(sequential && independent && constant);
   EXPECT_LT(independent->mesh.vertex_count(), sequential->mesh.vertex_count() * 108 / 100);
@@ -390,20 +392,20 @@ TEST(strategies, contradictions_are_refused_in_one_sentence) {
   const Field field = testing::random_field(1, 9, 7, Relief::kReal);
   const std::vector<float> ones(63, 1.0f), few(5, 1.0f), negative(63, -1.0f), gap(63, NAN);
   const auto refuses = [&](const char* words, auto change) {
-    SimplifyOptions options{.max_error = 1.0};
+    SimplifyOptions options{.goals = {.max_error = 1.0}};
     HeightField view = field.view();
     change(options, view);
     const auto result = simplify(view, options);
     ASSERT_FALSE(result) << words;
     EXPECT_NE(result.error().message.find(words), std::string::npos) << result.error().message;
   };
-  refuses("cannot be combined", [&](auto& o, auto&) { o.mask = o.tolerance = ones; });
-  refuses("5 values for 63 samples", [&](auto& o, auto&) { o.mask = few; });
-  refuses("at sample (0, 0)", [&](auto& o, auto&) { o.tolerance = negative; });
-  refuses("ranks samples by a feature", [&](auto& o, auto&) { o.importance.one_pass = true; });
-  refuses("above 0 and at most 1", [&](auto& o, auto&) { o.batch = {Batch::Rule::kFraction, 1.5}; });
-  refuses("shape threshold", [&](auto& o, auto&) { o.edges.shape_threshold = 2; });
-  refuses("supersampling", [&](auto& o, auto&) { o.edges.supersample = -1; });
+  refuses("cannot be combined", [&](auto& o, auto&) { o.tolerances.weights = o.tolerances.values = ones; });
+  refuses("5 values for 63 samples", [&](auto& o, auto&) { o.tolerances.weights = few; });
+  refuses("at sample (0, 0)", [&](auto& o, auto&) { o.tolerances.values = negative; });
+  refuses("ranks samples by a feature", [&](auto& o, auto&) { o.strategy.importance.one_pass = true; });
+  refuses("above 0 and at most 1", [&](auto& o, auto&) { o.strategy.batch = {Batch::Rule::kFraction, 1.5}; });
+  refuses("shape threshold", [&](auto& o, auto&) { o.strategy.edges.shape_threshold = 2; });
+  refuses("supersampling", [&](auto& o, auto&) { o.strategy.edges.supersample = -1; });
   refuses("65 channels", [&](auto&, auto& v) { v.channels.assign(65, {ones.data(), 1}); });
   refuses("weight of channel 1", [&](auto&, auto& v) { v.channels = {{ones.data(), -1}}; });
   refuses("channel 1 at sample (0, 0) has no value", [&](auto&, auto& v) { v.channels = {{gap.data(), 1}}; });

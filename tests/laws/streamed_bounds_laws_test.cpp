@@ -41,11 +41,11 @@ struct Scene {
   SimplifyOptions options;
 
   Scene() {
-    options.max_error = *rc::gen::element<std::optional<double>>(std::nullopt, 0.0, 1.0, 7.3, 30.0, 1e6);
-    options.tolerance_source = &tolerances;
-    options.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh, Effort::kMax);
-    options.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
-    options.threads = *rc::gen::element(1, 2);
+    options.goals.max_error = *rc::gen::element<std::optional<double>>(std::nullopt, 0.0, 1.0, 7.3, 30.0, 1e6);
+    options.tolerances.source = &tolerances;
+    options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh, Effort::kMax);
+    options.quality.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
+    options.run.threads = *rc::gen::element(1, 2);
     // Beyond what exact arithmetic tells from 0.
     const auto few = *rc::gen::element<std::size_t>(1 << 20, 7);
     for (std::size_t i = 0; i < bounds.size(); i += few) bounds[i] *= 1e-30f;
@@ -56,15 +56,15 @@ struct Scene {
   std::vector<float> promised() const {
     std::vector<float> all = bounds;
     for (float& bound : all) {
-      bound = static_cast<float>(std::min(double{bound}, options.max_error.value_or(HUGE_VAL)));
+      bound = static_cast<float>(std::min(double{bound}, options.goals.max_error.value_or(HUGE_VAL)));
       bound = bound * 1.000001f + 1e-6f;
     }
     return all;
   }
   SimplifyOptions in_memory() const {
     SimplifyOptions array = options;
-    array.tolerance = bounds;
-    array.tolerance_source = nullptr;
+    array.tolerances.values = bounds;
+    array.tolerances.source = nullptr;
     return array;
   }
 };
@@ -86,10 +86,11 @@ void expect_kept(const Measurement& m) {
 
 /// In rows of tiles of a side.
 Result<std::optional<Tiled>> refine(const Scene& scene, std::int32_t side, const FieldLines* lines) {
-  const double most = scene.options.max_error.value_or(HUGE_VAL), threshold = scene.options.max_error.value_or(0);
+  const double most = scene.options.goals.max_error.value_or(HUGE_VAL),
+               threshold = scene.options.goals.max_error.value_or(0);
   const SourceBounds bounds(scene.tolerances, most, {});
   StripTotals fits;
-  TiledOptions tiles{.threshold = threshold, .threads = scene.options.threads, .tile_side = side};
+  TiledOptions tiles{.threshold = threshold, .threads = scene.options.run.threads, .tile_side = side};
   work_by_strips(Plan(scene.streamed, scene.options), lines != nullptr ? &lines->graph : nullptr, &bounds, threshold,
                  fits, tiles);
   return refine_tiled(lines != nullptr ? lines->apply(scene.streamed) : scene.streamed, tiles);
@@ -117,8 +118,8 @@ RC_GTEST_PROP(streamed_bounds, are_kept_by_every_sample_in_small_rows, ()) {
 
 RC_GTEST_PROP(streamed_bounds, are_kept_beside_lines, ()) {
   Scene scene;
-  if (!scene.options.max_error) scene.options.max_error = 50;
-  LineConstraints& constraints = scene.options.breaklines = testing::any_lines(scene.field);
+  if (!scene.options.goals.max_error) scene.options.goals.max_error = 50;
+  LineConstraints& constraints = scene.options.features.breaklines = testing::any_lines(scene.field);
   if (*rc::gen::arbitrary<bool>()) {
     for (Line& line : constraints.lines) {
       if (std::isnan(line.points[0][2]))
@@ -126,7 +127,7 @@ RC_GTEST_PROP(streamed_bounds, are_kept_beside_lines, ()) {
     }
   }
   const std::int32_t side = *rc::gen::element(8, 16, 31);
-  const auto lines = prepare_lines(scene.streamed, constraints, {}, *scene.options.max_error / 2, 1,
+  const auto lines = prepare_lines(scene.streamed, constraints, {}, *scene.options.goals.max_error / 2, 1,
                                    shared_rows(scene.streamed, side));
   RC_PRE(lines.has_value());
   const auto made = refine(scene, side, &*lines);
@@ -140,10 +141,10 @@ RC_GTEST_PROP(streamed_bounds, are_kept_beside_lines, ()) {
 RC_GTEST_PROP(streamed_bounds, make_the_same_mesh_on_any_number_of_threads, ()) {
   Scene scene;
   const std::int32_t side = *rc::gen::element(8, 31);
-  scene.options.threads = 1;
+  scene.options.run.threads = 1;
   const auto first = refine(scene, side, nullptr);
   RC_PRE(first.has_value());
-  scene.options.threads = 3;
+  scene.options.run.threads = 3;
   const auto again = refine(scene, side, nullptr);
   RC_ASSERT(again.has_value());
   const Triangulation &a = (*first)->domain.tin, &b = (*again)->domain.tin;
@@ -161,12 +162,12 @@ RC_GTEST_PROP(streamed_bounds, are_promised_and_counted_as_those_in_memory, ()) 
     view.frame.affine = {4321987.123, 6.7218131, 0, 5123456.789, 0, -6.7218131};
     scene.streamed.frame = view.frame;
   }
-  scene.options.float32_positions = *rc::gen::arbitrary<bool>();
+  scene.options.output.float32_positions = *rc::gen::arbitrary<bool>();
   view.sample_rounding = scene.streamed.sample_rounding = *rc::gen::element(0.0, 0.0, 0.01);
   const auto held = simplify(view, scene.in_memory());
   const auto made = simplify(scene.streamed, scene.options);
   if (!made || !held) {
-    RC_ASSERT(made.has_value() == held.has_value() || scene.options.float32_positions);
+    RC_ASSERT(made.has_value() == held.has_value() || scene.options.output.float32_positions);
     if (!made && !held) {
       RC_ASSERT(made.error().kind == held.error().kind);
       if (view.sample_rounding > 0) RC_ASSERT(made.error().message == held.error().message);
@@ -179,7 +180,8 @@ RC_GTEST_PROP(streamed_bounds, are_promised_and_counted_as_those_in_memory, ()) 
   RC_ASSERT(m.uncovered == 0u);
   RC_ASSERT(m.is_sound());
   RC_ASSERT(m.max_error == made->measurement.max_error);
-  if (scene.options.max_error || scene.options.effort != Effort::kFast || !scene.field.raster().is_valid({0, 0}))
+  if (scene.options.goals.max_error || scene.options.quality.effort != Effort::kFast ||
+      !scene.field.raster().is_valid({0, 0}))
     return;
   // Rows are refined as all is in memory.
   RC_ASSERT(made->mesh.triangle_count() == held->mesh.triangle_count());
@@ -190,13 +192,13 @@ RC_GTEST_PROP(streamed_bounds, are_judged_as_those_of_an_array, ()) {
   const Scene scene;
   const Field other = testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), scene.field.cols, scene.field.rows,
                                             Relief::kRidges, *rc::gen::element(0.0, 0.3));
-  const auto result = simplify(other.view(), {.max_error = *rc::gen::element(0.0, 2.0, 20.0)});
+  const auto result = simplify(other.view(), {.goals = {.max_error = *rc::gen::element(0.0, 2.0, 20.0)}});
   RC_PRE(result.has_value());
   MeasureOptions array, windows;
   array.tolerance = scene.bounds;
   windows.tolerance_source = &scene.tolerances;
   array.collect_above = windows.collect_above = *rc::gen::element<std::optional<double>>(std::nullopt, 0.0, 5.0);
-  windows.threads = *rc::gen::element(1, 3);
+  windows.run.threads = *rc::gen::element(1, 3);
   const auto a = measure(scene.field.view(), result->mesh, array);
   const auto b = measure(*rc::gen::arbitrary<bool>() ? scene.streamed : scene.field.view(), result->mesh, windows);
   RC_ASSERT(a.has_value() && b.has_value());
@@ -240,16 +242,16 @@ TEST(streamed_bounds, take_about_as_many_triangles_as_in_memory_at_the_public_do
   const ArrayBounds tolerances(bounds, field.cols);
   const HeightField streamed = with_source(field.view(), source);
   SimplifyOptions options;
-  options.memory_limit = 4ull * 4 * 300 * static_cast<std::uint64_t>(field.cols);
-  options.threads = 1;
+  options.run.memory.limit = 4ull * 4 * 300 * static_cast<std::uint64_t>(field.cols);
+  options.run.threads = 1;
   for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
     for (const auto most : {std::optional<double>(), std::optional(4.0)}) {
       if (effort == Effort::kHigh && most) continue;
       SimplifyOptions held;
-      held.effort = options.effort = effort;
-      held.max_error = options.max_error = most;
-      held.tolerance = bounds;
-      options.tolerance_source = &tolerances;
+      held.quality.effort = options.quality.effort = effort;
+      held.goals.max_error = options.goals.max_error = most;
+      held.tolerances.values = bounds;
+      options.tolerances.source = &tolerances;
       const auto made = simplify(streamed, options), in_memory = simplify(field.view(), held);
       ASSERT_TRUE(made) << made.error().message;
       ASSERT_TRUE(in_memory) << in_memory.error().message;
@@ -264,10 +266,10 @@ TEST(streamed_bounds, take_about_as_many_triangles_as_in_memory_at_the_public_do
 
 RC_GTEST_PROP(streamed_bounds, are_kept_beside_goals_of_shapes, ()) {
   Scene scene;
-  if (!scene.options.max_error) scene.options.max_error = 50;
-  scene.options.shape.min_angle = *rc::gen::element(0.0, 20.0);
-  scene.options.shape.max_edge = 7.0;
-  if (*rc::gen::arbitrary<bool>()) scene.options.shape.grade = 0.5;
+  if (!scene.options.goals.max_error) scene.options.goals.max_error = 50;
+  scene.options.quality.shape.min_angle = *rc::gen::element(0.0, 20.0);
+  scene.options.quality.shape.max_edge = 7.0;
+  if (*rc::gen::arbitrary<bool>()) scene.options.quality.shape.grade = 0.5;
   const auto made = simplify(scene.streamed, scene.options);
   RC_ASSERT(made || made.error().kind == ErrorKind::kInput);
   if (!made) return;
@@ -283,7 +285,7 @@ TEST(streamed_bounds, are_refused_beside_samples_in_memory_and_where_they_are_no
   const ArrayBounds tolerances(bounds, 30);
   const HeightField streamed = with_source(field.view(), source);
   SimplifyOptions options;
-  options.tolerance_source = &tolerances;
+  options.tolerances.source = &tolerances;
   EXPECT_EQ(simplify(field.view(), options).error().kind, ErrorKind::kUsage);
   ASSERT_TRUE(simplify(streamed, options));
   bounds[7 * 30 + 4] = -1;

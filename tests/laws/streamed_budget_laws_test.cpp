@@ -23,10 +23,10 @@ using testing::with_source;
 SimplifyOptions any_budget() {
   SimplifyOptions options;
   const auto budget = *rc::gen::inRange<std::uint64_t>(1, 600);
-  if (*rc::gen::arbitrary<bool>()) options.max_vertices = budget;
-  if (!options.max_vertices || *rc::gen::arbitrary<bool>()) options.max_triangles = 2 * budget;
-  if (*rc::gen::element(false, false, true)) options.max_error = *rc::gen::element(0.0, 0.7, 5.0);
-  options.effort = *rc::gen::element(Effort::kFast, Effort::kFast, Effort::kNormal, Effort::kHigh);
+  if (*rc::gen::arbitrary<bool>()) options.goals.max_vertices = budget;
+  if (!options.goals.max_vertices || *rc::gen::arbitrary<bool>()) options.goals.max_triangles = 2 * budget;
+  if (*rc::gen::element(false, false, true)) options.goals.max_error = *rc::gen::element(0.0, 0.7, 5.0);
+  options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kFast, Effort::kNormal, Effort::kHigh);
   return options;
 }
 
@@ -37,9 +37,9 @@ RC_GTEST_PROP(streamed_budgets, are_kept_by_sound_meshes_whatever_the_threads, (
   const ArraySource source(field.view());
   const HeightField streamed = with_source(field.view(), source);
   SimplifyOptions options = any_budget();
-  options.threads = 1;
+  options.run.threads = 1;
   const auto made = simplify(streamed, options);
-  options.threads = 3;
+  options.run.threads = 3;
   const auto again = simplify(streamed, options);
   RC_ASSERT(made.has_value() == again.has_value());
   if (!made) {
@@ -59,11 +59,11 @@ TEST(streamed_budgets, are_used_in_low_rows_of_tiles_with_about_the_error_of_sam
   const HeightField streamed = with_source(field.view(), source);
   for (const Effort effort : {Effort::kFast, Effort::kNormal}) {
     SimplifyOptions options;
-    options.max_triangles = 4000;
-    options.effort = effort;
+    options.goals.max_triangles = 4000;
+    options.quality.effort = effort;
     const auto whole = simplify(field.view(), options);
     ASSERT_TRUE(whole) << whole.error().message;
-    options.memory_limit = 2'500'000;
+    options.run.memory.limit = 2'500'000;
     const auto made = simplify(streamed, options);
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_LE(made->mesh.triangle_count(), 4000u);
@@ -78,20 +78,20 @@ TEST(streamed_budgets, that_memory_has_no_room_for_are_refused_for_that) {
   const Field field = testing::random_field(7, 300, 240, Relief::kRidges);
   const ArraySource source(field.view());
   SimplifyOptions options;
-  options.max_triangles = 100'000;
-  options.effort = Effort::kFast;
-  options.memory_limit = 2'500'000;
+  options.goals.max_triangles = 100'000;
+  options.quality.effort = Effort::kFast;
+  options.run.memory.limit = 2'500'000;
   const auto made = simplify(with_source(field.view(), source), options);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().kind, ErrorKind::kUsage);
-  EXPECT_EQ(made.error().message.rfind("memory_limit is too little", 0), 0u) << made.error().message;
+  EXPECT_EQ(made.error().message.rfind("the memory limit is too little", 0), 0u) << made.error().message;
 }
 
 TEST(streamed_budgets, that_are_too_small_are_refused_with_the_least_that_would_do) {
   const Field field = hills(300, 240);
   const ArraySource source(field.view());
   SimplifyOptions options;
-  options.max_triangles = 1;
+  options.goals.max_triangles = 1;
   const auto made = simplify(with_source(field.view(), source), options);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().message,
@@ -103,7 +103,7 @@ TEST(streamed_budgets, end_with_what_the_source_says_where_it_breaks) {
   const Field field = hills(300, 240);
   const ArraySource source(field.view(), 200);
   SimplifyOptions options;
-  options.max_triangles = 100;
+  options.goals.max_triangles = 100;
   const auto made = simplify(with_source(field.view(), source), options);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().kind, ErrorKind::kInput);

@@ -174,11 +174,11 @@ RC_GTEST_PROP(streamed_shapes, fitting_by_windows_is_fitting, ()) {
 
 SimplifyOptions in_little_memory(Effort effort) {
   SimplifyOptions options;
-  options.max_error = 3;
-  options.effort = effort;
-  options.memory_limit = 3'400'000;
-  options.shape.min_angle = 25;
-  options.threads = 1;
+  options.goals.max_error = 3;
+  options.quality.effort = effort;
+  options.run.memory.limit = 3'400'000;
+  options.quality.shape.min_angle = 25;
+  options.run.threads = 1;
   return options;
 }
 
@@ -199,7 +199,7 @@ TEST(streamed_shapes, take_no_more_triangles_than_in_memory_at_the_public_door) 
   const HeightField streamed = with_source(field.view(), source);
   for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
     SimplifyOptions options = in_little_memory(effort);
-    ASSERT_LT(rows_at_once(streamed, {options.memory_limit, 0, 0}), 300);
+    ASSERT_LT(rows_at_once(streamed, {options.run.memory.limit, 0, 0}), 300);
     const auto result = simplify(streamed, options);
     ASSERT_TRUE(result) << result.error().message;
     const Measurement judged = *measure(field.view(), result->mesh);
@@ -207,12 +207,12 @@ TEST(streamed_shapes, take_no_more_triangles_than_in_memory_at_the_public_door) 
     EXPECT_EQ(judged.uncovered, 0u);
     EXPECT_TRUE(judged.is_sound());
     EXPECT_EQ(result->shape->below, result->shape->forced);
-    options.threads = 3;
+    options.run.threads = 3;
     const auto again = simplify(streamed, options);
     ASSERT_TRUE(again) << again.error().message;
     EXPECT_EQ(result->mesh.positions, again->mesh.positions);
     EXPECT_EQ(result->mesh.triangles, again->mesh.triangles);
-    options.memory_limit = 0;
+    options.run.memory.limit = 0;
     const auto whole = simplify(field.view(), options);
     ASSERT_TRUE(whole) << whole.error().message;
     EXPECT_LT(static_cast<double>(result->mesh.triangle_count()),
@@ -237,14 +237,14 @@ TEST(streamed_shapes, what_outgrows_the_memory_is_refused_with_what_would_do) {
   const ArraySource source(field.view());
   SimplifyOptions options = in_little_memory(Effort::kFast);
   const auto refuses = [&](double max_edge, const char* words) {
-    options.shape.max_edge = max_edge;
+    options.quality.shape.max_edge = max_edge;
     const auto result = simplify(with_source(field.view(), source), options);
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
     EXPECT_NE(result.error().message.find(words), std::string::npos) << result.error().message;
   };
-  refuses(2, "memory_limit is too little: edges so short need at least 51547 triangles");
-  refuses(3, "memory_limit is too little: the mesh has");
+  refuses(2, "the memory limit is too little: edges so short need at least 51547 triangles");
+  refuses(3, "the memory limit is too little: the mesh has");
 }
 
 }  // namespace

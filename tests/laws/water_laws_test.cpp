@@ -321,15 +321,15 @@ TEST(water, is_level_in_a_mesh_whose_samples_stay_in_a_source) {
   EXPECT_GT(streamed.lakes.front().bytes, 0u);
   EXPECT_LT(streamed.lakes.front().bytes, 200'000u) << "for its 140,000 samples";
   SimplifyOptions options;
-  options.max_error = 5;
-  options.memory_limit = 4ull * 4 * 256 * static_cast<std::uint64_t>(field.cols);
-  options.threads = 1;
-  options.vertices = Vertices::kSamples;
-  options.float32_positions = false;
-  options.breaklines.affine = held.field.frame.affine;
-  options.breaklines.lines = {streamed.lakes.front().shore.front(), flats->back().shore.front()};
+  options.goals.max_error = 5;
+  options.run.memory.limit = 4ull * 4 * 256 * static_cast<std::uint64_t>(field.cols);
+  options.run.threads = 1;
+  options.quality.vertices = Vertices::kSamples;
+  options.output.float32_positions = false;
+  options.features.breaklines.affine = held.field.frame.affine;
+  options.features.breaklines.lines = {streamed.lakes.front().shore.front(), flats->back().shore.front()};
   for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
-    options.effort = effort;
+    options.quality.effort = effort;
     const auto made = simplify(streamed.field, options);
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_GT(count_level(made->mesh, field, {62, 238, 90, 800}, streamed.lakes.front().level), 0u);
@@ -343,24 +343,24 @@ TEST(water, and_flats_say_what_memory_they_need) {
   const Field field = terrace();
   OwnedHeightField streamed = in_source(field);
   FlatOptions flats{streamed.frame.affine, 20};
-  flats.memory_taken = 1000;
-  flats.memory_limit = 11'000;
+  flats.run.memory.taken = 1000;
+  flats.run.memory.limit = 11'000;
   const auto none = find_flats(streamed, flats);
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().kind, ErrorKind::kUsage);
-  EXPECT_TRUE(none.error().message.starts_with("memory_limit is too little: flat areas")) << none.error().message;
-  flats.memory_limit = 1'000'000;
+  EXPECT_TRUE(none.error().message.starts_with("the memory limit is too little: flat areas")) << none.error().message;
+  flats.run.memory.limit = 1'000'000;
   EXPECT_TRUE(find_flats(streamed, flats));
   WaterOptions water;
   Line ring;
   ring.role = LineRole::kOuter;
   ring.polygon = 0;
   ring.points = {{10, 10, NAN}, {200, 10, NAN}, {100, 400, NAN}, {10, 10, NAN}};
-  water.memory_limit = 50'000;
+  water.run.memory.limit = 50'000;
   const auto lakes = flatten_lakes(streamed, {&ring, 1}, water);
   ASSERT_FALSE(lakes);
-  EXPECT_TRUE(lakes.error().message.starts_with("memory_limit is too little")) << lakes.error().message;
-  water.memory_limit = 500'000;
+  EXPECT_TRUE(lakes.error().message.starts_with("the memory limit is too little")) << lakes.error().message;
+  water.run.memory.limit = 500'000;
   EXPECT_TRUE(flatten_lakes(streamed, {&ring, 1}, water));
 }
 

@@ -217,7 +217,7 @@ TEST(DrawGouraud, APhotoByItsMesh) {
   ASSERT_TRUE(photo) << photo.error().message;
   const HeightField green{photo->bands[1].data(), photo->cols, photo->rows, std::nullopt, photo->frame, 0, {}, 1};
   SimplifyOptions options;
-  options.max_error = 20;
+  options.goals.max_error = 20;
   const auto made = simplify(green, options);
   ASSERT_TRUE(made) << made.error().message;
   Mesh mesh = made->mesh;

@@ -139,11 +139,11 @@ TEST(Channels, WhatCannotBeChannelsIsRefusedWithAWayOut) {
   EXPECT_TRUE(contains(channels_error(scratch.file("many"), last, false).message, "no band 66"));
 
   ReadOptions small;
-  small.memory_limit = 1000;
+  small.run.memory.limit = 1000;
   EXPECT_TRUE(contains(channels_error(scratch.file("many"), small).message, "65 bands"));
   testing::write_envi(scratch.file("five"), 10, 10, std::vector<std::uint8_t>(500, 1));
   EXPECT_TRUE(contains(channels_error(scratch.file("five"), small).message, "of 5 bands need"));
-  small.memory_limit = 2500;
+  small.run.memory.limit = 2500;
   EXPECT_TRUE(read_channels(scratch.file("five"), small));
 
   ReadOptions packed;

@@ -75,9 +75,9 @@ TEST(Features, ServeABudgetsSearch) {
   const Field field = walled_slope();
   const Features features = declare(field);
   SimplifyOptions options;
-  options.max_triangles = 600;
-  options.breaklines = features.fixed_lines();
-  options.breaklines_for = [&](double max_error) -> Result<LineConstraints> {
+  options.goals.max_triangles = 600;
+  options.features.breaklines = features.fixed_lines();
+  options.features.breaklines_for = [&](double max_error) -> Result<LineConstraints> {
     auto fitted = fit_features(field.view(), features, {max_error});
     if (!fitted) return tl::unexpected(fitted.error());
     return fitted->lines;

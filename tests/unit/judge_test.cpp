@@ -49,7 +49,7 @@ TEST(Judge, WeighsByAMask) {
   const double bound = largest(weighed) / 2;
   for (const double value : weighed) over += value > bound * (1 + 1e-6);
   JudgeOptions options;
-  options.mask = mask;
+  options.tolerances.weights = mask;
   options.max_error = bound;
   const auto judged = judge_mesh(given.terrain.view(), given.mesh, options);
   ASSERT_TRUE(judged) << judged.error().message;
@@ -76,7 +76,7 @@ TEST(Judge, WeighsByTolerancesInMemoryAndInWindows) {
     without += tolerance[k] == kNoBound;
   }
   JudgeOptions options;
-  options.tolerance = tolerance;
+  options.tolerances.values = tolerance;
   const auto held = judge_mesh(given.terrain.view(), given.mesh, options);
   ASSERT_TRUE(held) << held.error().message;
   EXPECT_EQ(held->weighted->largest.value, largest(ratios));
@@ -86,9 +86,9 @@ TEST(Judge, WeighsByTolerancesInMemoryAndInWindows) {
 
   const HeightField field = given.terrain.view();
   const ArraySource heights(field);
-  options.tolerance = {};
+  options.tolerances.values = {};
   const ArrayBounds in_windows(tolerance, field.cols);
-  options.tolerance_source = &in_windows;
+  options.tolerances.source = &in_windows;
   const auto streamed = judge_mesh(with_source(field, heights), given.mesh, options);
   ASSERT_TRUE(streamed) << streamed.error().message;
   EXPECT_EQ(streamed->weighted->largest.value, held->weighted->largest.value);
@@ -154,8 +154,8 @@ TEST(Judge, RefusesWhatDoesNotFit) {
   const HeightField field = given.terrain.view();
   const std::vector<float> all(given.errors.size(), 1), few(7, 1);
   JudgeOptions few_weights, both, negative, outside;
-  few_weights.mask = few;
-  both.mask = both.tolerance = all;
+  few_weights.tolerances.weights = few;
+  both.tolerances.weights = both.tolerances.values = all;
   negative.max_error = -1;
   const ScriptStep beyond[] = {{ScriptStep::Action::kIgnore, 61, 0}};
   outside.script = beyond;

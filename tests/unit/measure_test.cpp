@@ -269,7 +269,7 @@ TEST(Measure, AgreesWithTheOracleOnTriangleSoup) {
     ++judged;
     SCOPED_TRACE(round);
     MeasureOptions options;
-    options.threads = 1 + round % 3;
+    options.run.threads = 1 + round % 3;
     expect_agreement(oracle, judge_mesh(terrain.view(), mesh, options), cols);
     terrain.frame = dress_up(terrain.frame);
     // Noise may put a sample on a common side into one of two triangles only: heights of a soup then differ.
@@ -367,7 +367,7 @@ TEST(Measure, IsBitEqualWithAnyNumberOfThreads) {
   const Verdict one = judge_mesh(terrain.view(), mesh, options);
   EXPECT_FALSE(one.numbers.offenders.empty());
   for (const int threads : {2, 5}) {
-    options.threads = threads;
+    options.run.threads = threads;
     const Verdict many = judge_mesh(terrain.view(), mesh, options);
     const Measurement &a = one.numbers, &b = many.numbers;
     EXPECT_EQ(0, std::memcmp(one.errors.data(), many.errors.data(), one.errors.size() * sizeof(float)));
@@ -519,7 +519,7 @@ TEST(Measure, CanBeCancelled) {
   const Terrain terrain = wavy_terrain(5, 5);
   for (const std::string_view stop : {"measure", "topology"}) {
     MeasureOptions options;
-    options.progress = [&](const Progress& progress) { return progress.pass != stop; };
+    options.run.progress = [&](const Progress& progress) { return progress.pass != stop; };
     const auto result = measure(terrain.view(), grid_mesh(terrain, 4), options);
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().kind, ErrorKind::kCancelled);

@@ -52,17 +52,17 @@ TEST(simplify_within_memory, refuses_a_mesh_beyond_it_in_both_orders) {
   field.samples = samples.data();
   field.cols = field.rows = 100;
   SimplifyOptions options;
-  options.max_error = 0.25;
-  options.memory_limit = 1'000'000;
+  options.goals.max_error = 0.25;
+  options.run.memory.limit = 1'000'000;
   for (const Order order : {Order::kDominant, Order::kGreedy}) {
-    options.order = order;
+    options.quality.order = order;
     const auto refused = simplify(field, options);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().kind, ErrorKind::kUsage);
-    EXPECT_TRUE(refused.error().message.starts_with("memory_limit is too little: the mesh has"))
+    EXPECT_TRUE(refused.error().message.starts_with("the memory limit is too little: the mesh has"))
         << refused.error().message;
   }
-  options.memory_limit = 5'000'000;
+  options.run.memory.limit = 5'000'000;
   EXPECT_TRUE(simplify(field, options));
 }
 

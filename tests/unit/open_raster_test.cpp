@@ -57,13 +57,13 @@ void expect_same_samples(const std::string& path, ReadOptions options, bool has_
     EXPECT_EQ(field.info.max, whole->info.max);
   };
   options.with_range = true;
-  options.memory_limit = 5 * kSamples;
+  options.run.memory.limit = 5 * kSamples;
   auto floats = open_height_field(path, options);
   ASSERT_TRUE(floats) << floats.error().message;
   EXPECT_EQ(floats->source, nullptr);
   expect_alike(*floats);
 
-  options.memory_limit = 5 * kSamples / 2;
+  options.run.memory.limit = 5 * kSamples / 2;
   auto codes = open_height_field(path, options);
   ASSERT_TRUE(codes) << codes.error().message;
   EXPECT_NE(codes->source, nullptr);
@@ -76,7 +76,7 @@ void expect_same_samples(const std::string& path, ReadOptions options, bool has_
     std::filesystem::rename(hidden, path);
   }
 
-  options.memory_limit = 1;
+  options.run.memory.limit = 1;
   auto file = open_height_field(path, options);
   ASSERT_TRUE(file) << file.error().message;
   EXPECT_NE(file->source, nullptr);
@@ -135,7 +135,7 @@ TEST(opened_rasters, of_packed_colours_have_the_samples_of_read_ones) {
 TEST(opened_rasters, that_stay_in_their_file_are_not_read_unless_their_range_is_asked_for) {
   const ScratchFolder folder;
   write_envi<float>(folder.file("a.img"), kCols, kRows, some_values<float>(1000, 0));
-  const auto file = open_height_field(folder.file("a.img"), {.memory_limit = 1});
+  const auto file = open_height_field(folder.file("a.img"), {.run = {.memory = {.limit = 1}}});
   ASSERT_TRUE(file);
   EXPECT_FALSE(file->info.has_range);
   EXPECT_EQ(file->info.valid, 0u);
@@ -147,10 +147,10 @@ TEST(opened_rasters, that_are_cut_short_name_file_and_row_when_the_row_is_asked_
   write_envi<float>(folder.file("a.img"), kCols, kRows, some_values<float>(1000, 0));
   if (!testing::run("gdal_translate -q -co COMPRESS=DEFLATE -co BLOCKYSIZE=1 " + folder.file("a.img") + " " + path))
     GTEST_SKIP() << "needs gdal_translate";
-  const auto file = open_height_field(path, {.memory_limit = 1});
+  const auto file = open_height_field(path, {.run = {.memory = {.limit = 1}}});
   ASSERT_TRUE(file) << file.error().message;
   std::filesystem::resize_file(path, std::filesystem::file_size(path) * 2 / 3);
-  const auto cut = open_height_field(path, {.memory_limit = 1});
+  const auto cut = open_height_field(path, {.run = {.memory = {.limit = 1}}});
   if (!cut) {  // the driver found out at once
     EXPECT_EQ(cut.error().kind, ErrorKind::kInput);
     EXPECT_NE(cut.error().message.find("a.tif"), std::string::npos) << cut.error().message;
@@ -167,11 +167,11 @@ TEST(opened_rasters, that_are_cut_short_name_file_and_row_when_the_row_is_asked_
 TEST(opened_rasters, of_pgm_are_refused_where_they_do_not_fit_as_a_whole) {
   const ScratchFolder folder;
   testing::write_text(folder.file("a.pgm"), "P2 3 2 9 1 2 3 4 5 6");
-  const auto small = open_height_field(folder.file("a.pgm"), {.memory_limit = 10});
+  const auto small = open_height_field(folder.file("a.pgm"), {.run = {.memory = {.limit = 10}}});
   ASSERT_FALSE(small);
   EXPECT_EQ(small.error().kind, ErrorKind::kInput);
   EXPECT_TRUE(testing::contains(small.error().message, "a.pgm"));
-  EXPECT_TRUE(open_height_field(folder.file("a.pgm"), {.memory_limit = 1000}));
+  EXPECT_TRUE(open_height_field(folder.file("a.pgm"), {.run = {.memory = {.limit = 1000}}}));
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ TEST(Pgm, RefusesOptionsThatNeedMore) {
   options.decode = Decode::kMapbox;
   EXPECT_NE(refusal("P2 2 2 9 1 2 3 4", options).find("3 or 4 bands"), std::string::npos);
   options = {};
-  options.memory_limit = 19;
+  options.run.memory.limit = 19;
   EXPECT_NE(refusal("P2 2 2 9 1 2 3 4", options).find("memory"), std::string::npos);
 }
 

@@ -29,7 +29,7 @@ TEST(Print, KeepsItsBoundAsItIsWritten) {
     print.size = 120;
     print.exaggerate = 1.5;
     SimplifyOptions options;
-    options.max_error = error;
+    options.goals.max_error = error;
     const auto printed = simplify_for_print(held, print, options);
     ASSERT_TRUE(printed) << printed.error().message;
     ASSERT_EQ(printed->print.sheets.size(), 1u);
@@ -61,7 +61,7 @@ TEST(Print, IsCutIntoSheets) {
   print.rows = 2;
   print.dovetail = true;
   SimplifyOptions options;
-  options.max_error = 4;
+  options.goals.max_error = 4;
   const auto printed = simplify_for_print(held, print, options);
   ASSERT_TRUE(printed) << printed.error().message;
   ASSERT_EQ(printed->print.sheets.size(), 4u);
@@ -84,7 +84,7 @@ TEST(Print, HasItsUndersideWhereItIsAsked) {
   const Field field = random_field(8, 30, 30, Relief::kReal);
   OwnedHeightField held = owned(field);
   SimplifyOptions options;
-  options.max_error = 1;
+  options.goals.max_error = 1;
   PrintOptions print;
   print.base = -80.25;
   const auto low = simplify_for_print(held, print, options);
@@ -103,7 +103,7 @@ TEST(Print, RefusesWhatCannotBe) {
   const Field field = random_field(9, 30, 30, Relief::kReal);
   OwnedHeightField held = owned(field);
   SimplifyOptions options;
-  options.max_error = 1;
+  options.goals.max_error = 1;
   const auto message = [&](const PrintOptions& print) {
     const auto printed = simplify_for_print(held, print, options);
     EXPECT_FALSE(printed);
@@ -120,7 +120,7 @@ TEST(Print, RefusesWhatCannotBe) {
   EXPECT_TRUE(message({.gap = 1}).starts_with("sheets: "));
   PrintOptions fine;
   fine.size = 1e-3;
-  options.max_error = 0;
+  options.goals.max_error = 0;
   const auto none = simplify_for_print(held, fine, options);
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().kind, ErrorKind::kPromise);

@@ -52,9 +52,9 @@ TEST(RasterErrors, AnImpossibleSizeIsRefusedWithTheFigure) {
   EXPECT_TRUE(contains(error.message, "need 17.3 EiB of memory")) << error.message;
 
   ReadOptions options;
-  options.memory_limit = 19;
+  options.run.memory.limit = 19;
   EXPECT_TRUE(contains(read_error(scratch.file("raw"), options).message, "are allowed"));
-  options.memory_limit = 20;
+  options.run.memory.limit = 20;
   EXPECT_TRUE(read_height_field(scratch.file("raw"), options));
   EXPECT_EQ(max_samples(500), 100u);
   EXPECT_GT(max_samples(0), 1000u);
@@ -66,7 +66,7 @@ TEST(RasterErrors, TheCallbackCancels) {
   testing::write_envi<float>(scratch.file("dem"), 3000, 3000, samples);
   ReadOptions options;
   double last = 0;
-  options.progress = [&](const Progress& progress) {
+  options.run.progress = [&](const Progress& progress) {
     EXPECT_EQ(progress.pass, "read");
     EXPECT_GE(progress.fraction, last);
     EXPECT_LE(progress.fraction, 1);

@@ -93,11 +93,11 @@ TEST(rivers, are_lines_of_the_mesh_in_every_effort) {
   ASSERT_TRUE(rivers);
   for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
     SimplifyOptions options;
-    options.max_error = 3;
-    options.effort = effort;
-    options.float32_positions = false;
-    options.breaklines.affine = field.frame.affine;
-    for (const River& river : *rivers) options.breaklines.lines.push_back(river.course);
+    options.goals.max_error = 3;
+    options.quality.effort = effort;
+    options.output.float32_positions = false;
+    options.features.breaklines.affine = field.frame.affine;
+    for (const River& river : *rivers) options.features.breaklines.lines.push_back(river.course);
     const auto result = simplify(field, options);
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_EQ(result->lines_laid, 2u);
@@ -134,12 +134,12 @@ TEST(rivers, keep_the_level_of_a_lake_and_give_way_to_its_shore) {
     EXPECT_EQ(z, level) << x;
   }
   SimplifyOptions options;
-  options.max_error = 2;
-  options.vertices = Vertices::kSamples;
-  options.float32_positions = false;
-  options.breaklines.affine = field.frame.affine;
-  options.breaklines.lines = lakes->front().shore;
-  options.breaklines.lines.push_back(rivers->front().course);
+  options.goals.max_error = 2;
+  options.quality.vertices = Vertices::kSamples;
+  options.output.float32_positions = false;
+  options.features.breaklines.affine = field.frame.affine;
+  options.features.breaklines.lines = lakes->front().shore;
+  options.features.breaklines.lines.push_back(rivers->front().course);
   const auto result = simplify(field, options);
   ASSERT_TRUE(result) << result.error().message;
   for (std::uint32_t v = 0; v < result->mesh.vertex_count(); ++v) {

@@ -26,7 +26,7 @@ TEST(Suggest, ADefaultRunStaysWithinTheShare) {
     EXPECT_LT(*row.error, last);
     last = *row.error;
     SimplifyOptions options;
-    options.max_error = *row.error;
+    options.goals.max_error = *row.error;
     const auto simplified = simplify(field.view(), options);
     ASSERT_TRUE(simplified);
     const auto triangles = static_cast<double>(simplified->mesh.triangle_count());

@@ -263,16 +263,16 @@ TEST(Threads, MemoryThatRunsOutIsAnError) {
 
 TEST(Threads, NeverChangeWhatIsMeasured) {
   const OwnedHeightField field = make_waves(400, 300);
-  const Result<Simplified> result = simplify(field, {.max_error = 1.0});
+  const Result<Simplified> result = simplify(field, {.goals = {.max_error = 1.0}});
   ASSERT_TRUE(result) << result.error().message;
   Mesh broken = result->mesh;
   broken.triangles.resize(broken.triangles.size() - 9);
   broken.positions[2] += 5;
   for (const Mesh* mesh : {&result->mesh, static_cast<const Mesh*>(&broken)}) {
-    const Result<Measurement> one = measure(field, *mesh, {.threads = 1});
+    const Result<Measurement> one = measure(field, *mesh, {.run = {.threads = 1}});
     ASSERT_TRUE(one) << one.error().message;
     for (const int threads : {2, 5}) {
-      const Result<Measurement> many = measure(field, *mesh, {.threads = threads});
+      const Result<Measurement> many = measure(field, *mesh, {.run = {.threads = threads}});
       ASSERT_TRUE(many) << many.error().message;
       expect_same(*one, *many);
     }
@@ -281,8 +281,8 @@ TEST(Threads, NeverChangeWhatIsMeasured) {
 
 TEST(Threads, NeverChangeTheMesh) {
   const OwnedHeightField field = make_waves(300, 200);
-  const Result<Simplified> one = simplify(field, {.max_error = 0.5, .threads = 1});
-  const Result<Simplified> many = simplify(field, {.max_error = 0.5, .threads = 4});
+  const Result<Simplified> one = simplify(field, {.goals = {.max_error = 0.5}, .run = {.threads = 1}});
+  const Result<Simplified> many = simplify(field, {.goals = {.max_error = 0.5}, .run = {.threads = 4}});
   ASSERT_TRUE(one && many);
   EXPECT_EQ(one->mesh.positions, many->mesh.positions);
   EXPECT_EQ(one->mesh.triangles, many->mesh.triangles);
@@ -305,12 +305,12 @@ TEST(Threads, NeverChangeAMeshWithLines) {
   const OwnedHeightField field = make_waves(300, 200);
   for (const Effort effort : {Effort::kFast, Effort::kNormal}) {
     SimplifyOptions options;
-    options.max_error = 0.5;
-    options.effort = effort;
-    options.breaklines = make_soft_lines(300, 200);
-    options.threads = 1;
+    options.goals.max_error = 0.5;
+    options.quality.effort = effort;
+    options.features.breaklines = make_soft_lines(300, 200);
+    options.run.threads = 1;
     const Result<Simplified> one = simplify(field, options);
-    options.threads = 4;
+    options.run.threads = 4;
     const Result<Simplified> many = simplify(field, options);
     ASSERT_TRUE(one && many);
     EXPECT_EQ(one->mesh.positions, many->mesh.positions);
@@ -322,7 +322,7 @@ TEST(Threads, NeverChangeAMeshWithLines) {
 
 TEST(Threads, CallersMayUseTheLibraryFromTheirOwn) {
   const OwnedHeightField field = make_waves(200, 150);
-  const auto make = [&] { return simplify(field, {.max_error = 0.7, .threads = 2}); };
+  const auto make = [&] { return simplify(field, {.goals = {.max_error = 0.7}, .run = {.threads = 2}}); };
   auto first = std::async(std::launch::async, make), second = std::async(std::launch::async, make);
   const Result<Simplified> a = first.get(), b = second.get();
   ASSERT_TRUE(a && b);
@@ -333,7 +333,7 @@ TEST(Threads, CallersMayUseTheLibraryFromTheirOwn) {
 TEST(Threads, BuffersThatOtherRastersLeftChangeNothing) {
   const OwnedHeightField small = make_waves(90, 70), large = make_waves(700, 400);
   const auto mesh_of = [](const OwnedHeightField& field, double error) {
-    return [&field, error] { return simplify(field, {.max_error = error, .threads = 3})->mesh; };
+    return [&field, error] { return simplify(field, {.goals = {.max_error = error}, .run = {.threads = 3}})->mesh; };
   };
   const Mesh fine = mesh_of(small, 0.1)(), coarse = mesh_of(large, 2)();
   for (int round = 0; round < 3; ++round) {
@@ -384,7 +384,7 @@ TEST(Threads, ReadersMayRunAtOnce) {
   if (!a && a.error().message.find("GDAL") != std::string::npos) GTEST_SKIP() << a.error().message;
   ASSERT_TRUE(a && b);
   EXPECT_EQ(a->samples, b->samples);
-  const Result<Simplified> mesh = simplify(*a, {.max_error = 40.0, .threads = 4});
+  const Result<Simplified> mesh = simplify(*a, {.goals = {.max_error = 40.0}, .run = {.threads = 4}});
   ASSERT_TRUE(mesh) << mesh.error().message;
   EXPECT_LE(mesh->measurement.max_error, 40.0);
 }

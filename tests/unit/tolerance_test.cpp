@@ -42,7 +42,7 @@ TEST(Tolerance, EachSampleHasItsOwnBound) {
       const auto i = static_cast<std::size_t>(offender.row * 61 + offender.col);
       EXPECT_GT(std::abs(offender.error), double{tolerance[i]});
     }
-    options.threads = 3;
+    options.run.threads = 3;
     EXPECT_EQ(measure(terrain.view(), mesh, options)->offenders.size(), verdict->offenders.size());
 
     // Bounds that are exactly the errors hold; the least bit less, and all non-zero errors break them.

@@ -94,13 +94,13 @@ TEST(water, is_level_in_the_mesh) {
     const auto lakes = flatten_lakes(field, lake_with_island(), water);
     ASSERT_TRUE(lakes);
     SimplifyOptions options;
-    options.max_error = 3;
-    options.effort = effort;
-    options.vertices = Vertices::kSamples;
-    options.float32_positions = false;
-    options.breaklines.affine = field.frame.affine;
-    options.breaklines.lines = lakes->front().shore;
-    if (longest > 0) options.shape = {.min_angle = 25, .max_edge = longest};
+    options.goals.max_error = 3;
+    options.quality.effort = effort;
+    options.quality.vertices = Vertices::kSamples;
+    options.output.float32_positions = false;
+    options.features.breaklines.affine = field.frame.affine;
+    options.features.breaklines.lines = lakes->front().shore;
+    if (longest > 0) options.quality.shape = {.min_angle = 25, .max_edge = longest};
     const auto result = simplify(field, options);
     ASSERT_TRUE(result) << result.error().message;
     const auto inside = [](double x, double y) {  // of the shore and not of the island
@@ -226,13 +226,14 @@ TEST(flats, are_level_in_the_mesh) {
   ASSERT_TRUE(flats);
   for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
     SimplifyOptions options;
-    options.max_error = 4;
-    options.effort = effort;
-    options.vertices = Vertices::kSamples;
-    options.float32_positions = false;
-    options.breaklines.affine = field.frame.affine;
+    options.goals.max_error = 4;
+    options.quality.effort = effort;
+    options.quality.vertices = Vertices::kSamples;
+    options.output.float32_positions = false;
+    options.features.breaklines.affine = field.frame.affine;
     for (const Lake& flat : *flats)
-      options.breaklines.lines.insert(options.breaklines.lines.end(), flat.shore.begin(), flat.shore.end());
+      options.features.breaklines.lines.insert(options.features.breaklines.lines.end(), flat.shore.begin(),
+                                               flat.shore.end());
     const auto result = simplify(field, options);
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_TRUE(result->edits.empty());

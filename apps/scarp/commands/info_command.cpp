@@ -103,7 +103,7 @@ Result<void> InfoCommand::run(const std::string& command_line) const {
   Result<ReadOptions> read = raster_.parse();
   if (!read) return tl::unexpected(std::move(read.error()));
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
-  read->progress = display.callback();
+  read->run.progress = display.callback();
   const Result<OwnedHeightField> field = read_height_field(raster_.path, *read);
   if (!field) return tl::unexpected(field.error());
   const Result<Suggestions> suggestions = suggest_errors(*field, kShares, display.callback());

@@ -116,7 +116,7 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
   Result<ReadOptions> read = raster_.parse();
   if (!read) return tl::unexpected(std::move(read.error()));
   judged.band = read->band;
-  read->progress = progress;
+  read->run.progress = progress;
   Result<Mesh> mesh = read_mesh(mesh_);
   if (!mesh) return tl::unexpected(std::move(mesh.error()));
   judged.mesh = std::move(*mesh);
@@ -169,7 +169,7 @@ Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judg
     if (auto in_memory = check_in_memory(*field, *need, needs); !in_memory) return in_memory;
   }
   judged.field = std::move(*field);
-  Result<Channels> textures = read_textures(judged.plan, judged.field, options.progress);
+  Result<Channels> textures = read_textures(judged.plan, judged.field, options.run.progress);
   if (!textures) return tl::unexpected(std::move(textures.error()));
   judged.channels = std::move(*textures);
   return {};
@@ -223,16 +223,16 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
 
   const Clock::time_point measure_start = Clock::now();
   JudgeOptions options;
-  options.mask = judged.companions.mask;
-  options.tolerance = judged.companions.tolerances.values;
-  options.tolerance_source = judged.companions.tolerances.source.get();
+  options.tolerances.weights = judged.companions.mask;
+  options.tolerances.values = judged.companions.tolerances.values;
+  options.tolerances.source = judged.companions.tolerances.source.get();
   options.script = judged.companions.script;
   options.max_error = judged.fail_above;
   options.norm = judged.plan.norm;
   options.cutline = judged.cut.judged();
   options.keep_errors = map_ || error_raster_;
-  options.threads = *threads;
-  options.progress = display.callback();
+  options.run.threads = *threads;
+  options.run.progress = display.callback();
   Result<Judgement> judgement = judge_mesh(judged.view(), judged.mesh, options);
   if (!judgement) return tl::unexpected(std::move(judgement.error()));
   judged.judgement = std::move(*judgement);

@@ -136,12 +136,12 @@ Result<void> run_simplify_points(const CLI::App& verb, const SimplifyArguments& 
 
   PointOptions options;
   options.max_error = outcome.asked;
-  options.max_triangles = plan->simplify.max_triangles;
-  options.max_vertices = plan->simplify.max_vertices;
-  options.float32_positions = plan->simplify.float32_positions;
+  options.max_triangles = plan->simplify.goals.max_triangles;
+  options.max_vertices = plan->simplify.goals.max_vertices;
+  options.float32_positions = plan->simplify.output.float32_positions;
   options.duplicates = outcome.policy;
-  options.threads = plan->simplify.threads;
-  options.progress = display.callback();
+  options.run.threads = plan->simplify.run.threads;
+  options.run.progress = display.callback();
   Result<SimplifiedPoints> simplified = simplify_points(outcome.points, options);
   if (!simplified) return tl::unexpected(with_path(std::move(simplified.error()), given.raster.path));
   outcome.simplified = std::move(simplified->simplified);
@@ -214,8 +214,8 @@ Result<void> run_measure_points(const CLI::App& verb, const MeasurePointsArgumen
 
   const Clock::time_point measure_start = Clock::now();
   MeasureOptions options;
-  options.threads = *threads;
-  options.progress = display.callback();
+  options.run.threads = *threads;
+  options.run.progress = display.callback();
   Result<Measurement> measured = measure_points(judged.points, judged.mesh, judged.policy, options);
   if (!measured) return tl::unexpected(std::move(measured.error()));
   judged.measured = std::move(*measured);

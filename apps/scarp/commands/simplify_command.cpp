@@ -48,7 +48,7 @@ Result<void> read_heights(const SimplifyPlan& plan, const ReadOptions& options, 
   outcome.as_read = outcome.field.info;
   if (plan.policy == NodataPolicy::kFill) outcome.filled = fill_voids(outcome.field, plan.fill_distance);
   if (plan.policy == NodataPolicy::kBackground) outcome.filled = fill_background(outcome.field, plan.background);
-  Result<Channels> textures = read_textures(plan.channels, outcome.field, options.progress);
+  Result<Channels> textures = read_textures(plan.channels, outcome.field, options.run.progress);
   if (!textures) return tl::unexpected(std::move(textures.error()));
   outcome.channels = std::move(*textures);
   if (plan.error_goal) outcome.asked = plan.error_goal->absolute(outcome.as_read.max - outcome.as_read.min);
@@ -67,7 +67,7 @@ Result<void> read_colors(const SimplifyPlan& plan, const ReadOptions& options, b
 
 /// The max error of a budget's mesh is not known before the mesh is.
 bool fits_lines_later(const SimplifyPlan& plan, const Outcome& outcome) {
-  return (plan.simplify.max_triangles || plan.simplify.max_vertices) && outcome.features.depend_on_error();
+  return (plan.simplify.goals.max_triangles || plan.simplify.goals.max_vertices) && outcome.features.depend_on_error();
 }
 
 /// What the process may take, and has taken.
@@ -87,7 +87,7 @@ Result<FittedFeatures> fit_lines(const SimplifyPlan& plan, const Outcome& outcom
                                  const ProgressCallback& progress) {
   const MemoryShare memory = memory_of(plan, outcome);
   return fit_features(outcome.field, outcome.features,
-                      {max_error, plan.simplify.threads, progress, memory.limit, memory.taken});
+                      {max_error, {plan.simplify.run.threads, {memory.limit, memory.taken}, progress}});
 }
 
 /// Lakes, rivers, walls and ridges; the lines of a mesh of the error that was asked for, if that is known.
@@ -119,12 +119,12 @@ Result<void> read_features(const SimplifyPlan& plan, const ProgressCallback& pro
 Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const ProgressCallback& progress, Outcome& outcome) {
   const Clock::time_point start = Clock::now();
   ReadOptions options = plan.read;
-  options.progress = progress;
+  options.run.progress = progress;
   const Result<void> read =
       plan.channels.image ? read_colors(plan, options, one_band, outcome) : read_heights(plan, options, outcome);
   if (!read) return read;
   Result<Companions> companions = read_companions(plan.companions, outcome.as_read, outcome.field, outcome.asked,
-                                                  {progress, plan.memory.value_or(0), plan.simplify.threads});
+                                                  {progress, plan.memory.value_or(0), plan.simplify.run.threads});
   if (!companions) return tl::unexpected(std::move(companions.error()));
   outcome.companions = std::move(*companions);
   if (auto features = read_features(plan, progress, outcome); !features) return features;
@@ -165,17 +165,17 @@ Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& pro
   const Companions& companions = outcome.companions;
   const bool has_norms = !outcome.channels.empty() && (companions.ignores_samples() || plan.channels.image);
   JudgeOptions options;
-  options.mask = companions.mask;
-  options.tolerance = companions.tolerances.values;
-  options.tolerance_source = companions.tolerances.source.get();
+  options.tolerances.weights = companions.mask;
+  options.tolerances.values = companions.tolerances.values;
+  options.tolerances.source = companions.tolerances.source.get();
   options.script = companions.script;
   options.max_error = outcome.asked;
   options.norm = plan.channels.norm;
   options.cutline = outcome.cut.judged();
   options.topology = false;
   options.weigh = has_norms || companions.ignores_samples();
-  options.threads = plan.simplify.threads;
-  options.progress = progress;
+  options.run.threads = plan.simplify.run.threads;
+  options.run.progress = progress;
   const Result<Judgement> judged =
       judge_mesh(has_norms ? outcome.view() : outcome.field.view(), outcome.simplified.mesh, options);
   if (!judged) return tl::unexpected(judged.error());
@@ -219,8 +219,8 @@ Result<void> check_promise(const Outcome& outcome) {
 Result<void> judge_topology(const ProgressCallback& progress, int threads, Outcome& outcome) {
   MeasureOptions options;
   options.cutline = outcome.cut.judged();
-  options.threads = threads;
-  options.progress = progress;
+  options.run.threads = threads;
+  options.run.progress = progress;
   const Clock::time_point start = Clock::now();
   Result<Measurement> measured = measure(outcome.field, outcome.simplified.mesh, options);
   if (!measured) return tl::unexpected(std::move(measured.error()));
@@ -231,8 +231,8 @@ Result<void> judge_topology(const ProgressCallback& progress, int threads, Outco
 
 /// Efforts that take long hold a mesh that keeps the bound all the while.
 bool keeps_mesh_on_interrupt(const SimplifyOptions& options) {
-  const bool is_long = options.effort == Effort::kHigh || options.effort == Effort::kMax;
-  return is_long && !options.max_triangles && !options.max_vertices && options.memory_limit == 0;
+  const bool is_long = options.quality.effort == Effort::kHigh || options.quality.effort == Effort::kMax;
+  return is_long && !options.goals.max_triangles && !options.goals.max_vertices && options.run.memory.limit == 0;
 }
 
 /// A print is made with its mesh.
@@ -274,26 +274,26 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   }
   if (auto checked = check_frame_of_lines(plan->lines, frame, plan->read.crs, plan->input); !checked) return checked;
   SimplifyOptions options = plan->simplify;
-  options.max_error = outcome.asked;
-  options.mask = outcome.companions.mask;
-  options.tolerance = outcome.companions.tolerances.values;
-  options.tolerance_source = outcome.companions.tolerances.source.get();
-  options.script = outcome.companions.script;
-  options.breaklines = outcome.fitted.lines;
-  options.cutline = outcome.cut.cutline;
+  options.goals.max_error = outcome.asked;
+  options.tolerances.weights = outcome.companions.mask;
+  options.tolerances.values = outcome.companions.tolerances.values;
+  options.tolerances.source = outcome.companions.tolerances.source.get();
+  options.strategy.script = outcome.companions.script;
+  options.features.breaklines = outcome.fitted.lines;
+  options.features.cutline = outcome.cut.cutline;
   if (fits_lines_later(*plan, outcome)) {
-    options.breaklines_for = [&plan, &outcome](double max_error) -> Result<LineConstraints> {
+    options.features.breaklines_for = [&plan, &outcome](double max_error) -> Result<LineConstraints> {
       auto fitted = fit_lines(*plan, outcome, max_error, {});
       if (!fitted) return tl::unexpected(std::move(fitted.error()));
       return std::move(fitted->lines);
     };
   }
-  options.progress = display.callback();
+  options.run.progress = display.callback();
   if (keeps_mesh_on_interrupt(options)) {
-    options.is_enough = content_with_interrupt;
+    options.run.is_enough = content_with_interrupt;
     display.let_interrupt_finish("fit");
   }
-  if (plan->memory) options.memory_taken = memory_of(*plan, outcome).taken + outcome.cut.bytes;
+  if (plan->memory) options.run.memory.taken = memory_of(*plan, outcome).taken + outcome.cut.bytes;
   if (auto checked = check_conflicts(given_, outcome.view(), options); !checked) return checked;
   Result<Simplified> simplified = simplify_as_planned(*plan, options, outcome);
   if (!simplified) {
@@ -305,7 +305,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
     return tl::unexpected(std::move(error));
   }
   outcome.simplified = std::move(*simplified);
-  if (options.breaklines_for) {
+  if (options.features.breaklines_for) {
     auto fitted = fit_lines(*plan, outcome, outcome.simplified.lines_for, {});
     if (!fitted) return tl::unexpected(std::move(fitted.error()));
     outcome.fitted = std::move(*fitted);
@@ -314,10 +314,10 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   if (outcome.field.source) outcome.heights = outcome.simplified.measurement.heights;
   complete_info(outcome.heights, outcome.as_read);
   const OwnedHeightField& field = outcome.field;
-  const bool by_construction =
-      options.float32_positions ? offsets_are_exact(field.frame, field.cols, field.rows) : field.frame.is_affine();
+  const bool by_construction = options.output.float32_positions ? offsets_are_exact(field.frame, field.cols, field.rows)
+                                                                : field.frame.is_affine();
   if (plan->report && by_construction) {
-    const Result<void> judged = judge_topology(display.callback(), plan->simplify.threads, outcome);
+    const Result<void> judged = judge_topology(display.callback(), plan->simplify.run.threads, outcome);
     if (!judged) return judged;
   }
   if (outcome.simplified.ignored > 0) {
@@ -332,7 +332,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   for (const std::vector<std::string>* more : sources) {
     outcome.warnings.insert(outcome.warnings.end(), more->begin(), more->end());
   }
-  if (options.order == Order::kDominant && outcome.simplified.order != Order::kDominant) {
+  if (options.quality.order == Order::kDominant && outcome.simplified.order != Order::kDominant) {
     outcome.warnings.push_back(
         "the greedy order was taken: the goal is so coarse that tiles would cost vertices, or the heights span "
         "magnitudes beyond exact arithmetic");

@@ -58,8 +58,8 @@ Result<void> add_error_raster(const SimplifyPlan& plan, const ProgressCallback& 
   options.weigh = false;
   options.topology = false;
   options.cutline = outcome.cut.judged();
-  options.threads = plan.simplify.threads;
-  options.progress = progress;
+  options.run.threads = plan.simplify.run.threads;
+  options.run.progress = progress;
   Result<Judgement> judged =
       judge_mesh(plan.channels.image ? outcome.view() : outcome.field.view(), outcome.simplified.mesh, options);
   if (!judged) return tl::unexpected(std::move(judged.error()));
@@ -104,7 +104,7 @@ Result<std::vector<std::uint8_t>> encode_output(const SimplifyPlan& plan, const 
   const Mesh& mesh = outcome.simplified.mesh;
   if (outcome.print) return encode_3mf(named_solids(outcome));
   if (plan.format.kind != OutputKind::kDem) return encode_as(plan.format, mesh);
-  const Result<std::vector<float>> heights = resample(outcome.field, mesh, plan.simplify.threads);
+  const Result<std::vector<float>> heights = resample(outcome.field, mesh, plan.simplify.run.threads);
   if (!heights) return tl::unexpected(heights.error());
   return encode_raster({*heights, outcome.field.cols, outcome.field.rows, &outcome.as_read}, plan.format.raster);
 }

@@ -47,8 +47,8 @@ Json describe_goal(const SimplifyPlan& plan, const SimplifyRun& run) {
   goal["max_error"] = or_null(run.asked);
   goal["percent_of_relief"] =
       plan.error_goal && plan.error_goal->percent_of_relief ? Json(plan.error_goal->value) : Json(nullptr);
-  goal["max_triangles"] = or_null(plan.simplify.max_triangles);
-  goal["max_points"] = or_null(plan.simplify.max_vertices);
+  goal["max_triangles"] = or_null(plan.simplify.goals.max_triangles);
+  goal["max_points"] = or_null(plan.simplify.goals.max_vertices);
   return goal;
 }
 
@@ -145,10 +145,10 @@ std::string describe_end(const SimplifyPlan& plan, const SimplifyRun& run, const
                          error.text, asked);
     case StopReason::kMaxTriangles:
       return fmt::format("Reached the triangle budget of {}: {}{}",
-                         format_count(plan.simplify.max_triangles.value_or(0)), error.text, missed);
+                         format_count(plan.simplify.goals.max_triangles.value_or(0)), error.text, missed);
     case StopReason::kMaxVertices:
       return fmt::format("Reached the point budget of {}: {}{}, {} vertices",
-                         format_count(plan.simplify.max_vertices.value_or(0)), error.text, missed,
+                         format_count(plan.simplify.goals.max_vertices.value_or(0)), error.text, missed,
                          format_count(run.vertices));
     case StopReason::kExact:
       break;

@@ -183,7 +183,7 @@ Result<Channels> read_textures(const ChannelPlan& plan, const OwnedHeightField& 
   for (const std::string& path : plan.textures) {
     ReadOptions options;
     options.crs = "grid";
-    options.progress = progress;
+    options.run.progress = progress;
     Result<OwnedChannels> texture = read_channels(path, options);
     if (!texture) {
       texture.error().message = fmt::format("--texture: {}", texture.error().message);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "options/options.h"
+#include "scarp/goals.h"
 #include "scarp/height_field.h"
 #include "scarp/io.h"
 #include "scarp/strategy.h"

@@ -24,7 +24,7 @@ Result<OwnedHeightField> read_values(const char* option, const std::string& path
                                      const OwnedHeightField& field, const CompanionRun& run, bool in_windows) {
   ReadOptions options;
   options.crs = "grid";
-  options.progress = run.progress;
+  options.run.progress = run.progress;
   Result<OwnedHeightField> values =
       in_windows ? read_beside(path, options, run.memory) : read_height_field(path, options);
   if (!values) return name_option(option, ": ", std::move(values.error()));
@@ -134,7 +134,7 @@ Result<void> read_tolerances(const CompanionArguments& given, const RasterInfo& 
     if (auto fits = check_regions(field, *regions, run.memory); !fits) return fits;
   }
   auto made = make_tolerances(std::move(values), *regions, grid_of(given, raster, field, bound),
-                              {in_windows, run.threads, run.progress});
+                              {in_windows, {run.threads, {}, run.progress}});
   if (!made) return name_option("--tolerance", " ", std::move(made.error()));
   warn_of_missing(given, made->found, companions);
   made->bytes += bytes;

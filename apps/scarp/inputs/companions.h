@@ -40,7 +40,7 @@ struct CompanionArguments {
 /// What the files hold; empty where none was given.
 struct Companions {
   std::vector<float> mask;  ///< weights in 0 … 1, one a sample
-  Tolerances tolerances;    ///< with a source where the heights have one
+  OwnedTolerances tolerances;  ///< with a source where the heights have one
   std::vector<ScriptStep> script;
   std::vector<std::string> warnings;
 

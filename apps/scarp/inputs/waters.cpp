@@ -24,8 +24,9 @@ Result<std::vector<Lake>> add_lakes(const LineArguments& given, const ProgressCa
                                     const MemoryShare& memory, OwnedHeightField& field,
                                     const std::array<double, 6>& affine, std::vector<std::string>& warnings) {
   if (given.flats) {
-    auto flats = find_flats(
-        field, {affine, *parse_count("--detect-flats", *given.flats, 3), memory.limit, memory.taken, progress});
+    auto flats = find_flats(field, {affine,
+                                    *parse_count("--detect-flats", *given.flats, 3),
+                                    {.memory = {memory.limit, memory.taken}, .progress = progress}});
     if (flats && flats->empty()) warnings.push_back("--detect-flats finds no flat area: it changes nothing");
     return flats;
   }
@@ -34,9 +35,9 @@ Result<std::vector<Lake>> add_lakes(const LineArguments& given, const ProgressCa
   if (!polygons) return tl::unexpected(polygons.error());
   WaterOptions options;
   options.affine = affine;
-  options.memory_limit = memory.limit;
-  options.memory_taken = memory.taken;
-  options.progress = progress;
+  options.run.memory.limit = memory.limit;
+  options.run.memory.taken = memory.taken;
+  options.run.progress = progress;
   if (given.percentile) options.percentile = *parse_non_negative("--water-percentile", *given.percentile);
   auto lakes = flatten_lakes(field, *polygons, options);
   if (lakes && lakes->empty()) warnings.push_back("--water names no lake in the raster: it changes nothing");

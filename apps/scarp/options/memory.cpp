@@ -98,13 +98,13 @@ Result<OwnedHeightField> read_within(const std::string& path, ReadOptions option
   if (!limit) return read_height_field(path, options);
   give_back_early();
   const std::uint64_t share = std::max<std::uint64_t>(samples_share(*limit, needs.others), 1);  // 0 would be no limit
-  options.memory_limit = std::max<std::uint64_t>(share * kBytesPerSample / needs.per_sample, 1);
+  options.run.memory.limit = std::max<std::uint64_t>(share * kBytesPerSample / needs.per_sample, 1);
   Result<OwnedHeightField> field = open_height_field(path, options);
-  if (!field || !field->source || options.memory_limit == share) return field;
+  if (!field || !field->source || options.run.memory.limit == share) return field;
   // A file that has to be read in windows anyway may have all of the share for its cache.
   const std::uint64_t samples = static_cast<std::uint64_t>(field->cols) * static_cast<std::uint64_t>(field->rows);
   if (kBytesPerSample * samples <= share) return field;
-  options.memory_limit = share;
+  options.run.memory.limit = share;
   return open_height_field(path, options);
 }
 
@@ -116,7 +116,7 @@ std::uint64_t bytes_taken(const OwnedHeightField& field, std::uint64_t limit) {
 }
 
 Result<OwnedHeightField> read_beside(const std::string& path, ReadOptions options, std::uint64_t limit) {
-  options.memory_limit = std::max<std::uint64_t>(samples_share(limit, 0) / 2, 1);
+  options.run.memory.limit = std::max<std::uint64_t>(samples_share(limit, 0) / 2, 1);
   return open_height_field(path, options);
 }
 
@@ -146,7 +146,7 @@ Result<void> check_in_memory(const OwnedHeightField& field, const std::string& o
 }
 
 Error name_memory(const MemoryArguments& given, const OwnedHeightField& field, Error error) {
-  constexpr std::string_view kLimit = "memory_limit", kWhole = "read the raster as a whole";
+  constexpr std::string_view kLimit = "the memory limit", kWhole = "read the raster as a whole";
   if (!given.memory) return error;
   if (error.message.starts_with(kLimit))
     error.message.replace(0, kLimit.size(), "--memory " + shell_word(*given.memory));

@@ -63,7 +63,7 @@ Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std:
 /// Fails with kUsage if the field's samples are not in memory as one array, which `option` needs; says what would do.
 Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option, const MemoryNeeds& needs = {});
 
-/// What the library says of memory_limit, and of rasters that were not read as a whole, in the words of --memory.
+/// What the library says of a memory limit, and of rasters that were not read as a whole, in the words of --memory.
 Error name_memory(const MemoryArguments& given, const OwnedHeightField& field, Error error);
 
 /// Gives a raster that was not read before the range that the judge has found.

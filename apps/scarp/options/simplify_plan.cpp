@@ -27,12 +27,12 @@ Result<void> plan_goals(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (given.max_triangles) {
     const Result<std::uint64_t> budget = parse_count("--max-triangles", *given.max_triangles, 1);
     if (!budget) return tl::unexpected(budget.error());
-    plan.simplify.max_triangles = *budget;
+    plan.simplify.goals.max_triangles = *budget;
   }
   if (given.max_points) {
     const Result<std::uint64_t> budget = parse_count("--max-points", *given.max_points, 1);
     if (!budget) return tl::unexpected(budget.error());
-    plan.simplify.max_vertices = *budget;
+    plan.simplify.goals.max_vertices = *budget;
   }
   return {};
 }
@@ -74,7 +74,7 @@ Result<void> plan_nodata(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (given.outline_tolerance) {
     const Result<double> tolerance = parse_non_negative("--outline-tolerance", *given.outline_tolerance);
     if (!tolerance) return tl::unexpected(tolerance.error());
-    plan.simplify.outline_tolerance = *tolerance;
+    plan.simplify.domain.outline_tolerance = *tolerance;
   }
   return {};
 }
@@ -83,7 +83,7 @@ Result<void> plan_channels(const SimplifyArguments& given, SimplifyPlan& plan) {
   const Result<ChannelPlan> channels = given.channels.parse(given.raster);
   if (!channels) return tl::unexpected(channels.error());
   plan.channels = *channels;
-  plan.simplify.norm = channels->norm;
+  plan.simplify.goals.norm = channels->norm;
   if (channels->image && plan.policy != NodataPolicy::kHole) {
     return fail(ErrorKind::kUsage, "--image and --nodata-policy contradict each other: missing pixels are holes");
   }
@@ -107,7 +107,7 @@ Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (!checked) return checked;
   const Result<void> parsed = given.strategy.parse_into(plan.simplify);
   if (!parsed) return parsed;
-  if (plan.channels.image && plan.simplify.importance.feature != Importance::Feature::kNoFeature) {
+  if (plan.channels.image && plan.simplify.strategy.importance.feature != Importance::Feature::kNoFeature) {
     return fail(ErrorKind::kUsage, "--importance measures features of heights, which an --image has not: leave it out");
   }
   return {};
@@ -143,22 +143,22 @@ Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
                 fmt::format("--split and {} contradict each other: leave one of them out", of_split));
   // Water is level where all corners of its triangles are: at samples and on its shore.
   const char* lakes = given.lines.find_lakes();
-  if (lakes != nullptr && plan.simplify.vertices == Vertices::kFree)
+  if (lakes != nullptr && plan.simplify.quality.vertices == Vertices::kFree)
     return fail(ErrorKind::kUsage,
                 fmt::format("{} and --vertices free contradict each other: leave one of them out", lakes));
-  if (lakes != nullptr) plan.simplify.vertices = Vertices::kSamples;
+  if (lakes != nullptr) plan.simplify.quality.vertices = Vertices::kSamples;
   return {};
 }
 
 Result<void> plan_shape(const SimplifyArguments& given, SimplifyPlan& plan) {
   const Result<ShapeGoals> goals = given.shape.parse();
   if (!goals) return tl::unexpected(goals.error());
-  plan.simplify.shape = *goals;
+  plan.simplify.quality.shape = *goals;
   return {};
 }
 
 Result<void> plan_objective(const SimplifyArguments& given, SimplifyPlan& plan) {
-  if (plan.simplify.objective == Objective::kMax || find_budget(given) != nullptr) return {};
+  if (plan.simplify.goals.objective == Objective::kMax || find_budget(given) != nullptr) return {};
   return fail(ErrorKind::kUsage,
               "--objective rms needs a budget, -t or -p: a max error alone decides the mesh, whatever its RMSE");
 }
@@ -207,9 +207,9 @@ Result<void> plan_solid_format(const SimplifyArguments& given, SimplifyPlan& pla
 Result<void> plan_attributes(const SimplifyArguments& given, SimplifyPlan& plan) {
   const OutputFormat& format = plan.format;
   const std::string title = format.title();
-  plan.simplify.normals = given.normals && format.holds_attributes();
-  plan.simplify.uvs = (given.uvs || plan.channels.has_channels()) && format.holds_attributes();
-  plan.simplify.float32_positions = format.is_float32();
+  plan.simplify.output.normals = given.normals && format.holds_attributes();
+  plan.simplify.output.uvs = (given.uvs || plan.channels.has_channels()) && format.holds_attributes();
+  plan.simplify.output.float32_positions = format.is_float32();
   const bool shows_image =
       format.holds_attributes() || format.kind == OutputKind::kSvg || format.kind == OutputKind::kEps;
   if (given.channels.image && !shows_image) {
@@ -293,7 +293,7 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
   if (const auto unstreamed = find_unstreamed(given, plan)) return unstreamed;
   const std::pair<const char*, bool> options[] = {
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
-      {"--normals", plan.simplify.normals},
+      {"--normals", plan.simplify.output.normals},
       {"--preview", given.preview.has_value()},
       {"--render", given.render.has_value()},
       {"--error-raster", given.error_raster.has_value()},
@@ -313,12 +313,12 @@ Result<void> plan_memory(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (plan.channels.image) {
     return fail(ErrorKind::kUsage, "--memory and --image contradict each other: images are read as a whole");
   }
-  plan.simplify.memory_limit = *plan.memory;
-  plan.simplify.memory_per_vertex = plan.format.bytes_per_vertex();
+  plan.simplify.run.memory.limit = *plan.memory;
+  plan.simplify.run.memory.per_vertex = plan.format.bytes_per_vertex();
   // A solid's bottom and walls are as many vertices again; a print is judged beside its mesh.
   constexpr std::uint64_t kMeshBytes = 48;
-  if (plan.base) plan.simplify.memory_per_vertex = 2 * plan.simplify.memory_per_vertex + kMeshBytes;
-  if (plan.solid) plan.simplify.memory_per_vertex += 4 * kMeshBytes;
+  if (plan.base) plan.simplify.run.memory.per_vertex = 2 * plan.simplify.run.memory.per_vertex + kMeshBytes;
+  if (plan.solid) plan.simplify.run.memory.per_vertex += 4 * kMeshBytes;
   plan.needs_samples = find_need_of_samples(given, plan);
   // The proof sees the range of all other rasters, but of this one with its lakes.
   const bool is_flattened = !given.lines.water.empty();
@@ -371,7 +371,7 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   plan.read = *read;
   const Result<int> threads = parse_threads(given.threads);
   if (!threads) return tl::unexpected(threads.error());
-  plan.simplify.threads = *threads;
+  plan.simplify.run.threads = *threads;
   for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_solid, plan_lines, plan_shape,
                           plan_objective, plan_conflicts, plan_outputs, plan_memory}) {
     const Result<void> planned = step(given, plan);

@@ -159,15 +159,15 @@ Result<void> StrategyArguments::parse_into(SimplifyOptions& options) const {
   if (effort) {
     const Result<Effort> parsed = choose("--effort", *effort, kEfforts);
     if (!parsed) return tl::unexpected(parsed.error());
-    options.effort = *parsed;
+    options.quality.effort = *parsed;
   }
   if (vertices) {
     const Result<Vertices> parsed = choose("--vertices", *vertices, kVertices);
     if (!parsed) return tl::unexpected(parsed.error());
-    if (*parsed == Vertices::kFree && options.effort < Effort::kHigh)
+    if (*parsed == Vertices::kFree && options.quality.effort < Effort::kHigh)
       return fail(ErrorKind::kUsage,
                   "--vertices free needs --effort high or max: below that no vertex is moved, and all are samples");
-    options.vertices = *parsed;
+    options.quality.vertices = *parsed;
   }
   if (min_shape) {
     const Result<double> parsed = parse_non_negative("--min-shape", *min_shape);
@@ -177,51 +177,52 @@ Result<void> StrategyArguments::parse_into(SimplifyOptions& options) const {
                   fmt::format("--min-shape {} is above 0.5, the shape of half a sample's square: choose "
                               "one from 0 to 0.5",
                               shell_word(*min_shape)));
-    options.min_shape = *parsed;
+    options.quality.min_shape = *parsed;
   }
   if (time_limit) {
     const Result<double> parsed = parse_non_negative("--time-limit", *time_limit);
     if (!parsed) return tl::unexpected(parsed.error());
     const auto seconds = std::chrono::duration<double>(std::min(*parsed, 1e9));
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::nanoseconds>(seconds);
-    options.is_time_up = [end] { return std::chrono::steady_clock::now() >= end; };
+    options.run.is_time_up = [end] { return std::chrono::steady_clock::now() >= end; };
   }
   if (objective) {
     const Result<Objective> parsed = choose("--objective", *objective, kObjectives);
     if (!parsed) return tl::unexpected(parsed.error());
-    options.objective = *parsed;
+    options.goals.objective = *parsed;
   }
   if (importance) {
     const Result<Importance> parsed = parse_importance(*importance);
     if (!parsed) return tl::unexpected(parsed.error());
-    options.importance = *parsed;
+    options.strategy.importance = *parsed;
   }
-  if (one_pass && (options.importance.feature == Importance::Feature::kNoFeature || options.importance.global)) {
+  if (one_pass &&
+      (options.strategy.importance.feature == Importance::Feature::kNoFeature || options.strategy.importance.global)) {
     return fail(ErrorKind::kUsage,
                 "--one-pass ranks by a feature of the raster, without the mesh: give it "
                 "--importance local, local8 or curvature");
   }
-  options.importance.one_pass = one_pass;
+  options.strategy.importance.one_pass = one_pass;
   if (order) {
     const Result<Order> parsed = choose("--order", *order, kOrders);
     if (!parsed) return tl::unexpected(parsed.error());
-    options.order = *parsed;
+    options.quality.order = *parsed;
   } else if (algorithm) {
-    options.order = Order::kGreedy;
+    options.quality.order = Order::kGreedy;
   }
   if (algorithm) {
     const Result<Algorithm> parsed = choose("--algorithm", *algorithm, kAlgorithms);
     if (!parsed) return tl::unexpected(parsed.error());
-    options.algorithm = *parsed;
+    options.strategy.algorithm = *parsed;
   }
   if (batch) {
     const Result<Batch> parsed = parse_batch(*batch);
     if (!parsed) return tl::unexpected(parsed.error());
-    options.batch = *parsed;
+    options.strategy.batch = *parsed;
   }
   const Result<EdgeRule> rule = parse_edges(*this);
   if (!rule) return tl::unexpected(rule.error());
-  options.edges = *rule;
+  options.strategy.edges = *rule;
   return {};
 }
 
@@ -240,17 +241,17 @@ std::string StrategyArguments::canonical_refinement() const {
 
 Json describe_strategy(const SimplifyOptions& options, const Simplified& simplified) {
   Json strategy;
-  strategy["importance"] = importance_name(options.importance);
-  strategy["one_pass"] = options.importance.one_pass;
+  strategy["importance"] = importance_name(options.strategy.importance);
+  strategy["one_pass"] = options.strategy.importance.one_pass;
   strategy["effort"] = name_of(simplified.effort, kEfforts);
   strategy["vertices"] = name_of(simplified.vertices, kVertices);
-  strategy["min_shape"] = options.min_shape.value_or(simplified.vertices == Vertices::kFree ? 0.1 : 0);
+  strategy["min_shape"] = options.quality.min_shape.value_or(simplified.vertices == Vertices::kFree ? 0.1 : 0);
   strategy["cut_short"] = simplified.is_cut_short;
-  strategy["objective"] = name_of(options.objective, kObjectives);
+  strategy["objective"] = name_of(options.goals.objective, kObjectives);
   strategy["order"] = name_of(simplified.order, kOrders);
   strategy["algorithm"] =
-      simplified.order == Order::kGreedy ? Json(name_of(options.algorithm, kAlgorithms)) : Json(nullptr);
-  switch (options.batch.rule) {
+      simplified.order == Order::kGreedy ? Json(name_of(options.strategy.algorithm, kAlgorithms)) : Json(nullptr);
+  switch (options.strategy.batch.rule) {
     case Batch::Rule::kSequential:
       strategy["batch"] = nullptr;
       break;
@@ -258,13 +259,13 @@ Json describe_strategy(const SimplifyOptions& options, const Simplified& simplif
       strategy["batch"] = "const";
       break;
     case Batch::Rule::kFraction:
-      strategy["batch"] = fmt::format("frac:{}", options.batch.fraction);
+      strategy["batch"] = fmt::format("frac:{}", options.strategy.batch.fraction);
       break;
     case Batch::Rule::kIndependent:
       strategy["batch"] = "independent";
       break;
   }
-  const EdgeRule& edges = options.edges;
+  const EdgeRule& edges = options.strategy.edges;
   strategy["edges"] = name_of(edges.data_dependent, kEdges);
   if (!edges.data_dependent) return strategy;
   strategy["edge_score"] = name_of(edges.score, kScores);

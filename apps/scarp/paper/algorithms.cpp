@@ -23,7 +23,7 @@ Result<Runs> run(const Study& study, const Field& field, std::uint64_t vertices)
   Mesh first;
   for (std::size_t k = 0; k < kAlgorithms.size(); ++k) {
     SimplifyOptions options;
-    options.algorithm = kAlgorithms[k];
+    options.strategy.algorithm = kAlgorithms[k];
     const Result<Simplified> result = study.run(field.heights, field.file, exactly(vertices, options));
     if (!result) return tl::unexpected(result.error());
     runs.works[k] = result->work;

@@ -49,8 +49,8 @@ Result<void> add_batches(Study& study) {
     std::vector<std::string> line{rule.name};
     for (std::size_t f = 0; f < fields.size(); ++f) {
       SimplifyOptions options;
-      options.max_error = bounds[f];
-      options.batch = rule.batch;
+      options.goals.max_error = bounds[f];
+      options.strategy.batch = rule.batch;
       const Result<Trial> trial = study.reach(*fields[f], options);
       if (!trial) return tl::unexpected(trial.error());
       trials[r].push_back(*trial);

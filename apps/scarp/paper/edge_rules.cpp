@@ -169,7 +169,7 @@ Result<void> add_bound_table(Study& study, const ModeTrials& trials) {
     double delaunay = 0;
     for (const std::size_t k : kShown) {
       SimplifyOptions options = with_edges(kModes[k].edges);
-      options.max_error = bound;
+      options.goals.max_error = bound;
       const Result<Trial> trial = study.reach(field, options);
       if (!trial) return tl::unexpected(trial.error());
       const auto triangles = static_cast<double>(trial->triangles);

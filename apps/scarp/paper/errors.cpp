@@ -97,7 +97,7 @@ Result<Curves> trace(const Field& field, int color) {
     ++next;
     MeasureOptions heights_only;
     heights_only.topology = false;
-    heights_only.threads = 0;
+    heights_only.run.threads = 0;
     const auto judged = measure(field.heights, refiner->mesh(), heights_only);
     if (!judged) return tl::unexpected(judged.error());
     curves.rmse.points.push_back({static_cast<double>(m), 100 * judged->rmse / field.relief()});

@@ -59,7 +59,7 @@ Result<Subject> read_subject(const Image& known, const std::string& path) {
 
 Result<Painted> paint_uniform(const Study& study, const Subject& subject, const UniformGrid& grid) {
   SimplifyOptions options;
-  options.script = grid.steps;
+  options.strategy.script = grid.steps;
   return paint(study, subject.field(), subject.known->file, subject.image, exactly(grid.vertices(), options));
 }
 

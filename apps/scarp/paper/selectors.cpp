@@ -66,15 +66,15 @@ Result<Trial> run(Study& study, const Field& field, const Selector& selector) {
   const std::uint64_t vertices = std::max<std::uint64_t>(field.share(1), 4);
   SimplifyOptions options;
   if (selector.choice == Selector::Choice::kRandom) {
-    options.script = random_points(field.heights, vertices, kSeed);
-    return study.refine(field, options.script.size(), options);
+    options.strategy.script = random_points(field.heights, vertices, kSeed);
+    return study.refine(field, options.strategy.script.size(), options);
   }
   if (selector.choice == Selector::Choice::kUniform) {
-    options.script = uniform_grid(field.heights.cols, field.heights.rows, vertices).steps;
-    return study.refine(field, options.script.size(), options);
+    options.strategy.script = uniform_grid(field.heights.cols, field.heights.rows, vertices).steps;
+    return study.refine(field, options.strategy.script.size(), options);
   }
   if (selector.importance == Importance{}) return study.delaunay(field, vertices);
-  options.importance = selector.importance;
+  options.strategy.importance = selector.importance;
   return study.refine(field, vertices, options);
 }
 
@@ -88,8 +88,8 @@ Result<std::string> try_other_draws(const Study& study, const Field& field) {
   double least = 0, most = 0;
   for (std::uint64_t draw = 1; draw <= kOtherDraws; ++draw) {
     SimplifyOptions options;
-    options.script = random_points(field.heights, std::max<std::uint64_t>(field.share(1), 4), kSeed + draw);
-    const Result<Trial> trial = study.refine(field, options.script.size(), options);
+    options.strategy.script = random_points(field.heights, std::max<std::uint64_t>(field.share(1), 4), kSeed + draw);
+    const Result<Trial> trial = study.refine(field, options.strategy.script.size(), options);
     if (!trial) return tl::unexpected(trial.error());
     least = draw == 1 ? trial->rmse : std::min(least, trial->rmse);
     most = std::max(most, trial->rmse);

@@ -60,8 +60,8 @@ const Field* Study::find(const std::string& key) const {
 }
 
 Result<Simplified> Study::run(const HeightField& field, const std::string& name, SimplifyOptions options) const {
-  options.order = Order::kGreedy;  // the report's own
-  options.progress = [](const Progress&) { return !cli::interrupted(); };
+  options.quality.order = Order::kGreedy;  // the report's own
+  options.run.progress = [](const Progress&) { return !cli::interrupted(); };
   Result<Simplified> result = simplify(field, options);
   if (cli::interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
   if (!result) return fail(result.error().kind, fmt::format("{}: {}", name, result.error().message));
@@ -99,8 +99,8 @@ Result<void> Study::add_plot(const std::string& name, const Plot& plot) {
 }
 
 SimplifyOptions exactly(std::uint64_t vertices, SimplifyOptions options) {
-  options.max_vertices = std::max<std::uint64_t>(vertices, 4);
-  options.best_of_budget = false;
+  options.goals.max_vertices = std::max<std::uint64_t>(vertices, 4);
+  options.strategy.best_of_budget = false;
   return options;
 }
 
@@ -108,7 +108,7 @@ EdgeRule scape_edges(EdgeScore score, double shape_threshold) { return {true, sc
 
 SimplifyOptions with_edges(const EdgeRule& edges) {
   SimplifyOptions options;
-  options.edges = edges;
+  options.strategy.edges = edges;
   return options;
 }
 

@@ -47,7 +47,7 @@ Result<std::vector<std::string>> count_vertices(Study& study, const char* style)
   std::vector<std::string> row{style};
   for (std::size_t k = 0; k < kColumns.size(); ++k) {
     SimplifyOptions options = with_edges(kColumns[k].edges);
-    options.max_error = 0;
+    options.goals.max_error = 0;
     const Result<Trial> trial = study.reach(*field, options);
     if (!trial) return tl::unexpected(trial.error());
     const bool known = k < kPyramidVertices.size();

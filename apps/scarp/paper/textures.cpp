@@ -57,8 +57,8 @@ Result<void> add_textured_terrain(Study& study) {
   };
   UniformGrid grid = uniform_grid(heights->cols, heights->rows, vertices);
   SimplifyOptions uniform;
-  uniform.script = std::move(grid.steps);
-  const std::uint64_t uniform_vertices = uniform.script.size();
+  uniform.strategy.script = std::move(grid.steps);
+  const std::uint64_t uniform_vertices = uniform.strategy.script.size();
   Result<void> added = add(fmt::format("uniform grid, {} × {}", grid.cols, grid.rows),
                            with_colors(heights->view(), *photo, 1, 0), std::move(uniform), uniform_vertices);
   for (const Emphasis& emphasis : kEmphases) {

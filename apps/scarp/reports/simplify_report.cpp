@@ -142,7 +142,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["rivers"] = describe_rivers(outcome.fitted.rivers);
   report["cliffs"] = describe_cliffs(plan.cliff, outcome.fitted.walls);
   report["ridges"] = describe_ridges(plan.ridges, outcome.fitted.ridges);
-  report["shape"] = describe_shape(plan.simplify.shape, outcome.simplified);
+  report["shape"] = describe_shape(plan.simplify.quality.shape, outcome.simplified);
   report["cutline"] = describe_cut(plan.cut, outcome.cut, outcome.simplified.cut_off);
   report["stopped_by"] = stop_name(outcome.simplified.stop);
   report["vertices"] = outcome.vertices;
@@ -188,7 +188,7 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
   text += lines_line(outcome.fitted.given_lines(), outcome.simplified.lines_laid, outcome.simplified.edits);
   text += cliffs_line(outcome.fitted.walls);
   text += ridges_line(outcome.fitted.ridges);
-  text += shape_line(plan.simplify.shape, outcome.simplified);
+  text += shape_line(plan.simplify.quality.shape, outcome.simplified);
   text += solid_line(plan, outcome);
   text += describe_errors(plan, outcome);
   if (outcome.psnr) text += summary_line("PSNR", fmt::format("{:.2f} dB", *outcome.psnr));

@@ -172,7 +172,7 @@ Result<void> survey(Session& session, GDALRasterBandH band, WindowReader& reader
     return true;
   };
   const Extent extent{info.path, field.cols, field.rows};
-  if (auto done = for_each_window(session, band, extent, options.progress, look); !done) return done;
+  if (auto done = for_each_window(session, band, extent, options.run.progress, look); !done) return done;
   info.has_range = true;
   field.sample_rounding = reader.findings().rounding;
   return finish_info(field, reader.findings().infinities);
@@ -182,7 +182,7 @@ Result<void> survey(Session& session, GDALRasterBandH band, WindowReader& reader
 Result<OwnedHeightField> keep_in_file(Session& session, OpenedRaster opened, const ReadOptions& options) {
   // Bands of rows are read one after the other: a file in blocks is decoded once if a row of its blocks, and what the
   // next one begins with, is still there.
-  widen_block_cache(options.memory_limit);
+  widen_block_cache(options.run.memory.limit);
   OwnedHeightField& field = opened.field;
   field.info.has_range = false;
   auto reader = opened.make_reader(options);
@@ -203,7 +203,7 @@ Result<OwnedHeightField> open_field(const std::string& path, const ReadOptions& 
   if (!opened) return tl::unexpected(opened.error());
   OwnedHeightField& field = opened->field;
   const double samples = static_cast<double>(field.cols) * static_cast<double>(field.rows);
-  const double memory = 5.0 * static_cast<double>(max_samples(options.memory_limit));
+  const double memory = 5.0 * static_cast<double>(max_samples(options.run.memory.limit));
   if (sizeof(float) * samples <= memory) return read_samples(session, std::move(*opened), options);
   const bool is_coded = options.decode == Decode::kNone && has_codes(opened->plan.band);
   if (!is_coded || 2 * samples > memory) return keep_in_file(session, std::move(*opened), options);

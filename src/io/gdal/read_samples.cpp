@@ -201,7 +201,7 @@ std::unique_ptr<WindowReader> make_band_reader(const BandPlan& plan) { return st
 Result<void> read_windows(Session& session, GDALRasterBandH band, WindowReader& reader, const ReadOptions& options,
                           OwnedHeightField& field, std::uint64_t& infinities) {
   const Extent extent{field.info.path, field.cols, field.rows};
-  auto done = for_each_window(session, band, extent, options.progress,
+  auto done = for_each_window(session, band, extent, options.run.progress,
                               [&](const Window& window) { return read_into(reader, window, field); });
   field.sample_rounding = reader.findings().rounding;
   infinities += reader.findings().infinities;
@@ -212,7 +212,7 @@ Result<void> read_bands(Session& session, std::span<const BandPlan> plans, const
                         std::span<OwnedHeightField> fields, std::uint64_t& infinities) {
   std::vector<BandReader> readers(plans.begin(), plans.end());
   const Extent extent{fields[0].info.path, fields[0].cols, fields[0].rows};
-  auto done = for_each_window(session, plans[0].band, extent, options.progress, [&](const Window& window) {
+  auto done = for_each_window(session, plans[0].band, extent, options.run.progress, [&](const Window& window) {
     bool all = true;
     for (std::size_t k = 0; all && k < readers.size(); ++k) all = read_into(readers[k], window, fields[k]);
     return all;
@@ -249,7 +249,7 @@ Result<void> read_codes(Session& session, const BandPlan& plan, const ReadOption
                           nullptr) == CE_None;
   };
   const Extent extent{field.info.path, field.cols, field.rows};
-  if (auto done = for_each_window(session, plan.band, extent, options.progress, read); !done) return done;
+  if (auto done = for_each_window(session, plan.band, extent, options.run.progress, read); !done) return done;
   for (const std::uint16_t code : codes) ++counts[code];
 
   BandReader reader(plan);

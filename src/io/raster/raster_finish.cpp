@@ -34,7 +34,7 @@ Result<void> check_raster_sides(const std::string& name, std::uint64_t cols, std
 Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std::uint64_t rows,
                                const ReadOptions& options, std::uint64_t bands) {
   if (auto checked = check_raster_sides(name, cols, rows); !checked) return checked;
-  const std::uint64_t limit = max_samples(options.memory_limit);
+  const std::uint64_t limit = max_samples(options.run.memory.limit);
   if (cols * rows > limit / bands) {
     return fail(
         ErrorKind::kInput,
@@ -43,7 +43,7 @@ Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std:
                     name, cols, rows, bands > 1 ? fmt::format(" of {} bands", bands) : "",
                     format_memory(5.0 * static_cast<double>(cols * rows) * static_cast<double>(bands)),
                     format_memory(5.0 * static_cast<double>(limit)),
-                    options.memory_limit != 0 ? "are allowed" : "are available"));
+                    options.run.memory.limit != 0 ? "are allowed" : "are available"));
   }
   return {};
 }

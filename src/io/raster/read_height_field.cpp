@@ -34,12 +34,12 @@ Reader find_reader(const std::string& path, std::vector<std::uint8_t>& head) {
 Result<void> check_whole_file(const std::string& path, const ReadOptions& options) {
   std::error_code ignored;
   const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
-  if (ignored || options.memory_limit == 0 || bytes <= options.memory_limit / 3) return {};
+  if (ignored || options.run.memory.limit == 0 || bytes <= options.run.memory.limit / 3) return {};
   return fail(ErrorKind::kInput,
               fmt::format("{}: PGM and STM are read as a whole, which needs {} of memory, but only {} are allowed for "
                           "samples: allow more, or convert it to a format that is read by windows, such as GeoTIFF",
                           path, format_memory(3 * static_cast<double>(bytes)),
-                          format_memory(static_cast<double>(options.memory_limit))));
+                          format_memory(static_cast<double>(options.run.memory.limit))));
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOp
   if (find_reader(path, head) == Reader::kGdal) return open_gdal_raster(path, options);
   if (auto fits = check_whole_file(path, options); !fits) return tl::unexpected(fits.error());
   ReadOptions whole = options;
-  whole.memory_limit = 0;
+  whole.run.memory.limit = 0;
   return read_height_field(path, whole);
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + path);

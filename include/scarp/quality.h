@@ -1,0 +1,65 @@
+// How good the mesh is to be for its goals: the order of insertion, the work after it, where vertices may lie, and the
+// shapes of triangles.
+#pragma once
+
+#include <optional>
+
+#include "scarp/shape.h"
+
+#pragma GCC visibility push(default)
+
+namespace scarp {
+
+/// In which order candidates are inserted.
+enum class Order {
+  kAuto,      ///< kDominant where it applies, else kGreedy
+  kGreedy,    ///< the worst sample of the whole raster first, as the paper's Algorithm III
+  kDominant,  ///< the worst sample of its neighbourhood first, tile by tile: many times faster, on all threads, with as
+              ///< many vertices. For one error, on heights alone, with Delaunay edges; see simplify().
+};
+
+/// How much work follows refinement: for a smaller mesh that satisfies the same bound; with a budget, for a better mesh
+/// of the same size.
+enum class Effort {
+  kAuto,  ///< kNormal if min_shape or the like asks for it, or if it is possible, the order is not set to greedy, and
+          ///< there is neither a memory limit nor a per-sample tolerance; else kFast
+  kFast,    ///< none: the refined mesh stays
+  kNormal,  ///< removes vertices while every sample stays within the bound: half the triangles, for a few times the
+            ///< time. Works strip by strip if samples are not in memory; see simplify().
+  kHigh,  ///< removes more, and repairs broken bounds by flipping edges and moving vertices (see Vertices): a third of
+          ///< the triangles, for some ten times the time of the greedy order. Possible where kNormal is.
+  kMax,   ///< the same, deeper, for some hundred times the time. Ends when Run::is_time_up says so, or when there is
+          ///< nothing left to gain. Possible where kNormal is.
+};
+
+/// Where vertices may be.
+enum class Vertices {
+  kAuto,     ///< kFree where kHigh and kMax can move them: in affine frames, without channels; else kSamples
+  kSamples,  ///< on samples, with their heights
+  kFree,     ///< between samples too, in steps of an eighth, with float32 heights of their own. For kHigh and kMax, in
+             ///< affine frames, on heights alone; vertices on outlines of nodata, and corners, stay on samples
+};
+
+struct Quality {
+  /// kAuto is kNormal where min_shape, Run::is_time_up or Objective::kRms ask for more than refinement. DEFAULT: kAuto.
+  Effort effort = Effort::kAuto;
+  /// kFree fails with kUsage below kHigh. DEFAULT: kAuto.
+  Vertices vertices = Vertices::kAuto;
+  /// Floor of the shapes of triangles, height over longest edge, 0 … 0.5, 0 for none: no vertex is removed or moved, no
+  /// edge flipped if that leaves a triangle below it, unless it takes away one that is as bad. Triangles of refinement,
+  /// and those that the outline of nodata forces, may lie below.
+  /// DEFAULT: 0.1 where vertices are free, else 0.
+  std::optional<double> min_shape = std::nullopt;
+  /// Angles, edge lengths and their growth, for simulations: vertices are added until they hold, then removed as far as
+  /// they still do (with a grade the other way round). With a budget an error is searched for, as with lines. Fails
+  /// with kUsage without a max error or a budget, for goals out of range, and for a budget below what they need.
+  /// DEFAULT: none.
+  ShapeGoals shape = {};
+  /// kAuto is kDominant towards an error where that order has no conflicts (conflicts.h), else kGreedy. kDominant with
+  /// a budget searches for the error whose mesh fits. DEFAULT: kAuto.
+  Order order = Order::kAuto;
+};
+
+}  // namespace scarp
+
+#pragma GCC visibility pop

@@ -1,0 +1,43 @@
+// How a call runs: threads, memory, progress, and what may end it early. Nothing here is part of the result, but for
+// an early end.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "scarp/progress.h"
+
+#pragma GCC visibility push(default)
+
+namespace scarp {
+
+/// Bytes of memory.
+struct Memory {
+  /// Bytes that the whole process is to stay under; 0: no limit. Strips, threads and the blocks of the file are chosen
+  /// to fit. What cannot fit is refused: before the work begins, or as soon as the mesh outgrows the limit. What a call
+  /// takes is estimated, not counted. DEFAULT: 0.
+  std::uint64_t limit = 0;
+  /// The part of the limit that others take: the program, the samples or the cache of their file. DEFAULT: 0.
+  std::uint64_t taken = 0;
+  /// Bytes a vertex that the caller will take beside the mesh, to write it. Read by simplify() alone. DEFAULT: 80, more
+  /// than GLB takes.
+  std::uint64_t per_vertex = 80;
+};
+
+/// The same for all calls; each function tells which members it reads, where it does not read all.
+struct Run {
+  int threads = 0;  ///< 0: all cores. Never changes the result. DEFAULT: 0.
+  Memory memory = {};
+  ProgressCallback progress = {};
+  /// Read by simplify() with more than fast effort: asked often, on any thread; once true, true for good. Then vertices
+  /// are no longer removed, and the mesh so far, which keeps the promise, is the result: it depends on the time. With a
+  /// budget the search then ends with the best mesh so far. DEFAULT: never.
+  std::function<bool()> is_time_up = {};
+  /// Asked and obeyed in the same way, for somebody who stops waiting: it is no time to use up, so max effort does not
+  /// go on until then. Not asked with a budget. DEFAULT: never.
+  std::function<bool()> is_enough = {};
+};
+
+}  // namespace scarp
+
+#pragma GCC visibility pop
