@@ -41,7 +41,8 @@ enum class Vertices {
 };
 
 struct Quality {
-  /// kAuto is kNormal where min_shape, Run::is_time_up or Objective::kRms ask for more than refinement. DEFAULT: kAuto.
+  /// kAuto is kNormal where min_shape, Run::is_time_up or Objective::kRms ask for more than refinement, and for
+  /// tolerances beside a budget; kFast for tolerances alone. DEFAULT: kAuto.
   Effort effort = Effort::kAuto;
   /// kFree fails with kUsage below kHigh. DEFAULT: kAuto.
   Vertices vertices = Vertices::kAuto;

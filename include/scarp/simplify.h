@@ -77,6 +77,13 @@ struct Simplified {
   std::uint64_t ignored = 0;      ///< valid samples without a bound: by the script, by weight 0, by infinite tolerance
   double weighted_max_error = 0;  ///< largest weight · |error| (with a mask), |error| / tolerance (with tolerances)
   double weighted_rmse = 0;       ///< root of the mean square of the same
+  /// What a search for a budget's mesh makes small, of the samples with a bound: |error|, the norm with channels,
+  /// weight · |error| with a mask; with tolerances (|error| + field.sample_rounding) / min(tolerance, max_error).
+  double judged_max_error = 0;
+  double judged_rmse = 0;  ///< root of the mean square of the same
+  /// With tolerances: times this, all bounds hold, max_error too. 1 where they hold as they are; else what the search
+  /// found, or the largest judged error of insertion that a budget stopped (+infinity: a tolerance of 0 is not kept).
+  double tolerance_factor = 1;
   std::vector<Measurement> channel_measurements;  ///< of each channel, in its own units; without topology
   double combined_max_error = 0;                  ///< with channels: the largest norm
   double combined_rmse = 0;                       ///< root of the mean square of the same
@@ -87,12 +94,14 @@ struct Simplified {
   bool is_cut_short = false;                      ///< by Run::is_time_up or is_enough
   std::vector<SampleEdit> edits;                  ///< by breaklines, in raster order
   std::uint64_t lines_laid = 0;                   ///< breaklines of which some part lies in the raster
-  double lines_for = 0;                           ///< the max error that lines were laid for, given or found
-  std::uint64_t cut_off = 0;                      ///< valid samples outside the cutline
-  std::optional<ShapeReport> shape;               ///< of `mesh`, where Quality::shape asks for something
-  std::vector<Pass> passes;                       ///< in the order in which they ended
-  double seconds_refine = 0;                      ///< outline, refinement and freezing
-  double seconds_measure = 0;                     ///< the proof
+  /// The max error that lines were laid for, given or found; without one, tolerance_factor times the largest tolerance
+  /// that is finite.
+  double lines_for = 0;
+  std::uint64_t cut_off = 0;         ///< valid samples outside the cutline
+  std::optional<ShapeReport> shape;  ///< of `mesh`, where Quality::shape asks for something
+  std::vector<Pass> passes;          ///< in the order in which they ended
+  double seconds_refine = 0;         ///< outline, refinement and freezing
+  double seconds_measure = 0;        ///< the proof
 };
 
 /// Insertion of the worst samples (Garland & Heckbert 1995) into a constrained Delaunay triangulation of the valid
@@ -129,6 +138,12 @@ struct Simplified {
 /// triangles jump because many samples share an error. What the objective names is never larger than in the greedy mesh
 /// for the same budgets. A max_error that fits is a goal of its own, and so is 0 where all samples fit (kExact). With
 /// lines or shapes, in the dominant order, and where the field has a source, so does fast effort.
+///
+/// Tolerances beside a budget: if they fit, with max_error if that is given, they are the goal that ends the run
+/// (StopReason::kMaxError). Else one factor above 1 is searched for that multiplies them all, and max_error; a
+/// tolerance of 0 stays 0. What is made small is the largest |error| / tolerance, or with Objective::kRms its RMS over
+/// all samples that have one, and |error| <= Simplified::tolerance_factor · tolerance holds at every valid sample. A
+/// mask divides the max error that is searched for by its weights. Ignored samples count in neither.
 ///
 /// Memory: at most 5 bytes a sample (the caller's included) plus 120 bytes a vertex and some
 /// 20 MB. In the dominant order it is 4.6 bytes a sample plus 72 a vertex until the mesh is frozen, and a tile's

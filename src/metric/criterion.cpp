@@ -28,13 +28,18 @@ tl::unexpected<Error> usage(std::string message) { return fail(ErrorKind::kUsage
 
 }  // namespace
 
+bool has_tolerances(const SimplifyOptions& options) {
+  return !options.tolerances.values.empty() || options.tolerances.source != nullptr;
+}
+
 Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOptions& options, const Raster& raster,
-                                  double aim) {
+                                  double aim, double factor) {
   Criterion criterion;
   criterion.field_ = &field;
   criterion.options_ = &options;
   criterion.raster_ = raster;
   criterion.aim_ = aim;
+  criterion.factor_ = factor;
   for (const auto check : {&Criterion::check_weights, &Criterion::check_strategy, &Criterion::check_channels}) {
     if (auto sound = (criterion.*check)(); !sound) return tl::unexpected(sound.error());
   }
@@ -150,14 +155,13 @@ Result<void> Criterion::set_bounds() {
   const auto ignores = [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; };
   const bool has_ignored = std::any_of(options_->strategy.script.begin(), options_->strategy.script.end(), ignores);
   if (options_->tolerances.source != nullptr)
-    source_bounds_ = std::make_unique<SourceBounds>(*options_->tolerances.source,
-                                                    options_->goals.max_error.value_or(HUGE_VAL), rule());
+    source_bounds_ = std::make_unique<SourceBounds>(*options_->tolerances.source, most(), rule(), factor_);
   if (options_->tolerances.weights.empty() && options_->tolerances.values.empty() && !has_ignored) return {};
   const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
   bounds_.resize(samples);
   for (std::size_t i = 0; i < samples; ++i) {
     double asked = options_->goals.max_error.value_or(options_->tolerances.values.empty() ? 0 : HUGE_VAL);
-    if (!options_->tolerances.values.empty()) asked = std::min(asked, double{options_->tolerances.values[i]});
+    if (!options_->tolerances.values.empty()) asked = std::min(asked, factor_ * options_->tolerances.values[i]);
     if (!options_->tolerances.weights.empty()) {
       const double weight = options_->tolerances.weights[i];
       asked = weight > 0 ? divide_down(asked, weight) : HUGE_VAL;

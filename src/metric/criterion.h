@@ -1,6 +1,7 @@
 // The criterion of errors from the options and the field, prepared for the engine and for the proof.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,6 +17,9 @@
 
 namespace scarp {
 
+/// Whether samples have tolerances of their own, in memory or in a source.
+bool has_tolerances(const SimplifyOptions& options);
+
 /// Owns the arrays of the engine's error metric: at most 12 bytes a sample, none for plain heights and for tolerances
 /// read in windows.
 class Criterion {
@@ -23,14 +27,21 @@ class Criterion {
   /// Checks mask, tolerance, channels and importance against the raster. Fails with kUsage, kInput (a channel without
   /// value at a sample, named) and kPromise (a tolerance below the rounding of the samples). `field`, `options` and the
   /// raster's samples stay alive. `aim`: the share of the bounds that the judge holds to where heights alone have some.
+  /// `factor`: of all tolerances.
   static Result<Criterion> make(const HeightField& field, const SimplifyOptions& options, const Raster& raster,
-                                double aim = 1);
+                                double aim = 1, double factor = 1);
 
   const Judge& judge() const { return *judge_; }
   /// Bound of the combined error where no sample has one of its own; nothing without a goal for errors.
   std::optional<double> bound() const { return bound_; }
   /// What the judge holds to in place of bound().
   double aim() const { return aim_ * bound_.value_or(0); }
+  /// Of all tolerances.
+  double factor() const { return factor_; }
+  /// The max error, of all samples; +infinity for none.
+  double most() const { return options_->goals.max_error.value_or(HUGE_VAL); }
+  /// What bounds leave for the rounding of samples.
+  double reserve() const { return field_->sample_rounding; }
   /// Bounds of the samples; empty where bound() holds for all.
   std::span<const float> bounds() const { return bounds_; }
   /// Where they are read in windows; null: the above say all.
@@ -45,9 +56,7 @@ class Criterion {
   std::uint64_t ignored() const { return ignored_; }
   /// The fields whose errors count.
   std::vector<JudgedField> judged_fields() const;
-  bool has_error_goal() const {
-    return bound_.has_value() || !options_->tolerances.values.empty() || options_->tolerances.source != nullptr;
-  }
+  bool has_error_goal() const { return bound_.has_value() || has_tolerances(*options_); }
 
  private:
   Result<void> check_weights() const;
@@ -62,7 +71,7 @@ class Criterion {
   const SimplifyOptions* options_ = nullptr;
   Raster raster_;
   std::optional<double> bound_;
-  double aim_ = 1;
+  double aim_ = 1, factor_ = 1;
   std::vector<float> bounds_, aims_, factors_;
   std::unique_ptr<SourceBounds> source_bounds_;
   std::uint64_t ignored_ = 0;

@@ -7,7 +7,9 @@ namespace scarp {
 
 bool SourceBounds::has_most() const { return !std::isinf(most_); }
 
-float SourceBounds::bound(float tolerance) const { return rule_.bound(std::min(most_, double{tolerance})); }
+double SourceBounds::asked(float tolerance) const { return std::min(most_, factor_ * tolerance); }
+
+float SourceBounds::bound(float tolerance) const { return rule_.bound(asked(tolerance)); }
 
 Result<void> SourceBounds::read_aims(Point first, std::int32_t cols, std::int32_t rows, float* aims,
                                      std::ptrdiff_t stride) const {
@@ -26,9 +28,8 @@ Result<void> SourceBounds::read(Point first, std::int32_t cols, std::int32_t row
       float& value = aims[y * stride + x];
       const Point at{first.x + x, first.y + y};
       if (!(value >= 0)) return tl::unexpected(refuse_value("the tolerance", at, value));
-      const double asked = std::min(most_, double{value});
-      if (samples != nullptr && asked < rule_.reserve && samples->is_valid({x, y}))
-        return tl::unexpected(rule_.refuse(at, asked));
+      if (samples != nullptr && asked(value) < rule_.reserve && samples->is_valid({x, y}))
+        return tl::unexpected(rule_.refuse(at, asked(value)));
       value = rule_.aim_at(bound(value));
     }
   }

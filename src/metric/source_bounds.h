@@ -15,9 +15,10 @@ namespace scarp {
 
 class SourceBounds {
  public:
-  /// `tolerances`: what was asked for at each sample, alive. `most`: beside that; +infinity for none.
-  SourceBounds(const SampleSource& tolerances, double most, const BoundRule& rule)
-      : tolerances_(tolerances), most_(most), rule_(rule) {}
+  /// `tolerances`: what was asked for at each sample, alive; `factor` times that counts. `most`: beside that; +infinity
+  /// for none.
+  SourceBounds(const SampleSource& tolerances, double most, const BoundRule& rule, double factor = 1)
+      : tolerances_(tolerances), most_(most), factor_(factor), rule_(rule) {}
 
   /// What refinement aims at in a window, `stride` floats a row. Fails with kUsage where a tolerance is negative or
   /// NaN, and as the source does.
@@ -37,9 +38,10 @@ class SourceBounds {
  private:
   Result<void> read(Point first, std::int32_t cols, std::int32_t rows, const Raster* samples, float* aims,
                     std::ptrdiff_t stride) const;
+  double asked(float tolerance) const;
 
   const SampleSource& tolerances_;
-  double most_;
+  double most_, factor_;
   BoundRule rule_;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fit/fit.h"
+#include "metric/criterion.h"
 #include "shape/shape_refinement.h"
 
 namespace scarp {
@@ -21,8 +22,7 @@ MemoryBudget memory_budget(const HeightField& field, const SimplifyOptions& opti
 }
 
 Result<void> check_goals(const SimplifyOptions& options) {
-  const bool has_tolerance = !options.tolerances.values.empty() || options.tolerances.source != nullptr;
-  if (!options.goals.max_error && !options.goals.max_triangles && !options.goals.max_vertices && !has_tolerance)
+  if (!options.goals.max_error && !options.goals.max_triangles && !options.goals.max_vertices && !has_tolerances(options))
     return fail(ErrorKind::kUsage, "no goal given: set max_error, max_triangles, max_vertices or tolerance");
   return check_max_error(options.goals.max_error);
 }

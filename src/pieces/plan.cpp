@@ -5,7 +5,7 @@
 
 namespace scarp {
 
-Plan::Plan(const HeightField& on, const SimplifyOptions& asked)
+Plan::Plan(const HeightField& on, const SimplifyOptions& asked, const Scale& by)
     : field(on),
       options(asked),
       is_streamed(on.samples == nullptr),
@@ -22,6 +22,7 @@ Plan::Plan(const HeightField& on, const SimplifyOptions& asked)
       lattice_steps(place_steps(on, asked)),
       is_exact(places_are_exact(on, asked, lattice_steps)),
       aim(aim_of(on, asked)),
+      scale(by),
       memory(memory_budget(on, asked)) {}
 
 }  // namespace scarp

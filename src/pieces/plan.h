@@ -9,10 +9,16 @@
 
 namespace scarp {
 
+/// What a search for the mesh of a budget asks of a run beside its options.
+struct Scale {
+  double factor = 1;      ///< of all tolerances
+  double line_error = 0;  ///< what lines follow the raster by, where there is no max error
+};
+
 /// A run towards its goals. The field and the options stay alive.
 struct Plan {
   /// REQUIRES: checked options with a chosen effort.
-  Plan(const HeightField& field, const SimplifyOptions& options);
+  Plan(const HeightField& field, const SimplifyOptions& options, const Scale& scale = {});
 
   const HeightField& field;
   const SimplifyOptions& options;
@@ -29,6 +35,7 @@ struct Plan {
   std::int32_t lattice_steps;  ///< lattice points between two samples that vertices may take, and one of these
   bool is_exact;               ///< the mesh holds each of these points exactly
   double aim;                  ///< the share of every bound at which the engine aims
+  Scale scale;
   MemoryBudget memory;
 };
 

@@ -52,7 +52,8 @@ class StripWork {
 
   /// Lines that come first, and tolerances without a bound for all: tiles are of no use there.
   bool makes_whole(std::int32_t first, std::int32_t rows) const {
-    return lines_ ? lines_->makes_whole(first, rows) : tolerances_ != nullptr && !tolerances_->has_most();
+    const bool has_most = tolerances_ == nullptr || tolerances_->has_most();
+    return !has_most || (lines_ && lines_->makes_whole(first, rows));
   }
 
   Result<void> work_on(Piece& strip, const std::function<bool(double, std::uint64_t)>& progress) {

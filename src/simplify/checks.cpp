@@ -8,6 +8,7 @@
 
 #include "lines/breaklines.h"
 #include "pieces/effort.h"
+#include "pieces/goals.h"
 #include "scarp/cliffs.h"
 #include "scarp/conflicts.h"
 #include "scarp/ridges.h"
@@ -51,6 +52,21 @@ Result<void> check_shape(const HeightField& field, const ShapeGoals& shape) {
 
 }  // namespace
 
+Result<void> check_values(const HeightField& field, const SimplifyOptions& options) {
+  if (auto goals = check_goals(options); !goals) return goals;
+  if (!(options.domain.outline_tolerance >= 0 && std::isfinite(options.domain.outline_tolerance)))
+    return usage(
+        fmt::format("outline_tolerance must be a finite number of at least 0, not {}", options.domain.outline_tolerance));
+  if (options.goals.max_error && *options.goals.max_error < field.sample_rounding)
+    return fail(
+        ErrorKind::kPromise,
+        fmt::format(
+            "a max error of {} cannot be kept: the raster's values do not fit float32 and are rounded by up to {}; "
+            "ask for at least that much",
+            *options.goals.max_error, field.sample_rounding));
+  return {};
+}
+
 Result<void> check_conflicts(const HeightField& field, const SimplifyOptions& options) {
   const std::vector<Conflict> conflicts = find_conflicts(field, options);
   if (conflicts.empty()) return {};
@@ -86,11 +102,13 @@ Effort choose_effort(const HeightField& field, const SimplifyOptions& options) {
   const Fields set = fields_of(field, options);
   if (set.has_any(Fields(Field::kMinShape, Field::kTimeLimit, Field::kObjectiveRms))) return Effort::kNormal;
   // Strategies are asked for to see what they do, so removal stays away from them, and from bounds of samples, which
-  // insertion spends where they are small.
-  constexpr Fields kReasonsForFast(Field::kMask, Field::kTolerance, Field::kToleranceSource, Field::kScriptIgnores,
-                                   Field::kScriptInserts, Field::kOrderGreedy, Field::kImportance, Field::kAlgorithm,
-                                   Field::kBatch, Field::kDataEdges, Field::kLastOfBudget, Field::kMemoryLimit);
-  return set.has_any(kReasonsForFast) ? Effort::kFast : Effort::kNormal;
+  // insertion spends where they are small. Tolerances that a budget has no room for are searched for.
+  constexpr Fields kReasonsForFast(Field::kMask, Field::kScriptIgnores, Field::kScriptInserts, Field::kOrderGreedy,
+                                   Field::kImportance, Field::kAlgorithm, Field::kBatch, Field::kDataEdges,
+                                   Field::kLastOfBudget, Field::kMemoryLimit);
+  constexpr Fields kTolerances(Field::kTolerance, Field::kToleranceSource);
+  const bool is_fast = set.has_any(kReasonsForFast) || (set.has_any(kTolerances) && !has_budget(options));
+  return is_fast ? Effort::kFast : Effort::kNormal;
 }
 
 }  // namespace scarp

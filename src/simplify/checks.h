@@ -6,6 +6,9 @@
 
 namespace scarp {
 
+/// Fails with kUsage for goals out of range or none, with kPromise for a max error below the rounding of the samples.
+Result<void> check_values(const HeightField& field, const SimplifyOptions& options);
+
 /// Fails with kUsage where settings do not go together, by the table of scarp/conflicts.h.
 Result<void> check_conflicts(const HeightField& field, const SimplifyOptions& options);
 

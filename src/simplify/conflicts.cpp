@@ -14,7 +14,6 @@ namespace {
 
 constexpr Fields kBudgets(Field::kMaxTriangles, Field::kMaxVertices);
 constexpr Fields kTolerances(Field::kTolerance, Field::kToleranceSource);
-constexpr Fields kBounds = kTolerances | Fields(Field::kMask, Field::kScriptIgnores);
 constexpr Fields kLines(Field::kBreaklines, Field::kBreaklinesFor, Field::kCutline);
 constexpr Fields kLaidFirst(Field::kWalls, Field::kRidges);
 constexpr Fields kShapes(Field::kShape);
@@ -98,8 +97,6 @@ constexpr ConflictRule kRules[] = {
      Where::kAlways,
      "walls and ridges are inserted before refinement, which then ranks samples by their errors"},
     {Fields(Field::kWalls), kShapes, {}, Where::kAlways, "the two lines of a wall lie too close together for angles"},
-    {kLines | kShapes, kBudgets, kBounds, Where::kAlways,
-     "such a budget is met by one error for all samples, and here samples have bounds of their own"},
 
     {kEfforts | kAsksForEffort,
      Fields(Field::kDataEdges),
@@ -124,19 +121,6 @@ constexpr ConflictRule kRules[] = {
      "free vertices need a frame in which the grid is regular"},
     {Fields(Field::kTimeLimit), kBudgets, Fields(Field::kEffortMax), Where::kAlways,
      "max effort takes all of the time for one mesh, and a budget is met by several"},
-    {Fields(Field::kObjectiveRms),
-     kTolerances | Fields(Field::kScriptIgnores),
-     {},
-     Where::kAlways,
-     "the RMSE is lowered by a search for one error, and here samples have bounds of their own"},
-    {kEfforts | kAsksForEffort, kBudgets, kTolerances | Fields(Field::kScriptIgnores), Where::kAlways,
-     "an effort meets a budget by one error for all samples, and here samples have bounds of their own"},
-
-    {Fields(Field::kToleranceSource),
-     kBudgets,
-     {},
-     Where::kAlways,
-     "a streamed budget is met by one error for all samples"},
     {Fields(Field::kSource),
      Fields(Field::kOrderGreedy),
      {},

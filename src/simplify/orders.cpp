@@ -37,7 +37,8 @@ Result<std::optional<Tiled>> refine_tiles(const Plan& plan, const Criterion& cri
       return !reporter.due() || reporter.report("refine", share, vertices, 0);
     };
   }
-  if (plan.finishes_strips) work_by_strips(plan, lines, criterion.source_bounds(), criterion.aim(), strips, tiles);
+  const double threshold = criterion.bound() ? criterion.aim() : plan.aim * plan.scale.line_error;
+  if (plan.finishes_strips) work_by_strips(plan, lines, criterion.source_bounds(), threshold, strips, tiles);
   if (!plan.is_streamed || lines == nullptr || !lines->cut) return refine_tiled(field, tiles);
   const CutSource near(*field.source, lines->cut->rows);
   HeightField seen = field;
@@ -86,7 +87,7 @@ Result<Simplified> run_by_tiles(const Plan& plan, LineWork* lines) {
     if (!cleaned) return tl::unexpected(cleaned.error());
     raster = samples.emplace(std::move(*cleaned)).raster();
   }
-  const auto criterion = Criterion::make(field, plan.options, raster, plan.aim);
+  const auto criterion = Criterion::make(field, plan.options, raster, plan.aim, plan.scale.factor);
   if (!criterion) return tl::unexpected(criterion.error());
   const std::uint64_t bytes = proof_bytes(field, plan.options);
   if (auto fits = plan.memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
@@ -121,7 +122,7 @@ Result<Simplified> run_greedily(const Plan& plan, LineWork* lines) {
   }
   auto samples = Samples::of(plan.field);
   if (!samples) return tl::unexpected(samples.error());
-  const auto criterion = Criterion::make(plan.field, plan.options, samples->raster(), plan.aim);
+  const auto criterion = Criterion::make(plan.field, plan.options, samples->raster(), plan.aim, plan.scale.factor);
   if (!criterion) return tl::unexpected(criterion.error());
   return run_passes(plan, samples->raster(), *criterion, graph_of(lines), std::nullopt);
 }

@@ -105,6 +105,20 @@ struct AskedOfRow {
     if (!mask.empty()) return mask[x] * error;
     return error == 0 ? 0 : error / tolerance[x];
   }
+  bool is_bounded(std::size_t x) const { return bounds.empty() || !std::isinf(bounds[x]); }
+};
+
+/// The error of a sample as a share of what was asked for, before the search for a budget's mesh multiplied it.
+struct ShareOfBound {
+  double most = HUGE_VAL;  ///< beside the tolerance
+  double reserve = 0;      ///< for the rounding of samples
+  double noise = 0;        ///< an error that the judge's own rounding makes
+
+  double of(double error, float tolerance) const {
+    const double asked = std::min(most, double{tolerance});
+    if (asked > 0) return (error + reserve) / asked;
+    return error <= noise ? 0 : HUGE_VAL;
+  }
 };
 
 /// Sums up norms of errors, row by row: weighted errors, the largest norm, who breaks a bound. The rows' errors and
@@ -117,9 +131,10 @@ class SampleVerdict {
       : bound_(criterion.bound()),
         doubt_((exact ? 1 : -1) * 0x1p-24 * (3 + static_cast<double>(fields))),
         arithmetic_(exact ? kArithmetic * largest_height(result.mesh) : 0),
+        share_{criterion.most() / criterion.factor(), criterion.reserve(), arithmetic_},
         result_(result),
         proof_(proof) {
-    result_.combined_max_error = result_.weighted_max_error = 0;
+    result_.combined_max_error = result_.weighted_max_error = result_.judged_max_error = 0;
   }
 
   void add(int row, std::span<const float> norms, const AskedOfRow& asked) {
@@ -135,6 +150,10 @@ class SampleVerdict {
         result_.weighted_max_error = std::max(result_.weighted_max_error, value);
         squares_ += value * value;
       }
+      if (asked.is_bounded(x))
+        judge(!asked.tolerance.empty() ? share_.of(error, asked.tolerance[x])
+              : has_weights            ? asked.weigh(x, error)
+                                       : error);
       if (result_.stop != StopReason::kMaxError) continue;
       const double bound = asked.bounds.empty() ? *bound_ : double{asked.bounds[x]};
       if (error <= bound + (doubt_ * error + arithmetic_)) continue;
@@ -149,15 +168,23 @@ class SampleVerdict {
     const auto samples = static_cast<double>(std::max<std::uint64_t>(count_, 1));
     result_.weighted_rmse = std::sqrt(squares_ / samples);
     result_.combined_rmse = std::sqrt(combined_squares_ / samples);
+    result_.judged_rmse = std::sqrt(judged_squares_ / static_cast<double>(std::max<std::uint64_t>(judged_, 1)));
   }
 
  private:
+  void judge(double value) {
+    result_.judged_max_error = std::max(result_.judged_max_error, value);
+    judged_squares_ += value * value;
+    ++judged_;
+  }
+
   std::optional<double> bound_;
   double doubt_, arithmetic_;
+  ShareOfBound share_;
   Simplified& result_;
   Proof& proof_;
-  double squares_ = 0, combined_squares_ = 0;
-  std::uint64_t count_ = 0;
+  double squares_ = 0, combined_squares_ = 0, judged_squares_ = 0;
+  std::uint64_t count_ = 0, judged_ = 0;
 };
 
 /// Of all that was tallied.
@@ -265,6 +292,12 @@ std::string describe_breach(const Measurement& m, const SimplifyOptions& options
                      options.goals.max_error.value_or(0), m.max_error_at[0], m.max_error_at[1], m.max_error);
 }
 
+/// Errors are judged as float32.
+double factor_of(const Simplified& result, const Criterion& criterion) {
+  if (result.stop == StopReason::kMaxError) return criterion.factor();
+  return std::max(1.0, result.judged_max_error * (1 + 0x1p-22));
+}
+
 }  // namespace
 
 std::uint64_t proof_bytes(const HeightField& field, const SimplifyOptions& options) {
@@ -309,12 +342,17 @@ Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, co
   }
   if (by_sample) {
     if (m.uncovered > 0 && result.stop == StopReason::kMaxError) proof.broken = describe_breach(m, options);
-  } else if (result.stop == StopReason::kMaxError) {
+  } else {
+    result.judged_max_error = m.max_error;
+    result.judged_rmse = m.rmse;
     // The judge's own double arithmetic rounds: the exact proof is the engine's, this is the independent check of it.
-    const double rounding = kArithmetic * (*criterion.bound() + largest_height(result.mesh));
-    if (!(m.max_error <= *criterion.bound() + rounding) || m.uncovered > 0) proof.broken = describe_breach(m, options);
+    const bool is_promised = result.stop == StopReason::kMaxError;
+    const double rounding = kArithmetic * (criterion.bound().value_or(0) + largest_height(result.mesh));
+    if (is_promised && (!(m.max_error <= *criterion.bound() + rounding) || m.uncovered > 0))
+      proof.broken = describe_breach(m, options);
   }
   proof.kept = proof.broken.empty();
+  if (has_tolerances(options)) result.tolerance_factor = factor_of(result, criterion);
   return proof;
 }
 

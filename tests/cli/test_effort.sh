@@ -118,10 +118,22 @@ succeeds "$scarp" simplify "$dem" inserted.glb -e 20 --effort normal --script in
 succeeds "$scarp" measure "$dem" inserted.glb --fail-above 20
 succeeds "$scarp" simplify "$dem" masked.glb -t 2000 --mask weights.tif --effort normal --report masked.json --overwrite
 holds "$(json masked.json triangles) <= 2000"
-for bounds in "--tolerance falling.tif" "--script ignored.txt"; do
-  # shellcheck disable=SC2086
-  refuses 1 "by one error for all samples" "$scarp" simplify "$dem" never.glb -t 2000 --effort high $bounds
+succeeds "$scarp" simplify "$dem" masked.glb -t 2000 --script ignored.txt --effort high --report masked.json --overwrite
+holds "$(json masked.json triangles) <= 2000"
+
+# A budget that has no room for the tolerances: one factor, smaller with every effort, that every sample keeps.
+last=1e9
+for effort in fast normal high; do
+  succeeds "$scarp" simplify "$dem" few.glb -t 2000 --tolerance falling.tif --effort "$effort" --report few.json --overwrite
+  holds "$(json few.json triangles) <= 2000"
+  factor=$(json few.json tolerance_factor)
+  holds "1 < $factor && $factor < 0.95 * $last"
+  holds "$(json few.json weighted_max_error) <= $factor"
+  last=$factor
 done
+succeeds "$scarp" simplify "$dem" few.glb -t 2000 --tolerance falling.tif --report few.json --overwrite
+[ "$(json few.json strategy effort)" = '"normal"' ] || fail "tolerances beside a budget take $(json few.json strategy effort)"
+grep -q 'kept: tolerances times ' "$logs/out" || fail "the summary does not tell the factor"
 
 # What removal has no place for is named.
 refuses 1 "--effort normal cannot be combined with --edges data" "$scarp" simplify "$dem" never.glb -e 20 --effort normal --edges data

@@ -69,5 +69,11 @@ refuses 1 "needs a budget" "$scarp" simplify "$dem" never.glb -e 20 --effort hig
 refuses 1 "--effort fast cannot be combined with --objective rms" "$scarp" simplify "$dem" never.glb -t 3000 --effort fast --objective rms
 refuses 1 "--objective" "$scarp" simplify "$dem" never.glb -t 3000 --effort high --objective least
 refuses 1 "1 triangle is too few" "$scarp" simplify "$dem" never.glb -t 1 --effort high
-refuses 1 "--effort high cannot be combined with --max-triangles beside --tolerance" \
-  "$scarp" simplify "$dem" never.glb -t 3000 --effort high --tolerance "$dem"
+
+# With tolerances the objective is of |error| / tolerance.
+make_raster rising.tif '1 + 9 * col / 402'
+for objective in max rms; do
+  succeeds "$scarp" simplify "$dem" shares.glb -t 3000 --tolerance rising.tif --objective "$objective" --report "$objective.json" --overwrite
+done
+holds "$(json rms.json weighted_rmse) < $(json max.json weighted_rmse)"
+holds "1 < $(json max.json weighted_max_error) && $(json max.json weighted_max_error) <= $(json max.json tolerance_factor)"

@@ -2,7 +2,7 @@
 # Budgets of meshes with lines, water, walls and cutlines: they are kept, the mesh is that of the error that was found, and
 # what is too small is refused with the least that will do.
 source "$(dirname "$0")/lib.sh"
-need python3
+need python3 gdal_translate
 
 succeeds "$scarp" generate smooth 120 90 hills.tif --seed 3 -q
 python3 - <<'PYTHON'
@@ -58,6 +58,11 @@ succeeds "$scarp" simplify hills.tif error.obj -t 5000 -e 40 --breaklines soft.g
 [ "$(json r.json stopped_by)" = '"max_error"' ] || fail "an error that fits is not reached"
 holds "$(json r.json max_error) <= 40"
 
-refuses 1 "--breaklines cannot be combined with --max-triangles beside --mask" "$scarp" simplify hills.tif x.obj -t 400 --effort fast \
-  --mask hills.tif --breaklines soft.geojson
+# Samples with bounds of their own.
+gdal_translate -q -ot Float32 -scale 0 300 1 4 hills.tif bounds.tif
+for bounds in --mask --tolerance; do
+  succeeds "$scarp" simplify hills.tif bounded.obj -t 1000 $bounds bounds.tif --breaklines soft.geojson --report r.json --overwrite
+  holds "$(json r.json triangles) <= 1000"
+done
+holds "1 < $(json r.json weighted_max_error) && $(json r.json weighted_max_error) <= $(json r.json tolerance_factor)"
 refuses 1 "--split and --max-triangles" "$scarp" simplify hills.tif x.stl -t 400 --breaklines soft.geojson --solid size=9mm --split 2x1

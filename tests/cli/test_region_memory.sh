@@ -68,6 +68,17 @@ within "$small" "$scarp" simplify hills.tif shaped.obj -e 40 "${sites[@]}" --min
 [ "$(json shaped.json shape below)" = 0 ] || fail "triangles with smaller angles are left"
 succeeds "$scarp" measure hills.tif shaped.obj "${sites[@]}" --fail-above 40
 
+# Within a budget one factor of all tolerances is searched for.
+for threads in 1 2; do
+  within "$small" "$scarp" simplify hills.tif "few$threads.obj" -t 1500 -e 40 "${sites[@]}" --effort normal --memory "${small}M" \
+    -j "$threads" --report few.json --overwrite
+done
+cmp few1.obj few2.obj || fail "-j 2 makes another mesh of a budget"
+holds "$(json few.json triangles) <= 1500 && 1 < $(json few.json tolerance_factor)"
+holds "$(json few.json weighted_max_error) <= $(json few.json tolerance_factor)"
+succeeds "$scarp" simplify hills.tif whole.obj -t 1500 -e 40 "${sites[@]}" --effort normal --report whole.json --overwrite
+holds "$(json few.json tolerance_factor) < 1.3 * $(json whole.json tolerance_factor)"
+
 # A mesh that keeps no regions is found out, by as many samples.
 succeeds "$scarp" simplify hills.tif coarse.obj -e 40 -q
 for memory in "--memory ${small}M" ""; do
@@ -81,7 +92,6 @@ holds "$(json coarse0.json over_tolerance) > 1000"
 # What cannot be is refused before the work.
 refuses 2 "--tolerance broken.tif: the value -" "$scarp" simplify hills.tif x.obj --tolerance broken.tif --memory "${small}M"
 refuses 2 "gdal_translate" "$scarp" simplify hills.tif x.obj --tolerance narrow.tif --memory "${small}M"
-refuses 1 "--max-triangles with --roi needs all samples in memory" "$scarp" simplify hills.tif x.obj -t 500 --roi site.geojson=2 --memory "${small}M"
 refuses 1 "--mask needs all samples in memory" "$scarp" simplify hills.tif x.obj -e 40 --mask accuracy.tif --memory "${small}M"
 for verb in "simplify hills.tif x.obj -e 40" "measure hills.tif coarse.obj --fail-above 40"; do
   refuses 1 "--memory is too little: --roi takes 9M; allow 90M" "$scarp" $verb --roi long.geojson=2 --memory "${small}M"

@@ -279,18 +279,6 @@ RC_GTEST_PROP(bounds, are_kept_in_the_eyes_of_the_judge, ()) {
   RC_ASSERT(m.is_sound());
 }
 
-TEST(bounds, budgets_are_refused_with_more_than_fast_effort) {
-  const Field field = testing::random_field(25, 20, 20, Relief::kRidges);
-  const std::vector<float> bounds(400, 3.0f);
-  SimplifyOptions options;
-  options.quality.effort = Effort::kNormal;
-  options.tolerances.values = bounds;
-  options.goals.max_triangles = 100;
-  const auto result = simplify(field.view(), options);
-  ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
-}
-
 TEST(bounds, of_a_mask_are_kept_by_efforts_within_a_budget) {
   const Field field = testing::random_field(25, 60, 50, Relief::kRidges);
   std::vector<float> mask(field.samples.size(), 1.0f);

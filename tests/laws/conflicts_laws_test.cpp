@@ -20,7 +20,8 @@ namespace scarp::conflicts_laws_test {
 namespace {
 
 constexpr double kError = 4;
-constexpr std::uint64_t kTriangles = 1500;
+constexpr std::uint64_t kTriangles = 1500, kFewTriangles = 900;
+constexpr float kTolerance = 6, kTightTolerance = 0.02f;
 
 /// Bends straight lines.
 class Bend : public PointTransform {
@@ -51,7 +52,7 @@ testing::Field make_land() {
 struct Scene {
   testing::Field land = make_land();
   std::vector<float> mask = std::vector<float>(land.samples.size(), 0.5f);
-  std::vector<float> tolerance = std::vector<float>(land.samples.size(), 6.0f);
+  std::vector<float> tolerance = std::vector<float>(land.samples.size(), kTolerance);
   std::vector<float> colours = land.samples;
   testing::ArraySource source{land.view()};
   testing::ArrayBounds bounds{tolerance, 40};
@@ -166,12 +167,12 @@ std::vector<Setting> all_settings() {
   };
 }
 
-/// What each sample may be off by; +infinity where there is no bound.
-std::vector<float> bounds_of(const Scene& scene, bool keeps_error) {
+/// What each sample may be off by; +infinity where there is no bound. A budget leaves tolerances a factor.
+std::vector<float> bounds_of(const Scene& scene, bool keeps_error, double factor, double tolerance) {
   const SimplifyOptions& options = scene.options;
   const bool has_tolerance = !options.tolerances.values.empty() || options.tolerances.source != nullptr;
-  double bound = keeps_error && options.goals.max_error ? *options.goals.max_error : HUGE_VAL;
-  if (has_tolerance && keeps_error) bound = std::min(bound, 6.0);
+  double bound = (keeps_error || has_tolerance) && options.goals.max_error ? factor * *options.goals.max_error : HUGE_VAL;
+  if (has_tolerance) bound = std::min(bound, tolerance * factor);
   if (!options.tolerances.weights.empty()) bound /= 0.5;
   std::vector<float> bounds(scene.land.samples.size(), static_cast<float>(bound * 1.000001 + 1e-5));
   for (const ScriptStep& step : options.strategy.script) {
@@ -182,7 +183,7 @@ std::vector<float> bounds_of(const Scene& scene, bool keeps_error) {
 }
 
 /// In the eyes of the judge, and of what was asked for.
-void expect_kept(const Scene& scene, const Simplified& made) {
+void expect_kept(const Scene& scene, const Simplified& made, double tolerance = kTolerance) {
   testing::Field land = scene.land;
   for (const SampleEdit& edit : made.edits)
     land.samples[static_cast<std::size_t>(edit.row * 40 + edit.col)] = edit.after;
@@ -191,7 +192,9 @@ void expect_kept(const Scene& scene, const Simplified& made) {
   field.source = nullptr;
   const SimplifyOptions& options = scene.options;
   const bool keeps_error = made.stop == StopReason::kMaxError;
-  const std::vector<float> bounds = bounds_of(scene, keeps_error);
+  EXPECT_GE(made.tolerance_factor, 1);
+  EXPECT_EQ(keeps_error && made.tolerance_factor > 1, false);
+  const std::vector<float> bounds = bounds_of(scene, keeps_error, made.tolerance_factor, tolerance);
   MeasureOptions judge;
   judge.tolerance = bounds;
   judge.cutline = options.features.cutline.rings.empty() ? nullptr : &options.features.cutline;
@@ -267,6 +270,36 @@ bool is_alone_refused(const Setting& setting) {
     if (conflict.one == Field::kSource || conflict.other == Field::kSource) return true;
   }
   return false;
+}
+
+/// A factor of all tolerances is searched for, or the table says why not.
+void expect_within_a_tight_budget(const Setting& setting, bool is_streamed) {
+  SCOPED_TRACE(std::string(name_of(setting.field)) + (is_streamed ? ", streamed" : ", in memory"));
+  Scene scene;
+  scene.options.run.threads = 1;
+  setting.set(scene);
+  scene.options.goals.max_triangles = kFewTriangles;
+  scene.tolerance.assign(scene.tolerance.size(), kTightTolerance);
+  if (is_streamed) scene.field = testing::with_source(scene.field, scene.source);
+  if (is_streamed) scene.options.tolerances.source = &scene.bounds;
+  if (!is_streamed) scene.options.tolerances.values = scene.tolerance;
+  const auto conflicts = find_conflicts(scene.field, scene.options);
+  const auto made = simplify(scene.field, scene.options);
+  EXPECT_EQ(made.has_value(), conflicts.empty()) << (made ? "" : made.error().message);
+  if (!made) return;
+  EXPECT_EQ(made->stop, StopReason::kMaxTriangles);
+  EXPECT_GT(made->tolerance_factor, 1);
+  expect_kept(scene, *made, kTightTolerance);
+}
+
+TEST(conflicts, settings_beside_tolerances_and_a_budget_run_or_are_refused_by_the_table) {
+  for (const Setting& setting : all_settings()) {
+    if (setting.field == Field::kMask || setting.field == Field::kTolerance || setting.field == Field::kSource ||
+        setting.field == Field::kToleranceSource)
+      continue;
+    expect_within_a_tight_budget(setting, false);
+    if (!is_alone_refused(setting)) expect_within_a_tight_budget(setting, true);
+  }
 }
 
 TEST(conflicts, every_pair_in_memory_runs_or_is_refused_by_the_table) {

@@ -55,7 +55,7 @@ RC_GTEST_PROP(lines, give_the_same_mesh_on_any_number_of_threads, ()) {
   RC_ASSERT(one->mesh.triangles == three->mesh.triangles);
 }
 
-TEST(lines, contradict_strategies_and_budgets_of_samples_with_bounds) {
+TEST(lines, contradict_edges_of_the_data_and_simpler_outlines) {
   const Field field = testing::random_field(3, 30, 20, testing::Relief::kRidges);
   SimplifyOptions options;
   Line line;
@@ -63,18 +63,6 @@ TEST(lines, contradict_strategies_and_budgets_of_samples_with_bounds) {
   options.features.breaklines.lines = {line};
   options.goals.max_error = 1;
   ASSERT_TRUE(simplify(field.view(), options));
-  const std::vector<float> ones(field.samples.size(), 1);
-  auto with_mask = options;
-  with_mask.goals.max_vertices = 50;
-  ASSERT_TRUE(simplify(field.view(), with_mask));
-  with_mask.tolerances.weights = ones;
-  for (const Effort effort : {Effort::kFast, Effort::kNormal}) {
-    with_mask.quality.effort = effort;
-    const auto refused = simplify(field.view(), with_mask);
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().kind, ErrorKind::kUsage);
-    EXPECT_NE(refused.error().message.find("here samples have bounds of their own"), std::string::npos);
-  }
   auto with_edges = options;
   with_edges.strategy.edges.data_dependent = true;
   EXPECT_EQ(simplify(field.view(), with_edges).error().kind, ErrorKind::kUsage);

@@ -118,7 +118,6 @@ RC_GTEST_PROP(streamed_bounds, are_kept_by_every_sample_in_small_rows, ()) {
 
 RC_GTEST_PROP(streamed_bounds, are_kept_beside_lines, ()) {
   Scene scene;
-  if (!scene.options.goals.max_error) scene.options.goals.max_error = 50;
   LineConstraints& constraints = scene.options.features.breaklines = testing::any_lines(scene.field);
   if (*rc::gen::arbitrary<bool>()) {
     for (Line& line : constraints.lines) {
@@ -127,7 +126,7 @@ RC_GTEST_PROP(streamed_bounds, are_kept_beside_lines, ()) {
     }
   }
   const std::int32_t side = *rc::gen::element(8, 16, 31);
-  const auto lines = prepare_lines(scene.streamed, constraints, {}, *scene.options.goals.max_error / 2, 1,
+  const auto lines = prepare_lines(scene.streamed, constraints, {}, scene.options.goals.max_error.value_or(50) / 2, 1,
                                    shared_rows(scene.streamed, side));
   RC_PRE(lines.has_value());
   const auto made = refine(scene, side, &*lines);

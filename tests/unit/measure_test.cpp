@@ -160,7 +160,7 @@ struct Verdict {
   std::vector<float> errors;
 };
 
-Verdict judge_mesh(const HeightField& field, const Mesh& mesh, MeasureOptions options = {}) {
+Verdict judge_by_rows(const HeightField& field, const Mesh& mesh, MeasureOptions options = {}) {
   Verdict out;
   int next_row = 0;
   options.on_row = [&](int row, std::span<const float> errors) {
@@ -270,10 +270,10 @@ TEST(Measure, AgreesWithTheOracleOnTriangleSoup) {
     SCOPED_TRACE(round);
     MeasureOptions options;
     options.run.threads = 1 + round % 3;
-    expect_agreement(oracle, judge_mesh(terrain.view(), mesh, options), cols);
+    expect_agreement(oracle, judge_by_rows(terrain.view(), mesh, options), cols);
     terrain.frame = dress_up(terrain.frame);
     // Noise may put a sample on a common side into one of two triangles only: heights of a soup then differ.
-    if (round % 2 == 1) expect_agreement(oracle, judge_mesh(terrain.view(), mesh, options), cols);
+    if (round % 2 == 1) expect_agreement(oracle, judge_by_rows(terrain.view(), mesh, options), cols);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(judged, 150);
@@ -285,9 +285,9 @@ TEST(Measure, GivesTheSameAnswersInADressedUpFrame) {
     terrain.frame = frame;
     const Mesh mesh = grid_mesh(terrain, 4);
     for (int hole = 0; hole < 40; ++hole) terrain.at(hole * 7 % 49, hole * 13 % 61) = NAN;
-    const Verdict grid = judge_mesh(terrain.view(), mesh);
+    const Verdict grid = judge_by_rows(terrain.view(), mesh);
     terrain.frame = dress_up(frame);
-    const Verdict dressed = judge_mesh(terrain.view(), mesh);
+    const Verdict dressed = judge_by_rows(terrain.view(), mesh);
     EXPECT_EQ(grid.numbers.samples, dressed.numbers.samples);
     EXPECT_EQ(grid.numbers.uncovered, 0u);
     EXPECT_EQ(dressed.numbers.uncovered, 0u);
@@ -364,11 +364,11 @@ TEST(Measure, IsBitEqualWithAnyNumberOfThreads) {
   const Mesh mesh = random_soup(terrain, 400, true, random);
   MeasureOptions options;
   options.collect_above = 60;
-  const Verdict one = judge_mesh(terrain.view(), mesh, options);
+  const Verdict one = judge_by_rows(terrain.view(), mesh, options);
   EXPECT_FALSE(one.numbers.offenders.empty());
   for (const int threads : {2, 5}) {
     options.run.threads = threads;
-    const Verdict many = judge_mesh(terrain.view(), mesh, options);
+    const Verdict many = judge_by_rows(terrain.view(), mesh, options);
     const Measurement &a = one.numbers, &b = many.numbers;
     EXPECT_EQ(0, std::memcmp(one.errors.data(), many.errors.data(), one.errors.size() * sizeof(float)));
     EXPECT_EQ(a.max_error, b.max_error);

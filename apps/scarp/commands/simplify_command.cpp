@@ -197,8 +197,8 @@ Result<void> check_promise(const Outcome& outcome) {
   const bool has_tolerance = outcome.companions.has_tolerance();
   const bool has_budget_ended =
       simplified.stop == StopReason::kMaxTriangles || simplified.stop == StopReason::kMaxVertices;
-  const std::optional<double> asked = has_tolerance ? 1 : outcome.asked;
-  if (asked && !has_budget_ended) {
+  const std::optional<double> asked = has_tolerance ? simplified.tolerance_factor : outcome.asked;
+  if (asked && (!has_budget_ended || has_tolerance)) {
     const double height_scale = outcome.channels.empty() ? 1 : outcome.channels.height_scale;
     // With weights the engine took the rounding of the samples off each bound before it weighed the errors.
     const double rounding = outcome.companions.has_weights() ? 0 : outcome.field.sample_rounding * height_scale;

@@ -69,8 +69,6 @@ std::optional<std::string> find_unstreamed(const SimplifyArguments& given, const
   // Tolerances are read in windows then.
   if (fields.has(Field::kTolerance)) fields = fields.without(Field::kTolerance) | Fields(Field::kToleranceSource);
   for (const Conflict& conflict : find_conflicts(fields)) {
-    if (conflict.one == Field::kToleranceSource)
-      return option_of(conflict.other, given) + " with " + option_of(conflict.one, given);
     if (conflict.one == Field::kSource) return option_of(conflict.other, given);
   }
   return std::nullopt;

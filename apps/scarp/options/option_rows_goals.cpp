@@ -66,7 +66,7 @@ constexpr OptionRow kGoalRows[] = {
      .type = kChoice,
      .value = "LEVEL",
      .choices = "fast normal high max",
-     .by_default = "normal; fast with tolerances, strategies or --memory",
+     .by_default = "normal; fast with tolerances (unless beside a budget), strategies or --memory",
      .help = "How much work to do for fewer triangles. fast: refine only. normal: also remove vertices; 0.56 of the "
              "triangles of fast. high: also move vertices; 0.36. max: try more of that; 0.30. CPU time is 0.5, 1.2, "
              "6.5 and 62 times that of --order greedy. With -t or -p: a smaller error instead."},

@@ -14,6 +14,10 @@
 namespace scarp::cli {
 namespace {
 
+bool has_tolerance_and_budget(const SimplifyPlan& plan, const Outcome& outcome) {
+  return outcome.companions.has_tolerance() && (plan.simplify.goals.max_triangles || plan.simplify.goals.max_vertices);
+}
+
 /// Errors of heights and channels, as they are and as they were weighed.
 void add_all_errors(Json& report, const SimplifyPlan& plan, const Outcome& outcome) {
   const Simplified& simplified = outcome.simplified;
@@ -21,6 +25,8 @@ void add_all_errors(Json& report, const SimplifyPlan& plan, const Outcome& outco
   if (outcome.companions.has_weights()) {
     report["weighted_max_error"] = finite_or_word(simplified.weighted_max_error);
     report["weighted_rmse"] = finite_or_word(simplified.weighted_rmse);
+    if (has_tolerance_and_budget(plan, outcome))
+      report["tolerance_factor"] = finite_or_word(simplified.tolerance_factor);
   }
   report["ignored"] = simplified.ignored;
   if (outcome.bounded) add_bounded(report, *outcome.bounded);
@@ -78,6 +84,11 @@ std::string describe_errors(const SimplifyPlan& plan, const Outcome& outcome) {
                                              format_number(simplified.weighted_max_error),
                                              format_number(simplified.weighted_rmse), has_mask ? asked : ""));
   }
+  if (has_tolerance_and_budget(plan, outcome) && simplified.tolerance_factor > 1)
+    text +=
+        summary_line("", std::isinf(simplified.tolerance_factor)
+                             ? "a tolerance of 0 is not kept"
+                             : fmt::format("kept: tolerances times {}", format_number(simplified.tolerance_factor)));
   if (simplified.ignored > 0) {
     text += summary_line("ignored", fmt::format("{} without a bound; max error of the others {}",
                                                 format_plural(simplified.ignored, "sample"),

@@ -9,9 +9,9 @@
 #include "laws/budgets.h"
 #include "laws/fields.h"
 #include "scarp/simplify.h"
-#include "simplify/error_search.h"
+#include "simplify/budget_search.h"
 
-namespace scarp::error_search_laws_test {
+namespace scarp::budget_search_laws_test {
 namespace {
 
 using testing::any_field;
@@ -29,7 +29,7 @@ SimplifyOptions any_budget() {
   return options;
 }
 
-RC_GTEST_PROP(error_search, budgets_are_kept_and_greedy_insertion_is_never_better, ()) {
+RC_GTEST_PROP(budget_search, budgets_are_kept_and_greedy_insertion_is_never_better, ()) {
   const Field field = any_field(40);
   SimplifyOptions options = any_budget();
   options.quality.effort = Effort::kFast;
@@ -55,7 +55,7 @@ RC_GTEST_PROP(error_search, budgets_are_kept_and_greedy_insertion_is_never_bette
   }
 }
 
-RC_GTEST_PROP(error_search, threads_change_nothing, ()) {
+RC_GTEST_PROP(budget_search, threads_change_nothing, ()) {
   const Field field = any_field(40);
   SimplifyOptions options = any_budget();
   options.quality.effort = Effort::kHigh;
@@ -72,15 +72,12 @@ RC_GTEST_PROP(error_search, threads_change_nothing, ()) {
   }
 }
 
-TEST(error_search, uses_the_budget_and_lowers_the_error_of_greedy_insertion) {
+TEST(budget_search, uses_the_budget_and_lowers_the_error_of_greedy_insertion) {
   const Field field = hills(200, 150);
   for (const std::uint64_t budget : {300u, 1000u, 3000u}) {
-    const auto greedy =
-        *simplify(field.view(), {.goals = {.max_triangles = budget}, .quality = {.effort = Effort::kFast}});
-    const auto normal =
-        *simplify(field.view(), {.goals = {.max_triangles = budget}, .quality = {.effort = Effort::kNormal}});
-    const auto high =
-        *simplify(field.view(), {.goals = {.max_triangles = budget}, .quality = {.effort = Effort::kHigh}});
+    const auto greedy = *simplify(field.view(), {.goals = {.max_triangles = budget}, .quality = {.effort = Effort::kFast}});
+    const auto normal = *simplify(field.view(), {.goals = {.max_triangles = budget}, .quality = {.effort = Effort::kNormal}});
+    const auto high = *simplify(field.view(), {.goals = {.max_triangles = budget}, .quality = {.effort = Effort::kHigh}});
     EXPECT_LT(normal.measurement.max_error, 0.85 * greedy.measurement.max_error) << budget;
     EXPECT_LT(high.measurement.max_error, 0.95 * normal.measurement.max_error) << budget;
     for (const Simplified* made : {&normal, &high}) {
@@ -91,13 +88,12 @@ TEST(error_search, uses_the_budget_and_lowers_the_error_of_greedy_insertion) {
   }
 }
 
-TEST(error_search, a_much_larger_budget_never_has_a_larger_error) {
+TEST(budget_search, a_much_larger_budget_never_has_a_larger_error) {
   for (const Relief relief : testing::kReliefs) {
     const Field field = testing::random_field(3, 50, 40, relief);
     double last = std::numeric_limits<double>::infinity();
     for (std::uint64_t budget = 20; budget < 10000; budget *= 4) {
-      const auto made =
-          simplify(field.view(), {.goals = {.max_vertices = budget}, .quality = {.effort = Effort::kHigh}});
+      const auto made = simplify(field.view(), {.goals = {.max_vertices = budget}, .quality = {.effort = Effort::kHigh}});
       ASSERT_TRUE(made) << made.error().message;
       EXPECT_LE(made->measurement.max_error, last) << budget;
       last = made->measurement.max_error;
@@ -105,19 +101,18 @@ TEST(error_search, a_much_larger_budget_never_has_a_larger_error) {
   }
 }
 
-TEST(error_search, a_bound_that_fits_is_the_goal) {
+TEST(budget_search, a_bound_that_fits_is_the_goal) {
   const Field field = testing::random_field(3, 60, 60, Relief::kRidges);
   const auto bounded = *simplify(field.view(), {.goals = {.max_error = 30.0}, .quality = {.effort = Effort::kHigh}});
   // Less than greedy insertion needs for it, so that the search has to find out.
   const std::uint64_t budget = bounded.mesh.triangle_count() * 11 / 10;
   ASSERT_LT(budget, simplify(field.view(), {.max_error = 30.0})->mesh.triangle_count());
-  const auto made = *simplify(
-      field.view(), {.goals = {.max_error = 30.0, .max_triangles = budget}, .quality = {.effort = Effort::kHigh}});
+  const auto made = *simplify(field.view(), {.goals = {.max_error = 30.0, .max_triangles = budget}, .quality = {.effort = Effort::kHigh}});
   EXPECT_EQ(made.stop, StopReason::kMaxError);
   EXPECT_EQ(made.mesh.positions, bounded.mesh.positions);
 }
 
-TEST(error_search, ends_with_its_time_and_the_best_mesh_so_far) {
+TEST(budget_search, ends_with_its_time_and_the_best_mesh_so_far) {
   const Field field = testing::random_field(3, 60, 60, Relief::kRidges);
   const auto with = [&](const std::function<bool()>& is_time_up) {
     SimplifyOptions options{.goals = {.max_triangles = 1500}, .quality = {.effort = Effort::kHigh}};
@@ -130,26 +125,24 @@ TEST(error_search, ends_with_its_time_and_the_best_mesh_so_far) {
   EXPECT_EQ(waited.mesh.positions, whole.mesh.positions);
   EXPECT_FALSE(waited.is_cut_short);
   EXPECT_TRUE(cut.is_cut_short);
-  EXPECT_EQ(
-      cut.mesh.triangles,
-      simplify(field.view(), {.goals = {.max_triangles = 1500}, .quality = {.effort = Effort::kFast}})->mesh.triangles);
+  EXPECT_EQ(cut.mesh.triangles,
+            simplify(field.view(), {.goals = {.max_triangles = 1500}, .quality = {.effort = Effort::kFast}})->mesh.triangles);
   EXPECT_LE(late.mesh.triangle_count(), 1500u);
   EXPECT_LE(late.measurement.max_error, cut.measurement.max_error);
 }
 
-TEST(error_search, refuses_what_no_search_can_serve) {
+TEST(budget_search, refuses_what_no_search_can_serve) {
   const Field field = testing::random_field(3, 30, 30, Relief::kReal);
   const auto kind = [&](const SimplifyOptions& options) { return simplify(field.view(), options).error().kind; };
   EXPECT_EQ(kind({.goals = {.max_triangles = 1}, .quality = {.effort = Effort::kHigh}}), ErrorKind::kUsage);
-  EXPECT_EQ(kind({.goals = {.max_error = 1, .objective = Objective::kRms}, .quality = {.effort = Effort::kHigh}}),
-            ErrorKind::kUsage);
+  EXPECT_EQ(kind({.goals = {.max_error = 1, .objective = Objective::kRms}, .quality = {.effort = Effort::kHigh}}), ErrorKind::kUsage);
   EXPECT_EQ(kind({.goals = {.max_triangles = 99, .objective = Objective::kRms}}), ErrorKind::kUsage);
   SimplifyOptions tight{.goals = {.max_triangles = 99}, .quality = {.effort = Effort::kNormal}};
   tight.strategy.edges.data_dependent = true;
   EXPECT_EQ(kind(tight), ErrorKind::kUsage);
 }
 
-TEST(error_search, is_told_as_one_pass_and_can_be_cancelled) {
+TEST(budget_search, is_told_as_one_pass_and_can_be_cancelled) {
   const Field field = hills(200, 150);
   SimplifyOptions options{.goals = {.max_triangles = 1000}, .quality = {.effort = Effort::kHigh}};
   double last = 0;
@@ -178,7 +171,7 @@ struct MadeUp {
   double least = 0;  // bounds below it cannot be kept
   int runs = 0;      // with effort
 
-  Result<Simplified> operator()(const SimplifyOptions& options) {
+  Result<Simplified> operator()(const SimplifyOptions& options, double) {
     const bool has_effort = options.quality.effort != Effort::kFast;
     runs += has_effort ? 1 : 0;
     double error = options.goals.max_error.value_or(0);
@@ -191,17 +184,17 @@ struct MadeUp {
     if (error < least) return fail(ErrorKind::kPromise, "too small");
     made.mesh.triangles.resize(3 * static_cast<std::size_t>((has_effort ? share : 1) * triangles(error)));
     made.measurement.samples = 1000000;
-    made.measurement.max_error = made.measurement.rmse = error;
+    made.judged_max_error = made.judged_rmse = error;
     return made;
   }
 };
 
-TEST(error_search, takes_few_runs_where_triangles_follow_a_power) {
+TEST(budget_search, takes_few_runs_where_triangles_follow_a_power) {
   for (const double power : {0.8, 1.0, 1.3, 2.0}) {
     for (const double share : {0.25, 0.42, 0.7}) {
       MadeUp made_up{[&](double error) { return 1e6 * std::pow(error, -power); }, share};
       const SimplifyOptions options{.goals = {.max_triangles = 50000}, .quality = {.effort = Effort::kHigh}};
-      const auto found = *search_error(options, std::ref(made_up));
+      const auto found = *search_budget(options, {.run = std::ref(made_up)});
       EXPECT_GE(found.mesh.triangle_count(), 49500u) << power << " " << share;
       EXPECT_LE(found.mesh.triangle_count(), 50000u) << power << " " << share;
       EXPECT_LE(made_up.runs, 4) << power << " " << share;
@@ -209,23 +202,23 @@ TEST(error_search, takes_few_runs_where_triangles_follow_a_power) {
   }
 }
 
-TEST(error_search, stops_where_triangles_jump_over_the_budget) {
+TEST(budget_search, stops_where_triangles_jump_over_the_budget) {
   // 10,000 triangles from an error of 1 on, far too many below it.
   MadeUp made_up{[](double error) { return error >= 1 ? 20000 + 30000 / error : 1e6; }};
   const SimplifyOptions options{.goals = {.max_triangles = 50000}, .quality = {.effort = Effort::kHigh}};
-  const auto found = *search_error(options, std::ref(made_up));
-  EXPECT_LE(found.measurement.max_error, 1.05);
+  const auto found = *search_budget(options, {.run = std::ref(made_up)});
+  EXPECT_LE(found.judged_max_error, 1.05);
   EXPECT_LE(made_up.runs, kMostRuns);
 }
 
-TEST(error_search, goes_around_bounds_that_cannot_be_kept) {
+TEST(budget_search, goes_around_bounds_that_cannot_be_kept) {
   MadeUp made_up{[](double error) { return 1e5 / error; }, 0.42, 0.9};
   const SimplifyOptions options{.goals = {.max_triangles = 100000}, .quality = {.effort = Effort::kHigh}};
-  const auto found = *search_error(options, std::ref(made_up));
-  EXPECT_LE(found.measurement.max_error, 0.95);
-  EXPECT_GE(found.measurement.max_error, 0.9);
+  const auto found = *search_budget(options, {.run = std::ref(made_up)});
+  EXPECT_LE(found.judged_max_error, 0.95);
+  EXPECT_GE(found.judged_max_error, 0.9);
   EXPECT_LE(made_up.runs, kMostRuns);
 }
 
 }  // namespace
-}  // namespace scarp::error_search_laws_test
+}  // namespace scarp::budget_search_laws_test

@@ -1,0 +1,369 @@
+#include "simplify/budget_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "metric/criterion.h"
+#include "pieces/goals.h"
+#include "simplify/search_progress.h"
+
+namespace scarp {
+
+namespace {
+
+constexpr double kAim = 0.995;        // share of the budget: below it by about what a run scatters
+constexpr double kFull = 0.99;        // enough to stop at once
+constexpr double kNearlyFull = 0.97;  // enough after some patience
+constexpr double kClosed = 0.002;     // logarithm of the ratio of two numbers on both sides of the budget
+constexpr double kNearFloor = 0.02;   // logarithm: so near a goal it is tried itself
+constexpr double kLeast = std::numeric_limits<double>::min();
+
+/// How a search goes on from where it begins.
+struct Pace {
+  double power;      ///< triangles ~ number^-power, where nothing is known yet
+  double farthest;   ///< step, as a ratio, while all meshes fit
+  double far_below;  ///< as a ratio to the first mesh's number: below it an exact mesh is likely to fit
+  double near;       ///< logarithm: nearer runs tell no power
+  int patience;      ///< runs before nearly full will do
+  int most_runs;
+};
+constexpr Pace kFromInsertion{1.3, 2, 1.0 / 64, 0.03, 4, kMostRuns};
+constexpr Pace kFromLeastMesh{1, 32, 0x1p-20, 0.02, 5, kMostRunsFromLeast};
+
+/// A number, and what share of the budget its mesh takes; logarithms.
+struct Sight {
+  double number = 0, used = 0;
+};
+
+/// Minus the slope of the line through both, as far as it can be believed.
+double power_between(const Sight& a, const Sight& b, double usual) {
+  const double run = a.number - b.number;
+  return run == 0 ? usual : std::clamp((b.used - a.used) / run, 0.3, 20.0);
+}
+
+SimplifyOptions without_effort(SimplifyOptions options) {
+  options.quality.effort = Effort::kFast;
+  options.goals.objective = Objective::kMax;  // of the search, not of a run
+  return options;
+}
+
+class BudgetSearch {
+ public:
+  BudgetSearch(const SimplifyOptions& options, const BudgetTask& task)
+      : options_(options),
+        task_(task),
+        budget_(options),
+        progress_(options.run.progress),
+        has_effort_(options.quality.effort != Effort::kFast),
+        is_factor_(has_tolerances(options)),
+        floor_(is_factor_ ? 1 : options.goals.max_error.value_or(0)),
+        pace_(has_effort_ ? kFromInsertion : kFromLeastMesh),
+        power_(pace_.power) {}
+
+  Result<Simplified> execute() {
+    const auto start = Clock::now();
+    if (auto begun = has_effort_ ? begin_without_effort() : begin_with_least_mesh(); !begun)
+      return tl::unexpected(begun.error());
+    if (auto searched = search(); !searched) return tl::unexpected(searched.error());
+    // The first mesh may have been searched for, too.
+    if (!best_.passes.empty() && best_.passes.front().name == others_.name) {
+      add_work(best_.passes.front(), others_);
+      best_.seconds_refine -= best_.passes.front().seconds;
+      best_.passes.erase(best_.passes.begin());
+    }
+    best_.passes.insert(best_.passes.begin(), others_);
+    best_.passes.front().seconds = seconds_since(start) - best_.seconds_refine - best_.seconds_measure;
+    best_.seconds_refine += best_.passes.front().seconds;
+    return std::move(best_);
+  }
+
+  /// Why meshes within the budget were not to be had, where memory was the reason.
+  const std::optional<Error>& no_room() const { return no_room_; }
+
+ private:
+  /// The refusal of a budget that is too small is that of this run.
+  Result<void> begin_without_effort() {
+    const SimplifyOptions fast = without_effort(options_);
+    Result<Simplified> made;
+    if (task_.insertion_stops) {
+      made = run(fast, 1, 0.1);
+    } else {
+      if (!progress_.begin(0.1)) return fail(ErrorKind::kCancelled, kCancelled);
+      SimplifyOptions searched = fast;
+      searched.run.progress = progress_.of_run(false);
+      BudgetSearch search(searched, task_);
+      made = search.execute();
+      no_room_ = search.no_room();
+      has_mesh_ = made.has_value();
+    }
+    if (!made) return tl::unexpected(made.error());
+    best_ = std::move(*made);
+    first_ = best_.judged_max_error;
+    has_room_ = best_.stop == StopReason::kMaxError || best_.stop == StopReason::kExact || first_ <= floor_;
+    // No factor helps a sample whose tolerance is 0: what can be reached is seen from the least mesh on.
+    if (std::isinf(first_)) pace_ = kFromLeastMesh, power_ = pace_.power;
+    far_below_ = std::log(first_ * pace_.far_below);
+    return {};
+  }
+
+  Result<void> begin_with_least_mesh() {
+    const double most = std::max(task_.most(), floor_);
+    auto least = run(towards(most), factor_of(most), 0.1);
+    if (!least) return tl::unexpected(least.error());
+    const MeshSize size{least->mesh.vertex_count(), least->mesh.triangle_count()};
+    if (auto fits = budget_.check(size, task_.least, ""); !fits) return fits;
+    best_ = std::move(*least);
+    first_ = std::max(best_.judged_max_error, kLeast);
+    is_at_floor_ = best_.judged_max_error <= floor_;
+    end_by(best_);
+    fits_ = Sight{std::log(first_), std::log(used_by(best_))};
+    far_below_ = std::log(first_ * pace_.far_below);
+    return {};
+  }
+
+  Result<void> search() {
+    if (has_room_) return fit_into_room();
+    if (has_effort_) {
+      if (is_time_up()) return {};
+      const auto first = std::isinf(first_) ? Result<double>(task_.most()) : guess_by_refinement();
+      if (!first) return tl::unexpected(first.error());
+      if (auto looked = look(*first); !looked) return looked;
+    }
+    while (!has_ended() && !is_time_up()) {
+      if (auto looked = look(guess()); !looked) return looked;
+    }
+    return {};
+  }
+
+  /// Then the best mesh so far is the result.
+  bool is_time_up() {
+    if (!has_effort_) return false;
+    best_.is_cut_short = best_.is_cut_short || (options_.run.is_time_up && options_.run.is_time_up());
+    return best_.is_cut_short;
+  }
+
+  /// Fast effort has reached the floor: more effort makes that mesh smaller. Where rounding forbids the floor, the
+  /// number that was reached will do.
+  Result<void> fit_into_room() {
+    if (auto looked = look(floor_); !looked || fits_ || first_ <= floor_) return looked;
+    return look(first_);
+  }
+
+  bool has_ended() const {
+    const double enough = std::log(runs_ < pace_.patience ? kFull : kNearlyFull);
+    return runs_ == pace_.most_runs || is_at_floor_ || (fits_ && fits_->used >= enough) ||
+           (!fits_ && std::isinf(first_)) || (exceeds_ && highest() - exceeds_->number < kClosed);
+  }
+
+  /// Refinement alone tells how triangles grow as the bounds fall, and about what share of them effort leaves.
+  Result<double> guess_by_refinement() {
+    Sight last{highest(), expected_after(best_)};
+    double step = (last.used - std::log(kAim)) / power_;
+    for (int look = 0; look < 2 && std::abs(step) > 0.1; ++look) {
+      const double number = last.number + step;
+      if (is_near_floor(number)) return floor_;
+      const auto used = expect_by_refinement(std::exp(number));
+      if (!used) return tl::unexpected(used.error());
+      const Sight here{number, *used};
+      power_ = power_between(last, here, pace_.power);
+      last = here;
+      step = (last.used - std::log(kAim)) / power_;
+    }
+    const double number = std::min(last.number + step, highest());
+    return is_near_floor(number) ? floor_ : std::exp(number);
+  }
+
+  Result<double> expect_by_refinement(double number) {
+    SimplifyOptions refine = without_effort(towards(number));
+    refine.output.normals = refine.output.uvs = false;
+    const auto made = run(std::move(refine), factor_of(number), 0.05);
+    if (!made && made.error().kind == ErrorKind::kPromise) return std::log(kAim);
+    if (!made) return tl::unexpected(made.error());
+    add_work(*made, others_);
+    return expected_after(*made);
+  }
+
+  /// What effort is expected to leave of a refined mesh: the more, the nearer its triangles come to the full grid's.
+  /// Lines through what bench/quality/fit.cpp has measured.
+  double expected_after(const Simplified& refined) const {
+    const auto full = 2 * static_cast<double>(std::max<std::uint64_t>(refined.measurement.samples, 1));
+    const double density = std::min(static_cast<double>(refined.mesh.triangle_count()) / full, 1.0);
+    const bool is_free = options_.quality.vertices != Vertices::kSamples;
+    double kept = is_free ? 0.26 + 0.35 * std::sqrt(density) : 0.33 + 0.4 * std::sqrt(density);
+    if (options_.quality.effort == Effort::kNormal) kept = 0.52 + 0.2 * density;
+    return std::log(kept * used_by(refined));
+  }
+
+  /// The logarithm of the least number that is known to have a mesh within the budgets.
+  double highest() const { return fits_ ? fits_->number : std::log(first_); }
+
+  bool is_near_floor(double number) const {
+    return number <= (floor_ > 0 ? std::log(floor_) + kNearFloor : far_below_);
+  }
+
+  /// The next number: along the power that was seen last while all runs lie on one side of the budget, else between
+  /// those that fit and those that do not.
+  double guess() const {
+    const Sight& known = fits_ ? *fits_ : *exceeds_;
+    double number = known.number + (known.used - std::log(kAim)) / power_;
+    if (!exceeds_) {
+      number = std::clamp(number, known.number - std::log(pace_.farthest), known.number - kClosed);
+      return is_near_floor(number) ? floor_ : std::exp(number);
+    }
+    const double width = highest() - exceeds_->number;
+    constexpr int kTrusted = 3;  // runs in vain: a power misleads where outlines alone nearly take the budget
+    if (!std::isfinite(exceeds_->used) || (!fits_ && stays_ > kTrusted)) {
+      number = highest() - width / 2;
+    } else if (fits_) {
+      number = cross_aim();
+    }
+    return std::exp(std::clamp(number, exceeds_->number + width / 20, highest() - width / 20));
+  }
+
+  /// Where the line between both sides meets the aim; by the Illinois rule an end that stays weighs less and less, so
+  /// that steep counts, too, are closed in from both sides. REQUIRES: fits_, exceeds_, finite.
+  double cross_aim() const {
+    const double weight = std::pow(0.5, std::max(0, stays_ - 1));
+    double below = fits_->used - std::log(kAim), above = exceeds_->used - std::log(kAim);
+    (last_fits_ ? above : below) *= weight;
+    if (below >= 0) return fits_->number;
+    return (exceeds_->number * -below + fits_->number * above) / (above - below);
+  }
+
+  /// A run with the whole effort. Keeps the better mesh.
+  Result<void> look(double number) {
+    ++runs_;
+    auto made = run(towards(number), factor_of(number), 0.35);
+    if (!made && made.error().kind != ErrorKind::kPromise) return tl::unexpected(made.error());
+    const double used = made ? used_by(*made) : std::numeric_limits<double>::infinity();
+    if (made && used > 1) add_work(*made, others_);
+    if (used > 1) {
+      const double nothing = has_effort_ ? far_below_ : highest() + std::log(pace_.far_below);
+      see(exceeds_, Sight{number > 0 ? std::log(number) : nothing, std::log(used)});
+      return {};
+    }
+    // A mesh is the same for all numbers down to what it reaches, or nearly so.
+    const double reached = std::min(number, made->judged_max_error);
+    // Effort may find a smaller mesh for the floor itself.
+    is_at_floor_ = number == floor_ || (!has_effort_ && reached <= floor_);
+    see(fits_, Sight{std::log(std::max(reached, kLeast)), std::log(used)});
+    end_by(*made);
+    // Lines that follow the floor may need more than those of the number that was found to reach it.
+    const bool is_larger = has_room_ && made->mesh.triangle_count() > best_.mesh.triangle_count();
+    if (is_larger || (!is_at_floor_ && !is_better(*made))) {
+      add_work(*made, others_);
+      return {};
+    }
+    add_work(best_, others_);
+    best_ = std::move(*made);
+    return {};
+  }
+
+  /// Two runs on the same side of the budget tell the power, if they are not too near for that.
+  void see(std::optional<Sight>& side, const Sight& here) {
+    if (side && std::isfinite(side->used - here.used) && std::abs(side->number - here.number) > pace_.near)
+      power_ = power_between(*side, here, pace_.power);
+    side = here;
+    const bool is_fit = &side == &fits_;
+    stays_ = is_fit == last_fits_ ? stays_ + 1 : 1;
+    last_fits_ = is_fit;
+  }
+
+  void end_by(Simplified& made) const {
+    made.stop = has_room_ ? best_.stop : stop_of(made);
+    if (is_factor_ && made.stop == StopReason::kMaxError) made.tolerance_factor = 1;
+  }
+
+  StopReason stop_of(const Simplified& made) const {
+    if (is_at_floor_ || made.judged_max_error <= floor_)
+      return is_factor_ || options_.goals.max_error ? StopReason::kMaxError : StopReason::kExact;
+    const MeshSize vertices{made.mesh.vertex_count(), 0}, triangles{0, made.mesh.triangle_count()};
+    return budget_.used(vertices) > budget_.used(triangles) ? StopReason::kMaxVertices : StopReason::kMaxTriangles;
+  }
+
+  bool is_better(const Simplified& made) const {
+    const auto rank = [this](const Simplified& of) {
+      const double largest = of.judged_max_error, rmse = of.judged_rmse;
+      return options_.goals.objective == Objective::kMax ? std::tuple(largest, rmse, of.mesh.triangle_count())
+                                                   : std::tuple(rmse, largest, of.mesh.triangle_count());
+    };
+    return rank(made) < rank(best_);
+  }
+
+  Result<Simplified> run(SimplifyOptions options, double factor, double share) {
+    if (!progress_.begin(share)) return fail(ErrorKind::kCancelled, kCancelled);
+    options.run.progress = progress_.of_run(options.quality.effort != Effort::kFast);
+    constexpr std::uint64_t kBytesPerVertex = 48;
+    options.run.memory.taken += kBytesPerVertex * best_.mesh.vertex_count();
+    auto made = task_.run(options, factor);
+    if (!made && has_mesh_ && !task_.insertion_stops) excuse(made.error());
+    has_mesh_ = has_mesh_ || made.has_value();
+    return made;
+  }
+
+  /// What was possible for one number, and is not for another, only ends what lies below it.
+  void excuse(Error& error) {
+    // Slivers of a cutline may vanish at one number and not at another.
+    if (error.kind == ErrorKind::kInput) error.kind = ErrorKind::kPromise;
+    // A mesh that takes too much memory may be one that exceeds the budget, too.
+    if (error.kind == ErrorKind::kUsage) {
+      no_room_ = error;
+      error.kind = ErrorKind::kPromise;
+    }
+  }
+
+  SimplifyOptions towards(double number) const {
+    SimplifyOptions options = options_;
+    options.goals.max_triangles = options.goals.max_vertices = std::nullopt;
+    if (!is_factor_) options.goals.max_error = number;
+    if (is_factor_ && options.goals.max_error)
+      options.goals.max_error = std::min(number * *options.goals.max_error, std::numeric_limits<double>::max());
+    options.goals.objective = Objective::kMax;  // of the search, not of a run
+    return options;
+  }
+  double factor_of(double number) const { return is_factor_ ? number : 1; }
+
+  double used_by(const Simplified& made) const {
+    return budget_.used({made.mesh.vertex_count(), made.mesh.triangle_count()});
+  }
+
+  static constexpr const char* kCancelled = "cancelled while searching for the mesh of a budget";
+
+  const SimplifyOptions& options_;
+  const BudgetTask& task_;
+  Budget budget_;
+  SearchProgress progress_;
+  bool has_effort_;
+  bool is_factor_;  // the number is a factor of all bounds; else the max error
+  double floor_;    // the least number that is of use
+  Pace pace_;
+  double power_;
+  Simplified best_;
+  double first_ = 0;          // what the mesh reaches with which the search begins
+  double far_below_ = 0;      // a logarithm
+  bool has_room_ = false;     // that mesh is at the floor
+  int runs_ = 0, stays_ = 0;  // but the first; of them the last, on one side of the budget
+  bool last_fits_ = false, is_at_floor_ = false;
+  std::optional<Sight> fits_, exceeds_;  // the least number that fits, the largest that does not
+  bool has_mesh_ = false;
+  std::optional<Error> no_room_;
+  Pass others_{"search"};
+};
+
+}  // namespace
+
+Result<Simplified> search_budget(const SimplifyOptions& options, const BudgetTask& task) {
+  BudgetSearch search(options, task);
+  auto made = search.execute();
+  if (!made || !search.no_room() || made->stop == StopReason::kMaxError || made->stop == StopReason::kExact)
+    return made;
+  const double used = Budget(options).used({made->mesh.vertex_count(), made->mesh.triangle_count()});
+  if (used < kNearlyFull) return tl::unexpected(*search.no_room());
+  return made;
+}
+
+}  // namespace scarp

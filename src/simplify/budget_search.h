@@ -1,0 +1,48 @@
+// A budget is met by a search over one number: the max error, or, where samples have tolerances, a factor of all
+// bounds.
+//
+//   a mesh within the budget        ── greedy insertion that stops at it; where insertion cannot stop, the least mesh
+//   with effort: refinement alone   ── how triangles grow as the bounds fall: about a power, and cheap to see
+//   runs for other numbers          ── secants through them in log–log, by the Illinois rule
+//
+// Insertion cannot stop at a budget where it does not know what else the mesh will take: how closely lines are to
+// follow the raster depends on the error of the mesh to come, and no row of tiles knows the others. There the mesh of
+// fast effort is searched for, too: it is where the search of a larger effort begins.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "scarp/result.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+
+/// simplify() without a search: towards the bounds of `options`, all tolerances multiplied by `factor`; or, if
+/// BudgetTask::insertion_stops, towards budgets with fast effort.
+using RunOnce = std::function<Result<Simplified>(const SimplifyOptions& options, double factor)>;
+
+struct BudgetTask {
+  RunOnce run;
+  bool insertion_stops = true;                 ///< at budgets
+  std::function<double()> most = {};           ///< a number that gives the least mesh
+  std::string least = "the least mesh needs";  ///< the subject of the refusal of a budget that the least mesh exceeds
+};
+
+/// The mesh with the least Simplified::judged_max_error, or judged_rmse (options.objective), of those that the search
+/// has seen within the budgets; at options.max_error, or at factor 1, if that fits; the exact one if the budgets leave
+/// room for it and nothing else is asked for.
+///
+/// Guarantees: no budget is exceeded; what is minimised is not larger than in the mesh of fast effort for the same
+/// budgets; the result is a function of what `run` returns. The search ends with at least 99 % of a budget used (97 %
+/// after some runs), or when two numbers 0.2 % apart lie on both sides of the budget: then triangles jump there, as
+/// with errors that many samples share; or, with effort, when options.is_time_up says so, with the best mesh so far. At
+/// most kMostRuns runs with the whole effort, mostly two or three, or kMostRunsFromLeast from the least mesh on.
+/// Memory: the best mesh so far beside a run. Progress is that of one pass, "search". Fails as `run` does, and with
+/// kUsage, and the least number that would do, where the least mesh exceeds a budget; a bound that cannot be kept
+/// (kPromise) only ends what lies below it. REQUIRES: a budget.
+Result<Simplified> search_budget(const SimplifyOptions& options, const BudgetTask& task);
+
+inline constexpr int kMostRuns = 12, kMostRunsFromLeast = 20;
+
+}  // namespace scarp

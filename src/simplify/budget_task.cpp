@@ -1,0 +1,118 @@
+#include "simplify/budget_task.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "grid/bands.h"
+#include "grid/source_failure.h"
+#include "metric/criterion.h"
+#include "pieces/effort.h"
+#include "simplify/once.h"
+
+namespace scarp {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Throws SourceFailure.
+HeightRange read_range(const HeightField& field) {
+  HeightRange range;
+  auto swept = sweep_rows(field, 0, [&](const RowRange& rows) -> Result<void> {
+    HeightField part = field;
+    part.samples = rows.samples.samples;
+    part.rows = rows.samples.rows;
+    const HeightRange here = height_range(part);
+    if (here.valid == 0) return {};
+    range.min = range.valid == 0 ? here.min : std::min(range.min, here.min);
+    range.max = range.valid == 0 ? here.max : std::max(range.max, here.max);
+    range.valid += here.valid;
+    return {};
+  });
+  if (!swept) throw SourceFailure{swept.error()};
+  return range;
+}
+
+/// An error that no mesh with these lines exceeds: twice the range of the samples and of the heights of breaklines.
+double largest_error(const HeightField& field, const SimplifyOptions& options) {
+  const HeightRange samples = field.samples != nullptr ? height_range(field) : read_range(field);
+  double low = samples.min, high = samples.max;
+  for (const Line& line : options.features.breaklines.lines) {
+    for (const auto& point : line.points) {
+      if (std::isnan(point[2])) continue;
+      low = std::min(low, point[2]);
+      high = std::max(high, point[2]);
+    }
+  }
+  return 2 * (high - low);
+}
+
+/// Of all samples, void ones included.
+struct ToleranceRange {
+  double least = kInfinity;  ///< of those above 0
+  double largest = 0;        ///< of those that are finite
+  bool has_zeros = false;
+
+  void add(float tolerance) {
+    has_zeros = has_zeros || tolerance == 0;
+    if (tolerance > 0) least = std::min(least, double{tolerance});
+    if (!std::isinf(tolerance)) largest = std::max(largest, double{tolerance});
+  }
+};
+
+/// Throws SourceFailure.
+ToleranceRange tolerance_range(const HeightField& field, const SimplifyOptions& options) {
+  ToleranceRange range;
+  for (const float tolerance : options.tolerances.values) range.add(tolerance);
+  if (options.tolerances.source == nullptr) return range;
+  const int rows = std::clamp((1 << 18) / field.cols, 1, field.rows);
+  std::vector<float> held(static_cast<std::size_t>(rows) * static_cast<std::size_t>(field.cols));
+  for (int row = 0; row < field.rows; row += rows) {
+    const int count = std::min(rows, field.rows - row);
+    const auto read = options.tolerances.source->read(0, row, field.cols, count, held.data(), field.cols);
+    if (!read) throw SourceFailure{read.error()};
+    const auto all =
+        std::span<const float>(held).first(static_cast<std::size_t>(count) * static_cast<std::size_t>(field.cols));
+    for (const float tolerance : all) range.add(tolerance);
+  }
+  return range;
+}
+
+/// A max error, or a factor of all tolerances, at which no sample needs a vertex for its bound, unless that is 0.
+double largest_number(const HeightField& field, const SimplifyOptions& options, const ToleranceRange& tolerances) {
+  const double error = largest_error(field, options);
+  if (has_tolerances(options)) {
+    const double max_error = options.goals.max_error.value_or(kInfinity);
+    return error / (max_error > 0 ? std::min(max_error, tolerances.least) : tolerances.least);
+  }
+  if (options.tolerances.weights.empty()) return error;
+  return error * double{*std::max_element(options.tolerances.weights.begin(), options.tolerances.weights.end())};
+}
+
+/// The subject of a refusal: the mesh that every budget must have room for.
+std::string name_least(const SimplifyOptions& options, bool has_zeros) {
+  const char* zeros = has_zeros ? " and the samples with a tolerance of 0" : "";
+  if (has_lines(options)) return std::string("the lines and the outline of the valid data") + zeros + " alone need";
+  if (options.quality.shape.any()) return std::string("the angles and edges") + zeros + " alone need";
+  return std::string("the outline of the valid data and its rows of tiles") + zeros + " alone need";
+}
+
+}  // namespace
+
+BudgetTask make_budget_task(const HeightField& field, const SimplifyOptions& options) {
+  const ToleranceRange tolerances = tolerance_range(field, options);
+  const double reach = has_lines(options) ? tolerances.largest : 0;
+  BudgetTask task;
+  task.run = [&field, reach](const SimplifyOptions& once, double factor) {
+    return simplify_once(field, once, {factor, factor * reach});
+  };
+  task.insertion_stops = insertion_stops(field, options);
+  task.most = [&field, &options, tolerances] { return largest_number(field, options, tolerances); };
+  task.least = name_least(options, tolerances.has_zeros);
+  return task;
+}
+
+}  // namespace scarp
