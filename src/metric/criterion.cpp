@@ -32,6 +32,12 @@ bool has_tolerances(const SimplifyOptions& options) {
   return !options.tolerances.values.empty() || options.tolerances.source != nullptr;
 }
 
+bool has_own_bounds(const SimplifyOptions& options) {
+  const auto ignores = [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; };
+  return !options.tolerances.weights.empty() || !options.tolerances.values.empty() ||
+         std::any_of(options.strategy.script.begin(), options.strategy.script.end(), ignores);
+}
+
 Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOptions& options, const Raster& raster,
                                   double aim, double factor) {
   Criterion criterion;
@@ -70,6 +76,15 @@ Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOption
     criterion.judge_ = std::make_unique<SampleJudge>(std::move(judging));
   }
   return criterion;
+}
+
+double Criterion::largest_aim() const {
+  if (bounds_.empty()) return aim();
+  double largest = 0;
+  for (std::size_t i = 0; i < bounds_.size(); ++i) {
+    if (!std::isnan(raster_.samples[i])) largest = std::max(largest, double{aims()[i]});
+  }
+  return largest;
 }
 
 Point Criterion::place(std::size_t index) const {
@@ -152,11 +167,9 @@ std::vector<JudgedField> Criterion::judged_fields() const {
 }
 
 Result<void> Criterion::set_bounds() {
-  const auto ignores = [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; };
-  const bool has_ignored = std::any_of(options_->strategy.script.begin(), options_->strategy.script.end(), ignores);
   if (options_->tolerances.source != nullptr)
     source_bounds_ = std::make_unique<SourceBounds>(*options_->tolerances.source, most(), rule(), factor_);
-  if (options_->tolerances.weights.empty() && options_->tolerances.values.empty() && !has_ignored) return {};
+  if (!has_own_bounds(*options_)) return {};
   const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
   bounds_.resize(samples);
   for (std::size_t i = 0; i < samples; ++i) {
@@ -171,7 +184,7 @@ Result<void> Criterion::set_bounds() {
     bounds_[i] = rule().bound(asked);
   }
   for (const ScriptStep& step : options_->strategy.script) {
-    if (ignores(step))
+    if (step.action == ScriptStep::Action::kIgnore)
       bounds_[static_cast<std::size_t>(step.row) * static_cast<std::size_t>(raster_.cols) +
               static_cast<std::size_t>(step.col)] = kUnbounded;
   }

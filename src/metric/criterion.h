@@ -19,6 +19,8 @@ namespace scarp {
 
 /// Whether samples have tolerances of their own, in memory or in a source.
 bool has_tolerances(const SimplifyOptions& options);
+/// Whether samples in memory have bounds of their own, by tolerances, a mask, or a script that ignores some.
+bool has_own_bounds(const SimplifyOptions& options);
 
 /// Owns the arrays of the engine's error metric: at most 12 bytes a sample, none for plain heights and for tolerances
 /// read in windows.
@@ -46,6 +48,9 @@ class Criterion {
   std::span<const float> bounds() const { return bounds_; }
   /// Where they are read in windows; null: the above say all.
   const SourceBounds* source_bounds() const { return source_bounds_.get(); }
+  /// The largest bound that the judge holds to at a valid sample; +infinity: some have none. REQUIRES: samples in
+  /// memory.
+  double largest_aim() const;
   /// Those that the judge holds to.
   std::span<const float> aims() const { return aims_.empty() ? bounds_ : aims_; }
   /// The engine's importance is an error that grows and shrinks with the promised error.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lines/breaklines.h"
+#include "metric/criterion.h"
 #include "pieces/effort.h"
 #include "pieces/goals.h"
 #include "scarp/cliffs.h"
@@ -90,8 +91,10 @@ Result<void> check_needs(const HeightField& field, const SimplifyOptions& option
 }
 
 bool may_be_dominant(const HeightField& field, const SimplifyOptions& options) {
-  const bool has_goal = options.goals.max_error || options.tolerances.source != nullptr;
+  const bool has_goal = options.goals.max_error || has_tolerances(options);
   if (!has_goal || has_budget(options) || options.quality.order == Order::kGreedy) return false;
+  // The worst of the whole raster first takes fewer triangles where bounds differ.
+  if (options.quality.order == Order::kAuto && has_own_bounds(options)) return false;
   const auto of_order = [](const Conflict& conflict) { return conflict.one == Field::kOrderDominant; };
   const auto conflicts = find_conflicts(fields_of(field, options) | Fields(Field::kOrderDominant));
   return std::none_of(conflicts.begin(), conflicts.end(), of_order);

@@ -1,5 +1,6 @@
 #include "simplify/orders.h"
 
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -26,10 +27,11 @@ Result<std::optional<Tiled>> refine_tiles(const Plan& plan, const Criterion& cri
   const HeightField& field = plan.field;
   const SimplifyOptions& options = plan.options;
   TiledOptions tiles;
-  tiles.threshold = criterion.aim();
+  tiles.threshold = plan.is_streamed ? criterion.aim() : criterion.largest_aim();
   tiles.threads = options.run.threads;
   tiles.memory = plan.memory;
-  tiles.may_decline = options.quality.order == Order::kAuto && !plan.is_streamed;
+  // Where bounds differ, tiles are made for the largest only.
+  tiles.may_decline = !plan.is_streamed && (options.quality.order == Order::kAuto || !criterion.bounds().empty());
   Reporter reporter(options.run.progress);
   if (options.run.progress) {
     if (!reporter.report("refine", 0, 0, 0)) return fail(ErrorKind::kCancelled, "cancelled while refining");
@@ -81,7 +83,8 @@ Result<Simplified> run_by_tiles(const Plan& plan, LineWork* lines) {
   // The engine reads nodata as such; what else looks at samples beyond the mesh's own needs them cleaned.
   Raster raster{field.samples, field.cols, field.rows};
   std::optional<Samples> samples;
-  const bool looks_beyond = plan.options.output.normals || !field.frame.is_affine() || plan.fits || lines != nullptr;
+  const bool looks_beyond =
+      plan.options.output.normals || !field.frame.is_affine() || plan.fits || lines != nullptr || has_own_bounds(plan.options);
   if (!plan.is_streamed && looks_beyond) {
     auto cleaned = Samples::of(field);
     if (!cleaned) return tl::unexpected(cleaned.error());
@@ -89,6 +92,7 @@ Result<Simplified> run_by_tiles(const Plan& plan, LineWork* lines) {
   }
   const auto criterion = Criterion::make(field, plan.options, raster, plan.aim, plan.scale.factor);
   if (!criterion) return tl::unexpected(criterion.error());
+  if (!plan.is_streamed && std::isinf(criterion->largest_aim())) return run_greedily(plan, lines);
   const std::uint64_t bytes = proof_bytes(field, plan.options);
   if (auto fits = plan.memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
   const auto start = Clock::now();

@@ -15,6 +15,7 @@
 #include "fit/fit.h"
 #include "grid/samples.h"
 #include "lines/constraints.h"
+#include "metric/height_judge.h"
 #include "metric/source_judge.h"
 #include "pieces/effort.h"
 #include "pieces/freeze.h"
@@ -97,8 +98,8 @@ class EngineRun {
     return {};
   }
 
-  /// The tiles' mesh becomes one. In curved frames its border is fitted to the samples, and what that breaks is
-  /// refined.
+  /// The tiles' mesh becomes one. What the largest bound of all leaves to the others is refined; so is, in curved
+  /// frames, what breaks where its border is fitted to the samples.
   Result<void> free_seams(Tiled tiled, Simplified& result) {
     const auto start = Clock::now();
     take(std::move(tiled.domain));
@@ -111,14 +112,16 @@ class EngineRun {
                         std::move(tiled.fixed)};
       note_places(result);
     } else if (!plan_.is_streamed || field_.source->is_in_memory()) {
-      const Work work = release_seams(piece_->tin, criterion_.judge(), std::move(tiled.seams), options_.run.threads);
+      const HeightJudge of_tiles(raster_, criterion_.largest_aim());
+      const Judge& judge = criterion_.bounds().empty() ? criterion_.judge() : of_tiles;
+      const Work work = release_seams(piece_->tin, judge, std::move(tiled.seams), options_.run.threads);
       result.work.samples_scanned += work.samples_scanned;
       result.work.triangles_scanned += work.triangles_scanned;
       record(result, "seams", start, work);
     }
-    if (field_.frame.is_affine()) return {};
+    if (field_.frame.is_affine() && criterion_.bounds().empty()) return {};
     const auto again = Clock::now();
-    follow_curved_border(raster_, piece_->tin, field_.frame);
+    if (!field_.frame.is_affine()) follow_curved_border(raster_, piece_->tin, field_.frame);
     refinement_.emplace(criterion_.judge(), piece_->tin);
     auto refined = refine(result.stop);
     record(result, "refine", again, refinement_->work());

@@ -110,8 +110,6 @@ while read -r option value; do
   # shellcheck disable=SC2086
   refuses 1 "--order dominant cannot be combined with $option" simplify --order dominant $option $value
 done <<'LIST'
---mask weights.tif
---tolerance bounds.tif
 --script steps.txt
 --texture ortho.tif
 --image
@@ -122,6 +120,10 @@ done <<'LIST'
 --batch const
 --edges data
 LIST
+make_raster bounds.tif '15 + 10 * col / 402'
+succeeds "$scarp" simplify "$dem" bounded.glb --tolerance bounds.tif --order dominant --report bounded.json
+[ "$(json bounded.json strategy order)" = '"dominant"' ] || fail "tolerances change the order that was asked for"
+succeeds "$scarp" measure "$dem" bounded.glb --tolerance bounds.tif
 succeeds "$scarp" simplify "$dem" few.glb -t 1000 --order dominant --report few.json
 holds "$(json few.json triangles) <= 1000"
 [ "$(json few.json strategy order)" = '"dominant"' ] || fail "a budget changes the order that was asked for"

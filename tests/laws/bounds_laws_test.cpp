@@ -239,7 +239,8 @@ RC_GTEST_PROP(bounds, are_kept_in_the_eyes_of_the_judge, ()) {
   const Field field = any_field();
   std::vector<float> bounds = any_bounds(field), mask;
   SimplifyOptions options;
-  options.quality.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
+  options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
+  options.quality.order = *rc::gen::element(Order::kAuto, Order::kDominant);
   options.quality.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
   options.output.float32_positions = *rc::gen::arbitrary<bool>();
   const int kind = *rc::gen::inRange(0, 3);
@@ -277,6 +278,49 @@ RC_GTEST_PROP(bounds, are_kept_in_the_eyes_of_the_judge, ()) {
   RC_ASSERT(m.over_tolerance == 0u);
   RC_ASSERT(m.uncovered == 0u);
   RC_ASSERT(m.is_sound());
+}
+
+TEST(bounds, are_kept_in_the_dominant_order_on_any_number_of_threads) {
+  const Field field = testing::random_field(11, 700, 600, Relief::kRidges, 0.001);
+  std::vector<float> bounds;
+  for (int k = 0; k < 700 * 600; ++k) bounds.push_back(k % 700 < 350 ? 12.0f : 4.0f);
+  std::vector<float> mask = bounds;
+  for (float& weight : mask) weight = 4 / weight;
+  for (const bool is_mask : {false, true}) {
+    SimplifyOptions options{.quality = {.order = Order::kDominant, .effort = Effort::kFast}};
+    if (is_mask) options.tolerances.weights = mask, options.goals.max_error = 4;
+    if (!is_mask) options.tolerances.values = bounds;
+    options.run.threads = 1;
+    const auto one = *simplify(field.view(), options);
+    options.run.threads = 3;
+    const auto three = *simplify(field.view(), options);
+    EXPECT_EQ(one.order, Order::kDominant);
+    EXPECT_EQ(one.mesh.positions, three.mesh.positions);
+    EXPECT_EQ(one.mesh.triangles, three.mesh.triangles);
+    MeasureOptions judge;
+    judge.tolerance = bounds;
+    const Measurement m = *measure(field.view(), one.mesh, judge);
+    EXPECT_EQ(m.over_tolerance, 0u);
+    EXPECT_EQ(m.uncovered, 0u);
+    EXPECT_TRUE(m.is_sound());
+    options.quality.order = Order::kGreedy;
+    const auto greedy = *simplify(field.view(), options);
+    EXPECT_EQ(greedy.order, Order::kGreedy);
+    EXPECT_LT(static_cast<double>(one.mesh.triangle_count()), 1.1 * static_cast<double>(greedy.mesh.triangle_count()));
+  }
+}
+
+TEST(bounds, that_some_samples_lack_leave_nothing_to_tiles) {
+  const Field field = testing::random_field(11, 100, 80, Relief::kRidges);
+  std::vector<float> bounds(field.samples.size(), 5.0f);
+  bounds[4321] = kNoBound;
+  SimplifyOptions options{.quality = {.effort = Effort::kFast}};
+  options.tolerances.values = bounds;
+  const auto plain = *simplify(field.view(), options);
+  options.quality.order = Order::kDominant;
+  const auto made = *simplify(field.view(), options);
+  EXPECT_EQ(made.order, Order::kGreedy);
+  EXPECT_EQ(made.mesh.positions, plain.mesh.positions);
 }
 
 TEST(bounds, of_a_mask_are_kept_by_efforts_within_a_budget) {

@@ -47,6 +47,7 @@ struct Scene {
     const int kind = *rc::gen::inRange(0, 4);
     if (kind == 0) options.features.breaklines = testing::any_lines(field);
     if (kind == 1) options.quality.shape.min_angle = 15;
+    if (kind == 2) options.quality.order = Order::kDominant;
     options.quality.effort = *rc::gen::element(Effort::kAuto, Effort::kFast, Effort::kNormal, Effort::kHigh);
     if (options.quality.effort != Effort::kFast) options.goals.objective = *rc::gen::element(Objective::kMax, Objective::kRms);
   }

@@ -334,8 +334,9 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   }
   if (options.quality.order == Order::kDominant && outcome.simplified.order != Order::kDominant) {
     outcome.warnings.push_back(
-        "the greedy order was taken: the goal is so coarse that tiles would cost vertices, or the heights span "
-        "magnitudes beyond exact arithmetic");
+        "the greedy order was taken: the goal is so coarse that tiles would cost vertices, some samples have no bound, "
+        "or "
+        "the heights span magnitudes beyond exact arithmetic");
   }
   if (outcome.fitted.given_lines() > 0 && outcome.simplified.lines_laid == 0) {
     outcome.warnings.push_back(
