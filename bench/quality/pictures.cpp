@@ -43,7 +43,7 @@ int draw(const Scene& scene, const scarp::OwnedHeightField& window, const std::s
   for (const std::string_view variant : kShown) {
     const auto made = scarp::simplify(window, bench::options_of(*bench::find_variant(variant), scene.max_error));
     if (!made) return bench::fail_with(made.error().message);
-    const auto png = scarp::encode_png(scarp::draw_preview(window, made->mesh, scene.pixels));
+    const auto png = scarp::encode_png(*scarp::draw_preview(window, made->mesh, scene.pixels));
     if (!png) return bench::fail_with(png.error().message);
     const std::string picture = fmt::format("effort_{}_{}.png", scene.name, variant);
     if (const auto written = scarp::write_file(folder + "/" + picture, *png); !written)

@@ -24,6 +24,7 @@ enum class Field : std::uint8_t {
   kOutlineTolerance,
   kDoublePositions,  ///< float32_positions is false
   kMask,
+  kMaskSource,
   kTolerance,
   kToleranceSource,
   kBreaklines,     ///< of any kind

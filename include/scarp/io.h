@@ -99,6 +99,33 @@ enum class RasterFormat { kGeoTiff, kPgm };
 /// must lie in 0 … 65535 (kOutput otherwise), 65535 for NaN.
 Result<std::vector<std::uint8_t>> encode_raster(const RasterImage& raster, RasterFormat format);
 
+/// A GeoTIFF as encode_raster() makes it, of a raster that is not in memory as a whole: rows are added one after the
+/// other to a file with a temporary name, which write_files() gives its own; without that nothing is left of it. The
+/// bytes are those of encode_raster().
+class RasterFile {
+ public:
+  /// Fails as write_file() and encode_raster() do.
+  static Result<RasterFile> create(const std::string& path, int cols, int rows, const RasterInfo* like,
+                                   bool overwrite = true);
+  RasterFile(RasterFile&&) noexcept;
+  RasterFile& operator=(RasterFile&&) noexcept;
+  ~RasterFile();
+
+  /// The next row, from the top. Fails with kOutput.
+  Result<void> add(std::span<const float> row);
+  /// Fails with kOutput. REQUIRES: all rows were added.
+  Result<void> finish();
+  std::uint64_t size() const;            ///< of the file; after finish()
+  static std::uint64_t bytes(int cols);  ///< of memory that one takes
+
+  struct Impl;
+  Impl& impl() { return *impl_; }
+
+ private:
+  explicit RasterFile(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
 /// Largest number of samples that fit `memory_limit` bytes at 5 bytes a sample; 0 = the machine's memory.
 std::uint64_t max_samples(std::uint64_t memory_limit);
 
@@ -148,6 +175,7 @@ Result<void> write_file(const std::string& path, std::span<const std::uint8_t> b
 struct FileBytes {
   std::string path;
   std::span<const std::uint8_t> bytes;
+  RasterFile* raster = nullptr;  ///< finished, in place of bytes; it was created for the path
 };
 /// write_file() for several files that belong together. All are written to temporary names before the first is renamed,
 /// so a full disk, a read-only folder or a name that is taken leaves none of them. Devices and pipes are written last.

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -57,10 +58,12 @@ struct JudgeOptions {
   Norm norm = Norm::kSum;
   const Cutline* cutline = nullptr;  ///< as MeasureOptions::cutline. Borrowed.
   bool topology = true;              ///< as MeasureOptions::topology
-  /// False: Judgement::combined and weighted are left out, and Judgement::ignored where tolerances have a source.
-  /// This saves a pass over that source, and the memory of errors. DEFAULT: true.
+  /// False: Judgement::combined and weighted are left out, and Judgement::ignored where bounds are read in windows.
+  /// This saves a pass over these, and the memory of errors. DEFAULT: true.
   bool weigh = true;
   bool keep_errors = false;  ///< fill Judgement::height_errors and norms. DEFAULT: false.
+  /// As MeasureOptions::on_row: signed errors of the heights, row by row, in place of keeping them.
+  std::function<void(int row, std::span<const float> errors)> on_row = {};
   Run run = {};
 };
 
@@ -82,12 +85,12 @@ struct Judgement {
 /// and 2⁻²³ of the bound, since errors are float32.
 ///
 /// `mesh` has as many channels as `field`, values in Mesh::channels. Nothing is kept of what is borrowed. A field with
-/// a source, and tolerances with a source, are read in bands of rows; where some errors are above their tolerance,
-/// twice. Fails with kUsage for a mask or tolerances of another size than the field, both at once, a max_error below 0,
-/// another number of channels than the mesh has, channels, a mask, an array of tolerances or a script beside a field
-/// with a source, and a script step outside the raster; and as measure() and the sources do. Memory: as measure();
-/// beside a mask, an array of tolerances, channels or keep_errors 4 bytes a sample, 8 more with channels, 4 more where
-/// samples are ignored. Cost: as measure(), once for the heights and once a channel.
+/// a source, and sources of weights and tolerances, are read in bands of rows; where some errors are above their bound,
+/// twice. Fails with kUsage for weights or tolerances of another size than the field, both at once, a max_error below 0,
+/// another number of channels than the mesh has, channels or an array of weights or tolerances beside a field with a
+/// source, and a script step outside the raster; and as measure() and the sources do. Memory: as measure(); beside
+/// weights, an array of tolerances, channels or keep_errors 4 bytes a sample, 8 more with channels, 4 more where samples
+/// in memory are ignored. Cost: as measure(), once for the heights and once a channel.
 Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const JudgeOptions& options = {});
 
 /// The errors that take_error_raster() returns.

@@ -105,9 +105,11 @@ struct Measurement {
 
 /// Heights of the mesh at the samples of the field's grid, row-major: the approximation resampled (Terra's `dem`). NaN
 /// where the sample is nodata or uncovered. At samples that two triangles share, the one with the larger error counts,
-/// as in measure(). Same failures and cost as measure(), and 8 bytes a sample. kUsage for a field without samples in
-/// memory.
+/// as in measure(). Same failures and cost as measure(), and 8 bytes a sample.
 Result<std::vector<float>> resample(const HeightField& field, const Mesh& mesh, int threads = 1);
+/// The same row by row, from the top; the span is valid during the call only. Memory: as measure().
+Result<void> resample_rows(const HeightField& field, const Mesh& mesh,
+                           const std::function<void(int row, std::span<const float> heights)>& on_row, int threads = 1);
 
 /// Judges `mesh` against every valid sample of `field`, in the field's frame. Shares no scan code with simplify().
 /// Fails with kInput if the mesh has an index out of range, a position that is not finite or beyond 1e100 (in its own

@@ -14,12 +14,25 @@
 namespace scarp {
 
 /// Hillshade of the field with the mesh's edges over it, at most `max_side` pixels wide or high. Nodata samples are
-/// white.
-Picture draw_preview(const HeightField& field, const Mesh& mesh, int max_side = 1400);
+/// white. Streamed samples are read once, from the top; memory: 112 bytes a pixel. Fails with kInput for fewer than 2×2
+/// samples, and as the field's source does.
+Result<Picture> draw_preview(const HeightField& field, const Mesh& mesh, int max_side = 1400);
 
 /// Map of signed errors (row-major, cols·rows, NaN = nodata or uncovered) in diverging colours, blue below and red
 /// above the samples, with a scale bar from −limit to +limit in z units. `limit` <= 0: the largest |error|.
 Picture draw_error_map(std::span<const float> errors, int cols, int rows, double limit = 0, int max_side = 1400);
+/// The same map of errors that come row by row. Memory: 7 bytes a pixel. REQUIRES: at least 1×1 samples.
+class ErrorMap {
+ public:
+  ErrorMap(int cols, int rows, int max_side = 1400);
+  void add(int row, std::span<const float> errors);
+  Picture draw(double limit = 0) const;
+
+ private:
+  int cols_, rows_, max_side_, width_, height_;
+  std::vector<float> errors_;  // of each pixel the one of the largest size; NaN where there is none
+  double largest_ = 0;
+};
 
 /// The approximation as an image of one pixel a sample, Gouraud-shaded: the mesh's colours, interpolated in each
 /// triangle; without colours its hillshade. White outside the mesh. The mesh lies in the field's frame.

@@ -1,4 +1,5 @@
-// Per-sample tolerances from a raster of tolerances, regions of interest, or both: the smallest one counts.
+// Per-sample tolerances from a raster of tolerances, regions of interest, or both: the smallest one counts. Weights
+// from a raster of weights.
 #pragma once
 
 #include <cstdint>
@@ -28,11 +29,13 @@ struct Tolerances {
   /// Weights, one a sample, at least 0 and finite (Terra's importance mask): weight · |error| is what is ranked and
   /// what max_error bounds. Where the weight is 0 there is no bound. Borrowed. DEFAULT: empty, all 1.
   std::span<const float> weights = {};
+  /// The same where the field has a source, read in windows as its samples are, as `source`. Borrowed. DEFAULT: none.
+  const SampleSource* weights_source = nullptr;
 };
 
 struct ToleranceOptions {
-  /// True: OwnedTolerances::source computes tolerances on reading, for heights with a source. False:
-  /// OwnedTolerances::values holds them, for heights in memory. DEFAULT: false.
+  /// True: a source computes tolerances or weights on reading, for heights with a source. False: they are values, for
+  /// heights in memory. DEFAULT: false.
   bool in_windows = false;
   Run run =
       {};  ///< threads: those that will read windows; progress: of the pass "read", where a raster is read through
@@ -60,10 +63,19 @@ struct OwnedTolerances {
 Result<OwnedTolerances> make_tolerances(std::optional<OwnedHeightField> raster, std::span<const Region> regions,
                                         const RegionGrid& grid, const ToleranceOptions& options = {});
 
-/// Weights for Tolerances::weights of a raster of weights, whose samples are in memory: 0 where it has no value; all
-/// divided by the largest if that is above 1. Fails with kInput, naming the raster's file, for a negative weight and
-/// where no weight is above 0; with kUsage for a raster with a source. Cost: O(samples).
-Result<std::vector<float>> make_weights(OwnedHeightField raster);
+/// A weight for each sample, in 0 … 1.
+struct OwnedWeights {
+  std::vector<float> values;                   ///< for Tolerances::weights; empty where they have a source
+  std::shared_ptr<const SampleSource> source;  ///< for Tolerances::weights_source; null where they are values
+
+  bool empty() const { return values.empty() && !source; }
+};
+
+/// Makes the weights of a raster of weights: 0 where it has no value; all divided by the largest if that is above 1.
+/// The call takes ownership of the raster; with in_windows it reads it through once. Fails with kInput, naming the
+/// raster's file, for a negative weight and where no weight is above 0; with kUsage for a raster with a source where
+/// values are asked for; as the raster's source does; with kCancelled. Cost: O(samples).
+Result<OwnedWeights> make_weights(OwnedHeightField raster, const ToleranceOptions& options = {});
 
 }  // namespace scarp
 

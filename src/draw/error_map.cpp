@@ -25,22 +25,12 @@ Colour colour_of(double error, double limit) {
   return draw::ramp(kDiverging, limit > 0 ? 0.5 + error / limit / 2 : 0.5);
 }
 
-/// In each pixel the error of the largest size: means would hide what the map is asked for. NaN where there is none.
-std::vector<float> reduce(std::span<const float> errors, int cols, int rows, int width, int height) {
-  std::vector<float> out(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
-                         std::numeric_limits<float>::quiet_NaN());
-  for (int r = 0; r < rows; ++r) {
-    const auto y = static_cast<std::size_t>(static_cast<std::int64_t>(r) * height / rows);
-    for (int c = 0; c < cols; ++c) {
-      const auto x = static_cast<std::size_t>(static_cast<std::int64_t>(c) * width / cols);
-      const float error =
-          errors[static_cast<std::size_t>(r) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(c)];
-      float& held = out[y * static_cast<std::size_t>(width) + x];
-      if (std::isnan(held) || std::abs(error) > std::abs(held)) held = error;
-    }
-  }
-  return out;
-}
+/// Pixels that the picture's scale and the numbers under it take; none where the picture is too low for them.
+struct Layout {
+  explicit Layout(int max_side)
+      : size(max_side >= 600 ? 2 : 1), below(max_side > 48 * size ? 24 * size : 0), room(max_side - below) {}
+  int size, below, room;  ///< the last one is for the map's height
+};
 
 /// A bar from −limit to +limit with numbers below; `top` is its first row.
 void draw_scale(Picture& picture, int top, int size, double limit) {
@@ -69,36 +59,53 @@ void draw_scale(Picture& picture, int top, int size, double limit) {
 
 }  // namespace
 
-Picture draw_error_map(std::span<const float> errors, int cols, int rows, double limit, int max_side) {
-  if (cols < 1 || rows < 1 || errors.size() < static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows))
-    return {};
-  if (!(limit > 0) || !std::isfinite(limit)) {
-    limit = 0;
-    for (const float error : errors) {
-      if (std::isfinite(error)) limit = std::max(limit, std::abs(static_cast<double>(error)));
-    }
-  }
-  max_side = std::max(max_side, 1);
-  const int size = max_side >= 600 ? 2 : 1, below = 24 * size;
-  const int room = max_side > 2 * below ? max_side - below : max_side;  // for the map's height
-  const double scale = std::min({1.0, static_cast<double>(max_side) / cols, static_cast<double>(room) / rows});
-  const int width = std::max(1, static_cast<int>(cols * scale)), height = std::max(1, static_cast<int>(rows * scale));
-  const int side = std::max(cols, rows);
-  const int factor =
-      std::max(1, std::min({max_side / width, room / height, side < kSmallMap ? kSmallMap / side + 1 : 1}));
+/// Means would hide what the map is asked for.
+ErrorMap::ErrorMap(int cols, int rows, int max_side) : cols_(cols), rows_(rows), max_side_(std::max(max_side, 1)) {
+  const double scale =
+      std::min({1.0, static_cast<double>(max_side_) / cols, static_cast<double>(Layout(max_side_).room) / rows});
+  width_ = std::max(1, static_cast<int>(cols * scale));
+  height_ = std::max(1, static_cast<int>(rows * scale));
+  errors_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
+                 std::numeric_limits<float>::quiet_NaN());
+}
 
-  const std::vector<float> reduced = reduce(errors, cols, rows, width, height);
-  const bool has_scale = room < max_side;
-  Picture picture = draw::blank(width * factor, height * factor + (has_scale ? below : 0));
-  for (int y = 0; y < height * factor; ++y) {
+void ErrorMap::add(int row, std::span<const float> errors) {
+  const auto y = static_cast<std::size_t>(static_cast<std::int64_t>(row) * height_ / rows_);
+  for (int c = 0; c < cols_; ++c) {
+    const auto x = static_cast<std::size_t>(static_cast<std::int64_t>(c) * width_ / cols_);
+    const float error = errors[static_cast<std::size_t>(c)];
+    float& held = errors_[y * static_cast<std::size_t>(width_) + x];
+    if (std::isnan(held) || std::abs(error) > std::abs(held)) held = error;
+    if (std::isfinite(error)) largest_ = std::max(largest_, std::abs(static_cast<double>(error)));
+  }
+}
+
+Picture ErrorMap::draw(double limit) const {
+  if (!(limit > 0) || !std::isfinite(limit)) limit = largest_;
+  const Layout layout(max_side_);
+  const int side = std::max(cols_, rows_);
+  const int factor =
+      std::max(1, std::min({max_side_ / width_, layout.room / height_, side < kSmallMap ? kSmallMap / side + 1 : 1}));
+  Picture picture = draw::blank(width_ * factor, height_ * factor + layout.below);
+  for (int y = 0; y < height_ * factor; ++y) {
     for (int x = 0; x < picture.width; ++x) {
-      const float error = reduced[static_cast<std::size_t>(y / factor) * static_cast<std::size_t>(width) +
+      const float error = errors_[static_cast<std::size_t>(y / factor) * static_cast<std::size_t>(width_) +
                                   static_cast<std::size_t>(x / factor)];
       draw::set_pixel(picture, x, y, std::isnan(error) ? kVoidColour : colour_of(static_cast<double>(error), limit));
     }
   }
-  if (has_scale) draw_scale(picture, height * factor + 4 * size, size, limit);
+  if (layout.below > 0) draw_scale(picture, height_ * factor + 4 * layout.size, layout.size, limit);
   return picture;
+}
+
+Picture draw_error_map(std::span<const float> errors, int cols, int rows, double limit, int max_side) {
+  if (cols < 1 || rows < 1 || errors.size() < static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows))
+    return {};
+  ErrorMap map(cols, rows, max_side);
+  for (int row = 0; row < rows; ++row)
+    map.add(row, errors.subspan(static_cast<std::size_t>(row) * static_cast<std::size_t>(cols),
+                                static_cast<std::size_t>(cols)));
+  return map.draw(limit);
 }
 
 }  // namespace scarp

@@ -6,6 +6,8 @@
 #include "draw/canvas.h"
 #include "draw/grid_positions.h"
 #include "draw/relief.h"
+#include "grid/bands.h"
+#include "grid/samples.h"
 #include "scarp/picture.h"
 
 namespace scarp {
@@ -18,23 +20,27 @@ constexpr Colour kFrameInk{24, 28, 48};
 constexpr int kSmallPreview = 700;  // rasters below this many samples a side are enlarged
 
 /// Means of the samples that fall into each pixel; void where more than half of them are.
-Relief reduce(const HeightField& field, int width, int height) {
+Result<Relief> reduce(const HeightField& field, int width, int height) {
   Relief relief{width, height, {}};
   const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   relief.z.assign(size, 0);
   std::vector<std::uint32_t> valid(size, 0), all(size, 0);
-  for (int r = 0; r < field.rows; ++r) {
+  const auto add_row = [&](int r, const float* row) {
     const auto y = static_cast<std::size_t>(static_cast<std::int64_t>(r) * height / field.rows);
-    const float* row = field.samples + static_cast<std::size_t>(r) * static_cast<std::size_t>(field.cols);
     for (int c = 0; c < field.cols; ++c) {
       const std::size_t i = y * static_cast<std::size_t>(width) +
                             static_cast<std::size_t>(static_cast<std::int64_t>(c) * width / field.cols);
       ++all[i];
-      if (!std::isfinite(row[c]) || (field.nodata && row[c] == *field.nodata)) continue;
+      if (std::isnan(row[c])) continue;
       ++valid[i];
       relief.z[i] += static_cast<double>(row[c]);
     }
-  }
+  };
+  const auto swept = sweep_rows(field, 0, [&](const RowRange& rows) -> Result<void> {
+    for (int r = rows.begin; r < rows.end; ++r) add_row(r, rows.row(r));
+    return {};
+  });
+  if (!swept) return tl::unexpected(swept.error());
   for (std::size_t i = 0; i < size; ++i) {
     relief.z[i] =
         2 * valid[i] < all[i] || valid[i] == 0 ? std::numeric_limits<double>::quiet_NaN() : relief.z[i] / valid[i];
@@ -100,8 +106,8 @@ void draw_mesh(const HeightField& field, const Mesh& mesh, Picture& picture) {
 
 }  // namespace
 
-Picture draw_preview(const HeightField& field, const Mesh& mesh, int max_side) {
-  if (field.cols < 1 || field.rows < 1 || field.samples == nullptr) return {};
+Result<Picture> draw_preview(const HeightField& field, const Mesh& mesh, int max_side) {
+  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
   max_side = std::max(max_side, 1);
   const int side = std::max(field.cols, field.rows);
   const double scale = std::min(1.0, static_cast<double>(max_side) / side);
@@ -110,8 +116,9 @@ Picture draw_preview(const HeightField& field, const Mesh& mesh, int max_side) {
   const int factor =
       side >= kSmallPreview ? 1 : std::max(1, std::min(max_side / side, 3 * kSmallPreview / (2 * side) + 1));
 
-  const Relief relief = reduce(field, width, height);
-  Picture picture = enlarge(relief, draw::shade(relief, field.frame, field.cols, field.rows), factor);
+  const Result<Relief> relief = reduce(field, width, height);
+  if (!relief) return tl::unexpected(relief.error());
+  Picture picture = enlarge(*relief, draw::shade(*relief, field.frame, field.cols, field.rows), factor);
   draw_mesh(field, mesh, picture);
   return picture;
 }

@@ -29,6 +29,10 @@ Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage&) {
               "GeoTIFF cannot be written: this build of Scarp has no GDAL, which encodes it; write PGM");
 }
 
+Result<std::unique_ptr<GeoTiff>> create_geotiff(const std::string&, int, int, const RasterInfo*) {
+  return fail(ErrorKind::kOutput, "GeoTIFF cannot be written: this build of Scarp has no GDAL, which encodes it");
+}
+
 std::optional<CrsDescription> describe_crs(const std::string&) { return {}; }
 
 Result<std::vector<std::uint8_t>> encode_gpkg(const Mesh&) {

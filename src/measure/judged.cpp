@@ -1,5 +1,5 @@
 // What has a bound is found first, as limits of 0 or infinity, so that measure() tells the largest errors of the rest.
-// Errors are then weighed: row by row as they are found where tolerances are read in windows, else when they are all
+// Errors are then weighed: row by row as they are found where bounds are read in windows, else when they are all
 // in.
 #include <fmt/format.h>
 
@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "grid/point_rows.h"
 #include "measure/error_weigher.h"
 #include "scarp/judge.h"
 
@@ -33,19 +34,34 @@ bool is_void(const HeightField& field, std::size_t sample) {
 /// 0 where there is a bound, +infinity where there is none.
 class BoundLimits final : public SampleSource {
  public:
-  explicit BoundLimits(const SampleSource& bounds) : bounds_(bounds) {}
+  explicit BoundLimits(const JudgeOptions& options)
+      : weights_(options.tolerances.weights_source),
+        tolerances_(options.max_error ? nullptr : options.tolerances.source),
+        ignored_(ignored_samples(options.script)) {}
+
+  /// Whether any sample may be without a bound.
+  bool has_any() const { return weights_ != nullptr || tolerances_ != nullptr || !ignored_.empty(); }
+  const PointRows& ignored() const { return ignored_; }
 
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
-    if (auto read = bounds_.read(col, row, cols, rows, out, stride); !read) return read;
+    const SampleSource* values = weights_ != nullptr ? weights_ : tolerances_;
+    const float none = weights_ != nullptr ? 0 : kNoBound;
+    if (values != nullptr) {
+      if (auto read = values->read(col, row, cols, rows, out, stride); !read) return read;
+    }
     for (int y = 0; y < rows; ++y) {
-      for (float* to = out + y * stride; to != out + y * stride + cols; ++to) *to = *to == kNoBound ? kNoBound : 0;
+      float* limits = out + y * stride;
+      for (int x = 0; x < cols; ++x) limits[x] = values != nullptr && limits[x] == none ? kNoBound : 0;
+      ignored_.visit(row + y, col, cols, [&](std::int32_t x) { limits[x - col] = kNoBound; });
     }
     return {};
   }
-  bool is_in_memory() const override { return bounds_.is_in_memory(); }
+  bool is_in_memory() const override { return false; }
 
  private:
-  const SampleSource& bounds_;
+  const SampleSource* weights_;
+  const SampleSource* tolerances_;
+  PointRows ignored_;
 };
 
 /// The valid samples without a bound.
@@ -56,17 +72,17 @@ struct Exceptions {
 };
 
 /// The heights without a bound. Both are read once through.
-Result<std::uint64_t> count_unbounded(const HeightField& field, const SampleSource& bounds) {
+Result<std::uint64_t> count_unbounded(const HeightField& field, const BoundLimits& limits) {
   constexpr int kSamples = 1 << 18;
   const int together = std::clamp(kSamples / field.cols, 1, field.rows);
   const auto cols = static_cast<std::size_t>(field.cols);
-  std::vector<float> heights, tolerance;
+  std::vector<float> heights, limit;
   std::uint64_t count = 0;
   for (int row = 0; row < field.rows; row += together) {
     const int rows = std::min(together, field.rows - row);
     const std::size_t first = static_cast<std::size_t>(row) * cols, size = static_cast<std::size_t>(rows) * cols;
-    tolerance.resize(size);
-    if (auto read = bounds.read(0, row, field.cols, rows, tolerance.data(), field.cols); !read)
+    limit.resize(size);
+    if (auto read = limits.read(0, row, field.cols, rows, limit.data(), field.cols); !read)
       return tl::unexpected(read.error());
     if (field.source != nullptr) {
       heights.resize(size);
@@ -75,25 +91,31 @@ Result<std::uint64_t> count_unbounded(const HeightField& field, const SampleSour
     }
     for (std::size_t k = 0; k < size; ++k) {
       const bool is_height = field.source != nullptr ? std::isfinite(heights[k]) : !is_void(field, first + k);
-      count += tolerance[k] == kNoBound && is_height;
+      count += limit[k] > 0 && is_height;
     }
   }
   return count;
 }
 
-Result<Exceptions> find_exceptions(const HeightField& field, const JudgeOptions& options) {
+/// Of samples, or bounds, that are read in windows.
+Result<Exceptions> find_windowed_exceptions(const HeightField& field, const JudgeOptions& options) {
   Exceptions found;
-  if (options.tolerances.source != nullptr) {
-    if (options.max_error) return found;
-    if (options.weigh) {
-      const auto count = count_unbounded(field, *options.tolerances.source);
-      if (!count) return tl::unexpected(count.error());
-      found.count = *count;
-      if (*count == 0) return found;
-    }
-    found.source = std::make_unique<BoundLimits>(*options.tolerances.source);
-    return found;
+  auto limits = std::make_unique<BoundLimits>(options);
+  if (!limits->has_any()) return found;
+  if (options.weigh) {
+    const auto count = count_unbounded(field, *limits);
+    if (!count) return tl::unexpected(count.error());
+    found.count = *count;
+    if (*count == 0) return found;
   }
+  found.source = std::move(limits);
+  return found;
+}
+
+Result<Exceptions> find_exceptions(const HeightField& field, const JudgeOptions& options) {
+  if (field.samples == nullptr || options.tolerances.source != nullptr || options.tolerances.weights_source != nullptr)
+    return find_windowed_exceptions(field, options);
+  Exceptions found;
   const auto ignores = [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; };
   const bool has_ignored = std::any_of(options.script.begin(), options.script.end(), ignores);
   if (options.tolerances.weights.empty() && options.tolerances.values.empty() && !has_ignored) return found;
@@ -185,14 +207,17 @@ double magnitude_of(const HeightField& field) {
   return magnitude;
 }
 
-/// Weighs rows as they are judged, by tolerances that are read along with them.
+/// Weighs rows as they are judged, by tolerances or weights that are read along with them.
 class RowWeigher {
  public:
-  RowWeigher(const HeightField& heights, const SampleSource& tolerances, double allowance)
+  /// REQUIRES: a source of either.
+  RowWeigher(const HeightField& heights, const JudgeOptions& request, const Exceptions& exceptions, double allowance)
       : cols_(heights.cols),
         rows_(heights.rows),
-        tolerances_(tolerances),
-        weigher_(1, heights.sample_rounding, allowance) {}
+        is_mask_(request.tolerances.weights_source != nullptr),
+        values_(is_mask_ ? *request.tolerances.weights_source : *request.tolerances.source),
+        ignored_(exceptions.source ? &exceptions.source->ignored() : nullptr),
+        weigher_(is_mask_ ? request.max_error.value_or(HUGE_VAL) : 1, heights.sample_rounding, allowance) {}
 
   void add(int row, std::span<const float> errors) {
     if (!read_) return;
@@ -201,13 +226,20 @@ class RowWeigher {
       constexpr int kSamples = 1 << 18;
       const int count = std::min(std::max(1, kSamples / cols_), rows_ - row);
       held_.resize(static_cast<std::size_t>(count) * size);
-      read_ = tolerances_.read(0, row, cols_, count, held_.data(), cols_);
+      read_ = values_.read(0, row, cols_, count, held_.data(), cols_);
       if (!read_) return;
       first_ = row;
       end_ = row + count;
     }
-    const std::size_t at = static_cast<std::size_t>(row - first_) * size;
-    weigher_.add(row, {.errors = errors, .tolerance = std::span<const float>(held_).subspan(at, size)});
+    const auto values = std::span<const float>(held_).subspan(static_cast<std::size_t>(row - first_) * size, size);
+    ErrorWeigher::Row weighed{.errors = errors};
+    (is_mask_ ? weighed.mask : weighed.tolerance) = values;
+    if (ignored_ != nullptr && !ignored_->empty()) {
+      limits_.assign(size, 0);
+      ignored_->visit(row, 0, cols_, [&](std::int32_t x) { limits_[static_cast<std::size_t>(x)] = kNoBound; });
+      weighed.limits = limits_;
+    }
+    weigher_.add(row, weighed);
   }
   Result<WeighedErrors> finish() const {
     if (!read_) return tl::unexpected(read_.error());
@@ -216,17 +248,18 @@ class RowWeigher {
 
  private:
   int cols_, rows_;
-  const SampleSource& tolerances_;
+  bool is_mask_;
+  const SampleSource& values_;
+  const PointRows* ignored_;
   ErrorWeigher weigher_;
-  std::vector<float> held_;  // rows [first_, end_)
+  std::vector<float> held_, limits_;  // of rows [first_, end_); of a row
   int first_ = 0, end_ = 0;
   Result<void> read_;
 };
 
-/// Measures, and weighs by tolerances that are read along. Fails as the sources do.
-Result<Measurement> measure_and_weigh(const HeightField& heights, const Mesh& mesh, const SampleSource& tolerances,
-                                      double allowance, MeasureOptions options, std::optional<WeighedErrors>& weighed) {
-  RowWeigher rows(heights, tolerances, allowance);
+/// Measures, and weighs by what is read along. Fails as the sources do.
+Result<Measurement> measure_and_weigh(const HeightField& heights, const Mesh& mesh, RowWeigher rows,
+                                      MeasureOptions options, std::optional<WeighedErrors>& weighed) {
   options.on_row = [&, keep = options.on_row](int row, std::span<const float> errors) {
     if (keep) keep(row, errors);
     rows.add(row, errors);
@@ -246,17 +279,17 @@ Result<void> check_request(const HeightField& field, const Mesh& mesh, const Jud
     if (!values.empty() && values.size() != samples)
       return fail(ErrorKind::kUsage, fmt::format("a {} of {} values for {} samples", name, values.size(), samples));
   }
-  const int bounds =
-      !options.tolerances.weights.empty() + !options.tolerances.values.empty() + (options.tolerances.source != nullptr);
-  if (bounds > 1) return fail(ErrorKind::kUsage, "a mask and tolerances, or tolerances twice: give one of them");
+  const int bounds = !options.tolerances.weights.empty() + (options.tolerances.weights_source != nullptr) + !options.tolerances.values.empty() +
+                     (options.tolerances.source != nullptr);
+  if (bounds > 1) return fail(ErrorKind::kUsage, "a mask and tolerances, or one of them twice: give one of them");
   if (options.max_error && !(*options.max_error >= 0))
     return fail(ErrorKind::kUsage, fmt::format("a max error of {}: it must be at least 0", *options.max_error));
-  const bool needs_samples =
-      !field.channels.empty() || !options.tolerances.weights.empty() || !options.tolerances.values.empty();
-  if (field.samples == nullptr && (needs_samples || !options.script.empty()))
-    return fail(ErrorKind::kUsage,
-                "channels, masks, scripts and arrays of tolerances go with samples in memory: read the raster as a "
-                "whole, or give the tolerances a source");
+  const bool needs_samples = !field.channels.empty() || !options.tolerances.weights.empty() || !options.tolerances.values.empty();
+  if (field.samples == nullptr && needs_samples)
+    return fail(
+        ErrorKind::kUsage,
+        "channels and arrays of weights or tolerances go with samples in memory: read the raster as a whole, or "
+        "give weights and tolerances a source");
   if (!field.channels.empty() && field.channels.size() != static_cast<std::size_t>(mesh.channel_count))
     return fail(ErrorKind::kUsage,
                 fmt::format("the mesh has {} channels, the field {}", mesh.channel_count, field.channels.size()));
@@ -309,9 +342,8 @@ Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const J
   const auto exceptions = find_exceptions(field, request);
   if (!exceptions) return tl::unexpected(exceptions.error());
   const bool has_channels = !field.channels.empty();
-  const bool weighs_later =
-      request.weigh && (has_channels || !request.tolerances.weights.empty() || !request.tolerances.values.empty());
-  const SampleSource* weigh_by = request.weigh ? request.tolerances.source : nullptr;
+  const bool weighs_later = request.weigh && (has_channels || !request.tolerances.weights.empty() || !request.tolerances.values.empty());
+  const bool weighs_along = request.weigh && (request.tolerances.source != nullptr || request.tolerances.weights_source != nullptr);
   const bool keeps = request.keep_errors || weighs_later;
   const auto cols = static_cast<std::size_t>(field.cols);
   Judgement judgement;
@@ -328,15 +360,18 @@ Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const J
   options.tolerance_source = exceptions->source.get();
   const bool has_exceptions = !options.tolerance.empty() || options.tolerance_source != nullptr;
   const auto keep_errors = [&](int row, std::span<const float> errors) {
+    if (request.on_row) request.on_row(row, errors);
+    if (!keeps) return;
     const std::size_t start = static_cast<std::size_t>(row) * cols;
     std::copy(errors.begin(), errors.end(), judgement.height_errors.begin() + static_cast<std::ptrdiff_t>(start));
     if (judgement.norms.empty()) return;
     add_to_norms(std::span(judgement.norms).subspan(start, cols), errors, field.height_scale, request.norm);
   };
-  if (keeps) options.on_row = keep_errors;
-  Result<Measurement> measured = weigh_by == nullptr
-                                     ? measure(field, mesh, options)
-                                     : measure_and_weigh(field, mesh, *weigh_by, 0, options, judgement.weighted);
+  if (keeps || request.on_row) options.on_row = keep_errors;
+  Result<Measurement> measured =
+      weighs_along
+          ? measure_and_weigh(field, mesh, RowWeigher(field, request, *exceptions, 0), options, judgement.weighted)
+          : measure(field, mesh, options);
   if (!measured) return tl::unexpected(std::move(measured.error()));
   judgement.heights = std::move(*measured);
   const std::vector<Offender> offenders = std::exchange(judgement.heights.offenders, {});
@@ -349,8 +384,8 @@ Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const J
   options.tolerance_source = nullptr;
   options.on_row = {};
   if (judgement.weighted && judgement.weighted->over > 0) {
-    const auto again = measure_and_weigh(field, mesh, *weigh_by, rounding_of(judgement.heights.heights, 0), options,
-                                         judgement.weighted);
+    const RowWeigher rows(field, request, *exceptions, rounding_of(judgement.heights.heights, 0));
+    const auto again = measure_and_weigh(field, mesh, rows, options, judgement.weighted);
     if (!again) return tl::unexpected(again.error());
   }
   ChannelJudge channel_judge(field, mesh);

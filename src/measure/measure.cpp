@@ -292,24 +292,28 @@ Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const Me
   return caught(ErrorKind::kInput, "measure the mesh");
 }
 
-Result<std::vector<float>> resample(const HeightField& field, const Mesh& mesh, int threads) try {
+Result<void> resample_rows(const HeightField& field, const Mesh& mesh,
+                           const std::function<void(int row, std::span<const float> heights)>& on_row,
+                           int threads) try {
   MeasureOptions options;
   options.run.threads = threads;
-  if (auto checked = check_input(field, mesh, options); !checked) return tl::unexpected<Error>(checked.error());
-  if (field.samples == nullptr) {
-    return fail(ErrorKind::kUsage,
-                "a mesh is resampled to a raster in memory, and this height field's samples are not in memory as one "
-                "array: read it as a whole");
-  }
-  std::vector<float> heights(static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows));
-  options.on_row = [&](int row, std::span<const float> values) {
-    std::copy(values.begin(), values.end(), heights.begin() + std::ptrdiff_t{row} * field.cols);
-  };
+  options.on_row = on_row;
+  if (auto checked = check_input(field, mesh, options); !checked) return checked;
   const auto scanner = make_scanner(field, mesh, find_surface(mesh, false).judged, options.coverage_tolerance);
   ProgressGate gate(options.run.progress);
   Measurement ignored;
-  auto judged = judge_heights(field, mesh, *scanner, nullptr, options, judge::Keep::kHeights, gate, ignored);
-  if (!judged) return tl::unexpected(std::move(judged.error()));
+  return judge_heights(field, mesh, *scanner, nullptr, options, judge::Keep::kHeights, gate, ignored);
+} catch (...) {
+  return caught(ErrorKind::kInput, "resample the mesh");
+}
+
+Result<std::vector<float>> resample(const HeightField& field, const Mesh& mesh, int threads) try {
+  std::vector<float> heights;
+  const auto keep = [&](int row, std::span<const float> values) {
+    heights.resize(static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows));
+    std::copy(values.begin(), values.end(), heights.begin() + std::ptrdiff_t{row} * field.cols);
+  };
+  if (auto resampled = resample_rows(field, mesh, keep, threads); !resampled) return tl::unexpected(resampled.error());
   return heights;
 } catch (...) {
   return caught(ErrorKind::kInput, "resample the mesh");

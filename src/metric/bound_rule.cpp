@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/exact_arithmetic.h"
+
 namespace scarp {
 
 namespace {
@@ -18,6 +20,12 @@ float round_down(double value) {
 }
 
 }  // namespace
+
+double divide_down(double value, double weight) {
+  const double quotient = value / weight;
+  const auto [high, low] = exact_product(quotient, weight);
+  return high > value || (high == value && low > 0) ? std::nextafter(quotient, 0.0) : quotient;
+}
 
 double tightened(double goal, double reserve) {
   return reserve > 0 ? std::max(0.0, std::nextafter(goal - reserve, 0.0)) : goal;

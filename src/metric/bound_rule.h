@@ -8,6 +8,9 @@
 
 namespace scarp {
 
+/// The largest double that times `weight` is at most `value`, as real numbers, or the one below it.
+double divide_down(double value, double weight);
+
 /// goal − reserve, rounded down, at least 0.
 double tightened(double goal, double reserve);
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/exact_arithmetic.h"
 #include "metric/height_judge.h"
 #include "metric/importance.h"
 #include "metric/source_judge.h"
@@ -17,13 +16,6 @@ namespace {
 
 constexpr float kUnbounded = std::numeric_limits<float>::infinity();
 
-/// The largest double that times `weight` is at most `value`, as real numbers, or the one below it.
-double divide_down(double value, double weight) {
-  const double quotient = value / weight;
-  const auto [high, low] = exact_product(quotient, weight);
-  return high > value || (high == value && low > 0) ? std::nextafter(quotient, 0.0) : quotient;
-}
-
 tl::unexpected<Error> usage(std::string message) { return fail(ErrorKind::kUsage, std::move(message)); }
 
 }  // namespace
@@ -32,8 +24,9 @@ bool has_tolerances(const SimplifyOptions& options) {
   return !options.tolerances.values.empty() || options.tolerances.source != nullptr;
 }
 
-bool has_own_bounds(const SimplifyOptions& options) {
+bool has_own_bounds(const HeightField& field, const SimplifyOptions& options) {
   const auto ignores = [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; };
+  if (field.samples == nullptr) return false;
   return !options.tolerances.weights.empty() || !options.tolerances.values.empty() ||
          std::any_of(options.strategy.script.begin(), options.strategy.script.end(), ignores);
 }
@@ -93,8 +86,9 @@ Point Criterion::place(std::size_t index) const {
 }
 
 Result<void> Criterion::check_weights() const {
-  if (options_->tolerances.source != nullptr && field_->samples != nullptr)
-    return usage("tolerances are read in windows where samples are: beside samples in memory give them as an array");
+  if ((options_->tolerances.source != nullptr || options_->tolerances.weights_source != nullptr) && field_->samples != nullptr)
+    return usage(
+        "tolerances and weights are read in windows where samples are: beside samples in memory give them as an array");
   const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
   for (const auto& [name, values] :
        {std::pair{"the mask", options_->tolerances.weights}, {"the tolerance", options_->tolerances.values}}) {
@@ -167,9 +161,11 @@ std::vector<JudgedField> Criterion::judged_fields() const {
 }
 
 Result<void> Criterion::set_bounds() {
-  if (options_->tolerances.source != nullptr)
-    source_bounds_ = std::make_unique<SourceBounds>(*options_->tolerances.source, most(), rule(), factor_);
-  if (!has_own_bounds(*options_)) return {};
+  if (has_source_bounds(*field_, *options_)) {
+    source_bounds_ = std::make_unique<SourceBounds>(*options_, rule(), factor_);
+    return {};
+  }
+  if (!has_own_bounds(*field_, *options_)) return {};
   const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
   bounds_.resize(samples);
   for (std::size_t i = 0; i < samples; ++i) {

@@ -20,10 +20,10 @@ namespace scarp {
 /// Whether samples have tolerances of their own, in memory or in a source.
 bool has_tolerances(const SimplifyOptions& options);
 /// Whether samples in memory have bounds of their own, by tolerances, a mask, or a script that ignores some.
-bool has_own_bounds(const SimplifyOptions& options);
+bool has_own_bounds(const HeightField& field, const SimplifyOptions& options);
 
-/// Owns the arrays of the engine's error metric: at most 12 bytes a sample, none for plain heights and for tolerances
-/// read in windows.
+/// Owns the arrays of the engine's error metric: at most 12 bytes a sample, none for plain heights and for bounds read
+/// in windows.
 class Criterion {
  public:
   /// Checks mask, tolerance, channels and importance against the raster. Fails with kUsage, kInput (a channel without

@@ -1,47 +1,61 @@
-// Per-sample tolerances of streamed rasters: read in windows, as the samples are.
+// Bounds of the samples of streamed rasters: tolerances and weights are read in windows, as the samples are.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "base/point.h"
+#include "grid/point_rows.h"
 #include "grid/raster.h"
 #include "metric/bound_rule.h"
 #include "scarp/height_field.h"
 #include "scarp/result.h"
+#include "scarp/simplify.h"
 
 namespace scarp {
 
+/// Whether streamed samples have bounds of their own.
+bool has_source_bounds(const HeightField& field, const SimplifyOptions& options);
+
 class SourceBounds {
  public:
-  /// `tolerances`: what was asked for at each sample, alive; `factor` times that counts. `most`: beside that; +infinity
-  /// for none.
-  SourceBounds(const SampleSource& tolerances, double most, const BoundRule& rule, double factor = 1)
-      : tolerances_(tolerances), most_(most), factor_(factor), rule_(rule) {}
+  /// `tolerances`: what was asked for at each sample, alive. `most`: beside that; +infinity for none.
+  SourceBounds(const SampleSource& tolerances, double most, const BoundRule& rule)
+      : tolerances_(&tolerances), most_(most), rule_(rule) {}
+  /// What the options ask for, with `factor` times the tolerances. Their sources stay alive. REQUIRES: a max error, or
+  /// tolerances.
+  SourceBounds(const SimplifyOptions& options, const BoundRule& rule, double factor);
 
-  /// What refinement aims at in a window, `stride` floats a row. Fails with kUsage where a tolerance is negative or
-  /// NaN, and as the source does.
+  /// What refinement aims at in a window, `stride` floats a row. Fails with kUsage where a tolerance or a weight is
+  /// negative, NaN or, a weight, infinite, and as the sources do.
   Result<void> read_aims(Point first, std::int32_t cols, std::int32_t rows, float* aims, std::ptrdiff_t stride) const;
   /// The same of whole rows, from `first` on, of these samples. Fails with kPromise, too, where less is asked of a
   /// sample than its rounding.
   Result<void> read_aims(std::int32_t first, const Raster& samples, float* aims) const;
 
-  /// The tolerances of rows as they are. Fails as the source does.
-  Result<void> read_tolerances(std::int32_t first, std::int32_t rows, std::int32_t cols, float* tolerances) const;
-  /// What is promised for a tolerance.
-  float bound(float tolerance) const;
+  /// The tolerances or weights of rows as they are. Fails as the source does. REQUIRES: has_values().
+  Result<void> read_values(std::int32_t first, std::int32_t rows, std::int32_t cols, float* values) const;
+  bool has_values() const { return tolerances_ != nullptr || weights_ != nullptr; }
+  bool has_weights() const { return weights_ != nullptr; }
+  /// What is promised at the samples of a row, whose values are these; of none where !has_values().
+  void find_bounds(std::int32_t row, std::span<const float> values, std::span<float> bounds) const;
 
-  /// Whether every sample has a bound, whatever its tolerance.
+  /// Whether every sample is to be within the max error.
   bool has_most() const;
 
  private:
   Result<void> read(Point first, std::int32_t cols, std::int32_t rows, const Raster* samples, float* aims,
                     std::ptrdiff_t stride) const;
-  double asked(float tolerance) const;
+  const SampleSource* source() const { return weights_ != nullptr ? weights_ : tolerances_; }
+  /// Of a sample with this tolerance or weight that is not ignored.
+  double asked(float value) const;
 
-  const SampleSource& tolerances_;
-  double most_, factor_;
+  const SampleSource* tolerances_ = nullptr;
+  const SampleSource* weights_ = nullptr;
+  PointRows ignored_;
+  double most_, factor_ = 1;
   BoundRule rule_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 #include <utility>
@@ -24,20 +25,20 @@ float tolerance_of_value(float value, bool is_rounded) {
   return is_rounded ? std::nextafter(value, 0.0F) : value;  // not above the value in the file
 }
 
-/// Of a raster that was opened.
-class RasterTolerances final : public SampleSource {
+/// What the values of a raster that was opened mean.
+class RasterValues final : public SampleSource {
  public:
-  explicit RasterTolerances(OwnedHeightField values) : values_(std::move(values)) {}
+  using Meaning = std::function<float(float)>;
+  RasterValues(OwnedHeightField values, Meaning meaning) : values_(std::move(values)), meaning_(std::move(meaning)) {}
 
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
     if (values_.source) {
       if (auto read = values_.source->read(col, row, cols, rows, out, stride); !read) return read;
     }
-    const bool is_rounded = values_.sample_rounding > 0;
     for (int y = 0; y < rows; ++y) {
       float* to = out + y * stride;
       if (!values_.source) std::copy_n(&values_.samples[index(col, row + y)], cols, to);
-      for (int x = 0; x < cols; ++x) to[x] = tolerance_of_value(to[x], is_rounded);
+      std::transform(to, to + cols, to, meaning_);
     }
     return {};
   }
@@ -48,6 +49,7 @@ class RasterTolerances final : public SampleSource {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(values_.cols) + static_cast<std::size_t>(col);
   }
   OwnedHeightField values_;
+  Meaning meaning_;
 };
 
 class LeastTolerances final : public SampleSource {
@@ -103,12 +105,12 @@ class LookProgress {
   Clock::time_point last_ = Clock::now();
 };
 
-/// Looks at all values, some rows at a time, from the top: refuses one below 0, or none at all.
-Result<void> look_through(const OwnedHeightField& raster, const ProgressCallback& progress) {
+/// Looks at all values, some rows at a time, from the top, and refuses one below 0. The largest; none: there is none.
+Result<std::optional<float>> look_through(const OwnedHeightField& raster, const ProgressCallback& progress) {
   constexpr int kSamples = 1 << 18;
   const int most = rows_of(kSamples, raster.cols);
   std::vector<float> buffer;
-  std::uint64_t valid = 0;
+  std::optional<float> largest;
   LookProgress look(progress);
   for (int row = 0, rows; row < raster.rows; row += rows) {
     rows = std::min(most, raster.rows - row);
@@ -116,20 +118,25 @@ Result<void> look_through(const OwnedHeightField& raster, const ProgressCallback
     std::span<const float> values;
     if (raster.source) {
       buffer.resize(size);
-      if (auto read = raster.source->read(0, row, raster.cols, rows, buffer.data(), raster.cols); !read) return read;
+      if (auto read = raster.source->read(0, row, raster.cols, rows, buffer.data(), raster.cols); !read)
+        return tl::unexpected(read.error());
       values = buffer;
     } else {
       values = {raster.samples.data() + static_cast<std::ptrdiff_t>(row) * raster.cols, size};
     }
     for (std::size_t k = 0; k < size; ++k) {
       if (values[k] < 0) return refuse_negative(raster, values[k], row, k);
-      valid += !std::isnan(values[k]);
+      if (!std::isnan(values[k])) largest = std::max(largest.value_or(0), values[k]);
     }
-    if (auto go_on = look.report(raster, row); !go_on) return go_on;
+    if (auto go_on = look.report(raster, row); !go_on) return tl::unexpected(go_on.error());
   }
-  if (valid > 0) return {};
-  return fail(ErrorKind::kInput,
-              fmt::format("{}: none of its {} x {} samples has a value", raster.info.path, raster.cols, raster.rows));
+  return largest;
+}
+
+/// What a weight of a raster means, of which the largest is given.
+float weight_of_value(float value, float largest) {
+  if (std::isnan(value)) return 0;
+  return largest > 1 ? value / largest : value;
 }
 
 }  // namespace
@@ -145,12 +152,20 @@ Result<OwnedTolerances> make_tolerances(std::optional<OwnedHeightField> raster, 
     return fail(ErrorKind::kUsage, raster->info.path + " is not in memory: ask for tolerances in windows");
   if (raster) {
     const ProgressCallback& progress = options.in_windows ? options.run.progress : ProgressCallback();
-    if (auto sound = look_through(*raster, progress); !sound) return tl::unexpected(sound.error());
+    const auto largest = look_through(*raster, progress);
+    if (!largest) return tl::unexpected(largest.error());
+    if (!*largest)
+      return fail(ErrorKind::kInput, fmt::format("{}: none of its {} x {} samples has a value", raster->info.path,
+                                                 raster->cols, raster->rows));
   }
 
   OwnedTolerances made;
   if (options.in_windows) {
-    if (raster) made.source = std::make_shared<RasterTolerances>(std::move(*raster));
+    if (raster) {
+      const bool is_rounded = raster->sample_rounding > 0;
+      made.source = std::make_shared<RasterValues>(
+          std::move(*raster), [is_rounded](float value) { return tolerance_of_value(value, is_rounded); });
+    }
     if (regions.empty()) return made;
     RegionBounds bounds = make_region_bounds(regions, grid, options.run.threads);
     made.source = made.source ? std::make_shared<LeastTolerances>(std::move(bounds.source), std::move(made.source))
@@ -174,22 +189,24 @@ Result<OwnedTolerances> make_tolerances(std::optional<OwnedHeightField> raster, 
   return made;
 }
 
-Result<std::vector<float>> make_weights(OwnedHeightField raster) {
-  if (raster.source) return fail(ErrorKind::kUsage, raster.info.path + " is not in memory: read it as a whole");
-  float largest = 0;
-  for (std::size_t k = 0; k < raster.samples.size(); ++k) {
-    float& weight = raster.samples[k];
-    if (weight < 0) return refuse_negative(raster, weight, 0, k);
-    if (std::isnan(weight)) weight = 0;
-    largest = std::max(largest, weight);
-  }
+Result<OwnedWeights> make_weights(OwnedHeightField raster, const ToleranceOptions& options) {
+  if (raster.source && !options.in_windows)
+    return fail(ErrorKind::kUsage, raster.info.path + " is not in memory: ask for weights in windows");
+  const auto found = look_through(raster, options.in_windows ? options.run.progress : ProgressCallback());
+  if (!found) return tl::unexpected(found.error());
+  const float largest = found->value_or(0);
   if (largest == 0)
     return fail(ErrorKind::kInput,
                 fmt::format("{}: no weight is above 0, so no sample would have a bound", raster.info.path));
-  if (largest > 1) {
-    for (float& weight : raster.samples) weight /= largest;
+  const auto meaning = [largest](float value) { return weight_of_value(value, largest); };
+  OwnedWeights made;
+  if (options.in_windows) {
+    made.source = std::make_shared<RasterValues>(std::move(raster), meaning);
+  } else {
+    made.values = std::move(raster.samples);
+    std::transform(made.values.begin(), made.values.end(), made.values.begin(), meaning);
   }
-  return std::move(raster.samples);
+  return made;
 }
 
 }  // namespace scarp

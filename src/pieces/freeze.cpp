@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <span>
 #include <utility>
 
+#include "grid/bands.h"
 #include "grid/source_failure.h"
 
 namespace scarp {
@@ -131,22 +133,28 @@ void face_up(const Frame& frame, Mesh& mesh) {
     std::swap(mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]);
 }
 
-bool is_usable(const SampleHeights& heights, Point p) {
-  return p.x >= 0 && p.y >= 0 && p.x < heights.cols() && p.y < heights.rows() && !std::isnan(heights.at(p));
-}
+/// Samples that are in memory for now, of a raster with `rows` rows.
+struct Surroundings {
+  const RowRange& held;
+  std::int32_t rows;
+
+  std::int32_t cols() const { return held.samples.cols; }
+  float at(Point p) const { return held.row(p.y)[p.x]; }
+  bool is_usable(Point p) const { return p.x >= 0 && p.y >= 0 && p.x < cols() && p.y < rows && !std::isnan(at(p)); }
+};
 
 /// At samples.
-std::vector<float> normals_of(const SampleHeights& heights, const Frame& frame, const std::vector<Point>& samples) {
-  const OffsetMap offsets(heights.cols(), heights.rows(), frame, 1);
+std::vector<float> normals_at_samples(const Surroundings& heights, const Frame& frame, std::span<const Point> samples) {
+  const OffsetMap offsets(heights.cols(), heights.rows, frame, 1);
   std::vector<float> normals;
   normals.reserve(3 * samples.size());
   std::vector<Point> neighbours;  // west, east, north, south of each vertex; a missing one is the vertex itself
   std::vector<double> x, y;
   for (std::size_t begin = 0; begin < samples.size(); begin += kChunkVertices) {
     neighbours.clear();
-    for (Point p : std::span(samples).subspan(begin, std::min(kChunkVertices, samples.size() - begin))) {
+    for (Point p : samples.subspan(begin, std::min(kChunkVertices, samples.size() - begin))) {
       for (Point q : {Point{p.x - 1, p.y}, Point{p.x + 1, p.y}, Point{p.x, p.y - 1}, Point{p.x, p.y + 1}})
-        neighbours.push_back(is_usable(heights, q) ? q : p);
+        neighbours.push_back(heights.is_usable(q) ? q : p);
     }
     offsets.map(neighbours, x, y);
     for (std::size_t k = 0; k < neighbours.size(); k += 4) {
@@ -167,7 +175,7 @@ std::vector<float> normals_of(const SampleHeights& heights, const Frame& frame, 
 }
 
 /// The valid ones of the up to four samples around a point, with their bilinear weights.
-void add_corners(const SampleHeights& heights, std::int32_t steps, Point p, std::vector<Point>& corners,
+void add_corners(const Surroundings& heights, std::int32_t steps, Point p, std::vector<Point>& corners,
                  std::vector<double>& weights) {
   const Point first{p.x / steps, p.y / steps};
   const double u = static_cast<double>(p.x % steps) / steps, v = static_cast<double>(p.y % steps) / steps;
@@ -175,11 +183,52 @@ void add_corners(const SampleHeights& heights, std::int32_t steps, Point p, std:
     for (const std::int32_t dx : {0, 1}) {
       const double weight = (dx == 0 ? 1 - u : u) * (dy == 0 ? 1 - v : v);
       const Point corner{first.x + dx, first.y + dy};
-      if (weight == 0 || !is_usable(heights, corner)) continue;
+      if (weight == 0 || !heights.is_usable(corner)) continue;
       corners.push_back(corner);
       weights.push_back(weight);
     }
   }
+}
+
+std::vector<float> normals_at(const Surroundings& heights, const Frame& frame, std::int32_t steps,
+                              std::span<const Point> points) {
+  if (steps == 1) return normals_at_samples(heights, frame, points);
+  std::vector<float> normals;
+  normals.reserve(3 * points.size());
+  std::vector<Point> corners;  // the valid samples around each point
+  std::vector<double> weights;
+  std::vector<std::size_t> ends;
+  for (std::size_t begin = 0; begin < points.size(); begin += kChunkVertices) {
+    corners.clear();
+    weights.clear();
+    ends.clear();
+    for (Point p : points.subspan(begin, std::min(kChunkVertices, points.size() - begin))) {
+      add_corners(heights, steps, p, corners, weights);
+      ends.push_back(corners.size());
+    }
+    const std::vector<float> around = normals_at_samples(heights, frame, corners);
+    std::size_t corner = 0;
+    for (const std::size_t end : ends) {
+      std::array<double, 3> sum{0, 0, 0};
+      for (; corner < end; ++corner) {
+        for (std::size_t k = 0; k < 3; ++k) sum[k] += weights[corner] * double{around[3 * corner + k]};
+      }
+      if (sum[2] == 0) sum = {0, 0, 1};
+      const double length = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+      for (const double component : sum) normals.push_back(static_cast<float>(component / length));
+    }
+  }
+  return normals;
+}
+
+/// Indices of points, in the order of the rows of samples at or above them.
+std::vector<std::uint32_t> order_by_row(const LatticePoints& at) {
+  std::vector<std::uint32_t> order(at.points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto row = [&](std::uint32_t k) { return at.points[k].y / at.steps; };
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return std::pair(row(a), a) < std::pair(row(b), b); });
+  return order;
 }
 
 }  // namespace
@@ -233,33 +282,31 @@ Mesh melt_down(const SampleHeights& heights, Triangulation tin, const VertexPlac
   return mesh;
 }
 
-std::vector<float> sample_normals(const SampleHeights& heights, const Frame& frame, const LatticePoints& at) {
-  if (at.steps == 1) return normals_of(heights, frame, at.points);
+std::vector<float> sample_normals(const HeightField& field, const LatticePoints& at) {
+  constexpr std::int32_t kReach = 2;  // of the samples around the one below a point
   std::vector<float> normals;
-  normals.reserve(3 * at.points.size());
-  std::vector<Point> corners;  // the valid samples around each point
-  std::vector<double> weights;
-  std::vector<std::size_t> ends;
-  for (std::size_t begin = 0; begin < at.points.size(); begin += kChunkVertices) {
-    corners.clear();
-    weights.clear();
-    ends.clear();
-    for (Point p : std::span(at.points).subspan(begin, std::min(kChunkVertices, at.points.size() - begin))) {
-      add_corners(heights, at.steps, p, corners, weights);
-      ends.push_back(corners.size());
+  std::vector<std::uint32_t> order;
+  std::vector<Point> points;
+  std::size_t next = 0;
+  const auto swept = sweep_rows(field, kReach, [&](const RowRange& rows) -> Result<void> {
+    const Surroundings heights{rows, field.rows};
+    if (rows.begin == 0 && rows.end == field.rows) {
+      normals = normals_at(heights, field.frame, at.steps, at.points);
+      return {};
     }
-    const std::vector<float> around = normals_of(heights, frame, corners);
-    std::size_t corner = 0;
-    for (const std::size_t end : ends) {
-      std::array<double, 3> sum{0, 0, 0};
-      for (; corner < end; ++corner) {
-        for (std::size_t k = 0; k < 3; ++k) sum[k] += weights[corner] * double{around[3 * corner + k]};
-      }
-      if (sum[2] == 0) sum = {0, 0, 1};
-      const double length = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
-      for (const double component : sum) normals.push_back(static_cast<float>(component / length));
+    if (rows.begin == 0) {
+      order = order_by_row(at);
+      normals.resize(3 * order.size());
     }
-  }
+    const std::size_t first = next;
+    points.clear();
+    for (; next < order.size() && at.points[order[next]].y / at.steps < rows.end; ++next)
+      points.push_back(at.points[order[next]]);
+    const std::vector<float> here = normals_at(heights, field.frame, at.steps, points);
+    for (std::size_t k = 0; k < here.size(); ++k) normals[3 * order[first + k / 3] + k % 3] = here[k];
+    return {};
+  });
+  if (!swept) throw SourceFailure{swept.error()};
   return normals;
 }
 

@@ -54,8 +54,8 @@ LatticePoints frozen_points(const Triangulation& tin, const VertexPlaces& places
 
 /// Unit normals of the full-resolution surface, in the frame: at samples central differences, one-sided beside nodata
 /// and borders; between samples the bilinear mean of the valid samples around; 3 values a point, z > 0. Vertical where
-/// no sample around is valid.
-std::vector<float> sample_normals(const SampleHeights& heights, const Frame& frame, const LatticePoints& at);
+/// no sample around is valid. Streamed samples are read once, from the top. Throws SourceFailure.
+std::vector<float> sample_normals(const HeightField& field, const LatticePoints& at);
 
 /// Positions in the raster's image: pixel centres, (0, 0) the image's top left corner and (1, 1) its bottom right; 2
 /// values a point.

@@ -17,8 +17,9 @@ MemoryBudget memory_budget(const HeightField& field, const SimplifyOptions& opti
       options.quality.effort > Effort::kFast && (field.samples != nullptr || options.quality.shape.any());
   const std::uint64_t fit = is_fitted_whole ? kFitBytesPerVertex + kFitBytesPerVertexAndThread : 0;
   const std::uint64_t shape = options.quality.shape.any() ? kShapeBytesPerVertex : 0;
+  const std::uint64_t normals = options.output.normals ? 3 * sizeof(float) : 0;
   return {options.run.memory.limit, options.run.memory.taken,
-          std::max({kProof, kMesh + options.run.memory.per_vertex, fit, shape})};
+          std::max({kProof + normals, kMesh + normals + options.run.memory.per_vertex, fit, shape})};
 }
 
 Result<void> check_goals(const SimplifyOptions& options) {

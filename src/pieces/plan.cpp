@@ -1,5 +1,6 @@
 #include "pieces/plan.h"
 
+#include "metric/source_bounds.h"
 #include "pieces/effort.h"
 #include "pieces/goals.h"
 
@@ -11,6 +12,7 @@ Plan::Plan(const HeightField& on, const SimplifyOptions& asked, const Scale& by)
       is_streamed(on.samples == nullptr),
       has_budget(scarp::has_budget(asked)),
       has_lines(scarp::has_lines(asked)),
+      has_source_bounds(scarp::has_source_bounds(on, asked)),
       frees_vertices(vertices_are_free(on, asked)),
       releases_starts(asked.quality.effort == Effort::kNormal || frees_vertices),
       fits(asked.quality.effort != Effort::kFast),
@@ -18,7 +20,7 @@ Plan::Plan(const HeightField& on, const SimplifyOptions& asked, const Scale& by)
       fits_pieces(fits || asked.quality.shape.any()),
       removes_last(scarp::removes_last(on, asked)),
       fits_strips(is_streamed && fits_pieces),
-      finishes_strips(fits_strips || (is_streamed && (has_lines || asked.tolerances.source != nullptr))),
+      finishes_strips(fits_strips || (is_streamed && (has_lines || has_source_bounds))),
       lattice_steps(place_steps(on, asked)),
       is_exact(places_are_exact(on, asked, lattice_steps)),
       aim(aim_of(on, asked)),

@@ -25,6 +25,7 @@ struct Plan {
   bool is_streamed;            ///< the samples stay in their source
   bool has_budget;             ///< of triangles or vertices
   bool has_lines;              ///< constraints of some kind
+  bool has_source_bounds;      ///< of their own, of streamed samples
   bool frees_vertices;         ///< they may leave their samples
   bool releases_starts;        ///< lines that are but a start need not stay
   bool fits;                   ///< an effort removes vertices

@@ -19,7 +19,7 @@ namespace scarp {
 
 namespace {
 
-/// Bytes that tolerances take for each sample of a strip.
+/// Bytes that bounds take for each sample of a strip.
 constexpr std::uint64_t kAimBytesPerSample = sizeof(float);
 
 /// Every strip's vertices on the same lattice, whatever its own extent.
@@ -40,9 +40,9 @@ FitOptions strip_fit(const Plan& plan, double threshold) {
 /// The passes over one strip after the other.
 class StripWork {
  public:
-  StripWork(const Plan& plan, const ConstraintGraph* lines, const SourceBounds* tolerances, double threshold,
+  StripWork(const Plan& plan, const ConstraintGraph* lines, const SourceBounds* bounds, double threshold,
             std::int32_t side, StripTotals& totals)
-      : tolerances_(tolerances),
+      : bounds_(bounds),
         goals_{threshold, plan.fits_pieces && plan.releases_starts, plan.options.run.threads},
         side_(side),
         fit_(plan.fits_pieces ? std::optional(strip_fit(plan, threshold)) : std::nullopt),
@@ -50,10 +50,9 @@ class StripWork {
     if (lines != nullptr) lines_.emplace(*lines);
   }
 
-  /// Lines that come first, and tolerances without a bound for all: tiles are of no use there.
+  /// Lines that come first, and samples that need not keep the max error: tiles are of no use there.
   bool makes_whole(std::int32_t first, std::int32_t rows) const {
-    const bool has_most = tolerances_ == nullptr || tolerances_->has_most();
-    return !has_most || (lines_ && lines_->makes_whole(first, rows));
+    return (bounds_ != nullptr && !bounds_->has_most()) || (lines_ && lines_->makes_whole(first, rows));
   }
 
   Result<void> work_on(Piece& strip, const std::function<bool(double, std::uint64_t)>& progress) {
@@ -67,8 +66,8 @@ class StripWork {
     if (lines_) {
       if (auto inserted = insert_lines(strip, is_whole); !inserted) return inserted;
       totals_.seconds_of_lines += seconds_since(start);
-    } else if (tolerances_ != nullptr) {
-      if (auto refined = refine_to_tolerances(strip, is_whole); !refined) return refined;
+    } else if (bounds_ != nullptr) {
+      if (auto refined = refine_to_bounds(strip, is_whole); !refined) return refined;
       totals_.seconds_of_refinement += seconds_since(start);
     }
     return fit_ ? fit(strip, progress) : Result<void>();
@@ -76,10 +75,10 @@ class StripWork {
 
  private:
   Result<void> load_aims(Piece& strip) {
-    if (tolerances_ == nullptr) return {};
+    if (bounds_ == nullptr) return {};
     aims_.resize(static_cast<std::size_t>(strip.samples.cols) * static_cast<std::size_t>(strip.samples.rows));
     strip.aims = aims_;
-    return tolerances_->read_aims(strip.first, strip.samples, aims_.data());
+    return bounds_->read_aims(strip.first, strip.samples, aims_.data());
   }
 
   Result<void> insert_lines(Piece& strip, bool is_whole) {
@@ -100,7 +99,7 @@ class StripWork {
   }
 
   /// What a judge of triangles cannot decide about a sample on a shared row, that of the row could: it is not asked.
-  Result<void> refine_to_tolerances(Piece& strip, bool is_whole) {
+  Result<void> refine_to_bounds(Piece& strip, bool is_whole) {
     for (const bool is_top : {true, false}) {
       if (!(is_top ? strip.has_above : strip.has_below)) continue;
       if (auto split = insert_shared_row(strip, is_top, is_whole); !split) return split;
@@ -121,7 +120,7 @@ class StripWork {
     return {};
   }
 
-  const SourceBounds* tolerances_;
+  const SourceBounds* bounds_;
   ConstraintGoals goals_;
   std::int32_t side_;
   std::optional<FitOptions> fit_;
@@ -133,15 +132,15 @@ class StripWork {
 
 }  // namespace
 
-void work_by_strips(const Plan& plan, const ConstraintGraph* lines, const SourceBounds* tolerances, double threshold,
+void work_by_strips(const Plan& plan, const ConstraintGraph* lines, const SourceBounds* bounds, double threshold,
                     StripTotals& totals, TiledOptions& tiles) {
   const auto threads = static_cast<std::uint64_t>(thread_count(plan.options.run.threads));
   if (plan.fits_pieces) tiles.finish_bytes_per_vertex = kFitBytesPerVertex + kFitBytesPerVertexAndThread * threads;
-  if (tolerances != nullptr) tiles.finish_bytes_per_sample = kAimBytesPerSample;
-  if (tolerances != nullptr || lines != nullptr)
+  if (bounds != nullptr) tiles.finish_bytes_per_sample = kAimBytesPerSample;
+  if (bounds != nullptr || lines != nullptr)
     tiles.finish_bytes_per_vertex = std::max(tiles.finish_bytes_per_vertex, kRefinementBytesPerVertex);
   if (lines != nullptr && tiles.tile_side == 0) tiles.tile_side = strip_side(plan);
-  const auto work = std::make_shared<StripWork>(plan, lines, tolerances, threshold, tiles.tile_side, totals);
+  const auto work = std::make_shared<StripWork>(plan, lines, bounds, threshold, tiles.tile_side, totals);
   tiles.is_made_whole = [work](std::int32_t first, std::int32_t rows) { return work->makes_whole(first, rows); };
   tiles.finish_row = [work, progress = tiles.progress](Piece& strip) { return work->work_on(strip, progress); };
 }
@@ -149,7 +148,7 @@ void work_by_strips(const Plan& plan, const ConstraintGraph* lines, const Source
 std::int32_t strip_side(const Plan& plan) {
   TiledOptions tiles;
   tiles.memory = plan.memory;
-  if (plan.options.tolerances.source != nullptr) tiles.finish_bytes_per_sample = kAimBytesPerSample;
+  if (plan.has_source_bounds) tiles.finish_bytes_per_sample = kAimBytesPerSample;
   tiles.finish_row = [](Piece&) -> Result<void> { return fail(ErrorKind::kInternal, "no strip is there yet"); };
   return streamed_side(plan.field, tiles);
 }

@@ -1,4 +1,4 @@
-// A streamed raster, strip by strip. Each strip gets its lines, is refined to its tolerances and fitted while its
+// A streamed raster, strip by strip. Each strip gets its lines, is refined to its bounds and fitted while its
 // samples are in memory.
 //
 //     strip above, done ──────────────    its lower row of samples is the next one's upper row: the vertices on it
@@ -20,16 +20,16 @@ namespace scarp {
 struct StripTotals {
   double seconds_of_fit = 0, seconds_of_lines = 0, seconds_of_refinement = 0;
   Work lines;                 ///< of inserting constraints
-  Work refinement;            ///< to tolerances of their own, where there are no lines
+  Work refinement;            ///< to bounds of their own, where there are no lines
   std::uint64_t removed = 0;  ///< vertices
   bool is_cut_short = false;  ///< by the time: strips that come later stay as they are
 };
 
-/// Lets refine_tiled() work on each strip with the passes of the plan: constraints of `lines` (null: none), tolerances
-/// (null: the threshold holds for all), the plan's effort; and adds to `totals`. Effort kMax does not go on until a
-/// time is up, as the first strip would use it all. Progress is told through `tiles.progress`, as it is now. All stay
-/// alive.
-void work_by_strips(const Plan& plan, const ConstraintGraph* lines, const SourceBounds* tolerances, double threshold,
+/// Lets refine_tiled() work on each strip with the passes of the plan: constraints of `lines` (null: none), bounds of
+/// samples (null: the threshold holds for all), the plan's effort; and adds to `totals`. Effort kMax does not go on
+/// until a time is up, as the first strip would use it all. Progress is told through `tiles.progress`, as it is now.
+/// All stay alive.
+void work_by_strips(const Plan& plan, const ConstraintGraph* lines, const SourceBounds* bounds, double threshold,
                     StripTotals& totals, TiledOptions& tiles);
 
 /// The side of tiles of such a run, which cuts lines where strips meet.

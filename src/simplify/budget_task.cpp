@@ -50,7 +50,7 @@ double largest_error(const HeightField& field, const SimplifyOptions& options) {
   return 2 * (high - low);
 }
 
-/// Of all samples, void ones included.
+/// Of tolerances, or of weights: of all samples, void ones included.
 struct ToleranceRange {
   double least = kInfinity;  ///< of those above 0
   double largest = 0;        ///< of those that are finite
@@ -63,20 +63,20 @@ struct ToleranceRange {
   }
 };
 
-/// Throws SourceFailure.
-ToleranceRange tolerance_range(const HeightField& field, const SimplifyOptions& options) {
+/// Of values in memory, or in a source (null: none). Throws SourceFailure.
+ToleranceRange range_of(std::span<const float> values, const SampleSource* source, const HeightField& field) {
   ToleranceRange range;
-  for (const float tolerance : options.tolerances.values) range.add(tolerance);
-  if (options.tolerances.source == nullptr) return range;
+  for (const float value : values) range.add(value);
+  if (source == nullptr) return range;
   const int rows = std::clamp((1 << 18) / field.cols, 1, field.rows);
   std::vector<float> held(static_cast<std::size_t>(rows) * static_cast<std::size_t>(field.cols));
   for (int row = 0; row < field.rows; row += rows) {
     const int count = std::min(rows, field.rows - row);
-    const auto read = options.tolerances.source->read(0, row, field.cols, count, held.data(), field.cols);
+    const auto read = source->read(0, row, field.cols, count, held.data(), field.cols);
     if (!read) throw SourceFailure{read.error()};
     const auto all =
         std::span<const float>(held).first(static_cast<std::size_t>(count) * static_cast<std::size_t>(field.cols));
-    for (const float tolerance : all) range.add(tolerance);
+    for (const float value : all) range.add(value);
   }
   return range;
 }
@@ -88,8 +88,9 @@ double largest_number(const HeightField& field, const SimplifyOptions& options, 
     const double max_error = options.goals.max_error.value_or(kInfinity);
     return error / (max_error > 0 ? std::min(max_error, tolerances.least) : tolerances.least);
   }
-  if (options.tolerances.weights.empty()) return error;
-  return error * double{*std::max_element(options.tolerances.weights.begin(), options.tolerances.weights.end())};
+  const Tolerances& asked = options.tolerances;
+  if (asked.weights.empty() && asked.weights_source == nullptr) return error;
+  return error * range_of(asked.weights, asked.weights_source, field).largest;
 }
 
 /// The subject of a refusal: the mesh that every budget must have room for.
@@ -103,7 +104,7 @@ std::string name_least(const SimplifyOptions& options, bool has_zeros) {
 }  // namespace
 
 BudgetTask make_budget_task(const HeightField& field, const SimplifyOptions& options) {
-  const ToleranceRange tolerances = tolerance_range(field, options);
+  const ToleranceRange tolerances = range_of(options.tolerances.values, options.tolerances.source, field);
   const double reach = has_lines(options) ? tolerances.largest : 0;
   BudgetTask task;
   task.run = [&field, reach](const SimplifyOptions& once, double factor) {

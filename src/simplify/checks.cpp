@@ -94,7 +94,7 @@ bool may_be_dominant(const HeightField& field, const SimplifyOptions& options) {
   const bool has_goal = options.goals.max_error || has_tolerances(options);
   if (!has_goal || has_budget(options) || options.quality.order == Order::kGreedy) return false;
   // The worst of the whole raster first takes fewer triangles where bounds differ.
-  if (options.quality.order == Order::kAuto && has_own_bounds(options)) return false;
+  if (options.quality.order == Order::kAuto && has_own_bounds(field, options)) return false;
   const auto of_order = [](const Conflict& conflict) { return conflict.one == Field::kOrderDominant; };
   const auto conflicts = find_conflicts(fields_of(field, options) | Fields(Field::kOrderDominant));
   return std::none_of(conflicts.begin(), conflicts.end(), of_order);
@@ -106,7 +106,7 @@ Effort choose_effort(const HeightField& field, const SimplifyOptions& options) {
   if (set.has_any(Fields(Field::kMinShape, Field::kTimeLimit, Field::kObjectiveRms))) return Effort::kNormal;
   // Strategies are asked for to see what they do, so removal stays away from them, and from bounds of samples, which
   // insertion spends where they are small. Tolerances that a budget has no room for are searched for.
-  constexpr Fields kReasonsForFast(Field::kMask, Field::kScriptIgnores, Field::kScriptInserts, Field::kOrderGreedy,
+  constexpr Fields kReasonsForFast(Field::kMask, Field::kMaskSource, Field::kScriptIgnores, Field::kScriptInserts, Field::kOrderGreedy,
                                    Field::kImportance, Field::kAlgorithm, Field::kBatch, Field::kDataEdges,
                                    Field::kLastOfBudget, Field::kMemoryLimit);
   constexpr Fields kTolerances(Field::kTolerance, Field::kToleranceSource);

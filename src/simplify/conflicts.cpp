@@ -14,6 +14,7 @@ namespace {
 
 constexpr Fields kBudgets(Field::kMaxTriangles, Field::kMaxVertices);
 constexpr Fields kTolerances(Field::kTolerance, Field::kToleranceSource);
+constexpr Fields kWeights(Field::kMask, Field::kMaskSource);
 constexpr Fields kLines(Field::kBreaklines, Field::kBreaklinesFor, Field::kCutline);
 constexpr Fields kLaidFirst(Field::kWalls, Field::kRidges);
 constexpr Fields kShapes(Field::kShape);
@@ -23,7 +24,7 @@ constexpr Fields kEfforts(Field::kEffortNormal, Field::kEffortHigh, Field::kEffo
 constexpr Fields kAsksForEffort(Field::kMinShape, Field::kTimeLimit, Field::kObjectiveRms, Field::kVerticesFree);
 
 constexpr ConflictRule kRules[] = {
-    {Fields(Field::kMask),
+    {kWeights,
      kTolerances,
      {},
      Where::kAlways,
@@ -127,10 +128,15 @@ constexpr ConflictRule kRules[] = {
      Where::kStreamed,
      "streamed samples are refined tile by tile, in the dominant order, with Delaunay edges"},
     {Fields(Field::kSource),
-     Fields(Field::kMask, Field::kTolerance, Field::kScriptIgnores, Field::kScriptInserts),
+     Fields(Field::kMask, Field::kTolerance),
      {},
      Where::kStreamed,
-     "streamed samples take their tolerances from a source"},
+     "streamed samples take their weights and tolerances from a source"},
+    {Fields(Field::kSource),
+     Fields(Field::kScriptInserts),
+     {},
+     Where::kStreamed,
+     "streamed samples are refined strip by strip, from the outline alone"},
     {Fields(Field::kSource),
      Fields(Field::kOutlineTolerance),
      {},
@@ -146,6 +152,7 @@ constexpr std::string_view kNames[] = {
     "outline_tolerance",
     "float32_positions = false",
     "mask",
+    "mask_source",
     "tolerance",
     "tolerance_source",
     "breaklines",
@@ -216,6 +223,7 @@ Fields fields_of(const HeightField& field, const SimplifyOptions& options) {
       {Field::kOutlineTolerance, options.domain.outline_tolerance > 0},
       {Field::kDoublePositions, !options.output.float32_positions},
       {Field::kMask, !options.tolerances.weights.empty()},
+      {Field::kMaskSource, options.tolerances.weights_source != nullptr},
       {Field::kTolerance, !options.tolerances.values.empty()},
       {Field::kToleranceSource, options.tolerances.source != nullptr},
       {Field::kBreaklines, !lines.empty()},

@@ -84,7 +84,7 @@ Result<Simplified> run_by_tiles(const Plan& plan, LineWork* lines) {
   Raster raster{field.samples, field.cols, field.rows};
   std::optional<Samples> samples;
   const bool looks_beyond =
-      plan.options.output.normals || !field.frame.is_affine() || plan.fits || lines != nullptr || has_own_bounds(plan.options);
+      plan.options.output.normals || !field.frame.is_affine() || plan.fits || lines != nullptr || has_own_bounds(field, plan.options);
   if (!plan.is_streamed && looks_beyond) {
     auto cleaned = Samples::of(field);
     if (!cleaned) return tl::unexpected(cleaned.error());

@@ -209,7 +209,7 @@ class WindowedVerdict {
         promised_(static_cast<std::size_t>(field.cols)),
         norms_(promised_.size()) {}
 
-  /// Samples whose tolerances are held.
+  /// Samples whose tolerances or weights are held.
   static std::uint64_t most_held(const HeightField& field) {
     return static_cast<std::uint64_t>(field.cols) * static_cast<unsigned>(rows_at_once(field));
   }
@@ -217,12 +217,14 @@ class WindowedVerdict {
   /// For MeasureOptions::on_row.
   void add(int row, std::span<const float> errors) {
     if (!status_ || !hold(row)) return;
-    const auto tolerances = std::span<const float>(held_).subspan(
-        static_cast<std::size_t>(row - first_) * promised_.size(), promised_.size());
-    std::transform(tolerances.begin(), tolerances.end(), promised_.begin(),
-                   [this](float asked) { return bounds_.bound(asked); });
+    const auto values = std::span<const float>(held_).subspan(
+        held_.empty() ? 0 : static_cast<std::size_t>(row - first_) * promised_.size(),
+        held_.empty() ? 0 : promised_.size());
+    bounds_.find_bounds(row, values, promised_);
     std::transform(errors.begin(), errors.end(), norms_.begin(), [](float error) { return std::abs(error); });
-    verdict_.add(row, norms_, {{}, tolerances, promised_});
+    AskedOfRow asked{{}, {}, promised_};
+    (bounds_.has_weights() ? asked.mask : asked.tolerance) = values;
+    verdict_.add(row, norms_, asked);
     count_ignored(row);
   }
   /// The valid samples without a bound. Fails as what was read did.
@@ -239,10 +241,10 @@ class WindowedVerdict {
   }
 
   bool hold(int row) {
+    if (row < end_ || !bounds_.has_values()) return true;
     const int count = std::min(rows_at_once(field_), field_.rows - row);
-    if (row < end_) return true;
     held_.resize(static_cast<std::size_t>(count) * promised_.size());
-    status_ = bounds_.read_tolerances(row, count, field_.cols, held_.data());
+    status_ = bounds_.read_values(row, count, field_.cols, held_.data());
     first_ = row;
     end_ = row + count;
     return status_.has_value();
@@ -277,8 +279,8 @@ class WindowedVerdict {
 /// Of the band that a thread judges.
 std::uint64_t band_bytes(const HeightField& field, const SimplifyOptions& options) {
   constexpr std::uint64_t kPerSample = 16, kOfReports = 8;
-  return (kPerSample + (options.tolerances.source != nullptr ? kOfReports : 0)) *
-         static_cast<std::uint64_t>(field.cols) * static_cast<unsigned>(judge::Band::rows_per_band(field.cols));
+  return (kPerSample + (has_source_bounds(field, options) ? kOfReports : 0)) * static_cast<std::uint64_t>(field.cols) *
+         static_cast<unsigned>(judge::Band::rows_per_band(field.cols));
 }
 
 /// As many as the memory holds bands at work.
@@ -301,7 +303,7 @@ double factor_of(const Simplified& result, const Criterion& criterion) {
 }  // namespace
 
 std::uint64_t proof_bytes(const HeightField& field, const SimplifyOptions& options) {
-  const std::uint64_t held = options.tolerances.source != nullptr ? WindowedVerdict::most_held(field) : 0;
+  const std::uint64_t held = has_source_bounds(field, options) ? WindowedVerdict::most_held(field) : 0;
   return static_cast<std::uint64_t>(threads_within(field, options)) * band_bytes(field, options) + held * sizeof(float);
 }
 

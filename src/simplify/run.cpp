@@ -386,6 +386,13 @@ class EngineRun {
     return static_cast<int>(std::clamp<std::uint64_t>(most, 1, static_cast<std::uint64_t>(threads)));
   }
 
+  /// The field as refinement sees it.
+  HeightField clean_field() const {
+    HeightField clean = field_;
+    if (!plan_.is_streamed) clean.samples = raster_.samples;
+    return clean;
+  }
+
   void order(Simplified& result) const {
     const auto start = Clock::now();
     optimize_order(result.mesh);
@@ -405,7 +412,7 @@ class EngineRun {
     } else {
       result.mesh = freeze(heights, piece_->tin, piece_->places, field_.frame, options_.output.float32_positions);
     }
-    if (options_.output.normals) result.mesh.normals = sample_normals(heights, field_.frame, at);
+    if (options_.output.normals) result.mesh.normals = sample_normals(clean_field(), at);
     if (options_.output.uvs) result.mesh.uvs = sample_uvs(raster_.cols, raster_.rows, at);
     result.mesh.channel_count = static_cast<int>(field_.channels.size());
     for (Point p : field_.channels.empty() ? std::vector<Point>() : at.points) {

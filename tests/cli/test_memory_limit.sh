@@ -26,18 +26,17 @@ for case in "$dem $small" "mosaic.vrt $small" "$dem 72.8M" "$dem 1G"; do
 done
 
 # What needs all samples is refused by name, with the memory that would do; with that much it works.
-refuses 1 '--map needs all samples' "$scarp" measure "$dem" hills.glb --memory $small --map m.png
-refuses 1 '--error-raster needs all samples' "$scarp" measure "$dem" hills.glb --memory $small --error-raster e.tif
-refuses 1 '--script needs all samples' "$scarp" measure "$dem" hills.glb --memory $small --script /dev/null
-for option in "--preview p.png" "--render r.png" "--error-raster e.tif" "--nodata-policy fill" \
-  "--normals" "--order greedy" "--algorithm local" "--edges data" "--outline-tolerance 1" "--mask $dem" "--script /dev/null" "--texture $dem"; do
+refuses 1 '--texture needs all samples' "$scarp" measure "$dem" hills.glb --memory $small --texture "$dem"
+echo "s 7 9" > inserts.txt
+for option in "--render r.png" "--nodata-policy fill" \
+  "--order greedy" "--algorithm local" "--edges data" "--outline-tolerance 1" "--script inserts.txt" "--texture $dem"; do
   # shellcheck disable=SC2086
   refuses 1 'needs all samples in memory at once' "$scarp" simplify "$dem" o.glb -e 5 --memory $small $option
 done
-refuses 1 'needs all samples in memory at once' "$scarp" simplify "$dem" o.tif -e 5 --memory $small
-"$scarp" measure "$dem" hills.glb --memory $small --map m.png 2>&1 | grep -oE 'allow [0-9]+M' | tr -d -c '0-9M' > enough || true
-[ -s enough ] || fail "--map does not say how much memory would do"
-succeeds "$scarp" measure "$dem" hills.glb --memory "$(cat enough)" --map m.png
+refuses 1 'needs all samples in memory at once' "$scarp" simplify "$dem" o.pgm -e 5 --memory $small
+"$scarp" simplify "$dem" rendered.glb -e 5 --memory $small --render r.png 2>&1 | grep -oE 'allow [0-9]+M' | tr -d -c '0-9M' > enough || true
+[ -s enough ] || fail "--render does not say how much memory would do"
+succeeds "$scarp" simplify "$dem" rendered.glb -e 5 --memory "$(cat enough)" --render r.png
 
 # So is what turns out to need them later.
 { printf 'ncols 40\nnrows 40\nxllcorner 0\nyllcorner 0\ncellsize 1\n'; for ((k = 0; k < 800; ++k)); do echo 3e38 "1e-$((k % 30))"; done; } > huge.asc

@@ -92,7 +92,6 @@ holds "$(json coarse0.json over_tolerance) > 1000"
 # What cannot be is refused before the work.
 refuses 2 "--tolerance broken.tif: the value -" "$scarp" simplify hills.tif x.obj --tolerance broken.tif --memory "${small}M"
 refuses 2 "gdal_translate" "$scarp" simplify hills.tif x.obj --tolerance narrow.tif --memory "${small}M"
-refuses 1 "--mask needs all samples in memory" "$scarp" simplify hills.tif x.obj -e 40 --mask accuracy.tif --memory "${small}M"
 for verb in "simplify hills.tif x.obj -e 40" "measure hills.tif coarse.obj --fail-above 40"; do
   refuses 1 "--memory is too little: --roi takes 9M; allow 90M" "$scarp" $verb --roi long.geojson=2 --memory "${small}M"
 done

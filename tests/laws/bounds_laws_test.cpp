@@ -287,7 +287,7 @@ TEST(bounds, are_kept_in_the_dominant_order_on_any_number_of_threads) {
   std::vector<float> mask = bounds;
   for (float& weight : mask) weight = 4 / weight;
   for (const bool is_mask : {false, true}) {
-    SimplifyOptions options{.quality = {.order = Order::kDominant, .effort = Effort::kFast}};
+    SimplifyOptions options{.quality = {.effort = Effort::kFast, .order = Order::kDominant}};
     if (is_mask) options.tolerances.weights = mask, options.goals.max_error = 4;
     if (!is_mask) options.tolerances.values = bounds;
     options.run.threads = 1;

@@ -55,7 +55,7 @@ struct Scene {
   std::vector<float> tolerance = std::vector<float>(land.samples.size(), kTolerance);
   std::vector<float> colours = land.samples;
   testing::ArraySource source{land.view()};
-  testing::ArrayBounds bounds{tolerance, 40};
+  testing::ArrayBounds bounds{tolerance, 40}, weights{mask, 40};
   HeightField field = land.view();
   SimplifyOptions options;
 };
@@ -88,6 +88,7 @@ std::vector<Setting> all_settings() {
       {Field::kOutlineTolerance, [](Scene& s) { s.options.domain.outline_tolerance = 1; }},
       {Field::kDoublePositions, [](Scene& s) { s.options.output.float32_positions = false; }},
       {Field::kMask, [](Scene& s) { s.options.tolerances.weights = s.mask; }},
+      {Field::kMaskSource, [](Scene& s) { s.options.tolerances.weights_source = &s.weights; }},
       {Field::kTolerance, [](Scene& s) { s.options.tolerances.values = s.tolerance; }},
       {Field::kToleranceSource, [](Scene& s) { s.options.tolerances.source = &s.bounds; }},
       {Field::kBreaklines, [](Scene& s) { add_lines(s, {some_line()}); }},
@@ -173,7 +174,7 @@ std::vector<float> bounds_of(const Scene& scene, bool keeps_error, double factor
   const bool has_tolerance = !options.tolerances.values.empty() || options.tolerances.source != nullptr;
   double bound = (keeps_error || has_tolerance) && options.goals.max_error ? factor * *options.goals.max_error : HUGE_VAL;
   if (has_tolerance) bound = std::min(bound, tolerance * factor);
-  if (!options.tolerances.weights.empty()) bound /= 0.5;
+  if (!options.tolerances.weights.empty() || options.tolerances.weights_source != nullptr) bound /= 0.5;
   std::vector<float> bounds(scene.land.samples.size(), static_cast<float>(bound * 1.000001 + 1e-5));
   for (const ScriptStep& step : options.strategy.script) {
     if (step.action == ScriptStep::Action::kIgnore)
@@ -309,7 +310,8 @@ TEST(conflicts, every_pair_in_memory_runs_or_is_refused_by_the_table) {
     ASSERT_EQ(static_cast<std::size_t>(settings[k].field), k);
     for (std::size_t n = k + 1; n < settings.size(); ++n) {
       const Field one = settings[k].field, other = settings[n].field;
-      if (one == Field::kToleranceSource || other == Field::kToleranceSource || other == Field::kSource) continue;
+      const Fields streamed(Field::kMaskSource, Field::kToleranceSource, Field::kSource);
+      if (streamed.has(one) || streamed.has(other)) continue;
       SCOPED_TRACE(std::string(name_of(one)) + " and " + std::string(name_of(other)));
       // Two values of one field.
       Scene a, b, both;
@@ -351,8 +353,8 @@ TEST(conflicts, every_pair_of_streamed_samples_runs_or_is_refused_by_the_table) 
       ++pairs;
       if (!is_refused(settings[k], settings[n], true)) continue;
       ++refused;
-      more += find_conflicts(Fields(one, other)).empty() || one == Field::kToleranceSource ||
-              other == Field::kToleranceSource;
+      const Fields sources(Field::kMaskSource, Field::kToleranceSource);
+      more += find_conflicts(Fields(one, other)).empty() || sources.has(one) || sources.has(other);
     }
   }
   RecordProperty("pairs", pairs);

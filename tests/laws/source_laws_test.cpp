@@ -121,17 +121,40 @@ TEST(sources, that_break_in_the_middle_end_the_judging_with_their_own_error) {
   }
 }
 
-TEST(sources, are_refused_by_what_needs_all_samples_at_once) {
+TEST(sources, have_no_range_before_they_are_read) {
   const Field field = testing::random_field(3, 12, 10, Relief::kRidges);
+  const ArraySource source(field.view());
+  EXPECT_EQ(height_range(with_source(field.view(), source)).valid, 0u);
+}
+
+TEST(sources, give_the_approximation_of_samples_in_memory) {
+  const Field field = testing::random_field(3, 90, 170, Relief::kRidges, 0.1);
   const auto result = simplify(field.view(), {.goals = {.max_error = 5.0}});
   ASSERT_TRUE(result);
-  const ArraySource source(field.view());
-  const HeightField streamed = with_source(field.view(), source);
-  const auto resampled = resample(streamed, result->mesh);
-  ASSERT_FALSE(resampled);
-  EXPECT_EQ(resampled.error().kind, ErrorKind::kUsage);
-  EXPECT_EQ(height_range(streamed).valid, 0u);
-  EXPECT_EQ(draw_preview(streamed, result->mesh).width, 0);
+  const ArraySource source(field.view()), broken(field.view(), 130);
+  const auto held = resample(field.view(), result->mesh);
+  const auto streamed = resample(with_source(field.view(), source), result->mesh, 3);
+  ASSERT_TRUE(held && streamed);
+  ASSERT_EQ(held->size(), streamed->size());
+  for (std::size_t k = 0; k < held->size(); ++k) {
+    if (std::isnan((*held)[k])) continue;
+    ASSERT_EQ((*held)[k], (*streamed)[k]);
+    ASSERT_LE(std::abs((*held)[k] - field.samples[k]), 5.001f);
+  }
+  EXPECT_EQ(resample(with_source(field.view(), broken), result->mesh).error().message, "row 130 is broken");
+}
+
+TEST(sources, give_the_preview_of_samples_in_memory) {
+  const Field field = testing::random_field(3, 90, 170, Relief::kRidges, 0.1);
+  const auto result = simplify(field.view(), {.goals = {.max_error = 5.0}});
+  ASSERT_TRUE(result);
+  const ArraySource source(field.view()), broken(field.view(), 130);
+  const auto held = draw_preview(field.view(), result->mesh);
+  const auto streamed = draw_preview(with_source(field.view(), source), result->mesh);
+  ASSERT_TRUE(held && streamed);
+  EXPECT_GT(held->width, 90);
+  EXPECT_EQ(held->rgb, streamed->rgb);
+  EXPECT_EQ(draw_preview(with_source(field.view(), broken), result->mesh).error().message, "row 130 is broken");
 }
 
 TEST(measuring, tells_the_range_of_all_samples_and_the_first_uncovered_one) {

@@ -22,6 +22,8 @@ std::string word_of(Field field) {
       return "`--script` (lines `i`, `u`)";
     case Field::kScriptInserts:
       return "`--script` (lines `s`)";
+    case Field::kMaskSource:
+      return "`--mask` (streamed)";
     case Field::kTolerance:
       return "`--tolerance`, `--roi`";
     case Field::kToleranceSource:
@@ -49,6 +51,7 @@ std::string words_of(Fields fields) {
   // What the program's options do not tell apart.
   if (fields.has(Field::kBreaklines)) fields = fields.without(Field::kBreaklinesFor);
   if (fields.has(Field::kTolerance)) fields = fields.without(Field::kToleranceSource);
+  if (fields.has(Field::kMask)) fields = fields.without(Field::kMaskSource);
   std::string words;
   for (int k = 0; k < kFieldCount; ++k) {
     if (fields.has(static_cast<Field>(k))) words += (words.empty() ? "" : ", ") + word_of(static_cast<Field>(k));
@@ -59,10 +62,13 @@ std::string words_of(Fields fields) {
 std::string make_table() {
   std::string table = "| setting | does not go with | if there is also | because |\n|---|---|---|---|\n";
   for (const ConflictRule& rule : conflict_rules()) {
-    // The program reads the tolerances of streamed samples as these.
+    // The program reads the weights and tolerances of streamed samples as these.
     const bool is_of_source = rule.one.has(Field::kSource);
-    const Fields other = is_of_source ? rule.other.without(Field::kTolerance) : rule.other;
-    const std::string beside = rule.where == Where::kInMemory ? "samples in memory" : words_of(rule.beside);
+    const Fields other = is_of_source ? rule.other.without(Field::kTolerance).without(Field::kMask) : rule.other;
+    if (other.empty()) continue;
+    const bool is_said = rule.one.has(Field::kSource) || rule.where == Where::kAlways;
+    const std::string where = rule.where == Where::kInMemory ? "samples in memory" : "streamed samples";
+    const std::string beside = is_said ? words_of(rule.beside) : where;
     table += "| " + words_of(rule.one) + " | " + words_of(other) + " | " + beside + " | " + rule.reason + " |\n";
   }
   return table;

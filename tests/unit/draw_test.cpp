@@ -21,12 +21,12 @@ TEST(DrawPreview, KeepsToTheSizeAskedFor) {
   for (const auto& [cols, rows, side] :
        {std::array{40, 30, 1400}, {400, 30, 100}, {3, 900, 1400}, {2, 2, 1}, {701, 702, 1400}}) {
     const Terrain terrain = wavy_terrain(cols, rows);
-    const Picture picture = draw_preview(terrain.view(), Mesh{}, side);
+    const Picture picture = *draw_preview(terrain.view(), Mesh{}, side);
     EXPECT_LE(std::max(picture.width, picture.height), side);
     EXPECT_GE(std::min(picture.width, picture.height), 1);
     EXPECT_EQ(picture.rgb.size(), 3u * static_cast<std::size_t>(picture.width * picture.height));
   }
-  EXPECT_EQ(draw_preview(wavy_terrain(40, 30).view(), Mesh{}).width % 40, 0);
+  EXPECT_EQ(draw_preview(wavy_terrain(40, 30).view(), Mesh{})->width % 40, 0);
 }
 
 TEST(DrawPreview, LightsSlopesFromTheUpperLeft) {
@@ -35,7 +35,7 @@ TEST(DrawPreview, LightsSlopesFromTheUpperLeft) {
     for (int c = 0; c < 41; ++c)
       terrain.at(c, r) = static_cast<float>(-std::abs(c - 20));  // a ridge from top to bottom
   }
-  const Picture picture = draw_preview(terrain.view(), Mesh{}, 41);
+  const Picture picture = *draw_preview(terrain.view(), Mesh{}, 41);
   EXPECT_GT(brightness(pixel(picture, 10, 20)), brightness(pixel(picture, 30, 20)) + 60);
 }
 
@@ -44,7 +44,7 @@ TEST(DrawPreview, LeavesVoidsWhite) {
   for (int r = 5; r < 15; ++r) {
     for (int c = 5; c < 15; ++c) terrain.at(c, r) = NAN;
   }
-  const Picture picture = draw_preview(terrain.view(), Mesh{}, 30);
+  const Picture picture = *draw_preview(terrain.view(), Mesh{}, 30);
   EXPECT_EQ(pixel(picture, 9, 9), (std::array<int, 3>{255, 255, 255}));
   EXPECT_NE(pixel(picture, 20, 20), (std::array<int, 3>{255, 255, 255}));
 }
@@ -61,7 +61,7 @@ TEST(DrawPreview, DrawsTheMeshOnTheSamples) {
       mesh.positions.insert(mesh.positions.end(), {c * 10.0, r * -10.0, 7.0});
     }
     mesh.triangles = {0, 1, 2, 2, 1, 3};
-    const Picture plain = draw_preview(terrain.view(), Mesh{}, 41), drawn = draw_preview(terrain.view(), mesh, 41);
+    const Picture plain = *draw_preview(terrain.view(), Mesh{}, 41), drawn = *draw_preview(terrain.view(), mesh, 41);
     for (int i = 0; i < 41; ++i) {
       EXPECT_LT(brightness(pixel(drawn, i, 40 - i)), brightness(pixel(plain, i, 40 - i)) - 150);  // the diagonal
       EXPECT_LT(brightness(pixel(drawn, i, 0)), brightness(pixel(plain, i, 0)) - 150);
@@ -128,6 +128,21 @@ TEST(DrawErrorMap, KeepsASinglePeakWhenItShrinks) {
     for (int x = 0; x < picture.width; ++x) red += pixel(picture, x, y)[1] < 50;
   }
   EXPECT_EQ(red, 1);
+}
+
+TEST(DrawErrorMap, RowByRowIsTheMapOfAllErrors) {
+  for (const auto& [cols, rows, side] : {std::array{40, 30, 1400}, {700, 90, 100}, {3, 900, 300}, {1, 1, 50}}) {
+    std::vector<float> errors;
+    for (int i = 0; i < cols * rows; ++i) errors.push_back(i % 13 == 4 ? NAN : std::sin(static_cast<float>(i)));
+    ErrorMap map(cols, rows, side);
+    for (int y = 0; y < rows; ++y)
+      map.add(y, std::span(errors).subspan(static_cast<std::size_t>(y * cols), static_cast<std::size_t>(cols)));
+    for (const double limit : {0.0, 0.5}) {
+      const Picture picture = map.draw(limit);
+      EXPECT_LE(std::max(picture.width, picture.height), side);
+      EXPECT_EQ(picture.rgb, draw_error_map(errors, cols, rows, limit, side).rgb);
+    }
+  }
 }
 
 TEST(DrawErrorMap, DrawsAMapWithoutErrors) {

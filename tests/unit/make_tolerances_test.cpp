@@ -107,8 +107,8 @@ TEST(MakeTolerances, RefuseWhatIsNone) {
 }
 
 TEST(MakeWeights, AreAtMostOne) {
-  EXPECT_EQ(*make_weights(raster_of(2, 2, {0, 50, 100, kNothing})), (std::vector<float>{0, 0.5f, 1, 0}));
-  EXPECT_EQ(*make_weights(raster_of(2, 2, {0, 0.25f, 0.5f, 0})), (std::vector<float>{0, 0.25f, 0.5f, 0}));
+  EXPECT_EQ(make_weights(raster_of(2, 2, {0, 50, 100, kNothing}))->values, (std::vector<float>{0, 0.5f, 1, 0}));
+  EXPECT_EQ(make_weights(raster_of(2, 2, {0, 0.25f, 0.5f, 0}))->values, (std::vector<float>{0, 0.25f, 0.5f, 0}));
   EXPECT_EQ(make_weights(raster_of(2, 2, {0, kNothing, 0, 0})).error().kind, ErrorKind::kInput);
   EXPECT_EQ(make_weights(raster_of(2, 2, {0, 1, -1, 0})).error().kind, ErrorKind::kInput);
 }

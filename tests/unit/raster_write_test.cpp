@@ -3,6 +3,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "io/raster/pgm.h"
@@ -90,6 +91,40 @@ TEST(RasterWrite, GeoTiffKeepsValuesPlaceAndUnit) {
   ASSERT_TRUE(bare);
   ASSERT_TRUE(write_file(scratch.file("bare.tif"), *bare));
   EXPECT_FALSE(read_height_field(scratch.file("bare.tif"))->info.has_georeference);
+}
+
+TEST(RasterWrite, RowByRowTheBytesAreThoseOfAWhole) {
+  const ScratchFolder scratch;
+  for (const auto& [cols, rows] : {std::pair{700, 530}, {3, 256}, {90, 7}, {2000, 1300}}) {
+    std::vector<float> samples;
+    for (int i = 0; i < cols * rows; ++i) samples.push_back(i % 97 == 5 ? kNan : static_cast<float>(std::sin(i) * 1e4));
+    RasterInfo like;
+    like.has_georeference = true;
+    like.geotransform = {500000, 30, 0, 4100000, 0, -30};
+    like.crs = "EPSG:32611";
+    const std::string path = scratch.file("rows.tif");
+    auto file = RasterFile::create(path, cols, rows, &like);
+    ASSERT_TRUE(file) << file.error().message;
+    for (int y = 0; y < rows; ++y)
+      ASSERT_TRUE(
+          file->add(std::span(samples).subspan(static_cast<std::size_t>(y * cols), static_cast<std::size_t>(cols))));
+    ASSERT_TRUE(file->finish());
+    EXPECT_FALSE(read_file(path).has_value() && cols == 700) << "the file has its name too early";
+    const FileBytes ready{path, {}, &*file};
+    ASSERT_TRUE(write_files({&ready, 1}));
+    const auto whole = encode_raster({samples, cols, rows, &like}, RasterFormat::kGeoTiff);
+    const auto written = read_file(path);
+    ASSERT_TRUE(whole && written);
+    EXPECT_TRUE(*whole == *written) << cols << " x " << rows;
+    EXPECT_EQ(file->size(), whole->size());
+  }
+  EXPECT_FALSE(RasterFile::create(scratch.file("rows.tif"), 4, 4, nullptr, false));
+  {
+    auto dropped = RasterFile::create(scratch.file("dropped.tif"), 4, 4, nullptr);
+    ASSERT_TRUE(dropped && dropped->add(std::vector<float>(4)));
+  }
+  const auto left = std::filesystem::directory_iterator(std::filesystem::path(scratch.file("rows.tif")).parent_path());
+  EXPECT_EQ(std::distance(left, {}), 1);
 }
 
 TEST(RasterWrite, GeoTiffOfARealRasterLiesWhereTheRasterLies) {

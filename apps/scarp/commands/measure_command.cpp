@@ -89,27 +89,31 @@ Result<void> MeasureCommand::check_outputs_of_run() const {
   return {};
 }
 
-Result<void> MeasureCommand::write_files(const Judged& judged) const {
-  std::vector<std::pair<std::string, std::vector<std::uint8_t>>> files;
+Result<void> MeasureCommand::write_files(const Judged& judged, StreamedErrors& streamed) const {
   if (!map_ && !error_raster_) return {};
-  const std::vector<float> errors =
-      take_error_raster(judged.judgement, judged.plan.image ? ErrorsOf::kNorms : ErrorsOf::kHeights);
+  const OwnedHeightField& field = judged.field;
+  std::vector<float> errors;
+  if (!field.source)
+    errors = take_error_raster(judged.judgement, judged.plan.image ? ErrorsOf::kNorms : ErrorsOf::kHeights);
+  std::vector<std::uint8_t> map, raster;
+  std::vector<FileBytes> files;
   if (map_) {
-    Result<std::vector<std::uint8_t>> png = encode_png(draw_error_map(errors, judged.field.cols, judged.field.rows));
+    const Picture picture = streamed.map ? streamed.map->draw() : draw_error_map(errors, field.cols, field.rows);
+    Result<std::vector<std::uint8_t>> png = encode_png(picture);
     if (!png) return tl::unexpected(std::move(png.error()));
-    files.emplace_back(*map_, std::move(*png));
+    map = std::move(*png);
+    files.push_back({*map_, map});
   }
-  if (error_raster_) {
+  if (streamed.raster) {
+    files.push_back({*error_raster_, {}, &*streamed.raster});
+  } else if (error_raster_) {
     Result<std::vector<std::uint8_t>> tiff =
-        encode_raster({errors, judged.field.cols, judged.field.rows, &judged.field.info}, RasterFormat::kGeoTiff);
+        encode_raster({errors, field.cols, field.rows, &field.info}, RasterFormat::kGeoTiff);
     if (!tiff) return tl::unexpected(std::move(tiff.error()));
-    files.emplace_back(*error_raster_, std::move(*tiff));
+    raster = std::move(*tiff);
+    files.push_back({*error_raster_, raster});
   }
-  for (const auto& [path, bytes] : files) {
-    const Result<void> written = write_file(path, bytes, overwrite_);
-    if (!written) return written;
-  }
-  return {};
+  return scarp::write_files(files, overwrite_);
 }
 
 Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judged& judged) const {
@@ -143,6 +147,10 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
                                                   {progress, limit->value_or(0), *threads});
   if (!companions) return tl::unexpected(std::move(companions.error()));
   judged.companions = std::move(*companions);
+  if (error_raster_ && *limit && judged.field.source) {
+    const std::uint64_t bytes = judged.companions.bytes + RasterFile::bytes(judged.field.cols);
+    if (auto fits = check_room(judged.field, **limit, bytes, "--error-raster"); !fits) return fits;
+  }
   Result<Cut> cut = read_cut(cut_, judged.field.info, progress, judged.field, judged.companions.warnings);
   if (!cut) return tl::unexpected(std::move(cut.error()));
   judged.cut = std::move(*cut);
@@ -176,12 +184,54 @@ Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judg
 }
 
 std::optional<std::string> MeasureCommand::find_need_of_samples() const {
-  if (map_) return "--map";
-  if (error_raster_) return "--error-raster";
-  if (const char* need = companions_.find_need_of_samples()) return need;
   const std::string others = channels_.canonical();
   if (others.empty()) return std::nullopt;
   return others.substr(1, others.find(' ', 1) - 1);
+}
+
+Result<MeasureCommand::StreamedErrors> MeasureCommand::begin_errors(const Judged& judged) const {
+  StreamedErrors errors;
+  const OwnedHeightField& field = judged.field;
+  if (!field.source) return errors;
+  if (map_) {
+    const std::uint64_t limit = memory_.parse()->value_or(0);
+    const MemoryShare memory{limit, bytes_taken(field, limit) + judged.companions.bytes};
+    errors.map.emplace(field.cols, field.rows, picture_side(field, memory, judged.mesh.vertex_count()));
+  }
+  if (error_raster_) {
+    auto raster = RasterFile::create(*error_raster_, field.cols, field.rows, &field.info, overwrite_);
+    if (!raster) return tl::unexpected(raster.error());
+    errors.raster = std::move(*raster);
+  }
+  return errors;
+}
+
+Result<Judgement> MeasureCommand::judge(const ProgressCallback& progress, const Judged& judged,
+                                        StreamedErrors& errors) const {
+  JudgeOptions options;
+  options.tolerances.weights = judged.companions.mask.values;
+  options.tolerances.weights_source = judged.companions.mask.source.get();
+  options.tolerances.values = judged.companions.tolerances.values;
+  options.tolerances.source = judged.companions.tolerances.source.get();
+  options.script = judged.companions.script;
+  options.max_error = judged.fail_above;
+  options.norm = judged.plan.norm;
+  options.cutline = judged.cut.judged();
+  options.keep_errors = !judged.field.source && (map_ || error_raster_);
+  options.run.threads = *parse_threads(threads_);
+  options.run.progress = progress;
+  Result<void> written;
+  if (errors.map || errors.raster) {
+    options.on_row = [&](int row, std::span<const float> of_row) {
+      if (errors.map) errors.map->add(row, of_row);
+      if (errors.raster && written) written = errors.raster->add(of_row);
+    };
+  }
+  auto judgement = judge_mesh(judged.view(), judged.mesh, options);
+  if (!judgement) return judgement;
+  if (errors.raster && written) written = errors.raster->finish();
+  if (!written) return tl::unexpected(written.error());
+  return judgement;
 }
 
 Result<void> MeasureCommand::run(const std::string& command_line) const {
@@ -222,18 +272,9 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
   judged.seconds_read = seconds_since(start);
 
   const Clock::time_point measure_start = Clock::now();
-  JudgeOptions options;
-  options.tolerances.weights = judged.companions.mask;
-  options.tolerances.values = judged.companions.tolerances.values;
-  options.tolerances.source = judged.companions.tolerances.source.get();
-  options.script = judged.companions.script;
-  options.max_error = judged.fail_above;
-  options.norm = judged.plan.norm;
-  options.cutline = judged.cut.judged();
-  options.keep_errors = map_ || error_raster_;
-  options.run.threads = *threads;
-  options.run.progress = display.callback();
-  Result<Judgement> judgement = judge_mesh(judged.view(), judged.mesh, options);
+  Result<StreamedErrors> errors = begin_errors(judged);
+  if (!errors) return tl::unexpected(std::move(errors.error()));
+  Result<Judgement> judgement = judge(display.callback(), judged, *errors);
   if (!judgement) return tl::unexpected(std::move(judgement.error()));
   judged.judgement = std::move(*judgement);
   complete_info(judged.judgement.heights.heights, judged.field.info);
@@ -244,7 +285,7 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
         "no sample of {} is covered by {}: do they have the same coordinates (--crs)?", raster_.path, mesh_));
   }
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
-  const Result<void> files = write_files(judged);
+  const Result<void> files = write_files(judged, *errors);
   if (!files) return files;
   display.finish();
   judged.seconds_total = seconds_since(start);

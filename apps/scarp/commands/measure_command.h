@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "commands/points_command.h"
@@ -11,6 +12,8 @@
 #include "options/memory.h"
 #include "options/options.h"
 #include "reports/measure_report.h"
+#include "scarp/io.h"
+#include "scarp/picture.h"
 
 namespace scarp::cli {
 
@@ -31,7 +34,14 @@ class MeasureCommand {
   Result<void> read_field(const ReadOptions& options, Judged& judged) const;
   /// The first option that was given and needs all samples in memory; nothing if there is none.
   std::optional<std::string> find_need_of_samples() const;
-  Result<void> write_files(const Judged& judged) const;
+  /// What becomes of the errors of streamed samples, row by row.
+  struct StreamedErrors {
+    std::optional<ErrorMap> map = std::nullopt;
+    std::optional<RasterFile> raster = std::nullopt;
+  };
+  Result<StreamedErrors> begin_errors(const Judged& judged) const;
+  Result<Judgement> judge(const ProgressCallback& progress, const Judged& judged, StreamedErrors& errors) const;
+  Result<void> write_files(const Judged& judged, StreamedErrors& errors) const;
 
   CLI::App* verb_;
   RasterArguments raster_;

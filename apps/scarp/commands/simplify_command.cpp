@@ -70,17 +70,19 @@ bool fits_lines_later(const SimplifyPlan& plan, const Outcome& outcome) {
   return (plan.simplify.goals.max_triangles || plan.simplify.goals.max_vertices) && outcome.features.depend_on_error();
 }
 
-/// What the process may take, and has taken.
+}  // namespace
+
 MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome) {
   if (!plan.memory) return {};
   const OwnedHeightField& field = outcome.field;
-  std::uint64_t taken =
-      bytes_taken(field, *plan.memory) + bytes_of(outcome.features.lakes) + outcome.companions.tolerances.bytes;
+  std::uint64_t taken = bytes_taken(field, *plan.memory) + bytes_of(outcome.features.lakes) + outcome.companions.bytes;
   if (plan.companions.gives_bounds() && !field.source)
     taken += (kBoundedSampleBytes - MemoryNeeds().per_sample) * static_cast<std::uint64_t>(field.cols) *
              static_cast<std::uint64_t>(field.rows);
   return {*plan.memory, taken};
 }
+
+namespace {
 
 /// All lines of a mesh of such an error.
 Result<FittedFeatures> fit_lines(const SimplifyPlan& plan, const Outcome& outcome, double max_error,
@@ -127,6 +129,15 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
                                                   {progress, plan.memory.value_or(0), plan.simplify.run.threads});
   if (!companions) return tl::unexpected(std::move(companions.error()));
   outcome.companions = std::move(*companions);
+  if (plan.memory && outcome.companions.inserts_samples()) {
+    if (auto in_memory = check_in_memory(outcome.field, "--script", needs_of(plan)); !in_memory) return in_memory;
+  }
+  const bool is_dem = plan.format.kind == OutputKind::kDem;
+  if (plan.memory && (plan.error_raster || is_dem) && outcome.field.source) {
+    const std::uint64_t bytes = outcome.companions.bytes + RasterFile::bytes(outcome.field.cols);
+    const char* culprit = is_dem ? "the approximation as a raster" : "--error-raster";
+    if (auto fits = check_room(outcome.field, *plan.memory, bytes, culprit); !fits) return fits;
+  }
   if (auto features = read_features(plan, progress, outcome); !features) return features;
   Result<Cut> cut = read_cut(plan.cut, outcome.as_read, progress, outcome.field, outcome.companions.warnings);
   if (!cut) return tl::unexpected(std::move(cut.error()));
@@ -165,7 +176,8 @@ Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& pro
   const Companions& companions = outcome.companions;
   const bool has_norms = !outcome.channels.empty() && (companions.ignores_samples() || plan.channels.image);
   JudgeOptions options;
-  options.tolerances.weights = companions.mask;
+  options.tolerances.weights = companions.mask.values;
+  options.tolerances.weights_source = companions.mask.source.get();
   options.tolerances.values = companions.tolerances.values;
   options.tolerances.source = companions.tolerances.source.get();
   options.script = companions.script;
@@ -275,7 +287,8 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   if (auto checked = check_frame_of_lines(plan->lines, frame, plan->read.crs, plan->input); !checked) return checked;
   SimplifyOptions options = plan->simplify;
   options.goals.max_error = outcome.asked;
-  options.tolerances.weights = outcome.companions.mask;
+  options.tolerances.weights = outcome.companions.mask.values;
+  options.tolerances.weights_source = outcome.companions.mask.source.get();
   options.tolerances.values = outcome.companions.tolerances.values;
   options.tolerances.source = outcome.companions.tolerances.source.get();
   options.strategy.script = outcome.companions.script;
@@ -357,7 +370,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
 
   // From here on the work is done: all files get their names, or none.
   std::vector<FileBytes> ready;
-  for (const ReadyFile& file : *files) ready.push_back({file.path, file.bytes});
+  for (const ReadyFile& file : *files) ready.push_back({file.path, file.bytes, file.raster.get()});
   if (const Result<void> written = write_files(ready, plan->overwrite); !written) return written;
   outcome.seconds_write = seconds_since(write_start);
   outcome.seconds_total = seconds_since(start);

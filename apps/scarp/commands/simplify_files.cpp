@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
+#include <memory>
 #include <utility>
 
 #include "reports/report.h"
@@ -49,17 +51,56 @@ Result<void> add_render(const SimplifyPlan& plan, Outcome& outcome, std::vector<
   return add_picture(*plan.render, rendered, files);
 }
 
+Result<void> add_preview(const SimplifyPlan& plan, const Outcome& outcome, std::vector<ReadyFile>& files) {
+  const Mesh& mesh = outcome.simplified.mesh;
+  const int side = picture_side(outcome.field, memory_of(plan, outcome), mesh.vertex_count());
+  const Result<Picture> picture = draw_preview(outcome.field, mesh, side);
+  if (!picture) return tl::unexpected(picture.error());
+  return add_picture(*plan.preview, *picture, files);
+}
+
+/// Writes rows as `make` hands them out.
+Result<std::shared_ptr<RasterFile>> write_rows(
+    const SimplifyPlan& plan, const std::string& path, const Outcome& outcome,
+    const std::function<Result<void>(const std::function<void(int row, std::span<const float> values)>& on_row)>&
+        make) {
+  auto raster = RasterFile::create(path, outcome.field.cols, outcome.field.rows, &outcome.as_read, plan.overwrite);
+  if (!raster) return tl::unexpected(raster.error());
+  Result<void> written;
+  const auto made = make([&](int, std::span<const float> values) {
+    if (written) written = raster->add(values);
+  });
+  if (!made) return tl::unexpected(made.error());
+  if (written) written = raster->finish();
+  if (!written) return tl::unexpected(written.error());
+  return std::make_shared<RasterFile>(std::move(*raster));
+}
+
+/// Judges the heights once more, and writes each row as it comes.
+Result<void> add_streamed_errors(const SimplifyPlan& plan, JudgeOptions options, const Outcome& outcome,
+                                 std::vector<ReadyFile>& files) {
+  auto raster = write_rows(plan, *plan.error_raster, outcome, [&](const auto& on_row) -> Result<void> {
+    options.on_row = on_row;
+    const auto judged = judge_mesh(outcome.field.view(), outcome.simplified.mesh, options);
+    return judged ? Result<void>() : tl::unexpected(judged.error());
+  });
+  if (!raster) return tl::unexpected(raster.error());
+  files.push_back({*plan.error_raster, "tif", {}, std::move(*raster)});
+  return {};
+}
+
 /// Signed errors of the heights; of an image, the norms over its bands.
 Result<void> add_error_raster(const SimplifyPlan& plan, const ProgressCallback& progress, const Outcome& outcome,
                               std::vector<ReadyFile>& files) {
   JudgeOptions options;
   options.norm = plan.channels.norm;
-  options.keep_errors = true;
   options.weigh = false;
   options.topology = false;
   options.cutline = outcome.cut.judged();
   options.run.threads = plan.simplify.run.threads;
   options.run.progress = progress;
+  if (outcome.field.source) return add_streamed_errors(plan, options, outcome, files);
+  options.keep_errors = true;
   Result<Judgement> judged =
       judge_mesh(plan.channels.image ? outcome.view() : outcome.field.view(), outcome.simplified.mesh, options);
   if (!judged) return tl::unexpected(std::move(judged.error()));
@@ -99,14 +140,32 @@ Result<void> encode_sheets(const SimplifyPlan& plan, const Outcome& outcome, std
   return {};
 }
 
-/// The bytes of OUTPUT.
-Result<std::vector<std::uint8_t>> encode_output(const SimplifyPlan& plan, const Outcome& outcome) {
+/// The approximation on the raster's grid.
+Result<std::vector<std::uint8_t>> encode_dem(const SimplifyPlan& plan, const Outcome& outcome) {
   const Mesh& mesh = outcome.simplified.mesh;
-  if (outcome.print) return encode_3mf(named_solids(outcome));
-  if (plan.format.kind != OutputKind::kDem) return encode_as(plan.format, mesh);
   const Result<std::vector<float>> heights = resample(outcome.field, mesh, plan.simplify.run.threads);
   if (!heights) return tl::unexpected(heights.error());
   return encode_raster({*heights, outcome.field.cols, outcome.field.rows, &outcome.as_read}, plan.format.raster);
+}
+
+/// Fills in OUTPUT.
+Result<void> encode_output(const SimplifyPlan& plan, const Outcome& outcome, ReadyFile& file) {
+  const Mesh& mesh = outcome.simplified.mesh;
+  const bool is_dem = plan.format.kind == OutputKind::kDem;
+  if (is_dem && outcome.field.source) {
+    auto raster = write_rows(plan, plan.output, outcome, [&](const auto& on_row) {
+      return resample_rows(outcome.field, mesh, on_row, plan.simplify.run.threads);
+    });
+    if (!raster) return tl::unexpected(raster.error());
+    file.raster = std::move(*raster);
+    return {};
+  }
+  Result<std::vector<std::uint8_t>> bytes = outcome.print ? encode_3mf(named_solids(outcome))
+                                            : is_dem      ? encode_dem(plan, outcome)
+                                                          : encode_as(plan.format, mesh);
+  if (!bytes) return tl::unexpected(std::move(bytes.error()));
+  file.bytes = std::move(*bytes);
+  return {};
 }
 
 }  // namespace
@@ -118,7 +177,7 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
   Mesh& mesh = outcome.simplified.mesh;
   if (!outcome.channels.empty()) color_by_channels(mesh, outcome.channels.bands);
   Result<void> added;
-  if (plan.preview) added = add_picture(*plan.preview, draw_preview(outcome.field, mesh), files);
+  if (plan.preview) added = add_preview(plan, outcome, files);
   if (added && plan.render) added = add_render(plan, outcome, files);
   if (added && plan.error_raster) added = add_error_raster(plan, progress, outcome, files);
   if (added) added = finish_mesh(plan, outcome);
@@ -128,9 +187,7 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
     if (auto encoded = encode_sheets(plan, outcome, files); !encoded) return tl::unexpected(std::move(encoded.error()));
     return files;
   }
-  Result<std::vector<std::uint8_t>> output = encode_output(plan, outcome);
-  if (!output) return tl::unexpected(std::move(output.error()));
-  files.front().bytes = std::move(*output);
+  if (auto encoded = encode_output(plan, outcome, files.front()); !encoded) return tl::unexpected(encoded.error());
   return files;
 }
 

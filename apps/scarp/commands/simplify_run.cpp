@@ -76,7 +76,7 @@ Json describe_seconds(const SimplifyRun& run) {
 Json describe_outputs(const std::vector<ReadyFile>& files) {
   Json outputs = Json::array();
   for (const ReadyFile& file : files)
-    outputs.push_back(Json{{"path", file.path}, {"format", file.kind}, {"bytes", file.bytes.size()}});
+    outputs.push_back(Json{{"path", file.path}, {"format", file.kind}, {"bytes", file.size()}});
   return outputs;
 }
 
@@ -103,7 +103,7 @@ std::string summary_line(const char* name, const std::string& value) {
 std::string files_lines(const SimplifyPlan& plan, const std::vector<ReadyFile>& files) {
   std::string text;
   for (const ReadyFile& file : files)
-    text += summary_line("written", fmt::format("{}, {}", file.path, format_bytes(file.bytes.size())));
+    text += summary_line("written", fmt::format("{}, {}", file.path, format_bytes(file.size())));
   return plan.report ? text + summary_line("written", *plan.report) : text;
 }
 

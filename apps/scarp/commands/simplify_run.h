@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,15 +10,19 @@
 #include "commands/solid_run.h"
 #include "options/simplify_plan.h"
 #include "reports/json.h"
+#include "scarp/io.h"
 #include "scarp/simplify.h"
 
 namespace scarp::cli {
 
-/// A file of this run and its bytes, ready to be written.
+/// A file of this run, ready to be written: its bytes, or a raster that was written row by row.
 struct ReadyFile {
   std::string path;
   const char* kind;
   std::vector<std::uint8_t> bytes;
+  std::shared_ptr<RasterFile> raster = nullptr;
+
+  std::uint64_t size() const { return raster ? raster->size() : bytes.size(); }
 };
 
 struct SimplifyRun {

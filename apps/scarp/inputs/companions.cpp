@@ -137,10 +137,41 @@ Result<void> read_tolerances(const CompanionArguments& given, const RasterInfo& 
                               {in_windows, {run.threads, {}, run.progress}});
   if (!made) return name_option("--tolerance", " ", std::move(made.error()));
   warn_of_missing(given, made->found, companions);
-  made->bytes += bytes;
+  companions.bytes += made->bytes + bytes;
   companions.tolerances = std::move(*made);
-  return in_windows ? check_room(field, run.memory, companions.tolerances.bytes, given.find_tolerance())
-                    : Result<void>();
+  return in_windows ? check_room(field, run.memory, companions.bytes, given.find_tolerance()) : Result<void>();
+}
+
+/// The weights of --mask, in windows where the heights are.
+Result<void> read_weights(const std::string& path, const RasterInfo& raster, const OwnedHeightField& field,
+                          const CompanionRun& run, Companions& companions) {
+  const bool in_windows = field.source != nullptr;
+  Result<OwnedHeightField> values = read_values("--mask", path, raster, field, run, in_windows);
+  if (!values) return tl::unexpected(std::move(values.error()));
+  add_warnings(*values, companions);
+  if (in_windows) {
+    companions.bytes += bytes_beside(*values, field, run.memory);
+    if (auto fits = check_room(field, run.memory, companions.bytes, "--mask"); !fits) return fits;
+  }
+  Result<OwnedWeights> mask = make_weights(std::move(*values), {in_windows, {run.threads, {}, run.progress}});
+  if (!mask) return name_option("--mask", " ", std::move(mask.error()));
+  companions.mask = std::move(*mask);
+  return {};
+}
+
+/// The steps of --script, which count beside heights that have a source.
+Result<void> read_steps(const std::string& path, const OwnedHeightField& field, const CompanionRun& run,
+                        Companions& companions) {
+  Result<std::vector<ScriptStep>> script = read_script(path, field.cols, field.rows);
+  if (!script) return tl::unexpected(std::move(script.error()));
+  companions.script = std::move(*script);
+  if (companions.script.empty())
+    companions.warnings.push_back(fmt::format("--script {} holds no step: it changes nothing", path));
+  if (!field.source) return {};
+  constexpr std::uint64_t kBytesToRead = 100, kBytesPerStep = 2 * sizeof(ScriptStep);
+  const std::uint64_t before = companions.bytes, steps = companions.script.size();
+  companions.bytes += kBytesPerStep * steps;
+  return check_room(field, run.memory, before + kBytesToRead * steps, "--script");
 }
 
 }  // namespace
@@ -202,9 +233,8 @@ std::string CompanionArguments::canonical() const {
   return command + canonical_option("--falloff", falloff);
 }
 
-bool Companions::ignores_samples() const {
-  return std::any_of(script.begin(), script.end(),
-                     [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; });
+bool Companions::has_step(ScriptStep::Action action) const {
+  return std::any_of(script.begin(), script.end(), [&](const ScriptStep& step) { return step.action == action; });
 }
 
 Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster,
@@ -212,24 +242,15 @@ Result<Companions> read_companions(const CompanionArguments& given, const Raster
                                    const CompanionRun& run) {
   Companions companions;
   if (given.mask) {
-    Result<OwnedHeightField> values = read_values("--mask", *given.mask, raster, field, run, false);
-    if (!values) return tl::unexpected(std::move(values.error()));
-    add_warnings(*values, companions);
-    Result<std::vector<float>> mask = make_weights(std::move(*values));
-    if (!mask) return name_option("--mask", " ", std::move(mask.error()));
-    companions.mask = std::move(*mask);
+    if (auto read = read_weights(*given.mask, raster, field, run, companions); !read)
+      return tl::unexpected(read.error());
   }
   if (given.find_tolerance() != nullptr) {
     const Result<void> read = read_tolerances(given, raster, field, bound, run, companions);
     if (!read) return tl::unexpected(read.error());
   }
   if (given.script) {
-    Result<std::vector<ScriptStep>> script = read_script(*given.script, field.cols, field.rows);
-    if (!script) return tl::unexpected(std::move(script.error()));
-    companions.script = std::move(*script);
-    if (companions.script.empty()) {
-      companions.warnings.push_back(fmt::format("--script {} holds no step: it changes nothing", *given.script));
-    }
+    if (auto read = read_steps(*given.script, field, run, companions); !read) return tl::unexpected(read.error());
   }
   return companions;
 }

@@ -30,8 +30,6 @@ struct CompanionArguments {
   const char* find_tolerance() const;
   /// Whether samples are given weights or bounds of their own.
   bool gives_bounds() const { return mask || script || find_tolerance() != nullptr; }
-  /// The option that reads what is of use for samples in memory only; null if there is none.
-  const char* find_need_of_samples() const { return mask ? "--mask" : script ? "--script" : nullptr; }
   /// The files that were named.
   std::vector<std::string> files() const;
   std::string canonical() const;
@@ -39,15 +37,20 @@ struct CompanionArguments {
 
 /// What the files hold; empty where none was given.
 struct Companions {
-  std::vector<float> mask;  ///< weights in 0 … 1, one a sample
-  OwnedTolerances tolerances;  ///< with a source where the heights have one
+  OwnedWeights mask;  ///< with a source where the heights have one, as tolerances
+  OwnedTolerances tolerances;
   std::vector<ScriptStep> script;
   std::vector<std::string> warnings;
 
   bool has_tolerance() const { return !tolerances.values.empty() || tolerances.source; }
+  /// Bytes beside those of heights that have a source.
+  std::uint64_t bytes = 0;
+
   bool has_weights() const { return !mask.empty() || has_tolerance(); }
   /// The script takes samples' bounds away; they count in the largest errors all the same.
-  bool ignores_samples() const;
+  bool ignores_samples() const { return has_step(ScriptStep::Action::kIgnore); }
+  bool inserts_samples() const { return has_step(ScriptStep::Action::kInsert); }
+  bool has_step(ScriptStep::Action action) const;
 };
 
 /// How a run reads them. The rest counts where the heights have a source.
@@ -61,8 +64,7 @@ struct CompanionRun {
 /// Mask: values below 0 are refused; if the largest is above 1, all are divided by it; no value means weight 0.
 /// Tolerance: values below 0 are refused; no value means no bound. Regions of interest: the smaller one of their
 /// tolerance and the raster's counts; `bound` is what holds beyond them. `raster`: that of the field, as it was read.
-/// Fails with kUsage if the memory has no room for what is beside heights that have a source; masks and scripts are for
-/// heights in memory.
+/// Fails with kUsage if the memory has no room for what is beside heights that have a source.
 Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster,
                                    const OwnedHeightField& field, std::optional<double> bound, const CompanionRun& run);
 

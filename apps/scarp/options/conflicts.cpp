@@ -66,8 +66,9 @@ Result<void> check_conflicts(const SimplifyArguments& given, const HeightField& 
 std::optional<std::string> find_unstreamed(const SimplifyArguments& given, const SimplifyPlan& plan) {
   Fields fields = fields_given(given, plan) | Fields(Field::kSource);
   if (given.companions.script) fields.add(Field::kScriptIgnores);
-  // Tolerances are read in windows then.
+  // Tolerances and weights are read in windows then.
   if (fields.has(Field::kTolerance)) fields = fields.without(Field::kTolerance) | Fields(Field::kToleranceSource);
+  if (fields.has(Field::kMask)) fields = fields.without(Field::kMask) | Fields(Field::kMaskSource);
   for (const Conflict& conflict : find_conflicts(fields)) {
     if (conflict.one == Field::kSource) return option_of(conflict.other, given);
   }

@@ -15,6 +15,7 @@ inline constexpr const char* kFieldOptions[] = {
     "--outline-tolerance",
     nullptr,  // positions are as the format has them
     "--mask",
+    "--mask",
     "--tolerance",
     "--tolerance",
     "--breaklines",

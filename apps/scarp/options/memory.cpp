@@ -137,6 +137,15 @@ Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std:
                                              options, megabytes(bytes), megabytes(needed)));
 }
 
+int picture_side(const OwnedHeightField& field, const MemoryShare& memory, std::uint64_t vertices) {
+  constexpr int kUsualSide = 1400, kLeastSide = 100;
+  constexpr std::uint64_t kBytesPerPixel = 80, kBytesPerVertex = 145;
+  if (memory.limit == 0 || !field.source) return kUsualSide;
+  const std::uint64_t taken = memory.taken + kBytesPerVertex * vertices;
+  const std::uint64_t pixels = (std::max(memory.limit, taken) - taken) / kBytesPerPixel;
+  return static_cast<int>(std::clamp(std::sqrt(static_cast<double>(pixels)), double{kLeastSide}, double{kUsualSide}));
+}
+
 Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option, const MemoryNeeds& needs) {
   if (!field.source) return {};
   return fail(ErrorKind::kUsage,

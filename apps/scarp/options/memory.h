@@ -60,6 +60,9 @@ std::uint64_t bytes_beside(const OwnedHeightField& other, const OwnedHeightField
 /// Fails with kUsage if the limit has no room for so many bytes more of what `options` name.
 Result<void> check_room(const OwnedHeightField& field, std::uint64_t limit, std::uint64_t bytes, const char* options);
 
+/// The side of a picture that memory has room for beside a mesh: 1400 pixels, less where samples are streamed.
+int picture_side(const OwnedHeightField& field, const MemoryShare& memory, std::uint64_t vertices);
+
 /// Fails with kUsage if the field's samples are not in memory as one array, which `option` needs; says what would do.
 Result<void> check_in_memory(const OwnedHeightField& field, const std::string& option, const MemoryNeeds& needs = {});
 

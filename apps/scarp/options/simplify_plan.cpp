@@ -293,11 +293,8 @@ std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, 
   if (const auto unstreamed = find_unstreamed(given, plan)) return unstreamed;
   const std::pair<const char*, bool> options[] = {
       {"--nodata-policy", plan.policy != NodataPolicy::kHole},
-      {"--normals", plan.simplify.output.normals},
-      {"--preview", given.preview.has_value()},
       {"--render", given.render.has_value()},
-      {"--error-raster", given.error_raster.has_value()},
-      {"--of dem", plan.format.kind == OutputKind::kDem},
+      {".pgm as OUTPUT", plan.format.kind == OutputKind::kDem && plan.format.raster == RasterFormat::kPgm},
   };
   for (const auto& [name, is_given] : options) {
     if (is_given) return name;

@@ -9,6 +9,7 @@
 #include "inputs/channels.h"
 #include "inputs/companions.h"
 #include "options/cutline_options.h"
+#include "options/memory.h"
 #include "scarp/features.h"
 #include "scarp/height_field.h"
 #include "scarp/judge.h"
@@ -46,7 +47,10 @@ struct GoalError {
 };
 GoalError find_goal_error(const Outcome& outcome);
 
-/// The bytes of every file but the report, OUTPUT first. Closes the mesh into a solid where that was asked for.
+/// What the process may take, and has taken beside the mesh; of no limit: zeros.
+MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome);
+
+/// Every file but the report, OUTPUT first. Closes the mesh into a solid where that was asked for.
 Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const ProgressCallback& progress,
                                             Outcome& outcome);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,21 @@ Result<OwnedChannels> read_gdal_channels(const std::string& path, const ReadOpti
 
 /// encode_raster() as GeoTIFF; may throw std::bad_alloc. In a build without GDAL it fails with kOutput.
 Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage& raster);
+
+/// Rows of a block of such a file.
+inline constexpr int kRowsOfBlock = 256;
+
+/// Such a file that rows are written to, for one thread.
+class GeoTiff {
+ public:
+  virtual ~GeoTiff() = default;
+  /// Whole blocks, or the last rows. Fails with kOutput.
+  virtual Result<void> write(int row, int rows, const float* samples) = 0;
+  /// The file is as it stays. Fails with kOutput.
+  virtual Result<void> close() = 0;
+};
+/// Over what the file holds; likewise.
+Result<std::unique_ptr<GeoTiff>> create_geotiff(const std::string& path, int cols, int rows, const RasterInfo* like);
 
 /// Whether two names of CRSs, as in RasterInfo::crs, mean the same. In a build without GDAL: whether they are equal.
 bool is_same_crs(const std::string& a, const std::string& b);

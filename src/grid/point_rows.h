@@ -1,0 +1,43 @@
+// A few samples of a raster, by rows.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/point.h"
+#include "scarp/strategy.h"
+
+namespace scarp {
+
+class PointRows {
+ public:
+  PointRows() = default;
+  explicit PointRows(std::vector<Point> points) : points_(std::move(points)) {
+    std::sort(points_.begin(), points_.end(), before);
+  }
+
+  bool empty() const { return points_.empty(); }
+  /// Calls visit(x) for those of a row in columns [first, first + cols).
+  template <class Visit>
+  void visit(std::int32_t row, std::int32_t first, std::int32_t cols, Visit&& visit) const {
+    auto at = std::lower_bound(points_.begin(), points_.end(), Point{first, row}, before);
+    for (; at != points_.end() && at->y == row && at->x < first + cols; ++at) visit(at->x);
+  }
+
+ private:
+  std::vector<Point> points_;
+};
+
+/// Those that a script ignores.
+inline PointRows ignored_samples(std::span<const ScriptStep> script) {
+  std::vector<Point> samples;
+  for (const ScriptStep& step : script) {
+    if (step.action == ScriptStep::Action::kIgnore) samples.push_back({step.col, step.row});
+  }
+  return PointRows(std::move(samples));
+}
+
+}  // namespace scarp

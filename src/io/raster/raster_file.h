@@ -1,0 +1,23 @@
+// The inside of a raster that is written row by row.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "io/raster/raster_source.h"
+#include "io/staged_file.h"
+#include "scarp/io.h"
+
+namespace scarp {
+
+struct RasterFile::Impl {
+  StagedFile staged;
+  std::unique_ptr<GeoTiff> tiff;  // gone before its file
+  int cols = 0, rows = 0;
+  std::vector<float> held = {};  // whole rows that wait
+  int written = 0;
+  std::uint64_t size = 0;  // of what is finished
+};
+
+}  // namespace scarp

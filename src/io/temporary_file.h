@@ -1,0 +1,45 @@
+// New files under names that nobody else has, and that a signal handler knows.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace scarp {
+
+/// Holds the name for pending_output() while it lives.
+class PendingName {
+ public:
+  explicit PendingName(const std::string& name);
+  PendingName(const PendingName&) = delete;
+  PendingName& operator=(const PendingName&) = delete;
+  ~PendingName();
+
+ private:
+  int place_ = -1;
+};
+
+/// A new, empty file in a folder; gone with this object, unless it was let go.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const std::string& folder);
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile();
+
+  const std::string& name() const { return name_; }
+  int fd() const { return fd_; }
+  /// Why there is none; an errno.
+  int error() const { return error_; }
+  /// 0 or an errno.
+  int close();
+  /// It has another name now.
+  void let_go() { is_ours_ = false; }
+
+ private:
+  std::string name_;
+  std::optional<PendingName> pending_;
+  int fd_ = -1, error_ = 0;
+  bool is_ours_ = false;
+};
+
+}  // namespace scarp
