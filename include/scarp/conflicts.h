@@ -27,10 +27,9 @@ enum class Field : std::uint8_t {
   kMaskSource,
   kTolerance,
   kToleranceSource,
-  kBreaklines,     ///< of any kind
-  kWalls,          ///< among them lines of detect_cliffs()
-  kRidges,         ///< among them lines of detect_ridges()
-  kBreaklinesFor,  ///< breaklines that depend on the max error
+  kBreaklines,  ///< lines of any feature
+  kWalls,       ///< declared, or lines of detect_cliffs() among the breaklines
+  kRidges,      ///< declared, or lines of detect_ridges() among the breaklines
   kCutline,
   kScriptIgnores,  ///< a script with steps that ignore samples
   kScriptInserts,  ///< a script with steps that insert samples

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -34,13 +33,15 @@ struct RidgeGoals {
   bool are_kept = false;  ///< RidgeOptions::are_kept
 };
 
-/// The features of a mesh.
+/// The features of a mesh. simplify() fits them to the max error of the mesh by fit_features(). It needs a max error,
+/// tolerances or a budget beside them. With a budget it searches for an error, whatever the effort, fits the features
+/// to the error of each run, and fails with kUsage for a budget below what lines and outline need.
 struct Features {
-  /// Lines that do not depend on the error. Their affine map applies to all lines here. DEFAULT: none.
+  /// Lines that do not depend on the error. Their affine map applies to all lines here. A hard line keeps its heights,
+  /// a soft one follows the raster. Where a hard line passes through a sample that has another height, the sample is
+  /// given the line's, and what is promised holds for the samples as they are then (Simplified::edits). simplify()
+  /// fails with kInput for lines whose heights contradict each other, and names them. DEFAULT: none.
   LineConstraints breaklines = {};
-  /// Breaklines that depend on the max error of the mesh to come, such as rivers and the lines of cliffs: asked for all
-  /// breaklines, in place of the above, before each run that a budget's search makes, or once. DEFAULT: none.
-  std::function<Result<LineConstraints>(double max_error)> breaklines_for = {};
   /// Results of flatten_lakes() or find_flats() on the field: their shores become lines, rivers flow into them.
   std::vector<Lake> lakes = {};
   std::vector<Line> rivers = {};                    ///< courses seen from above, for carve_rivers()
@@ -52,6 +53,8 @@ struct Features {
   /// judged. Fails as faults do, and with kInput where no surface lies in the polygons. DEFAULT: none.
   Cutline cutline = {};
 
+  /// The mesh holds some lines.
+  bool have_lines() const { return !breaklines.lines.empty() || !lakes.empty() || depend_on_error(); }
   /// Some lines depend on the max error of the mesh.
   bool depend_on_error() const { return !rivers.empty() || walls || ridges; }
   /// The lines that do not depend on it: breaklines, then shores.
@@ -65,7 +68,7 @@ struct FeatureFitOptions {
 
 /// The lines of a mesh of one max error, and their origins.
 struct FittedFeatures {
-  LineConstraints lines;        ///< for Features::breaklines: breaklines, shores, rivers, walls, ridges, valleys
+  LineConstraints lines;        ///< breaklines, shores, rivers, walls, ridges, valleys
   std::vector<River> rivers;    ///< rings, and lines without a height anywhere, are left out
   std::optional<Cliffs> walls;  ///< nothing where none were asked for
   std::optional<Ridges> ridges;  ///< nothing where none were asked for
@@ -76,8 +79,7 @@ struct FittedFeatures {
 
 /// Makes all lines for a mesh of a given max error. Courses of rivers differ from the exact ones by at most half of the
 /// error. Walls avoid all lines so far, and ridges avoid the walls. The same features, field and error give the same
-/// lines. With an error goal call it once, and pass FittedFeatures::lines to simplify() as `breaklines`. With a budget
-/// pass simplify() a `breaklines_for` that calls it; Simplified::lines_for is the error of the mesh.
+/// lines. simplify() calls it for each mesh that it makes; Simplified::features and lines_for tell the last result.
 ///
 /// Nothing is kept of `field` and `features`. Fails with kUsage for an error below 0 or not finite, and as
 /// carve_rivers(), detect_cliffs() and detect_ridges() do. Cost: theirs.

@@ -93,6 +93,7 @@ struct Simplified {
   Vertices vertices = Vertices::kSamples;         ///< where they are, never kAuto
   bool is_cut_short = false;                      ///< by Run::is_time_up or is_enough
   std::vector<SampleEdit> edits;                  ///< by breaklines, in raster order
+  FittedFeatures features;                        ///< the lines of the mesh
   std::uint64_t lines_laid = 0;                   ///< breaklines of which some part lies in the raster
   /// The max error that lines were laid for, given or found; without one, tolerance_factor times the largest tolerance
   /// that is finite.

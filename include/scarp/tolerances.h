@@ -20,8 +20,8 @@ namespace scarp {
 /// Bounds of their own for samples.
 struct Tolerances {
   /// Bounds, one a sample, at least 0, in z units; +infinity: none. |error| <= tolerance at every valid sample, beside
-  /// max_error if that is given; |error| / tolerance is ranked. A goal of its own: where a budget has no room for it, one
-  /// factor enlarges all tolerances (see "Budgets" at simplify()). Borrowed. DEFAULT: empty.
+  /// max_error if that is given; |error| / tolerance is ranked. A goal of its own: where a budget has no room for it,
+  /// one factor enlarges all tolerances (see "Budgets" at simplify()). Borrowed. DEFAULT: empty.
   std::span<const float> values = {};
   /// The same where the field has a source, read in windows as its samples are (no NaN): there the above fails with
   /// kUsage, as this does beside samples in memory. Borrowed. DEFAULT: none.

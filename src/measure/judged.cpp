@@ -279,12 +279,13 @@ Result<void> check_request(const HeightField& field, const Mesh& mesh, const Jud
     if (!values.empty() && values.size() != samples)
       return fail(ErrorKind::kUsage, fmt::format("a {} of {} values for {} samples", name, values.size(), samples));
   }
-  const int bounds = !options.tolerances.weights.empty() + (options.tolerances.weights_source != nullptr) + !options.tolerances.values.empty() +
-                     (options.tolerances.source != nullptr);
+  const int bounds = !options.tolerances.weights.empty() + (options.tolerances.weights_source != nullptr) +
+                     !options.tolerances.values.empty() + (options.tolerances.source != nullptr);
   if (bounds > 1) return fail(ErrorKind::kUsage, "a mask and tolerances, or one of them twice: give one of them");
   if (options.max_error && !(*options.max_error >= 0))
     return fail(ErrorKind::kUsage, fmt::format("a max error of {}: it must be at least 0", *options.max_error));
-  const bool needs_samples = !field.channels.empty() || !options.tolerances.weights.empty() || !options.tolerances.values.empty();
+  const bool needs_samples =
+      !field.channels.empty() || !options.tolerances.weights.empty() || !options.tolerances.values.empty();
   if (field.samples == nullptr && needs_samples)
     return fail(
         ErrorKind::kUsage,
@@ -342,8 +343,10 @@ Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const J
   const auto exceptions = find_exceptions(field, request);
   if (!exceptions) return tl::unexpected(exceptions.error());
   const bool has_channels = !field.channels.empty();
-  const bool weighs_later = request.weigh && (has_channels || !request.tolerances.weights.empty() || !request.tolerances.values.empty());
-  const bool weighs_along = request.weigh && (request.tolerances.source != nullptr || request.tolerances.weights_source != nullptr);
+  const bool weighs_later =
+      request.weigh && (has_channels || !request.tolerances.weights.empty() || !request.tolerances.values.empty());
+  const bool weighs_along =
+      request.weigh && (request.tolerances.source != nullptr || request.tolerances.weights_source != nullptr);
   const bool keeps = request.keep_errors || weighs_later;
   const auto cols = static_cast<std::size_t>(field.cols);
   Judgement judgement;

@@ -86,7 +86,8 @@ Point Criterion::place(std::size_t index) const {
 }
 
 Result<void> Criterion::check_weights() const {
-  if ((options_->tolerances.source != nullptr || options_->tolerances.weights_source != nullptr) && field_->samples != nullptr)
+  if ((options_->tolerances.source != nullptr || options_->tolerances.weights_source != nullptr) &&
+      field_->samples != nullptr)
     return usage(
         "tolerances and weights are read in windows where samples are: beside samples in memory give them as an array");
   const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);

@@ -15,7 +15,8 @@ constexpr float kNoBound = std::numeric_limits<float>::infinity();
 bool has_source_bounds(const HeightField& field, const SimplifyOptions& options) {
   const auto ignores = [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; };
   return options.tolerances.source != nullptr || options.tolerances.weights_source != nullptr ||
-         (field.samples == nullptr && std::any_of(options.strategy.script.begin(), options.strategy.script.end(), ignores));
+         (field.samples == nullptr &&
+          std::any_of(options.strategy.script.begin(), options.strategy.script.end(), ignores));
 }
 
 SourceBounds::SourceBounds(const SimplifyOptions& options, const BoundRule& rule, double factor)

@@ -27,8 +27,7 @@ Question either(const Question& first, const Question& second) {
 }  // namespace
 
 bool has_lines(const SimplifyOptions& options) {
-  return !options.features.breaklines.lines.empty() || options.features.breaklines_for ||
-         !options.features.cutline.rings.empty();
+  return options.features.have_lines() || !options.features.cutline.rings.empty();
 }
 
 bool lays_first(const SimplifyOptions& options) {

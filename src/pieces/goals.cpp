@@ -23,7 +23,8 @@ MemoryBudget memory_budget(const HeightField& field, const SimplifyOptions& opti
 }
 
 Result<void> check_goals(const SimplifyOptions& options) {
-  if (!options.goals.max_error && !options.goals.max_triangles && !options.goals.max_vertices && !has_tolerances(options))
+  if (!options.goals.max_error && !options.goals.max_triangles && !options.goals.max_vertices &&
+      !has_tolerances(options))
     return fail(ErrorKind::kUsage, "no goal given: set max_error, max_triangles, max_vertices or tolerance");
   return check_max_error(options.goals.max_error);
 }

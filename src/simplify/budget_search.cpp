@@ -289,7 +289,7 @@ class BudgetSearch {
     const auto rank = [this](const Simplified& of) {
       const double largest = of.judged_max_error, rmse = of.judged_rmse;
       return options_.goals.objective == Objective::kMax ? std::tuple(largest, rmse, of.mesh.triangle_count())
-                                                   : std::tuple(rmse, largest, of.mesh.triangle_count());
+                                                         : std::tuple(rmse, largest, of.mesh.triangle_count());
     };
     return rank(made) < rank(best_);
   }

@@ -40,7 +40,8 @@ HeightRange read_range(const HeightField& field) {
 double largest_error(const HeightField& field, const SimplifyOptions& options) {
   const HeightRange samples = field.samples != nullptr ? height_range(field) : read_range(field);
   double low = samples.min, high = samples.max;
-  for (const Line& line : options.features.breaklines.lines) {
+  const LineConstraints lines = options.features.fixed_lines();
+  for (const Line& line : lines.lines) {
     for (const auto& point : line.points) {
       if (std::isnan(point[2])) continue;
       low = std::min(low, point[2]);

@@ -56,8 +56,8 @@ Result<void> check_shape(const HeightField& field, const ShapeGoals& shape) {
 Result<void> check_values(const HeightField& field, const SimplifyOptions& options) {
   if (auto goals = check_goals(options); !goals) return goals;
   if (!(options.domain.outline_tolerance >= 0 && std::isfinite(options.domain.outline_tolerance)))
-    return usage(
-        fmt::format("outline_tolerance must be a finite number of at least 0, not {}", options.domain.outline_tolerance));
+    return usage(fmt::format("outline_tolerance must be a finite number of at least 0, not {}",
+                             options.domain.outline_tolerance));
   if (options.goals.max_error && *options.goals.max_error < field.sample_rounding)
     return fail(
         ErrorKind::kPromise,
@@ -106,9 +106,9 @@ Effort choose_effort(const HeightField& field, const SimplifyOptions& options) {
   if (set.has_any(Fields(Field::kMinShape, Field::kTimeLimit, Field::kObjectiveRms))) return Effort::kNormal;
   // Strategies are asked for to see what they do, so removal stays away from them, and from bounds of samples, which
   // insertion spends where they are small. Tolerances that a budget has no room for are searched for.
-  constexpr Fields kReasonsForFast(Field::kMask, Field::kMaskSource, Field::kScriptIgnores, Field::kScriptInserts, Field::kOrderGreedy,
-                                   Field::kImportance, Field::kAlgorithm, Field::kBatch, Field::kDataEdges,
-                                   Field::kLastOfBudget, Field::kMemoryLimit);
+  constexpr Fields kReasonsForFast(Field::kMask, Field::kMaskSource, Field::kScriptIgnores, Field::kScriptInserts,
+                                   Field::kOrderGreedy, Field::kImportance, Field::kAlgorithm, Field::kBatch,
+                                   Field::kDataEdges, Field::kLastOfBudget, Field::kMemoryLimit);
   constexpr Fields kTolerances(Field::kTolerance, Field::kToleranceSource);
   const bool is_fast = set.has_any(kReasonsForFast) || (set.has_any(kTolerances) && !has_budget(options));
   return is_fast ? Effort::kFast : Effort::kNormal;

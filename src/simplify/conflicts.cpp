@@ -15,7 +15,7 @@ namespace {
 constexpr Fields kBudgets(Field::kMaxTriangles, Field::kMaxVertices);
 constexpr Fields kTolerances(Field::kTolerance, Field::kToleranceSource);
 constexpr Fields kWeights(Field::kMask, Field::kMaskSource);
-constexpr Fields kLines(Field::kBreaklines, Field::kBreaklinesFor, Field::kCutline);
+constexpr Fields kLines(Field::kBreaklines, Field::kCutline);
 constexpr Fields kLaidFirst(Field::kWalls, Field::kRidges);
 constexpr Fields kShapes(Field::kShape);
 constexpr Fields kInsertion(Field::kImportance, Field::kAlgorithm, Field::kBatch);
@@ -156,9 +156,8 @@ constexpr std::string_view kNames[] = {
     "tolerance",
     "tolerance_source",
     "breaklines",
-    "breaklines (walls)",
-    "breaklines (ridges)",
-    "breaklines_for",
+    "features.walls",
+    "features.ridges",
     "cutline",
     "script (ignore)",
     "script (insert)",
@@ -212,7 +211,8 @@ std::span<const ConflictRule> conflict_rules() { return kRules; }
 
 Fields fields_of(const HeightField& field, const SimplifyOptions& options) {
   const auto& script = options.strategy.script;
-  const auto& lines = options.features.breaklines.lines;
+  const Features& features = options.features;
+  const auto& lines = features.breaklines.lines;
   const auto does = [&](ScriptStep::Action action) {
     return std::any_of(script.begin(), script.end(), [&](const ScriptStep& step) { return step.action == action; });
   };
@@ -226,10 +226,9 @@ Fields fields_of(const HeightField& field, const SimplifyOptions& options) {
       {Field::kMaskSource, options.tolerances.weights_source != nullptr},
       {Field::kTolerance, !options.tolerances.values.empty()},
       {Field::kToleranceSource, options.tolerances.source != nullptr},
-      {Field::kBreaklines, !lines.empty()},
-      {Field::kWalls, std::any_of(lines.begin(), lines.end(), is_fault)},
-      {Field::kRidges, std::any_of(lines.begin(), lines.end(), is_ridge_line)},
-      {Field::kBreaklinesFor, static_cast<bool>(options.features.breaklines_for)},
+      {Field::kBreaklines, features.have_lines()},
+      {Field::kWalls, features.walls || std::any_of(lines.begin(), lines.end(), is_fault)},
+      {Field::kRidges, features.ridges || std::any_of(lines.begin(), lines.end(), is_ridge_line)},
       {Field::kCutline, !options.features.cutline.rings.empty()},
       {Field::kScriptIgnores, does(ScriptStep::Action::kIgnore)},
       {Field::kScriptInserts, does(ScriptStep::Action::kInsert)},

@@ -5,6 +5,7 @@
 #include "grid/samples.h"
 #include "pieces/effort.h"
 #include "pieces/goals.h"
+#include "scarp/features.h"
 #include "simplify/checks.h"
 #include "simplify/line_work.h"
 #include "simplify/orders.h"
@@ -24,29 +25,21 @@ Result<Simplified> simplify_in_order(const HeightField& field, const SimplifyOpt
   const auto run = may_be_dominant(field, options) ? run_by_tiles : run_greedily;
   const Plan plan(field, options, scale);
   auto result = run(plan, lines);
-  if (result || result.error().kind != ErrorKind::kPromise || options.quality.vertices != Vertices::kAuto) return result;
+  if (result || result.error().kind != ErrorKind::kPromise || options.quality.vertices != Vertices::kAuto)
+    return result;
   if (!plan.frees_vertices) return result;
   SimplifyOptions on_samples = options;
   on_samples.quality.vertices = Vertices::kSamples;
   return run(Plan(field, on_samples, scale), lines);
 }
 
-Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyOptions& asked, const Scale& scale) {
-  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
-  const auto start = Clock::now();
-  SimplifyOptions options = asked;
-  const double error = asked.goals.max_error.value_or(scale.line_error);
-  if (asked.features.breaklines_for) {
-    auto lines = asked.features.breaklines_for(error);
-    if (!lines) return tl::unexpected(lines.error());
-    options.features.breaklines = std::move(*lines);
-    if (auto sound = check_conflicts(field, options); !sound) return tl::unexpected(sound.error());
-  }
-  options.run.memory.taken +=
-      line_bytes(field, options.features.breaklines) + line_bytes(field, options.features.cutline.rings, options.features.cutline.affine);
+/// Towards the error `error`, with the lines of `options`.
+Result<Simplified> simplify_with_lines(const HeightField& field, SimplifyOptions& options, double error,
+                                       const Scale& scale, double seconds) {
+  options.run.memory.taken += line_bytes(field, options.features.breaklines) +
+                              line_bytes(field, options.features.cutline.rings, options.features.cutline.affine);
   if (auto fits = memory_budget(field, options).check_start(0); !fits) return tl::unexpected(fits.error());
   LineWork work(field, options, kLineShare * error);
-  const double seconds = seconds_since(start);
   if (!work.may_wait()) {
     if (auto prepared = work.prepare(); !prepared) return tl::unexpected(prepared.error());
   }
@@ -56,7 +49,6 @@ Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyO
   result->passes.insert(result->passes.begin(), Pass{"arrange", seconds + work.seconds()});
   result->edits = std::move(lines->edits);
   result->lines_laid = lines->laid;
-  result->lines_for = error;
   const Measurement& measured = result->measurement;
   // Where the field has a source, what lies beyond a cut is void to refinement only.
   const std::uint64_t valid = lines->valid > 0 ? lines->valid : measured.heights.valid;
@@ -64,14 +56,32 @@ Result<Simplified> simplify_with_lines(const HeightField& field, const SimplifyO
   return result;
 }
 
+Result<Simplified> simplify_with_features(const HeightField& field, const SimplifyOptions& asked, const Scale& scale) {
+  if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
+  const auto start = Clock::now();
+  const double error = asked.goals.max_error.value_or(scale.line_error);
+  auto fitted = fit_features(field, asked.features, {error, asked.run});
+  if (!fitted) return tl::unexpected(std::move(fitted.error()));
+  SimplifyOptions options = asked;
+  options.features = {.breaklines = fitted->lines, .cutline = asked.features.cutline};
+  // No wall and no ridge may be found.
+  auto result = has_lines(options) ? simplify_with_lines(field, options, error, scale, seconds_since(start))
+                                   : simplify_in_order(field, options, scale, nullptr);
+  if (!result) return result;
+  result->features = std::move(*fitted);
+  result->lines_for = error;
+  return result;
+}
+
 }  // namespace
 
 bool insertion_stops(const HeightField& field, const SimplifyOptions& options) {
-  return field.samples != nullptr && options.quality.order != Order::kDominant && !options.quality.shape.any() && !has_lines(options);
+  return field.samples != nullptr && options.quality.order != Order::kDominant && !options.quality.shape.any() &&
+         !has_lines(options);
 }
 
 Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options, const Scale& scale) {
-  return has_lines(options) ? simplify_with_lines(field, options, scale)
+  return has_lines(options) ? simplify_with_features(field, options, scale)
                             : simplify_in_order(field, options, scale, nullptr);
 }
 

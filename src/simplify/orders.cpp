@@ -83,8 +83,8 @@ Result<Simplified> run_by_tiles(const Plan& plan, LineWork* lines) {
   // The engine reads nodata as such; what else looks at samples beyond the mesh's own needs them cleaned.
   Raster raster{field.samples, field.cols, field.rows};
   std::optional<Samples> samples;
-  const bool looks_beyond =
-      plan.options.output.normals || !field.frame.is_affine() || plan.fits || lines != nullptr || has_own_bounds(field, plan.options);
+  const bool looks_beyond = plan.options.output.normals || !field.frame.is_affine() || plan.fits || lines != nullptr ||
+                            has_own_bounds(field, plan.options);
   if (!plan.is_streamed && looks_beyond) {
     auto cleaned = Samples::of(field);
     if (!cleaned) return tl::unexpected(cleaned.error());

@@ -221,19 +221,9 @@ Result<Print> make_print(const PrintOptions& options, const HeightField& field, 
   return print;
 }
 
-/// Adds the cuts to the lines that simplify() lays.
-void add_cuts(const SheetPlan& sheets, SimplifyOptions& options) {
-  std::vector<Line> cuts = sheets.lines(options.features.breaklines.affine);
-  if (options.features.breaklines_for) {
-    options.features.breaklines_for = [lines_for = options.features.breaklines_for,
-                                       sheets](double error) -> Result<LineConstraints> {
-      auto lines = lines_for(error);
-      if (!lines) return lines;
-      for (Line& line : sheets.lines(lines->affine)) lines->lines.push_back(std::move(line));
-      return lines;
-    };
-  }
-  for (Line& line : cuts) options.features.breaklines.lines.push_back(std::move(line));
+/// Adds the cuts to the lines that simplify() inserts.
+void add_cuts(const SheetPlan& sheets, LineConstraints& breaklines) {
+  for (Line& line : sheets.lines(breaklines.affine)) breaklines.lines.push_back(std::move(line));
 }
 
 }  // namespace
@@ -254,9 +244,9 @@ Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOp
   if (auto sound = check_print(print); !sound) return tl::unexpected(sound.error());
   const Result<std::optional<SheetPlan>> sheets = plan_sheets(print, field);
   if (!sheets) return tl::unexpected(sheets.error());
-  const std::size_t lines = options.features.breaklines.lines.size();
-  if (*sheets) add_cuts(**sheets, options);
-  const std::uint64_t cuts = options.features.breaklines.lines.size() - lines;
+  const auto lines = static_cast<std::ptrdiff_t>(options.features.breaklines.lines.size());
+  if (*sheets) add_cuts(**sheets, options.features.breaklines);
+  const auto cuts = static_cast<std::uint64_t>(std::ssize(options.features.breaklines.lines) - lines);
   options.output.float32_positions = false;  // they are rounded where the print stands
   const std::optional<double> asked = options.goals.max_error;
   const Cutline* cutline = options.features.cutline.rings.empty() ? nullptr : &options.features.cutline;
@@ -276,6 +266,8 @@ Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOp
     if (!(excess > 0) || has_budget_ended) {
       simplified->edits = std::move(edits);
       simplified->lines_laid -= std::min(cuts, simplified->lines_laid);
+      auto& fitted = simplified->features.lines.lines;
+      if (cuts > 0) fitted.erase(fitted.begin() + lines, fitted.begin() + lines + static_cast<std::ptrdiff_t>(cuts));
       return PrintedTerrain{std::move(*simplified), std::move(*made)};
     }
     options.goals.max_error = *options.goals.max_error - 2 * excess;

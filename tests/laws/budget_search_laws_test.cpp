@@ -75,9 +75,12 @@ RC_GTEST_PROP(budget_search, threads_change_nothing, ()) {
 TEST(budget_search, uses_the_budget_and_lowers_the_error_of_greedy_insertion) {
   const Field field = hills(200, 150);
   for (const std::uint64_t budget : {300u, 1000u, 3000u}) {
-    const auto greedy = *simplify(field.view(), {.goals = {.max_triangles = budget}, .quality = {.effort = Effort::kFast}});
-    const auto normal = *simplify(field.view(), {.goals = {.max_triangles = budget}, .quality = {.effort = Effort::kNormal}});
-    const auto high = *simplify(field.view(), {.goals = {.max_triangles = budget}, .quality = {.effort = Effort::kHigh}});
+    const auto greedy =
+        *simplify(field.view(), {.goals = {.max_triangles = budget}, .quality = {.effort = Effort::kFast}});
+    const auto normal =
+        *simplify(field.view(), {.goals = {.max_triangles = budget}, .quality = {.effort = Effort::kNormal}});
+    const auto high =
+        *simplify(field.view(), {.goals = {.max_triangles = budget}, .quality = {.effort = Effort::kHigh}});
     EXPECT_LT(normal.measurement.max_error, 0.85 * greedy.measurement.max_error) << budget;
     EXPECT_LT(high.measurement.max_error, 0.95 * normal.measurement.max_error) << budget;
     for (const Simplified* made : {&normal, &high}) {
@@ -93,7 +96,8 @@ TEST(budget_search, a_much_larger_budget_never_has_a_larger_error) {
     const Field field = testing::random_field(3, 50, 40, relief);
     double last = std::numeric_limits<double>::infinity();
     for (std::uint64_t budget = 20; budget < 10000; budget *= 4) {
-      const auto made = simplify(field.view(), {.goals = {.max_vertices = budget}, .quality = {.effort = Effort::kHigh}});
+      const auto made =
+          simplify(field.view(), {.goals = {.max_vertices = budget}, .quality = {.effort = Effort::kHigh}});
       ASSERT_TRUE(made) << made.error().message;
       EXPECT_LE(made->measurement.max_error, last) << budget;
       last = made->measurement.max_error;
@@ -107,7 +111,8 @@ TEST(budget_search, a_bound_that_fits_is_the_goal) {
   // Less than greedy insertion needs for it, so that the search has to find out.
   const std::uint64_t budget = bounded.mesh.triangle_count() * 11 / 10;
   ASSERT_LT(budget, simplify(field.view(), {.max_error = 30.0})->mesh.triangle_count());
-  const auto made = *simplify(field.view(), {.goals = {.max_error = 30.0, .max_triangles = budget}, .quality = {.effort = Effort::kHigh}});
+  const auto made = *simplify(
+      field.view(), {.goals = {.max_error = 30.0, .max_triangles = budget}, .quality = {.effort = Effort::kHigh}});
   EXPECT_EQ(made.stop, StopReason::kMaxError);
   EXPECT_EQ(made.mesh.positions, bounded.mesh.positions);
 }
@@ -125,8 +130,9 @@ TEST(budget_search, ends_with_its_time_and_the_best_mesh_so_far) {
   EXPECT_EQ(waited.mesh.positions, whole.mesh.positions);
   EXPECT_FALSE(waited.is_cut_short);
   EXPECT_TRUE(cut.is_cut_short);
-  EXPECT_EQ(cut.mesh.triangles,
-            simplify(field.view(), {.goals = {.max_triangles = 1500}, .quality = {.effort = Effort::kFast}})->mesh.triangles);
+  EXPECT_EQ(
+      cut.mesh.triangles,
+      simplify(field.view(), {.goals = {.max_triangles = 1500}, .quality = {.effort = Effort::kFast}})->mesh.triangles);
   EXPECT_LE(late.mesh.triangle_count(), 1500u);
   EXPECT_LE(late.measurement.max_error, cut.measurement.max_error);
 }
@@ -135,7 +141,8 @@ TEST(budget_search, refuses_what_no_search_can_serve) {
   const Field field = testing::random_field(3, 30, 30, Relief::kReal);
   const auto kind = [&](const SimplifyOptions& options) { return simplify(field.view(), options).error().kind; };
   EXPECT_EQ(kind({.goals = {.max_triangles = 1}, .quality = {.effort = Effort::kHigh}}), ErrorKind::kUsage);
-  EXPECT_EQ(kind({.goals = {.max_error = 1, .objective = Objective::kRms}, .quality = {.effort = Effort::kHigh}}), ErrorKind::kUsage);
+  EXPECT_EQ(kind({.goals = {.max_error = 1, .objective = Objective::kRms}, .quality = {.effort = Effort::kHigh}}),
+            ErrorKind::kUsage);
   EXPECT_EQ(kind({.goals = {.max_triangles = 99, .objective = Objective::kRms}}), ErrorKind::kUsage);
   SimplifyOptions tight{.goals = {.max_triangles = 99}, .quality = {.effort = Effort::kNormal}};
   tight.strategy.edges.data_dependent = true;

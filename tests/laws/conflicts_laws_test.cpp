@@ -100,14 +100,6 @@ std::vector<Setting> all_settings() {
        [](Scene& s) {
          add_lines(s, {line_through({{4, 20, NAN}, {9, 25, NAN}}, LineKind::kRidge)});
        }},
-      {Field::kBreaklinesFor,
-       [](Scene& s) {
-         s.options.features.breaklines_for = [](double) -> Result<LineConstraints> {
-           LineConstraints lines;
-           lines.lines = {some_line()};
-           return lines;
-         };
-       }},
       {Field::kCutline,
        [](Scene& s) {
          Line ring =
@@ -172,7 +164,8 @@ std::vector<Setting> all_settings() {
 std::vector<float> bounds_of(const Scene& scene, bool keeps_error, double factor, double tolerance) {
   const SimplifyOptions& options = scene.options;
   const bool has_tolerance = !options.tolerances.values.empty() || options.tolerances.source != nullptr;
-  double bound = (keeps_error || has_tolerance) && options.goals.max_error ? factor * *options.goals.max_error : HUGE_VAL;
+  double bound =
+      (keeps_error || has_tolerance) && options.goals.max_error ? factor * *options.goals.max_error : HUGE_VAL;
   if (has_tolerance) bound = std::min(bound, tolerance * factor);
   if (!options.tolerances.weights.empty() || options.tolerances.weights_source != nullptr) bound /= 0.5;
   std::vector<float> bounds(scene.land.samples.size(), static_cast<float>(bound * 1.000001 + 1e-5));

@@ -155,28 +155,27 @@ TEST(line_budget, is_used_where_triangles_grow_smoothly) {
   }
 }
 
-TEST(line_budget, asks_for_lines_that_depend_on_the_error) {
+TEST(line_budget, fits_features_to_the_error_of_the_mesh) {
   const Field field = testing::random_field(5, 60, 50, testing::Relief::kRidges);
   SimplifyOptions options;
   options.goals.max_vertices = 200;
   options.quality.effort = Effort::kFast;
-  std::vector<double> asked;
-  options.features.breaklines_for = [&](double max_error) -> Result<LineConstraints> {
-    asked.push_back(max_error);
-    LineConstraints lines;
-    lines.lines.resize(1);
-    lines.lines[0].points = {{5, 5.5, NAN}, {50, 40.5, NAN}};
-    return lines;
-  };
+  options.features.ridges = RidgeGoals{1, true};
   const auto made = simplify(field.view(), options);
   ASSERT_TRUE(made) << made.error().message;
-  EXPECT_GT(asked.size(), 2u);
-  EXPECT_NE(std::find(asked.begin(), asked.end(), made->lines_for), asked.end());
   EXPECT_LE(made->mesh.vertex_count(), 200u);
-  options.features.breaklines_for = [](double) -> Result<LineConstraints> {
-    return tl::unexpected(Error{ErrorKind::kInput, "no lines today"});
-  };
-  EXPECT_EQ(simplify(field.view(), options).error().message, "no lines today");
+  const auto fitted = fit_features(field.view(), options.features, {made->lines_for});
+  ASSERT_TRUE(fitted);
+  ASSERT_GT(fitted->lines.lines.size(), 0u);
+  ASSERT_EQ(made->features.lines.lines.size(), fitted->lines.lines.size());
+  for (std::size_t k = 0; k < fitted->lines.lines.size(); ++k) {
+    const auto &is = made->features.lines.lines[k].points, &was = fitted->lines.lines[k].points;
+    ASSERT_EQ(is.size(), was.size()) << k;
+    for (std::size_t i = 0; i < is.size(); ++i) {
+      EXPECT_EQ(is[i][0], was[i][0]);
+      EXPECT_EQ(is[i][1], was[i][1]);
+    }
+  }
 }
 
 }  // namespace

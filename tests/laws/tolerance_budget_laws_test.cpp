@@ -49,7 +49,8 @@ struct Scene {
     if (kind == 1) options.quality.shape.min_angle = 15;
     if (kind == 2) options.quality.order = Order::kDominant;
     options.quality.effort = *rc::gen::element(Effort::kAuto, Effort::kFast, Effort::kNormal, Effort::kHigh);
-    if (options.quality.effort != Effort::kFast) options.goals.objective = *rc::gen::element(Objective::kMax, Objective::kRms);
+    if (options.quality.effort != Effort::kFast)
+      options.goals.objective = *rc::gen::element(Objective::kMax, Objective::kRms);
   }
   Scene(const Scene&) = delete;
 
@@ -213,7 +214,8 @@ TEST(tolerance_budget, finds_the_mesh_of_the_multiplied_tolerances) {
     if (bound > exact) bound = std::nextafter(bound, 0.0f);
   }
   const auto again = *simplify(slope.field.view(), [&] {
-    SimplifyOptions towards{.goals = {.max_error = 0.15 * made.tolerance_factor}, .quality = {.effort = Effort::kNormal}};
+    SimplifyOptions towards{.goals = {.max_error = 0.15 * made.tolerance_factor},
+                            .quality = {.effort = Effort::kNormal}};
     towards.tolerances.values = multiplied;
     return towards;
   }());

@@ -30,8 +30,6 @@ std::string word_of(Field field) {
       return "`--tolerance`, `--roi` (streamed)";
     case Field::kBreaklines:
       return "`--breaklines`, `--water`, `--rivers`, `--cliff`, `--ridges`";
-    case Field::kBreaklinesFor:
-      return "`--rivers`";
     case Field::kShape:
       return "`--min-angle`, `--max-edge`, `--grade`";
     case Field::kChannels:
@@ -49,7 +47,6 @@ std::string word_of(Field field) {
 
 std::string words_of(Fields fields) {
   // What the program's options do not tell apart.
-  if (fields.has(Field::kBreaklines)) fields = fields.without(Field::kBreaklinesFor);
   if (fields.has(Field::kTolerance)) fields = fields.without(Field::kToleranceSource);
   if (fields.has(Field::kMask)) fields = fields.without(Field::kMaskSource);
   std::string words;

@@ -76,12 +76,7 @@ TEST(Features, ServeABudgetsSearch) {
   const Features features = declare(field);
   SimplifyOptions options;
   options.goals.max_triangles = 600;
-  options.features.breaklines = features.fixed_lines();
-  options.features.breaklines_for = [&](double max_error) -> Result<LineConstraints> {
-    auto fitted = fit_features(field.view(), features, {max_error});
-    if (!fitted) return tl::unexpected(fitted.error());
-    return fitted->lines;
-  };
+  options.features = features;
   const auto simplified = simplify(field.view(), options);
   ASSERT_TRUE(simplified) << simplified.error().message;
   EXPECT_LE(simplified->mesh.triangle_count(), 600u);

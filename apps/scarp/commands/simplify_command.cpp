@@ -65,11 +65,6 @@ Result<void> read_colors(const SimplifyPlan& plan, const ReadOptions& options, b
   return {};
 }
 
-/// The max error of a budget's mesh is not known before the mesh is.
-bool fits_lines_later(const SimplifyPlan& plan, const Outcome& outcome) {
-  return (plan.simplify.goals.max_triangles || plan.simplify.goals.max_vertices) && outcome.features.depend_on_error();
-}
-
 }  // namespace
 
 MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome) {
@@ -84,15 +79,7 @@ MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome) {
 
 namespace {
 
-/// All lines of a mesh of such an error.
-Result<FittedFeatures> fit_lines(const SimplifyPlan& plan, const Outcome& outcome, double max_error,
-                                 const ProgressCallback& progress) {
-  const MemoryShare memory = memory_of(plan, outcome);
-  return fit_features(outcome.field, outcome.features,
-                      {max_error, {plan.simplify.run.threads, {memory.limit, memory.taken}, progress}});
-}
-
-/// Lakes, rivers, walls and ridges; the lines of a mesh of the error that was asked for, if that is known.
+/// Breaklines, lakes, rivers, walls and ridges.
 Result<void> read_features(const SimplifyPlan& plan, const ProgressCallback& progress, Outcome& outcome) {
   Features& features = outcome.features;
   std::vector<std::string>& warnings = outcome.companions.warnings;
@@ -103,18 +90,6 @@ Result<void> read_features(const SimplifyPlan& plan, const ProgressCallback& pro
   if (!waters) return waters;
   features.walls = plan.cliff.goals();
   features.ridges = plan.ridges.goals();
-  if (!fits_lines_later(plan, outcome)) {
-    auto fitted = fit_lines(plan, outcome, outcome.asked.value_or(0), progress);
-    if (!fitted) return tl::unexpected(std::move(fitted.error()));
-    outcome.fitted = std::move(*fitted);
-  } else {
-    outcome.fitted.lines = features.fixed_lines();
-    if (features.rivers.empty()) return {};
-    auto rivers = carve_rivers(outcome.field, features.rivers, features.lakes, {features.breaklines.affine});
-    if (!rivers) return tl::unexpected(std::move(rivers.error()));
-    outcome.fitted.rivers = std::move(*rivers);
-  }
-  warn_of_dry_lines(features, outcome.fitted.rivers, warnings);
   return {};
 }
 
@@ -292,15 +267,8 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   options.tolerances.values = outcome.companions.tolerances.values;
   options.tolerances.source = outcome.companions.tolerances.source.get();
   options.strategy.script = outcome.companions.script;
-  options.features.breaklines = outcome.fitted.lines;
+  options.features = outcome.features;
   options.features.cutline = outcome.cut.cutline;
-  if (fits_lines_later(*plan, outcome)) {
-    options.features.breaklines_for = [&plan, &outcome](double max_error) -> Result<LineConstraints> {
-      auto fitted = fit_lines(*plan, outcome, max_error, {});
-      if (!fitted) return tl::unexpected(std::move(fitted.error()));
-      return std::move(fitted->lines);
-    };
-  }
   options.run.progress = display.callback();
   if (keeps_mesh_on_interrupt(options)) {
     options.run.is_enough = content_with_interrupt;
@@ -318,11 +286,8 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
     return tl::unexpected(std::move(error));
   }
   outcome.simplified = std::move(*simplified);
-  if (options.features.breaklines_for) {
-    auto fitted = fit_lines(*plan, outcome, outcome.simplified.lines_for, {});
-    if (!fitted) return tl::unexpected(std::move(fitted.error()));
-    outcome.fitted = std::move(*fitted);
-  }
+  const FittedFeatures& fitted = outcome.simplified.features;
+  warn_of_dry_lines(outcome.features, fitted.rivers, outcome.companions.warnings);
   apply_edits(outcome.simplified.edits, outcome.field);
   if (outcome.field.source) outcome.heights = outcome.simplified.measurement.heights;
   complete_info(outcome.heights, outcome.as_read);
@@ -351,7 +316,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
         "or "
         "the heights span magnitudes beyond exact arithmetic");
   }
-  if (outcome.fitted.given_lines() > 0 && outcome.simplified.lines_laid == 0) {
+  if (fitted.given_lines() > 0 && outcome.simplified.lines_laid == 0) {
     outcome.warnings.push_back(
         fmt::format("{}: no line lies on the raster's surface, so they change nothing: is their CRS the right one?",
                     plan->lines.find_lines()));

@@ -33,7 +33,7 @@ Fields fields_given(const SimplifyArguments& given, const SimplifyPlan& plan) {
 std::string option_of(Field field, const SimplifyArguments& given) {
   const char* option = nullptr;
   if (field == Field::kTolerance || field == Field::kToleranceSource) option = given.companions.find_tolerance();
-  if (field == Field::kBreaklines || field == Field::kBreaklinesFor) {
+  if (field == Field::kBreaklines) {
     option = given.lines.find_lines();
     if (option == nullptr) option = given.cliff.height ? "--cliff" : given.ridges.height ? "--ridges" : "--split";
   }

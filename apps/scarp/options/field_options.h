@@ -21,7 +21,6 @@ inline constexpr const char* kFieldOptions[] = {
     "--breaklines",
     "--cliff",
     "--ridges",
-    "--rivers",
     "--cutline",
     "--script",
     "--script",

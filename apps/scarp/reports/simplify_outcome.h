@@ -24,7 +24,6 @@ struct Outcome : SimplifyRun {
   Channels channels;
   Companions companions;
   Features features;
-  FittedFeatures fitted;  ///< to the max error of the mesh
   Cut cut;
   std::uint64_t filled = 0;
   std::optional<LargestError> bounded;  ///< where samples are ignored: of the others; images: norms

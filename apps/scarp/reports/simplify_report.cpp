@@ -147,12 +147,12 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   }
   report["strategy"]["roi"] = plan.companions.roi.empty() ? Json(nullptr) : Json(plan.companions.roi);
   report["strategy"]["falloff"] = or_null(plan.companions.falloff);
-  report["breaklines"] =
-      describe_lines(plan.lines, outcome.fitted.given_lines(), outcome.simplified.lines_laid, outcome.simplified.edits);
+  report["breaklines"] = describe_lines(plan.lines, outcome.simplified.features.given_lines(),
+                                        outcome.simplified.lines_laid, outcome.simplified.edits);
   report["water"] = describe_lakes(outcome.features.lakes);
-  report["rivers"] = describe_rivers(outcome.fitted.rivers);
-  report["cliffs"] = describe_cliffs(plan.cliff, outcome.fitted.walls);
-  report["ridges"] = describe_ridges(plan.ridges, outcome.fitted.ridges);
+  report["rivers"] = describe_rivers(outcome.simplified.features.rivers);
+  report["cliffs"] = describe_cliffs(plan.cliff, outcome.simplified.features.walls);
+  report["ridges"] = describe_ridges(plan.ridges, outcome.simplified.features.ridges);
   report["shape"] = describe_shape(plan.simplify.quality.shape, outcome.simplified);
   report["cutline"] = describe_cut(plan.cut, outcome.cut, outcome.simplified.cut_off);
   report["stopped_by"] = stop_name(outcome.simplified.stop);
@@ -194,11 +194,12 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
       "triangles",
       fmt::format("{}, {} of the full grid's {}", format_count(outcome.triangles),
                   format_share(static_cast<double>(outcome.triangles), static_cast<double>(full)), format_count(full)));
-  text += waters_lines(outcome.features.lakes, outcome.fitted.rivers);
+  text += waters_lines(outcome.features.lakes, outcome.simplified.features.rivers);
   if (!plan.cut.files.empty()) text += summary_line("cutline", cut_words(outcome.cut, outcome.simplified.cut_off));
-  text += lines_line(outcome.fitted.given_lines(), outcome.simplified.lines_laid, outcome.simplified.edits);
-  text += cliffs_line(outcome.fitted.walls);
-  text += ridges_line(outcome.fitted.ridges);
+  text +=
+      lines_line(outcome.simplified.features.given_lines(), outcome.simplified.lines_laid, outcome.simplified.edits);
+  text += cliffs_line(outcome.simplified.features.walls);
+  text += ridges_line(outcome.simplified.features.ridges);
   text += shape_line(plan.simplify.quality.shape, outcome.simplified);
   text += solid_line(plan, outcome);
   text += describe_errors(plan, outcome);
