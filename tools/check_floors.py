@@ -27,7 +27,7 @@ ROOMS = {
     "mesh": (1, ["base"], ["mesh", "result", "solid"], "the Mesh value: order, solids, print tiles, half-edges"),
     "tin": (2, ["base", "geom"], ["result"], "triangulations and their assembly; no heights"),
     "metric": (2, ["base", "grid", "geom"],
-               ["goals", "height_field", "lines", "points", "progress", "regions", "result", "simplify", "strategy", "tolerances"],
+               ["goals", "height_field", "lines", "paper", "points", "progress", "regions", "result", "simplify", "strategy", "tolerances"],
                "how far a triangle is from its samples, and how far it may be: tolerances, regions, importance"),
     "io": (2, ["base", "grid", "mesh"],
            ["cutline", "degrees", "frame", "height_field", "io", "lines", "mesh", "points", "progress", "result", "solid", "strategy", "version"],

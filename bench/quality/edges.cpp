@@ -36,12 +36,11 @@ const Rule kRules[] = {
 };
 
 std::optional<std::uint64_t> count_triangles(const scarp::OwnedHeightField& field, double error, const Rule& rule) {
-  scarp::SimplifyOptions options;
+  scarp::PaperOptions options;
   options.goals.max_error = error;
-  options.quality.order = scarp::Order::kGreedy;
   options.strategy.edges = rule.edges;
   options.strategy.batch = rule.batch;
-  const auto result = scarp::simplify(field, options);
+  const auto result = scarp::simplify_by_paper(field, options);
   if (!result) {
     fmt::print(stderr, "{}, {}: {}\n", field.info.path, rule.name, result.error().message);
     return std::nullopt;

@@ -31,8 +31,8 @@ enum class Field : std::uint8_t {
   kWalls,       ///< declared, or lines of detect_cliffs() among the breaklines
   kRidges,      ///< declared, or lines of detect_ridges() among the breaklines
   kCutline,
-  kScriptIgnores,  ///< a script with steps that ignore samples
-  kScriptInserts,  ///< a script with steps that insert samples
+  kIgnored,  ///< samples without a bound
+  kPoints,   ///< samples that become vertices
   kOrderGreedy,
   kOrderDominant,
   kEffortFast,
@@ -46,13 +46,8 @@ enum class Field : std::uint8_t {
   kTimeLimit,  ///< is_time_up
   kEnough,     ///< is_enough
   kObjectiveRms,
-  kImportance,  ///< other than the error alone
-  kOnePass,
-  kAlgorithm,  ///< other than the heap
-  kBatch,
-  kDataEdges,  ///< edges that depend on the data
+  kStrategy,  ///< of simplify_by_paper(), other than its default; never set in options of simplify()
   kNorm,
-  kLastOfBudget,  ///< best_of_budget is false
   kUvs,
   kNormals,
   kThreads,

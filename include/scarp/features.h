@@ -47,6 +47,9 @@ struct Features {
   std::vector<Line> rivers = {};                    ///< courses seen from above, for carve_rivers()
   std::optional<WallGoals> walls = std::nullopt;    ///< DEFAULT: none
   std::optional<RidgeGoals> ridges = std::nullopt;  ///< DEFAULT: none
+  /// Samples that become vertices before the first scan, in this order, and stay, whatever the effort; those outside of
+  /// the valid data do not. DEFAULT: none.
+  std::vector<SampleAt> points = {};
   /// Polygons that the surface is cut to: of guarantee (2)'s domain what lies in them. Their rings become edges of the
   /// mesh, moved by 1/512 sample at most (3/512 where lines cross), at the heights of the raster between its samples;
   /// they follow it to within half of max_error, all of it within a sample of their vertices. Samples outside are not

@@ -15,6 +15,13 @@
 
 namespace scarp {
 
+/// The place of a sample in its raster: column from the left, row from the top.
+struct SampleAt {
+  std::int32_t col = 0, row = 0;
+
+  friend bool operator==(const SampleAt&, const SampleAt&) = default;
+};
+
 /// A further value at each sample, such as a colour: borrowed, on the same grid as the heights.
 struct Channel {
   const float* samples = nullptr;  ///< cols·rows values; finite wherever the heights have a value

@@ -13,7 +13,6 @@
 #include "scarp/progress.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
-#include "scarp/strategy.h"
 
 #pragma GCC visibility push(default)
 
@@ -82,11 +81,19 @@ Result<OwnedChannels> read_channels(const std::string& path, const ReadOptions& 
 std::optional<std::string> find_grid_difference(const RasterInfo& raster, int cols, int rows, const RasterInfo& other,
                                                 int other_cols, int other_rows);
 
-/// Steps of a script for the engine (Terra's -s): a line each, "s x y" inserts, "i x y" ignores, "u x y" says that the
+/// What a script says of samples, in the order of its lines.
+struct Script {
+  std::vector<SampleAt> inserted;  ///< for Features::points
+  std::vector<SampleAt> ignored;   ///< for Tolerances::ignored
+
+  std::size_t size() const { return inserted.size() + ignored.size(); }
+};
+
+/// Reads a script (Terra's -s): a step a line, "s x y" inserts, "i x y" ignores, "u x y" says that the
 /// height is unknown (as i); x and y are column and row from the top left. Empty lines and # comments are skipped.
 /// Fails with kInput for an unknown word, a missing number, a position outside cols × rows (names the line), and for a
 /// sample that one line inserts and another ignores (names both).
-Result<std::vector<ScriptStep>> read_script(const std::string& path, int cols, int rows);
+Result<Script> read_script(const std::string& path, int cols, int rows);
 
 /// A raster to be written: row-major, NaN is nodata.
 struct RasterImage {

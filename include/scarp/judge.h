@@ -17,7 +17,6 @@
 #include "scarp/mesh.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
-#include "scarp/strategy.h"
 #include "scarp/tolerances.h"
 
 #pragma GCC visibility push(default)
@@ -49,8 +48,6 @@ double judging_allowance(double bound, const HeightRange& heights);
 
 struct JudgeOptions {
   Tolerances tolerances = {};  ///< as SimplifyOptions::tolerances; not values beside weights
-  /// As Strategy::script: samples that its steps ignore have no bound; the other steps do not matter. Borrowed.
-  std::span<const ScriptStep> script = {};
   /// The bound of all samples, at least 0: of the weighted error under a mask, of the norm with channels, else of the
   /// height. With tolerances it also bounds samples whose tolerance is infinite. DEFAULT: none.
   std::optional<double> max_error = std::nullopt;
@@ -70,7 +67,7 @@ struct JudgeOptions {
 struct Judgement {
   Measurement heights;                ///< without offenders and over_tolerance
   std::vector<Measurement> channels;  ///< of each channel, in its own units; without topology
-  std::uint64_t ignored = 0;          ///< valid samples without a bound: by the script, weight 0, an infinite tolerance
+  std::uint64_t ignored = 0;          ///< valid samples without a bound: ignored, of weight 0, of an infinite tolerance
   LargestError bounded;               ///< error of heights, over covered samples that are not ignored
   std::optional<WeighedErrors> combined;  ///< with channels: norms, compared with max_error
   /// With a mask: weighted errors, compared with max_error. With tolerances: error / tolerance, compared with 1. With
@@ -88,7 +85,7 @@ struct Judgement {
 /// a source, and sources of weights and tolerances, are read in bands of rows; where some errors are above their bound,
 /// twice. Fails with kUsage for weights or tolerances of another size than the field, both at once, a max_error below
 /// 0, another number of channels than the mesh has, channels or an array of weights or tolerances beside a field with a
-/// source, and a script step outside the raster; and as measure() and the sources do. Memory: as measure(); beside
+/// source, and an ignored sample outside the raster; and as measure() and the sources do. Memory: as measure(); beside
 /// weights, an array of tolerances, channels or keep_errors 4 bytes a sample, 8 more with channels, 4 more where
 /// samples in memory are ignored. Cost: as measure(), once for the heights and once a channel.
 Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const JudgeOptions& options = {});

@@ -15,6 +15,7 @@
 #include "scarp/lines.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
+#include "scarp/paper.h"
 #include "scarp/picture.h"
 #include "scarp/points.h"
 #include "scarp/print.h"

@@ -47,7 +47,6 @@ struct SimplifyOptions {
   Quality quality = {};
   Domain domain = {};
   Output output = {};
-  Strategy strategy = {};
   Run run = {};
 };
 
@@ -74,7 +73,7 @@ struct Simplified {
   /// The proof: `mesh` as it stands, judged against all samples by measure(). The topology part is left out in affine
   /// frames whose offsets are exact (offsets_are_exact()) or double: there it holds by construction.
   Measurement measurement;
-  std::uint64_t ignored = 0;      ///< valid samples without a bound: by the script, by weight 0, by infinite tolerance
+  std::uint64_t ignored = 0;      ///< valid samples without a bound: ignored, by weight 0, by infinite tolerance
   double weighted_max_error = 0;  ///< largest weight · |error| (with a mask), |error| / tolerance (with tolerances)
   double weighted_rmse = 0;       ///< root of the mean square of the same
   /// What a search for a budget's mesh makes small, of the samples with a bound: |error|, the norm with channels,
@@ -156,10 +155,10 @@ struct Simplified {
 ///
 /// Strategies (strategy.h) change which samples become vertices, never what is promised.
 ///
-/// Fails with kUsage (no goal, a script step outside the raster, settings with a conflict (conflicts.h), a mask,
-/// tolerance or channel out of range, a goal out of range, a budget below what the outline needs, a memory limit that
-/// cannot be kept), kInput (fewer than 2×2 samples, no valid cell), kPromise (a bound that float32 positions or samples
-/// cannot keep, a mesh that rounding or a projection folds over), kCancelled.
+/// Fails with kUsage (no goal, an ignored sample or a point outside the raster, settings with a conflict (conflicts.h),
+/// a mask, tolerance or channel out of range, a goal out of range, a budget below what the outline needs, a memory
+/// limit that cannot be kept), kInput (fewer than 2×2 samples, no valid cell), kPromise (a bound that float32 positions
+/// or samples cannot keep, a mesh that rounding or a projection folds over), kCancelled.
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& options);
 /// The same towards goals alone: `simplify(field, {.max_error = 1.5})`.
 Result<Simplified> simplify(const HeightField& field, const Goals& goals);

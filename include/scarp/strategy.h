@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #pragma GCC visibility push(default)
 
@@ -88,17 +87,7 @@ struct EdgeRule {
   friend bool operator==(const EdgeRule&, const EdgeRule&) = default;
 };
 
-/// An instruction on one sample, before the first scan (Terra's scripts).
-struct ScriptStep {
-  enum class Action {
-    kInsert,  ///< becomes a vertex
-    kIgnore,  ///< never becomes a vertex by its error, and no bound holds for it
-  };
-  Action action = Action::kInsert;
-  std::int32_t col = 0, row = 0;
-};
-
-/// How samples are inserted.
+/// How samples are inserted, for simplify_by_paper().
 struct Strategy {
   Importance importance = {};  ///< DEFAULT: global error
   Algorithm algorithm = Algorithm::kHeap;
@@ -107,7 +96,8 @@ struct Strategy {
   /// False: a budget that ends the run leaves the last mesh, as Scape does, though an earlier one may have been better.
   /// DEFAULT: true. Always so where importance is not an error: one pass, products.
   bool best_of_budget = true;
-  std::vector<ScriptStep> script = {};  ///< carried out in order before the first scan. DEFAULT: nothing.
+
+  friend bool operator==(const Strategy&, const Strategy&) = default;
 };
 
 /// What a run did.

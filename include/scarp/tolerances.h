@@ -31,6 +31,8 @@ struct Tolerances {
   std::span<const float> weights = {};
   /// The same where the field has a source, read in windows as its samples are, as `source`. Borrowed. DEFAULT: none.
   const SampleSource* weights_source = nullptr;
+  /// Samples without a bound, which never become vertices by their errors. Borrowed. DEFAULT: none.
+  std::span<const SampleAt> ignored = {};
 };
 
 struct ToleranceOptions {

@@ -8,14 +8,15 @@
 #include <vector>
 
 #include "base/point.h"
-#include "scarp/strategy.h"
+#include "scarp/height_field.h"
 
 namespace scarp {
 
 class PointRows {
  public:
   PointRows() = default;
-  explicit PointRows(std::vector<Point> points) : points_(std::move(points)) {
+  explicit PointRows(std::span<const SampleAt> samples) {
+    for (const SampleAt& at : samples) points_.push_back({at.col, at.row});
     std::sort(points_.begin(), points_.end(), before);
   }
 
@@ -30,14 +31,5 @@ class PointRows {
  private:
   std::vector<Point> points_;
 };
-
-/// Those that a script ignores.
-inline PointRows ignored_samples(std::span<const ScriptStep> script) {
-  std::vector<Point> samples;
-  for (const ScriptStep& step : script) {
-    if (step.action == ScriptStep::Action::kIgnore) samples.push_back({step.col, step.row});
-  }
-  return PointRows(std::move(samples));
-}
 
 }  // namespace scarp

@@ -37,7 +37,7 @@ class BoundLimits final : public SampleSource {
   explicit BoundLimits(const JudgeOptions& options)
       : weights_(options.tolerances.weights_source),
         tolerances_(options.max_error ? nullptr : options.tolerances.source),
-        ignored_(ignored_samples(options.script)) {}
+        ignored_(PointRows(options.tolerances.ignored)) {}
 
   /// Whether any sample may be without a bound.
   bool has_any() const { return weights_ != nullptr || tolerances_ != nullptr || !ignored_.empty(); }
@@ -116,9 +116,8 @@ Result<Exceptions> find_exceptions(const HeightField& field, const JudgeOptions&
   if (field.samples == nullptr || options.tolerances.source != nullptr || options.tolerances.weights_source != nullptr)
     return find_windowed_exceptions(field, options);
   Exceptions found;
-  const auto ignores = [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; };
-  const bool has_ignored = std::any_of(options.script.begin(), options.script.end(), ignores);
-  if (options.tolerances.weights.empty() && options.tolerances.values.empty() && !has_ignored) return found;
+  const Tolerances& asked = options.tolerances;
+  if (asked.weights.empty() && asked.values.empty() && asked.ignored.empty()) return found;
   found.limits.resize(count_samples(field), 0);
   for (std::size_t k = 0; k < options.tolerances.weights.size(); ++k) {
     if (options.tolerances.weights[k] == 0) found.limits[k] = kNoBound;
@@ -126,11 +125,9 @@ Result<Exceptions> find_exceptions(const HeightField& field, const JudgeOptions&
   for (std::size_t k = 0; k < options.tolerances.values.size() && !options.max_error; ++k) {
     if (std::isinf(options.tolerances.values[k])) found.limits[k] = kNoBound;
   }
-  for (const ScriptStep& step : options.script) {
-    if (!ignores(step)) continue;
-    found.limits[static_cast<std::size_t>(step.row) * static_cast<std::size_t>(field.cols) +
-                 static_cast<std::size_t>(step.col)] = kNoBound;
-  }
+  for (const auto& [col, row] : asked.ignored)
+    found.limits[static_cast<std::size_t>(row) * static_cast<std::size_t>(field.cols) + static_cast<std::size_t>(col)] =
+        kNoBound;
   for (std::size_t k = 0; k < found.limits.size(); ++k) found.count += found.limits[k] > 0 && !is_void(field, k);
   if (found.count == 0) found.limits.clear();
   return found;
@@ -294,10 +291,10 @@ Result<void> check_request(const HeightField& field, const Mesh& mesh, const Jud
   if (!field.channels.empty() && field.channels.size() != static_cast<std::size_t>(mesh.channel_count))
     return fail(ErrorKind::kUsage,
                 fmt::format("the mesh has {} channels, the field {}", mesh.channel_count, field.channels.size()));
-  for (const ScriptStep& step : options.script) {
-    if (step.col < 0 || step.row < 0 || step.col >= field.cols || step.row >= field.rows)
+  for (const auto& [col, row] : options.tolerances.ignored) {
+    if (col < 0 || row < 0 || col >= field.cols || row >= field.rows)
       return fail(ErrorKind::kUsage,
-                  fmt::format("the script names column {}, row {}, outside the raster", step.col, step.row));
+                  fmt::format("column {}, row {}, a sample that is ignored, lies outside the raster", col, row));
   }
   return {};
 }

@@ -25,14 +25,12 @@ bool has_tolerances(const SimplifyOptions& options) {
 }
 
 bool has_own_bounds(const HeightField& field, const SimplifyOptions& options) {
-  const auto ignores = [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; };
-  if (field.samples == nullptr) return false;
-  return !options.tolerances.weights.empty() || !options.tolerances.values.empty() ||
-         std::any_of(options.strategy.script.begin(), options.strategy.script.end(), ignores);
+  const Tolerances& asked = options.tolerances;
+  return field.samples != nullptr && !(asked.weights.empty() && asked.values.empty() && asked.ignored.empty());
 }
 
-Result<Criterion> Criterion::make(const HeightField& field, const SimplifyOptions& options, const Raster& raster,
-                                  double aim, double factor) {
+Result<Criterion> Criterion::make(const HeightField& field, const Request& options, const Raster& raster, double aim,
+                                  double factor) {
   Criterion criterion;
   criterion.field_ = &field;
   criterion.options_ = &options;
@@ -103,10 +101,12 @@ Result<void> Criterion::check_weights() const {
       return tl::unexpected(refuse_value(name, place(static_cast<std::size_t>(bad - values.begin())), *bad,
                                          is_mask ? ", and finite" : ""));
   }
-  for (const ScriptStep& step : options_->strategy.script) {
-    if (step.col < 0 || step.row < 0 || step.col >= raster_.cols || step.row >= raster_.rows)
-      return usage(fmt::format("the script names sample ({}, {}), but the raster has {} x {} samples", step.col,
-                               step.row, raster_.cols, raster_.rows));
+  for (const std::span<const SampleAt> named : {options_->tolerances.ignored, std::span(options_->features.points)}) {
+    for (const auto& [col, row] : named) {
+      if (col < 0 || row < 0 || col >= raster_.cols || row >= raster_.rows)
+        return usage(fmt::format("sample ({}, {}) is named, but the raster has {} x {} samples", col, row, raster_.cols,
+                                 raster_.rows));
+    }
   }
   return {};
 }
@@ -118,6 +118,8 @@ Result<void> Criterion::check_strategy() const {
   if (importance.one_pass && (importance.global || !has_feature))
     return usage("one pass ranks samples by a feature alone: local error or curvature");
   const Batch& batch = options_->strategy.batch;
+  if (importance.one_pass && batch.rule != Batch::Rule::kSequential)
+    return usage("one pass ranks all samples once and never looks at the mesh: leave the batches out");
   if (batch.rule == Batch::Rule::kFraction && !(batch.fraction > 0 && batch.fraction <= 1))
     return usage(fmt::format("a batch takes a fraction above 0 and at most 1, not {}", batch.fraction));
   if (!(options_->strategy.edges.shape_threshold <= 1))
@@ -180,11 +182,9 @@ Result<void> Criterion::set_bounds() {
       return tl::unexpected(rule().refuse(place(i), asked));
     bounds_[i] = rule().bound(asked);
   }
-  for (const ScriptStep& step : options_->strategy.script) {
-    if (step.action == ScriptStep::Action::kIgnore)
-      bounds_[static_cast<std::size_t>(step.row) * static_cast<std::size_t>(raster_.cols) +
-              static_cast<std::size_t>(step.col)] = kUnbounded;
-  }
+  for (const auto& [col, row] : options_->tolerances.ignored)
+    bounds_[static_cast<std::size_t>(row) * static_cast<std::size_t>(raster_.cols) + static_cast<std::size_t>(col)] =
+        kUnbounded;
   for (std::size_t i = 0; i < samples; ++i) ignored_ += std::isinf(bounds_[i]) && !std::isnan(raster_.samples[i]);
   return {};
 }

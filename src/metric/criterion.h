@@ -10,6 +10,7 @@
 
 #include "metric/bound_rule.h"
 #include "metric/judge.h"
+#include "metric/request.h"
 #include "metric/sample_judge.h"
 #include "metric/source_bounds.h"
 #include "scarp/height_field.h"
@@ -19,7 +20,7 @@ namespace scarp {
 
 /// Whether samples have tolerances of their own, in memory or in a source.
 bool has_tolerances(const SimplifyOptions& options);
-/// Whether samples in memory have bounds of their own, by tolerances, a mask, or a script that ignores some.
+/// Whether samples in memory have bounds of their own, by tolerances or weights, or because some are ignored.
 bool has_own_bounds(const HeightField& field, const SimplifyOptions& options);
 
 /// Owns the arrays of the engine's error metric: at most 12 bytes a sample, none for plain heights and for bounds read
@@ -30,8 +31,8 @@ class Criterion {
   /// value at a sample, named) and kPromise (a tolerance below the rounding of the samples). `field`, `options` and the
   /// raster's samples stay alive. `aim`: the share of the bounds that the judge holds to where heights alone have some.
   /// `factor`: of all tolerances.
-  static Result<Criterion> make(const HeightField& field, const SimplifyOptions& options, const Raster& raster,
-                                double aim = 1, double factor = 1);
+  static Result<Criterion> make(const HeightField& field, const Request& options, const Raster& raster, double aim = 1,
+                                double factor = 1);
 
   const Judge& judge() const { return *judge_; }
   /// Bound of the combined error where no sample has one of its own; nothing without a goal for errors.
@@ -73,7 +74,7 @@ class Criterion {
   Point place(std::size_t index) const;
 
   const HeightField* field_ = nullptr;
-  const SimplifyOptions* options_ = nullptr;
+  const Request* options_ = nullptr;
   Raster raster_;
   std::optional<double> bound_;
   double aim_ = 1, factor_ = 1;

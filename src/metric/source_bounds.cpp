@@ -13,16 +13,15 @@ constexpr float kNoBound = std::numeric_limits<float>::infinity();
 }  // namespace
 
 bool has_source_bounds(const HeightField& field, const SimplifyOptions& options) {
-  const auto ignores = [](const ScriptStep& step) { return step.action == ScriptStep::Action::kIgnore; };
-  return options.tolerances.source != nullptr || options.tolerances.weights_source != nullptr ||
-         (field.samples == nullptr &&
-          std::any_of(options.strategy.script.begin(), options.strategy.script.end(), ignores));
+  const Tolerances& asked = options.tolerances;
+  return asked.source != nullptr || asked.weights_source != nullptr ||
+         (field.samples == nullptr && !asked.ignored.empty());
 }
 
 SourceBounds::SourceBounds(const SimplifyOptions& options, const BoundRule& rule, double factor)
     : tolerances_(options.tolerances.source),
       weights_(options.tolerances.weights_source),
-      ignored_(ignored_samples(options.strategy.script)),
+      ignored_(options.tolerances.ignored),
       most_(options.goals.max_error.value_or(HUGE_VAL)),
       factor_(factor),
       rule_(rule) {}

@@ -6,7 +6,7 @@
 
 namespace scarp {
 
-Plan::Plan(const HeightField& on, const SimplifyOptions& asked, const Scale& by)
+Plan::Plan(const HeightField& on, const Request& asked, const Scale& by)
     : field(on),
       options(asked),
       is_streamed(on.samples == nullptr),

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "base/memory_budget.h"
+#include "metric/request.h"
 #include "scarp/height_field.h"
-#include "scarp/simplify.h"
 
 namespace scarp {
 
@@ -18,10 +18,10 @@ struct Scale {
 /// A run towards its goals. The field and the options stay alive.
 struct Plan {
   /// REQUIRES: checked options with a chosen effort.
-  Plan(const HeightField& field, const SimplifyOptions& options, const Scale& scale = {});
+  Plan(const HeightField& field, const Request& options, const Scale& scale = {});
 
   const HeightField& field;
-  const SimplifyOptions& options;
+  const Request& options;
   bool is_streamed;            ///< the samples stay in their source
   bool has_budget;             ///< of triangles or vertices
   bool has_lines;              ///< constraints of some kind

@@ -104,11 +104,10 @@ Effort choose_effort(const HeightField& field, const SimplifyOptions& options) {
   if (options.quality.effort != Effort::kAuto) return options.quality.effort;
   const Fields set = fields_of(field, options);
   if (set.has_any(Fields(Field::kMinShape, Field::kTimeLimit, Field::kObjectiveRms))) return Effort::kNormal;
-  // Strategies are asked for to see what they do, so removal stays away from them, and from bounds of samples, which
-  // insertion spends where they are small. Tolerances that a budget has no room for are searched for.
-  constexpr Fields kReasonsForFast(Field::kMask, Field::kMaskSource, Field::kScriptIgnores, Field::kScriptInserts,
-                                   Field::kOrderGreedy, Field::kImportance, Field::kAlgorithm, Field::kBatch,
-                                   Field::kDataEdges, Field::kLastOfBudget, Field::kMemoryLimit);
+  // Removal stays away from bounds of samples, which insertion spends where they are small. Tolerances that a budget
+  // has no room for are searched for.
+  constexpr Fields kReasonsForFast(Field::kMask, Field::kMaskSource, Field::kIgnored, Field::kPoints,
+                                   Field::kOrderGreedy, Field::kMemoryLimit);
   constexpr Fields kTolerances(Field::kTolerance, Field::kToleranceSource);
   const bool is_fast = set.has_any(kReasonsForFast) || (set.has_any(kTolerances) && !has_budget(options));
   return is_fast ? Effort::kFast : Effort::kNormal;

@@ -18,7 +18,7 @@ namespace {
 constexpr double kLineShare = 0.5;
 
 /// `lines`: to be inserted, prepared or such as may wait; null: none.
-Result<Simplified> simplify_in_order(const HeightField& field, const SimplifyOptions& options, const Scale& scale,
+Result<Simplified> simplify_in_order(const HeightField& field, const Request& options, const Scale& scale,
                                      LineWork* lines) {
   if (auto sound = check_values(field, options); !sound) return tl::unexpected(sound.error());
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
@@ -28,14 +28,14 @@ Result<Simplified> simplify_in_order(const HeightField& field, const SimplifyOpt
   if (result || result.error().kind != ErrorKind::kPromise || options.quality.vertices != Vertices::kAuto)
     return result;
   if (!plan.frees_vertices) return result;
-  SimplifyOptions on_samples = options;
+  Request on_samples = options;
   on_samples.quality.vertices = Vertices::kSamples;
   return run(Plan(field, on_samples, scale), lines);
 }
 
 /// Towards the error `error`, with the lines of `options`.
-Result<Simplified> simplify_with_lines(const HeightField& field, SimplifyOptions& options, double error,
-                                       const Scale& scale, double seconds) {
+Result<Simplified> simplify_with_lines(const HeightField& field, Request& options, double error, const Scale& scale,
+                                       double seconds) {
   options.run.memory.taken += line_bytes(field, options.features.breaklines) +
                               line_bytes(field, options.features.cutline.rings, options.features.cutline.affine);
   if (auto fits = memory_budget(field, options).check_start(0); !fits) return tl::unexpected(fits.error());
@@ -56,14 +56,14 @@ Result<Simplified> simplify_with_lines(const HeightField& field, SimplifyOptions
   return result;
 }
 
-Result<Simplified> simplify_with_features(const HeightField& field, const SimplifyOptions& asked, const Scale& scale) {
+Result<Simplified> simplify_with_features(const HeightField& field, const Request& asked, const Scale& scale) {
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
   const auto start = Clock::now();
   const double error = asked.goals.max_error.value_or(scale.line_error);
   auto fitted = fit_features(field, asked.features, {error, asked.run});
   if (!fitted) return tl::unexpected(std::move(fitted.error()));
-  SimplifyOptions options = asked;
-  options.features = {.breaklines = fitted->lines, .cutline = asked.features.cutline};
+  Request options = asked;
+  options.features = {.breaklines = fitted->lines, .points = asked.features.points, .cutline = asked.features.cutline};
   // No wall and no ridge may be found.
   auto result = has_lines(options) ? simplify_with_lines(field, options, error, scale, seconds_since(start))
                                    : simplify_in_order(field, options, scale, nullptr);
@@ -80,7 +80,7 @@ bool insertion_stops(const HeightField& field, const SimplifyOptions& options) {
          !has_lines(options);
 }
 
-Result<Simplified> simplify_once(const HeightField& field, const SimplifyOptions& options, const Scale& scale) {
+Result<Simplified> simplify_once(const HeightField& field, const Request& options, const Scale& scale) {
   return has_lines(options) ? simplify_with_features(field, options, scale)
                             : simplify_in_order(field, options, scale, nullptr);
 }

@@ -83,13 +83,13 @@ class EngineRun {
     auto domain = build_domain(raster_, options_.domain.outline_tolerance, field_.frame);
     if (!domain) return tl::unexpected(domain.error());
     take(std::move(*domain));
-    follow_script();
+    insert_points();
     record(result, "domain", start);
     if (lays_first()) return {};
     start = Clock::now();
     refinement_.emplace(criterion_.judge(), piece_->tin, options_.strategy.algorithm, options_.strategy.edges);
-    const char* culprit = options_.strategy.script.empty() ? "the outline of the valid data alone needs"
-                                                           : "the outline of the valid data and the script need";
+    const char* culprit = options_.features.points.empty() ? "the outline of the valid data alone needs"
+                                                           : "the outline of the valid data and the points need";
     const char* advice = is_whole_ ? "" : ", or simplify the outline with an outline tolerance";
     if (auto fits = budget_.check(size(), culprit, advice); !fits) return fits;
     if (auto refined = refine(result.stop); !refined) return refined;
@@ -131,11 +131,9 @@ class EngineRun {
   /// Whether there are faults or ridges: what refinement would do there without them, it need not do with them.
   bool lays_first() const { return lines_ != nullptr && lines_->is_laid_first; }
 
-  /// Inserts what the script wants; samples outside the domain cannot become vertices.
-  void follow_script() {
-    for (const ScriptStep& step : options_.strategy.script) {
-      if (step.action == ScriptStep::Action::kInsert) insert_seed({step.col, step.row});
-    }
+  /// Samples outside the domain cannot become vertices.
+  void insert_points() {
+    for (const auto& [col, row] : options_.features.points) insert_seed({col, row});
     seeds_ = piece_->tin.vertex_count();
   }
   void insert_seed(Point p) {
@@ -146,14 +144,12 @@ class EngineRun {
     if (inside && raster_.is_valid(p)) piece_->tin.insert(p, location);
   }
 
-  /// Vertices that the script asks for stay, whatever removal could do without.
-  void fix_script_vertices() {
+  /// Points stay, whatever removal could do without.
+  void fix_points() {
     const Triangulation& tin = piece_->tin;
     std::vector<Point> asked;
-    for (const ScriptStep& step : options_.strategy.script) {
-      if (step.action == ScriptStep::Action::kInsert)
-        asked.push_back({step.col * piece_->places.steps, step.row * piece_->places.steps});
-    }
+    for (const auto& [col, row] : options_.features.points)
+      asked.push_back({col * piece_->places.steps, row * piece_->places.steps});
     if (asked.empty()) return;
     const auto before = [](Point a, Point b) { return std::pair(a.y, a.x) < std::pair(b.y, b.x); };
     std::sort(asked.begin(), asked.end(), before);
@@ -261,7 +257,7 @@ class EngineRun {
     for (std::size_t v = seeds_; v < best_.vertices; ++v) points.push_back(piece_->tin.point(static_cast<Vertex>(v)));
     refinement_.reset();
     take(*build_domain(raster_, options_.domain.outline_tolerance, field_.frame));
-    follow_script();
+    insert_points();
     std::optional<DataDependentRule> rule;
     if (options_.strategy.edges.data_dependent) rule.emplace(criterion_.judge(), options_.strategy.edges);
     Triangulation& tin = piece_->tin;
@@ -316,7 +312,7 @@ class EngineRun {
     if (!plan_.fits || (plan_.fits_strips && !options_.quality.shape.any())) return {};
     const auto start = Clock::now();
     refinement_.reset();
-    fix_script_vertices();
+    fix_points();
     FitOptions options = fit_options(field_, options_, criterion_.aim());
     piece_->aims = criterion_.aims();
     const auto norm = fit_norm(options_, raster_, criterion_);
@@ -484,7 +480,7 @@ class EngineRun {
   const Plan& plan_;
   const HeightField& field_;
   const Raster& raster_;
-  const SimplifyOptions& options_;
+  const Request& options_;
   const Criterion& criterion_;
   const ConstraintGraph* lines_;
   Budget budget_;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <functional>
 #include <new>
 
 #include "grid/samples.h"
@@ -26,15 +27,16 @@ Result<Simplified> simplify_within_budget(const HeightField& field, SimplifyOpti
   return search_budget(options, make_budget_task(field, options));
 }
 
-}  // namespace
-
-Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& asked) try {
+Result<void> check(const HeightField& field, const SimplifyOptions& options) {
   for (const auto check : {check_values, check_conflicts, check_needs}) {
-    if (auto sound = check(field, asked); !sound) return tl::unexpected(sound.error());
+    if (auto sound = check(field, options); !sound) return sound;
   }
-  SimplifyOptions options = asked;
-  options.quality.effort = choose_effort(field, asked);
-  return has_budget(options) ? simplify_within_budget(field, options) : simplify_once(field, options);
+  return {};
+}
+
+/// What failed in `work`, be it by an exception.
+Result<Simplified> without_exceptions(const std::function<Result<Simplified>()>& work) try {
+  return work();
 } catch (const SourceFailure& failure) {
   return tl::unexpected(failure.error);
 } catch (const std::bad_alloc&) {
@@ -43,10 +45,29 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& ask
   return fail(ErrorKind::kInternal, fmt::format("an exception while simplifying: {}", e.what()));
 }
 
+}  // namespace
+
+Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& asked) {
+  return without_exceptions([&]() -> Result<Simplified> {
+    if (auto sound = check(field, asked); !sound) return tl::unexpected(sound.error());
+    SimplifyOptions options = asked;
+    options.quality.effort = choose_effort(field, asked);
+    return has_budget(options) ? simplify_within_budget(field, options) : simplify_once(field, options);
+  });
+}
+
 Result<Simplified> simplify(const HeightField& field, const Goals& goals) {
   SimplifyOptions options;
   options.goals = goals;
   return simplify(field, options);
+}
+
+Result<Simplified> simplify_by_paper(const HeightField& field, const PaperOptions& options) {
+  return without_exceptions([&]() -> Result<Simplified> {
+    const Request request(options);
+    if (auto sound = check(field, request); !sound) return tl::unexpected(sound.error());
+    return simplify_once(field, request);
+  });
 }
 
 }  // namespace scarp

@@ -101,6 +101,4 @@ same coarse0.json coarse12.json weighted_max_error weighted_rmse bounded_max_err
 # What cannot be is refused before the work.
 refuses 2 "--mask broken.tif: the value -" "$scarp" simplify hills.tif x.obj -e 20 --mask broken.tif --memory "${small}M"
 refuses 2 "gdal_translate" "$scarp" simplify hills.tif x.obj -e 20 --mask narrow.tif --memory "${small}M"
-refuses 1 "--max-triangles with --mask needs all samples in memory" "$scarp" simplify hills.tif x.obj -t 500 --mask weights.tif --memory "${small}M"
-refuses 1 "--max-triangles with --script needs all samples in memory" "$scarp" simplify hills.tif x.obj -t 500 --script ignored.txt --memory "${small}M"
 refuses 1 "--memory is too little: --script takes 20M" "$scarp" simplify hills.tif x.obj -e 20 --script long.txt --memory "${small}M"

@@ -67,5 +67,5 @@ done
 
 refuses 1 "no value between samples" "$scarp" simplify photo.tif never.glb -e 8 --image --effort high --vertices free
 refuses 1 "--vertices free cannot be combined with --texture" "$scarp" simplify "$dem" never.glb -e 60 --texture photo.tif --effort high --vertices free
-refuses 1 "--effort normal cannot be combined with --edges data" "$scarp" simplify photo.tif never.glb -e 8 --image --effort normal --edges data
+refuses 1 "--edges data cannot be combined with --effort normal" "$scarp" simplify photo.tif never.glb -e 8 --image --effort normal --edges data
 echo "efforts keep norms and simplified outlines"

@@ -114,12 +114,12 @@ done <<'LIST'
 --texture ortho.tif
 --image
 --outline-tolerance 1
---importance local
---importance local --one-pass
---algorithm heap
---batch const
---edges data
 LIST
+for strategy in "--importance local" "--importance local --one-pass" "--algorithm heap" "--batch const" "--edges data"; do
+  # shellcheck disable=SC2086
+  refuses 1 "${strategy%% *}" simplify --order dominant $strategy
+  grep -q "cannot be combined with --order dominant" "$logs/err" || fail "--order dominant beside $strategy: $(cat "$logs/err")"
+done
 make_raster bounds.tif '15 + 10 * col / 402'
 succeeds "$scarp" simplify "$dem" bounded.glb --tolerance bounds.tif --order dominant --report bounded.json
 [ "$(json bounded.json strategy order)" = '"dominant"' ] || fail "tolerances change the order that was asked for"

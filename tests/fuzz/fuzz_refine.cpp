@@ -10,6 +10,7 @@
 
 #include "bytes.h"
 #include "scarp/measure.h"
+#include "scarp/paper.h"
 #include "scarp/simplify.h"
 
 namespace {
@@ -35,8 +36,8 @@ double largest_height(const scarp::HeightField& field) {
   return largest;
 }
 
-void check_simplify(const scarp::HeightField& field, const scarp::SimplifyOptions& options) {
-  const auto result = scarp::simplify(field, options);
+void check_made(const scarp::HeightField& field, const scarp::SimplifyOptions& options,
+                const scarp::Result<scarp::Simplified>& result) {
   if (!result) {
     require(!result.error().message.empty());
     require(result.error().kind != scarp::ErrorKind::kInternal);
@@ -64,8 +65,8 @@ void check_simplify(const scarp::HeightField& field, const scarp::SimplifyOption
   require(judged->void_cells_covered == 0 || options.domain.outline_tolerance > 0);
 }
 
-/// Two bytes choose how the engine goes about it; combinations that contradict each other must be refused with words.
-void choose_strategy(Bytes& bytes, scarp::SimplifyOptions& options) {
+/// Two bytes choose a strategy; one that contradicts itself must be refused with words.
+void choose_strategy(Bytes& bytes, scarp::PaperOptions& options) {
   const std::uint8_t first = bytes.next(), second = bytes.next();
   options.strategy.algorithm = static_cast<scarp::Algorithm>(first % 3);
   options.strategy.batch = {static_cast<scarp::Batch::Rule>(first / 3 % 4), (second % 8) / 7.0};
@@ -78,7 +79,6 @@ void choose_strategy(Bytes& bytes, scarp::SimplifyOptions& options) {
   options.strategy.edges.shape_threshold = second / 10 % 5 / 4.0 - 0.25;
   options.strategy.edges.supersample = second / 50 % 2 * 0.8;
   options.strategy.edges.settle = second > 127;
-  options.quality.order = static_cast<scarp::Order>((first ^ second) % 3);
 }
 
 void check_refiner(const scarp::HeightField& field, double outline_tolerance, int steps) {
@@ -121,7 +121,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const int steps = steps_and_effort % 32;
   options.quality.effort = static_cast<scarp::Effort>(steps_and_effort / 32 % 5);
   if (steps_and_effort % 2 == 1) options.quality.vertices = scarp::Vertices::kSamples;
-  if (goals & 64) choose_strategy(bytes, options);
+  scarp::PaperOptions paper;
+  if (goals & 64) choose_strategy(bytes, paper);
 
   std::vector<float> samples(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows));
   for (float& sample : samples) sample = decode_height(bytes.next(), levels, step);
@@ -141,7 +142,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     options.tolerances.values = tolerance;
   }
 
-  check_simplify(field, options);
+  check_made(field, options, scarp::simplify(field, options));
+  if (goals & 64) {
+    paper.goals = options.goals;
+    paper.tolerances = options.tolerances;
+    paper.domain = options.domain;
+    paper.output = options.output;
+    paper.run = options.run;
+    check_made(field, options, scarp::simplify_by_paper(field, paper));
+  }
   check_refiner(field, options.domain.outline_tolerance, steps);
   return 0;
 }

@@ -10,8 +10,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (error.kind != scarp::ErrorKind::kInput || error.message.find('\n') != std::string::npos) std::abort();
     return 0;
   }
-  for (const scarp::ScriptStep& step : *steps) {
-    if (step.col < 0 || step.col >= 100 || step.row < 0 || step.row >= 70) std::abort();
+  for (const auto& samples : {steps->inserted, steps->ignored}) {
+    for (const scarp::SampleAt& at : samples) {
+      if (at.col < 0 || at.col >= 100 || at.row < 0 || at.row >= 70) std::abort();
+    }
   }
   return 0;
 }

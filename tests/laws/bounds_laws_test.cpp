@@ -238,6 +238,7 @@ TEST(bounds, that_fall_across_a_field_take_fewer_triangles_with_each_effort) {
 RC_GTEST_PROP(bounds, are_kept_in_the_eyes_of_the_judge, ()) {
   const Field field = any_field();
   std::vector<float> bounds = any_bounds(field), mask;
+  std::vector<SampleAt> ignored;
   SimplifyOptions options;
   options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
   options.quality.order = *rc::gen::element(Order::kAuto, Order::kDominant);
@@ -258,7 +259,8 @@ RC_GTEST_PROP(bounds, are_kept_in_the_eyes_of_the_judge, ()) {
     bounds.assign(bounds.size(), 0.5f);
     bounds[bounds.size() / 2] = kNoBound;
     const auto at = static_cast<std::int32_t>(bounds.size() / 2);
-    options.strategy.script = {{ScriptStep::Action::kIgnore, at % field.cols, at / field.cols}};
+    ignored = {{at % field.cols, at / field.cols}};
+    options.tolerances.ignored = ignored;
   }
   HeightField view = field.view();
   if (*rc::gen::arbitrary<bool>()) {
@@ -339,18 +341,17 @@ TEST(bounds, of_a_mask_are_kept_by_efforts_within_a_budget) {
   EXPECT_LT(high->weighted_max_error, 0.8 * fast->weighted_max_error);
 }
 
-TEST(bounds, vertices_of_a_script_stay_whatever_the_effort) {
+TEST(bounds, points_stay_whatever_the_effort) {
   const Field field = testing::random_field(25, 40, 30, Relief::kRidges);
   SimplifyOptions options;
   options.goals.max_error = 5;
-  for (std::int32_t k = 0; k < 12; ++k)
-    options.strategy.script.push_back({ScriptStep::Action::kInsert, 3 * k + 2, 2 * k + 3});
+  for (std::int32_t k = 0; k < 12; ++k) options.features.points.push_back({3 * k + 2, 2 * k + 3});
   for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh, Effort::kMax}) {
     options.quality.effort = effort;
     const auto made = simplify(field.view(), options);
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_LE(made->measurement.max_error, 5);
-    for (const ScriptStep& step : options.strategy.script) {
+    for (const SampleAt& step : options.features.points) {
       bool is_vertex = false;
       for (std::size_t v = 0; v < made->mesh.vertex_count(); ++v) {
         const auto at = made->mesh.vertex(v);

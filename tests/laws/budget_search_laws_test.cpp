@@ -144,9 +144,6 @@ TEST(budget_search, refuses_what_no_search_can_serve) {
   EXPECT_EQ(kind({.goals = {.max_error = 1, .objective = Objective::kRms}, .quality = {.effort = Effort::kHigh}}),
             ErrorKind::kUsage);
   EXPECT_EQ(kind({.goals = {.max_triangles = 99, .objective = Objective::kRms}}), ErrorKind::kUsage);
-  SimplifyOptions tight{.goals = {.max_triangles = 99}, .quality = {.effort = Effort::kNormal}};
-  tight.strategy.edges.data_dependent = true;
-  EXPECT_EQ(kind(tight), ErrorKind::kUsage);
 }
 
 TEST(budget_search, is_told_as_one_pass_and_can_be_cancelled) {

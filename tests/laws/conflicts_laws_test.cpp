@@ -13,6 +13,7 @@
 #include "laws/fields.h"
 #include "scarp/cliffs.h"
 #include "scarp/conflicts.h"
+#include "scarp/paper.h"
 #include "scarp/ridges.h"
 #include "scarp/simplify.h"
 
@@ -56,9 +57,32 @@ struct Scene {
   std::vector<float> colours = land.samples;
   testing::ArraySource source{land.view()};
   testing::ArrayBounds bounds{tolerance, 40}, weights{mask, 40};
+  std::vector<SampleAt> ignored{{11, 12}};
   HeightField field = land.view();
   SimplifyOptions options;
+  Strategy strategy;
+
+  Fields fields() const {
+    const Fields of_strategy = strategy == Strategy{} ? Fields() : Fields(Field::kStrategy);
+    return fields_of(field, options) | of_strategy;
+  }
+  /// REQUIRES: no conflict, where there is a strategy; its options have no place for one.
+  Result<Simplified> run() const {
+    if (strategy == Strategy{}) return simplify(field, options);
+    return simplify_by_paper(field, {options.goals, options.tolerances, options.features.points, options.domain,
+                                     options.output, strategy, options.run});
+  }
 };
+
+/// Each kind of strategy.
+std::vector<Strategy> all_strategies() {
+  return {{.importance = {.feature = Importance::Feature::kCurvature}},
+          {.importance = {false, Importance::Feature::kLocal4, Importance::Damping::kUndamped, true}},
+          {.algorithm = Algorithm::kLocal},
+          {.batch = {.rule = Batch::Rule::kIndependent}},
+          {.edges = {.data_dependent = true}},
+          {.best_of_budget = false}};
+}
 
 Line line_through(std::vector<std::array<double, 3>> points, LineKind kind = LineKind::kBreakline) {
   Line line;
@@ -108,13 +132,10 @@ std::vector<Setting> all_settings() {
          ring.role = LineRole::kOuter;
          s.options.features.cutline.rings = {ring};
        }},
-      {Field::kScriptIgnores,
+      {Field::kIgnored, [](Scene& s) { s.options.tolerances.ignored = s.ignored; }},
+      {Field::kPoints,
        [](Scene& s) {
-         s.options.strategy.script.push_back({ScriptStep::Action::kIgnore, 11, 12});
-       }},
-      {Field::kScriptInserts,
-       [](Scene& s) {
-         s.options.strategy.script.push_back({ScriptStep::Action::kInsert, 13, 14});
+         s.options.features.points.push_back({13, 14});
        }},
       {Field::kOrderGreedy, [](Scene& s) { s.options.quality.order = Order::kGreedy; }},
       {Field::kOrderDominant, [](Scene& s) { s.options.quality.order = Order::kDominant; }},
@@ -133,16 +154,8 @@ std::vector<Setting> all_settings() {
       {Field::kTimeLimit, [](Scene& s) { s.options.run.is_time_up = [] { return false; }; }},
       {Field::kEnough, [](Scene& s) { s.options.run.is_enough = [] { return false; }; }},
       {Field::kObjectiveRms, [](Scene& s) { s.options.goals.objective = Objective::kRms; }},
-      {Field::kImportance, [](Scene& s) { s.options.strategy.importance.feature = Importance::Feature::kCurvature; }},
-      {Field::kOnePass,
-       [](Scene& s) {
-         s.options.strategy.importance = {false, Importance::Feature::kLocal4, Importance::Damping::kUndamped, true};
-       }},
-      {Field::kAlgorithm, [](Scene& s) { s.options.strategy.algorithm = Algorithm::kLocal; }},
-      {Field::kBatch, [](Scene& s) { s.options.strategy.batch.rule = Batch::Rule::kIndependent; }},
-      {Field::kDataEdges, [](Scene& s) { s.options.strategy.edges.data_dependent = true; }},
+      {Field::kStrategy, [](Scene& s) { s.strategy.edges.data_dependent = true; }},
       {Field::kNorm, [](Scene& s) { s.options.goals.norm = Norm::kMax; }},
-      {Field::kLastOfBudget, [](Scene& s) { s.options.strategy.best_of_budget = false; }},
       {Field::kUvs, [](Scene& s) { s.options.output.uvs = true; }},
       {Field::kNormals, [](Scene& s) { s.options.output.normals = true; }},
       {Field::kThreads, [](Scene& s) { s.options.run.threads = 2; }},
@@ -169,10 +182,8 @@ std::vector<float> bounds_of(const Scene& scene, bool keeps_error, double factor
   if (has_tolerance) bound = std::min(bound, tolerance * factor);
   if (!options.tolerances.weights.empty() || options.tolerances.weights_source != nullptr) bound /= 0.5;
   std::vector<float> bounds(scene.land.samples.size(), static_cast<float>(bound * 1.000001 + 1e-5));
-  for (const ScriptStep& step : options.strategy.script) {
-    if (step.action == ScriptStep::Action::kIgnore)
-      bounds[static_cast<std::size_t>(step.row * 40 + step.col)] = testing::kNoBound;
-  }
+  for (const auto& [col, row] : options.tolerances.ignored)
+    bounds[static_cast<std::size_t>(row * 40 + col)] = testing::kNoBound;
   return bounds;
 }
 
@@ -199,15 +210,15 @@ void expect_kept(const Scene& scene, const Simplified& made, double tolerance = 
   EXPECT_TRUE(m->is_sound());
   EXPECT_LE(made.mesh.triangle_count(), options.goals.max_triangles.value_or(1u << 30));
   EXPECT_LE(made.mesh.vertex_count(), options.goals.max_vertices.value_or(1u << 30));
-  const bool is_norm =
-      !field.channels.empty() && options.tolerances.weights.empty() && options.strategy.script.empty() && keeps_error;
+  const bool is_norm = !field.channels.empty() && options.tolerances.weights.empty() &&
+                       options.tolerances.ignored.empty() && keeps_error;
   EXPECT_LE(made.combined_max_error, is_norm ? options.goals.max_error.value_or(HUGE_VAL) * 1.000001 : HUGE_VAL);
-  for (const ScriptStep& step : options.strategy.script) {
-    if (step.action != ScriptStep::Action::kInsert || !field.frame.is_affine()) continue;
+  for (const auto& [col, row] : options.features.points) {
+    if (!field.frame.is_affine()) continue;
     bool is_vertex = false;
     for (std::size_t v = 0; v < made.mesh.vertex_count(); ++v) {
       const auto at = made.mesh.vertex(v);
-      is_vertex = is_vertex || (at[0] == step.col && at[1] == 29 - step.row);
+      is_vertex = is_vertex || (at[0] == col && at[1] == 29 - row);
     }
     EXPECT_TRUE(is_vertex);
   }
@@ -216,8 +227,7 @@ void expect_kept(const Scene& scene, const Simplified& made, double tolerance = 
 
 /// Settings of which one brings the other along.
 bool brings(Field one, Field other) {
-  if (one == Field::kWalls || one == Field::kRidges) return other == Field::kBreaklines;
-  return one == Field::kOnePass && other == Field::kImportance;
+  return (one == Field::kWalls || one == Field::kRidges) && other == Field::kBreaklines;
 }
 
 bool names(const Conflict& conflict, Field one, Field other) {
@@ -240,18 +250,24 @@ bool is_refused(const Setting& one, const Setting& other, bool is_streamed) {
     if (scene.options.goals.objective == Objective::kRms && goal == Field::kMaxError)
       scene.options.goals.max_triangles = kTriangles;
     if (is_streamed) scene.field = testing::with_source(scene.field, scene.source);
-    const auto conflicts = find_conflicts(scene.field, scene.options);
-    const auto made = simplify(scene.field, scene.options);
+    const auto conflicts = find_conflicts(scene.fields());
     if (conflicts.empty()) {
-      EXPECT_TRUE(made) << made.error().message;
-      if (made) expect_kept(scene, *made);
+      const auto strategies = scene.strategy == Strategy{} ? std::vector<Strategy>(1) : all_strategies();
+      for (const Strategy& strategy : strategies) {
+        scene.strategy = strategy;
+        const auto made = scene.run();
+        EXPECT_TRUE(made) << made.error().message;
+        if (made) expect_kept(scene, *made);
+      }
       return false;
     }
+    for (const Conflict& conflict : conflicts) is_named = is_named || names(conflict, one.field, other.field);
+    if (!(scene.strategy == Strategy{})) continue;
+    const auto made = simplify(scene.field, scene.options);
     EXPECT_FALSE(made);
     if (made) return false;
     EXPECT_EQ(made.error().kind, ErrorKind::kUsage);
     EXPECT_EQ(made.error().message, describe(conflicts.front()));
-    for (const Conflict& conflict : conflicts) is_named = is_named || names(conflict, one.field, other.field);
   }
   EXPECT_TRUE(is_named);
   return true;
@@ -260,7 +276,7 @@ bool is_refused(const Setting& one, const Setting& other, bool is_streamed) {
 bool is_alone_refused(const Setting& setting) {
   Scene scene;
   setting.set(scene);
-  for (const Conflict& conflict : find_conflicts(testing::with_source(scene.field, scene.source), scene.options)) {
+  for (const Conflict& conflict : find_conflicts(scene.fields() | Fields(Field::kSource))) {
     if (conflict.one == Field::kSource || conflict.other == Field::kSource) return true;
   }
   return false;
@@ -277,8 +293,9 @@ void expect_within_a_tight_budget(const Setting& setting, bool is_streamed) {
   if (is_streamed) scene.field = testing::with_source(scene.field, scene.source);
   if (is_streamed) scene.options.tolerances.source = &scene.bounds;
   if (!is_streamed) scene.options.tolerances.values = scene.tolerance;
-  const auto conflicts = find_conflicts(scene.field, scene.options);
-  const auto made = simplify(scene.field, scene.options);
+  const auto conflicts = find_conflicts(scene.fields());
+  if (!(scene.strategy == Strategy{}) && !conflicts.empty()) return;
+  const auto made = scene.run();
   EXPECT_EQ(made.has_value(), conflicts.empty()) << (made ? "" : made.error().message);
   if (!made) return;
   EXPECT_EQ(made->stop, StopReason::kMaxTriangles);
@@ -298,7 +315,7 @@ TEST(conflicts, settings_beside_tolerances_and_a_budget_run_or_are_refused_by_th
 
 TEST(conflicts, every_pair_in_memory_runs_or_is_refused_by_the_table) {
   const auto settings = all_settings();
-  int pairs = 0, refused = 0, by_values = 0;
+  int pairs = 0, refused = 0, of_strategies = 0;
   for (std::size_t k = 0; k < settings.size(); ++k) {
     ASSERT_EQ(static_cast<std::size_t>(settings[k].field), k);
     for (std::size_t n = k + 1; n < settings.size(); ++n) {
@@ -309,19 +326,18 @@ TEST(conflicts, every_pair_in_memory_runs_or_is_refused_by_the_table) {
       // Two values of one field.
       Scene a, b, both;
       settings[k].set(a), settings[n].set(b), settings[k].set(both), settings[n].set(both);
-      if (!fields_of(both.field, both.options).has(one)) continue;
+      if (!both.fields().has(one)) continue;
       ++pairs;
       if (!is_refused(settings[k], settings[n], false)) continue;
       ++refused;
-      by_values += one == Field::kWalls || one == Field::kRidges || other == Field::kWalls || other == Field::kRidges ||
-                   one == Field::kOnePass || other == Field::kOnePass;
+      of_strategies += one == Field::kStrategy || other == Field::kStrategy;
     }
   }
   RecordProperty("pairs", pairs);
   RecordProperty("refused", refused);
-  RecordProperty("refused_of_walls_ridges_and_one_pass", by_values);
-  std::cout << refused << " of " << pairs << " pairs are refused in memory, " << by_values
-            << " of them pairs of walls, ridges and one pass\n";
+  RecordProperty("refused_of_strategies", of_strategies);
+  std::cout << refused << " of " << pairs << " pairs are refused in memory, " << of_strategies
+            << " of them beside a strategy of the 1995 paper\n";
 }
 
 TEST(conflicts, every_pair_of_streamed_samples_runs_or_is_refused_by_the_table) {
@@ -342,7 +358,7 @@ TEST(conflicts, every_pair_of_streamed_samples_runs_or_is_refused_by_the_table) 
       SCOPED_TRACE(std::string(name_of(one)) + " and " + std::string(name_of(other)));
       Scene both;
       settings[k].set(both), settings[n].set(both);
-      if (!fields_of(both.field, both.options).has(one)) continue;
+      if (!both.fields().has(one)) continue;
       ++pairs;
       if (!is_refused(settings[k], settings[n], true)) continue;
       ++refused;

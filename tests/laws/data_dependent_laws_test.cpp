@@ -128,14 +128,14 @@ RC_GTEST_PROP(data_dependent, the_engines_largest_error_is_the_largest_error, ()
 
 RC_GTEST_PROP(data_dependent, settling_lowers_the_squares_and_raises_no_largest_error, ()) {
   const Field field = any_field(28);
-  SimplifyOptions options;
+  PaperOptions options;
   options.strategy.edges = testing::any_edge_rule();
   options.strategy.best_of_budget = false;
   options.goals.max_vertices = *rc::gen::inRange<std::uint64_t>(4, 200);
   options.strategy.edges.settle = false;
-  const auto before = simplify(field.view(), options);
+  const auto before = simplify_by_paper(field.view(), options);
   options.strategy.edges.settle = true;
-  const auto after = simplify(field.view(), options);
+  const auto after = simplify_by_paper(field.view(), options);
   RC_PRE(before.has_value());
   RC_ASSERT(after.has_value());
   RC_ASSERT(after->measurement.max_error <= before->measurement.max_error);
@@ -147,11 +147,11 @@ RC_GTEST_PROP(data_dependent, settling_lowers_the_squares_and_raises_no_largest_
 TEST(data_dependent, follows_a_diagonal_step_far_better_than_delaunay) {
   const auto field = generate_field(FieldStyle::kDiagonalStep, 256, 256);
   ASSERT_TRUE(field);
-  SimplifyOptions options{.goals = {.max_vertices = 200}, .quality = {.effort = Effort::kFast}};
-  const double delaunay = simplify(*field, options)->measurement.max_error;
+  PaperOptions options{.goals = {.max_vertices = 200}};
+  const double delaunay = simplify_by_paper(*field, options)->measurement.max_error;
   for (const EdgeScore score : {EdgeScore::kSum, EdgeScore::kTight}) {
     options.strategy.edges = {true, score};
-    EXPECT_LT(simplify(*field, options)->measurement.max_error, delaunay / 2);
+    EXPECT_LT(simplify_by_paper(*field, options)->measurement.max_error, delaunay / 2);
   }
 }
 

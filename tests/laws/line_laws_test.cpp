@@ -63,9 +63,6 @@ TEST(lines, contradict_edges_of_the_data_and_simpler_outlines) {
   options.features.breaklines.lines = {line};
   options.goals.max_error = 1;
   ASSERT_TRUE(simplify(field.view(), options));
-  auto with_edges = options;
-  with_edges.strategy.edges.data_dependent = true;
-  EXPECT_EQ(simplify(field.view(), with_edges).error().kind, ErrorKind::kUsage);
   auto with_outline = options;
   with_outline.domain.outline_tolerance = 1;
   EXPECT_EQ(simplify(field.view(), with_outline).error().kind, ErrorKind::kUsage);

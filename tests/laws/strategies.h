@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "laws/fields.h"
-#include "scarp/simplify.h"
+#include "scarp/paper.h"
 
 namespace scarp::testing {
 
@@ -34,8 +34,8 @@ inline Importance any_importance() {
 }
 
 /// Everything that may be combined, at a small scale.
-inline SimplifyOptions any_strategy() {
-  SimplifyOptions options;
+inline PaperOptions any_strategy() {
+  PaperOptions options;
   options.run.threads = 1;
   options.strategy.algorithm =
       *rc::gen::element(Algorithm::kHeap, Algorithm::kHeap, Algorithm::kLocal, Algorithm::kBruteForce);
@@ -48,7 +48,6 @@ inline SimplifyOptions any_strategy() {
     options.strategy.batch.fraction = *rc::gen::element(1.0, 0.7, 0.2);
   }
   if (*rc::gen::arbitrary<bool>()) options.strategy.edges = any_edge_rule();
-  options.quality.order = *rc::gen::element(Order::kAuto, Order::kGreedy);
   options.goals.norm = *rc::gen::element(Norm::kSum, Norm::kSquares, Norm::kMax);
   return options;
 }

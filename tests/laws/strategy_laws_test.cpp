@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "laws/array_source.h"
 #include "laws/strategies.h"
 #include "metric/height_judge.h"
 #include "metric/importance.h"
@@ -38,9 +39,9 @@ std::vector<float> any_values(const Field& field, std::vector<float> choices) {
 
 RC_GTEST_PROP(strategies, keep_the_bound_whatever_is_chosen, ()) {
   const Field field = any_field(26);
-  SimplifyOptions options = testing::any_strategy();
+  PaperOptions options = testing::any_strategy();
   options.goals.max_error = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
-  const auto result = simplify(field.view(), options);
+  const auto result = simplify_by_paper(field.view(), options);
   RC_PRE(result.has_value() || result.error().kind != ErrorKind::kInput);
   RC_ASSERT(result.has_value());
   const Measurement m = *measure(field.view(), result->mesh);
@@ -53,11 +54,11 @@ RC_GTEST_PROP(strategies, keep_the_bound_whatever_is_chosen, ()) {
 
 RC_GTEST_PROP(strategies, budgets_are_upper_bounds_whatever_is_chosen, ()) {
   const Field field = any_field(30, {0.0});
-  SimplifyOptions options = testing::any_strategy();
+  PaperOptions options = testing::any_strategy();
   const auto budget = *rc::gen::inRange<std::uint64_t>(4, 400);
   (*rc::gen::arbitrary<bool>() ? options.goals.max_vertices : options.goals.max_triangles) = budget;
   options.strategy.best_of_budget = *rc::gen::arbitrary<bool>();
-  const auto result = simplify(field.view(), options);
+  const auto result = simplify_by_paper(field.view(), options);
   RC_ASSERT(result.has_value());
   RC_ASSERT(!options.goals.max_vertices || result->mesh.vertex_count() <= budget);
   RC_ASSERT(!options.goals.max_triangles || result->mesh.triangle_count() <= budget);
@@ -66,13 +67,12 @@ RC_GTEST_PROP(strategies, budgets_are_upper_bounds_whatever_is_chosen, ()) {
 
 RC_GTEST_PROP(strategies, algorithms_one_two_and_three_make_the_same_mesh, ()) {
   const Field field = any_field(18);
-  SimplifyOptions options = testing::any_strategy();
+  PaperOptions options = testing::any_strategy();
   options.goals.max_error = *rc::gen::element(0.0, 1.0, 5.0);
-  options.quality.order = Order::kGreedy;
   std::vector<Mesh> meshes;
   for (const Algorithm algorithm : {Algorithm::kHeap, Algorithm::kLocal, Algorithm::kBruteForce}) {
     options.strategy.algorithm = algorithm;
-    auto result = simplify(field.view(), options);
+    auto result = simplify_by_paper(field.view(), options);
     RC_PRE(result.has_value());
     meshes.push_back(std::move(result->mesh));
   }
@@ -84,11 +84,11 @@ RC_GTEST_PROP(strategies, algorithms_one_two_and_three_make_the_same_mesh, ()) {
 
 RC_GTEST_PROP(strategies, every_tolerance_is_kept, ()) {
   const Field field = any_field(22);
-  SimplifyOptions options = testing::any_strategy();
+  PaperOptions options = testing::any_strategy();
   const auto tolerance = any_values(field, {0.0f, 0.25f, 1.0f, 2.0f, 50.0f, INFINITY});
   options.tolerances.values = tolerance;
   if (*rc::gen::arbitrary<bool>()) options.goals.max_error = 3.0;
-  const auto result = simplify(field.view(), options);
+  const auto result = simplify_by_paper(field.view(), options);
   RC_PRE(result.has_value() || result.error().kind != ErrorKind::kInput);
   RC_ASSERT(result.has_value());
   const HeightField view = field.view();
@@ -106,11 +106,11 @@ RC_GTEST_PROP(strategies, every_tolerance_is_kept, ()) {
 
 RC_GTEST_PROP(strategies, a_mask_bounds_the_weighted_error_and_reports_the_true_one, ()) {
   const Field field = any_field(22);
-  SimplifyOptions options = testing::any_strategy();
+  PaperOptions options = testing::any_strategy();
   const auto mask = any_values(field, {0.0f, 0.1f, 0.5f, 1.0f, 1.0f});
   options.tolerances.weights = mask;
   options.goals.max_error = *rc::gen::element(0.5, 2.0);
-  const auto result = simplify(field.view(), options);
+  const auto result = simplify_by_paper(field.view(), options);
   RC_PRE(result.has_value() || result.error().kind != ErrorKind::kInput);
   RC_ASSERT(result.has_value());
   const HeightField view = field.view();
@@ -134,14 +134,13 @@ RC_GTEST_PROP(strategies, a_mask_bounds_the_weighted_error_and_reports_the_true_
 
 RC_GTEST_PROP(strategies, a_mask_of_ones_changes_nothing, ()) {
   const Field field = any_field(22);
-  SimplifyOptions options = testing::any_strategy();
+  PaperOptions options = testing::any_strategy();
   options.goals.max_error = *rc::gen::element(0.5, 1.0, 8.0);
-  options.quality.order = Order::kGreedy;
-  const auto without = simplify(field.view(), options);
+  const auto without = simplify_by_paper(field.view(), options);
   RC_PRE(without.has_value());
   const std::vector<float> ones(field.samples.size(), 1.0f);
   options.tolerances.weights = ones;
-  const auto with = simplify(field.view(), options);
+  const auto with = simplify_by_paper(field.view(), options);
   RC_ASSERT(with.has_value());
   RC_ASSERT(with->mesh.positions == without->mesh.positions);
   RC_ASSERT(with->mesh.triangles == without->mesh.triangles);
@@ -151,7 +150,7 @@ RC_GTEST_PROP(strategies, a_mask_of_ones_changes_nothing, ()) {
 
 RC_GTEST_PROP(strategies, channels_are_bounded_by_their_norm_with_the_heights, ()) {
   const Field field = any_field(16);
-  SimplifyOptions options = testing::any_strategy();
+  PaperOptions options = testing::any_strategy();
   const auto count = *rc::gen::inRange(1, 4);
   std::vector<Field> layers;
   for (int k = 0; k < count; ++k)
@@ -161,7 +160,7 @@ RC_GTEST_PROP(strategies, channels_are_bounded_by_their_norm_with_the_heights, (
   view.height_scale = *rc::gen::element(1.0, 1.0, 0.0, 2.0);
   for (const Field& layer : layers) view.channels.push_back({layer.samples.data(), *rc::gen::element(0.5, 1.0, 3.0)});
   options.goals.max_error = *rc::gen::element(0.0, 1.0, 7.0);
-  const auto result = simplify(view, options);
+  const auto result = simplify_by_paper(view, options);
   RC_PRE(result.has_value() || result.error().kind != ErrorKind::kInput);
   RC_ASSERT(result.has_value());
   RC_ASSERT(result->mesh.channels.size() == static_cast<std::size_t>(count) * result->mesh.vertex_count());
@@ -216,17 +215,19 @@ RC_GTEST_PROP(judges, the_general_one_agrees_with_the_plain_one, ()) {
 
 RC_GTEST_PROP(script, inserted_samples_are_vertices_and_ignored_ones_are_not_bound, ()) {
   const Field field = any_field(20, {0.0, 0.2});
-  SimplifyOptions options = testing::any_strategy();
+  PaperOptions options = testing::any_strategy();
   options.goals.max_error = 1.0;
   std::set<std::pair<int, int>> inserted, ignored;
+  std::vector<SampleAt> left_out;
   const auto steps = *rc::gen::inRange(0, 30);
   for (int k = 0; k < steps; ++k) {
-    const ScriptStep step{*rc::gen::element(ScriptStep::Action::kInsert, ScriptStep::Action::kIgnore),
-                          *rc::gen::inRange(0, field.cols), *rc::gen::inRange(0, field.rows)};
-    options.strategy.script.push_back(step);
-    (step.action == ScriptStep::Action::kInsert ? inserted : ignored).insert({step.col, step.row});
+    const bool inserts = *rc::gen::arbitrary<bool>();
+    const SampleAt at{*rc::gen::inRange(0, field.cols), *rc::gen::inRange(0, field.rows)};
+    (inserts ? options.points : left_out).push_back(at);
+    (inserts ? inserted : ignored).insert({at.col, at.row});
   }
-  const auto result = simplify(field.view(), options);
+  options.tolerances.ignored = left_out;
+  const auto result = simplify_by_paper(field.view(), options);
   RC_PRE(result.has_value() || result.error().kind != ErrorKind::kInput);
   RC_ASSERT(result.has_value());
   std::set<std::pair<int, int>> vertices;
@@ -245,21 +246,25 @@ RC_GTEST_PROP(script, inserted_samples_are_vertices_and_ignored_ones_are_not_bou
   }
 }
 
-TEST(script, a_step_outside_the_raster_is_refused) {
+TEST(script, a_sample_outside_the_raster_is_refused) {
   const Field field = testing::random_field(1, 9, 7, Relief::kReal);
-  SimplifyOptions options{.goals = {.max_error = 1.0}};
-  options.strategy.script = {{ScriptStep::Action::kIgnore, 9, 0}};
-  const auto result = simplify(field.view(), options);
-  ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
-  EXPECT_NE(result.error().message.find("(9, 0)"), std::string::npos) << result.error().message;
+  const SampleAt beyond[] = {{9, 0}};
+  for (const bool inserts : {false, true}) {
+    SimplifyOptions options{.goals = {.max_error = 1.0}};
+    if (inserts) options.features.points = {beyond[0]};
+    if (!inserts) options.tolerances.ignored = beyond;
+    const auto result = simplify(field.view(), options);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
+    EXPECT_NE(result.error().message.find("(9, 0)"), std::string::npos) << result.error().message;
+  }
 }
 
 TEST(one_pass, keeps_the_samples_with_the_largest_feature) {
   const Field field = testing::random_field(5, 40, 31, Relief::kReal);
-  SimplifyOptions options{.goals = {.max_vertices = 60}};
+  PaperOptions options{.goals = {.max_vertices = 60}};
   options.strategy.importance = {false, Importance::Feature::kCurvature, Importance::Damping::kUndamped, true};
-  const auto result = simplify(field.view(), options);
+  const auto result = simplify_by_paper(field.view(), options);
   ASSERT_TRUE(result);
   const auto values = measure_feature(field.raster(), options.strategy.importance);
   std::set<std::pair<int, int>> expected{{0, 0}, {39, 0}, {0, 30}, {39, 30}};
@@ -277,12 +282,13 @@ TEST(one_pass, keeps_the_samples_with_the_largest_feature) {
 
 TEST(one_pass, leaves_out_the_samples_that_a_script_ignores) {
   const Field field = testing::random_field(5, 40, 31, Relief::kReal);
-  SimplifyOptions options{.goals = {.max_vertices = 60}};
+  PaperOptions options{.goals = {.max_vertices = 60}};
   options.strategy.importance = {false, Importance::Feature::kCurvature, Importance::Damping::kUndamped, true};
   const auto ranked = rank_samples(field.raster(), measure_feature(field.raster(), options.strategy.importance));
-  for (std::size_t k = 0; k < 20; ++k)
-    options.strategy.script.push_back({ScriptStep::Action::kIgnore, ranked[k].x, ranked[k].y});
-  const auto result = simplify(field.view(), options);
+  std::vector<SampleAt> left_out;
+  for (std::size_t k = 0; k < 20; ++k) left_out.push_back({ranked[k].x, ranked[k].y});
+  options.tolerances.ignored = left_out;
+  const auto result = simplify_by_paper(field.view(), options);
   ASSERT_TRUE(result);
   const std::set<std::pair<int, int>> corners{{0, 0}, {39, 0}, {0, 30}, {39, 30}};
   for (std::size_t v = 0; v < result->mesh.vertex_count(); ++v) {
@@ -299,9 +305,9 @@ TEST(channels, no_sample_is_lost_where_squares_overflow) {
   HeightField view = field.view();
   view.channels = {{layer.samples.data(), 1e160}};
   for (const bool data_dependent : {false, true}) {
-    SimplifyOptions options{.goals = {.max_error = 5e160}};
+    PaperOptions options{.goals = {.max_error = 5e160}};
     options.strategy.edges.data_dependent = data_dependent;
-    const auto result = simplify(view, options);
+    const auto result = simplify_by_paper(view, options);
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_GT(result->channel_measurements[0].max_error, 0);
     EXPECT_LE(result->channel_measurements[0].max_error, 5.00001);
@@ -347,11 +353,7 @@ TEST(order, what_the_dominant_one_cannot_do_or_is_not_best_at_is_done_greedily) 
   check("mask", [&](auto& o, auto&) { o.tolerances.weights = ones; });
   check("tolerance", [&](auto& o, auto&) { o.tolerances.values = ones; });
   check("channels", [&](auto&, auto& v) { v.channels = {{ones.data(), 1}}; });
-  check("script", [](auto& o, auto&) { o.strategy.script = {{ScriptStep::Action::kInsert, 3, 3}}; });
-  check("importance", [](auto& o, auto&) { o.strategy.importance.feature = Importance::Feature::kCurvature; });
-  check("algorithm", [](auto& o, auto&) { o.strategy.algorithm = Algorithm::kLocal; });
-  check("batch", [](auto& o, auto&) { o.strategy.batch.rule = Batch::Rule::kConstant; });
-  check("Delaunay", [](auto& o, auto&) { o.strategy.edges.data_dependent = true; });
+  check("points", [](auto& o, auto&) { o.features.points = {{3, 3}}; });
   check("outline", [](auto& o, auto&) { o.domain.outline_tolerance = 1; });
 }
 
@@ -377,13 +379,12 @@ TEST(features, vanish_on_a_plane_and_know_a_quadratic) {
 
 TEST(batches, independent_ones_cost_few_vertices_and_few_passes) {
   const Field field = testing::random_field(21, 200, 160, Relief::kRidges);
-  SimplifyOptions options{.goals = {.max_error = 4.0}};
-  options.quality.order = Order::kGreedy;
-  const auto sequential = simplify(field.view(), options);
+  PaperOptions options{.goals = {.max_error = 4.0}};
+  const auto sequential = simplify_by_paper(field.view(), options);
   options.strategy.batch.rule = Batch::Rule::kIndependent;
-  const auto independent = simplify(field.view(), options);
+  const auto independent = simplify_by_paper(field.view(), options);
   options.strategy.batch.rule = Batch::Rule::kConstant;
-  const auto constant = simplify(field.view(), options);
+  const auto constant = simplify_by_paper(field.view(), options);
   ASSERT_TRUE(sequential && independent && constant);
   EXPECT_LT(independent->mesh.vertex_count(), sequential->mesh.vertex_count() * 108 / 100);
   EXPECT_GT(constant->mesh.vertex_count(), independent->mesh.vertex_count());
@@ -391,14 +392,27 @@ TEST(batches, independent_ones_cost_few_vertices_and_few_passes) {
   EXPECT_LE(constant->work.passes, independent->work.passes);
 }
 
+TEST(strategies, the_default_one_is_the_greedy_order) {
+  const Field field = testing::random_field(3, 60, 50, Relief::kRidges);
+  for (const Goals& goals : {Goals{.max_error = 2}, Goals{.max_triangles = 300}}) {
+    const auto paper = simplify_by_paper(field.view(), {.goals = goals});
+    const auto greedy =
+        simplify(field.view(), {.goals = goals, .quality = {.effort = Effort::kFast, .order = Order::kGreedy}});
+    ASSERT_TRUE(paper && greedy);
+    EXPECT_EQ(paper->mesh.positions, greedy->mesh.positions);
+    EXPECT_EQ(paper->mesh.triangles, greedy->mesh.triangles);
+  }
+}
+
 TEST(strategies, contradictions_are_refused_in_one_sentence) {
   const Field field = testing::random_field(1, 9, 7, Relief::kReal);
   const std::vector<float> ones(63, 1.0f), few(5, 1.0f), negative(63, -1.0f), gap(63, NAN);
+  const testing::ArraySource stream(field.view());
   const auto refuses = [&](const char* words, auto change) {
-    SimplifyOptions options{.goals = {.max_error = 1.0}};
+    PaperOptions options{.goals = {.max_error = 1.0}};
     HeightField view = field.view();
     change(options, view);
-    const auto result = simplify(view, options);
+    const auto result = simplify_by_paper(view, options);
     ASSERT_FALSE(result) << words;
     EXPECT_NE(result.error().message.find(words), std::string::npos) << result.error().message;
   };
@@ -406,6 +420,11 @@ TEST(strategies, contradictions_are_refused_in_one_sentence) {
   refuses("5 values for 63 samples", [&](auto& o, auto&) { o.tolerances.weights = few; });
   refuses("at sample (0, 0)", [&](auto& o, auto&) { o.tolerances.values = negative; });
   refuses("ranks samples by a feature", [&](auto& o, auto&) { o.strategy.importance.one_pass = true; });
+  refuses("leave the batches out", [&](auto& o, auto&) {
+    o.strategy.importance = {false, Importance::Feature::kLocal4, Importance::Damping::kUndamped, true};
+    o.strategy.batch.rule = Batch::Rule::kConstant;
+  });
+  refuses("cannot be combined with order = greedy", [&](auto&, auto& v) { v.samples = nullptr, v.source = &stream; });
   refuses("above 0 and at most 1", [&](auto& o, auto&) { o.strategy.batch = {Batch::Rule::kFraction, 1.5}; });
   refuses("shape threshold", [&](auto& o, auto&) { o.strategy.edges.shape_threshold = 2; });
   refuses("supersampling", [&](auto& o, auto&) { o.strategy.edges.supersample = -1; });

@@ -31,7 +31,7 @@ struct Scene {
   ArraySource source{field.view()};
   ArrayBounds windows{weights, field.cols};
   HeightField streamed = with_source(field.view(), source);
-  std::vector<ScriptStep> script;
+  std::vector<SampleAt> ignored;
   bool has_weights = *rc::gen::arbitrary<bool>();
 
   explicit Scene(std::int32_t rows)
@@ -40,8 +40,8 @@ struct Scene {
     std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
     const auto count = *rc::gen::element(0, 1, 900);
     for (int k = has_weights ? 0 : -1; k < count; ++k)
-      script.push_back({ScriptStep::Action::kIgnore, static_cast<std::int32_t>(random() % 120),
-                        static_cast<std::int32_t>(random() % static_cast<unsigned>(field.rows))});
+      ignored.push_back({static_cast<std::int32_t>(random() % 120),
+                         static_cast<std::int32_t>(random() % static_cast<unsigned>(field.rows))});
   }
   Scene(const Scene&) = delete;
 
@@ -61,7 +61,7 @@ struct Scene {
       const double weight = has_weights ? double{weights[k]} : 1;
       all[k] = weight > 0 ? static_cast<float>(max_error / weight * 1.000001 + 1e-6) : kNoBound;
     }
-    for (const ScriptStep& step : script)
+    for (const SampleAt& step : ignored)
       all[static_cast<std::size_t>(step.row) * static_cast<std::size_t>(field.cols) +
           static_cast<std::size_t>(step.col)] = kNoBound;
     return all;
@@ -72,7 +72,7 @@ RC_GTEST_PROP(streamed_weights, and_ignored_samples_are_kept_by_the_mesh, ()) {
   const Scene scene(*rc::gen::element(60, 330));
   SimplifyOptions options;
   options.goals.max_error = *rc::gen::element(0.0, 2.0, 7.3, 30.0);
-  options.strategy.script = scene.script;
+  options.tolerances.ignored = scene.ignored;
   if (scene.has_weights) options.tolerances.weights_source = &scene.windows;
   options.quality.effort = *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh);
   options.run.memory.limit = *rc::gen::element(0u, 1'200'000u);
@@ -100,7 +100,7 @@ RC_GTEST_PROP(streamed_weights, and_ignored_samples_are_kept_by_the_mesh, ()) {
   for (std::size_t k = 0; k < promised.size(); ++k)
     ignored += std::isinf(promised[k]) && !std::isnan(scene.field.samples[k]);
   RC_ASSERT(made->ignored == ignored);
-  if (scene.has_weights && scene.script.empty())
+  if (scene.has_weights && scene.ignored.empty())
     RC_ASSERT(made->weighted_max_error <= *options.goals.max_error * 1.000001 + 1e-6);
 }
 
@@ -113,7 +113,7 @@ RC_GTEST_PROP(streamed_weights, and_ignored_samples_are_judged_as_those_of_an_ar
   const auto mesh = simplify(other.view(), {.goals = {.max_error = *rc::gen::element(2.0, 20.0)}});
   RC_PRE(mesh.has_value());
   JudgeOptions array, windows;
-  array.script = windows.script = scene.script;
+  array.tolerances.ignored = windows.tolerances.ignored = scene.ignored;
   array.max_error = windows.max_error = *rc::gen::element<std::optional<double>>(std::nullopt, 5.0, 100.0);
   array.weigh = windows.weigh = *rc::gen::arbitrary<bool>();
   windows.run.threads = 2;

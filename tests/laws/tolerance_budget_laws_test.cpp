@@ -272,10 +272,9 @@ TEST(tolerance_budget, keeps_a_tolerance_of_0_where_there_is_room_and_tells_wher
 TEST(tolerance_budget, judges_the_samples_with_a_bound) {
   Field field = hills(60, 50);
   SimplifyOptions options{.goals = {.max_triangles = 400}};
-  for (const auto& [col, row] : {std::pair{20, 20}, {41, 30}, {7, 44}}) {
-    field.samples[static_cast<std::size_t>(row * 60 + col)] += 5000;
-    options.strategy.script.push_back({ScriptStep::Action::kIgnore, col, row});
-  }
+  const SampleAt ignored[] = {{20, 20}, {41, 30}, {7, 44}};
+  for (const auto& [col, row] : ignored) field.samples[static_cast<std::size_t>(row * 60 + col)] += 5000;
+  options.tolerances.ignored = ignored;
   options.quality.effort = Effort::kFast;
   const auto fast = *simplify(field.view(), options);
   options.quality.effort = Effort::kHigh;

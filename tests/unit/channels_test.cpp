@@ -218,14 +218,10 @@ TEST(Script, ReadsStepsAndComments) {
   const auto steps = read_script(scratch.file("s.txt"), 10, 8);
   ASSERT_TRUE(steps) << steps.error().message;
   ASSERT_EQ(steps->size(), 3u);
-  EXPECT_EQ((*steps)[0].action, ScriptStep::Action::kInsert);
-  EXPECT_EQ((*steps)[0].col, 3);
-  EXPECT_EQ((*steps)[0].row, 4);
-  EXPECT_EQ((*steps)[1].action, ScriptStep::Action::kIgnore);
-  EXPECT_EQ((*steps)[2].action, ScriptStep::Action::kIgnore);
-  EXPECT_EQ((*steps)[2].col, 9);
+  EXPECT_EQ(steps->inserted, (std::vector<SampleAt>{{3, 4}}));
+  EXPECT_EQ(steps->ignored, (std::vector<SampleAt>{{0, 0}, {9, 7}}));
   testing::write_text(scratch.file("empty.txt"), "");
-  EXPECT_TRUE(read_script(scratch.file("empty.txt"), 10, 8)->empty());
+  EXPECT_TRUE(read_script(scratch.file("empty.txt"), 10, 8)->size() == 0);
 }
 
 TEST(Script, NamesTheLineThatIsWrong) {

@@ -18,9 +18,9 @@ constexpr const char* kPath = SCARP_SOURCE_DIR "/docs/conflicts.md";
 /// The option where there is one, else the library's word; what only a value of an option tells stands behind it.
 std::string word_of(Field field) {
   switch (field) {
-    case Field::kScriptIgnores:
+    case Field::kIgnored:
       return "`--script` (lines `i`, `u`)";
-    case Field::kScriptInserts:
+    case Field::kPoints:
       return "`--script` (lines `s`)";
     case Field::kMaskSource:
       return "`--mask` (streamed)";
@@ -30,6 +30,8 @@ std::string word_of(Field field) {
       return "`--tolerance`, `--roi` (streamed)";
     case Field::kBreaklines:
       return "`--breaklines`, `--water`, `--rivers`, `--cliff`, `--ridges`";
+    case Field::kStrategy:
+      return "`--importance`, `--one-pass`, `--algorithm`, `--batch`, `--edges data`";
     case Field::kShape:
       return "`--min-angle`, `--max-edge`, `--grade`";
     case Field::kChannels:

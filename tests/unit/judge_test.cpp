@@ -137,11 +137,9 @@ TEST(Judge, CombinesChannelsByTheNorm) {
 TEST(Judge, LeavesOutIgnoredSamples) {
   const Case given;
   const auto worst = std::max_element(given.errors.begin(), given.errors.end()) - given.errors.begin();
-  const ScriptStep steps[] = {
-      {ScriptStep::Action::kInsert, 0, 0},
-      {ScriptStep::Action::kIgnore, static_cast<std::int32_t>(worst % 61), static_cast<std::int32_t>(worst / 61)}};
+  const SampleAt ignored[] = {{static_cast<std::int32_t>(worst % 61), static_cast<std::int32_t>(worst / 61)}};
   JudgeOptions options;
-  options.script = steps;
+  options.tolerances.ignored = ignored;
   const auto judged = judge_mesh(given.terrain.view(), given.mesh, options);
   ASSERT_TRUE(judged) << judged.error().message;
   EXPECT_EQ(judged->ignored, 1u);
@@ -157,8 +155,8 @@ TEST(Judge, RefusesWhatDoesNotFit) {
   few_weights.tolerances.weights = few;
   both.tolerances.weights = both.tolerances.values = all;
   negative.max_error = -1;
-  const ScriptStep beyond[] = {{ScriptStep::Action::kIgnore, 61, 0}};
-  outside.script = beyond;
+  const SampleAt beyond[] = {{61, 0}};
+  outside.tolerances.ignored = beyond;
   for (const JudgeOptions& options : {few_weights, both, negative, outside}) {
     const auto judged = judge_mesh(field, given.mesh, options);
     ASSERT_FALSE(judged);

@@ -209,11 +209,7 @@ Result<MeasureCommand::StreamedErrors> MeasureCommand::begin_errors(const Judged
 Result<Judgement> MeasureCommand::judge(const ProgressCallback& progress, const Judged& judged,
                                         StreamedErrors& errors) const {
   JudgeOptions options;
-  options.tolerances.weights = judged.companions.mask.values;
-  options.tolerances.weights_source = judged.companions.mask.source.get();
-  options.tolerances.values = judged.companions.tolerances.values;
-  options.tolerances.source = judged.companions.tolerances.source.get();
-  options.script = judged.companions.script;
+  options.tolerances = judged.companions.bounds();
   options.max_error = judged.fail_above;
   options.norm = judged.plan.norm;
   options.cutline = judged.cut.judged();

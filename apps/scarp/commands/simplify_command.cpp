@@ -151,11 +151,7 @@ Result<void> judge_bounded(const SimplifyPlan& plan, const ProgressCallback& pro
   const Companions& companions = outcome.companions;
   const bool has_norms = !outcome.channels.empty() && (companions.ignores_samples() || plan.channels.image);
   JudgeOptions options;
-  options.tolerances.weights = companions.mask.values;
-  options.tolerances.weights_source = companions.mask.source.get();
-  options.tolerances.values = companions.tolerances.values;
-  options.tolerances.source = companions.tolerances.source.get();
-  options.script = companions.script;
+  options.tolerances = companions.bounds();
   options.max_error = outcome.asked;
   options.norm = plan.channels.norm;
   options.cutline = outcome.cut.judged();
@@ -224,6 +220,10 @@ bool keeps_mesh_on_interrupt(const SimplifyOptions& options) {
 
 /// A print is made with its mesh.
 Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyOptions& options, Outcome& outcome) {
+  if (plan.by_paper) {
+    return simplify_by_paper(outcome.view(), {options.goals, options.tolerances, options.features.points,
+                                              options.domain, options.output, plan.strategy, options.run});
+  }
   if (!plan.solid) return simplify(outcome.view(), options);
   Result<PrintedTerrain> printed = simplify_as_print(*plan.solid, outcome.field, options);
   if (!printed) return tl::unexpected(std::move(printed.error()));
@@ -262,12 +262,9 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   if (auto checked = check_frame_of_lines(plan->lines, frame, plan->read.crs, plan->input); !checked) return checked;
   SimplifyOptions options = plan->simplify;
   options.goals.max_error = outcome.asked;
-  options.tolerances.weights = outcome.companions.mask.values;
-  options.tolerances.weights_source = outcome.companions.mask.source.get();
-  options.tolerances.values = outcome.companions.tolerances.values;
-  options.tolerances.source = outcome.companions.tolerances.source.get();
-  options.strategy.script = outcome.companions.script;
+  options.tolerances = outcome.companions.bounds();
   options.features = outcome.features;
+  options.features.points = outcome.companions.script.inserted;
   options.features.cutline = outcome.cut.cutline;
   options.run.progress = display.callback();
   if (keeps_mesh_on_interrupt(options)) {

@@ -162,13 +162,13 @@ Result<void> read_weights(const std::string& path, const RasterInfo& raster, con
 /// The steps of --script, which count beside heights that have a source.
 Result<void> read_steps(const std::string& path, const OwnedHeightField& field, const CompanionRun& run,
                         Companions& companions) {
-  Result<std::vector<ScriptStep>> script = read_script(path, field.cols, field.rows);
+  Result<Script> script = read_script(path, field.cols, field.rows);
   if (!script) return tl::unexpected(std::move(script.error()));
   companions.script = std::move(*script);
-  if (companions.script.empty())
+  if (companions.script.size() == 0)
     companions.warnings.push_back(fmt::format("--script {} holds no step: it changes nothing", path));
   if (!field.source) return {};
-  constexpr std::uint64_t kBytesToRead = 100, kBytesPerStep = 2 * sizeof(ScriptStep);
+  constexpr std::uint64_t kBytesToRead = 100, kBytesPerStep = 24;
   const std::uint64_t before = companions.bytes, steps = companions.script.size();
   companions.bytes += kBytesPerStep * steps;
   return check_room(field, run.memory, before + kBytesToRead * steps, "--script");
@@ -233,8 +233,8 @@ std::string CompanionArguments::canonical() const {
   return command + canonical_option("--falloff", falloff);
 }
 
-bool Companions::has_step(ScriptStep::Action action) const {
-  return std::any_of(script.begin(), script.end(), [&](const ScriptStep& step) { return step.action == action; });
+Tolerances Companions::bounds() const {
+  return {tolerances.values, tolerances.source.get(), mask.values, mask.source.get(), script.ignored};
 }
 
 Result<Companions> read_companions(const CompanionArguments& given, const RasterInfo& raster,

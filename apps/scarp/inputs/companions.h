@@ -39,7 +39,7 @@ struct CompanionArguments {
 struct Companions {
   OwnedWeights mask;  ///< with a source where the heights have one, as tolerances
   OwnedTolerances tolerances;
-  std::vector<ScriptStep> script;
+  Script script;
   std::vector<std::string> warnings;
 
   bool has_tolerance() const { return !tolerances.values.empty() || tolerances.source; }
@@ -48,9 +48,10 @@ struct Companions {
 
   bool has_weights() const { return !mask.empty() || has_tolerance(); }
   /// The script takes samples' bounds away; they count in the largest errors all the same.
-  bool ignores_samples() const { return has_step(ScriptStep::Action::kIgnore); }
-  bool inserts_samples() const { return has_step(ScriptStep::Action::kInsert); }
-  bool has_step(ScriptStep::Action action) const;
+  bool ignores_samples() const { return !script.ignored.empty(); }
+  bool inserts_samples() const { return !script.inserted.empty(); }
+  /// What simplify() and judge_mesh() borrow.
+  Tolerances bounds() const;
 };
 
 /// How a run reads them. The rest counts where the heights have a source.

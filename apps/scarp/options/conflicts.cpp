@@ -8,7 +8,7 @@
 namespace scarp::cli {
 namespace {
 
-/// Those that the options tell; whether a script inserts or ignores stands in its file.
+/// Those that the options tell; whether a script inserts or ignores samples stands in its file.
 Fields fields_given(const SimplifyArguments& given, const SimplifyPlan& plan) {
   Fields fields = fields_of(HeightField(), plan.simplify);
   const bool is_split = plan.solid && plan.solid->is_split();
@@ -21,7 +21,7 @@ Fields fields_given(const SimplifyArguments& given, const SimplifyPlan& plan) {
       {Field::kWalls, given.cliff.height.has_value()},
       {Field::kRidges, given.ridges.height.has_value()},
       {Field::kCutline, given.cut.find_cut() != nullptr},
-      {Field::kAlgorithm, given.strategy.algorithm.has_value()},
+      {Field::kStrategy, plan.by_paper},
       {Field::kChannels, plan.channels.has_channels()}};
   for (const auto& [field, is_given] : others) {
     if (is_given) fields.add(field);
@@ -37,7 +37,7 @@ std::string option_of(Field field, const SimplifyArguments& given) {
     option = given.lines.find_lines();
     if (option == nullptr) option = given.cliff.height ? "--cliff" : given.ridges.height ? "--ridges" : "--split";
   }
-  if (field == Field::kOrderGreedy && !given.strategy.order) option = "--algorithm";
+  if (field == Field::kStrategy) option = given.strategy.find_strategy();
   if (field == Field::kChannels && given.channels.image) option = "--image";
   if (field == Field::kShape) option = given.shape.find_goal();
   if (field == Field::kCurvedFrame && given.raster.crs) return "--crs " + shell_word(*given.raster.crs);
@@ -65,7 +65,7 @@ Result<void> check_conflicts(const SimplifyArguments& given, const HeightField& 
 
 std::optional<std::string> find_unstreamed(const SimplifyArguments& given, const SimplifyPlan& plan) {
   Fields fields = fields_given(given, plan) | Fields(Field::kSource);
-  if (given.companions.script) fields.add(Field::kScriptIgnores);
+  if (given.companions.script) fields.add(Field::kIgnored);
   // Tolerances and weights are read in windows then.
   if (fields.has(Field::kTolerance)) fields = fields.without(Field::kTolerance) | Fields(Field::kToleranceSource);
   if (fields.has(Field::kMask)) fields = fields.without(Field::kMask) | Fields(Field::kMaskSource);

@@ -38,12 +38,7 @@ inline constexpr const char* kFieldOptions[] = {
     nullptr,  // Ctrl-C
     "--objective rms",
     "--importance",
-    "--one-pass",
-    "--algorithm",
-    "--batch",
-    "--edges data",
     "--norm",
-    nullptr,
     "--uvs",
     "--normals",
     "--num-threads",

@@ -105,9 +105,10 @@ Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.companions = given.companions;
   const Result<void> checked = given.companions.check("--max-error", given.max_error.has_value());
   if (!checked) return checked;
-  const Result<void> parsed = given.strategy.parse_into(plan.simplify);
+  const Result<void> parsed = given.strategy.parse_into(plan.simplify, plan.strategy);
   if (!parsed) return parsed;
-  if (plan.channels.image && plan.simplify.strategy.importance.feature != Importance::Feature::kNoFeature) {
+  plan.by_paper = given.strategy.find_strategy() != nullptr;
+  if (plan.channels.image && plan.strategy.importance.feature != Importance::Feature::kNoFeature) {
     return fail(ErrorKind::kUsage, "--importance measures features of heights, which an --image has not: leave it out");
   }
   return {};
@@ -172,6 +173,7 @@ const char* find_print_obstacle(const SimplifyArguments& given) {
   if (given.uvs) return "--uvs";
   if (given.channels.image) return "--image";
   if (!given.channels.textures.empty()) return "--texture";
+  if (const char* strategy = given.strategy.find_strategy()) return strategy;
   return find_bounds(given);
 }
 

@@ -56,6 +56,8 @@ struct SimplifyPlan {
   ReadOptions read;
   std::optional<ErrorGoal> error_goal;
   SimplifyOptions simplify;  ///< without max_error, which may depend on the relief, and what CompanionArguments name
+  Strategy strategy;
+  bool by_paper = false;  ///< by simplify_by_paper(), with the strategy
   CompanionArguments companions;
   LineArguments lines;
   CliffArguments cliff;

@@ -155,7 +155,15 @@ void StrategyArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kSupersample, supersample);
 }
 
-Result<void> StrategyArguments::parse_into(SimplifyOptions& options) const {
+const char* StrategyArguments::find_strategy() const {
+  if (importance && importance != "global") return "--importance";
+  if (one_pass) return "--one-pass";
+  if (algorithm) return "--algorithm";
+  if (batch) return "--batch";
+  return edges && edges != "delaunay" ? "--edges data" : nullptr;
+}
+
+Result<void> StrategyArguments::parse_into(SimplifyOptions& options, Strategy& strategy) const {
   if (effort) {
     const Result<Effort> parsed = choose("--effort", *effort, kEfforts);
     if (!parsed) return tl::unexpected(parsed.error());
@@ -194,35 +202,36 @@ Result<void> StrategyArguments::parse_into(SimplifyOptions& options) const {
   if (importance) {
     const Result<Importance> parsed = parse_importance(*importance);
     if (!parsed) return tl::unexpected(parsed.error());
-    options.strategy.importance = *parsed;
+    strategy.importance = *parsed;
   }
-  if (one_pass &&
-      (options.strategy.importance.feature == Importance::Feature::kNoFeature || options.strategy.importance.global)) {
+  if (one_pass && (strategy.importance.feature == Importance::Feature::kNoFeature || strategy.importance.global)) {
     return fail(ErrorKind::kUsage,
                 "--one-pass ranks by a feature of the raster, without the mesh: give it "
                 "--importance local, local8 or curvature");
   }
-  options.strategy.importance.one_pass = one_pass;
+  strategy.importance.one_pass = one_pass;
   if (order) {
     const Result<Order> parsed = choose("--order", *order, kOrders);
     if (!parsed) return tl::unexpected(parsed.error());
     options.quality.order = *parsed;
-  } else if (algorithm) {
-    options.quality.order = Order::kGreedy;
   }
   if (algorithm) {
     const Result<Algorithm> parsed = choose("--algorithm", *algorithm, kAlgorithms);
     if (!parsed) return tl::unexpected(parsed.error());
-    options.strategy.algorithm = *parsed;
+    strategy.algorithm = *parsed;
   }
   if (batch) {
     const Result<Batch> parsed = parse_batch(*batch);
     if (!parsed) return tl::unexpected(parsed.error());
-    options.strategy.batch = *parsed;
+    strategy.batch = *parsed;
+    if (one_pass)
+      return fail(ErrorKind::kUsage,
+                  "--one-pass cannot be combined with --batch: one pass ranks all samples once and never looks at the "
+                  "mesh");
   }
   const Result<EdgeRule> rule = parse_edges(*this);
   if (!rule) return tl::unexpected(rule.error());
-  options.strategy.edges = *rule;
+  strategy.edges = *rule;
   return {};
 }
 
@@ -239,40 +248,40 @@ std::string StrategyArguments::canonical_refinement() const {
          canonical_option("--supersample", supersample);
 }
 
-Json describe_strategy(const SimplifyOptions& options, const Simplified& simplified) {
-  Json strategy;
-  strategy["importance"] = importance_name(options.strategy.importance);
-  strategy["one_pass"] = options.strategy.importance.one_pass;
-  strategy["effort"] = name_of(simplified.effort, kEfforts);
-  strategy["vertices"] = name_of(simplified.vertices, kVertices);
-  strategy["min_shape"] = options.quality.min_shape.value_or(simplified.vertices == Vertices::kFree ? 0.1 : 0);
-  strategy["cut_short"] = simplified.is_cut_short;
-  strategy["objective"] = name_of(options.goals.objective, kObjectives);
-  strategy["order"] = name_of(simplified.order, kOrders);
-  strategy["algorithm"] =
-      simplified.order == Order::kGreedy ? Json(name_of(options.strategy.algorithm, kAlgorithms)) : Json(nullptr);
-  switch (options.strategy.batch.rule) {
+Json describe_strategy(const SimplifyOptions& options, const Strategy& strategy, const Simplified& simplified) {
+  Json json;
+  json["importance"] = importance_name(strategy.importance);
+  json["one_pass"] = strategy.importance.one_pass;
+  json["effort"] = name_of(simplified.effort, kEfforts);
+  json["vertices"] = name_of(simplified.vertices, kVertices);
+  json["min_shape"] = options.quality.min_shape.value_or(simplified.vertices == Vertices::kFree ? 0.1 : 0);
+  json["cut_short"] = simplified.is_cut_short;
+  json["objective"] = name_of(options.goals.objective, kObjectives);
+  json["order"] = name_of(simplified.order, kOrders);
+  json["algorithm"] =
+      simplified.order == Order::kGreedy ? Json(name_of(strategy.algorithm, kAlgorithms)) : Json(nullptr);
+  switch (strategy.batch.rule) {
     case Batch::Rule::kSequential:
-      strategy["batch"] = nullptr;
+      json["batch"] = nullptr;
       break;
     case Batch::Rule::kConstant:
-      strategy["batch"] = "const";
+      json["batch"] = "const";
       break;
     case Batch::Rule::kFraction:
-      strategy["batch"] = fmt::format("frac:{}", options.strategy.batch.fraction);
+      json["batch"] = fmt::format("frac:{}", strategy.batch.fraction);
       break;
     case Batch::Rule::kIndependent:
-      strategy["batch"] = "independent";
+      json["batch"] = "independent";
       break;
   }
-  const EdgeRule& edges = options.strategy.edges;
-  strategy["edges"] = name_of(edges.data_dependent, kEdges);
-  if (!edges.data_dependent) return strategy;
-  strategy["edge_score"] = name_of(edges.score, kScores);
+  const EdgeRule& edges = strategy.edges;
+  json["edges"] = name_of(edges.data_dependent, kEdges);
+  if (!edges.data_dependent) return json;
+  json["edge_score"] = name_of(edges.score, kScores);
   const double by_default = edges.score == EdgeScore::kTight ? 0.1 : 0.5;
-  strategy["shape_threshold"] = edges.shape_threshold < 0 ? by_default : edges.shape_threshold;
-  strategy["supersample"] = edges.supersample;
-  return strategy;
+  json["shape_threshold"] = edges.shape_threshold < 0 ? by_default : edges.shape_threshold;
+  json["supersample"] = edges.supersample;
+  return json;
 }
 
 }  // namespace scarp::cli

@@ -5,7 +5,7 @@
 
 #include "options/options.h"
 #include "reports/json.h"
-#include "scarp/simplify.h"
+#include "scarp/paper.h"
 
 namespace CLI {
 class App;
@@ -19,8 +19,10 @@ struct StrategyArguments {
   bool one_pass = false;
 
   void add_to(CLI::App& command);
-  /// Sets effort, objective, importance, order, algorithm, batch and edges of the options.
-  Result<void> parse_into(SimplifyOptions& options) const;
+  /// Sets effort, objective and order of the options, and all of the strategy.
+  Result<void> parse_into(SimplifyOptions& options, Strategy& strategy) const;
+  /// The first option that asks for a strategy of the 1995 paper; null if there is none.
+  const char* find_strategy() const;
   /// Whether the greedy order was asked for, by name or by naming one of its algorithms.
   bool asks_for_greedy() const { return algorithm || order == "greedy"; }
   /// The options that can change the mesh, for the canonical command, but for the order.
@@ -35,6 +37,6 @@ Result<Importance> parse_importance(const std::string& text);
 std::string importance_name(const Importance& importance);
 
 /// The "strategy" object of a report, without masks, channels and scripts.
-Json describe_strategy(const SimplifyOptions& options, const Simplified& simplified);
+Json describe_strategy(const SimplifyOptions& options, const Strategy& strategy, const Simplified& simplified);
 
 }  // namespace scarp::cli

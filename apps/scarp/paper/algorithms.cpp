@@ -22,7 +22,7 @@ Result<Runs> run(const Study& study, const Field& field, std::uint64_t vertices)
   Runs runs;
   Mesh first;
   for (std::size_t k = 0; k < kAlgorithms.size(); ++k) {
-    SimplifyOptions options;
+    PaperOptions options;
     options.strategy.algorithm = kAlgorithms[k];
     const Result<Simplified> result = study.run(field.heights, field.file, exactly(vertices, options));
     if (!result) return tl::unexpected(result.error());

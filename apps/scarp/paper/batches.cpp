@@ -48,7 +48,7 @@ Result<void> add_batches(Study& study) {
     study.note(fmt::format("batches: {}", rule.name));
     std::vector<std::string> line{rule.name};
     for (std::size_t f = 0; f < fields.size(); ++f) {
-      SimplifyOptions options;
+      PaperOptions options;
       options.goals.max_error = bounds[f];
       options.strategy.batch = rule.batch;
       const Result<Trial> trial = study.reach(*fields[f], options);

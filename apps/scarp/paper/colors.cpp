@@ -15,7 +15,7 @@ HeightField with_colors(HeightField heights, const OwnedChannels& image, double 
 }
 
 Result<Painted> paint(const Study& study, const HeightField& field, const std::string& name, const OwnedChannels& image,
-                      SimplifyOptions options) {
+                      PaperOptions options) {
   Result<Simplified> run = study.run(field, name, std::move(options));
   if (!run) return tl::unexpected(std::move(run.error()));
   Painted painted{std::move(*run), {}, 0};

@@ -20,7 +20,7 @@ struct Painted {
   double psnr = 0;  ///< against the image
 };
 Result<Painted> paint(const Study& study, const HeightField& field, const std::string& name, const OwnedChannels& image,
-                      SimplifyOptions options);
+                      PaperOptions options);
 
 /// The image at another size, each new pixel the mean of what it covers, in whole numbers.
 OwnedChannels resize(const OwnedChannels& image, int cols, int rows);

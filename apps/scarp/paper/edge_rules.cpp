@@ -168,7 +168,7 @@ Result<void> add_bound_table(Study& study, const ModeTrials& trials) {
     std::vector<std::string> row{field.key, number(bound)};
     double delaunay = 0;
     for (const std::size_t k : kShown) {
-      SimplifyOptions options = with_edges(kModes[k].edges);
+      PaperOptions options = with_edges(kModes[k].edges);
       options.goals.max_error = bound;
       const Result<Trial> trial = study.reach(field, options);
       if (!trial) return tl::unexpected(trial.error());

@@ -58,8 +58,8 @@ Result<Subject> read_subject(const Image& known, const std::string& path) {
 }
 
 Result<Painted> paint_uniform(const Study& study, const Subject& subject, const UniformGrid& grid) {
-  SimplifyOptions options;
-  options.strategy.script = grid.steps;
+  PaperOptions options;
+  options.points = grid.steps;
   return paint(study, subject.field(), subject.known->file, subject.image, exactly(grid.vertices(), options));
 }
 

@@ -40,14 +40,13 @@ std::vector<Selector> list_selectors() {
 }
 
 /// The corners, and other samples drawn at random without repetition (splitmix64: the same on every machine).
-std::vector<ScriptStep> random_points(const OwnedHeightField& field, std::uint64_t vertices, std::uint64_t seed) {
-  std::vector<ScriptStep> steps;
+std::vector<SampleAt> random_points(const OwnedHeightField& field, std::uint64_t vertices, std::uint64_t seed) {
+  std::vector<SampleAt> steps;
   std::set<std::uint64_t> drawn;
   const auto add = [&](std::uint64_t sample) {
     const auto cols = static_cast<std::uint64_t>(field.cols);
     if (drawn.insert(sample).second) {
-      steps.push_back({ScriptStep::Action::kInsert, static_cast<std::int32_t>(sample % cols),
-                       static_cast<std::int32_t>(sample / cols)});
+      steps.push_back({static_cast<std::int32_t>(sample % cols), static_cast<std::int32_t>(sample / cols)});
     }
   };
   const std::uint64_t count = field.samples.size(), cols = static_cast<std::uint64_t>(field.cols);
@@ -64,14 +63,14 @@ std::vector<ScriptStep> random_points(const OwnedHeightField& field, std::uint64
 
 Result<Trial> run(Study& study, const Field& field, const Selector& selector) {
   const std::uint64_t vertices = std::max<std::uint64_t>(field.share(1), 4);
-  SimplifyOptions options;
+  PaperOptions options;
   if (selector.choice == Selector::Choice::kRandom) {
-    options.strategy.script = random_points(field.heights, vertices, kSeed);
-    return study.refine(field, options.strategy.script.size(), options);
+    options.points = random_points(field.heights, vertices, kSeed);
+    return study.refine(field, options.points.size(), options);
   }
   if (selector.choice == Selector::Choice::kUniform) {
-    options.strategy.script = uniform_grid(field.heights.cols, field.heights.rows, vertices).steps;
-    return study.refine(field, options.strategy.script.size(), options);
+    options.points = uniform_grid(field.heights.cols, field.heights.rows, vertices).steps;
+    return study.refine(field, options.points.size(), options);
   }
   if (selector.importance == Importance{}) return study.delaunay(field, vertices);
   options.strategy.importance = selector.importance;
@@ -87,9 +86,9 @@ struct Row {
 Result<std::string> try_other_draws(const Study& study, const Field& field) {
   double least = 0, most = 0;
   for (std::uint64_t draw = 1; draw <= kOtherDraws; ++draw) {
-    SimplifyOptions options;
-    options.strategy.script = random_points(field.heights, std::max<std::uint64_t>(field.share(1), 4), kSeed + draw);
-    const Result<Trial> trial = study.refine(field, options.strategy.script.size(), options);
+    PaperOptions options;
+    options.points = random_points(field.heights, std::max<std::uint64_t>(field.share(1), 4), kSeed + draw);
+    const Result<Trial> trial = study.refine(field, options.points.size(), options);
     if (!trial) return tl::unexpected(trial.error());
     least = draw == 1 ? trial->rmse : std::min(least, trial->rmse);
     most = std::max(most, trial->rmse);

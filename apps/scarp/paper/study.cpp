@@ -59,22 +59,21 @@ const Field* Study::find(const std::string& key) const {
   return nullptr;
 }
 
-Result<Simplified> Study::run(const HeightField& field, const std::string& name, SimplifyOptions options) const {
-  options.quality.order = Order::kGreedy;  // the report's own
+Result<Simplified> Study::run(const HeightField& field, const std::string& name, PaperOptions options) const {
   options.run.progress = [](const Progress&) { return !cli::interrupted(); };
-  Result<Simplified> result = simplify(field, options);
+  Result<Simplified> result = simplify_by_paper(field, options);
   if (cli::interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
   if (!result) return fail(result.error().kind, fmt::format("{}: {}", name, result.error().message));
   return result;
 }
 
-Result<Trial> Study::reach(const Field& field, SimplifyOptions options) const {
+Result<Trial> Study::reach(const Field& field, PaperOptions options) const {
   const Result<Simplified> result = run(field.heights, field.file, std::move(options));
   if (!result) return tl::unexpected(result.error());
   return summarize(*result);
 }
 
-Result<Trial> Study::refine(const Field& field, std::uint64_t vertices, SimplifyOptions options) const {
+Result<Trial> Study::refine(const Field& field, std::uint64_t vertices, PaperOptions options) const {
   return reach(field, exactly(vertices, std::move(options)));
 }
 
@@ -98,7 +97,7 @@ Result<void> Study::add_plot(const std::string& name, const Plot& plot) {
   return add_picture(name, plot.title, std::move(*png));
 }
 
-SimplifyOptions exactly(std::uint64_t vertices, SimplifyOptions options) {
+PaperOptions exactly(std::uint64_t vertices, PaperOptions options) {
   options.goals.max_vertices = std::max<std::uint64_t>(vertices, 4);
   options.strategy.best_of_budget = false;
   return options;
@@ -106,8 +105,8 @@ SimplifyOptions exactly(std::uint64_t vertices, SimplifyOptions options) {
 
 EdgeRule scape_edges(EdgeScore score, double shape_threshold) { return {true, score, shape_threshold, 0, false}; }
 
-SimplifyOptions with_edges(const EdgeRule& edges) {
-  SimplifyOptions options;
+PaperOptions with_edges(const EdgeRule& edges) {
+  PaperOptions options;
   options.strategy.edges = edges;
   return options;
 }
@@ -122,8 +121,7 @@ UniformGrid uniform_grid(int field_cols, int field_rows, std::uint64_t vertices)
   };
   for (int j = 0; j < grid.rows; ++j) {
     for (int i = 0; i < grid.cols; ++i) {
-      grid.steps.push_back(
-          {ScriptStep::Action::kInsert, spread(i, grid.cols, field_cols), spread(j, grid.rows, field_rows)});
+      grid.steps.push_back({spread(i, grid.cols, field_cols), spread(j, grid.rows, field_rows)});
     }
   }
   return grid;

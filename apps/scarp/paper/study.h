@@ -12,8 +12,8 @@
 #include "paper/page.h"
 #include "paper/plot.h"
 #include "scarp/io.h"
+#include "scarp/paper.h"
 #include "scarp/result.h"
-#include "scarp/simplify.h"
 
 namespace scarp::paper {
 
@@ -50,11 +50,11 @@ class Study {
   }
 
   /// simplify(), which Ctrl-C ends; its complaints begin with `name`.
-  Result<Simplified> run(const HeightField& field, const std::string& name, SimplifyOptions options) const;
+  Result<Simplified> run(const HeightField& field, const std::string& name, PaperOptions options) const;
   /// Greedy insertion up to exactly `vertices` vertices.
-  Result<Trial> refine(const Field& field, std::uint64_t vertices, SimplifyOptions options = {}) const;
+  Result<Trial> refine(const Field& field, std::uint64_t vertices, PaperOptions options = {}) const;
   /// The same towards the goals in `options`.
-  Result<Trial> reach(const Field& field, SimplifyOptions options) const;
+  Result<Trial> reach(const Field& field, PaperOptions options) const;
   /// refine() with Delaunay edges and nothing else chosen; runs once for each field and number.
   Result<Trial> delaunay(const Field& field, std::uint64_t vertices);
 
@@ -75,15 +75,15 @@ class Study {
 };
 
 /// Options for exactly that many vertices.
-SimplifyOptions exactly(std::uint64_t vertices, SimplifyOptions options = {});
+PaperOptions exactly(std::uint64_t vertices, PaperOptions options = {});
 /// Data-dependent triangulation as the report's program does it: edges are not settled after the last insertion.
 EdgeRule scape_edges(EdgeScore score, double shape_threshold);
 /// A rule for the options.
-SimplifyOptions with_edges(const EdgeRule& edges);
+PaperOptions with_edges(const EdgeRule& edges);
 
 /// `cols` × `rows` samples spread evenly, borders included, for a field of that shape and about `vertices` of them.
 struct UniformGrid {
-  std::vector<ScriptStep> steps;
+  std::vector<SampleAt> steps;
   int cols = 0, rows = 0;
   std::uint64_t vertices() const { return steps.size(); }
 };

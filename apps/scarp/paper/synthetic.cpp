@@ -46,7 +46,7 @@ Result<std::vector<std::string>> count_vertices(Study& study, const char* style)
   if (!field) return tl::unexpected(field.error());
   std::vector<std::string> row{style};
   for (std::size_t k = 0; k < kColumns.size(); ++k) {
-    SimplifyOptions options = with_edges(kColumns[k].edges);
+    PaperOptions options = with_edges(kColumns[k].edges);
     options.goals.max_error = 0;
     const Result<Trial> trial = study.reach(*field, options);
     if (!trial) return tl::unexpected(trial.error());

@@ -44,7 +44,7 @@ Result<void> add_textured_terrain(Study& study) {
   const std::uint64_t vertices = heights->samples.size() / 20;
   std::vector<std::vector<std::string>> rows;
   std::vector<Painted> painted;
-  const auto add = [&](const std::string& name, const HeightField& field, SimplifyOptions options,
+  const auto add = [&](const std::string& name, const HeightField& field, PaperOptions options,
                        std::uint64_t count) -> Result<void> {
     study.note(fmt::format("textured terrain: {}", name));
     Result<Painted> result = paint(study, field, kHeights, *photo, exactly(count, std::move(options)));
@@ -56,9 +56,9 @@ Result<void> add_textured_terrain(Study& study) {
     return {};
   };
   UniformGrid grid = uniform_grid(heights->cols, heights->rows, vertices);
-  SimplifyOptions uniform;
-  uniform.strategy.script = std::move(grid.steps);
-  const std::uint64_t uniform_vertices = uniform.strategy.script.size();
+  PaperOptions uniform;
+  uniform.points = std::move(grid.steps);
+  const std::uint64_t uniform_vertices = uniform.points.size();
   Result<void> added = add(fmt::format("uniform grid, {} × {}", grid.cols, grid.rows),
                            with_colors(heights->view(), *photo, 1, 0), std::move(uniform), uniform_vertices);
   for (const Emphasis& emphasis : kEmphases) {

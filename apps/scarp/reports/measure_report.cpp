@@ -138,7 +138,7 @@ Json make_report(const Judged& judged, const std::string& mesh_path, const Cutli
     report["weighted_rmse"] = finite_or_word(judged.judgement.weighted->rmse);
     if (judged.companions.has_tolerance()) report["over_tolerance"] = judged.judgement.weighted->over;
   }
-  if (judged.judgement.weighted || !judged.companions.script.empty()) report["ignored"] = judged.judgement.ignored;
+  if (judged.judgement.weighted || judged.companions.script.size() > 0) report["ignored"] = judged.judgement.ignored;
   if (judged.judgement.ignored > 0) add_bounded(report, judged.bounded());
   if (judged.judgement.combined) {
     report["norm"] = norm_name(judged.plan.norm);

@@ -139,7 +139,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["input"]["filled"] = outcome.filled;
   report["frame"] = describe_frame(outcome.field.frame);
   report["goal"] = describe_goal(plan, outcome);
-  report["strategy"] = describe_strategy(plan.simplify, outcome.simplified);
+  report["strategy"] = describe_strategy(plan.simplify, plan.strategy, outcome.simplified);
   for (const auto& [key, file] : {std::pair{"mask", &plan.companions.mask},
                                   {"tolerance", &plan.companions.tolerance},
                                   {"script", &plan.companions.script}}) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -12,8 +13,13 @@
 namespace scarp {
 namespace {
 
+struct Step {
+  SampleAt at;
+  bool inserts = false;
+};
+
 /// The complaint about the line at which the cursor stands; empty if there is none. Leaves the cursor within the line.
-std::string read_line(TextCursor& cursor, int cols, int rows, std::vector<ScriptStep>& steps) {
+std::string read_line(TextCursor& cursor, int cols, int rows, std::optional<Step>& step) {
   const auto next = [&] {
     const std::string_view word = cursor.word();
     return word.starts_with('#') ? std::string_view() : word;
@@ -36,8 +42,7 @@ std::string read_line(TextCursor& cursor, int cols, int rows, std::vector<Script
     return fmt::format("({}, {}) lies outside of the raster, whose columns are 0 to {} and rows 0 to {}", place[0],
                        place[1], cols - 1, rows - 1);
   }
-  steps.push_back({action == "s" ? ScriptStep::Action::kInsert : ScriptStep::Action::kIgnore,
-                   static_cast<std::int32_t>(place[0]), static_cast<std::int32_t>(place[1])});
+  step = Step{{static_cast<std::int32_t>(place[0]), static_cast<std::int32_t>(place[1])}, action == "s"};
   return {};
 }
 
@@ -45,40 +50,40 @@ std::string read_line(TextCursor& cursor, int cols, int rows, std::vector<Script
 class Said {
  public:
   /// The complaint if an earlier line says the opposite; empty if none does.
-  std::string add(const ScriptStep& step, std::size_t line) {
-    const auto key = (static_cast<std::uint64_t>(step.row) << 32) | static_cast<std::uint32_t>(step.col);
-    const auto [found, is_new] = samples_.try_emplace(key, step.action, line);
-    const auto& [action, earlier] = found->second;
-    if (is_new || action == step.action) return {};
-    const bool inserts = step.action == ScriptStep::Action::kInsert;
-    return fmt::format("sample ({}, {}) is {}, but line {} {} it: remove one of the two", step.col, step.row,
-                       inserts ? "inserted" : "ignored", earlier, inserts ? "ignores" : "inserts");
+  std::string add(const Step& step, std::size_t line) {
+    const auto key = (static_cast<std::uint64_t>(step.at.row) << 32) | static_cast<std::uint32_t>(step.at.col);
+    const auto [found, is_new] = samples_.try_emplace(key, step.inserts, line);
+    const auto& [inserts, earlier] = found->second;
+    if (is_new || inserts == step.inserts) return {};
+    return fmt::format("sample ({}, {}) is {}, but line {} {} it: remove one of the two", step.at.col, step.at.row,
+                       step.inserts ? "inserted" : "ignored", earlier, step.inserts ? "ignores" : "inserts");
   }
 
  private:
-  std::unordered_map<std::uint64_t, std::pair<ScriptStep::Action, std::size_t>> samples_;
+  std::unordered_map<std::uint64_t, std::pair<bool, std::size_t>> samples_;
 };
 
 }  // namespace
 
-Result<std::vector<ScriptStep>> decode_script(std::span<const std::uint8_t> bytes, const std::string& name, int cols,
-                                              int rows) {
+Result<Script> decode_script(std::span<const std::uint8_t> bytes, const std::string& name, int cols, int rows) {
   TextCursor cursor(bytes);
-  std::vector<ScriptStep> steps;
+  Script script;
   Said said;
   while (!cursor.at_end()) {
-    const std::size_t line = cursor.line(), before = steps.size();
-    std::string why = read_line(cursor, cols, rows, steps);
-    if (steps.size() > before) why = said.add(steps.back(), line);
-    if (!why.empty()) {
-      return fail(ErrorKind::kInput, fmt::format("{}: line {}: {}", name, line, why));
+    const std::size_t line = cursor.line();
+    std::optional<Step> step;
+    std::string why = read_line(cursor, cols, rows, step);
+    if (step) {
+      why = said.add(*step, line);
+      (step->inserts ? script.inserted : script.ignored).push_back(step->at);
     }
+    if (!why.empty()) return fail(ErrorKind::kInput, fmt::format("{}: line {}: {}", name, line, why));
     cursor.rest_of_line();
   }
-  return steps;
+  return script;
 }
 
-Result<std::vector<ScriptStep>> read_script(const std::string& path, int cols, int rows) try {
+Result<Script> read_script(const std::string& path, int cols, int rows) try {
   auto bytes = read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
   return decode_script(*bytes, path, cols, rows);

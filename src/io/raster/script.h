@@ -4,14 +4,12 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "scarp/io.h"
 
 namespace scarp {
 
 /// See read_script(); `name` is for messages.
-Result<std::vector<ScriptStep>> decode_script(std::span<const std::uint8_t> bytes, const std::string& name, int cols,
-                                              int rows);
+Result<Script> decode_script(std::span<const std::uint8_t> bytes, const std::string& name, int cols, int rows);
 
 }  // namespace scarp

@@ -1,0 +1,42 @@
+// Greedy insertion as in the 1995 paper, with its strategies.
+#pragma once
+
+#include <vector>
+
+#include "scarp/goals.h"
+#include "scarp/height_field.h"
+#include "scarp/result.h"
+#include "scarp/run.h"
+#include "scarp/simplify.h"
+#include "scarp/strategy.h"
+#include "scarp/tolerances.h"
+
+#pragma GCC visibility push(default)
+
+namespace scarp {
+
+/// What to reach, and by which strategy. Strategies only insert vertices, in the greedy order: efforts above fast,
+/// lines and shapes belong to simplify().
+struct PaperOptions {
+  Goals goals = {};
+  Tolerances tolerances = {};
+  std::vector<SampleAt> points = {};  ///< as Features::points: Terra's scripts
+  Domain domain = {};
+  Output output = {};
+  Strategy strategy = {};
+  Run run = {};
+};
+
+/// Inserts the worst samples of samples in memory (Garland & Heckbert 1995, Algorithms I to III, parallel insertion and
+/// data-dependent triangulation). What is promised, what a budget means, and the proof are those of simplify() with
+/// fast effort in the greedy order; with the default strategy so is every byte of the mesh.
+///
+/// Fails as simplify() does; with kUsage for a field without samples in memory, for Objective::kRms, and for a strategy
+/// out of range: an importance of nothing, one pass beside batches or without a feature, a fraction of a batch not in
+/// (0, 1], a shape threshold above 1, supersampling below 0. Cost: as simplify() in the greedy order; Algorithms I and
+/// II as strategy.h says; data-dependent edges some ten times as long.
+Result<Simplified> simplify_by_paper(const HeightField& field, const PaperOptions& options);
+
+}  // namespace scarp
+
+#pragma GCC visibility pop

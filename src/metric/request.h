@@ -1,0 +1,28 @@
+// What a run of the engine is asked for.
+#pragma once
+
+#include <utility>
+
+#include "scarp/paper.h"
+#include "scarp/simplify.h"
+
+namespace scarp {
+
+/// The options of simplify(), or those of simplify_by_paper() with its strategy.
+struct Request : SimplifyOptions {
+  // NOLINTNEXTLINE(google-explicit-constructor): the engine takes options as they are.
+  Request(SimplifyOptions options) : SimplifyOptions(std::move(options)) {}
+  explicit Request(const PaperOptions& options)
+      : SimplifyOptions{.goals = options.goals,
+                        .tolerances = options.tolerances,
+                        .features = {.points = options.points},
+                        .quality = {.effort = Effort::kFast, .order = Order::kGreedy},
+                        .domain = options.domain,
+                        .output = options.output,
+                        .run = options.run},
+        strategy(options.strategy) {}
+
+  Strategy strategy;
+};
+
+}  // namespace scarp
