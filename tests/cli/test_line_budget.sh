@@ -65,4 +65,5 @@ for bounds in --mask --tolerance; do
   holds "$(json r.json triangles) <= 1000"
 done
 holds "1 < $(json r.json weighted_max_error) && $(json r.json weighted_max_error) <= $(json r.json tolerance_factor)"
-refuses 1 "--split and --max-triangles" "$scarp" simplify hills.tif x.stl -t 400 --breaklines soft.geojson --solid size=9mm --split 2x1
+succeeds "$scarp" simplify hills.tif x.stl -t 1000 --breaklines soft.geojson --solid size=90mm --split 2x1 --report r.json --overwrite
+holds "$(json r.json triangles) <= 1000"

@@ -128,7 +128,13 @@ refuses 1 "cannot be cut into 100 columns" "$scarp" simplify small.tif x.stl -e 
 refuses 1 "no key jiont" "$scarp" simplify "$dem" x.stl -e 20 --solid size=100 --split 2x2,jiont=dovetail
 refuses 1 "each needs 12 cells" "$scarp" simplify "$dem" x.stl -e 20 --solid size=100 --split 9x40,joint=dovetail
 refuses 1 "too wide" "$scarp" simplify "$dem" x.stl -e 20 --solid size=100 --split 2x2,gap=30mm
-refuses 1 "--split and --max-triangles contradict" "$scarp" simplify "$dem" x.stl -t 900 --solid size=100 --split 2x2
+for goal in "-t 1500" "-e 60 --cliff 150" "-t 1500 --cliff 150"; do
+  # shellcheck disable=SC2086
+  succeeds "$scarp" simplify "$dem" budget.3mf $goal --solid size=100 --split 2x2 --report budget.json --overwrite
+  holds "$(json budget.json solid uncovered) == 0"
+  holds "$(json budget.json solid max_error) <= 1.001 * $(json budget.json max_error)"
+done
+holds "$(json budget.json triangles) <= 1500"
 refuses 1 "which --crs bends" "$scarp" simplify "$dem" x.stl -e 20 --crs EPSG:32617 --solid size=100 --split 2x2
 refuses 1 "--solid and --base contradict" "$scarp" simplify "$dem" x.stl -e 20 --base 0 --solid size=100
 refuses 3 "rounded to float32" "$scarp" simplify "$dem" x.stl -e 0 --solid size=100

@@ -136,12 +136,6 @@ Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (auto checked = given.cliff.check(given.max_error || find_budget(given) != nullptr); !checked) return checked;
   if (auto checked = given.ridges.check(given.max_error || find_budget(given) != nullptr); !checked) return checked;
   if (auto checked = given.cut.check(); !checked) return checked;
-  const bool is_split = plan.solid && plan.solid->is_split();
-  const char* of_split = is_split ? find_budget(given) : nullptr;
-  if (is_split && given.cliff.height) of_split = "--cliff";
-  if (of_split != nullptr)
-    return fail(ErrorKind::kUsage,
-                fmt::format("--split and {} contradict each other: leave one of them out", of_split));
   // Water is level where all corners of its triangles are: at samples and on its shore.
   const char* lakes = given.lines.find_lakes();
   if (lakes != nullptr && plan.simplify.quality.vertices == Vertices::kFree)
