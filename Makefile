@@ -1,6 +1,6 @@
 # Short names for what one does here; each does what its line in `make help` says and nothing else.
 # BUILD: build folder (the other kinds get BUILD-asan, BUILD-tsan, BUILD-fuzz). JOBS: compilers at once.
-# DATA: folder with the report's fields, for make paper.
+# DATA: folder with the fields of the 1995 paper, for make paper.
 # CMAKE_FLAGS: more options for configuring, such as -DBUILD_SHARED_LIBS=ON.
 BUILD ?= build
 PREFIX ?= /usr/local
@@ -73,7 +73,7 @@ help:
 	@echo 'make soak     laws and fuzzers from fresh random seeds, for SOAK_MINUTES (10)'
 	@echo 'make wasm-check  the core compiled with Emscripten, its meshes compared with native ones'
 	@echo 'make bench    the benchmarks; their tables are under version control'
-	@echo 'make paper    the report'\''s experiments on the fields in DATA, written to docs/paper.md'
+	@echo 'make paper    the experiments of the 1995 paper on the fields in DATA, written to docs/paper.md'
 	@echo 'make install  program, library, headers, man page into PREFIX (now $(PREFIX)); DESTDIR is honoured'
 	@echo 'make format   clang-format on all sources'
 	@echo 'make tidy     clang-tidy on src/ and apps/'

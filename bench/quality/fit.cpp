@@ -18,7 +18,7 @@
 //
 #include "fit/fit.h"
 #include "grid/samples.h"
-#include "metric/height_judge.h"
+#include "metric/height_metric.h"
 #include "pieces/release.h"
 #include "pieces/tiled.h"
 #include "refine/domain.h"
@@ -49,9 +49,9 @@ Stage refine_greedily(const scarp::Raster& raster, const scarp::Frame& frame, do
   Stage stage;
   const double start = cpu_seconds();
   auto domain = scarp::build_domain(raster, 0, frame);
-  const scarp::HeightJudge judge(raster, error);
+  const scarp::HeightMetric metric(raster, error);
   {
-    scarp::Refinement refinement(judge, domain->tin);
+    scarp::Refinement refinement(metric, domain->tin);
     while (!refinement.done()) refinement.insert_worst();
   }
   stage.finish(std::move(domain->tin), start);
@@ -64,8 +64,8 @@ Stage refine_in_tiles(const scarp::HeightField& field, const scarp::Raster& rast
   const double start = cpu_seconds();
   auto tiled = scarp::refine_tiled(field, {.threshold = error, .threads = 1, .may_decline = true});
   if (!tiled || !*tiled) return stage;
-  const scarp::HeightJudge judge(raster, error);
-  scarp::release_seams((*tiled)->domain.tin, judge, std::move((*tiled)->seams));
+  const scarp::HeightMetric metric(raster, error);
+  scarp::release_seams((*tiled)->domain.tin, metric, std::move((*tiled)->seams));
   stage.finish(std::move((*tiled)->domain.tin), start);
   return stage;
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "metric/height_judge.h"
+#include "metric/height_metric.h"
 #include "pieces/release.h"
 #include "pieces/tiled.h"
 #include "raw.h"
@@ -43,8 +43,8 @@ inline scarp::DomainMesh start_greedy(const scarp::Raster& raster) {
 inline EngineRun refine_greedily(const RawRaster& raw, double error) {
   const scarp::Raster raster = view_of(raw);
   EngineRun run{start_greedy(raster), scarp::Order::kGreedy, {}};
-  const scarp::HeightJudge judge(raster, error);
-  scarp::Refinement refinement(judge, run.domain.tin);
+  const scarp::HeightMetric metric(raster, error);
+  scarp::Refinement refinement(metric, run.domain.tin);
   while (!refinement.done()) refinement.insert_worst();
   run.work = refinement.work();
   return run;
@@ -60,8 +60,8 @@ inline EngineRun refine_dominantly(const RawRaster& raw, double error, int threa
   if (!tiled) die(tiled.error().message);
   if (!*tiled) return refine_greedily(raw, error);
   EngineRun run{std::move((*tiled)->domain), scarp::Order::kDominant, (*tiled)->work};
-  const scarp::HeightJudge judge(view_of(raw), error);
-  const scarp::Work seams = scarp::release_seams(run.domain.tin, judge, std::move((*tiled)->seams));
+  const scarp::HeightMetric metric(view_of(raw), error);
+  const scarp::Work seams = scarp::release_seams(run.domain.tin, metric, std::move((*tiled)->seams));
   run.work.samples_scanned += seams.samples_scanned;
   run.work.triangles_scanned += seams.triangles_scanned;
   return run;

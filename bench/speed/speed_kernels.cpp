@@ -39,7 +39,7 @@ void fill_tile(const bench::RawRaster& raster, Tile& tile) {
   view.block_high = tile.high.data();
 }
 
-using Triangles = std::vector<std::array<scarp::Place, 3>>;
+using Triangles = std::vector<std::array<scarp::TilePoint, 3>>;
 
 /// Fans of six in raster order of their places, so that memory is met about once, as in a local refinement.
 Triangles draw_triangles(const scarp::TileView& view, int side, int count) {
@@ -56,7 +56,8 @@ Triangles draw_triangles(const scarp::TileView& view, int side, int count) {
       for (scarp::Point& corner : p) corner = {place.x + below(side), place.y + below(side)};
       if (orient(p[0], p[1], p[2]) < 0) std::swap(p[1], p[2]);
       if (orient(p[0], p[1], p[2]) <= 0) continue;
-      triangles.push_back({scarp::place(p[0].x, p[0].y), scarp::place(p[1].x, p[1].y), scarp::place(p[2].x, p[2].y)});
+      triangles.push_back(
+          {scarp::tile_point(p[0].x, p[0].y), scarp::tile_point(p[1].x, p[1].y), scarp::tile_point(p[2].x, p[2].y)});
       ++k;
     }
   }
@@ -95,9 +96,9 @@ int main(int argc, char** argv) {
   for (const auto& kernels : all) {
     double least = std::numeric_limits<double>::infinity();
     for (int round = 0; round < 5; ++round) {
-      std::uint64_t voids = 0;
+      std::uint64_t nodata = 0;
       const bench::Stopwatch watch;
-      kernels.fill_blocks(tile.view, tile.low.data(), tile.high.data(), voids);
+      kernels.fill_blocks(tile.view, tile.low.data(), tile.high.data(), nodata);
       least = std::min(least, watch.cpu());
     }
     std::printf(" %.2f |", least * 1e3);

@@ -159,14 +159,14 @@ bool time_meshes(const char* terrain, const std::string& raster, std::vector<Kin
     }
   }
   for (std::size_t k = 0; k < kinds.size(); ++k) {
-    double arrange = 0, lay = 0;
+    double arrange = 0, insert = 0;
     for (const scarp::Pass& pass : meshes[k].passes) {
       if (pass.name == "arrange") arrange += pass.seconds;
-      if (pass.name == "lines") lay += pass.seconds;
+      if (pass.name == "lines") insert += pass.seconds;
     }
     std::printf("| %s | %s | %g | %s | %zu | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n", terrain, effort,
                 *options.goals.max_error, kinds[k].name, meshes[k].mesh.triangle_count(), least[k].cpu,
-                least[k].cpu / least[0].cpu, least[k].wall, least[k].wall / least[0].wall, arrange, lay);
+                least[k].cpu / least[0].cpu, least[k].wall, least[k].wall / least[0].wall, arrange, insert);
   }
   std::fflush(stdout);
   return true;

@@ -77,8 +77,8 @@ bench::EngineRun refine(const bench::RawRaster& raw, const Options& options) {
 void print_errors(const bench::RawRaster& raw, const std::vector<double>& shares) {
   const scarp::Raster raster = bench::view_of(raw);
   scarp::DomainMesh domain = bench::start_greedy(raster);
-  const scarp::HeightJudge judge(raster, 0);
-  scarp::Refinement refinement(judge, domain.tin);
+  const scarp::HeightMetric metric(raster, 0);
+  scarp::Refinement refinement(metric, domain.tin);
   double error = std::numeric_limits<double>::infinity();
   for (const double share : shares) {
     const double most = share * static_cast<double>(raw.samples.size());

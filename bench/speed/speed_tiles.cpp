@@ -24,13 +24,13 @@ T check(scarp::Result<T> result) {
   return std::move(*result);
 }
 
-std::vector<scarp::Place> find_border(const scarp::HeightField& field, const scarp::TileWindow& window,
-                                      const scarp::SharedSides& shared, double threshold) {
-  std::vector<scarp::Place> border;
+std::vector<scarp::TilePoint> find_border(const scarp::HeightField& field, const scarp::TileWindow& window,
+                                          const scarp::SharedSides& shared, double threshold) {
+  std::vector<scarp::TilePoint> border;
   for (const scarp::BorderLine& line : scarp::shared_lines(window, shared)) {
     for (const std::int32_t step : check(scarp::simplify_border(field, line, threshold)))
-      border.push_back(scarp::place(line.col - window.col + (line.is_vertical ? 0 : step),
-                                    line.row - window.row + (line.is_vertical ? step : 0)));
+      border.push_back(scarp::tile_point(line.col - window.col + (line.is_vertical ? 0 : step),
+                                         line.row - window.row + (line.is_vertical ? step : 0)));
   }
   return border;
 }

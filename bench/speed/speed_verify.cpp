@@ -91,10 +91,10 @@ class Verifier {
   void localize(const Patch& patch) {
     corners_.clear();
     for (const auto& triangle : patch.triangles) {
-      std::array<scarp::Place, 3> places{};
+      std::array<scarp::TilePoint, 3> corners{};
       for (std::size_t k = 0; k < 3; ++k)
-        places[k] = scarp::place(triangle[k].x - patch.low.x, triangle[k].y - patch.low.y);
-      corners_.push_back(places);
+        corners[k] = scarp::tile_point(triangle[k].x - patch.low.x, triangle[k].y - patch.low.y);
+      corners_.push_back(corners);
     }
     hits_.resize(corners_.size());
   }
@@ -102,20 +102,20 @@ class Verifier {
   void scan(Pass& pass) {
     const scarp::TileView& view = tile_.view();
     pass.compared += scarp::scan_kernels().scan(view, threshold_, corners_, {}, hits_.data());
-    const scarp::HeightJudge judge({view.samples, static_cast<std::int32_t>(view.stride), view.rows}, threshold_);
+    const scarp::HeightMetric metric({view.samples, static_cast<std::int32_t>(view.stride), view.rows}, threshold_);
     for (std::size_t i = 0; i < hits_.size(); ++i) {
       if (hits_[i].error == 0) continue;
       ++pass.decided_exactly;
       const std::array corners{scarp::point_of(corners_[i][0]), scarp::point_of(corners_[i][1]),
                                scarp::point_of(corners_[i][2])};
-      pass.broken += judge.find_candidate(corners, judge.fit(corners, {})).has_value() ? 1 : 0;
+      pass.broken += metric.find_candidate(corners, metric.fit(corners, {})).has_value() ? 1 : 0;
     }
   }
 
   scarp::HeightField field_;
   double threshold_;
   scarp::Tile tile_;
-  std::vector<std::array<scarp::Place, 3>> corners_;
+  std::vector<std::array<scarp::TilePoint, 3>> corners_;
   std::vector<scarp::ScanHit> hits_;
 };
 

@@ -39,7 +39,7 @@ struct Cliffs {
   /// Two for each wall, the line along its top before the line along its foot. All have heights, and vertices on the
   /// lattice of 1/256 sample. Their kind is kWall.
   std::vector<Line> lines;
-  std::uint64_t faults = 0;
+  std::uint64_t wall_count = 0;
   std::uint64_t vertices = 0;  ///< of the lines, each once
 };
 

@@ -35,8 +35,8 @@ Result<std::vector<Line>> close_rings(std::vector<Line> lines);
 Result<std::vector<Line>> inset_polygons(std::span<const Line> rings, double distance,
                                          const std::array<double, 2>& unit = {1, 1});
 
-/// Result of void_outside().
-struct VoidedOutside {
+/// Result of mask_outside().
+struct MaskedOutside {
   std::uint64_t lost = 0;    ///< heights outside
   std::uint64_t kept = 0;    ///< heights within
   bool has_surface = false;  ///< some cell of the grid has three or four heights within
@@ -48,7 +48,7 @@ struct VoidedOutside {
 /// read; the field is read once, to count. Then `info` has the range of the heights before the cut, if it had none.
 /// Fails as the field's source and with kCancelled. REQUIRES: the affine map can be inverted. Cost: O(samples +
 /// segments · rows that they cross).
-Result<VoidedOutside> void_outside(OwnedHeightField& field, const Cutline& cutline,
+Result<MaskedOutside> mask_outside(OwnedHeightField& field, const Cutline& cutline,
                                    const ProgressCallback& progress = {});
 
 }  // namespace scarp

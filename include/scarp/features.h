@@ -40,7 +40,7 @@ struct Features {
   /// Lines that do not depend on the error. Their affine map applies to all lines here. A hard line keeps its heights,
   /// a soft one follows the raster. Where a hard line passes through a sample that has another height, the sample is
   /// given the line's, and what is promised holds for the samples as they are then (Simplified::edits). simplify()
-  /// fails with kInput for lines whose heights contradict each other, and names them. DEFAULT: none.
+  /// fails with kInput for lines whose heights conflict, and names them. DEFAULT: none.
   LineConstraints breaklines = {};
   /// Results of flatten_lakes() or find_flats() on the field: their shores become lines, rivers flow into them.
   std::vector<Lake> lakes = {};

@@ -119,9 +119,9 @@ HeightRange height_range(const HeightField& field);
 /// squared distance. Samples farther away stay nodata. Returns the number of samples filled.
 /// REQUIRES: max_distance > 0; the samples are in memory (those of a source stay as they are). Cost: O(cols·rows), 16
 /// extra bytes for each nodata sample.
-std::uint64_t fill_voids(OwnedHeightField& field, double max_distance);
+std::uint64_t fill_nodata(OwnedHeightField& field, double max_distance);
 
-/// Gives every nodata sample the height `value`. Returns the number of samples filled. REQUIRES: as fill_voids().
+/// Gives every nodata sample the height `value`. Returns the number of samples filled. REQUIRES: as fill_nodata().
 std::uint64_t fill_background(OwnedHeightField& field, float value);
 
 }  // namespace scarp

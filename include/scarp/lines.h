@@ -49,7 +49,7 @@ struct Line {
   bool yields() const { return kind == LineKind::kRiver || kind == LineKind::kWall; }
 };
 
-inline bool is_fault(const Line& line) { return line.kind == LineKind::kWall; }
+inline bool is_wall(const Line& line) { return line.kind == LineKind::kWall; }
 inline bool is_ridge_line(const Line& line) {
   return line.kind == LineKind::kRidge || line.kind == LineKind::kKeptRidge;
 }

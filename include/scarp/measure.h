@@ -62,7 +62,7 @@ struct Measurement {
   std::uint64_t stray = 0;    ///< valid samples outside every valid cell (no three valid corners): outside the domain
   std::uint64_t cut_off = 0;  ///< valid samples beyond MeasureOptions::cutline, not judged
   HeightRange heights;        ///< of all valid samples: judged, uncovered, stray and cut off
-  std::uint64_t void_cells_covered =
+  std::uint64_t nodata_cells_covered =
       0;  ///< cells (or half cells) without valid corners that the mesh covers at their centre
 
   std::uint64_t over_tolerance = 0;                  ///< covered samples above MeasureOptions::tolerance

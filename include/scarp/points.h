@@ -74,11 +74,11 @@ struct PointOptions {
   Run run = {};                                          ///< threads, of the proof, and progress
 };
 
-/// Greedy insertion on scattered samples (the report's section 2 names it, without doing it). The domain is the convex
-/// hull. Each triangle keeps the list of the points in it. Coordinates are snapped to an integer lattice of up to 2^30
-/// steps: the coarsest on which the given decimals lie exactly if there is one, else the finest power of two. Different
-/// points are never taken for one: where the lattice cannot keep two apart, they are refused. Among points of equal
-/// error the one in the northernmost, then westernmost place is inserted. Points on a grid give the vertices that
+/// Greedy insertion on scattered samples (section 2 of the 1995 paper names it, without doing it). The domain is the
+/// convex hull. Each triangle keeps the list of the points in it. Coordinates are snapped to an integer lattice of up
+/// to 2^30 steps: the coarsest on which the given decimals lie exactly if there is one, else the finest power of two.
+/// Different points are never taken for one: where the lattice cannot keep two apart, they are refused. Among points of
+/// equal error the one in the northernmost, then westernmost place is inserted. Points on a grid give the vertices that
 /// simplify() gives for the raster, but for ties.
 ///
 /// Guarantees that |mesh − z| <= max_error at every point that is not given up as a duplicate, at its coordinates as

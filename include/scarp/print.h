@@ -27,7 +27,7 @@ struct PrintOptions {
   std::optional<double> size = std::nullopt;
   double exaggerate = 1;      ///< factor of heights, above 0
   int columns = 1, rows = 1;  ///< of print tiles, at least 1
-  bool dovetail = false;      ///< as SheetOptions::dovetail
+  bool dovetail = false;      ///< as PrintTileOptions::dovetail
   double gap = 0;             ///< between print tiles, in print units, at least 0
 
   bool is_split() const { return columns > 1 || rows > 1; }
@@ -36,7 +36,7 @@ struct PrintOptions {
 };
 
 /// A print tile: a piece of a print that is a solid of its own.
-struct Sheet {
+struct PrintTile {
   int row = 1, column = 1;  ///< counted from 1, from the top left
   Mesh mesh;                ///< closed; positions as they are to be written
   SolidFacts facts;         ///< of `mesh`
@@ -46,8 +46,8 @@ struct Sheet {
 struct Print {
   double base = 0;              ///< height of the underside, in z units
   Placement placement;          ///< of all print tiles; used where PrintOptions::is_placed()
-  std::vector<Sheet> sheets;    ///< row by row; tiles without a triangle are left out
-  int empty_sheets = 0;         ///< number of tiles left out
+  std::vector<PrintTile> tiles;  ///< row by row; tiles without a triangle are left out
+  int empty_tiles = 0;           ///< number of tiles left out
   double max_error = 0;         ///< of the tops as they are to be written, against the samples, in z units
   std::uint64_t uncovered = 0;  ///< valid samples in gaps
   HeightRange heights;          ///< of the samples
@@ -70,10 +70,10 @@ struct PrintedTerrain {
 /// heights of hard lines, as by apply_edits(); Simplified::edits lists them. Nothing is kept of the arguments.
 ///
 /// Fails with kUsage for options out of range or that cannot be combined (the sentence begins with the option's name,
-/// such as "base=300 is not …"; with "sheets: " if the print cannot be cut so), and for several tiles in a frame that
-/// is not affine; with kPromise if samples have no top above them and no gap accounts for it, and if float32 cannot
-/// hold the error; as simplify(), build_solid() and measure() do. Cost: up to four runs of simplify(), one or two as a
-/// rule, each with a measure() of the print.
+/// such as "base=300 is not …"; with "print tiles: " if the print cannot be cut so), and for several tiles in a frame
+/// that is not affine; with kPromise if samples have no top above them and no gap accounts for it, and if float32
+/// cannot hold the error; as simplify(), build_solid() and measure() do. Cost: up to four runs of simplify(), one or
+/// two as a rule, each with a measure() of the print.
 Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOptions& print, SimplifyOptions options);
 
 }  // namespace scarp

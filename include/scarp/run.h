@@ -33,7 +33,7 @@ struct Run {
   /// are no longer removed, and the mesh so far, which keeps the promise, is the result: it depends on the time. With a
   /// budget the search then ends with the best mesh so far. DEFAULT: never.
   std::function<bool()> is_time_up = {};
-  /// Asked and obeyed in the same way, for somebody who stops waiting: it is no time to use up, so max effort does not
+  /// Asked and obeyed in the same way, for a caller who stops waiting: it is no time to use up, so max effort does not
   /// go on until then. Not asked with a budget. DEFAULT: never.
   std::function<bool()> is_enough = {};
 };

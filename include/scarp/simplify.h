@@ -93,9 +93,9 @@ struct Simplified {
   bool is_cut_short = false;                      ///< by Run::is_time_up or is_enough
   std::vector<SampleEdit> edits;                  ///< by breaklines, in raster order
   FittedFeatures features;                        ///< the lines of the mesh
-  std::uint64_t lines_laid = 0;                   ///< breaklines of which some part lies in the raster
-  /// The max error that lines were laid for, given or found; without one, tolerance_factor times the largest tolerance
-  /// that is finite.
+  std::uint64_t lines_inserted = 0;               ///< breaklines of which some part lies in the raster
+  /// The max error that lines were inserted for, given or found; without one, tolerance_factor times the largest
+  /// tolerance that is finite.
   double lines_for = 0;
   std::uint64_t cut_off = 0;         ///< valid samples outside the cutline
   std::optional<ShapeReport> shape;  ///< of `mesh`, where Quality::shape asks for something

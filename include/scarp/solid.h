@@ -60,7 +60,7 @@ struct SolidFacts {
 SolidFacts measure_solid(const Mesh& mesh);
 
 /// How a terrain is cut into print tiles.
-struct SheetOptions {
+struct PrintTileOptions {
   int columns = 1, rows = 1;  ///< of print tiles, at least 1
   bool dovetail = false;      ///< a trapezoid tab in the middle of each edge that two tiles share. DEFAULT: none.
   double gap = 0;             ///< between neighbours, in the unit of `cell`, at least 0
@@ -68,16 +68,16 @@ struct SheetOptions {
 };
 
 /// Cuts along rows and columns of samples, from which tabs stand out.
-class SheetPlan {
+class PrintTilePlan {
  public:
   /// Fails with kUsage if a tile would be too narrow for two cells, its tabs or its gap: names the number of samples.
-  static Result<SheetPlan> make(int cols, int rows, const SheetOptions& options);
+  static Result<PrintTilePlan> make(int cols, int rows, const PrintTileOptions& options);
 
   /// The cuts as soft lines for Features::breaklines, one for each line along which tiles end; `affine` as
   /// LineConstraints::affine.
   std::vector<Line> lines(const std::array<double, 6>& affine) const;
   /// The tile at a position in the grid, counted row by row from the top left; nothing in a gap.
-  std::optional<int> sheet_at(double col, double row) const;
+  std::optional<int> tile_at(double col, double row) const;
   int columns() const { return options_.columns; }
   int rows() const { return options_.rows; }
 
@@ -88,14 +88,14 @@ class SheetPlan {
   };
   std::optional<int> interval_at(const std::vector<Cut>& cuts, bool across_columns, Point2 at) const;
 
-  SheetOptions options_;
+  PrintTileOptions options_;
   std::vector<Cut> column_cuts_, row_cuts_;
 };
 
 /// The triangles of each tile, by their centres, as meshes with vertices of their own. Vertices along a cut have the
 /// same positions on both sides. Tiles without triangles are empty. Attributes are dropped.
 /// REQUIRES: the frame is affine, and it is the mesh's. Cost: O(n).
-std::vector<Mesh> cut_sheets(const Mesh& terrain, const Frame& frame, const SheetPlan& plan);
+std::vector<Mesh> cut_print_tiles(const Mesh& terrain, const Frame& frame, const PrintTilePlan& plan);
 
 }  // namespace scarp
 

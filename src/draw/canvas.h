@@ -38,7 +38,7 @@ class LineLayer {
   /// An anti-aliased line of the given width and darkness (0 … 1); coordinates in pixels, (0, 0) is the first pixel's
   /// centre.
   void add_line(double x0, double y0, double x1, double y1, double line_width, double darkness);
-  /// Lays the lines over the picture.
+  /// Draws the lines over the picture.
   void blend_into(Picture& picture, const Colour& ink) const;
 
  private:

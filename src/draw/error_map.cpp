@@ -17,7 +17,7 @@ using draw::Colour;
 constexpr std::array<Colour, 7> kDiverging{Colour{5, 48, 97},     Colour{67, 147, 195},  Colour{171, 210, 229},
                                            Colour{250, 250, 250}, Colour{248, 186, 155}, Colour{214, 96, 77},
                                            Colour{120, 0, 32}};
-constexpr Colour kVoidColour{150, 150, 150};
+constexpr Colour kNodataColour{150, 150, 150};
 constexpr Colour kMapInk{30, 30, 30};
 constexpr int kSmallMap = 500;
 
@@ -91,7 +91,7 @@ Picture ErrorMap::draw(double limit) const {
     for (int x = 0; x < picture.width; ++x) {
       const float error = errors_[static_cast<std::size_t>(y / factor) * static_cast<std::size_t>(width_) +
                                   static_cast<std::size_t>(x / factor)];
-      draw::set_pixel(picture, x, y, std::isnan(error) ? kVoidColour : colour_of(static_cast<double>(error), limit));
+      draw::set_pixel(picture, x, y, std::isnan(error) ? kNodataColour : colour_of(static_cast<double>(error), limit));
     }
   }
   if (layout.below > 0) draw_scale(picture, height_ * factor + 4 * layout.size, layout.size, limit);

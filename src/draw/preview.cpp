@@ -19,7 +19,7 @@ using draw::Relief;
 constexpr Colour kFrameInk{24, 28, 48};
 constexpr int kSmallPreview = 700;  // rasters below this many samples a side are enlarged
 
-/// Means of the samples that fall into each pixel; void where more than half of them are.
+/// Means of the samples that fall into each pixel; nodata where more than half of them are.
 Result<Relief> reduce(const HeightField& field, int width, int height) {
   Relief relief{width, height, {}};
   const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -48,7 +48,7 @@ Result<Relief> reduce(const HeightField& field, int width, int height) {
   return relief;
 }
 
-/// Enlarges by an integer factor, bilinear between valid pixels; a pixel is void where its nearest one is.
+/// Enlarges by an integer factor, bilinear between valid pixels; a pixel is nodata where its nearest one is.
 Picture enlarge(const Relief& relief, const std::vector<Colour>& colours, int factor) {
   Picture picture = draw::blank(relief.width * factor, relief.height * factor);
   for (int y = 0; y < picture.height; ++y) {

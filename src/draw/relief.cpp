@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<Colour, 4> kTints{Colour{176, 201, 170}, Colour{226, 222, 178}, Colour{222, 190, 148},
                                        Colour{232, 216, 206}};
 
-/// Rise per unit of ground to the right and up the picture; central differences, one-sided beside voids and borders.
+/// Rise per unit of ground to the right and up the picture; central differences, one-sided beside nodata and borders.
 std::vector<std::array<double, 2>> find_slopes(const Relief& relief, double step_x, double step_y) {
   std::vector<std::array<double, 2>> slopes(relief.z.size());
   const auto valid = [&](int x, int y) {

@@ -8,7 +8,7 @@
 
 #include "base/memory_budget.h"
 #include "features/crack_chains.h"
-#include "features/fault_lines.h"
+#include "features/wall_lines.h"
 #include "grid/bands.h"
 #include "grid/line_marks.h"
 #include "grid/samples.h"
@@ -20,12 +20,12 @@ namespace {
 /// refinement no room.
 constexpr double kCliffShare = 0.9;
 
-Line to_map(const std::vector<FaultVertex>& vertices, const std::array<double, 6>& affine, std::string name) {
+Line to_map(const std::vector<WallVertex>& vertices, const std::array<double, 6>& affine, std::string name) {
   Line line;
   line.kind = LineKind::kWall;
   line.name = std::move(name);
   line.points.reserve(vertices.size());
-  for (const FaultVertex& v : vertices) {
+  for (const WallVertex& v : vertices) {
     const double col = v.at.x / double{kLatticeSteps}, row = v.at.y / double{kLatticeSteps};
     line.points.push_back({affine[0] + affine[1] * col + affine[2] * row, affine[3] + affine[4] * col + affine[5] * row,
                            double{v.height}});
@@ -83,14 +83,15 @@ Result<Cliffs> detect_cliffs(const HeightField& field, const CliffOptions& optio
   cracks->visit([&](const CrackChain& chain) {
     if (!fits) return;
     fits = memory.check_part(
-        CrackChains::kBytesPerCrack * cracks->count() + line_bytes + kFaultBytesPerCrack * chain.cracks.size(), 1,
-        kWhat, kAdvice);
+        CrackChains::kBytesPerCrack * cracks->count() + line_bytes + kWallBytesPerCrack * chain.cracks.size(), 1, kWhat,
+        kAdvice);
     if (!fits) return;
-    for (const Fault& fault : find_faults(chain, kCliffShare * options.max_error)) {
-      ++cliffs.faults;
-      cliffs.vertices += 2 * (fault.top.size() - (fault.top.front() == fault.top.back() ? 1 : 0));
-      for (const auto& [line, side] : {std::pair{&fault.top, "top"}, std::pair{&fault.foot, "foot"}}) {
-        cliffs.lines.push_back(to_map(*line, options.affine, fmt::format("the {} of cliff {}", side, cliffs.faults)));
+    for (const Wall& wall : find_walls(chain, kCliffShare * options.max_error)) {
+      ++cliffs.wall_count;
+      cliffs.vertices += 2 * (wall.top.size() - (wall.top.front() == wall.top.back() ? 1 : 0));
+      for (const auto& [line, side] : {std::pair{&wall.top, "top"}, std::pair{&wall.foot, "foot"}}) {
+        cliffs.lines.push_back(
+            to_map(*line, options.affine, fmt::format("the {} of cliff {}", side, cliffs.wall_count)));
         line_bytes += kBytesPerLine + sizeof(cliffs.lines.back().points[0]) * line->size();
       }
     }

@@ -31,7 +31,7 @@ struct CrackChain {
 };
 
 /// All cracks between samples that differ by more than `height`, each in one chain. Chains end where a cell has one
-/// crack or three, two that contradict each other, or a void. A cell with four, a saddle, is passed twice: around the
+/// crack or three, two that contradict each other, or nodata. A cell with four, a saddle, is passed twice: around the
 /// two samples that differ more. Cost: O(samples + n log n) for n cracks.
 class CrackChains {
  public:
@@ -39,8 +39,8 @@ class CrackChains {
   CrackChains(std::int32_t cols, std::int32_t rows, double height, std::function<bool(Point)> is_left_out)
       : cols_(cols), rows_(rows), height_(height), is_left_out_(std::move(is_left_out)) {}
 
-  /// Looks at a row. `above` and `below`: its neighbours, null at the top and the bottom. Voids are NaN. REQUIRES: each
-  /// row once, from the top down.
+  /// Looks at a row. `above` and `below`: its neighbours, null at the top and the bottom. Nodata samples are NaN.
+  /// REQUIRES: each row once, from the top down.
   void add_row(std::int32_t row, const float* above, const float* here, const float* below);
   /// REQUIRES: all rows were looked at.
   void link();

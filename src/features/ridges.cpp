@@ -17,13 +17,13 @@
 #include "features/valley_paths.h"
 #include "grid/line_marks.h"
 #include "grid/samples.h"
-#include "grid/vertex_places.h"
+#include "grid/vertex_lattice.h"
 #include "lines/line_samples.h"
 
 namespace scarp {
 namespace {
 
-/// Share of the max error within which lines follow the raster: what soft lines are laid with takes no more bends.
+/// Share of the max error within which lines follow the raster: what soft lines are inserted with takes no more bends.
 constexpr double kRidgeShare = 0.5;
 
 Result<void> check_ridges(const RidgeOptions& options) {

@@ -43,14 +43,16 @@ class Ground {
     lakes_.emplace(runs.runs(), samples_.rows());
   }
 
-  SamplePlace place_of(const std::array<double, 3>& point) const { return to_samples_.place(point[0], point[1]); }
+  SamplePosition position_of(const std::array<double, 3>& point) const {
+    return to_samples_.position(point[0], point[1]);
+  }
 
   struct Surface {
     double height = kNoHeight;  // beside the surface
     bool is_lake = false;
   };
   Surface at(const std::array<double, 3>& point) const {
-    const auto [col, row] = place_of(point);
+    const auto [col, row] = position_of(point);
     if (!(col >= 0 && row >= 0 && col <= samples_.cols() - 1 && row <= samples_.rows() - 1)) return {};
     const double water = lakes_ ? level_around(col, row) : kNoHeight;
     if (!std::isnan(water)) return {water, true};
@@ -83,7 +85,7 @@ class Course {
       vertices_.push_back(places_.size());
       places_.push_back({line.points[k][0], line.points[k][1], kNoHeight});
       if (k + 1 == line.points.size()) break;
-      const auto p = ground.place_of(line.points[k]), q = ground.place_of(line.points[k + 1]);
+      const auto p = ground.position_of(line.points[k]), q = ground.position_of(line.points[k + 1]);
       constexpr double kMostLooks = 1 << 20;
       const double looks = std::min(std::ceil(2 * std::hypot(q.col - p.col, q.row - p.row)), kMostLooks);
       for (double i = 1; i < looks; ++i) {

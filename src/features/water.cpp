@@ -65,7 +65,7 @@ class Shores {
     std::vector<float> heights;
     for (const Line& ring : rings) {
       for (std::size_t k = 0; k + 1 < ring.points.size(); ++k) {
-        const auto p = place_of(ring.points[k]), q = place_of(ring.points[k + 1]);
+        const auto p = position_of(ring.points[k]), q = position_of(ring.points[k + 1]);
         const double length = std::max(std::abs(q.col - p.col), std::abs(q.row - p.row));
         constexpr double kMostLooks = 1 << 20;
         const auto looks = static_cast<int>(std::min(std::ceil(2 * length), kMostLooks)) + 1;
@@ -97,14 +97,16 @@ class Shores {
   }
 
  private:
-  SamplePlace place_of(const std::array<double, 3>& point) const { return to_samples_.place(point[0], point[1]); }
+  SamplePosition position_of(const std::array<double, 3>& point) const {
+    return to_samples_.position(point[0], point[1]);
+  }
 
   /// With a sample around.
   ShoreBox box_of(Rings rings) const {
     double left = field_.cols, right = 0, top = field_.rows, bottom = 0;
     for (const Line& ring : rings) {
       for (const auto& point : ring.points) {
-        const auto [col, row] = place_of(point);
+        const auto [col, row] = position_of(point);
         left = std::min(left, col);
         right = std::max(right, col);
         top = std::min(top, row);

@@ -141,7 +141,7 @@ void Collapse::add_fan(std::size_t first, std::size_t last) {
 bool Collapse::take(const Offer& offer) {
   if (!find_polygon(offer.v, offer.u)) return false;
   for (std::size_t i = 0; i < polygon_.size(); ++i) {
-    const auto verdict = loose_.judge(offer.place, corner(i), corner(i + 1), kNever);
+    const auto verdict = loose_.assess(offer.place, corner(i), corner(i + 1), kNever);
     if (verdict.kind != TriangleError::Verdict::Kind::kKeeps) return false;
   }
   fan_.clear();

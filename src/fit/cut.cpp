@@ -31,9 +31,9 @@ struct PointBox {
   }
 };
 
-/// Of a half-edge among those of its patch, by the places of triangles among theirs.
-std::size_t rank_in(const std::vector<std::uint32_t>& places, HalfEdge h) {
-  return 3 * std::size_t{places[h / 3]} + h % 3;
+/// Of a half-edge among those of its patch, by the indices of triangles among theirs.
+std::size_t rank_in(const std::vector<std::uint32_t>& indices, HalfEdge h) {
+  return 3 * std::size_t{indices[h / 3]} + h % 3;
 }
 
 }  // namespace
@@ -51,9 +51,9 @@ struct PatchCutter::Parts {
   std::vector<Borders> borders;     // by patch
 };
 
-PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const VertexPlaces& places,
+PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const VertexLattice& lattice,
                          const PatchGrid& grid, const FreeSides& free_sides, int threads)
-    : raster_(raster), tin_(tin), places_(places), grid_(grid), free_sides_(free_sides), threads_(threads) {
+    : raster_(raster), tin_(tin), lattice_(lattice), grid_(grid), free_sides_(free_sides), threads_(threads) {
   const auto squares = [&](std::int32_t samples) {
     return static_cast<std::size_t>((std::int64_t{samples} + grid.shift) / grid.side + 1);
   };
@@ -64,9 +64,9 @@ PatchCutter::PatchCutter(const Raster& raster, const Triangulation& tin, const V
   begins_.assign(outside + 2, 0);
   for (const std::uint32_t square : square_) ++begins_[square + 1];
   for (std::size_t i = 1; i < begins_.size(); ++i) begins_[i] += begins_[i - 1];
-  place_.resize(order_.size());
+  index_in_patch_.resize(order_.size());
   for (std::size_t n = 0; n < order_.size(); ++n)
-    place_[order_[n]] = static_cast<std::uint32_t>(n - begins_[square_[order_[n]]]);
+    index_in_patch_[order_[n]] = static_cast<std::uint32_t>(n - begins_[square_[order_[n]]]);
   begins_.pop_back();
 }
 
@@ -83,8 +83,8 @@ std::vector<std::uint32_t> PatchCutter::assign_squares(std::size_t outside) {
       return;
     }
     const auto [a, b, c] = tin_.corners(t);
-    const std::int64_t x = (std::int64_t{a.x} + b.x + c.x) / places_.steps + shift;
-    const std::int64_t y = (std::int64_t{a.y} + b.y + c.y) / places_.steps + shift;
+    const std::int64_t x = (std::int64_t{a.x} + b.x + c.x) / lattice_.steps + shift;
+    const std::int64_t y = (std::int64_t{a.y} + b.y + c.y) / lattice_.steps + shift;
     const auto square = static_cast<std::size_t>(y / side) * squares_per_row_ + static_cast<std::size_t>(x / side);
     const auto block =
         static_cast<std::size_t>(y % side * kBlocksPerSide / side * kBlocksPerSide + x % side * kBlocksPerSide / side);
@@ -125,7 +125,7 @@ Patch PatchCutter::cut(std::size_t i, Scratch& scratch, std::vector<Vertex>& ver
 }
 
 float PatchCutter::height_of(Vertex v) const {
-  return places_.heights.empty() ? raster_.at(tin_.point(v)) : places_.heights[v];
+  return lattice_.heights.empty() ? raster_.at(tin_.point(v)) : lattice_.heights[v];
 }
 
 bool PatchCutter::add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::vector<Vertex>& vertices) const {
@@ -139,22 +139,22 @@ bool PatchCutter::add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::
       scratch.ids[v] = static_cast<std::uint32_t>(vertices.size());
       vertices.push_back(v);
       const Point p = tin_.point(v);
-      const std::int32_t round_up = places_.steps - 1;
-      box.add({p.x / places_.steps, p.y / places_.steps});
-      box.add({(p.x + round_up) / places_.steps, (p.y + round_up) / places_.steps});
+      const std::int32_t round_up = lattice_.steps - 1;
+      box.add({p.x / lattice_.steps, p.y / lattice_.steps});
+      box.add({(p.x + round_up) / lattice_.steps, (p.y + round_up) / lattice_.steps});
     }
   }
   if (!vertices.empty()) patch.window_ = {box.low, box.high.x - box.low.x + 1, box.high.y - box.low.y + 1};
   patch.nodes_.resize(vertices.size());
   patch.locked_.assign(vertices.size(), 0);
   if (!box.fits()) return false;
-  const std::int32_t scale = kLatticeSteps / places_.steps;
+  const std::int32_t scale = kLatticeSteps / lattice_.steps;
   bool fits = true;
   for (std::size_t n = 0; n < vertices.size(); ++n) {
-    if (!places_.fixed.empty()) patch.locked_[n] = places_.fixed[vertices[n]];
+    if (!lattice_.fixed.empty()) patch.locked_[n] = lattice_.fixed[vertices[n]];
     const Point p = tin_.point(vertices[n]);
     const float z = height_of(vertices[n]);
-    patch.nodes_[n].at = {(p.x - box.low.x * places_.steps) * scale, (p.y - box.low.y * places_.steps) * scale, z};
+    patch.nodes_[n].at = {(p.x - box.low.x * lattice_.steps) * scale, (p.y - box.low.y * lattice_.steps) * scale, z};
     fits = fits && std::abs(z) <= kMaxScanHeight;
   }
   return fits;
@@ -172,7 +172,7 @@ void PatchCutter::add_faces(std::size_t i, const Scratch& scratch, Patch& patch)
       if (g == kNone) {
         face.links[k] = tin_.is_constrained(h) ? Patch::kConstrainedSide : Patch::kSide;
       } else if (is_inner(h, i)) {
-        face.links[k] = place_[g / 3] << 2 | g % 3;
+        face.links[k] = index_in_patch_[g / 3] << 2 | g % 3;
       } else {
         face.links[k] = Patch::kBorder | static_cast<Patch::Link>(patch.fixed_.size());
         patch.fixed_.push_back(h);
@@ -185,14 +185,14 @@ void PatchCutter::lock(Patch& patch) const {
   constexpr std::int64_t kSteps = kLatticeSteps;
   const std::int64_t right = (std::int64_t{raster_.cols} - 1) * kSteps,
                      bottom = (std::int64_t{raster_.rows} - 1) * kSteps;
-  const auto place_of = [&](Patch::Id v) {
+  const auto point_of = [&](Patch::Id v) {
     const FitCorner& at = patch.nodes_[v].at;
-    return Place{at.x + patch.window_.first.x * kSteps, at.y + patch.window_.first.y * kSteps};
+    return LatticePoint{at.x + patch.window_.first.x * kSteps, at.y + patch.window_.first.y * kSteps};
   };
   for (const Patch::Face& face : patch.faces_) {
     for (unsigned k = 0; k < 3; ++k) {
       const std::array<Patch::Id, 2> ends{face.corners[k], face.corners[k == 2 ? 0 : k + 1]};
-      const std::array<Place, 2> at{place_of(ends[0]), place_of(ends[1])};
+      const std::array<LatticePoint, 2> at{point_of(ends[0]), point_of(ends[1])};
       const Patch::Link link = face.links[k];
       const bool is_fixed = Patch::is_border(link) && !(Patch::is_side(link) && is_on_free_side(at[0], at[1]));
       for (std::size_t i = 0; i < 2; ++i) {
@@ -204,13 +204,13 @@ void PatchCutter::lock(Patch& patch) const {
 }
 
 /// Of an edge on one of the sides.
-bool PatchCutter::is_on_free_side(const Place& p, const Place& q) const {
+bool PatchCutter::is_on_free_side(const LatticePoint& p, const LatticePoint& q) const {
   if (p.x == q.x) return p.x == 0 ? free_sides_.left : free_sides_.right;
   return p.y == 0 ? free_sides_.top : free_sides_.bottom;
 }
 
 Triangulation PatchCutter::join(std::vector<Patch> patches, const std::vector<std::vector<Vertex>>& vertices,
-                                std::vector<Vertex>& numbers, VertexPlaces& joined) const {
+                                std::vector<Vertex>& numbers, VertexLattice& joined) const {
   Parts parts;
   number_vertices(patches, vertices, parts);
   place_vertices(patches, vertices, parts, joined);
@@ -234,11 +234,11 @@ Triangulation PatchCutter::join(std::vector<Patch> patches, const std::vector<st
     const auto& [before, now] = parts.borders[i];
     // Both sides of a constrained edge are borders, most of them of one patch.
     const auto names = make_unfilled<HalfEdge>(3 * (begins_[i + 1] - begins_[i]));
-    for (std::size_t n = 0; n < before.size(); ++n) names[rank_in(place_, before[n])] = now[n];
+    for (std::size_t n = 0; n < before.size(); ++n) names[rank_in(index_in_patch_, before[n])] = now[n];
     for (std::size_t n = 0; n < before.size(); ++n) {
       const HalfEdge twin = tin_.twin(before[n]);
       if (twin != kNone && square_[twin / 3] == i) {
-        parts.arrays.twins[now[n]] = names[rank_in(place_, twin)];
+        parts.arrays.twins[now[n]] = names[rank_in(index_in_patch_, twin)];
       } else {
         link(before[n], now[n]);
       }
@@ -254,10 +254,12 @@ Triangulation PatchCutter::join(std::vector<Patch> patches, const std::vector<st
 /// Of a half-edge on the border of a patch, or outside.
 HalfEdge PatchCutter::name_now(HalfEdge before, const Parts& parts) const {
   const std::size_t square = square_[before / 3];
-  if (square == count()) return static_cast<HalfEdge>(3 * (parts.begins.back() + place_[before / 3]) + before % 3);
+  if (square == count())
+    return static_cast<HalfEdge>(3 * (parts.begins.back() + index_in_patch_[before / 3]) + before % 3);
   const auto& [names, now] = parts.borders[square];
-  const auto found = std::lower_bound(names.begin(), names.end(), before,
-                                      [&](HalfEdge a, HalfEdge b) { return rank_in(place_, a) < rank_in(place_, b); });
+  const auto found = std::lower_bound(names.begin(), names.end(), before, [&](HalfEdge a, HalfEdge b) {
+    return rank_in(index_in_patch_, a) < rank_in(index_in_patch_, b);
+  });
   assert(found != names.end() && *found == before);
   return now[static_cast<std::size_t>(found - names.begin())];
 }
@@ -278,20 +280,20 @@ void PatchCutter::number_vertices(const std::vector<Patch>& patches, const std::
 }
 
 void PatchCutter::place_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
-                                 Parts& parts, VertexPlaces& joined) const {
+                                 Parts& parts, VertexLattice& joined) const {
   const bool has_heights = joined.steps > 1;
   joined.heights.assign(has_heights ? parts.arrays.points.size() : 0, 0);
-  joined.fixed.assign(places_.fixed.empty() ? 0 : parts.arrays.points.size(), 0);
+  joined.fixed.assign(lattice_.fixed.empty() ? 0 : parts.arrays.points.size(), 0);
   const auto place = [&](Vertex number, Point p, float z) {
     parts.arrays.points[number] = p;
     if (has_heights) joined.heights[number] = z;
   };
-  const std::int32_t scale = joined.steps / places_.steps;
+  const std::int32_t scale = joined.steps / lattice_.steps;
   for (Vertex v = 0; v < tin_.vertex_count(); ++v) {
     if (parts.numbers[v] == kNone) continue;
     const Point p = tin_.point(v);
     place(parts.numbers[v], {p.x * scale, p.y * scale}, has_heights ? height_of(v) : 0);
-    if (!places_.fixed.empty()) joined.fixed[parts.numbers[v]] = places_.fixed[v];
+    if (!lattice_.fixed.empty()) joined.fixed[parts.numbers[v]] = lattice_.fixed[v];
   }
   const std::int32_t shrink = kLatticeSteps / joined.steps;
   for (std::size_t i = 0; i < patches.size(); ++i) {
@@ -305,7 +307,7 @@ void PatchCutter::place_vertices(const std::vector<Patch>& patches, const std::v
   }
 }
 
-/// Writes to the patch's own places only.
+/// Writes to the patch's own elements only.
 void PatchCutter::add_patch(const Patch& patch, const std::vector<Vertex>& names, std::size_t i, Parts& parts) const {
   const auto base = static_cast<Triangle>(parts.begins[i]);
   Borders& borders = parts.borders[i];

@@ -9,7 +9,7 @@
 
 #include "fit/patch.h"
 #include "grid/raster.h"
-#include "grid/vertex_places.h"
+#include "grid/vertex_lattice.h"
 #include "tin/triangulation.h"
 
 namespace scarp {
@@ -27,8 +27,8 @@ struct FreeSides {
 /// Which triangles go where.
 class PatchCutter {
  public:
-  /// Raster, triangulation and places stay alive.
-  PatchCutter(const Raster& raster, const Triangulation& tin, const VertexPlaces& places, const PatchGrid& grid,
+  /// Raster, triangulation and lattice stay alive.
+  PatchCutter(const Raster& raster, const Triangulation& tin, const VertexLattice& lattice, const PatchGrid& grid,
               const FreeSides& free_sides, int threads);
 
   std::size_t count() const { return begins_.size() - 1; }
@@ -44,12 +44,12 @@ class PatchCutter {
   /// The triangulation with the patches in the place of their triangles, patch by patch, then those outside; vertices
   /// that are removed in a patch are left out, those that were moved are where they are now. `numbers`: by old vertex
   /// its new number, or kNone. `joined`: of the new vertices, by the steps that it is given with. REQUIRES: patches are
-  /// packed; steps as in the cutter's places, or 1 there and kLatticeSteps in `joined`. Fixed vertices stay fixed.
+  /// packed; steps as in the cutter's lattice, or 1 there and kLatticeSteps in `joined`. Fixed vertices stay fixed.
   Triangulation join(std::vector<Patch> patches, const std::vector<std::vector<Vertex>>& vertices,
-                     std::vector<Vertex>& numbers, VertexPlaces& joined) const;
+                     std::vector<Vertex>& numbers, VertexLattice& joined) const;
 
  private:
-  struct Place {
+  struct LatticePoint {
     std::int64_t x, y;  ///< in kLatticeSteps from the raster's first sample
   };
   struct Borders;
@@ -61,26 +61,26 @@ class PatchCutter {
   bool add_nodes(std::size_t i, Scratch& scratch, Patch& patch, std::vector<Vertex>& vertices) const;
   void add_faces(std::size_t i, const Scratch& scratch, Patch& patch) const;
   void lock(Patch& patch) const;
-  bool is_on_free_side(const Place& p, const Place& q) const;
+  bool is_on_free_side(const LatticePoint& p, const LatticePoint& q) const;
   float height_of(Vertex v) const;
   void number_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
                        Parts& parts) const;
   void place_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices, Parts& parts,
-                      VertexPlaces& joined) const;
+                      VertexLattice& joined) const;
   void add_patch(const Patch& patch, const std::vector<Vertex>& names, std::size_t i, Parts& parts) const;
   void add_outside(Parts& parts) const;
   HalfEdge name_now(HalfEdge before, const Parts& parts) const;
 
   const Raster& raster_;
   const Triangulation& tin_;
-  const VertexPlaces& places_;
+  const VertexLattice& lattice_;
   PatchGrid grid_;
   FreeSides free_sides_;
   int threads_;
   std::size_t squares_per_row_;
   std::vector<std::size_t> begins_;  // by patch, where its triangles begin in order_; the last patch: outside
   std::vector<Triangle> order_;
-  std::vector<std::uint32_t> place_;   // by triangle, its index among those of its patch
+  std::vector<std::uint32_t> index_in_patch_;  // by triangle, its index among those of its patch
   std::vector<std::uint32_t> square_;  // by triangle
 };
 

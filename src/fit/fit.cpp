@@ -64,7 +64,7 @@ void set_range(const Raster& raster, const ReadWindow& read, MoveRules& rules) {
     if (read) read({{0, y}, raster.cols, 1}, buffer.data(), raster.cols);
     const float* const row = read ? buffer.data() : raster.row(y);
     for (std::int32_t x = 0; x < raster.cols; ++x) {
-      // False where the sample is void.
+      // False where the sample is nodata.
       if (row[x] < rules.lowest) rules.lowest = row[x];
       if (row[x] > rules.highest) rules.highest = row[x];
     }
@@ -74,11 +74,11 @@ void set_range(const Raster& raster, const ReadWindow& read, MoveRules& rules) {
 /// One round after the other, on squares that are shifted against each other.
 class Rounds {
  public:
-  Rounds(const Raster& raster, Triangulation tin, VertexPlaces places, const FitOptions& options)
+  Rounds(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options)
       : raster_(raster),
         options_(options),
         rules_{freedom_of(raster, options), options.shape.value_or(ShapeRule{options.min_shape, options.aspect})},
-        fitted_{std::move(tin), {}, std::move(places)},
+        fitted_{std::move(tin), {}, std::move(lattice)},
         vertices_(fitted_.tin.vertex_count()),
         settled_(fitted_.tin.vertex_count(), 0),
         held_(fitted_.tin.vertex_count(), 0),
@@ -89,7 +89,7 @@ class Rounds {
 
   /// Of removal. `end`: the share of the whole that is then done. False if it was told to stop, as those below.
   bool run(const PatchGrid& grid, double end) {
-    return work_on(grid, end, fitted_.places.steps,
+    return work_on(grid, end, fitted_.lattice.steps,
                    [this](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
                      return remove(patch, vertices, error);
                    });
@@ -97,7 +97,7 @@ class Rounds {
 
   /// Of removal with repair; `only_held`: it begins with the vertices that repair has had on borders so far.
   bool repair(const PatchGrid& grid, double end, const RepairOptions& options, bool only_held = false) {
-    const std::int32_t steps = rules_.freedom == Freedom::kLattice ? kLatticeSteps : fitted_.places.steps;
+    const std::int32_t steps = rules_.freedom == Freedom::kLattice ? kLatticeSteps : fitted_.lattice.steps;
     return work_on(
         grid, end, steps, [&](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
           // One bound alone, and that beyond energies.
@@ -129,10 +129,10 @@ class Rounds {
   }
 
  private:
-  /// Cuts, lets job(patch, vertices, error) count what it does to each patch, and joins, to places of so many steps.
+  /// Cuts, lets job(patch, vertices, error) count what it does to each patch, and joins, to a lattice of so many steps.
   template <class Job>
   bool work_on(const PatchGrid& grid, double end, std::int32_t steps, const Job& job) {
-    const PatchCutter cutter(raster_, fitted_.tin, fitted_.places, grid, options_.free_sides, options_.threads);
+    const PatchCutter cutter(raster_, fitted_.tin, fitted_.lattice, grid, options_.free_sides, options_.threads);
     std::vector<Patch> patches(cutter.count());
     std::vector<std::vector<Vertex>> vertices(cutter.count());
     counts_.assign(cutter.count(), {});
@@ -153,11 +153,11 @@ class Rounds {
     done_ = end;
     hold_borders(vertices);
     std::vector<Vertex> numbers;
-    VertexPlaces places{steps, {}, {}};
-    Triangulation joined = cutter.join(std::move(patches), vertices, numbers, places);
+    VertexLattice lattice{steps, {}, {}};
+    Triangulation joined = cutter.join(std::move(patches), vertices, numbers, lattice);
     renumber(numbers, joined.vertex_count());
     fitted_.tin = std::move(joined);
-    fitted_.places = std::move(places);
+    fitted_.lattice = std::move(lattice);
     return true;
   }
 
@@ -178,7 +178,7 @@ class Rounds {
   }
   bool tell(double share) const { return !options_.progress || options_.progress(share, vertices()); }
 
-  /// A vertex that is free in one patch is in no other, so patches write to places of their own.
+  /// A vertex that is free in one patch is in no other, so patches write to elements of their own.
   FitCounts remove(Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
     std::vector<std::uint8_t> settled;
     settled.reserve(vertices.size());
@@ -234,11 +234,11 @@ class Rounds {
 
 }  // namespace
 
-Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexPlaces places, const FitOptions& options) {
+Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options) {
   const std::int32_t longest = std::max(raster.cols, raster.rows);
   const std::int32_t most = options.most_side > 0 ? std::min(options.most_side, longest) : longest;
   const bool is_cut = most < longest || (options.patch_side > 0 ? options.patch_side < longest : !is_small(tin));
-  Rounds rounds(raster, std::move(tin), std::move(places), options);
+  Rounds rounds(raster, std::move(tin), std::move(lattice), options);
   const auto side = [&] {
     if (!is_cut) return longest;
     return std::min(most, options.patch_side > 0 ? options.patch_side : patch_side(raster, rounds.tin()));

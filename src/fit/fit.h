@@ -26,7 +26,7 @@
 #include "fit/rules.h"
 #include "fit/sample_window.h"
 #include "grid/raster.h"
-#include "grid/vertex_places.h"
+#include "grid/vertex_lattice.h"
 #include "scarp/result.h"
 #include "tin/triangulation.h"
 
@@ -69,7 +69,7 @@ struct FitOptions {
   bool vertices_are_free = false;
   std::int32_t patch_side = 0;  ///< in samples; 0: squares of kPatchTriangles, one for small meshes
   std::int32_t most_side = 0;   ///< that squares have, in samples, whatever they hold; 0: any
-  /// Copies the samples of a window to `to`, voids as NaN, and may throw; asked on any thread. DEFAULT: none, the
+  /// Copies the samples of a window to `to`, nodata as NaN, and may throw; asked on any thread. DEFAULT: none, the
   /// raster has them.
   ReadWindow read = {};
   /// The same of their bounds, in place of `bounds`. DEFAULT: none, the threshold or `bounds` hold.
@@ -100,15 +100,15 @@ struct FitCounts {
 };
 
 struct Fitted {
-  Triangulation tin;  ///< its points in places.steps
+  Triangulation tin;  ///< its points in lattice.steps
   FitCounts counts;
   /// Steps of kLatticeSteps, and heights, if vertices were let free; else they are samples. Heights lie between
   /// the lowest and the highest valid sample of the raster, so that nothing is deeper than a sea of height 0.
-  VertexPlaces places;
+  VertexLattice lattice;
   bool is_cut_short = false;  ///< by the time
 };
 
-/// `places`: of the vertices of `tin`.
+/// `lattice`: of the vertices of `tin`.
 ///
 /// A triangulation of some of the vertices with the same domain and constraints, whose triangles keep the threshold at
 /// every sample of the domain, or its bound, in exact arithmetic. Vertices of the outline stay, but for those on the
@@ -118,7 +118,7 @@ struct Fitted {
 /// inside keep the threshold, in the eyes of the norm's find_breach if there is one, and hold valid corners; threshold
 /// >= 0 and finite; a vertex that is not fixed, and no end of a constrained edge within the rectangle, is a sample, or
 /// vertices are free, or the depth has no rounds.
-Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexPlaces places, const FitOptions& options);
+Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options);
 inline Result<Fitted> fit(const Raster& raster, Triangulation tin, const FitOptions& options) {
   return fit(raster, std::move(tin), {}, options);
 }

@@ -39,9 +39,9 @@ bool Flips::improve(const TriangleError& error, Patch::Id face, unsigned edge) {
   const Trial trial = trial_of(q, limit);
   Trial& refused = place_of(q);
   if (refused == trial) return false;
-  const auto near = error.judge(c, a, d, limit);
+  const auto near = error.assess(c, a, d, limit);
   const bool near_keeps = near.kind == TriangleError::Verdict::Kind::kKeeps;
-  const auto far = near_keeps ? error.judge(d, b, c, limit - near.energy) : near;
+  const auto far = near_keeps ? error.assess(d, b, c, limit - near.energy) : near;
   if (far.kind != TriangleError::Verdict::Kind::kKeeps) {
     refused = trial;
     return false;

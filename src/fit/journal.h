@@ -1,4 +1,4 @@
-// First-touch copies: what an array held before a transaction, for as long as the transaction may still be undone.
+// First-touch copies: what an array held before a transaction, while the transaction may still be undone.
 //
 // Repair changes a few dozen triangles and often gives up, so a copy of the whole would cost more than the work. Each
 // element is copied once, when it is about to change for the first time; to undo is to put the copies back. Elements

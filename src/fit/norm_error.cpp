@@ -115,18 +115,18 @@ NormError::NormError(const FitNorm& norm, Samples samples, const SampleBounds& b
 
 NormScan NormError::scan() const { return {norm_, samples_, bounds_, per_unit_}; }
 
-NormError::Verdict NormError::judge(const Corners& corners, float energy_limit, const ErrorRule& rule) const {
+NormError::Verdict NormError::assess(const Corners& corners, float energy_limit, const ErrorRule& rule) const {
   if (holds_corners_alone(corners)) return without_energy(energy_limit);
-  if (!has_energy()) return judge_slowly(corners, energy_limit);
+  if (!has_energy()) return assess_slowly(corners, energy_limit);
   const NormPlanes planes(scan(), corners);
-  if (!planes.are_finite) return judge_slowly(corners, energy_limit);
-  if (norm() == Norm::kSum) return judge_by<Norm::kSum>(planes, energy_limit, rule);
-  if (norm() == Norm::kSquares) return judge_by<Norm::kSquares>(planes, energy_limit, rule);
-  return judge_by<Norm::kMax>(planes, energy_limit, rule);
+  if (!planes.are_finite) return assess_slowly(corners, energy_limit);
+  if (norm() == Norm::kSum) return assess_by<Norm::kSum>(planes, energy_limit, rule);
+  if (norm() == Norm::kSquares) return assess_by<Norm::kSquares>(planes, energy_limit, rule);
+  return assess_by<Norm::kMax>(planes, energy_limit, rule);
 }
 
 template <Norm kNorm>
-NormError::Verdict NormError::judge_by(const NormPlanes& planes, float energy_limit, const ErrorRule& rule) const {
+NormError::Verdict NormError::assess_by(const NormPlanes& planes, float energy_limit, const ErrorRule& rule) const {
   const NormScan scan = this->scan();
   NormTally<kNorm> tally(planes, rule);
   Verdict verdict;
@@ -163,7 +163,7 @@ NormError::Verdict NormError::judge_by(const NormPlanes& planes, float energy_li
   return verdict;
 }
 
-NormError::Verdict NormError::judge_slowly(const Corners& corners, float energy_limit) const {
+NormError::Verdict NormError::assess_slowly(const Corners& corners, float energy_limit) const {
   if (const auto breach = find_breach(corners)) return {Verdict::Kind::kBreaks, 0, 0, *breach};
   return without_energy(energy_limit);
 }

@@ -43,13 +43,13 @@ class NormError {
   /// Bounds beside the heights.
   NormError(const FitNorm& norm, Samples samples, const SampleBounds& bounds);
 
-  /// As TriangleError::judge(): errors, slack and energies are those of the norm, counted in bounds. Without energies,
+  /// As TriangleError::assess(): errors, slack and energies are those of the norm, counted in bounds. Without energies,
   /// and where values are beyond kMaxScanHeight, slack is 1. REQUIRES: corners are samples; positive.
-  Verdict judge(const Corners& corners, float energy_limit, const ErrorRule& rule) const;
+  Verdict assess(const Corners& corners, float energy_limit, const ErrorRule& rule) const;
 
   /// What the samples want of the first corner, a Pull for each field. The energy's derivatives for the sum of squares
   /// and the largest error, of which the eighth powers are summed up; the other's are reckoned as if it were the first.
-  /// REQUIRES, cost: as judge().
+  /// REQUIRES, cost: as assess().
   void pull(const Corners& corners, std::vector<Pull>& pulls) const;
 
   const Raster& heights() const { return samples_.heights; }
@@ -70,8 +70,8 @@ class NormError {
  private:
   NormScan scan() const;
   template <Norm kNorm>
-  Verdict judge_by(const NormPlanes& planes, float energy_limit, const ErrorRule& rule) const;
-  Verdict judge_slowly(const Corners& corners, float energy_limit) const;
+  Verdict assess_by(const NormPlanes& planes, float energy_limit, const ErrorRule& rule) const;
+  Verdict assess_slowly(const Corners& corners, float energy_limit) const;
   std::optional<Point> find_breach(const Corners& corners) const;
   float raw_value_at(std::size_t field, Point sample) const {
     return samples_.fields[field][static_cast<std::size_t>(samples_.first.y + sample.y) *

@@ -75,7 +75,7 @@ class Patch {
   const std::vector<HalfEdge>& fixed() const { return fixed_; }
   /// The samples that the triangles may look at.
   struct Window {
-    Point first;  ///< where lattice places are counted from
+    Point first;  ///< where lattice points are counted from
     std::int32_t cols = 0, rows = 0;
   };
   const Window& window() const { return window_; }

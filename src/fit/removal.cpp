@@ -50,8 +50,8 @@ class Removal {
   float energy_of(Id f) {
     const Patch::Face& face = patch_.face(f);
     if (face.energy < 0) {
-      const auto verdict = error_.judge(patch_.at(face.corners[0]), patch_.at(face.corners[1]),
-                                        patch_.at(face.corners[2]), std::numeric_limits<float>::infinity());
+      const auto verdict = error_.assess(patch_.at(face.corners[0]), patch_.at(face.corners[1]),
+                                         patch_.at(face.corners[2]), std::numeric_limits<float>::infinity());
       patch_.set_measure(f, verdict.worst, verdict.energy);
     }
     return face.energy;

@@ -19,7 +19,7 @@ constexpr double kSecondHope = 0.6, kFourthHope = 0.25;
 
 void measure(Patch& patch, const TriangleError& error, Patch::Id face) {
   const auto& [a, b, c] = patch.face(face).corners;
-  const auto verdict = error.judge(patch.at(a), patch.at(b), patch.at(c), std::numeric_limits<float>::infinity());
+  const auto verdict = error.assess(patch.at(a), patch.at(b), patch.at(c), std::numeric_limits<float>::infinity());
   patch.set_measure(face, verdict.worst, verdict.energy);
 }
 

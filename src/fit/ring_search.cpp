@@ -64,7 +64,7 @@ bool RingSearch::improve(std::size_t first, std::size_t last, Point& witness) {
     left &= left - 1;
     const float beyond = cost_[first][q] + cost_[q][last];
     if (!(beyond < best)) continue;
-    const auto verdict = error_.judge(ring_[first], ring_[q], ring_[last], best - beyond);
+    const auto verdict = error_.assess(ring_[first], ring_[q], ring_[last], best - beyond);
     if (verdict.kind == TriangleError::Verdict::Kind::kKeeps) {
       best = beyond + verdict.energy;
       middle_[first][last] = static_cast<std::uint8_t>(q);

@@ -181,16 +181,16 @@ bool holds_corners_only(const FitCorner& a, const FitCorner& b, const FitCorner&
 
 }  // namespace
 
-TriangleError::Verdict TriangleError::judge(const FitCorner& a, const FitCorner& b, const FitCorner& c,
-                                            float energy_limit) const {
-  if (norm_ != nullptr) return norm_->judge({a, b, c}, energy_limit, {limit_, power_});
-  if (holds_corners_only(a, b, c)) return judge_corners({a, b, c}, energy_limit);
+TriangleError::Verdict TriangleError::assess(const FitCorner& a, const FitCorner& b, const FitCorner& c,
+                                             float energy_limit) const {
+  if (norm_ != nullptr) return norm_->assess({a, b, c}, energy_limit, {limit_, power_});
+  if (holds_corners_only(a, b, c)) return assess_corners({a, b, c}, energy_limit);
   if (has_bounds()) {
-    return power_ == ErrorRule::Power::kTwo ? judge_by<ByBounds<Squares>>(a, b, c, energy_limit)
-                                            : judge_by<ByBounds<EighthPowers>>(a, b, c, energy_limit);
+    return power_ == ErrorRule::Power::kTwo ? assess_by<ByBounds<Squares>>(a, b, c, energy_limit)
+                                            : assess_by<ByBounds<EighthPowers>>(a, b, c, energy_limit);
   }
-  return power_ == ErrorRule::Power::kTwo ? judge_by<ByThreshold<Squares>>(a, b, c, energy_limit)
-                                          : judge_by<ByThreshold<EighthPowers>>(a, b, c, energy_limit);
+  return power_ == ErrorRule::Power::kTwo ? assess_by<ByThreshold<Squares>>(a, b, c, energy_limit)
+                                          : assess_by<ByThreshold<EighthPowers>>(a, b, c, energy_limit);
 }
 
 std::size_t TriangleError::field_count() const { return norm_ != nullptr ? norm_->field_count() : 1; }
@@ -202,8 +202,8 @@ double TriangleError::norm_value_at(std::size_t field, Point sample) const { ret
 double TriangleError::norm_bound_at(Point sample) const { return norm_->bound_at(sample); }
 
 template <class Tally>
-TriangleError::Verdict TriangleError::judge_by(const FitCorner& a, const FitCorner& b, const FitCorner& c,
-                                               float energy_limit) const {
+TriangleError::Verdict TriangleError::assess_by(const FitCorner& a, const FitCorner& b, const FitCorner& c,
+                                                float energy_limit) const {
   Tally tally(*this, a, b, c);
   TriangleScan scan(tally.task, end_);
   Verdict verdict;
@@ -263,8 +263,9 @@ float TriangleError::energy_of(float error) const {
   return power_ == ErrorRule::Power::kTwo ? square : square * square * (square * square);
 }
 
-/// REQUIRES: corners are samples' places, and no other sample lies in the triangle.
-TriangleError::Verdict TriangleError::judge_corners(const std::array<FitCorner, 3>& corners, float energy_limit) const {
+/// REQUIRES: corners are samples, and no other sample lies in the triangle.
+TriangleError::Verdict TriangleError::assess_corners(const std::array<FitCorner, 3>& corners,
+                                                     float energy_limit) const {
   const ExactTriangle outline(corners);
   Verdict verdict;
   bool keeps = true;

@@ -21,7 +21,7 @@
 #include "geom/predicates.h"
 #include "geom/scan_plane.h"
 #include "grid/raster.h"
-#include "grid/vertex_places.h"
+#include "grid/vertex_lattice.h"
 
 namespace scarp {
 
@@ -81,8 +81,8 @@ class TriangleError {
                        ///< bound is larger than that, and than the rounding of errors in the triangle
     Point witness;  ///< kBreaks: a sample, counted from the first of the window
   };
-  /// REQUIRES: (a, b, c) positive. Cost: O(rows) + samples / 8, less where it breaks; void samples count for nothing.
-  Verdict judge(const FitCorner& a, const FitCorner& b, const FitCorner& c, float energy_limit) const;
+  /// REQUIRES: (a, b, c) positive. Cost: O(rows) + samples / 8, less where it breaks; nodata samples count for nothing.
+  Verdict assess(const FitCorner& a, const FitCorner& b, const FitCorner& c, float energy_limit) const;
 
   /// The pull of the samples on the height of corner a, and on its place. With bounds t = error / bound, and λ is the
   /// weight times unit() / bound: what t changes by where the corner rises by a unit.
@@ -91,7 +91,7 @@ class TriangleError {
     double push = 0;       ///< Σ t⁷ λ, positive where the plane is too high
     double slope_x = 0, slope_y = 0;  ///< of the plane, in units() a sample
   };
-  /// REQUIRES: (a, b, c) positive, has_energy(), no norm. Cost: as judge().
+  /// REQUIRES: (a, b, c) positive, has_energy(), no norm. Cost: as assess().
   Pull pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const;
 
   /// The same for each field; of heights alone one. Fields are reckoned by their scales.
@@ -152,8 +152,8 @@ class TriangleError {
   void each_residual(const TriangleTask& task, const std::array<FitCorner, 3>& corners, const Add& add) const;
   TriangleTask task_of(const FitCorner& a, const FitCorner& b, const FitCorner& c) const;
   template <class Tally>
-  Verdict judge_by(const FitCorner& a, const FitCorner& b, const FitCorner& c, float energy_limit) const;
-  Verdict judge_corners(const std::array<FitCorner, 3>& corners, float energy_limit) const;
+  Verdict assess_by(const FitCorner& a, const FitCorner& b, const FitCorner& c, float energy_limit) const;
+  Verdict assess_corners(const std::array<FitCorner, 3>& corners, float energy_limit) const;
   float energy_of(float error) const;
   template <class Tally>
   bool decide(const Tally& tally, Verdict& verdict) const;

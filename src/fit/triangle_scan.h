@@ -1,4 +1,4 @@
-// The rows of one triangle, eight samples at a time: what judging a triangle and asking its samples have in common.
+// The rows of one triangle, eight samples at a time: what assessing a triangle and asking its samples have in common.
 // For triangle_error.cpp, triangle_pull.cpp and norm_scan.h alone.
 #pragma once
 
@@ -37,7 +37,7 @@ inline bool any(Masks mask) {
 inline Floats kept(Floats values, Masks meant) {
   return reinterpret_cast<Floats>(reinterpret_cast<Masks>(values) & meant);
 }
-/// Four errors' magnitudes; 0 where they are not meant, and where the sample is void: NaN is not equal to itself.
+/// Four errors' magnitudes; 0 where they are not meant, and where the sample is nodata: NaN is not equal to itself.
 inline Floats magnitudes(Floats errors, Masks meant) {
   constexpr std::int32_t kAllButSign = 0x7fffffff;
   return kept(errors, meant & (errors == errors) & Masks{kAllButSign, kAllButSign, kAllButSign, kAllButSign});

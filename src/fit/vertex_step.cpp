@@ -28,7 +28,7 @@ constexpr int kLevelTries = 4;
 
 Point sample_at(const FitCorner& corner) { return {corner.x / kLatticeSteps, corner.y / kLatticeSteps}; }
 
-/// Between samples, by bilinear interpolation; NaN beside a void.
+/// Between samples, by bilinear interpolation; NaN beside nodata.
 float terrain_height(const TriangleError& error, const Patch::Window& window, const FitCorner& place) {
   const Point p = sample_at(place);
   const Point q{std::min(p.x + 1, window.cols - 1), std::min(p.y + 1, window.rows - 1)};
@@ -49,7 +49,7 @@ Point unit_step(double x, double y) {
 
 }  // namespace
 
-/// Central differences, in units of the errors a sample; 0 where samples are void or beyond the window.
+/// Central differences, in units of the errors a sample; 0 where samples are nodata or beyond the window.
 VertexStep::Vector VertexStep::terrain_slope(const TriangleError& error, std::size_t field, const FitCorner& at) const {
   const auto& window = patch_.window();
   const Point p = sample_at(at);
@@ -243,7 +243,7 @@ bool VertexStep::take(const TriangleError& error, Patch::Id v, const Offer& offe
   if (offer.mends) limit = std::numeric_limits<float>::infinity();
   verdicts_.clear();
   for (std::size_t i = 0; i < star_.faces.size(); ++i) {
-    verdicts_.push_back(error.judge(offer.place, ring(i), ring(i + 1), limit));
+    verdicts_.push_back(error.assess(offer.place, ring(i), ring(i + 1), limit));
     if (verdicts_.back().kind != TriangleError::Verdict::Kind::kKeeps) return false;
     limit -= verdicts_.back().energy;
   }

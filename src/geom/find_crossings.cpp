@@ -74,7 +74,7 @@ class Finder {
  public:
   Finder(std::span<const Segment> segments, std::size_t first_rigid) : segments_(segments), first_rigid_(first_rigid) {}
 
-  void judge(std::uint32_t a, std::uint32_t b) {
+  void assess(std::uint32_t a, std::uint32_t b) {
     const Segment &s = segments_[a], &t = segments_[b];
     const std::int64_t before_t = orient(s.from, s.to, t.from), behind_t = orient(s.from, s.to, t.to);
     if (sign_of(before_t) * sign_of(behind_t) >= 0) return;
@@ -137,7 +137,7 @@ Crossings find_crossings(std::span<const Segment> lines, std::span<const Segment
   Finder finder(segments, lines.size());
   visit_overlaps(tree, [&](std::size_t a, std::size_t b) {
     const std::uint32_t one = pieces.owners[tree.order()[a]], other = pieces.owners[tree.order()[b]];
-    if (one != other) finder.judge(one, other);
+    if (one != other) finder.assess(one, other);
   });
   return finder.take();
 }

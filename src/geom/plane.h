@@ -1,9 +1,9 @@
 // The plane of a triangle over the lattice, and how far its arithmetic can be trusted.
 //
-// height_at() is the one formula by which every algorithm of the engine, textbook or fast, judges a sample: the corners
-// are put into raster order first, so the result depends on the triangle and the sample only, not on ids or on the path
-// of the scan. Double, no contraction: each operation rounds once. guard() bounds the sum of these roundings, so that a
-// comparison with a threshold is certain outside threshold ± guard; inside, exact_error.h decides.
+// height_at() is the one formula by which every algorithm of the engine, textbook or fast, measures a sample: the
+// corners are put into raster order first, so the result depends on the triangle and the sample only, not on ids or on
+// the path of the scan. Double, no contraction: each operation rounds once. guard() bounds the sum of these roundings,
+// so that a comparison with a threshold is certain outside threshold ± guard; inside, exact_error.h decides.
 #pragma once
 
 #include <algorithm>

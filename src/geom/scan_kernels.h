@@ -27,7 +27,7 @@ namespace scarp {
 struct ScanHit {
   float error = 0;  ///< 0: no sample's computed error is above scan_floor(threshold, guard); so none exceeds the
                     ///< threshold, provided that guard <= threshold (else nothing is known without exact arithmetic)
-  Place at = 0;     ///< the first in raster order among the samples of that error
+  TilePoint at = 0;  ///< the first in raster order among the samples of that error
   float guard = 0;  ///< ScanPlane::guard, hit or not: the sample is above the threshold for certain where
                     ///< error > threshold + guard
 };
@@ -44,22 +44,22 @@ struct ScanKernels {
   const char* name;  ///< "AVX3", "AVX2", "SSE4", "NEON", "WASM", "EMU128", … as Highway calls them; "SCALAR": the twin
 
   /// hits[i] = the farthest sample of the closed triangle i, where its computed error is above the floor.
-  /// `hints` are places that are likely to have large errors (candidates of the triangles that were there before): they
-  /// make the search in large triangles shorter and never change a hit. Void samples count for nothing.
+  /// `hints` are points that are likely to have large errors (candidates of the triangles that were there before): they
+  /// make the search in large triangles shorter and never change a hit. Nodata samples count for nothing.
   /// Returns the number of samples and blocks compared with a plane: a statistic, the same for all vectors, not for the
   /// scalar twin.
   /// REQUIRES: corners are valid samples of the tile, orient > 0; every |height| of the tile <= kMaxScanHeight;
   /// threshold >= 0.
-  std::uint64_t (*scan)(const TileView& tile, double threshold, std::span<const std::array<Place, 3>> triangles,
-                        std::span<const Place> hints, ScanHit* hits);
+  std::uint64_t (*scan)(const TileView& tile, double threshold, std::span<const std::array<TilePoint, 3>> triangles,
+                        std::span<const TilePoint> hints, ScanHit* hits);
 
   /// Fills the block arrays of a tile from its samples, padding included. `low` and `high` are the arrays that
-  /// tile.block_low and block_high point to. Returns the largest |height|, and in `voids` the number of NaN samples.
-  float (*fill_blocks)(const TileView& tile, float* low, float* high, std::uint64_t& voids);
+  /// tile.block_low and block_high point to. Returns the largest |height|, and in `nodata` the number of NaN samples.
+  float (*fill_blocks)(const TileView& tile, float* low, float* high, std::uint64_t& nodata);
 
   /// For x in [0, count): error = |base + slope · (offset + x) − samples[x]| in double, each operation rounded, as
   /// Plane::height_at() does. Where the largest exceeds `worst`, stores it there and the first such x in `at`; returns
-  /// whether it did. NaN samples count for nothing. The plain judge's row, bit for bit. REQUIRES: sums of `offset` and
+  /// whether it did. NaN samples count for nothing. The plain metric's row, bit for bit. REQUIRES: sums of `offset` and
   /// whole numbers up to `count` are exact.
   bool (*scan_row)(const float* samples, std::int32_t count, double base, double slope, double offset, double& worst,
                    std::int32_t& at);

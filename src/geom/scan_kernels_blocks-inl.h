@@ -115,9 +115,10 @@ HWY_INLINE std::uint64_t scan_block_row(const BlockBounds& blocks, std::int32_t 
 
 /// Hints first, then the best block of all, then the best of each row, then what is left: each step leaves less to the
 /// next. The order does not depend on the number of lanes.
-HWY_NOINLINE std::uint64_t scan_blocks(const TileView& tile, const ScanTask& task, const std::array<Place, 3>& corners,
-                                       std::span<const Place> hints, ScanBest& best) {
-  for (const Place hint : hints) {
+HWY_NOINLINE std::uint64_t scan_blocks(const TileView& tile, const ScanTask& task,
+                                       const std::array<TilePoint, 3>& corners, std::span<const TilePoint> hints,
+                                       ScanBest& best) {
+  for (const TilePoint hint : hints) {
     const Point p = point_of(hint);
     if (task.covers(p)) best.offer(task.error(p.x, p.y, tile.at(hint)), hint);
   }

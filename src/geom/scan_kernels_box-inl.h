@@ -29,7 +29,7 @@ HWY_INLINE float entry(const ScanTask& task, const ScanBest& best) {
   return bit_cast<float>(bit_cast<std::uint32_t>(best.error) - 1);
 }
 
-/// The largest error of each lane above `start`, and where it lies; a lane without one has `start` and any place.
+/// The largest error of each lane above `start`, and where it lies; a lane without one has `start` and any point.
 template <class D>
 struct Farthest {
   hn::Vec<D> error;
@@ -51,7 +51,7 @@ struct Farthest {
     const auto largest = hn::MaxOfLanes(d, error);
     const auto none = hn::Set(di, std::numeric_limits<std::int32_t>::max());
     const auto places = hn::IfThenElse(hn::RebindMask(di, hn::Eq(error, largest)), at, none);
-    best.offer(hn::GetLane(largest), static_cast<Place>(hn::GetLane(hn::MinOfLanes(di, places))));
+    best.offer(hn::GetLane(largest), static_cast<TilePoint>(hn::GetLane(hn::MinOfLanes(di, places))));
   }
 };
 
@@ -109,7 +109,7 @@ struct StripRows {
   const ScanTask& task;
   float x_low[3], x_high[3], x[3], y[3], slant[3];  ///< of the edge from corner i to the next
 
-  HWY_INLINE StripRows(const ScanTask& scan_task, const std::array<Place, 3>& corners) : task(scan_task) {
+  HWY_INLINE StripRows(const ScanTask& scan_task, const std::array<TilePoint, 3>& corners) : task(scan_task) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Point from = point_of(corners[i]), to = point_of(corners[i == 2 ? 0 : i + 1]);
       x[i] = static_cast<float>(from.x);
@@ -146,7 +146,7 @@ struct StripRows {
 };
 
 /// Strip by strip, each no longer than the triangle in it.
-HWY_NOINLINE void scan_strips(const TileView& tile, const ScanTask& task, const std::array<Place, 3>& corners,
+HWY_NOINLINE void scan_strips(const TileView& tile, const ScanTask& task, const std::array<TilePoint, 3>& corners,
                               ScanBest& best) {
   const hn::CappedTag<float, 16> d;
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));

@@ -4,7 +4,7 @@ namespace scarp::detail {
 
 namespace {
 
-std::array<Point, 3> points_of(const std::array<Place, 3>& corners) {
+std::array<Point, 3> points_of(const std::array<TilePoint, 3>& corners) {
   return {point_of(corners[0]), point_of(corners[1]), point_of(corners[2])};
 }
 
@@ -12,7 +12,7 @@ constexpr std::size_t next(std::size_t i) { return i == 2 ? 0 : i + 1; }
 
 }  // namespace
 
-BlockColumns::BlockColumns(const ScanTask& task, const std::array<Place, 3>& corners)
+BlockColumns::BlockColumns(const ScanTask& task, const std::array<TilePoint, 3>& corners)
     : task_(task), corners_(points_of(corners)) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Point from = corners_[i], to = corners_[next(i)];

@@ -13,7 +13,7 @@ struct Span {
 /// Which columns of blocks can hold samples of the triangle: a superset.
 class BlockColumns {
  public:
-  BlockColumns(const ScanTask& task, const std::array<Place, 3>& corners);
+  BlockColumns(const ScanTask& task, const std::array<TilePoint, 3>& corners);
 
   /// Blocks first … last of a row of blocks that meets the triangle's box.
   Span of(std::int32_t block_row) const;

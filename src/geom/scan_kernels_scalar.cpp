@@ -7,16 +7,17 @@ namespace scarp::detail {
 
 namespace {
 
-std::uint64_t scan(const TileView& tile, double threshold, std::span<const std::array<Place, 3>> triangles,
-                   std::span<const Place>, ScanHit* hits) {
+std::uint64_t scan(const TileView& tile, double threshold, std::span<const std::array<TilePoint, 3>> triangles,
+                   std::span<const TilePoint>, ScanHit* hits) {
   std::uint64_t scanned = 0;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    const std::array<Place, 3>& corners = triangles[i];
+    const std::array<TilePoint, 3>& corners = triangles[i];
     const ScanTask task(tile, corners, threshold);
     ScanBest best{task.floor, 0};
     scan_rows({point_of(corners[0]), point_of(corners[1]), point_of(corners[2])},
               [&](std::int32_t y, std::int32_t first, std::int32_t last) {
-                for (std::int32_t x = first; x <= last; ++x) best.offer(task.error(x, y, tile.row(y)[x]), place(x, y));
+                for (std::int32_t x = first; x <= last; ++x)
+                  best.offer(task.error(x, y, tile.row(y)[x]), tile_point(x, y));
                 scanned += static_cast<std::uint64_t>(last - first + 1);
               });
     hits[i] = task.hit(best);
@@ -24,10 +25,10 @@ std::uint64_t scan(const TileView& tile, double threshold, std::span<const std::
   return scanned;
 }
 
-float fill_blocks(const TileView& tile, float* low, float* high, std::uint64_t& voids) {
+float fill_blocks(const TileView& tile, float* low, float* high, std::uint64_t& nodata) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   float most = 0;
-  voids = 0;
+  nodata = 0;
   for (std::int32_t top = 0; top < tile.rows; top += kBlock) {
     float* const low_row = low + top / kBlock * tile.block_stride;
     float* const high_row = high + top / kBlock * tile.block_stride;
@@ -36,7 +37,7 @@ float fill_blocks(const TileView& tile, float* low, float* high, std::uint64_t& 
     for (std::int32_t y = top; y < std::min(top + kBlock, tile.rows); ++y) {
       for (std::int32_t x = 0; x < tile.cols; ++x) {
         const float sample = tile.row(y)[x];
-        voids += std::isnan(sample);
+        nodata += std::isnan(sample);
         if (sample < low_row[x / kBlock]) low_row[x / kBlock] = sample;
         if (sample > high_row[x / kBlock]) high_row[x / kBlock] = sample;
         if (std::abs(sample) > most) most = std::abs(sample);

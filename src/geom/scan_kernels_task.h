@@ -11,14 +11,14 @@
 
 namespace scarp::detail {
 
-/// A farthest sample in the making. Above the floor for as long as it is a hit.
+/// A farthest sample in the making. Above the floor while it is a hit.
 struct ScanBest {
   float error = 0;
-  Place at = 0;
+  TilePoint at = 0;
 
-  /// Among equal errors the first in raster order wins; NaN never does. The floor has no place, so it loses to nothing
+  /// Among equal errors the first in raster order wins; NaN never does. The floor has no point, so it loses to nothing
   /// that merely equals it.
-  void offer(float e, Place p) {
+  void offer(float e, TilePoint p) {
     if (e > error || (e == error && p < at)) *this = {e, p};
   }
 };
@@ -31,7 +31,7 @@ struct ScanTask {
   std::array<std::int32_t, 3> along_x, along_y;  ///< edge functions: a step in x, in y; at most 2¹² each
   std::array<std::int32_t, 3> at_corner;         ///< their values at (left, top), below 2²⁵; negative is outside
 
-  [[gnu::always_inline]] ScanTask(const TileView& tile, const std::array<Place, 3>& corners, double threshold)
+  [[gnu::always_inline]] ScanTask(const TileView& tile, const std::array<TilePoint, 3>& corners, double threshold)
       : plane(ScanPlane::through(tile, corners, threshold)),
         floor(scan_floor(threshold, plane.guard)),
         base(point_of(corners[0])) {

@@ -28,10 +28,10 @@ namespace scarp::HWY_NAMESPACE {
 /// Boxes up to this many samples are scanned whole, larger ones by blocks.
 constexpr std::int32_t kMaxBoxArea = 4096;
 
-std::uint64_t scan(const TileView& tile, double threshold, std::span<const std::array<Place, 3>> triangles,
-                   std::span<const Place> hints, ScanHit* hits) {
+std::uint64_t scan(const TileView& tile, double threshold, std::span<const std::array<TilePoint, 3>> triangles,
+                   std::span<const TilePoint> hints, ScanHit* hits) {
   std::uint64_t scanned = 0;
-  for (const std::array<Place, 3>& corners : triangles) {
+  for (const std::array<TilePoint, 3>& corners : triangles) {
     const ScanTask task(tile, corners, threshold);
     const std::int32_t width = task.width(), height = task.height();
     ScanBest best{task.floor, 0};
@@ -55,7 +55,7 @@ std::uint64_t scan(const TileView& tile, double threshold, std::span<const std::
 /// Smallest and largest of one block, NaN ignored; counts the NaN.
 template <class D>
 HWY_INLINE void fill_block(D d, const float* samples, std::ptrdiff_t stride, std::int32_t cols, std::int32_t rows,
-                           float& low, float& high, std::uint64_t& voids) {
+                           float& low, float& high, std::uint64_t& nodata) {
   const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
   auto lowest = infinity, highest = hn::Neg(infinity);
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
@@ -65,24 +65,24 @@ HWY_INLINE void fill_block(D d, const float* samples, std::ptrdiff_t stride, std
       const auto sample = hn::LoadU(d, samples + y * stride + x);
       lowest = hn::IfThenElse(hn::And(inside, hn::Lt(sample, lowest)), sample, lowest);
       highest = hn::IfThenElse(hn::And(inside, hn::Gt(sample, highest)), sample, highest);
-      voids += hn::CountTrue(d, hn::And(inside, hn::IsNaN(sample)));
+      nodata += hn::CountTrue(d, hn::And(inside, hn::IsNaN(sample)));
     }
   }
   low = hn::GetLane(hn::MinOfLanes(d, lowest));
   high = hn::GetLane(hn::MaxOfLanes(d, highest));
 }
 
-float fill_blocks(const TileView& tile, float* low, float* high, std::uint64_t& voids) {
+float fill_blocks(const TileView& tile, float* low, float* high, std::uint64_t& nodata) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const hn::CappedTag<float, 8> d;
   float most = 0;
-  voids = 0;
+  nodata = 0;
   for (std::int32_t y = 0; y < tile.rows; y += kBlock) {
     const std::int32_t rows = tile.rows - y < kBlock ? tile.rows - y : kBlock;
     std::ptrdiff_t block = 0;
     for (std::int32_t x = 0; x < tile.cols; x += kBlock, ++block) {
       const std::int32_t cols = tile.cols - x < kBlock ? tile.cols - x : kBlock;
-      fill_block(d, tile.row(y) + x, tile.stride, cols, rows, low[block], high[block], voids);
+      fill_block(d, tile.row(y) + x, tile.stride, cols, rows, low[block], high[block], nodata);
       if (high[block] > most) most = high[block];
       if (-low[block] > most) most = -low[block];
     }

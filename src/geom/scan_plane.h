@@ -20,7 +20,7 @@ struct ScanPlane {
                     ///< the threshold that it was made for, threshold's own rounding to float32 included
 
   /// REQUIRES: positive orientation; heights finite, at most kMaxScanHeight in magnitude; threshold >= 0.
-  static ScanPlane through(const TileView& tile, const std::array<Place, 3>& corners, double threshold);
+  static ScanPlane through(const TileView& tile, const std::array<TilePoint, 3>& corners, double threshold);
 
   /// Two corners as seen from the base, in samples, and how much higher than the base they are.
   struct Span {
@@ -41,8 +41,8 @@ struct ScanPlane {
 // roundings of the guard itself. Below the smallest normal number each rounding adds up to 2⁻¹⁵⁰, that of a slope 2¹²
 // times: less than 2⁻¹³⁶ in all. Level: slopes are exactly 0, z − za and T round (3uT), and a difference of floats is
 // exact where it is small; so a threshold of 0 has no guard.
-[[gnu::always_inline]] inline ScanPlane ScanPlane::through(const TileView& tile, const std::array<Place, 3>& corners,
-                                                           double threshold) {
+[[gnu::always_inline]] inline ScanPlane ScanPlane::through(const TileView& tile,
+                                                           const std::array<TilePoint, 3>& corners, double threshold) {
   const auto [p, q, r] = std::array{point_of(corners[0]), point_of(corners[1]), point_of(corners[2])};
   const double height = tile.at(corners[0]);
   const Span span{static_cast<double>(q.x - p.x), static_cast<double>(q.y - p.y), static_cast<double>(r.x - p.x),

@@ -1,6 +1,5 @@
 // A tile: a window of the raster in a buffer of its own, padded so that whole vectors can be read from it.
-//
-// Places in a tile are one 32-bit number, row above column: comparing two of them is raster order, a triangle's three
+// Points of a tile are one 32-bit number, row above column: comparing two of them is raster order, a triangle's three
 // corners are 12 bytes, and no extent of the whole raster is too large for them.
 #pragma once
 
@@ -12,12 +11,14 @@
 namespace scarp {
 
 /// column | row << 16, relative to the tile's first sample.
-using Place = std::uint32_t;
+using TilePoint = std::uint32_t;
 
-constexpr Place place(std::int32_t x, std::int32_t y) { return static_cast<Place>(x) | static_cast<Place>(y) << 16; }
-constexpr std::int32_t place_x(Place p) { return static_cast<std::int32_t>(p & 0xffff); }
-constexpr std::int32_t place_y(Place p) { return static_cast<std::int32_t>(p >> 16); }
-constexpr Point point_of(Place p) { return {place_x(p), place_y(p)}; }
+constexpr TilePoint tile_point(std::int32_t x, std::int32_t y) {
+  return static_cast<TilePoint>(x) | static_cast<TilePoint>(y) << 16;
+}
+constexpr std::int32_t tile_x(TilePoint p) { return static_cast<std::int32_t>(p & 0xffff); }
+constexpr std::int32_t tile_y(TilePoint p) { return static_cast<std::int32_t>(p >> 16); }
+constexpr Point point_of(TilePoint p) { return {tile_x(p), tile_y(p)}; }
 
 /// Longest side of a tile in samples: in-circle determinants stay below 2^53 (12 d⁴), edge functions of slender boxes
 /// below 2^24.
@@ -28,8 +29,8 @@ inline constexpr std::int32_t kTilePadding = 16;  ///< samples to the right of e
 
 /// Borrowed samples of one tile with the smallest and largest of each 8 × 8 block.
 struct TileView {
-  const float* samples = nullptr;  ///< row-major, NaN is void; `stride` floats a row, at least cols + kTilePadding, and
-                                   ///< kTilePadding rows more than `rows`: all may be read, whatever they hold
+  const float* samples = nullptr;  ///< row-major, NaN is nodata; `stride` floats a row, at least cols + kTilePadding,
+                                   ///< and kTilePadding rows more than `rows`: all may be read, whatever they hold
   std::ptrdiff_t stride = 0;
   std::int32_t cols = 0, rows = 0;  ///< 2 … kMaxTileSide
   /// Of the samples of the block that are heights, +infinity and −infinity if there are none; `block_stride` floats a
@@ -39,7 +40,7 @@ struct TileView {
   std::ptrdiff_t block_stride = 0;
 
   const float* row(std::int32_t y) const { return samples + y * stride; }
-  float at(Place p) const { return row(place_y(p))[place_x(p)]; }
+  float at(TilePoint p) const { return row(tile_y(p))[tile_x(p)]; }
 };
 
 }  // namespace scarp

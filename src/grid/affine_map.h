@@ -7,13 +7,13 @@
 namespace scarp {
 
 /// A position or a difference of positions in samples, not rounded.
-struct SamplePlace {
+struct SamplePosition {
   double col = 0, row = 0;
 };
 
 /// Farther away doubles do not resolve a step of the lattice, so the point where a line enters the raster is unknown.
 inline constexpr double kFarthestSample = 0x1p41;
-inline bool can_be_placed(const SamplePlace& at) {
+inline bool can_be_placed(const SamplePosition& at) {
   return std::abs(at.col) <= kFarthestSample && std::abs(at.row) <= kFarthestSample;
 }
 
@@ -23,9 +23,9 @@ class MapToSamples {
   explicit MapToSamples(const std::array<double, 6>& affine)
       : affine_(affine), determinant_(affine[1] * affine[5] - affine[2] * affine[4]) {}
 
-  SamplePlace place(double x, double y) const { return way(x - affine_[0], y - affine_[3]); }
-  /// Of a difference of two places.
-  SamplePlace way(double x, double y) const {
+  SamplePosition position(double x, double y) const { return way(x - affine_[0], y - affine_[3]); }
+  /// Of a difference of two positions.
+  SamplePosition way(double x, double y) const {
     return {(affine_[5] * x - affine_[2] * y) / determinant_, (affine_[1] * y - affine_[4] * x) / determinant_};
   }
 

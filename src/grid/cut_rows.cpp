@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "grid/mask_samples.h"
 #include "grid/outline.h"
-#include "grid/vertex_places.h"
-#include "grid/void_samples.h"
+#include "grid/vertex_lattice.h"
 
 namespace scarp {
 
@@ -101,7 +101,7 @@ SampleRuns CutRows::near_cells(std::int32_t row) const {
   return cells;
 }
 
-void CutRows::void_beyond(std::int32_t col, std::int32_t row, std::int32_t cols, std::int32_t rows, float* samples,
+void CutRows::mask_beyond(std::int32_t col, std::int32_t row, std::int32_t cols, std::int32_t rows, float* samples,
                           std::ptrdiff_t stride) const {
   std::array<SampleRuns, 4> near;  // of cells, those from row − 2 to row + 1, each in its place
   const auto place_of = [&](std::int32_t cell_row) -> SampleRuns& {
@@ -120,7 +120,7 @@ void CutRows::void_beyond(std::int32_t col, std::int32_t row, std::int32_t cols,
       for (const auto& [none, begin, end] : place_of(k).all()) kept.add({0, begin - 1, end + 2});
     }
     kept.merge();
-    void_beside(kept.all(), col, col + cols, samples + (y - row) * stride);
+    mask_beside(kept.all(), col, col + cols, samples + (y - row) * stride);
   }
 }
 

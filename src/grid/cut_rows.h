@@ -25,11 +25,11 @@ class CutRows {
   /// Of a sample. Cost: O(log(crossings of its row)).
   CutSide side(Point sample) const;
 
-  /// Makes samples of a window void (NaN) that no cell near the cut surface has: those of the cells that it lies in or
-  /// touches stay, and those of the cells around them, so that heights between samples and normals are what they were.
-  /// `samples`: row-major, `stride` floats from row to row. Whatever the window, a sample's fate is the same. Cost:
-  /// O(samples made void + crossings of the rows).
-  void void_beyond(std::int32_t col, std::int32_t row, std::int32_t cols, std::int32_t rows, float* samples,
+  /// Makes samples of a window nodata (NaN) that no cell near the cut surface has: those of the cells that it lies in
+  /// or touches stay, and those of the cells around them, so that heights between samples and normals are what they
+  /// were. `samples`: row-major, `stride` floats from row to row. Whatever the window, a sample's fate is the same.
+  /// Cost: O(samples made nodata + crossings of the rows).
+  void mask_beyond(std::int32_t col, std::int32_t row, std::int32_t cols, std::int32_t rows, float* samples,
                    std::ptrdiff_t stride) const;
 
   /// Whether a cell that the cut surface lies in or touches has three heights. `raster`: all of it.

@@ -24,7 +24,7 @@ bool narrow(double from, double span, int size, double& begin, double& end) {
 
 void LineRuns::add_course(const Line& line, double reach) {
   for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
-    const SamplePlace p = place_of(line.points[k]), q = place_of(line.points[k + 1]);
+    const SamplePosition p = position_of(line.points[k]), q = position_of(line.points[k + 1]);
     double begin = 0, end = 1;
     if (!narrow(p.col, q.col - p.col, cols_, begin, end) || !narrow(p.row, q.row - p.row, rows_, begin, end)) continue;
     const double length = std::max(std::abs(q.col - p.col), std::abs(q.row - p.row)) * (end - begin);
@@ -59,7 +59,7 @@ void LineRuns::fill(const std::vector<const Line*>& rings, int begin, int end) {
         fill(rings, begin, begin + (end - begin) / 2);
         return fill(rings, begin + (end - begin) / 2, end);
       }
-      SamplePlace p = place_of(ring->points[k]), q = place_of(ring->points[k + 1]);
+      SamplePosition p = position_of(ring->points[k]), q = position_of(ring->points[k + 1]);
       if (p.row > q.row) std::swap(p, q);
       // Half open, so that a vertex on a row counts once.
       const double first = std::max(std::ceil(p.row), double{1} * begin),

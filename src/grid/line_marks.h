@@ -30,7 +30,9 @@ class LineRuns {
   }
 
  private:
-  SamplePlace place_of(const std::array<double, 3>& point) const { return to_samples_.place(point[0], point[1]); }
+  SamplePosition position_of(const std::array<double, 3>& point) const {
+    return to_samples_.position(point[0], point[1]);
+  }
   void fill(const std::vector<const Line*>& rings, int begin, int end);
 
   MapToSamples to_samples_;

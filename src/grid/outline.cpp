@@ -182,9 +182,9 @@ Outline join_edges(const std::vector<DirectedEdge>& edges) {
 bool is_whole(const Raster& raster) {
   for (std::int32_t y = 0; y < raster.rows; ++y) {
     // Without a way out in the middle of a row, so that compilers see vectors.
-    int voids = 0;
-    for (std::int32_t x = 0; x < raster.cols; ++x) voids += std::isnan(raster.row(y)[x]) ? 1 : 0;
-    if (voids > 0) return false;
+    int nodata = 0;
+    for (std::int32_t x = 0; x < raster.cols; ++x) nodata += std::isnan(raster.row(y)[x]) ? 1 : 0;
+    if (nodata > 0) return false;
   }
   return true;
 }
@@ -208,7 +208,7 @@ bool centroid_is_surface(const Raster& raster, const std::array<Point, 3>& corne
   switch (valid_corners(raster, x, y)) {
     case 0b1111:
       return true;
-    case 0b1110:  // (x, y) is void
+    case 0b1110:  // (x, y) is nodata
       return u + v >= 3;
     case 0b1101:  // (x + 1, y)
       return u <= v;

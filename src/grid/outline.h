@@ -40,8 +40,9 @@ inline unsigned valid_corners(const Raster& raster, std::int32_t x, std::int32_t
 bool centroid_is_surface(const Raster& raster, const std::array<Point, 3>& corners);
 
 /// Simplifies the polygons so that each point of the old outline lies within `tolerance` samples of the new one. The
-/// domain only grows, over void samples: no valid sample is cut off or newly enclosed, and polygons still do not cross.
-/// Vertices are a subset of the old ones, those where polygons touch stay. Cost: O(L · tolerance) on typical outlines.
+/// domain only grows, over nodata samples: no valid sample is cut off or newly enclosed, and polygons still do not
+/// cross. Vertices are a subset of the old ones, those where polygons touch stay. Cost: O(L · tolerance) on typical
+/// outlines.
 Outline simplify_outline(const Raster& raster, const Outline& outline, double tolerance);
 
 }  // namespace scarp

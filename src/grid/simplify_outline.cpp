@@ -54,7 +54,7 @@ bool on_chain(std::span<const Point> chain, Point p) {
 }
 
 /// No height lies between the chain and the segment that closes it, but those of the chain itself.
-bool area_is_void(const Raster& raster, std::span<const Point> chain) {
+bool area_is_nodata(const Raster& raster, std::span<const Point> chain) {
   Point low = chain[0], high = chain[0];
   for (Point p : chain) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
@@ -97,7 +97,7 @@ std::vector<Point> simplify_polygon(const Raster& raster, const std::vector<Poin
       if (j == n && kept.size() < 3) break;
       if (std::binary_search(touching.begin(), touching.end(), chain.back(), before)) break;
       chain.push_back(polygon[j % n]);
-      if (hugs_segment(chain, tolerance) && area_is_void(raster, chain)) {
+      if (hugs_segment(chain, tolerance) && area_is_nodata(raster, chain)) {
         best = j;
         failures = 0;
       } else {

@@ -9,7 +9,7 @@
 
 #include "base/caught.h"
 #include "grid/affine_map.h"
-#include "grid/line_places.h"
+#include "grid/line_positions.h"
 
 namespace scarp {
 namespace {
@@ -100,7 +100,7 @@ class LatticeLines {
     heights_.push_back(v.z);
     climbs_.push_back(0);
   }
-  /// A cliff between two vertices in one place is no climb: it is a conflict.
+  /// A cliff between two vertices at one lattice point is no climb: it is a conflict.
   static double climb(const PathVertex& a, const PathVertex& b) {
     const double length = std::max(std::abs(b.col - a.col), std::abs(b.row - a.row)) * kLatticeSteps;
     const double climb = std::abs(b.z - a.z) / length;
@@ -172,9 +172,9 @@ struct Claims {
 };
 
 /// What the raster climbs in a step, in the cell of a point.
-double climb_of(const LineSamples& samples, Point place) {
-  const std::int32_t col = std::min(place.x / kLatticeSteps, samples.cols() - 2),
-                     row = std::min(place.y / kLatticeSteps, samples.rows() - 2);
+double climb_of(const LineSamples& samples, Point point) {
+  const std::int32_t col = std::min(point.x / kLatticeSteps, samples.cols() - 2),
+                     row = std::min(point.y / kLatticeSteps, samples.rows() - 2);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Point p : {Point{col, row}, {col + 1, row}, {col, row + 1}, {col + 1, row + 1}}) {
     if (!samples.is_valid(p)) continue;
@@ -194,10 +194,10 @@ std::vector<Claims> collect_claims(const Arrangement& arranged, const LatticeLin
   const auto claim = [&](std::uint32_t point, std::uint32_t part, double height, double climb) {
     Claims& at = claims[point];
     const std::uint32_t line = lattice.line_of(part);
-    // Faults change no sample, should rounding lead one over it, and disagree with nobody.
+    // Walls change no sample, should rounding lead one over it, and disagree with nobody.
     const Point p = points[point];
     const bool is_sample = p.x % kLatticeSteps == 0 && p.y % kLatticeSteps == 0;
-    if (is_fault(lines[line]) && (is_sample || at.count > 0)) return;
+    if (is_wall(lines[line]) && (is_sample || at.count > 0)) return;
     if (at.count == 0) at.climb = climb_of(samples, p);
     at.add(line, lines[line].yields(), height, 2 * std::max(climb, at.climb) + std::abs(height) * 0x1p-23);
   };
@@ -213,7 +213,7 @@ std::vector<Claims> collect_claims(const Arrangement& arranged, const LatticeLin
         });
       }
     }
-    // A chain stops once where two vertices of a line share a place.
+    // A chain stops once where two vertices of a line share a lattice point.
     lattice.visit_points(part, end, [&](std::uint32_t of, Point p, double height, double climb) {
       const auto found = std::lower_bound(points.begin(), points.end(), p, before);
       if (found == points.end() || *found != p) return;
@@ -251,10 +251,10 @@ Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<do
   std::vector<PathVertex> vertices;
   for (std::uint32_t k = 0; k < lines.size(); ++k) {
     vertices.clear();
-    if (auto placed = check_line_places(lines[k].name, lines[k].points, affine); !placed)
+    if (auto placed = check_line_positions(lines[k].name, lines[k].points, affine); !placed)
       return tl::unexpected(placed.error());
     for (const auto& point : lines[k].points) {
-      const SamplePlace at = to_samples.place(point[0], point[1]);
+      const SamplePosition at = to_samples.position(point[0], point[1]);
       vertices.push_back({at.col, at.row, point[2]});
       if (std::abs(point[2]) > double{std::numeric_limits<float>::max()})
         return fail(ErrorKind::kInput,
@@ -268,7 +268,7 @@ Result<LatticeLines> to_lattice(std::span<const Line> lines, const std::array<do
 }
 
 /// A line that is inserted first and need not stay in the end.
-bool is_start(const Line& line) { return is_fault(line) || line.kind == LineKind::kRidge; }
+bool is_start(const Line& line) { return is_wall(line) || line.kind == LineKind::kRidge; }
 
 /// By edge: a line runs there that is no start, or the outline. Empty without starts.
 std::vector<bool> held_edges(const Arrangement& arranged, const LatticeLines& lattice, std::span<const Line> lines) {
@@ -308,21 +308,21 @@ std::uint64_t count_outside(const Arrangement& arranged, const LatticeLines& lat
 }
 
 template <class Heights>
-double bilinear_at(const Heights& raster, std::int32_t cols, std::int32_t rows, Point place) {
-  if (place.x % kLatticeSteps == 0 && place.y % kLatticeSteps == 0)
-    return raster.at({place.x / kLatticeSteps, place.y / kLatticeSteps});
-  const std::int32_t col = std::min(place.x / kLatticeSteps, cols - 2),
-                     row = std::min(place.y / kLatticeSteps, rows - 2);
-  const double right = place.x / double{kLatticeSteps} - col, down = place.y / double{kLatticeSteps} - row;
+double bilinear_at(const Heights& raster, std::int32_t cols, std::int32_t rows, Point point) {
+  if (point.x % kLatticeSteps == 0 && point.y % kLatticeSteps == 0)
+    return raster.at({point.x / kLatticeSteps, point.y / kLatticeSteps});
+  const std::int32_t col = std::min(point.x / kLatticeSteps, cols - 2),
+                     row = std::min(point.y / kLatticeSteps, rows - 2);
+  const double right = point.x / double{kLatticeSteps} - col, down = point.y / double{kLatticeSteps} - row;
   // Around the cell, so that k and k + 2 are opposite.
   const std::array<double, 4> weights{(1 - right) * (1 - down), right * (1 - down), right * down, (1 - right) * down};
   std::array<double, 4> heights{raster.at({col, row}), raster.at({col + 1, row}), raster.at({col + 1, row + 1}),
                                 raster.at({col, row + 1})};
   double whole = 0;
   for (std::size_t k = 0; k < 4; ++k) whole += weights[k] * heights[k];
-  if (!std::isnan(whole)) return whole;  // without voids the weights, which are exact, add up to 1
-  const auto voids = std::count_if(heights.begin(), heights.end(), [](double z) { return std::isnan(z); });
-  if (voids == 1) {
+  if (!std::isnan(whole)) return whole;  // without nodata the weights, which are exact, add up to 1
+  const auto nodata = std::count_if(heights.begin(), heights.end(), [](double z) { return std::isnan(z); });
+  if (nodata == 1) {
     const auto k = static_cast<std::size_t>(
         std::find_if(heights.begin(), heights.end(), [](double z) { return std::isnan(z); }) - heights.begin());
     heights[k] = heights[(k + 1) % 4] + heights[(k + 3) % 4] - heights[(k + 2) % 4];
@@ -338,7 +338,7 @@ double bilinear_at(const Heights& raster, std::int32_t cols, std::int32_t rows, 
 
 }  // namespace
 
-bool is_laid_first(const Line& line) { return is_fault(line) || is_ridge_line(line); }
+bool is_inserted_first(const Line& line) { return is_wall(line) || is_ridge_line(line); }
 
 std::array<double, 6> map_affine(const RasterInfo& info, int rows) {
   if (!info.has_georeference) return grid_frame(rows).affine;
@@ -346,19 +346,20 @@ std::array<double, 6> map_affine(const RasterInfo& info, int rows) {
   return {g[0] + g[1] / 2 + g[2] / 2, g[1], g[2], g[3] + g[4] / 2 + g[5] / 2, g[4], g[5]};
 }
 
-double height_between_samples(const SampleView& heights, Point place) {
-  return bilinear_at(heights, heights.cols(), heights.rows(), place);
+double height_between_samples(const SampleView& heights, Point point) {
+  return bilinear_at(heights, heights.cols(), heights.rows(), point);
 }
 
-double surface_at(const LineSamples& samples, SamplePlace place) {
-  if (!(place.col >= 0 && place.row >= 0 && place.col <= samples.cols() - 1 && place.row <= samples.rows() - 1))
+double surface_at(const LineSamples& samples, SamplePosition position) {
+  if (!(position.col >= 0 && position.row >= 0 && position.col <= samples.cols() - 1 &&
+        position.row <= samples.rows() - 1))
     return NAN;
   return bilinear_at(samples, samples.cols(), samples.rows(),
-                     {static_cast<std::int32_t>(std::lround(place.col * kLatticeSteps)),
-                      static_cast<std::int32_t>(std::lround(place.row * kLatticeSteps))});
+                     {static_cast<std::int32_t>(std::lround(position.col * kLatticeSteps)),
+                      static_cast<std::int32_t>(std::lround(position.row * kLatticeSteps))});
 }
 
-double surface_at(const Raster& raster, SamplePlace place) { return surface_at(LineSamples(raster), place); }
+double surface_at(const Raster& raster, SamplePosition position) { return surface_at(LineSamples(raster), position); }
 
 Result<std::vector<Segment>> find_courses(std::span<const Line> lines, const std::array<double, 6>& affine,
                                           std::int32_t cols, std::int32_t rows) {

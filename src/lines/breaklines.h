@@ -13,7 +13,7 @@
 #include "grid/bands.h"
 #include "grid/outline.h"
 #include "grid/raster.h"
-#include "grid/vertex_places.h"
+#include "grid/vertex_lattice.h"
 #include "lines/line_samples.h"
 #include "scarp/height_field.h"
 #include "scarp/lines.h"
@@ -49,7 +49,7 @@ struct Breaklines {
 };
 
 /// A line found in the raster, which is inserted before refinement.
-bool is_laid_first(const Line& line);
+bool is_inserted_first(const Line& line);
 
 /// Snaps lines to the lattice of a raster. A vertex of a line moves by at most half a step, 1/512 sample; its segments
 /// move by at most one and a half steps. `affine` maps samples to the coordinates of the lines, as Frame::affine does;
@@ -79,10 +79,10 @@ Result<std::vector<Segment>> find_courses(std::span<const Line> lines, const std
                                           std::int32_t cols, std::int32_t rows);
 
 /// The surface of `heights` above, at a point in kLatticeSteps of a sample within the raster.
-double height_between_samples(const SampleView& heights, Point place);
+double height_between_samples(const SampleView& heights, Point point);
 
 /// The same at the nearest lattice point; NaN beyond the raster.
-double surface_at(const Raster& raster, SamplePlace place);
-double surface_at(const LineSamples& samples, SamplePlace place);
+double surface_at(const Raster& raster, SamplePosition position);
+double surface_at(const LineSamples& samples, SamplePosition position);
 
 }  // namespace scarp

@@ -13,7 +13,7 @@ namespace scarp {
 
 namespace {
 
-/// Whether a place belongs to the domain, closed.
+/// Whether a lattice point belongs to the domain, closed.
 bool is_in_domain(const Triangulation& tin, const Triangulation::Location& location) {
   using Kind = Triangulation::Location::Kind;
   if (!tin.is_outside(location.edge / 3)) return true;
@@ -71,7 +71,8 @@ std::vector<bool> held_points(const ConstraintGraph& graph) {
 
 }  // namespace
 
-Result<ConstrainedMesh> ConstrainedMesh::lay(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph) {
+Result<ConstrainedMesh> ConstrainedMesh::insert(const Raster& raster, Triangulation& tin,
+                                                const ConstraintGraph& graph) {
   ConstrainedMesh mesh(raster, tin);
   const std::vector<Vertex> corners = corners_of(tin);
   tin.scale(kLatticeSteps);
@@ -79,7 +80,7 @@ Result<ConstrainedMesh> ConstrainedMesh::lay(const Raster& raster, Triangulation
   const std::vector<bool> is_held = held_points(graph);
   mesh.heights_.reserve(graph.points.size());
   for (std::size_t i = 0; i < graph.points.size(); ++i) {
-    if (!PlaceHeights::is_sample(graph.points[i])) mesh.heights_.set(graph.points[i], graph.heights[i]);
+    if (!LatticeHeights::is_sample(graph.points[i])) mesh.heights_.set(graph.points[i], graph.heights[i]);
   }
   std::vector<Triangle> near(graph.points.size(), 0);
   for (const std::uint32_t i : nearby_order(graph.points)) {
@@ -123,19 +124,19 @@ void ConstrainedMesh::release_starts(Triangulation& tin) {
   starts_.clear();
 }
 
-VertexPlaces ConstrainedMesh::places(int threads) const {
-  VertexPlaces places{kLatticeSteps, {}, {}};
-  places.heights.resize(tin_->vertex_count());
+VertexLattice ConstrainedMesh::lattice(int threads) const {
+  VertexLattice lattice{kLatticeSteps, {}, {}};
+  lattice.heights.resize(tin_->vertex_count());
   constexpr std::size_t kTogether = 1 << 15;
-  parallel_for((places.heights.size() + kTogether - 1) / kTogether, threads, [&](std::size_t part) {
-    const std::size_t end = std::min((part + 1) * kTogether, places.heights.size());
+  parallel_for((lattice.heights.size() + kTogether - 1) / kTogether, threads, [&](std::size_t part) {
+    const std::size_t end = std::min((part + 1) * kTogether, lattice.heights.size());
     for (std::size_t v = part * kTogether; v < end; ++v)
-      places.heights[v] = heights_.at(tin_->point(static_cast<Vertex>(v)));
+      lattice.heights[v] = heights_.at(tin_->point(static_cast<Vertex>(v)));
   });
-  places.fixed.assign(tin_->vertex_count(), 0);
-  for (const Vertex v : fixed_) places.fixed[v] = 1;
-  for (const Vertex v : starts_) places.fixed[v] = 1;
-  return places;
+  lattice.fixed.assign(tin_->vertex_count(), 0);
+  for (const Vertex v : fixed_) lattice.fixed[v] = 1;
+  for (const Vertex v : starts_) lattice.fixed[v] = 1;
+  return lattice;
 }
 
 }  // namespace scarp

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "grid/raster.h"
-#include "grid/vertex_places.h"
+#include "grid/vertex_lattice.h"
 #include "lines/cut_away.h"
-#include "metric/lattice_judge.h"
+#include "metric/lattice_metric.h"
 #include "scarp/result.h"
 #include "tin/triangulation.h"
 
@@ -20,9 +20,9 @@ struct ConstraintGraph {
   std::vector<Point> points;                        ///< in kLatticeSteps, in the raster, each once
   std::vector<float> heights;                       ///< of the points; the height of a sample takes precedence
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< indices of points
-  std::vector<std::uint8_t> is_shared;  ///< by point: 1 where it is laid beside the domain too; EMPTY: none is
+  std::vector<std::uint8_t> is_shared;  ///< by point: 1 where it is inserted beside the domain too; EMPTY: none is
   std::vector<std::uint8_t> is_start;   ///< by edge: 1 where the mesh need not hold it in the end; EMPTY: all stay
-  bool is_laid_first = false;           ///< before the surface is refined
+  bool is_inserted_first = false;       ///< before the surface is refined
   std::optional<SurfaceCut> cut;        ///< nothing: all of the surface stays
 };
 
@@ -34,7 +34,7 @@ class ConstrainedMesh {
   /// with their edges. `tin` and the raster stay alive; nobody else changes them. Fails with kInternal where an edge
   /// crosses one that is constrained. REQUIRES: sides of at most kMaxCoordinate / kLatticeSteps samples; edges cross no
   /// constrained edge of `tin` but in points of the graph.
-  static Result<ConstrainedMesh> lay(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph);
+  static Result<ConstrainedMesh> insert(const Raster& raster, Triangulation& tin, const ConstraintGraph& graph);
 
   /// Whether some surface remains after a cut, if there is one.
   bool has_surface() const { return has_surface_; }
@@ -43,16 +43,16 @@ class ConstrainedMesh {
   /// Frees the edges that are only a start, and the vertices that belong to no other edge of the graph.
   void release_starts(Triangulation& tin);
 
-  const PlaceHeights& heights() const { return heights_; }
+  const LatticeHeights& heights() const { return heights_; }
   /// Of all vertices that `tin` has by now: heights, and which of them belong to the graph and are not released. With
   /// several threads the samples are those of a raster, not of rows.
-  VertexPlaces places(int threads = 1) const;
+  VertexLattice lattice(int threads = 1) const;
 
  private:
   ConstrainedMesh(const Raster& raster, const Triangulation& tin) : tin_(&tin), heights_(raster) {}
 
   const Triangulation* tin_;
-  PlaceHeights heights_;
+  LatticeHeights heights_;
   std::vector<Vertex> fixed_, starts_;  // of starts only, the latter
   std::vector<std::array<Vertex, 2>> start_edges_;
   std::vector<Triangle> changed_;

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/int128.h"
-#include "grid/vertex_places.h"
+#include "grid/vertex_lattice.h"
 
 namespace scarp {
 

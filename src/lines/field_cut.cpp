@@ -11,9 +11,9 @@
 
 #include "grid/affine_map.h"
 #include "grid/line_marks.h"
-#include "grid/line_places.h"
+#include "grid/line_positions.h"
+#include "grid/mask_samples.h"
 #include "grid/sample_runs.h"
-#include "grid/void_samples.h"
 
 namespace scarp {
 
@@ -55,7 +55,7 @@ class RingClipper {
 
  private:
   RingPoint place(const std::array<double, 3>& point) const {
-    const SamplePlace at = to_samples_.place(point[0], point[1]);
+    const SamplePosition at = to_samples_.position(point[0], point[1]);
     return {{point[0], point[1], std::numeric_limits<double>::quiet_NaN()}, {at.col, at.row}};
   }
 
@@ -93,7 +93,7 @@ class SourceWithin final : public SampleSource {
 
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
     if (auto copied = source_->read(col, row, cols, rows, out, stride); !copied) return copied;
-    for (int y = 0; y < rows; ++y) void_beside(within_->row(row + y), col, col + cols, out + y * stride);
+    for (int y = 0; y < rows; ++y) mask_beside(within_->row(row + y), col, col + cols, out + y * stride);
     return {};
   }
   bool is_in_memory() const override { return source_->is_in_memory(); }
@@ -126,7 +126,7 @@ class OutsideCount {
     result_.kept += kept;
     result_.lost += valid - kept;
   }
-  const VoidedOutside& result() const { return result_; }
+  const MaskedOutside& result() const { return result_; }
   /// The range of all heights.
   void complete(RasterInfo& info) const {
     info.has_range = true;
@@ -137,7 +137,7 @@ class OutsideCount {
   }
 
  private:
-  VoidedOutside result_;
+  MaskedOutside result_;
   std::vector<std::uint8_t> above_, here_;  // heights within, by column
   float least_ = std::numeric_limits<float>::infinity(), most_ = -std::numeric_limits<float>::infinity();
 };
@@ -172,9 +172,9 @@ Result<std::vector<Line>> close_rings(std::vector<Line> lines) {
   return lines;
 }
 
-Result<VoidedOutside> void_outside(OwnedHeightField& field, const Cutline& cutline, const ProgressCallback& progress) {
+Result<MaskedOutside> mask_outside(OwnedHeightField& field, const Cutline& cutline, const ProgressCallback& progress) {
   for (const Line& ring : cutline.rings) {
-    if (auto placed = check_line_places(ring.name, ring.points, cutline.affine); !placed)
+    if (auto placed = check_line_positions(ring.name, ring.points, cutline.affine); !placed)
       return tl::unexpected(placed.error());
   }
   LineRuns runs(cutline.affine, field.cols, field.rows);
@@ -185,7 +185,7 @@ Result<VoidedOutside> void_outside(OwnedHeightField& field, const Cutline& cutli
     for (std::int32_t row = 0; row < field.rows; ++row) {
       float* samples = &field.samples[static_cast<std::size_t>(row) * static_cast<std::size_t>(field.cols)];
       count.add(within->row(row), {samples, static_cast<std::size_t>(field.cols)});
-      void_beside(within->row(row), 0, field.cols, samples);
+      mask_beside(within->row(row), 0, field.cols, samples);
     }
     return count.result();
   }
@@ -200,7 +200,7 @@ Result<VoidedOutside> void_outside(OwnedHeightField& field, const Cutline& cutli
   }
   if (!field.info.has_range) count.complete(field.info);
   field.source = std::make_shared<SourceWithin>(std::move(field.source), within);
-  VoidedOutside result = count.result();
+  MaskedOutside result = count.result();
   result.bytes = sizeof(SampleRun) * runs.runs().size() + sizeof(std::size_t) * static_cast<std::size_t>(field.rows);
   return result;
 }

@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "geom/polygon_cover.h"
 #include "grid/affine_map.h"
-#include "grid/line_places.h"
+#include "grid/line_positions.h"
 #include "grid/samples.h"
 #include "lines/breaklines.h"
 #include "lines/field_cut.h"
@@ -52,7 +52,7 @@ class SoftLine {
   }
   /// Column and row.
   std::array<double, 2> sample_of(const Place& place) const {
-    const auto [col, row] = to_samples_.place(place[0], place[1]);
+    const auto [col, row] = to_samples_.position(place[0], place[1]);
     return {col, row};
   }
   /// Whether both are on the same side of the raster's rectangle, up to rounding.
@@ -85,7 +85,7 @@ class SoftLine {
   /// Bends where the surface asks for it. Two looks a sample, whose heights are left in `heights`.
   void add_between(const Place& from, const Place& to, bool is_cut, std::vector<double>& heights,
                    std::vector<Place>& points) const {
-    const SamplePlace way = to_samples_.way(to[0] - from[0], to[1] - from[1]);
+    const SamplePosition way = to_samples_.way(to[0] - from[0], to[1] - from[1]);
     const double length = std::hypot(way.col, way.row);
     constexpr double kMostLooks = 1 << 20;
     const auto looks =
@@ -115,7 +115,7 @@ std::vector<GraphEdge> edges_of_lines(const Breaklines& placed) {
   return edges;
 }
 
-/// Of these edges, 1 where none but lines of faults run. EMPTY: there are no faults.
+/// Of these edges, 1 where none but lines of walls run. EMPTY: there are no walls.
 std::vector<std::uint8_t> starts_of_lines(const Breaklines& placed) {
   std::vector<std::uint8_t> is_start;
   for (std::size_t i = 0; i < placed.is_held.size(); ++i) {
@@ -172,9 +172,9 @@ KeptEdges cut_edges(const Breaklines& placed, std::span<const Line> lines, std::
     const auto [a, b] = edges[i];
     const bool before = covers[i].positive > 0, after = covers[i].negative > 0;
     if (before != after) kept.outline.push_back({placed.points[a], placed.points[b]});
-    const bool is_wall = before != after && !is_on_side(placed.points[a], placed.points[b], cols, rows);
-    if (is_wall) kept.walls.push_back(before ? edges[i] : GraphEdge{b, a});
-    if (!is_wall && !(is_breakline[i] && (before || after))) continue;
+    const bool is_cut_wall = before != after && !is_on_side(placed.points[a], placed.points[b], cols, rows);
+    if (is_cut_wall) kept.walls.push_back(before ? edges[i] : GraphEdge{b, a});
+    if (!is_cut_wall && !(is_breakline[i] && (before || after))) continue;
     kept.edges.push_back(edges[i]);
     kept.is_start.push_back(is_start[i]);
   }
@@ -219,12 +219,12 @@ void visit_samples(Point a, Point b, const Visit& visit) {
   const std::int32_t dx = b.x - a.x, dy = b.y - a.y, steps = std::gcd(std::abs(dx), std::abs(dy));
   for (std::int32_t i = 0; i <= steps; ++i) {
     const Point p{a.x + dx / steps * i, a.y + dy / steps * i};
-    if (PlaceHeights::is_sample(p))
+    if (LatticeHeights::is_sample(p))
       visit(Point{p.x / kLatticeSteps, p.y / kLatticeSteps}, static_cast<double>(i) / steps);
   }
 }
 
-/// Gives the samples on hard lines, but for faults, the heights of the lines. `change(p, height)` does so, and returns
+/// Gives the samples on hard lines, but for walls, the heights of the lines. `change(p, height)` does so, and returns
 /// what the sample was.
 template <class Change>
 std::vector<SampleEdit> edit_samples(const Breaklines& placed, const Change& change) {
@@ -244,7 +244,7 @@ std::vector<SampleEdit> edit_samples(const Breaklines& placed, const Change& cha
   }
   for (std::size_t i = 0; i < placed.points.size(); ++i) {
     const Point p = placed.points[i];
-    if (placed.is_hard[i] && PlaceHeights::is_sample(p))
+    if (placed.is_hard[i] && LatticeHeights::is_sample(p))
       edit({p.x / kLatticeSteps, p.y / kLatticeSteps}, placed.heights[i]);
   }
   std::stable_sort(edits.begin(), edits.end(), [](const SampleEdit& a, const SampleEdit& b) {
@@ -257,14 +257,15 @@ std::vector<SampleEdit> edit_samples(const Breaklines& placed, const Change& cha
 Result<void> take_graph(const Breaklines& placed, std::span<const Line> followed, std::size_t breaklines, bool is_cut,
                         std::int32_t cols, std::int32_t rows, FieldLines& result) {
   // Those that were found in the raster are no lines of the caller's.
-  std::vector<bool> is_laid(breaklines, !is_cut);
+  std::vector<bool> is_inserted(breaklines, !is_cut);
   for (const auto& chain : placed.chains) {
-    if (chain.line < breaklines) is_laid[chain.line] = true;
+    if (chain.line < breaklines) is_inserted[chain.line] = true;
   }
-  for (std::size_t k = 0; k < breaklines; ++k) result.laid += is_laid[k] && !is_laid_first(followed[k]) ? 1 : 0;
-  if (!is_cut) result.laid -= placed.outside;
+  for (std::size_t k = 0; k < breaklines; ++k)
+    result.inserted += is_inserted[k] && !is_inserted_first(followed[k]) ? 1 : 0;
+  if (!is_cut) result.inserted -= placed.outside;
   result.graph = graph_of(placed, is_cut ? cut_edges(placed, followed, breaklines, cols, rows) : all_edges(placed));
-  result.graph.is_laid_first = std::any_of(followed.begin(), followed.end(), is_laid_first);
+  result.graph.is_inserted_first = std::any_of(followed.begin(), followed.end(), is_inserted_first);
   if (!is_cut) return {};
   if (!result.graph.cut)
     return fail(ErrorKind::kInput,
@@ -277,12 +278,12 @@ Result<void> take_graph(const Breaklines& placed, std::span<const Line> followed
   return {};
 }
 
-/// Makes void what lies well beyond the cut.
+/// Makes what lies well beyond the cut nodata.
 Result<void> cut_samples(const CutRows& cut, std::int32_t cols, std::int32_t rows, FieldLines& lines) {
   for (const float sample : lines.samples) lines.valid += std::isnan(sample) ? 0 : 1;
   if (!cut.has_surface({lines.samples.data(), cols, rows}))
-    return fail(ErrorKind::kInput, "no part of the raster's surface lies in the cutline: it holds voids only");
-  cut.void_beyond(0, 0, cols, rows, lines.samples.data(), cols);
+    return fail(ErrorKind::kInput, "no part of the raster's surface lies in the cutline: it holds nodata only");
+  cut.mask_beyond(0, 0, cols, rows, lines.samples.data(), cols);
   return {};
 }
 
@@ -352,10 +353,10 @@ std::uint64_t line_bytes(const HeightField& field, std::span<const Line> lines, 
   for (const Line& line : lines) {
     bytes += kBytesPerVertex * static_cast<double>(line.points.size());
     for (std::size_t k = 0; k + 1 < line.points.size(); ++k) {
-      const SamplePlace way =
+      const SamplePosition way =
           to_samples.way(line.points[k + 1][0] - line.points[k][0], line.points[k + 1][1] - line.points[k][1]);
       bytes +=
-          (is_fault(line) ? kBytesPerSampleOfWall : kBytesPerSample) * std::fmin(std::hypot(way.col, way.row), longest);
+          (is_wall(line) ? kBytesPerSampleOfWall : kBytesPerSample) * std::fmin(std::hypot(way.col, way.row), longest);
     }
   }
   return static_cast<std::uint64_t>(bytes);
@@ -373,7 +374,7 @@ std::uint64_t copied_bytes(const HeightField& field, const LineConstraints& line
 Result<FieldLines> prepare_lines(const HeightField& field, const LineConstraints& lines, const Cutline& cutline,
                                  double tolerance, int threads, std::span<const std::int32_t> shared_rows) {
   for (const Line& ring : cutline.rings) {
-    if (auto placed = check_line_places(ring.name, ring.points, cutline.affine); !placed)
+    if (auto placed = check_line_positions(ring.name, ring.points, cutline.affine); !placed)
       return tl::unexpected(placed.error());
   }
   if (field.samples == nullptr) return prepare_from_source(field, lines, cutline, tolerance, threads, shared_rows);

@@ -17,13 +17,13 @@ namespace scarp {
 
 struct FieldLines {
   ConstraintGraph graph;
-  /// The raster's, NaN where void and well beyond a cutline, with those on hard lines at the height of the line.
+  /// The raster's, NaN where nodata and well beyond a cutline, with those on hard lines at the height of the line.
   /// EMPTY: as the field has them.
   std::vector<float> samples;
   /// Instead, where the field has one and samples are edited; nothing of it is cut.
   std::shared_ptr<const SampleSource> source;
   std::vector<SampleEdit> edits;  ///< of these samples
-  std::uint64_t laid = 0;         ///< breaklines with some part in the raster, except those inserted first
+  std::uint64_t inserted = 0;     ///< breaklines with some part in the raster, except those inserted first
   std::uint64_t valid = 0;        ///< samples, before the cut; 0: not known
 
   /// `field` with these samples, which stay here.
@@ -46,7 +46,7 @@ inline std::uint64_t line_bytes(const HeightField& field, const LineConstraints&
   return line_bytes(field, lines.lines, lines.affine);
 }
 
-/// Of the samples in memory, where lines may edit them or a cutline makes some void: FieldLines::samples.
+/// Of the samples in memory, where lines may edit them or a cutline makes some nodata: FieldLines::samples.
 std::uint64_t copied_bytes(const HeightField& field, const LineConstraints& lines, const Cutline& cutline);
 
 }  // namespace scarp

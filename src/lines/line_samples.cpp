@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "grid/outline.h"
-#include "grid/vertex_places.h"
+#include "grid/vertex_lattice.h"
 #include "grid/window.h"
 
 namespace scarp {

@@ -26,14 +26,14 @@ class LineSamples {
 
   std::int32_t cols() const { return raster_.cols; }
   std::int32_t rows() const { return raster_.rows; }
-  /// NaN where void, or not near a line.
+  /// NaN where nodata, or not near a line.
   float at(Point p) const {
     if (raster_.samples != nullptr) return raster_.at(p);
     const std::size_t i = find(p);
     return i == kNowhere ? std::numeric_limits<float>::quiet_NaN() : heights_[i];
   }
   bool is_valid(Point p) const { return !std::isnan(at(p)); }
-  /// Gives a sample near a line another height, unless it is void; returns what it was. REQUIRES: read().
+  /// Gives a sample near a line another height, unless it is nodata; returns what it was. REQUIRES: read().
   float change(Point p, float height);
 
   /// The outline of the surface near the lines, as far as both sides of it are known; without the sides of the raster.

@@ -76,7 +76,7 @@ Band::Band(const HeightField& field, int first, int rows, const Limits& limits, 
   const std::size_t size = static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols_);
   heights_.assign(size + 2 * static_cast<std::size_t>(cols_), std::numeric_limits<float>::quiet_NaN());
   errors_.assign(size, std::numeric_limits<double>::quiet_NaN());
-  row_void_cells_.assign(static_cast<std::size_t>(rows), 0);
+  row_nodata_cells_.assign(static_cast<std::size_t>(rows), 0);
   if (limits.region != nullptr) places_ = limits.region->places(first, rows);
 }
 
@@ -121,14 +121,14 @@ void Band::classify() {
       for (std::size_t c = 0; has_cells && c + 1 < cols; ++c) {
         if (below[c] == 4) continue;
         if (cells_.empty()) cells_.assign(errors_.size(), kWhole);
-        std::uint8_t kind = kVoid;
+        std::uint8_t kind = kNodata;
         if (below[c] == 3) {
           const int missing = !here[c] ? 0 : !here[c + 1] ? 1 : !after[c] ? 2 : 3;
           kind = static_cast<std::uint8_t>(kHalf + missing);
         }
         cells_[at(static_cast<int>(c), row)] = kind;
-        row_void_cells_[static_cast<std::size_t>(row - first_)] = 1;
-        has_void_cells_ = true;
+        row_nodata_cells_[static_cast<std::size_t>(row - first_)] = 1;
+        has_nodata_cells_ = true;
       }
     }
     std::swap(here, after);
@@ -148,18 +148,18 @@ void Band::cut() {
   }
 }
 
-std::optional<std::array<double, 2>> Band::void_point(int col, int row) const {
+std::optional<std::array<double, 2>> Band::nodata_point(int col, int row) const {
   const std::uint8_t kind = cells_[at(col, row)];
   if (kind == kWhole || kind == kCounted) return std::nullopt;
-  if (kind == kVoid) return std::array<double, 2>{col + 0.5, row + 0.5};
-  // The void half is the triangle of the missing corner and its two neighbours.
+  if (kind == kNodata) return std::array<double, 2>{col + 0.5, row + 0.5};
+  // The nodata half is the triangle of the missing corner and its two neighbours.
   const int missing = kind - kHalf;
   return std::array<double, 2>{col + ((missing & 1) ? 2.0 : 1.0) / 3, row + ((missing & 2) ? 2.0 : 1.0) / 3};
 }
 
-void Band::count_void_cell(int col, int row) {
+void Band::count_nodata_cell(int col, int row) {
   cells_[at(col, row)] = kCounted;
-  ++report_.void_cells_covered;
+  ++report_.nodata_cells_covered;
 }
 
 bool Band::find_missing() {

@@ -38,7 +38,7 @@ inline bool is_worse_of_triangle(const TriangleOffender& a, const TriangleOffend
 struct BandReport {
   std::vector<RowSums> rows;
   HeightRange heights;
-  std::uint64_t uncovered = 0, stray = 0, cut_off = 0, void_cells_covered = 0;
+  std::uint64_t uncovered = 0, stray = 0, cut_off = 0, nodata_cells_covered = 0;
   std::array<std::int32_t, 2> uncovered_at{-1, -1};  ///< the first one
   std::vector<TriangleOffender> offenders;
   std::vector<Offender> uncovered_offenders;
@@ -63,7 +63,7 @@ class Band {
  public:
   static int rows_per_band(int cols) { return cols <= 4096 ? 32 : std::max(8, 32 * 4096 / cols); }
 
-  /// Reads the rows, with every sample that need not be covered (void, stray or cut off) as NaN, and finds the cells
+  /// Reads the rows, with every sample that need not be covered (nodata, stray or cut off) as NaN, and finds the cells
   /// that must not be covered. Fails as the field's source and that of limits do.
   static Result<Band> read(const HeightField& field, int first, int rows, const Limits& limits, double guard);
 
@@ -102,12 +102,12 @@ class Band {
   void offer_nearest(int col, int row, double distance, std::uint32_t triangle, double error);
 
   // Cells. Cell (col, row) lies between the samples (col, row) and (col + 1, row + 1).
-  bool has_void_cells() const { return has_void_cells_; }
-  bool row_has_void_cells(int row) const { return row_void_cells_[static_cast<std::size_t>(row - first_)] != 0; }
-  /// The point that shows whether the void part of the cell is covered; nothing if the cell is whole or already
+  bool has_nodata_cells() const { return has_nodata_cells_; }
+  bool row_has_nodata_cells(int row) const { return row_nodata_cells_[static_cast<std::size_t>(row - first_)] != 0; }
+  /// The point that shows whether the nodata part of the cell is covered; nothing if the cell is whole or already
   /// counted.
-  std::optional<std::array<double, 2>> void_point(int col, int row) const;
-  void count_void_cell(int col, int row);
+  std::optional<std::array<double, 2>> nodata_point(int col, int row) const;
+  void count_nodata_cell(int col, int row);
 
   /// Sums up. Ends the band's life as a workplace.
   BandReport finish(Histogram& histogram, Keep keep);
@@ -119,7 +119,7 @@ class Band {
     double distance = -1;  ///< −1: not missing; infinite: nothing near yet
     std::uint32_t triangle = 0;
   };
-  static constexpr std::uint8_t kWhole = 0, kVoid = 1, kHalf = 2, kCounted = 6;  // kHalf + missing corner
+  static constexpr std::uint8_t kWhole = 0, kNodata = 1, kHalf = 2, kCounted = 6;  // kHalf + missing corner
   std::size_t at(int col, int row) const {
     return static_cast<std::size_t>(row - first_) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(col);
   }
@@ -148,13 +148,13 @@ class Band {
   Limits limits_;
   double least_limit_ = HUGE_VAL;  // no sample has a smaller one
   double guard_ = 0, largest_ = 0;
-  bool has_void_cells_ = false;
+  bool has_nodata_cells_ = false;
   std::vector<float> heights_;
   std::vector<float> tolerances_;  // empty unless there is a source of them
   std::vector<double> errors_;
   std::vector<CutRegion::Place> places_;  // empty without a region
   std::vector<Nearest> nearest_;          // empty if nothing is missing
-  std::vector<std::uint8_t> cells_, row_void_cells_, row_missing_;
+  std::vector<std::uint8_t> cells_, row_nodata_cells_, row_missing_;
   BandReport report_;
 };
 

@@ -66,8 +66,8 @@ class FrameScanner : public Scanner {
     if (band.find_missing()) {
       for (int row = band.first(); row < band.end(); ++row) judge_beside(band, row);
     }
-    if (band.has_void_cells()) {
-      for (int row = band.first(); row < band.end(); ++row) find_covered_voids(band, row);
+    if (band.has_nodata_cells()) {
+      for (int row = band.first(); row < band.end(); ++row) find_covered_nodata(band, row);
     }
   }
 
@@ -205,12 +205,12 @@ class FrameScanner : public Scanner {
     }
   }
 
-  void find_covered_voids(Band& band, int row) const {
-    if (!band.row_has_void_cells(row)) return;
+  void find_covered_nodata(Band& band, int row) const {
+    if (!band.row_has_nodata_cells(row)) return;
     std::vector<double> cols, rows;
     std::vector<int> cells;
     for (int c = 0; c + 1 < band.cols(); ++c) {
-      const auto point = band.void_point(c, row);
+      const auto point = band.nodata_point(c, row);
       if (!point) continue;
       cells.push_back(c);
       cols.push_back((*point)[0]);
@@ -223,7 +223,7 @@ class FrameScanner : public Scanner {
       visit_near(frames[i], 0, [&](std::uint32_t, const Facet& local) {
         is_covered = is_covered || local.plan.depth(0, 0) > tolerance_;
       });
-      if (is_covered) band.count_void_cell(cells[i], row);
+      if (is_covered) band.count_nodata_cell(cells[i], row);
     }
   }
 

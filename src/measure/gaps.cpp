@@ -4,10 +4,10 @@
 // its border: edges with one triangle, beside which the domain goes on. So each open edge is cut where it crosses the
 // lattice lines, and beside the middle of each piece, a little outside, the raster is asked whether there is surface.
 //
-// There may be, in a mesh without fault: where the outline was simplified, a thin wedge of void can part an edge from
-// the surface of another place. There the point is covered, and the edge itself lies in the void; it is a gap only if
-// the point is bare, or if no void parts it from the edge (a crack thinner than the step outwards). Likewise where the
-// mesh was cut: a slit of the cutline may part an edge from the surface beside it.
+// There may be, in a mesh without fault: where the outline was simplified, a thin wedge of nodata can part an edge from
+// the surface of another place. There the point is covered, and the edge itself lies in nodata; it is a gap only if
+// the point is bare, or if no nodata parts it from the edge (a crack thinner than the step outwards). Likewise where
+// the mesh was cut: a slit of the cutline may part an edge from the surface beside it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -228,13 +228,13 @@ Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, std
       for (const double side : {-1.0, 1.0}) {
         if (!is_flat && side * inside > 0) continue;
         const Point beside{middle.x - side * step * uy / length, middle.y + side * step * ux / length};
-        bool no_void_between = false;
-        if (!domain.has_surface(beside, middle, kNoise, no_void_between)) continue;
+        bool no_nodata_between = false;
+        if (!domain.has_surface(beside, middle, kNoise, no_nodata_between)) continue;
         const bool is_cut_off = region != nullptr && (region->is_near(beside.x, beside.y, 2 * CutRegion::kNear) ||
                                                       !region->holds(beside.x, beside.y));
         if (is_cut_off) continue;
         const bool ends_at_ring = region != nullptr && region->is_near(middle.x, middle.y, 2 * CutRegion::kNear);
-        if (no_void_between && !is_flat && !ends_at_ring) {
+        if (no_nodata_between && !is_flat && !ends_at_ring) {
           is_gap[e] = true;
           break;
         }

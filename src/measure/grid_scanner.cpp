@@ -37,8 +37,8 @@ class GridScanner : public Scanner {
     if (band.find_missing()) {
       each_facet([&](const Facet& facet, std::uint32_t id) { judge_beside(facet, id, band); });
     }
-    if (band.has_void_cells()) {
-      each_facet([&](const Facet& facet, std::uint32_t) { find_covered_voids(facet, band); });
+    if (band.has_nodata_cells()) {
+      each_facet([&](const Facet& facet, std::uint32_t) { find_covered_nodata(facet, band); });
     }
   }
 
@@ -155,17 +155,17 @@ class GridScanner : public Scanner {
     }
   }
 
-  void find_covered_voids(const Facet& facet, Band& band) const {
+  void find_covered_nodata(const Facet& facet, Band& band) const {
     const Interval along = facet.plan.y_extent();
     const int last_row = std::min(band.end(), rows_ - 1) - 1;
     const auto [first, last] = whole_between(std::floor(along.lo), along.hi, band.first(), last_row);
     for (int row = first; row <= last; ++row) {
-      if (!band.row_has_void_cells(row)) continue;
+      if (!band.row_has_nodata_cells(row)) continue;
       const Interval range = facet.plan.x_range(row, row + 1);
       const auto [begin, end] = whole_between(std::floor(range.lo), range.hi, 0, band.cols() - 2);
       for (int col = begin; col <= end; ++col) {
-        const auto point = band.void_point(col, row);
-        if (point && facet.plan.depth((*point)[0], (*point)[1]) > tolerance_) band.count_void_cell(col, row);
+        const auto point = band.nodata_point(col, row);
+        if (point && facet.plan.depth((*point)[0], (*point)[1]) > tolerance_) band.count_nodata_cell(col, row);
       }
     }
   }

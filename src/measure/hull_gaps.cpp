@@ -36,12 +36,12 @@ double depth(const std::vector<Spot>& chain, double sign, const Spot& p) {
 
 }  // namespace
 
-std::uint64_t count_hull_gaps(const PointSet& points, const PointPlaces& places, const Mesh& mesh,
+std::uint64_t count_hull_gaps(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh,
                               std::span<const OpenEdge> open, double tolerance) {
   if (open.empty()) return 0;
   std::vector<Spot> spots;
-  spots.reserve(places.size());
-  for (const std::uint32_t i : places.source)
+  spots.reserve(snapped.size());
+  for (const std::uint32_t i : snapped.source)
     spots.push_back({points.x[i] - mesh.origin[0], points.y[i] - mesh.origin[1]});
   std::sort(spots.begin(), spots.end(),
             [](const Spot& a, const Spot& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });

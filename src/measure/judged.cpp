@@ -26,7 +26,7 @@ std::size_t count_samples(const HeightField& field) {
 }
 
 /// REQUIRES: samples in memory.
-bool is_void(const HeightField& field, std::size_t sample) {
+bool is_nodata(const HeightField& field, std::size_t sample) {
   const float z = field.samples[sample];
   return !std::isfinite(z) || (field.nodata && z == *field.nodata);
 }
@@ -90,7 +90,7 @@ Result<std::uint64_t> count_unbounded(const HeightField& field, const BoundLimit
         return tl::unexpected(read.error());
     }
     for (std::size_t k = 0; k < size; ++k) {
-      const bool is_height = field.source != nullptr ? std::isfinite(heights[k]) : !is_void(field, first + k);
+      const bool is_height = field.source != nullptr ? std::isfinite(heights[k]) : !is_nodata(field, first + k);
       count += limit[k] > 0 && is_height;
     }
   }
@@ -128,7 +128,7 @@ Result<Exceptions> find_exceptions(const HeightField& field, const JudgeOptions&
   for (const auto& [col, row] : asked.ignored)
     found.limits[static_cast<std::size_t>(row) * static_cast<std::size_t>(field.cols) + static_cast<std::size_t>(col)] =
         kNoBound;
-  for (std::size_t k = 0; k < found.limits.size(); ++k) found.count += found.limits[k] > 0 && !is_void(field, k);
+  for (std::size_t k = 0; k < found.limits.size(); ++k) found.count += found.limits[k] > 0 && !is_nodata(field, k);
   if (found.count == 0) found.limits.clear();
   return found;
 }
@@ -156,7 +156,7 @@ void add_to_norms(std::span<double> norms, std::span<const float> errors, double
   }
 }
 
-/// Judges one channel as a height: void where the height is.
+/// Judges one channel as a height: nodata where the height is.
 class ChannelJudge {
  public:
   ChannelJudge(const HeightField& heights, const Mesh& mesh) : heights_(heights), mesh_(mesh) {
@@ -169,7 +169,7 @@ class ChannelJudge {
     const float* band = heights_.channels[channel].samples;
     samples_.assign(band, band + count_samples(heights_));
     for (std::size_t k = 0; k < samples_.size(); ++k) {
-      if (is_void(heights_, k)) samples_[k] = kNaN;
+      if (is_nodata(heights_, k)) samples_[k] = kNaN;
     }
     const auto count = static_cast<std::size_t>(mesh_.channel_count);
     for (std::size_t v = 0; v < shape_.vertex_count(); ++v) {

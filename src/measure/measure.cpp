@@ -12,7 +12,7 @@
 
 #include "base/caught.h"
 #include "base/parallel.h"
-#include "grid/line_places.h"
+#include "grid/line_positions.h"
 #include "measure/band.h"
 #include "measure/check_mesh.h"
 #include "measure/cut_region.h"
@@ -55,7 +55,7 @@ Result<void> check_input(const HeightField& field, const Mesh& mesh, const Measu
   }
   for (const Line& ring :
        options.cutline != nullptr ? std::span<const Line>(options.cutline->rings) : std::span<const Line>()) {
-    if (auto placed = check_line_places(ring.name, ring.points, options.cutline->affine); !placed) return placed;
+    if (auto placed = check_line_positions(ring.name, ring.points, options.cutline->affine); !placed) return placed;
   }
   if (!(options.coverage_tolerance >= 0) || !std::isfinite(options.coverage_tolerance)) {
     return fail(ErrorKind::kUsage, "coverage_tolerance must be zero or a positive number of samples");
@@ -94,7 +94,7 @@ class Verdict {
     result_.over_tolerance += report.over_tolerance;
     result_.stray += report.stray;
     result_.cut_off += report.cut_off;
-    result_.void_cells_covered += report.void_cells_covered;
+    result_.nodata_cells_covered += report.nodata_cells_covered;
     for (std::size_t i = 0; i < report.rows.size(); ++i) {
       const judge::RowSums& row = report.rows[i];
       result_.samples += row.samples;

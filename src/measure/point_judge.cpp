@@ -43,9 +43,9 @@ struct Verdict {
 
 class Judge {
  public:
-  Judge(const PointSet& points, const PointPlaces& places, const Mesh& mesh, std::span<const std::uint32_t> judged,
+  Judge(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh, std::span<const std::uint32_t> judged,
         const Box& box, double tolerance)
-      : points_(points), places_(places), mesh_(mesh), tolerance_(tolerance), grid_(box, judged.size()) {
+      : points_(points), snapped_(snapped), mesh_(mesh), tolerance_(tolerance), grid_(box, judged.size()) {
     grid_.fill([&](const auto& visit) {
       for (const std::uint32_t t : judged) {
         Facet facet;
@@ -54,10 +54,10 @@ class Judge {
     });
   }
 
-  Verdict judge(std::size_t place) const {
-    const std::size_t source = places_.source[place];
+  Verdict judge(std::size_t point) const {
+    const std::size_t source = snapped_.source[point];
     const double x = points_.x[source] - mesh_.origin[0], y = points_.y[source] - mesh_.origin[1];
-    const double z = places_.z[place];
+    const double z = snapped_.z[point];
     Verdict verdict;
     Facet facet;
     for (const std::uint32_t t : grid_.bucket(grid_.col_of(x), grid_.row_of(y))) {
@@ -106,7 +106,7 @@ class Judge {
   }
 
   const PointSet& points_;
-  const PointPlaces& places_;
+  const SnappedPoints& snapped_;
   const Mesh& mesh_;
   double tolerance_;
   BucketGrid grid_;
@@ -160,7 +160,7 @@ void summarize(std::span<const double> errors, Measurement& result) {
 
 }  // namespace
 
-Result<Measurement> judge_points(const PointSet& points, const PointPlaces& places, const Mesh& mesh,
+Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh,
                                  const MeasureOptions& options) {
   if (auto checked = check_mesh(mesh); !checked) return tl::unexpected(checked.error());
   if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
@@ -188,38 +188,38 @@ Result<Measurement> judge_points(const PointSet& points, const PointPlaces& plac
   const std::vector<std::uint32_t>& judged = result.closed ? upward : all;
 
   Box box;
-  for (const std::uint32_t source : places.source)
+  for (const std::uint32_t source : snapped.source)
     box.include(points.x[source] - mesh.origin[0], points.y[source] - mesh.origin[1]);
   const double area = (box.x1 - box.x0) * (box.y1 - box.y0);
-  const double tolerance = options.coverage_tolerance * std::sqrt(area / static_cast<double>(places.size()));
-  const Judge judge(points, places, mesh, judged, box, tolerance);
+  const double tolerance = options.coverage_tolerance * std::sqrt(area / static_cast<double>(snapped.size()));
+  const Judge judge(points, snapped, mesh, judged, box, tolerance);
 
   std::vector<double> errors(points.size(), kNone);
-  std::vector<std::uint32_t> triangles(options.collect_above ? places.size() : 0);
+  std::vector<std::uint32_t> triangles(options.collect_above ? snapped.size() : 0);
   constexpr std::size_t kChunk = 1 << 14;
-  const std::size_t chunks = (places.size() + kChunk - 1) / kChunk;
+  const std::size_t chunks = (snapped.size() + kChunk - 1) / kChunk;
   const std::size_t window = 4 * static_cast<std::size_t>(std::min(thread_count(options.run.threads), 1024));
   for (std::size_t first = 0; first < chunks; first += window) {
     if (!gate.go_on("measure", static_cast<double>(first) / static_cast<double>(chunks))) return cancelled();
     parallel_for(std::min(window, chunks - first), options.run.threads, [&](std::size_t i) {
-      const std::size_t begin = (first + i) * kChunk, end = std::min(places.size(), begin + kChunk);
-      for (std::size_t place = begin; place < end; ++place) {
-        const Verdict verdict = judge.judge(place);
-        errors[places.source[place]] = verdict.error;
-        if (options.collect_above) triangles[place] = verdict.triangle;
+      const std::size_t begin = (first + i) * kChunk, end = std::min(snapped.size(), begin + kChunk);
+      for (std::size_t point = begin; point < end; ++point) {
+        const Verdict verdict = judge.judge(point);
+        errors[snapped.source[point]] = verdict.error;
+        if (options.collect_above) triangles[point] = verdict.triangle;
       }
     });
   }
   Offenders offenders;
-  for (std::size_t place = 0; place < places.size(); ++place) {
-    const std::uint32_t source = places.source[place];
+  for (std::size_t point = 0; point < snapped.size(); ++point) {
+    const std::uint32_t source = snapped.source[point];
     const double error = errors[source];
     result.uncovered += std::isnan(error);
     if (!options.collect_above) continue;
     if (std::isnan(error)) {
       offenders.add_uncovered(source);
     } else if (std::abs(error) > *options.collect_above) {
-      offenders.add(triangles[place], source, error);
+      offenders.add(triangles[point], source, error);
     }
   }
   result.offenders = offenders.finish();
@@ -237,7 +237,7 @@ Result<Measurement> judge_points(const PointSet& points, const PointPlaces& plac
     result.border_loops = edges.loops;
     measure_shape(mesh, judged, result);
     result.t_junctions = count_t_junctions(mesh, welded, edges.open);
-    result.gaps = count_hull_gaps(points, places, mesh, edges.open, tolerance);
+    result.gaps = count_hull_gaps(points, snapped, mesh, edges.open, tolerance);
     bool is_stopped = false;
     result.overlaps = count_overlaps(mesh, judged, options.run.threads, [&](double fraction) {
       is_stopped = !gate.go_on("topology", fraction);
@@ -254,13 +254,13 @@ namespace scarp {
 
 Result<Measurement> measure_points(const PointSet& points, const Mesh& mesh, DuplicatePolicy duplicates,
                                    const MeasureOptions& options) try {
-  auto places = find_places(points, duplicates);
-  if (!places) {
-    Error error = places.error();
+  auto snapped = snap_points(points, duplicates);
+  if (!snapped) {
+    Error error = snapped.error();
     if (!points.path.empty()) error.message = points.path + ": " + error.message;
     return tl::unexpected(std::move(error));
   }
-  return judge::judge_points(points, *places, mesh, options);
+  return judge::judge_points(points, *snapped, mesh, options);
 } catch (...) {
   return caught(ErrorKind::kInput, "measure the mesh");
 }

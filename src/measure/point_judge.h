@@ -1,7 +1,7 @@
 // Judging a mesh at scattered points.
 #pragma once
 
-#include "grid/point_places.h"
+#include "grid/snapped_points.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"
 #include "scarp/points.h"
@@ -10,7 +10,7 @@
 namespace scarp::judge {
 
 /// measure_points() where duplicates are given up already.
-Result<Measurement> judge_points(const PointSet& points, const PointPlaces& places, const Mesh& mesh,
+Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh,
                                  const MeasureOptions& options);
 
 }  // namespace scarp::judge

@@ -30,7 +30,7 @@ struct Facets {
   }
 };
 
-/// Finds the error of each sample of a band and the void cells that are covered. Immutable: bands may be scanned at
+/// Finds the error of each sample of a band and the nodata cells that are covered. Immutable: bands may be scanned at
 /// once.
 class Scanner {
  public:

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "metric/height_judge.h"
+#include "metric/height_metric.h"
 #include "metric/importance.h"
-#include "metric/source_judge.h"
+#include "metric/source_metric.h"
 
 namespace scarp {
 
@@ -53,18 +53,18 @@ Result<Criterion> Criterion::make(const HeightField& field, const Request& optio
       field.channels.empty() && field.height_scale == 1 && criterion.bounds_.empty() && criterion.factors_.empty();
   if (plain) {
     if (field.samples != nullptr) {
-      criterion.judge_ = std::make_unique<HeightJudge>(raster, bound);
+      criterion.metric_ = std::make_unique<HeightMetric>(raster, bound);
     } else {
-      criterion.judge_ = std::make_unique<SourceJudge>(field, bound, criterion.source_bounds());
+      criterion.metric_ = std::make_unique<SourceMetric>(field, bound, criterion.source_bounds());
     }
   } else {
-    Judging judging{raster, criterion.judged_fields(), options.goals.norm, bound};
-    if (!criterion.bounds_.empty()) judging.bounds = criterion.aims().data();
-    if (!criterion.factors_.empty()) judging.factors = criterion.factors_.data();
-    judging.per_bound = !options.tolerances.values.empty() && criterion.factors_.empty();
-    judging.by_error = importance.global;
-    if (criterion.importance_is_error_) judging.goal = options.tolerances.values.empty() ? bound : 1;
-    criterion.judge_ = std::make_unique<SampleJudge>(std::move(judging));
+    MetricSettings settings{raster, criterion.metric_fields(), options.goals.norm, bound};
+    if (!criterion.bounds_.empty()) settings.bounds = criterion.aims().data();
+    if (!criterion.factors_.empty()) settings.factors = criterion.factors_.data();
+    settings.per_bound = !options.tolerances.values.empty() && criterion.factors_.empty();
+    settings.by_error = importance.global;
+    if (criterion.importance_is_error_) settings.goal = options.tolerances.values.empty() ? bound : 1;
+    criterion.metric_ = std::make_unique<SampleMetric>(std::move(settings));
   }
   return criterion;
 }
@@ -146,16 +146,16 @@ Result<void> Criterion::check_channels() const {
         return fail(
             ErrorKind::kInput,
             fmt::format("channel {} at sample ({}, {}) has no value though the height has one: fill the channel "
-                        "there, or make the height void too",
+                        "there, or make the height nodata too",
                         k + 1, place(i).x, place(i).y));
     }
   }
-  if (judged_fields().empty()) return usage("every weight is 0: nothing is left to be judged");
+  if (metric_fields().empty()) return usage("every weight is 0: nothing is left to be judged");
   return {};
 }
 
-std::vector<JudgedField> Criterion::judged_fields() const {
-  std::vector<JudgedField> fields;
+std::vector<MetricField> Criterion::metric_fields() const {
+  std::vector<MetricField> fields;
   if (field_->height_scale > 0) fields.push_back({raster_.samples, field_->height_scale});
   for (const Channel& channel : field_->channels) {
     if (channel.scale > 0) fields.push_back({channel.samples, channel.scale});

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "metric/bound_rule.h"
-#include "metric/judge.h"
+#include "metric/error_metric.h"
 #include "metric/request.h"
-#include "metric/sample_judge.h"
+#include "metric/sample_metric.h"
 #include "metric/source_bounds.h"
 #include "scarp/height_field.h"
 #include "scarp/simplify.h"
@@ -29,15 +29,15 @@ class Criterion {
  public:
   /// Checks mask, tolerance, channels and importance against the raster. Fails with kUsage, kInput (a channel without
   /// value at a sample, named) and kPromise (a tolerance below the rounding of the samples). `field`, `options` and the
-  /// raster's samples stay alive. `aim`: the share of the bounds that the judge holds to where heights alone have some.
-  /// `factor`: of all tolerances.
+  /// raster's samples stay alive. `aim`: the share of the bounds that the metric holds to where heights alone have
+  /// some. `factor`: of all tolerances.
   static Result<Criterion> make(const HeightField& field, const Request& options, const Raster& raster, double aim = 1,
                                 double factor = 1);
 
-  const Judge& judge() const { return *judge_; }
+  const ErrorMetric& metric() const { return *metric_; }
   /// Bound of the combined error where no sample has one of its own; nothing without a goal for errors.
   std::optional<double> bound() const { return bound_; }
-  /// What the judge holds to in place of bound().
+  /// What the metric holds to in place of bound().
   double aim() const { return aim_ * bound_.value_or(0); }
   /// Of all tolerances.
   double factor() const { return factor_; }
@@ -49,10 +49,10 @@ class Criterion {
   std::span<const float> bounds() const { return bounds_; }
   /// Where they are read in windows; null: the above say all.
   const SourceBounds* source_bounds() const { return source_bounds_.get(); }
-  /// The largest bound that the judge holds to at a valid sample; +infinity: some have none. REQUIRES: samples in
+  /// The largest bound that the metric holds to at a valid sample; +infinity: some have none. REQUIRES: samples in
   /// memory.
   double largest_aim() const;
-  /// Those that the judge holds to.
+  /// Those that the metric holds to.
   std::span<const float> aims() const { return aims_.empty() ? bounds_ : aims_; }
   /// The engine's importance is an error that grows and shrinks with the promised error.
   bool importance_is_error() const { return importance_is_error_; }
@@ -61,7 +61,7 @@ class Criterion {
   /// Samples without a bound; those of source_bounds() the proof counts.
   std::uint64_t ignored() const { return ignored_; }
   /// The fields whose errors count.
-  std::vector<JudgedField> judged_fields() const;
+  std::vector<MetricField> metric_fields() const;
   bool has_error_goal() const { return bound_.has_value() || has_tolerances(*options_); }
 
  private:
@@ -82,7 +82,7 @@ class Criterion {
   std::unique_ptr<SourceBounds> source_bounds_;
   std::uint64_t ignored_ = 0;
   bool importance_is_error_ = true;
-  std::unique_ptr<Judge> judge_;
+  std::unique_ptr<ErrorMetric> metric_;
 };
 
 }  // namespace scarp

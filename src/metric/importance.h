@@ -8,10 +8,10 @@
 
 namespace scarp {
 
-/// The damped feature at every sample, row-major; 0 at void samples. REQUIRES: a feature.
+/// The damped feature at every sample, row-major; 0 at nodata samples. REQUIRES: a feature.
 std::vector<float> measure_feature(const Raster& raster, const Importance& importance);
 
-/// Places in order of their value, largest first, ties in raster order; void samples are left out.
+/// Samples in order of their value, largest first, ties in raster order; nodata samples are left out.
 std::vector<Point> rank_samples(const Raster& raster, const std::vector<float>& values);
 
 }  // namespace scarp

@@ -13,7 +13,7 @@ namespace scarp {
 
 namespace {
 
-/// Keeps what the chord from `first` to `last` needs. REQUIRES: heights on [first, last] are no voids.
+/// Keeps what the chord from `first` to `last` needs. REQUIRES: heights on [first, last] are not nodata.
 void split_chord(const std::vector<float>& heights, std::int32_t first, std::int32_t last, const LineBound& bound,
                  std::vector<std::int32_t>& kept) {
   std::vector<std::pair<std::int32_t, std::int32_t>> chords{{first, last}};

@@ -30,8 +30,9 @@ bool has_lines(const SimplifyOptions& options) {
   return options.features.have_lines() || !options.features.cutline.rings.empty();
 }
 
-bool lays_first(const SimplifyOptions& options) {
-  return std::any_of(options.features.breaklines.lines.begin(), options.features.breaklines.lines.end(), is_laid_first);
+bool inserts_first(const SimplifyOptions& options) {
+  return std::any_of(options.features.breaklines.lines.begin(), options.features.breaklines.lines.end(),
+                     is_inserted_first);
 }
 
 bool has_budget(const SimplifyOptions& options) { return options.goals.max_triangles || options.goals.max_vertices; }
@@ -45,32 +46,32 @@ bool removes_last(const HeightField& field, const SimplifyOptions& options) {
   return options.quality.shape.any() && shape_rule(options.quality.shape, field.frame);
 }
 
-bool places_are_exact(const HeightField& field, const SimplifyOptions& options, std::int32_t steps) {
+bool lattice_is_exact(const HeightField& field, const SimplifyOptions& options, std::int32_t steps) {
   return field.frame.is_affine() &&
          (!options.output.float32_positions || offsets_are_exact(field.frame, field.cols, field.rows, steps));
 }
 
-std::int32_t place_steps(const HeightField& field, const SimplifyOptions& options) {
+std::int32_t choose_lattice_steps(const HeightField& field, const SimplifyOptions& options) {
   if (has_lines(options) || options.quality.shape.any()) return kLatticeSteps;
   return vertices_are_free(field, options) ? kLatticeSteps / kFreeStep : 1;
 }
 
 double aim_of(const HeightField& field, const SimplifyOptions& options) {
   constexpr double kRoundingShare = 0x1p-9;
-  const std::int32_t steps = place_steps(field, options);
-  return steps > 1 && !places_are_exact(field, options, steps) ? 1 - kRoundingShare : 1;
+  const std::int32_t steps = choose_lattice_steps(field, options);
+  return steps > 1 && !lattice_is_exact(field, options, steps) ? 1 - kRoundingShare : 1;
 }
 
 bool has_norm(const HeightField& field) { return !field.channels.empty() || field.height_scale != 1; }
 
 std::optional<FitNorm> fit_norm(const SimplifyOptions& options, const Raster& raster, const Criterion& criterion) {
-  const std::vector<JudgedField> fields = criterion.judged_fields();
+  const std::vector<MetricField> fields = criterion.metric_fields();
   if (fields.size() == 1 && fields[0].samples == raster.samples && fields[0].scale == 1) return std::nullopt;
   FitNorm norm;
-  for (const JudgedField& field : fields) norm.fields.push_back({field.samples, field.scale});
+  for (const MetricField& field : fields) norm.fields.push_back({field.samples, field.scale});
   norm.norm = options.goals.norm;
-  norm.find_breach = [&judge = criterion.judge()](const std::array<Point, 3>& corners) {
-    const auto candidate = judge.find_candidate(corners, judge.fit(corners, {}));
+  norm.find_breach = [&metric = criterion.metric()](const std::array<Point, 3>& corners) {
+    const auto candidate = metric.find_candidate(corners, metric.fit(corners, {}));
     return candidate ? std::optional(candidate->at) : std::nullopt;
   };
   return norm;

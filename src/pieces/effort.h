@@ -13,7 +13,7 @@ namespace scarp {
 
 bool has_budget(const SimplifyOptions& options);
 bool has_lines(const SimplifyOptions& options);
-bool lays_first(const SimplifyOptions& options);  ///< walls, ridges or valleys
+bool inserts_first(const SimplifyOptions& options);  ///< walls, ridges or valleys
 
 /// Whether vertices will be free.
 bool vertices_are_free(const HeightField& field, const SimplifyOptions& options);
@@ -22,10 +22,10 @@ bool vertices_are_free(const HeightField& field, const SimplifyOptions& options)
 bool removes_last(const HeightField& field, const SimplifyOptions& options);
 
 /// Whether the mesh holds all lattice points exactly, at so many steps between two samples.
-bool places_are_exact(const HeightField& field, const SimplifyOptions& options, std::int32_t steps);
+bool lattice_is_exact(const HeightField& field, const SimplifyOptions& options, std::int32_t steps);
 
 /// The lattice steps from one sample to the next that vertices may use.
-std::int32_t place_steps(const HeightField& field, const SimplifyOptions& options);
+std::int32_t choose_lattice_steps(const HeightField& field, const SimplifyOptions& options);
 
 /// The share of every bound at which the engine aims. With vertices between samples it leaves a little for the rounding
 /// of positions, because no sample can be inserted among them to repair the damage.

@@ -101,9 +101,9 @@ void add_triangles(const Triangulation& tin, const VertexNumbers& numbers, Mesh&
 }
 
 void add_positions(const SampleHeights& heights, const Triangulation& tin, const VertexNumbers& numbers,
-                   const VertexPlaces& places, const Frame& frame, bool round_to_float32, Mesh& mesh) {
+                   const VertexLattice& lattice, const Frame& frame, bool round_to_float32, Mesh& mesh) {
   mesh.positions.reserve(3 * std::size_t{numbers.count()});
-  const OffsetMap offsets(heights.cols(), heights.rows(), frame, places.steps);
+  const OffsetMap offsets(heights.cols(), heights.rows(), frame, lattice.steps);
   std::vector<Vertex> vertices;
   std::vector<Point> chunk;
   std::vector<double> x, y;
@@ -117,8 +117,8 @@ void add_positions(const SampleHeights& heights, const Triangulation& tin, const
     for (std::size_t k = 0; k < chunk.size(); ++k) {
       for (double offset : {x[k], y[k]})
         mesh.positions.push_back(round_to_float32 ? static_cast<float>(offset) : offset);
-      mesh.positions.push_back(places.are_samples() ? heights.at_vertex(vertices[k], chunk[k])
-                                                    : places.heights[vertices[k]]);
+      mesh.positions.push_back(lattice.are_samples() ? heights.at_vertex(vertices[k], chunk[k])
+                                                     : lattice.heights[vertices[k]]);
     }
     vertices.clear();
     chunk.clear();
@@ -240,9 +240,9 @@ float SampleHeights::at(Point p) const {
   return height;
 }
 
-LatticePoints frozen_points(const Triangulation& tin, const VertexPlaces& places) {
+LatticePoints frozen_points(const Triangulation& tin, const VertexLattice& lattice) {
   const VertexNumbers numbers(tin);
-  LatticePoints at{places.steps, {}};
+  LatticePoints at{lattice.steps, {}};
   for (Vertex v = 0; v < tin.vertex_count(); ++v) {
     if (numbers.of(v) != kNone) at.points.push_back(tin.point(v));
   }
@@ -260,24 +260,24 @@ std::vector<float> sample_uvs(std::int32_t cols, std::int32_t rows, const Lattic
   return uvs;
 }
 
-Mesh freeze(const SampleHeights& heights, const Triangulation& tin, const VertexPlaces& places, const Frame& frame,
+Mesh freeze(const SampleHeights& heights, const Triangulation& tin, const VertexLattice& lattice, const Frame& frame,
             bool round_to_float32) {
   Mesh mesh;
   const VertexNumbers numbers(tin);
   add_triangles(tin, numbers, mesh);
-  add_positions(heights, tin, numbers, places, frame, round_to_float32, mesh);
+  add_positions(heights, tin, numbers, lattice, frame, round_to_float32, mesh);
   face_up(frame, mesh);
   return mesh;
 }
 
-Mesh melt_down(const SampleHeights& heights, Triangulation tin, const VertexPlaces& places, const Frame& frame,
+Mesh melt_down(const SampleHeights& heights, Triangulation tin, const VertexLattice& lattice, const Frame& frame,
                bool round_to_float32) {
   Mesh mesh;
   tin.drop_links();
   const VertexNumbers numbers(tin);
   add_triangles(tin, numbers, mesh);
   tin.drop_triangles();
-  add_positions(heights, tin, numbers, places, frame, round_to_float32, mesh);
+  add_positions(heights, tin, numbers, lattice, frame, round_to_float32, mesh);
   face_up(frame, mesh);
   return mesh;
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "grid/raster.h"
-#include "grid/vertex_places.h"
+#include "grid/vertex_lattice.h"
 #include "scarp/frame.h"
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
@@ -35,12 +35,12 @@ class SampleHeights {
 
 /// The triangles that are not outside, with the vertices they use, in the frame: offsets from frame_origin(), rounded
 /// to float32 if asked, heights as they are. Counter-clockwise from above whatever way the frame turns. Ids follow the
-/// order of insertion. `places`: of the vertices; their heights come before those of samples.
-Mesh freeze(const SampleHeights& heights, const Triangulation& tin, const VertexPlaces& places, const Frame& frame,
+/// order of insertion. `lattice`: of the vertices; their heights come before those of samples.
+Mesh freeze(const SampleHeights& heights, const Triangulation& tin, const VertexLattice& lattice, const Frame& frame,
             bool round_to_float32);
 
 /// The same, but frees the triangulation step by step: at most 72 bytes a vertex are in use at a time.
-Mesh melt_down(const SampleHeights& heights, Triangulation tin, const VertexPlaces& places, const Frame& frame,
+Mesh melt_down(const SampleHeights& heights, Triangulation tin, const VertexLattice& lattice, const Frame& frame,
                bool round_to_float32);
 
 /// Lattice points, with `steps` steps from one sample to the next.
@@ -50,7 +50,7 @@ struct LatticePoints {
 };
 
 /// Those of freeze()'s vertices, in its order.
-LatticePoints frozen_points(const Triangulation& tin, const VertexPlaces& places);
+LatticePoints frozen_points(const Triangulation& tin, const VertexLattice& lattice);
 
 /// Unit normals of the full-resolution surface, in the frame: at samples central differences, one-sided beside nodata
 /// and borders; between samples the bilinear mean of the valid samples around; 3 values a point, z > 0. Vertical where

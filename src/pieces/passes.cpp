@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/reporter.h"
-#include "metric/lattice_judge.h"
+#include "metric/lattice_metric.h"
 #include "refine/domain.h"
 #include "refine/refinement.h"
 
@@ -11,13 +11,13 @@ namespace scarp {
 
 namespace {
 
-Result<void> insert_until_done(Piece& piece, const Judge& judge, Refinement& refinement, Work& work) {
+Result<void> insert_until_done(Piece& piece, const ErrorMetric& metric, Refinement& refinement, Work& work) {
   const double first_error = refinement.worst_error();
   for (std::uint64_t step = 0; !refinement.done(); ++step) {
     if (refinement.is_full()) return fail(ErrorKind::kInput, kTooManyTriangles);
     if (step % 256 == 0 && piece.check) {
       const double error = refinement.worst_error();
-      const double share = error_progress(first_error, error, judge.goal());
+      const double share = error_progress(first_error, error, metric.goal());
       if (auto fits = piece.check(piece.tin.vertex_count(), share, error); !fits) return fits;
     }
     refinement.insert_worst();
@@ -48,33 +48,33 @@ Result<void> seed(Piece& piece) {
 }
 
 Result<void> insert_constraints(Piece& piece, const ConstraintGraph& graph, const ConstraintGoals& goals, Work& work) {
-  auto laid = ConstrainedMesh::lay(piece.samples, piece.tin, graph);
-  if (!laid) return tl::unexpected(laid.error());
-  piece.has_surface = laid->has_surface();
-  const LatticeJudge judge(piece.samples, laid->heights(), goals.threshold, piece.aims);
-  Refinement refinement(judge, piece.tin, Algorithm::kHeap, {},
+  auto inserted = ConstrainedMesh::insert(piece.samples, piece.tin, graph);
+  if (!inserted) return tl::unexpected(inserted.error());
+  piece.has_surface = inserted->has_surface();
+  const LatticeMetric metric(piece.samples, inserted->heights(), goals.threshold, piece.aims);
+  Refinement refinement(metric, piece.tin, Algorithm::kHeap, {},
                         piece.is_refined ? Refinement::Start::kClean : Refinement::Start::kScan);
   // What refinement left and no line touches keeps the bound.
-  if (piece.is_refined) refinement.scan(laid->changed(), goals.threads);
-  if (auto refined = insert_until_done(piece, judge, refinement, work); !refined) return refined;
-  if (goals.releases_starts) laid->release_starts(piece.tin);
-  piece.places = laid->places(goals.threads);
+  if (piece.is_refined) refinement.scan(inserted->changed(), goals.threads);
+  if (auto refined = insert_until_done(piece, metric, refinement, work); !refined) return refined;
+  if (goals.releases_starts) inserted->release_starts(piece.tin);
+  piece.lattice = inserted->lattice(goals.threads);
   return {};
 }
 
-Result<void> refine(Piece& piece, const Judge& judge, Work& work) {
-  Refinement refinement(judge, piece.tin);
-  return insert_until_done(piece, judge, refinement, work);
+Result<void> refine(Piece& piece, const ErrorMetric& metric, Work& work) {
+  Refinement refinement(metric, piece.tin);
+  return insert_until_done(piece, metric, refinement, work);
 }
 
 Result<FitOutcome> fit_piece(Piece& piece, FitOptions options) {
   options.free_sides.top = options.free_sides.top && !piece.has_above;
   options.free_sides.bottom = options.free_sides.bottom && !piece.has_below;
   options.bounds = piece.aims;
-  auto fitted = fit(piece.samples, std::move(piece.tin), std::move(piece.places), options);
+  auto fitted = fit(piece.samples, std::move(piece.tin), std::move(piece.lattice), options);
   if (!fitted) return tl::unexpected(fitted.error());
   piece.tin = std::move(fitted->tin);
-  piece.places = std::move(fitted->places);
+  piece.lattice = std::move(fitted->lattice);
   return FitOutcome{fitted->counts.removed, fitted->is_cut_short};
 }
 

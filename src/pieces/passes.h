@@ -9,7 +9,7 @@
 
 #include "fit/fit.h"
 #include "lines/constraints.h"
-#include "metric/judge.h"
+#include "metric/error_metric.h"
 #include "pieces/piece.h"
 #include "scarp/result.h"
 #include "scarp/strategy.h"
@@ -28,13 +28,13 @@ struct ConstraintGoals {
 };
 
 /// Makes the graph, in the piece's coordinates, chains of constrained edges, and refines what they break: only around
-/// them if the piece is refined already, else everywhere. Then places are at kLatticeSteps. Adds to `work`. Fails as
-/// ConstrainedMesh::lay(), with kInput for too many triangles, and as piece.check does.
+/// them if the piece is refined already, else everywhere. Then the lattice is that of kLatticeSteps. Adds to `work`.
+/// Fails as ConstrainedMesh::insert(), with kInput for too many triangles, and as piece.check does.
 Result<void> insert_constraints(Piece& piece, const ConstraintGraph& graph, const ConstraintGoals& goals, Work& work);
 
 /// Inserts the samples that break their bound, worst first, and adds to `work`. Fails with kInput for too many
-/// triangles and as piece.check does. REQUIRES: the judge is of the piece's samples.
-Result<void> refine(Piece& piece, const Judge& judge, Work& work);
+/// triangles and as piece.check does. REQUIRES: the metric is of the piece's samples.
+Result<void> refine(Piece& piece, const ErrorMetric& metric, Work& work);
 
 /// What a fit has done.
 struct FitOutcome {

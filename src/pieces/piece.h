@@ -12,7 +12,7 @@
 #include <span>
 
 #include "grid/raster.h"
-#include "grid/vertex_places.h"
+#include "grid/vertex_lattice.h"
 #include "scarp/result.h"
 #include "tin/triangulation.h"
 
@@ -24,7 +24,7 @@ struct Piece {
   Triangulation tin;                          ///< in the piece's own coordinates
   bool has_above = false, has_below = false;  ///< neighbours, which have the vertices on their shared row too
   Raster around = {};                         ///< `samples`, and a row more on each side where there is a neighbour
-  VertexPlaces places = {};                   ///< of the vertices of `tin`
+  VertexLattice lattice = {};                 ///< of the vertices of `tin`
   /// The aim of refinement, by sample; EMPTY: the run's threshold everywhere.
   std::span<const float> aims = {};
   /// Whether each sample keeps what refinement aims at, by now.

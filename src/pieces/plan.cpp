@@ -16,13 +16,13 @@ Plan::Plan(const HeightField& on, const Request& asked, const Scale& by)
       frees_vertices(vertices_are_free(on, asked)),
       releases_starts(asked.quality.effort == Effort::kNormal || frees_vertices),
       fits(asked.quality.effort != Effort::kFast),
-      // Goals of shapes want strips rid of what the lines between tiles cost, whatever the effort.
+      // Shape goals need strips without the redundant vertices of tile borders, whatever the effort.
       fits_pieces(fits || asked.quality.shape.any()),
       removes_last(scarp::removes_last(on, asked)),
       fits_strips(is_streamed && fits_pieces),
       finishes_strips(fits_strips || (is_streamed && (has_lines || has_source_bounds))),
-      lattice_steps(place_steps(on, asked)),
-      is_exact(places_are_exact(on, asked, lattice_steps)),
+      lattice_steps(choose_lattice_steps(on, asked)),
+      is_exact(lattice_is_exact(on, asked, lattice_steps)),
       aim(aim_of(on, asked)),
       scale(by),
       memory(memory_budget(on, asked)) {}

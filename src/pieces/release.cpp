@@ -19,7 +19,7 @@ struct EdgeVerdict {
   std::uint64_t samples = 0, triangles = 0;
 };
 
-EdgeVerdict judge_edge(const Triangulation& tin, const Judge& judge, HalfEdge h) {
+EdgeVerdict assess_edge(const Triangulation& tin, const ErrorMetric& metric, HalfEdge h) {
   EdgeVerdict verdict;
   if (tin.is_outside(h / 3)) return verdict;
   const auto corner = [&](HalfEdge g) { return tin.point(tin.origin(g)); };
@@ -27,12 +27,12 @@ EdgeVerdict judge_edge(const Triangulation& tin, const Judge& judge, HalfEdge h)
   const Point d = corner(Triangulation::previous(tin.twin(h)));
   // An error so far above the goal is a breach beyond any rounding. If it were not, the edge would only stay as it is.
   FitQuestion question;
-  if (judge.goal() > 0) question.give_up_max = 1.001 * judge.goal();
+  if (metric.goal() > 0) question.give_up_max = 1.001 * metric.goal();
   const auto keeps_bound = [&](const std::array<Point, 3>& corners) {
-    const Fit fit = judge.fit(corners, question);
+    const Fit fit = metric.fit(corners, question);
     verdict.samples += fit.scanned;
     ++verdict.triangles;
-    return fit.complete && !judge.find_candidate(corners, fit);
+    return fit.complete && !metric.find_candidate(corners, fit);
   };
   verdict.flips = in_circle(a, b, c, d) > 0 && keeps_bound({c, d, b}) && keeps_bound({d, c, a});
   return verdict;
@@ -41,13 +41,13 @@ EdgeVerdict judge_edge(const Triangulation& tin, const Judge& judge, HalfEdge h)
 /// Delaunay's rule where the bound allows it. Verdicts made beforehand hold until one of an edge's triangles changes.
 class CarefulRule final : public FlipRule {
  public:
-  CarefulRule(const Triangulation& tin, const Judge& judge, const std::vector<HalfEdge>& edges, int threads)
-      : judge_(judge) {
+  CarefulRule(const Triangulation& tin, const ErrorMetric& metric, const std::vector<HalfEdge>& edges, int threads)
+      : metric_(metric) {
     constexpr std::size_t kChunk = 64;
     std::vector<EdgeVerdict> verdicts(edges.size());
     parallel_for((edges.size() + kChunk - 1) / kChunk, threads, [&](std::size_t chunk) {
       const std::size_t end = std::min(edges.size(), (chunk + 1) * kChunk);
-      for (std::size_t i = chunk * kChunk; i < end; ++i) verdicts[i] = judge_edge(tin, judge, edges[i]);
+      for (std::size_t i = chunk * kChunk; i < end; ++i) verdicts[i] = assess_edge(tin, metric, edges[i]);
     });
     for (std::size_t i = 0; i < edges.size(); ++i) {
       count(verdicts[i]);
@@ -62,7 +62,7 @@ class CarefulRule final : public FlipRule {
     if (known != verdicts_.end() && !changed_.contains(t) && !changed_.contains(u)) {
       flips = known->second;
     } else {
-      const EdgeVerdict verdict = judge_edge(tin, judge_, h);
+      const EdgeVerdict verdict = assess_edge(tin, metric_, h);
       count(verdict);
       flips = verdict.flips;
     }
@@ -77,7 +77,7 @@ class CarefulRule final : public FlipRule {
     work_.triangles_scanned += verdict.triangles;
   }
 
-  const Judge& judge_;
+  const ErrorMetric& metric_;
   std::unordered_map<HalfEdge, bool> verdicts_;
   std::unordered_set<Triangle> changed_;
   Work work_;
@@ -85,8 +85,8 @@ class CarefulRule final : public FlipRule {
 
 }  // namespace
 
-Work release_seams(Triangulation& tin, const Judge& judge, std::vector<HalfEdge> seams, int threads) {
-  CarefulRule rule(tin, judge, seams, threads);
+Work release_seams(Triangulation& tin, const ErrorMetric& metric, std::vector<HalfEdge> seams, int threads) {
+  CarefulRule rule(tin, metric, seams, threads);
   tin.improve(seams, rule, SIZE_MAX);
   return rule.work();
 }

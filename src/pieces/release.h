@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "metric/judge.h"
+#include "metric/error_metric.h"
 #include "scarp/strategy.h"
 #include "tin/triangulation.h"
 
@@ -14,6 +14,6 @@ namespace scarp {
 /// docs/design.md). Afterwards every free edge is either Delaunay or needed by the bound. Cost: a scan of two triangles
 /// for each edge that Delaunay would flip; the first round of scans runs on `threads` threads. The result does not
 /// depend on their number. REQUIRES: every triangle satisfies its bounds.
-Work release_seams(Triangulation& tin, const Judge& judge, std::vector<HalfEdge> seams, int threads = 1);
+Work release_seams(Triangulation& tin, const ErrorMetric& metric, std::vector<HalfEdge> seams, int threads = 1);
 
 }  // namespace scarp

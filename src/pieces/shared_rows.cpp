@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geom/exact_error.h"
-#include "grid/vertex_places.h"
+#include "grid/vertex_lattice.h"
 #include "pieces/border_chain.h"
 #include "pieces/tile_plan.h"
 
@@ -44,7 +44,7 @@ struct BorderVertex {
   bool is_of_line = false;
 };
 
-/// A vertex of a line before that of the mesh at the same place, which goes.
+/// A vertex of a line before that of the mesh at the same point, which goes.
 void sort_along(std::vector<BorderVertex>& vertices) {
   std::sort(vertices.begin(), vertices.end(), [](const BorderVertex& a, const BorderVertex& b) {
     return std::pair(a.x, !a.is_of_line) < std::pair(b.x, !b.is_of_line);
@@ -59,7 +59,7 @@ std::vector<BorderVertex> line_vertices(const ConstraintGraph& part, std::int32_
   for (std::size_t i = 0; i < part.points.size(); ++i) {
     const Point p = part.points[i];
     if (p.y != y * kLatticeSteps) continue;
-    const bool is_sample = PlaceHeights::is_sample(p);
+    const bool is_sample = LatticeHeights::is_sample(p);
     vertices.push_back({p.x, is_sample ? samples[p.x / kLatticeSteps] : part.heights[i], true});
   }
   return vertices;

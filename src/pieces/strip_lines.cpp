@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "grid/vertex_places.h"
+#include "grid/vertex_lattice.h"
 
 namespace scarp {
 
@@ -61,7 +61,7 @@ bool StripLines::has_points(std::int32_t top, std::int32_t bottom) const {
 }
 
 bool StripLines::makes_whole(std::int32_t first, std::int32_t rows) const {
-  return graph_.is_laid_first && has_points(first, first + rows - 1);
+  return graph_.is_inserted_first && has_points(first, first + rows - 1);
 }
 
 ConstraintGraph StripLines::part_of(const Piece& strip) const {

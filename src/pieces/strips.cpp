@@ -9,7 +9,7 @@
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "lines/cut_away.h"
-#include "metric/sample_judge.h"
+#include "metric/sample_metric.h"
 #include "pieces/effort.h"
 #include "pieces/passes.h"
 #include "pieces/shared_rows.h"
@@ -98,14 +98,14 @@ class StripWork {
     return {};
   }
 
-  /// What a judge of triangles cannot decide about a sample on a shared row, that of the row could: it is not asked.
+  /// The metric of triangles skips samples on shared rows: the metric of the row has decided them.
   Result<void> refine_to_bounds(Piece& strip, bool is_whole) {
     for (const bool is_top : {true, false}) {
       if (!(is_top ? strip.has_above : strip.has_below)) continue;
       if (auto split = insert_shared_row(strip, is_top, is_whole); !split) return split;
     }
     settle_shared_rows(strip, aims_);
-    return refine(strip, SampleJudge(judging_by_bounds(strip.samples, strip.aims)), totals_.refinement);
+    return refine(strip, SampleMetric(settings_by_bounds(strip.samples, strip.aims)), totals_.refinement);
   }
 
   Result<void> fit(Piece& strip, const std::function<bool(double, std::uint64_t)>& progress) {

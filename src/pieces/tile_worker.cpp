@@ -43,7 +43,7 @@ TileOutcome TileWorker::refine(const HeightField& field, const TileWindow& windo
   add(outcome.work, coarse_.work());
   outcome.piece = pieces_.make(mesh_, {window.col, window.row}, window.cols, window.rows);
   if (field.samples == nullptr) {
-    for (const Place p : outcome.piece.points) outcome.heights.push_back(tile_.view().at(p));
+    for (const TilePoint p : outcome.piece.points) outcome.heights.push_back(tile_.view().at(p));
   }
   return outcome;
 }
@@ -57,8 +57,8 @@ Result<void> TileWorker::find_border(const HeightField& field, const TileWindow&
     if (!kept) return tl::unexpected(kept.error());
     steps_ += line.steps;
     for (const std::int32_t step : *kept)
-      border_.push_back(place(line.col - window.col + (line.is_vertical ? 0 : step),
-                              line.row - window.row + (line.is_vertical ? step : 0)));
+      border_.push_back(tile_point(line.col - window.col + (line.is_vertical ? 0 : step),
+                                   line.row - window.row + (line.is_vertical ? step : 0)));
   }
   return {};
 }

@@ -46,7 +46,7 @@ class TileWorker {
   TileMesh mesh_;
   CoarseStart coarse_;
   PieceMaker pieces_;
-  std::vector<Place> border_;
+  std::vector<TilePoint> border_;
   std::int64_t steps_ = 0;  // along the shared sides
 };
 

@@ -106,12 +106,12 @@ bool goes_by_rows(const HeightField& field, const TiledOptions& options) {
   return is_in_file(field) || options.finish_row != nullptr;
 }
 
-/// Of a row of tiles that is read: its samples, and where it is finished a copy and what else that takes.
+/// Of a strip that is read: its samples, and where it is finished a copy and what else that takes.
 std::uint64_t bytes_per_sample(const TiledOptions& options) {
   return options.finish_row ? 2 * sizeof(float) + options.finish_bytes_per_sample : sizeof(float);
 }
 
-/// Of the samples of the highest row of tiles, where they are read by rows.
+/// Of the samples of the highest strip, where they are read by rows.
 std::uint64_t row_bytes(const HeightField& field, const TilePlan& plan) {
   std::int32_t rows = 0;
   for (std::size_t i = 0; i < plan.count(); i += plan.per_row()) rows = std::max(rows, plan.window(i).rows);
@@ -276,14 +276,15 @@ class TiledRun {
     row_ = Assembly(plan_.per_row());
     if (auto finished = options_.finish_row(strip); !finished) return finished;
     const Triangulation& tin = strip.tin;
-    const VertexPlaces& places = strip.places;
-    assert(window.row == 0 || places.steps == steps_);
-    steps_ = places.steps;
+    const VertexLattice& lattice = strip.lattice;
+    assert(window.row == 0 || lattice.steps == steps_);
+    steps_ = lattice.steps;
     assembly_.append(tin, {0, window.row * steps_}, (samples.cols - 1) * steps_ + 1, (samples.rows - 1) * steps_ + 1);
-    std::vector<float> heights = places.heights;
-    for (Vertex v = 0; places.are_samples() && v < tin.vertex_count(); ++v) heights.push_back(samples.at(tin.point(v)));
+    std::vector<float> heights = lattice.heights;
+    for (Vertex v = 0; lattice.are_samples() && v < tin.vertex_count(); ++v)
+      heights.push_back(samples.at(tin.point(v)));
     keep_heights(heights);
-    keep_fixed(places.fixed);
+    keep_fixed(lattice.fixed);
     return {};
   }
 

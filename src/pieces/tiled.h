@@ -66,7 +66,7 @@ struct Tiled {
 std::int32_t streamed_side(const HeightField& field, const TiledOptions& options);
 std::vector<std::int32_t> shared_rows(const HeightField& field, std::int32_t side);
 
-/// Where the field's source is not in memory, or rows are finished, one row of tiles after the other is read and
+/// Where the field's source is not in memory, or rows are finished, one strip after the other is read and
 /// refined.
 ///
 /// Every sample of the surface lies within `threshold` of the triangulation, if finish_row() keeps it. Nothing where

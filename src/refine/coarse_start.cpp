@@ -28,13 +28,13 @@ void CoarseStart::insert(const Tile& tile, const SharedSides& shared, double thr
     if (density * step * step > attempt.expected || std::min(last_col, last_row) < 16 * step) continue;
     if (!refine(tile, step, attempt.most, threshold)) continue;
     TileMesh::Id last = 0;
-    for (const Place p : inserted_) {
-      const std::int32_t x = place_x(p) * step, y = place_y(p) * step;
+    for (const TilePoint p : inserted_) {
+      const std::int32_t x = tile_x(p) * step, y = tile_y(p) * step;
       const bool is_shared = (shared.left && x == 0) || (shared.top && y == 0) || (shared.right && x == last_col) ||
                              (shared.bottom && y == last_row);
       if (is_shared) continue;
-      last = mesh.locate(place(x, y), last);
-      if (!mesh.is_outside(last)) last = mesh.insert(place(x, y), last);
+      last = mesh.locate(tile_point(x, y), last);
+      if (!mesh.is_outside(last)) last = mesh.insert(tile_point(x, y), last);
     }
     return;
   }

@@ -5,7 +5,7 @@
 // the mesh is to be coarse, the subsampled tile is refined first, its vertices are inserted (a sample of the coarse
 // raster is one of the fine one), and refinement goes on from there with all samples. On real terrain that gives fewer
 // vertices, sooner (docs/performance.md, "Starts"). Where the coarse mesh would need a large part of the coarse samples
-// the vertices are too many and in the wrong places; then the tile starts from two triangles.
+// the vertices are too many and at the wrong points; then the tile starts from two triangles.
 #pragma once
 
 #include <vector>
@@ -33,7 +33,7 @@ class CoarseStart {
 
   Tile coarse_;
   TileMesh mesh_;
-  std::vector<Place> inserted_;
+  std::vector<TilePoint> inserted_;
   Work work_;
 };
 

@@ -31,11 +31,11 @@ struct DataDependentRule::Improver final : public FlipRule {
   DataDependentRule& owner;
 };
 
-DataDependentRule::DataDependentRule(const Judge& judge, const EdgeRule& rule)
-    : judge_(judge),
+DataDependentRule::DataDependentRule(const ErrorMetric& metric, const EdgeRule& rule)
+    : metric_(metric),
       rule_(rule),
       threshold_(rule.shape_threshold < 0 ? default_threshold(rule.score) : rule.shape_threshold),
-      cache_(judge, rule.score == EdgeScore::kSquares, rule.supersample) {}
+      cache_(metric, rule.score == EdgeScore::kSquares, rule.supersample) {}
 
 Vertex DataDependentRule::insert(Triangulation& tin, Point p, Triangulation::Location location) {
   const Vertex v = tin.insert(p, location, this);
@@ -93,13 +93,13 @@ double DataDependentRule::combine(double first, double second) const {
 bool DataDependentRule::is_better(const Triangulation& tin, HalfEdge h) {
   const Quadrilateral quad(tin, h);
   if (rule_.score == EdgeScore::kNormals)
-    return judge_.bend(quad.other[0], quad.other[1]) < judge_.bend(quad.kept[0], quad.kept[1]);
+    return metric_.bend(quad.other[0], quad.other[1]) < metric_.bend(quad.kept[0], quad.kept[1]);
   const double first_kept = part(cache_.fit_of(tin, quad.t)), second_kept = part(cache_.fit_of(tin, quad.u));
   double score = combine(first_kept, second_kept);
   if (rule_.score == EdgeScore::kSquares) {
     // Both triangles count the samples on the edge between them.
-    score -= judge_.squares_between(quad.kept[0][0], quad.kept[0][1]);
-    score += judge_.squares_between(quad.other[0][0], quad.other[0][1]);
+    score -= metric_.squares_between(quad.kept[0][0], quad.kept[0][1]);
+    score += metric_.squares_between(quad.other[0][0], quad.other[0][1]);
   }
   // A scan may stop where its triangle alone loses; the hair more leaves ties to the comparison of the sums.
   const auto look = [&](const Quadrilateral::Corners& corners, double most) {

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "metric/judge.h"
+#include "metric/error_metric.h"
 #include "refine/fit_cache.h"
 #include "scarp/strategy.h"
 #include "tin/triangulation.h"
@@ -17,8 +17,8 @@ namespace scarp {
 
 class DataDependentRule final : public FlipRule {
  public:
-  /// The judge stays alive.
-  DataDependentRule(const Judge& judge, const EdgeRule& rule);
+  /// The metric stays alive.
+  DataDependentRule(const ErrorMetric& metric, const EdgeRule& rule);
 
   /// The rule for edges that face a new vertex: the score decides, or the shape.
   bool should_flip(const Triangulation& tin, HalfEdge h) override;
@@ -38,7 +38,7 @@ class DataDependentRule final : public FlipRule {
   double combine(double first, double second) const;
   double part(const Fit& fit) const;
 
-  const Judge& judge_;
+  const ErrorMetric& metric_;
   EdgeRule rule_;
   double threshold_;
   FitCache cache_;

@@ -14,7 +14,7 @@ namespace scarp {
 struct DomainMesh {
   Triangulation tin;
   bool whole = true;         ///< every sample is a height: the domain is the rectangle
-  std::uint32_t unused = 0;  ///< rectangle corners that are no vertex of the domain (void or stray)
+  std::uint32_t unused = 0;  ///< rectangle corners that are no vertex of the domain (nodata or stray)
 };
 
 /// The rectangle as two triangles if every sample is a height; else the outline's vertices, its edges constrained, all

@@ -11,7 +11,7 @@ using Id = TileMesh::Id;
 
 class Walk {
  public:
-  Walk(TileMesh& mesh, TileScanner& scanner, std::vector<Place>* inserted)
+  Walk(TileMesh& mesh, TileScanner& scanner, std::vector<TilePoint>* inserted)
       : mesh_(mesh), scanner_(scanner), inserted_(inserted) {
     std::vector<Id> all(mesh.triangle_count());
     for (Id t = 0; t < all.size(); ++t) all[t] = t;
@@ -26,7 +26,7 @@ class Walk {
         stack_.pop_back();  // changed since it was put there
         continue;
       }
-      const Place p = candidate_of(key);
+      const TilePoint p = candidate_of(key);
       Entry worst{key, t};
       for (const TileMesh::Link link : mesh_[t].links) consider(link, worst);
       if (worst.triangle == t) {
@@ -68,7 +68,7 @@ class Walk {
     if (link != TileMesh::kBorder) consider_triangle(TileMesh::triangle_of(link), worst);
   }
 
-  void insert(Place p, const TileMesh::Cavity& cavity) {
+  void insert(TilePoint p, const TileMesh::Cavity& cavity) {
     hints_.clear();
     for (const Id t : cavity.removed) {
       const std::int64_t key = mesh_[t].key;
@@ -89,15 +89,15 @@ class Walk {
 
   TileMesh& mesh_;
   TileScanner& scanner_;
-  std::vector<Place>* inserted_;
+  std::vector<TilePoint>* inserted_;
   std::vector<Entry> stack_;
-  std::vector<Place> hints_;
+  std::vector<TilePoint> hints_;
   DominantRun done_;
 };
 
 }  // namespace
 
-DominantRun refine_dominant(TileMesh& mesh, TileScanner& scanner, std::size_t most, std::vector<Place>* inserted) {
+DominantRun refine_dominant(TileMesh& mesh, TileScanner& scanner, std::size_t most, std::vector<TilePoint>* inserted) {
   return Walk(mesh, scanner, inserted).run(most);
 }
 

@@ -14,7 +14,7 @@
 //     ╲ ╱ ╲p╱ ╲ ╱       p is inserted if no triangle of cavity and ring has a larger key
 //      ·───·───·
 //
-// Keys (error, then the place of the candidate, lower first) are a total order that knows no ids, so nothing depends on
+// Keys (error, then the point of the candidate, lower first) are a total order that knows no ids, so nothing depends on
 // where a triangle happens to be stored. From a triangle that is dominated we step to the worst one that dominates it,
 // and so on uphill: keys grow along such a walk, so it ends, at a local maximum. Walks start from a stack of the
 // triangles that wait; new triangles go on top, so work stays where the caches are warm. Triangles that keep the bound
@@ -40,8 +40,8 @@ struct DominantRun {
 };
 
 /// Scans all triangles of the mesh, then inserts candidates until none is left, or until the mesh has `most` vertices.
-/// `inserted`: where not null, the places in the order of insertion are added.
+/// `inserted`: where not null, the points in the order of insertion are added.
 DominantRun refine_dominant(TileMesh& mesh, TileScanner& scanner, std::size_t most = SIZE_MAX,
-                            std::vector<Place>* inserted = nullptr);
+                            std::vector<TilePoint>* inserted = nullptr);
 
 }  // namespace scarp

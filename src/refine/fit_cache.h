@@ -7,17 +7,17 @@
 #include <utility>
 #include <vector>
 
+#include "metric/error_metric.h"
 #include "metric/fine_lattice.h"
-#include "metric/judge.h"
 #include "tin/triangulation.h"
 
 namespace scarp {
 
 class FitCache {
  public:
-  /// The judge stays alive. `supersample`: see EdgeRule.
-  FitCache(const Judge& judge, bool squares, double supersample)
-      : judge_(judge), squares_(squares), supersample_(supersample) {}
+  /// The metric stays alive. `supersample`: see EdgeRule.
+  FitCache(const ErrorMetric& metric, bool squares, double supersample)
+      : metric_(metric), squares_(squares), supersample_(supersample) {}
 
   /// Fit of a triangle that is not outside: remembered, or looked at now. Valid until the next call.
   const Fit& fit_of(const Triangulation& tin, Triangle t) {
@@ -32,12 +32,12 @@ class FitCache {
     question.lattice = find_lattice(corners, supersample_);
     // On the finer lattice the score may turn out smaller than on the samples: it is never given up early.
     if (question.lattice == 1) (squares_ ? question.give_up_squares : question.give_up_max) = give_up;
-    const Fit fit = judge_.fit(corners, question);
+    const Fit fit = metric_.fit(corners, question);
     samples_ += fit.scanned;
     ++triangles_;
     return fit;
   }
-  /// What was looked at is triangle t from now on, for as long as t has these corners.
+  /// What was looked at is triangle t from now on, while t has these corners.
   void remember(Triangle t, std::array<Vertex, 3> corners, const Fit& fit) {
     if (t >= known_.size()) known_.resize(t + 1);
     known_[t] = {ascending(corners), fit};
@@ -58,7 +58,7 @@ class FitCache {
     return v;
   }
 
-  const Judge& judge_;
+  const ErrorMetric& metric_;
   bool squares_;
   double supersample_;
   std::vector<Known> known_;

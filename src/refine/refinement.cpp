@@ -6,9 +6,10 @@
 
 namespace scarp {
 
-Refinement::Refinement(const Judge& judge, Triangulation& tin, Algorithm algorithm, const EdgeRule& edges, Start start)
-    : judge_(judge), tin_(tin), algorithm_(algorithm) {
-  if (edges.data_dependent) rule_ = std::make_unique<DataDependentRule>(judge, edges);
+Refinement::Refinement(const ErrorMetric& metric, Triangulation& tin, Algorithm algorithm, const EdgeRule& edges,
+                       Start start)
+    : metric_(metric), tin_(tin), algorithm_(algorithm) {
+  if (edges.data_dependent) rule_ = std::make_unique<DataDependentRule>(metric, edges);
   if (algorithm == Algorithm::kHeap) {
     candidates_ = std::make_unique<CandidateQueue>();
   } else {
@@ -23,8 +24,8 @@ Refinement::Refinement(const Judge& judge, Triangulation& tin, Algorithm algorit
 }
 
 Refinement::Look Refinement::look_at(Triangle t) const {
-  const Fit fit = judge_.fit(tin_.corners(t), {});
-  return {judge_.find_candidate(tin_.corners(t), fit), fit.scanned};
+  const Fit fit = metric_.fit(tin_.corners(t), {});
+  return {metric_.find_candidate(tin_.corners(t), fit), fit.scanned};
 }
 
 void Refinement::take(Triangle t, const std::optional<Candidate>& candidate) {
@@ -37,7 +38,7 @@ void Refinement::take(Triangle t, const std::optional<Candidate>& candidate) {
 
 void Refinement::rescan(Triangle t) {
   if (tin_.is_outside(t)) return take(t, std::nullopt);
-  if (rule_) return take(t, judge_.find_candidate(tin_.corners(t), rule_->fit_of(tin_, t)));
+  if (rule_) return take(t, metric_.find_candidate(tin_.corners(t), rule_->fit_of(tin_, t)));
   const Look look = look_at(t);
   samples_ += look.samples;
   ++triangles_;

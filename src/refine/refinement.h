@@ -3,10 +3,10 @@
 // Each triangle of the domain knows its candidate, the most important of its samples that break their bound. The best
 // of all is inserted, the triangulation restores its edge rule, and exactly the triangles around the new vertex are
 // scanned again. When no candidate is left, every sample of every triangle keeps its bound - not by bookkeeping of
-// rounded numbers: near the bound the judge decides exactly.
+// rounded numbers: near the bound the metric decides exactly.
 //
 // How we differ from the paper's program: closed integer scans (no sample falls between two triangles), ties broken by
-// raster order instead of memory order, a proven stop at any threshold including 0, voids (NaN samples, triangles
+// raster order instead of memory order, a proven stop at any threshold including 0, nodata (NaN samples, triangles
 // marked outside).
 //
 // Cost: expected O((n + m) log m) for n samples and m insertions with Algorithm::kHeap.
@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "metric/judge.h"
+#include "metric/error_metric.h"
 #include "refine/candidate_queue.h"
 #include "refine/data_dependent.h"
 #include "scarp/strategy.h"
@@ -32,15 +32,15 @@ class Refinement {
     kScan,   ///< scan every triangle that is not outside
     kClean,  ///< all keep their bounds already, or scan() looks at those that may not
   };
-  /// The judge and `tin` stay alive; nobody else changes them. Edges are Delaunay, or follow the data where `edges`
+  /// The metric and `tin` stay alive; nobody else changes them. Edges are Delaunay, or follow the data where `edges`
   /// says so; triangles of `tin` stay as they are until a point is inserted.
-  Refinement(const Judge& judge, Triangulation& tin, Algorithm algorithm = Algorithm::kHeap, const EdgeRule& edges = {},
-             Start start = Start::kScan);
+  Refinement(const ErrorMetric& metric, Triangulation& tin, Algorithm algorithm = Algorithm::kHeap,
+             const EdgeRule& edges = {}, Start start = Start::kScan);
 
   /// No sample breaks its bound any more.
   bool done() const { return candidates_->empty(); }
-  /// Importance of the sample to be inserted next; the judge's goal if done().
-  double worst_error() const { return done() ? judge_.goal() : candidates_->candidate(candidates_->worst()).error; }
+  /// Importance of the sample to be inserted next; the metric's goal if done().
+  double worst_error() const { return done() ? metric_.goal() : candidates_->candidate(candidates_->worst()).error; }
   /// No half-edge ids are left for another insertion (1,431 million triangles).
   bool is_full() const { return tin_.triangle_count() > kNone / 3 - 2; }
   /// How many triangles of the domain insert_worst() would add. REQUIRES: !done().
@@ -58,7 +58,7 @@ class Refinement {
   /// Edges follow this rule from now on in place of the Delaunay property; it stays alive. REQUIRES: no EdgeRule.
   void follow(FlipRule* flips) { flips_ = flips; }
 
-  /// The candidates that a batch would insert now, worst first; empty if done(). A place on an edge may come twice.
+  /// The candidates that a batch would insert now, worst first; empty if done(). A sample on an edge may come twice.
   struct BatchCandidate {
     Candidate candidate;
     Triangle triangle;
@@ -70,7 +70,7 @@ class Refinement {
   bool has_changed(Triangle t) const { return t < changed_.size() && changed_[t] != 0; }
   std::uint32_t gain_near(Point p, Triangle hint) const { return gain(tin_.locate(p, hint)); }
   void rescan_changed();
-  /// Scans triangles, for which nobody else has answered, each once. REQUIRES: on several threads, a judge that they
+  /// Scans triangles, for which nobody else has answered, each once. REQUIRES: on several threads, a metric that they
   /// may ask at the same time, and no EdgeRule.
   void scan(std::span<const Triangle> triangles, int threads = 1);
 
@@ -90,7 +90,7 @@ class Refinement {
   void rescan_all();
   std::uint32_t gain(const Triangulation::Location& location) const;
 
-  const Judge& judge_;
+  const ErrorMetric& metric_;
   Triangulation& tin_;
   Algorithm algorithm_;
   std::unique_ptr<DataDependentRule> rule_;  // null: Delaunay, or as flips_ wants it

@@ -11,50 +11,50 @@ namespace scarp {
 
 namespace {
 
-Vertex insert_hull_corner(ScatteredDomain& domain, const PointPlaces& places, std::uint32_t place) {
-  const Point p = places.at[place];
-  return domain.insert(place, p, domain.tin.locate(p, domain.tin.last_touched()));
+Vertex insert_hull_corner(ScatteredDomain& domain, const SnappedPoints& points, std::uint32_t point) {
+  const Point p = points.at[point];
+  return domain.insert(point, p, domain.tin.locate(p, domain.tin.last_touched()));
 }
 
 bool is_used(const ScatteredDomain& domain, Triangle t) {
   for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
-    if (domain.place_of[domain.tin.origin(h)] == kNone) return false;
+    if (domain.point_of[domain.tin.origin(h)] == kNone) return false;
   }
   return true;
 }
 
 }  // namespace
 
-Vertex ScatteredDomain::insert(std::uint32_t place, Point at, const Triangulation::Location& location) {
+Vertex ScatteredDomain::insert(std::uint32_t point, Point at, const Triangulation::Location& location) {
   const Vertex v = tin.insert(at, location);
-  if (v == place_of.size()) {
-    place_of.push_back(place);
-  } else if (place_of[v] == kNone) {
-    place_of[v] = place;
+  if (v == point_of.size()) {
+    point_of.push_back(point);
+  } else if (point_of[v] == kNone) {
+    point_of[v] = point;
     --unused;
   }
   return v;
 }
 
-Result<ScatteredDomain> build_domain(const PointPlaces& places) {
-  if (places.size() < 3)
-    return fail(ErrorKind::kInput, places.size() == 1
+Result<ScatteredDomain> build_domain(const SnappedPoints& points) {
+  if (points.size() < 3)
+    return fail(ErrorKind::kInput, points.size() == 1
                                        ? "all points lie at one place; a surface needs at least three places"
                                        : "all points lie at two places; a surface needs at least three places");
-  const std::vector<std::uint32_t> hull = convex_hull(places.at);
+  const std::vector<std::uint32_t> hull = convex_hull(points.at);
   if (hull.size() < 3) return fail(ErrorKind::kInput, "all points lie on one line, so there is no surface to simplify");
-  ScatteredDomain domain{Triangulation(places.lattice.cols, places.lattice.rows), {}, 0, 4};
-  domain.place_of.assign(4, kNone);
+  ScatteredDomain domain{Triangulation(points.lattice.cols, points.lattice.rows), {}, 0, 4};
+  domain.point_of.assign(4, kNone);
   domain.on_hull = static_cast<std::uint32_t>(hull.size());
   // Coarse to fine: one after the other around a circle, every corner would change the triangles of all before it.
   for (std::size_t stride = std::bit_ceil(hull.size()); stride > 0; stride /= 2) {
     for (std::size_t i = 0; i < hull.size(); i += stride) {
-      if (i % (2 * stride) != 0) insert_hull_corner(domain, places, hull[i]);
+      if (i % (2 * stride) != 0) insert_hull_corner(domain, points, hull[i]);
     }
   }
   // The outside is found by its corners: a triangle with three corners on the hull lies in it.
   std::vector<Vertex> vertices(hull.size());
-  for (std::size_t i = 0; i < hull.size(); ++i) vertices[i] = insert_hull_corner(domain, places, hull[i]);
+  for (std::size_t i = 0; i < hull.size(); ++i) vertices[i] = insert_hull_corner(domain, points, hull[i]);
   for (std::size_t i = 0; i < hull.size(); ++i) {
     if (!domain.tin.constrain(vertices[i], vertices[(i + 1) % hull.size()]))
       return fail(ErrorKind::kInternal, "two edges of the convex hull cross");
@@ -63,34 +63,34 @@ Result<ScatteredDomain> build_domain(const PointPlaces& places) {
   return domain;
 }
 
-ScatteredRefinement::ScatteredRefinement(const PointPlaces& places, std::span<const double> heights,
+ScatteredRefinement::ScatteredRefinement(const SnappedPoints& points, std::span<const double> heights,
                                          ScatteredDomain& domain, double threshold)
-    : places_(places),
+    : points_(points),
       heights_(heights),
       domain_(domain),
       threshold_(threshold),
       first_(domain.tin.triangle_count(), kNone),
-      next_(places.size(), kNone),
+      next_(points.size(), kNone),
       worst_(domain.tin.triangle_count(), kNone) {
   const Triangulation& tin = domain.tin;
   queue_.grow(tin.triangle_count());
   Triangle hint = 0;
-  for (auto place = static_cast<std::uint32_t>(places.size()); place-- > 0;) {
-    const auto location = tin.locate(places.at[place], hint);
+  for (auto point = static_cast<std::uint32_t>(points.size()); point-- > 0;) {
+    const auto location = tin.locate(points.at[point], hint);
     if (location.kind == Triangulation::Location::Kind::kOnVertex) continue;
     hint = location.edge / 3;
     if (tin.is_outside(hint)) hint = tin.twin(location.edge) / 3;  // on the hull's edge
-    next_[place] = first_[hint];
-    first_[hint] = place;
+    next_[point] = first_[hint];
+    first_[hint] = point;
   }
   for (Triangle t = 0; t < tin.triangle_count(); ++t) {
     if (tin.is_outside(t)) continue;
     ++inside_;
     Wedge wedge = wedge_of(t, tin.origin(3 * t));
-    for (std::uint32_t place = first_[t]; place != kNone; place = next_[place]) {
-      const Point p = places.at[place];
-      wedge.offer(std::abs(wedge.plane.height_at(p) - places.z[place]), p, place);
-      ++judged_;
+    for (std::uint32_t point = first_[t]; point != kNone; point = next_[point]) {
+      const Point p = points.at[point];
+      wedge.offer(std::abs(wedge.plane.height_at(p) - points.z[point]), p, point);
+      ++scanned_;
     }
     settle(wedge);
   }
@@ -104,43 +104,43 @@ ScatteredRefinement::Wedge ScatteredRefinement::wedge_of(Triangle t, Vertex apex
   for (std::size_t k = 0; k < 3; ++k, h = Triangulation::next(h)) {
     const Vertex v = domain_.tin.origin(h);
     wedge.corners[k] = domain_.tin.point(v);
-    wedge.heights[k] = heights_[domain_.place_of[v]];
+    wedge.heights[k] = heights_[domain_.point_of[v]];
   }
   wedge.plane = Plane::through_double(wedge.corners, wedge.heights);
   return wedge;
 }
 
-bool ScatteredRefinement::exceeds(const Wedge& wedge, std::uint32_t place) const {
-  return exceeds_exactly(wedge.corners, wedge.heights, places_.at[place], places_.z[place], threshold_);
+bool ScatteredRefinement::exceeds(const Wedge& wedge, std::uint32_t point) const {
+  return exceeds_exactly(wedge.corners, wedge.heights, points_.at[point], points_.z[point], threshold_);
 }
 
-/// Queues the triangle with its worst place, if that exceeds the threshold as a real number.
+/// Queues the triangle with its worst point, if that exceeds the threshold as a real number.
 void ScatteredRefinement::settle(const Wedge& wedge) {
   ++dealt_;
   const Triangle t = wedge.triangle;
   const double guard = wedge.plane.guard, error = wedge.worst.error;
-  const auto queue = [&](const Candidate& candidate, std::uint32_t place) {
+  const auto queue = [&](const Candidate& candidate, std::uint32_t point) {
     queue_.set(t, candidate);
-    worst_[t] = place;
+    worst_[t] = point;
   };
-  if (error > threshold_ + guard) return queue(wedge.worst, wedge.worst_place);
+  if (error > threshold_ + guard) return queue(wedge.worst, wedge.worst_point);
   // A level plane has no guard: one subtraction rounds, monotonely, so that only equality is in doubt.
   const bool is_certain = error < threshold_ - guard || (guard == 0 && (threshold_ == 0 || error != threshold_));
   if (is_certain) return queue_.remove(t);
   Wedge doubtful = wedge;
   doubtful.worst = {-1, {}};
-  doubtful.worst_place = kNone;
-  for (std::uint32_t place = first_[t]; place != kNone; place = next_[place]) {
-    const Point p = places_.at[place];
-    const double near = std::abs(wedge.plane.height_at(p) - places_.z[place]);
-    if (near >= threshold_ - guard && is_worse({near, p}, doubtful.worst) && exceeds(wedge, place))
-      doubtful.offer(near, p, place);
+  doubtful.worst_point = kNone;
+  for (std::uint32_t point = first_[t]; point != kNone; point = next_[point]) {
+    const Point p = points_.at[point];
+    const double near = std::abs(wedge.plane.height_at(p) - points_.z[point]);
+    if (near >= threshold_ - guard && is_worse({near, p}, doubtful.worst) && exceeds(wedge, point))
+      doubtful.offer(near, p, point);
   }
-  if (doubtful.worst_place == kNone) return queue_.remove(t);
-  queue(doubtful.worst, doubtful.worst_place);
+  if (doubtful.worst_point == kNone) return queue_.remove(t);
+  queue(doubtful.worst, doubtful.worst_point);
 }
 
-/// Deals out the places of the triangles around a new vertex among them.
+/// Deals out the points of the triangles around a new vertex among them.
 void ScatteredRefinement::deal(Vertex v) {
   const Triangulation& tin = domain_.tin;
   tin.star(v, star_);
@@ -154,22 +154,22 @@ void ScatteredRefinement::deal(Vertex v) {
     lists_.push_back(first_[wedge.triangle]);
     first_[wedge.triangle] = kNone;
   }
-  const std::uint32_t inserted = domain_.place_of[v];
+  const std::uint32_t inserted = domain_.point_of[v];
   Wedge* wedge = wedges_.data();
   Wedge* const end = wedge + wedges_.size();
-  for (std::uint32_t place : lists_) {
-    while (place != kNone) {
-      const std::uint32_t next = next_[place];
-      if (place != inserted) {
-        const Point p = places_.at[place];
+  for (std::uint32_t point : lists_) {
+    while (point != kNone) {
+      const std::uint32_t next = next_[point];
+      if (point != inserted) {
+        const Point p = points_.at[point];
         for (; !wedge->holds(p); wedge = wedge + 1 == end ? wedges_.data() : wedge + 1) {
         }
-        next_[place] = first_[wedge->triangle];
-        first_[wedge->triangle] = place;
-        wedge->offer(std::abs(wedge->plane.height_at(p) - places_.z[place]), p, place);
-        ++judged_;
+        next_[point] = first_[wedge->triangle];
+        first_[wedge->triangle] = point;
+        wedge->offer(std::abs(wedge->plane.height_at(p) - points_.z[point]), p, point);
+        ++scanned_;
       }
-      place = next;
+      point = next;
     }
   }
   for (const Wedge& w : wedges_) settle(w);
@@ -199,17 +199,17 @@ void ScatteredRefinement::insert_worst() {
   insert_at(worst_[t], domain_.tin.locate_in(queue_.candidate(t).at, t));
 }
 
-std::uint32_t ScatteredRefinement::gain_at(std::uint32_t place) const {
-  return gain(domain_.tin.locate(places_.at[place], domain_.tin.last_touched()));
+std::uint32_t ScatteredRefinement::gain_at(std::uint32_t point) const {
+  return gain(domain_.tin.locate(points_.at[point], domain_.tin.last_touched()));
 }
 
-void ScatteredRefinement::insert(std::uint32_t place) {
-  insert_at(place, domain_.tin.locate(places_.at[place], domain_.tin.last_touched()));
+void ScatteredRefinement::insert(std::uint32_t point) {
+  insert_at(point, domain_.tin.locate(points_.at[point], domain_.tin.last_touched()));
 }
 
-void ScatteredRefinement::insert_at(std::uint32_t place, const Triangulation::Location& location) {
+void ScatteredRefinement::insert_at(std::uint32_t point, const Triangulation::Location& location) {
   inside_ += gain(location);
-  const Vertex v = domain_.insert(place, places_.at[place], location);
+  const Vertex v = domain_.insert(point, points_.at[point], location);
   const std::size_t count = domain_.tin.triangle_count();
   queue_.grow(count);
   first_.resize(count, kNone);

@@ -2,11 +2,11 @@
 //
 // A raster's triangle finds its samples by scanning; here every triangle keeps a list of the points in it. Inserting a
 // point changes the triangles around it and no others, so the points of exactly these lists are dealt out anew among
-// exactly these triangles, and judged by the way. A point on an edge is in the list of one of the two triangles: on the
-// edge both have the same height, and a comparison that rounding could decide is made in exact arithmetic.
+// exactly these triangles, and measured by the way. A point on an edge is in the list of one of the two triangles: on
+// the edge both have the same height, and a comparison that rounding could decide is made in exact arithmetic.
 //
 // The domain is the convex hull: its corners are inserted into the rectangle of the lattice first, its edges are
-// constrained, and what lies beyond is marked outside, as beside the outline of a raster with voids.
+// constrained, and what lies beyond is marked outside, as beside the outline of a raster with nodata.
 //
 // Cost: expected O(n log m) for n points and m insertions.
 #pragma once
@@ -18,56 +18,56 @@
 #include <vector>
 
 #include "geom/plane.h"
-#include "grid/point_places.h"
+#include "grid/snapped_points.h"
 #include "refine/candidate_queue.h"
 #include "scarp/result.h"
 #include "tin/triangulation.h"
 
 namespace scarp {
 
-/// The workbench: a triangulation whose vertices are places.
+/// The workbench: a triangulation whose vertices are lattice points.
 struct ScatteredDomain {
   Triangulation tin;
-  std::vector<std::uint32_t> place_of;  ///< by vertex; kNone for corners of the rectangle that are no place
+  std::vector<std::uint32_t> point_of;  ///< by vertex; kNone for corners of the rectangle that are no point
   std::uint32_t on_hull = 0;            ///< corners of the convex hull
-  std::uint32_t unused = 0;             ///< vertices without a place
+  std::uint32_t unused = 0;             ///< vertices without a point
 
-  std::uint64_t vertex_count() const { return place_of.size() - unused; }
-  Vertex insert(std::uint32_t place, Point at, const Triangulation::Location& location);
+  std::uint64_t vertex_count() const { return point_of.size() - unused; }
+  Vertex insert(std::uint32_t point, Point at, const Triangulation::Location& location);
 };
 
-/// The triangulation of the convex hull's corners. Fails with kInput if there are fewer than three places or all lie on
+/// The triangulation of the convex hull's corners. Fails with kInput if there are fewer than three points or all lie on
 /// one line.
-Result<ScatteredDomain> build_domain(const PointPlaces& places);
+Result<ScatteredDomain> build_domain(const SnappedPoints& points);
 
 class ScatteredRefinement {
  public:
-  /// Deals out all places. `heights`: what a place has as a vertex (its z, or that rounded to float32), by place. All
+  /// Deals out all points. `heights`: what a point has as a vertex (its z, or that rounded to float32), by point. All
   /// arguments stay alive and are changed by nobody else.
-  ScatteredRefinement(const PointPlaces& places, std::span<const double> heights, ScatteredDomain& domain,
+  ScatteredRefinement(const SnappedPoints& points, std::span<const double> heights, ScatteredDomain& domain,
                       double threshold);
 
-  /// No place exceeds the threshold any more.
+  /// No point exceeds the threshold any more.
   bool done() const { return queue_.empty(); }
-  /// Error of the place to be inserted next; the threshold if done().
+  /// Error of the point to be inserted next; the threshold if done().
   double worst_error() const { return done() ? threshold_ : queue_.candidate(queue_.worst()).error; }
   bool is_full() const { return domain_.tin.triangle_count() > kNone / 3 - 2; }
   /// How many triangles of the domain insert_worst() would add. REQUIRES: !done().
   std::uint32_t next_gain() const;
-  /// Inserts the place with the largest error; ties: the northernmost row, then the westernmost column of the lattice.
+  /// Inserts the point with the largest error; ties: the northernmost row, then the westernmost column of the lattice.
   /// REQUIRES: !done().
   void insert_worst();
-  /// How many triangles of the domain the insertion of a place would add; 0 if it is a vertex.
-  std::uint32_t gain_at(std::uint32_t place) const;
-  /// REQUIRES: gain_at(place) > 0.
-  void insert(std::uint32_t place);
+  /// How many triangles of the domain the insertion of a point would add; 0 if it is a vertex.
+  std::uint32_t gain_at(std::uint32_t point) const;
+  /// REQUIRES: gain_at(point) > 0.
+  void insert(std::uint32_t point);
 
   std::uint64_t triangle_count() const { return inside_; }
-  std::uint64_t places_judged() const { return judged_; }
+  std::uint64_t points_scanned() const { return scanned_; }
   std::uint64_t lists_dealt() const { return dealt_; }
 
  private:
-  /// A triangle of the domain with its plane and, while places are dealt out, the worst of them. As part of a star it
+  /// A triangle of the domain with its plane and, while points are dealt out, the worst of them. As part of a star it
   /// has its apex as first corner.
   struct Wedge {
     Triangle triangle;
@@ -75,39 +75,39 @@ class ScatteredRefinement {
     std::array<double, 3> heights;
     Plane plane;
     Candidate worst{-1, {}};
-    std::uint32_t worst_place = kNone;
+    std::uint32_t worst_point = kNone;
 
     /// For p in the star: whether it lies in this triangle, closed.
     bool holds(Point p) const {
       return orient(corners[0], corners[1], p) >= 0 && orient(corners[0], corners[2], p) <= 0;
     }
-    void offer(double error, Point p, std::uint32_t place) {
+    void offer(double error, Point p, std::uint32_t point) {
       const Candidate candidate{error, p};
       if (!is_worse(candidate, worst)) return;
       worst = candidate;
-      worst_place = place;
+      worst_point = point;
     }
   };
 
   void deal(Vertex v);
   void settle(const Wedge& wedge);
-  bool exceeds(const Wedge& wedge, std::uint32_t place) const;
+  bool exceeds(const Wedge& wedge, std::uint32_t point) const;
   Wedge wedge_of(Triangle t, Vertex apex) const;
-  void insert_at(std::uint32_t place, const Triangulation::Location& location);
+  void insert_at(std::uint32_t point, const Triangulation::Location& location);
   std::uint32_t gain(const Triangulation::Location& location) const;
 
-  const PointPlaces& places_;
+  const SnappedPoints& points_;
   std::span<const double> heights_;
   ScatteredDomain& domain_;
   double threshold_;
   CandidateQueue queue_;
   std::vector<std::uint32_t> first_;  // by triangle: its list, kNone if it is empty
-  std::vector<std::uint32_t> next_;   // by place: the next one in its list
-  std::vector<std::uint32_t> worst_;  // by queued triangle: the place of its candidate
+  std::vector<std::uint32_t> next_;   // by point: the next one in its list
+  std::vector<std::uint32_t> worst_;  // by queued triangle: the point of its candidate
   std::vector<Triangle> star_;
   std::vector<Wedge> wedges_;
   std::vector<std::uint32_t> lists_;
-  std::uint64_t inside_ = 0, judged_ = 0, dealt_ = 0;
+  std::uint64_t inside_ = 0, scanned_ = 0, dealt_ = 0;
 };
 
 }  // namespace scarp

@@ -1,7 +1,7 @@
 // The last touch to a data-dependent triangulation.
 #pragma once
 
-#include "metric/judge.h"
+#include "metric/error_metric.h"
 #include "scarp/strategy.h"
 #include "tin/triangulation.h"
 
@@ -11,6 +11,6 @@ namespace scarp {
 /// neither largest error above the larger of the two and makes no triangle thinner than 0.1 (2 · area / longest
 /// side²) or than it was, whatever the rule's threshold. With `keep_bounds` no flip gives a triangle a candidate: what
 /// kept every bound goes on to keep it. Cost: about four scans of the samples. Returns what was looked at.
-Work settle_edges(Triangulation& tin, const Judge& judge, const EdgeRule& rule, bool keep_bounds);
+Work settle_edges(Triangulation& tin, const ErrorMetric& metric, const EdgeRule& rule, bool keep_bounds);
 
 }  // namespace scarp

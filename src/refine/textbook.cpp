@@ -17,7 +17,7 @@ bool contains(const std::array<Point, 3>& corners, Point p) {
 }
 
 /// The sample as a candidate of the triangle, if it exceeds the threshold there.
-std::optional<Candidate> judge(const Raster& raster, const std::array<Point, 3>& corners, Point p, double threshold) {
+std::optional<Candidate> assess(const Raster& raster, const std::array<Point, 3>& corners, Point p, double threshold) {
   if (!raster.is_valid(p) || !contains(corners, p)) return std::nullopt;
   const std::array<float, 3> heights{raster.at(corners[0]), raster.at(corners[1]), raster.at(corners[2])};
   if (!exceeds_exactly(corners, heights, p, raster.at(p), threshold)) return std::nullopt;
@@ -33,7 +33,7 @@ std::optional<Candidate> worst_in_triangle(const Raster& raster, const Triangula
   std::optional<Candidate> worst;
   if (tin.is_outside(t)) return worst;
   for (std::int32_t y = 0; y < raster.rows; ++y) {
-    for (std::int32_t x = 0; x < raster.cols; ++x) keep_worse(worst, judge(raster, tin.corners(t), {x, y}, threshold));
+    for (std::int32_t x = 0; x < raster.cols; ++x) keep_worse(worst, assess(raster, tin.corners(t), {x, y}, threshold));
   }
   return worst;
 }

@@ -12,11 +12,11 @@
 
 namespace scarp {
 
-/// Algorithm I (section 4.1): before each insertion, judge every sample against every triangle that contains it.
+/// Algorithm I (section 4.1): before each insertion, test every sample against every triangle that contains it.
 /// Inserts until no sample exceeds the threshold or `most` points are in. Returns the points in order of insertion.
 std::vector<Point> insert_by_brute_force(const Raster& raster, Triangulation& tin, double threshold, std::size_t most);
 
-/// Algorithm II (section 4.2): each triangle keeps its candidate; only triangles around the new vertex are judged
+/// Algorithm II (section 4.2): each triangle keeps its candidate; only triangles around the new vertex are tested
 /// again; the worst candidate is found by looking at all of them.
 std::vector<Point> insert_by_local_search(const Raster& raster, Triangulation& tin, double threshold, std::size_t most);
 

@@ -27,8 +27,8 @@ float* Tile::resize(std::int32_t cols, std::int32_t rows) {
 }
 
 void Tile::fill_blocks() {
-  voids_ = 0;
-  largest_height_ = scan_kernels().fill_blocks(view_, low_.data(), high_.data(), voids_);
+  nodata_ = 0;
+  largest_height_ = scan_kernels().fill_blocks(view_, low_.data(), high_.data(), nodata_);
 }
 
 Result<void> Tile::load(const HeightField& field, const TileWindow& window) {

@@ -24,7 +24,7 @@ class Tile {
   void load_coarse(const Tile& fine, std::int32_t step);
 
   const TileView& view() const { return view_; }
-  bool is_whole() const { return voids_ == 0; }
+  bool is_whole() const { return nodata_ == 0; }
   float largest_height() const { return largest_height_; }  ///< magnitude; of the samples that are heights
 
  private:
@@ -33,7 +33,7 @@ class Tile {
 
   Array<float> samples_, low_, high_;
   TileView view_;
-  std::uint64_t voids_ = 0;
+  std::uint64_t nodata_ = 0;
   float largest_height_ = 0;
 };
 

@@ -7,12 +7,12 @@
 
 namespace scarp {
 
-Result<void> start_tile(const Tile& tile, std::span<const Place> border, TileMesh& mesh) {
+Result<void> start_tile(const Tile& tile, std::span<const TilePoint> border, TileMesh& mesh) {
   const TileView& view = tile.view();
   if (tile.is_whole()) {
     mesh.reset(view.cols, view.rows);
     TileMesh::Id last = 0;
-    for (const Place p : border) last = mesh.insert(p, last);
+    for (const TilePoint p : border) last = mesh.insert(p, last);
     return {};
   }
   std::vector<float> samples;
@@ -27,7 +27,7 @@ Result<void> start_tile(const Tile& tile, std::span<const Place> border, TileMes
   } else {
     return tl::unexpected(domain.error());
   }
-  for (const Place p : border) tin.insert(point_of(p), tin.locate(point_of(p), tin.last_touched()));
+  for (const TilePoint p : border) tin.insert(point_of(p), tin.locate(point_of(p), tin.last_touched()));
   mesh.assign(tin);
   return {};
 }

@@ -8,9 +8,9 @@
 
 namespace scarp {
 
-/// Two triangles over the tile, with the outline of its valid data constrained where it has voids, and `border` (places
-/// on its sides) inserted. What is no surface is outside; that may be everything.
-/// Fails with kInternal if edges of the outline cross.
-Result<void> start_tile(const Tile& tile, std::span<const Place> border, TileMesh& mesh);
+/// Two triangles over the tile, with the outline of its valid data constrained where it has nodata, and `border`
+/// (points on its sides) inserted. What is no surface is outside; that may be everything. Fails with kInternal if edges
+/// of the outline cross.
+Result<void> start_tile(const Tile& tile, std::span<const TilePoint> border, TileMesh& mesh);
 
 }  // namespace scarp

@@ -9,9 +9,9 @@ TileScanner::TileScanner(const TileView& tile, double threshold, const ScanKerne
     : kernels_(kernels),
       tile_(tile),
       threshold_(threshold),
-      judge_(Raster{tile.samples, static_cast<std::int32_t>(tile.stride), tile.rows}, threshold) {}
+      metric_(Raster{tile.samples, static_cast<std::int32_t>(tile.stride), tile.rows}, threshold) {}
 
-void TileScanner::scan(TileMesh& mesh, std::span<const TileMesh::Id> triangles, std::span<const Place> hints) {
+void TileScanner::scan(TileMesh& mesh, std::span<const TileMesh::Id> triangles, std::span<const TilePoint> hints) {
   corners_.clear();
   ids_.clear();
   for (const TileMesh::Id t : triangles) {
@@ -43,14 +43,14 @@ void TileScanner::settle(TileMesh::Record& record) {
   for (std::size_t k = 0; k < 3; ++k) corners[k] = point_of(record.corners[k]);
   record.key = 0;
   if (orient(corners[0], corners[1], corners[2]) == 1) return;  // holds no sample but its corners (Pick)
-  const auto candidate = judge_.find_candidate(corners, judge_.fit(corners, {}));
+  const auto candidate = metric_.find_candidate(corners, metric_.fit(corners, {}));
   if (!candidate) return;
   if (is_on_shared_side(candidate->at)) {
     has_given_up_ = true;
     return;
   }
   record.key = candidate_key(std::max(static_cast<float>(candidate->error), std::numeric_limits<float>::min()),
-                             place(candidate->at.x, candidate->at.y));
+                             tile_point(candidate->at.x, candidate->at.y));
 }
 
 }  // namespace scarp

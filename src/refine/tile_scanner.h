@@ -7,26 +7,26 @@
 
 #include "base/bits.h"
 #include "geom/scan_kernels.h"
-#include "metric/height_judge.h"
+#include "metric/height_metric.h"
 #include "tin/tile_mesh.h"
 
 namespace scarp {
 
-/// What waits in a triangle, as TileMesh's key: the error's bits above the complement of the candidate's place, so that
-/// the larger key is the larger error, or the first place in raster order among equal errors; 0 if nothing waits.
-constexpr std::int64_t candidate_key(float error, Place at) {
+/// What waits in a triangle, as TileMesh's key: the error's bits above the complement of the candidate's point, so that
+/// the larger key is the larger error, or the first point in raster order among equal errors; 0 if nothing waits.
+constexpr std::int64_t candidate_key(float error, TilePoint at) {
   return error > 0 ? static_cast<std::int64_t>(std::uint64_t{bit_cast<std::uint32_t>(error)} << 32 |
                                                static_cast<std::uint32_t>(~at))
                    : 0;
 }
-constexpr Place candidate_of(std::int64_t key) { return ~static_cast<Place>(key); }
+constexpr TilePoint candidate_of(std::int64_t key) { return ~static_cast<TilePoint>(key); }
 
 /// Sides of a tile that it shares with a neighbour.
 struct SharedSides {
   bool left = false, top = false, right = false, bottom = false;
 };
 
-/// Heights against one threshold: the plain judge's promise, by the kernels' arithmetic. A triangle's candidate is
+/// Heights against one threshold: the plain metric's promise, by the kernels' arithmetic. A triangle's candidate is
 /// the sample with the largest error among those that exceed the threshold as real numbers.
 class TileScanner {
  public:
@@ -34,7 +34,7 @@ class TileScanner {
   TileScanner(const TileView& tile, double threshold, const ScanKernels& kernels = scan_kernels());
 
   /// Gives each triangle that is not outside its candidate_key(). `hints`: see ScanKernels::scan.
-  void scan(TileMesh& mesh, std::span<const TileMesh::Id> triangles, std::span<const Place> hints);
+  void scan(TileMesh& mesh, std::span<const TileMesh::Id> triangles, std::span<const TilePoint> hints);
 
   /// Sides on which no sample breaks its bound, whatever is inserted. Should exact arithmetic give up there (heights
   /// whose magnitudes span some 2^90), the sample is no candidate and has_given_up() is true.
@@ -51,10 +51,10 @@ class TileScanner {
   const ScanKernels& kernels_;
   TileView tile_;
   double threshold_;
-  HeightJudge judge_;  // decides what float32 cannot
+  HeightMetric metric_;  // decides what float32 cannot
   SharedSides shared_;
   bool has_given_up_ = false;
-  std::vector<std::array<Place, 3>> corners_;
+  std::vector<std::array<TilePoint, 3>> corners_;
   std::vector<TileMesh::Id> ids_;
   std::vector<ScanHit> hits_;
   std::uint64_t samples_ = 0, triangles_ = 0;

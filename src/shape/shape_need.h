@@ -15,7 +15,7 @@ namespace scarp {
 /// Edges over sizes, at most.
 inline constexpr double kGradeFactor = 2;
 
-/// Triangles that the surface of `tin` will have at least, however they are laid: its area over that of equilateral
+/// Triangles that the surface of `tin` will have at least, however they lie: its area over that of equilateral
 /// triangles with the longest edges that are allowed. Sizes only fall from what they are (null: without a grade). 0
 /// where nothing limits edges, or sizes grow too fast to tell. Cost: O(triangles).
 double least_triangles(const Triangulation& tin, const PlanMetric& metric, const ShapeGoals& goals,

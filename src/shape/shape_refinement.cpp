@@ -12,7 +12,7 @@
 
 #include "grid/bands.h"
 #include "lines/breaklines.h"
-#include "metric/lattice_judge.h"
+#include "metric/lattice_metric.h"
 #include "refine/refinement.h"
 #include "shape/plan_metric.h"
 #include "shape/shape_faults.h"
@@ -29,8 +29,8 @@ using Location = Triangulation::Location;
 constexpr double kShapeSlack = 1e-3;     ///< degrees, and share of lengths, that rounding of positions may take
 constexpr double kClosest = 1.0 / 32;    ///< of a sample: vertices for the sake of angles
 constexpr double kFinestSize = 0.5;      ///< of a sample: sizes that grade reckons with
-constexpr double kSnapShare = 1.0 / 12;  ///< steps of places over the distance to the nearest vertices
-constexpr double kAcute = 0.5;  ///< cos² of 45 degrees: corners between walls below that are acute, those of voids not
+constexpr double kSnapShare = 1.0 / 12;  ///< steps of the lattice over the distance to the nearest vertices
+constexpr double kAcute = 0.5;  ///< cos² of 45 degrees: corners between walls below that are acute, those of nodata not
 
 Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1]}; }
 double dot_of(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1]; }
@@ -46,7 +46,7 @@ Band::Read aims_of(const SourceBounds& bounds) {
 
 class ShapeRefiner {
  public:
-  ShapeRefiner(const Raster& raster, Triangulation& tin, const VertexPlaces& places, const ShapeTask& task)
+  ShapeRefiner(const Raster& raster, Triangulation& tin, const VertexLattice& lattice, const ShapeTask& task)
       : bands_{raster.rows, std::max(task.rows_at_once / 2, 1)},
         rows_(raster.samples == nullptr ? std::optional<Band>(std::in_place, *task.field, 2 * bands_.side)
                                         : std::nullopt),
@@ -59,9 +59,9 @@ class ShapeRefiner {
         metric_(task.affine, kLatticeSteps),
         delaunay_(metric_),
         heights_(samples_),
-        judge_(bound_rows_ ? LatticeJudge(samples_, heights_, *bound_rows_)
-                           : LatticeJudge(samples_, heights_, task.threshold, task.bounds)),
-        fixed_(places.fixed),
+        error_metric_(bound_rows_ ? LatticeMetric(samples_, heights_, *bound_rows_)
+                                  : LatticeMetric(samples_, heights_, task.threshold, task.bounds)),
+        fixed_(lattice.fixed),
         cosine2_(squares_of(task.goals.min_angle + kShapeSlack).cosine),
         least_(kClosest * metric_.shorter_side()) {
     if (const auto& longest = task.goals.max_edge) {
@@ -70,15 +70,15 @@ class ShapeRefiner {
     }
     const SquaredAngle half = squares_of((task.goals.min_angle + kShapeSlack) / 2);
     off_centre_ = 0.475 * std::sqrt(half.cosine / half.sine);
-    if (places.are_samples()) tin_.scale(kLatticeSteps);
-    for (Vertex v = 0; v < places.heights.size(); ++v) {
+    if (lattice.are_samples()) tin_.scale(kLatticeSteps);
+    for (Vertex v = 0; v < lattice.heights.size(); ++v) {
       const Point p = tin_.point(v);
-      const float z = places.heights[v];
-      if (rows_ || !PlaceHeights::is_sample(p) || (!std::isnan(z) && z != heights_.at(p))) heights_.set(p, z);
+      const float z = lattice.heights[v];
+      if (rows_ || !LatticeHeights::is_sample(p) || (!std::isnan(z) && z != heights_.at(p))) heights_.set(p, z);
     }
     restore_delaunay(tin_, delaunay_);
     const auto start = rows_ ? Refinement::Start::kClean : Refinement::Start::kScan;
-    refinement_.emplace(judge_, tin_, Algorithm::kHeap, EdgeRule{}, start);
+    refinement_.emplace(error_metric_, tin_, Algorithm::kHeap, EdgeRule{}, start);
     refinement_->follow(&delaunay_);
   }
 
@@ -101,16 +101,16 @@ class ShapeRefiner {
     return work_;
   }
 
-  VertexPlaces places() const {
-    VertexPlaces places{kLatticeSteps, {}, {}};
-    places.heights.reserve(tin_.vertex_count());
+  VertexLattice lattice() const {
+    VertexLattice lattice{kLatticeSteps, {}, {}};
+    lattice.heights.reserve(tin_.vertex_count());
     for (Vertex v = 0; v < tin_.vertex_count(); ++v) {
       const Point p = tin_.point(v);
-      places.heights.push_back(heights_.at(p));
+      lattice.heights.push_back(heights_.at(p));
       const bool was_fixed = v < fixed_.size() && fixed_[v] != 0;
-      places.fixed.push_back(was_fixed || (!task_.all_may_go && !PlaceHeights::is_sample(p)) ? 1 : 0);
+      lattice.fixed.push_back(was_fixed || (!task_.all_may_go && !LatticeHeights::is_sample(p)) ? 1 : 0);
     }
-    return places;
+    return lattice;
   }
 
  private:
@@ -268,12 +268,12 @@ class ShapeRefiner {
     const Vector at = metric_.to_lattice({ab[0] / 2 + up[0], ab[1] / 2 + up[1]});
     const double radius = std::sqrt(ab2 / 4 + dot_of(up, up));
     const Vector from{(double(a.x) + b.x + c.x) / 3, (double(a.y) + b.y + c.y) / 3};
-    const Point p = place_near(from, {a.x + at[0], a.y + at[1]}, radius / metric_.longer_side());
+    const Point p = lattice_point_near(from, {a.x + at[0], a.y + at[1]}, radius / metric_.longer_side());
     return insert_free(t, from, p);
   }
 
   /// On the lattice and in the rectangle; on coarse steps where `radius`, in samples, is large.
-  Point place_near(const Vector& from, const Vector& wanted, double radius) const {
+  Point lattice_point_near(const Vector& from, const Vector& wanted, double radius) const {
     const Vector far{(samples_.cols() - 1.0) * kLatticeSteps, (samples_.rows() - 1.0) * kLatticeSteps};
     double share = 1;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -380,7 +380,7 @@ class ShapeRefiner {
   }
 
   bool insert_with_height(Point p, const Location& location) {
-    if (!PlaceHeights::is_sample(p)) {
+    if (!LatticeHeights::is_sample(p)) {
       const float z = height_between(p, location);
       if (std::isnan(z)) return false;
       heights_.set(p, z);
@@ -397,7 +397,7 @@ class ShapeRefiner {
     return p && insert_with_height(*p, {Location::Kind::kOnEdge, std::min(h, tin_.twin(h))});
   }
 
-  /// The lattice place nearest to one on an edge with two sides, such that the four triangles are positive.
+  /// The lattice point nearest to one on an edge with two sides, such that the four triangles are positive.
   std::optional<Point> beside(const Vector& wanted, HalfEdge h) const {
     const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h))),
                 c = tin_.point(opposite(h)), d = tin_.point(opposite(tin_.twin(h)));
@@ -424,7 +424,7 @@ class ShapeRefiner {
     const Vertex from = tin_.origin(h), to = tin_.origin(Triangulation::next(h));
     const Point a = tin_.point(from), b = tin_.point(to);
     const double share = share_of_split(h);
-    // The outline of the valid data stays where it is; where a cutline ends the surface few lattice places are exactly
+    // The outline of the valid data stays where it is; where a cutline ends the surface few lattice points are exactly
     // on the way.
     std::optional<Point> p;
     if (!is_line(h)) p = on_outline(a, b, share);
@@ -437,7 +437,7 @@ class ShapeRefiner {
       p = beside_line(line, h, share, is_too_long ? 0.25 : 0);
     }
     if (!p) return false;
-    if (!PlaceHeights::is_sample(*p) || !samples_.is_valid({p->x / kLatticeSteps, p->y / kLatticeSteps})) {
+    if (!LatticeHeights::is_sample(*p) || !samples_.is_valid({p->x / kLatticeSteps, p->y / kLatticeSteps})) {
       const double za = heights_.at(a), zb = heights_.at(b);
       heights_.set(*p, static_cast<float>(za + (zb - za) * std::sqrt(metric_.square(a, *p) / square(h))));
     }
@@ -448,8 +448,8 @@ class ShapeRefiner {
     return true;
   }
 
-  /// The place beside() a line, of which an edge is part. Vertices that lie next to the line leave few places: what is
-  /// nearest to the share that is wanted, and at most `leeway` from it.
+  /// The lattice point beside() a line, of which an edge is part. Vertices that lie next to the line leave few lattice
+  /// points: what is nearest to the share that is wanted, and at most `leeway` from it.
   std::optional<Point> beside_line(const std::pair<Point, Point>& line, HalfEdge h, double share, double leeway) const {
     constexpr int kTries = 512;
     const Point a = tin_.point(tin_.origin(h)), b = tin_.point(tin_.origin(Triangulation::next(h)));
@@ -494,14 +494,14 @@ class ShapeRefiner {
     return {a[0] + along * way[0], a[1] + along * way[1]};
   }
 
-  /// A place of the lattice between a and b, exactly on the way: a sample where that is fine enough.
+  /// A lattice point between a and b, exactly on the way: a sample where that is fine enough.
   std::optional<Point> on_outline(Point a, Point b, double share) const {
     const std::int32_t units = std::gcd(std::abs(b.x - a.x), std::abs(b.y - a.y));
     if (units < 2) return std::nullopt;
     const Point unit{(b.x - a.x) / units, (b.y - a.y) / units};
     std::int32_t step = 1;
     while (step < kLatticeSteps && 2 * step <= units * kSnapShare) step *= 2;
-    // Multiples of the step count from the raster's corner, as they do for other places.
+    // Multiples of the step count from the raster's corner, as they do for other lattice points.
     const std::int32_t begin = unit.x != 0 ? a.x * (unit.x < 0 ? -1 : 1) : a.y * (unit.y < 0 ? -1 : 1);
     const double at = std::floor((begin + share * units) / step + 0.5) * step - begin;
     const auto k = static_cast<std::int32_t>(std::clamp(at, 1.0, units - 1.0));
@@ -517,7 +517,7 @@ class ShapeRefiner {
   /// So that no band need be asked again.
   void remember_height(Vertex v) {
     const Point p = tin_.point(v);
-    if (PlaceHeights::is_sample(p)) heights_.set(p, heights_.at(p));
+    if (LatticeHeights::is_sample(p)) heights_.set(p, heights_.at(p));
   }
   void note_insertion() {
     ++work_.insertions;
@@ -542,8 +542,8 @@ class ShapeRefiner {
   const ShapeTask& task_;
   PlanMetric metric_;
   PlanDelaunay delaunay_;
-  PlaceHeights heights_;
-  LatticeJudge judge_;
+  LatticeHeights heights_;
+  LatticeMetric error_metric_;
   std::vector<std::uint8_t> fixed_;  ///< as they were given
   double cosine2_, least_, longest2_ = std::numeric_limits<double>::infinity(), off_centre_ = 0;
   std::optional<Refinement> refinement_;
@@ -576,10 +576,11 @@ std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame)
   return rule;
 }
 
-Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexPlaces& places, const ShapeTask& task) {
-  ShapeRefiner refiner(raster, tin, places, task);
+Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexLattice& lattice,
+                                const ShapeTask& task) {
+  ShapeRefiner refiner(raster, tin, lattice, task);
   auto work = refiner.run();
-  if (work) places = refiner.places();
+  if (work) lattice = refiner.lattice();
   return work;
 }
 

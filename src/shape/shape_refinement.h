@@ -27,7 +27,7 @@
 
 #include "fit/rules.h"
 #include "grid/raster.h"
-#include "grid/vertex_places.h"
+#include "grid/vertex_lattice.h"
 #include "metric/source_bounds.h"
 #include "scarp/frame.h"
 #include "scarp/height_field.h"
@@ -42,7 +42,7 @@ struct ShapeTask {
   ShapeGoals goals;
   std::array<double, 6> affine;        ///< of the frame
   double threshold = 0;                ///< of errors
-  std::span<const float> bounds = {};  ///< of samples, as LatticeJudge has them
+  std::span<const float> bounds = {};  ///< of samples, as LatticeMetric has them
   bool all_may_go = false;             ///< who comes next may remove, or move, vertices that are no samples
   /// Told a share of the bands that have been gone through once, all where there are none, the vertices there are and
   /// the worst error; what it says ends the run.
@@ -62,12 +62,13 @@ struct ShapeWork {
 };
 
 /// Makes `tin` Delaunay in the frame, but for constrained edges, and adds vertices until every sample keeps its bound
-/// and the goals hold as ShapeGoals says. `places`: of the vertices; afterwards in kLatticeSteps, those fixed that
+/// and the goals hold as ShapeGoals says. `lattice`: of the vertices; afterwards in kLatticeSteps, those fixed that
 /// were, or that are no samples unless vertices are free. Fails with kInput for too many triangles, and as progress
 /// and foresee do; throws SourceFailure.
 /// REQUIRES: goals that were checked; sides of at most kMaxCoordinate / kLatticeSteps samples; an outline that is
 /// exact. Cost: expected O(log n) an insertion, but for scanning.
-Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexPlaces& places, const ShapeTask& task);
+Result<ShapeWork> refine_shapes(const Raster& raster, Triangulation& tin, VertexLattice& lattice,
+                                const ShapeTask& task);
 
 /// Bytes a vertex that this takes at most, the mesh included.
 inline constexpr std::uint64_t kShapeBytesPerVertex = 240;

@@ -6,7 +6,7 @@
 //   runs for other numbers          ── secants through them in log–log, by the Illinois rule
 //
 // Insertion cannot stop at a budget where it does not know what else the mesh will take: how closely lines are to
-// follow the raster depends on the error of the mesh to come, and no row of tiles knows the others. There the mesh of
+// follow the raster depends on the error of the mesh to come, and no strip knows the others. There the mesh of
 // fast effort is searched for, too: it is where the search of a larger effort begins.
 #pragma once
 

@@ -51,7 +51,7 @@ double largest_error(const HeightField& field, const SimplifyOptions& options) {
   return 2 * (high - low);
 }
 
-/// Of tolerances, or of weights: of all samples, void ones included.
+/// Of tolerances, or of weights: of all samples, nodata ones included.
 struct ToleranceRange {
   double least = kInfinity;  ///< of those above 0
   double largest = 0;        ///< of those that are finite
@@ -99,7 +99,7 @@ std::string name_least(const SimplifyOptions& options, bool has_zeros) {
   const char* zeros = has_zeros ? " and the samples with a tolerance of 0" : "";
   if (has_lines(options)) return std::string("the lines and the outline of the valid data") + zeros + " alone need";
   if (options.quality.shape.any()) return std::string("the angles and edges") + zeros + " alone need";
-  return std::string("the outline of the valid data and its rows of tiles") + zeros + " alone need";
+  return std::string("the outline of the valid data and its strips") + zeros + " alone need";
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ const char* name_lines(const SimplifyOptions& options) {
   const auto all = [&](bool (*kind)(const Line&)) {
     return !lines.empty() && std::all_of(lines.begin(), lines.end(), kind);
   };
-  if (all(is_fault)) return "cliffs";
+  if (all(is_wall)) return "cliffs";
   if (!options.features.cutline.rings.empty()) return "a cutline";
   return all(is_ridge_line) ? "ridges" : "breaklines";
 }

@@ -16,7 +16,7 @@ constexpr Fields kBudgets(Field::kMaxTriangles, Field::kMaxVertices);
 constexpr Fields kTolerances(Field::kTolerance, Field::kToleranceSource);
 constexpr Fields kWeights(Field::kMask, Field::kMaskSource);
 constexpr Fields kLines(Field::kBreaklines, Field::kCutline);
-constexpr Fields kLaidFirst(Field::kWalls, Field::kRidges);
+constexpr Fields kInsertedFirst(Field::kWalls, Field::kRidges);
 constexpr Fields kShapes(Field::kShape);
 constexpr Fields kEfforts(Field::kEffortNormal, Field::kEffortHigh, Field::kEffortMax);
 /// What asks for an effort above fast.
@@ -50,7 +50,7 @@ constexpr ConflictRule kRules[] = {
      Where::kAlways,
      "the dominant order works on heights alone, without channels"},
     {Fields(Field::kOrderDominant),
-     kLaidFirst,
+     kInsertedFirst,
      {},
      Where::kInMemory,
      "in memory walls and ridges are inserted before refinement, which then takes the greedy order"},
@@ -192,7 +192,7 @@ Fields fields_of(const HeightField& field, const SimplifyOptions& options) {
       {Field::kTolerance, !options.tolerances.values.empty()},
       {Field::kToleranceSource, options.tolerances.source != nullptr},
       {Field::kBreaklines, features.have_lines()},
-      {Field::kWalls, features.walls || std::any_of(lines.begin(), lines.end(), is_fault)},
+      {Field::kWalls, features.walls || std::any_of(lines.begin(), lines.end(), is_wall)},
       {Field::kRidges, features.ridges || std::any_of(lines.begin(), lines.end(), is_ridge_line)},
       {Field::kCutline, !options.features.cutline.rings.empty()},
       {Field::kIgnored, !options.tolerances.ignored.empty()},

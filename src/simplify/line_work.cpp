@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/parallel.h"
-#include "grid/line_places.h"
+#include "grid/line_positions.h"
 #include "lines/breaklines.h"
 #include "pieces/goals.h"
 #include "pieces/strips.h"
@@ -24,7 +24,7 @@ bool LineWork::may_wait() const {
   return std::all_of(given.lines.begin(), given.lines.end(), [&](const Line& line) {
     const bool is_soft =
         std::all_of(line.points.begin(), line.points.end(), [](const auto& p) { return std::isnan(p[2]); });
-    return is_soft && !is_laid_first(line) && check_line_places(line.name, line.points, given.affine);
+    return is_soft && !is_inserted_first(line) && check_line_positions(line.name, line.points, given.affine);
   });
 }
 

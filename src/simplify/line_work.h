@@ -14,7 +14,7 @@ class LineWork {
   /// Lines and cutline of `options`; `tolerance` as for prepare_lines(). The field and the options stay alive.
   LineWork(const HeightField& field, const SimplifyOptions& options, double tolerance);
 
-  /// Lines change no sample and cut nothing, all have a place on the lattice, and there is a second thread: whoever
+  /// Lines change no sample and cut nothing, all are in reach of the lattice, and there is a second thread: whoever
   /// refines tiles need not wait for them.
   bool may_wait() const;
   /// prepare_lines(), the first time only; fails as that does.

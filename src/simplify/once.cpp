@@ -14,7 +14,7 @@ namespace scarp {
 
 namespace {
 
-/// Soft lines follow the raster to within this share of the error that they are laid for.
+/// Soft lines follow the raster to within this share of the error that they are inserted for.
 constexpr double kLineShare = 0.5;
 
 /// `lines`: to be inserted, prepared or such as may wait; null: none.
@@ -48,9 +48,9 @@ Result<Simplified> simplify_with_lines(const HeightField& field, Request& option
   FieldLines* const lines = &work.lines();
   result->passes.insert(result->passes.begin(), Pass{"arrange", seconds + work.seconds()});
   result->edits = std::move(lines->edits);
-  result->lines_laid = lines->laid;
+  result->lines_inserted = lines->inserted;
   const Measurement& measured = result->measurement;
-  // Where the field has a source, what lies beyond a cut is void to refinement only.
+  // Where the field has a source, what lies beyond a cut is nodata to refinement only.
   const std::uint64_t valid = lines->valid > 0 ? lines->valid : measured.heights.valid;
   if (lines->graph.cut) result->cut_off = valid - measured.samples - measured.uncovered - measured.stray;
   return result;

@@ -30,7 +30,7 @@ Result<void> check_print(const PrintOptions& print) {
   if (print.base && !std::isfinite(*print.base))
     return fail(ErrorKind::kUsage, fmt::format("base={} is not finite", *print.base));
   if (print.base.has_value() + print.thickness.has_value() + print.printed_thickness.has_value() > 1)
-    return fail(ErrorKind::kUsage, "base and thickness contradict each other: give one of them");
+    return fail(ErrorKind::kUsage, "base cannot be combined with thickness; drop one of them");
   if (print.thickness && !is_above_0(*print.thickness)) return refuse("thickness", *print.thickness);
   if (print.printed_thickness && !is_above_0(*print.printed_thickness))
     return refuse("printed_thickness", *print.printed_thickness);
@@ -38,9 +38,9 @@ Result<void> check_print(const PrintOptions& print) {
   if (!is_above_0(print.exaggerate)) return refuse("exaggerate", print.exaggerate);
   if (print.columns < 1 || print.rows < 1)
     return fail(ErrorKind::kUsage,
-                fmt::format("sheets: {} x {} are none: there must be at least 1 x 1", print.columns, print.rows));
+                fmt::format("print tiles: {} x {} are none: there must be at least 1 x 1", print.columns, print.rows));
   if ((print.gap != 0 || print.dovetail) && !print.is_split())
-    return fail(ErrorKind::kUsage, "sheets: a single one has no neighbours, so no gap and no dovetail");
+    return fail(ErrorKind::kUsage, "print tiles: a single one has no neighbours, so no gap and no dovetail");
   return {};
 }
 
@@ -104,16 +104,16 @@ Result<void> place_print(const PrintOptions& options, const Mesh& terrain, Print
   return {};
 }
 
-/// The tops of all sheets where the raster's samples are.
-Mesh join_tops(const std::vector<Sheet>& sheets, const std::vector<std::size_t>& top_sizes) {
+/// The tops of all print tiles where the raster's samples are.
+Mesh join_tops(const std::vector<PrintTile>& tiles, const std::vector<std::size_t>& top_sizes) {
   Mesh tops;
-  for (std::size_t k = 0; k < sheets.size(); ++k) {
-    Mesh sheet = sheets[k].mesh;
-    undo_placement(sheet);
+  for (std::size_t k = 0; k < tiles.size(); ++k) {
+    Mesh tile = tiles[k].mesh;
+    undo_placement(tile);
     const auto first = static_cast<std::uint32_t>(tops.vertex_count());
-    tops.origin = sheet.origin;
-    tops.positions.insert(tops.positions.end(), sheet.positions.begin(), sheet.positions.end());
-    for (std::size_t i = 0; i < top_sizes[k]; ++i) tops.triangles.push_back(first + sheet.triangles[i]);
+    tops.origin = tile.origin;
+    tops.positions.insert(tops.positions.end(), tile.positions.begin(), tile.positions.end());
+    for (std::size_t i = 0; i < top_sizes[k]; ++i) tops.triangles.push_back(first + tile.triangles[i]);
   }
   return tops;
 }
@@ -159,13 +159,14 @@ Result<double> longest_side(const HeightField& field) {
 }
 
 /// Nothing if the print is whole.
-Result<std::optional<SheetPlan>> plan_sheets(const PrintOptions& print, const HeightField& field) {
-  if (!print.is_split()) return std::optional<SheetPlan>();
+Result<std::optional<PrintTilePlan>> plan_print_tiles(const PrintOptions& print, const HeightField& field) {
+  if (!print.is_split()) return std::optional<PrintTilePlan>();
   if (!field.frame.is_affine())
-    return fail(ErrorKind::kUsage,
-                "sheets: they are cut along rows and columns of the raster, which the frame bends; choose a frame that "
-                "is affine");
-  SheetOptions options;
+    return fail(
+        ErrorKind::kUsage,
+        "print tiles: they are cut along rows and columns of the raster, which the frame bends; choose a frame that "
+        "is affine");
+  PrintTileOptions options;
   options.columns = print.columns;
   options.rows = print.rows;
   options.dovetail = print.dovetail;
@@ -176,22 +177,23 @@ Result<std::optional<SheetPlan>> plan_sheets(const PrintOptions& print, const He
     for (double& side : options.cell) side *= print.size ? *print.size / *longest : 1;
     options.gap = print.gap;
   }
-  Result<SheetPlan> sheets = SheetPlan::make(field.cols, field.rows, options);
-  if (!sheets) return fail(sheets.error().kind, "sheets: " + sheets.error().message);
-  return std::optional(std::move(*sheets));
+  Result<PrintTilePlan> tiles = PrintTilePlan::make(field.cols, field.rows, options);
+  if (!tiles) return fail(tiles.error().kind, "print tiles: " + tiles.error().message);
+  return std::optional(std::move(*tiles));
 }
 
 /// Places, cuts and closes the terrain, of which the cuts are edges, and judges the tops against the samples, those
 /// within the cutline if there is one.
-Result<Print> make_print(const PrintOptions& options, const HeightField& field, const std::optional<SheetPlan>& sheets,
-                         const Mesh& terrain, const Cutline* cutline, int threads) {
+Result<Print> make_print(const PrintOptions& options, const HeightField& field,
+                         const std::optional<PrintTilePlan>& tiles, const Mesh& terrain, const Cutline* cutline,
+                         int threads) {
   Print print;
   if (auto placed = place_print(options, terrain, print); !placed) return tl::unexpected(placed.error());
-  std::vector<Mesh> tops = sheets ? cut_sheets(terrain, field.frame, *sheets) : std::vector{terrain};
+  std::vector<Mesh> tops = tiles ? cut_print_tiles(terrain, field.frame, *tiles) : std::vector{terrain};
   std::vector<std::size_t> top_sizes;
   for (std::size_t k = 0; k < tops.size(); ++k) {
     if (tops[k].triangles.empty()) {
-      ++print.empty_sheets;
+      ++print.empty_tiles;
       continue;
     }
     if (options.is_placed()) place_mesh(tops[k], print.placement);
@@ -200,13 +202,13 @@ Result<Print> make_print(const PrintOptions& options, const HeightField& field, 
     if (!solid) return tl::unexpected(std::move(solid.error()));
     const int columns = options.columns, at = static_cast<int>(k);
     SolidFacts facts = measure_solid(*solid);
-    print.sheets.push_back({at / columns + 1, at % columns + 1, std::move(*solid), facts});
+    print.tiles.push_back({at / columns + 1, at % columns + 1, std::move(*solid), facts});
   }
   MeasureOptions measuring;
   measuring.topology = false;
   measuring.cutline = cutline;
   measuring.run.threads = threads;
-  const Result<Measurement> judged = measure(field, join_tops(print.sheets, top_sizes), measuring);
+  const Result<Measurement> judged = measure(field, join_tops(print.tiles, top_sizes), measuring);
   if (!judged) return tl::unexpected(judged.error());
   print.max_error = judged->max_error;
   print.uncovered = judged->uncovered;
@@ -222,30 +224,30 @@ Result<Print> make_print(const PrintOptions& options, const HeightField& field, 
 }
 
 /// Adds the cuts to the lines that simplify() inserts.
-void add_cuts(const SheetPlan& sheets, LineConstraints& breaklines) {
-  for (Line& line : sheets.lines(breaklines.affine)) breaklines.lines.push_back(std::move(line));
+void add_cuts(const PrintTilePlan& tiles, LineConstraints& breaklines) {
+  for (Line& line : tiles.lines(breaklines.affine)) breaklines.lines.push_back(std::move(line));
 }
 
 }  // namespace
 
 std::uint64_t Print::vertices() const {
   std::uint64_t sum = 0;
-  for (const Sheet& sheet : sheets) sum += sheet.mesh.vertex_count();
+  for (const PrintTile& tile : tiles) sum += tile.mesh.vertex_count();
   return sum;
 }
 
 std::uint64_t Print::triangles() const {
   std::uint64_t sum = 0;
-  for (const Sheet& sheet : sheets) sum += sheet.facts.triangles;
+  for (const PrintTile& tile : tiles) sum += tile.facts.triangles;
   return sum;
 }
 
 Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOptions& print, SimplifyOptions options) {
   if (auto sound = check_print(print); !sound) return tl::unexpected(sound.error());
-  const Result<std::optional<SheetPlan>> sheets = plan_sheets(print, field);
-  if (!sheets) return tl::unexpected(sheets.error());
+  const Result<std::optional<PrintTilePlan>> tiles = plan_print_tiles(print, field);
+  if (!tiles) return tl::unexpected(tiles.error());
   const auto lines = static_cast<std::ptrdiff_t>(options.features.breaklines.lines.size());
-  if (*sheets) add_cuts(**sheets, options.features.breaklines);
+  if (*tiles) add_cuts(**tiles, options.features.breaklines);
   const auto cuts = static_cast<std::uint64_t>(std::ssize(options.features.breaklines.lines) - lines);
   options.output.float32_positions = false;  // they are rounded where the print stands
   const std::optional<double> asked = options.goals.max_error;
@@ -257,7 +259,7 @@ Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOp
     if (!simplified) return tl::unexpected(std::move(simplified.error()));
     apply_edits(simplified->edits, field);
     if (run == 1) edits = simplified->edits;
-    Result<Print> made = make_print(print, field, *sheets, simplified->mesh, cutline, options.run.threads);
+    Result<Print> made = make_print(print, field, *tiles, simplified->mesh, cutline, options.run.threads);
     if (!made) return tl::unexpected(std::move(made.error()));
     const double excess =
         asked ? made->max_error + field.sample_rounding - *asked - judging_allowance(*asked, made->heights) : 0;
@@ -265,7 +267,7 @@ Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOp
         simplified->stop == StopReason::kMaxTriangles || simplified->stop == StopReason::kMaxVertices;
     if (!(excess > 0) || has_budget_ended) {
       simplified->edits = std::move(edits);
-      simplified->lines_laid -= std::min(cuts, simplified->lines_laid);
+      simplified->lines_inserted -= std::min(cuts, simplified->lines_inserted);
       auto& fitted = simplified->features.lines.lines;
       if (cuts > 0) fitted.erase(fitted.begin() + lines, fitted.begin() + lines + static_cast<std::ptrdiff_t>(cuts));
       return PrintedTerrain{std::move(*simplified), std::move(*made)};

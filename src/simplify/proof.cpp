@@ -38,7 +38,7 @@ class Tally {
       }
     };
   }
-  /// NaN where the sample is void or uncovered.
+  /// NaN where the sample is nodata or uncovered.
   std::span<const float> row(std::size_t y) const { return std::span(totals_).subspan(y * cols_, cols_); }
 
  private:
@@ -68,8 +68,8 @@ Result<void> measure_channels(const HeightField& field, const SimplifyOptions& o
   for (std::size_t k = 0; k < field.channels.size(); ++k) {
     for (std::size_t i = 0; i < samples; ++i) {
       const float z = field.samples[i];
-      const bool is_void = !std::isfinite(z) || (field.nodata && z == *field.nodata);
-      values[i] = is_void ? NAN : field.channels[k].samples[i];
+      const bool is_nodata = !std::isfinite(z) || (field.nodata && z == *field.nodata);
+      values[i] = is_nodata ? NAN : field.channels[k].samples[i];
     }
     HeightField raised = field;
     raised.samples = values.data();

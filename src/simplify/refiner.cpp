@@ -2,7 +2,7 @@
 #include "base/caught.h"
 #include "grid/raster.h"
 #include "grid/samples.h"
-#include "metric/height_judge.h"
+#include "metric/height_metric.h"
 #include "pieces/freeze.h"
 #include "refine/domain.h"
 #include "refine/refinement.h"
@@ -16,13 +16,13 @@ struct Refiner::Impl {
         samples(std::move(samples_)),
         raster(samples.raster()),
         domain(std::move(domain_)),
-        judge(raster, 0),
-        refinement(judge, domain.tin) {}
+        metric(raster, 0),
+        refinement(metric, domain.tin) {}
   HeightField field;
   Samples samples;
   Raster raster;
   DomainMesh domain;
-  HeightJudge judge;
+  HeightMetric metric;
   Refinement refinement;
 };
 

@@ -15,8 +15,8 @@
 #include "fit/fit.h"
 #include "grid/samples.h"
 #include "lines/constraints.h"
-#include "metric/height_judge.h"
-#include "metric/source_judge.h"
+#include "metric/height_metric.h"
+#include "metric/source_metric.h"
 #include "pieces/effort.h"
 #include "pieces/freeze.h"
 #include "pieces/goals.h"
@@ -45,7 +45,7 @@ class EngineRun {
         criterion_(criterion),
         lines_(lines),
         budget_(options_),
-        exact_(places_are_exact(field_, options_, lines == nullptr ? 1 : kLatticeSteps)),
+        exact_(lattice_is_exact(field_, options_, lines == nullptr ? 1 : kLatticeSteps)),
         reporter_(options_.run.progress) {}
 
   /// In the dominant order where `tiled` is given, else greedily.
@@ -57,12 +57,12 @@ class EngineRun {
     result.effort = options_.quality.effort;
     auto refined = tiled ? free_seams(std::move(*tiled), result) : insert_greedily(result);
     if (!refined) return tl::unexpected(refined.error());
-    if (auto laid = insert_lines(result); !laid) return tl::unexpected(laid.error());
+    if (auto inserted = insert_lines(result); !inserted) return tl::unexpected(inserted.error());
     const auto shaped = fit_and_shape(result);
     if (!shaped) return tl::unexpected(shaped.error());
     // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
     // proof.
-    const bool is_final = result.stop != StopReason::kMaxError || exact_ || !piece_->places.are_samples();
+    const bool is_final = result.stop != StopReason::kMaxError || exact_ || !piece_->lattice.are_samples();
     if (is_final) refinement_.reset();
     freeze_into(result, is_final);
     order(result);
@@ -85,9 +85,9 @@ class EngineRun {
     take(std::move(*domain));
     insert_points();
     record(result, "domain", start);
-    if (lays_first()) return {};
+    if (inserts_first()) return {};
     start = Clock::now();
-    refinement_.emplace(criterion_.judge(), piece_->tin, options_.strategy.algorithm, options_.strategy.edges);
+    refinement_.emplace(criterion_.metric(), piece_->tin, options_.strategy.algorithm, options_.strategy.edges);
     const char* culprit = options_.features.points.empty() ? "the outline of the valid data alone needs"
                                                            : "the outline of the valid data and the points need";
     const char* advice = is_whole_ ? "" : ", or simplify the outline with an outline tolerance";
@@ -106,15 +106,15 @@ class EngineRun {
     heights_ = std::move(tiled.heights);
     result.work = tiled.work;
     if (plan_.finishes_strips) {
-      // Who works on the whole later has no raster to take heights of samples from.
+      // Later whole-mesh passes have no raster, so heights are stored per vertex.
       if (options_.quality.shape.any() && tiled.steps == 1) piece_->tin.scale(tiled.steps = kLatticeSteps);
-      piece_->places = {tiled.steps, tiled.steps > 1 ? std::move(heights_) : std::vector<float>(),
-                        std::move(tiled.fixed)};
-      note_places(result);
+      piece_->lattice = {tiled.steps, tiled.steps > 1 ? std::move(heights_) : std::vector<float>(),
+                         std::move(tiled.fixed)};
+      note_vertices(result);
     } else if (!plan_.is_streamed || field_.source->is_in_memory()) {
-      const HeightJudge of_tiles(raster_, criterion_.largest_aim());
-      const Judge& judge = criterion_.bounds().empty() ? criterion_.judge() : of_tiles;
-      const Work work = release_seams(piece_->tin, judge, std::move(tiled.seams), options_.run.threads);
+      const HeightMetric of_tiles(raster_, criterion_.largest_aim());
+      const ErrorMetric& metric = criterion_.bounds().empty() ? criterion_.metric() : of_tiles;
+      const Work work = release_seams(piece_->tin, metric, std::move(tiled.seams), options_.run.threads);
       result.work.samples_scanned += work.samples_scanned;
       result.work.triangles_scanned += work.triangles_scanned;
       record(result, "seams", start, work);
@@ -122,14 +122,14 @@ class EngineRun {
     if (field_.frame.is_affine() && criterion_.bounds().empty()) return {};
     const auto again = Clock::now();
     if (!field_.frame.is_affine()) follow_curved_border(raster_, piece_->tin, field_.frame);
-    refinement_.emplace(criterion_.judge(), piece_->tin);
+    refinement_.emplace(criterion_.metric(), piece_->tin);
     auto refined = refine(result.stop);
     record(result, "refine", again, refinement_->work());
     return refined;
   }
 
-  /// Whether there are faults or ridges: what refinement would do there without them, it need not do with them.
-  bool lays_first() const { return lines_ != nullptr && lines_->is_laid_first; }
+  /// Whether there are walls or ridges: what refinement would do there without them, it need not do with them.
+  bool inserts_first() const { return lines_ != nullptr && lines_->is_inserted_first; }
 
   /// Samples outside the domain cannot become vertices.
   void insert_points() {
@@ -149,13 +149,13 @@ class EngineRun {
     const Triangulation& tin = piece_->tin;
     std::vector<Point> asked;
     for (const auto& [col, row] : options_.features.points)
-      asked.push_back({col * piece_->places.steps, row * piece_->places.steps});
+      asked.push_back({col * piece_->lattice.steps, row * piece_->lattice.steps});
     if (asked.empty()) return;
     const auto before = [](Point a, Point b) { return std::pair(a.y, a.x) < std::pair(b.y, b.x); };
     std::sort(asked.begin(), asked.end(), before);
-    piece_->places.fixed.resize(tin.vertex_count(), 0);
+    piece_->lattice.fixed.resize(tin.vertex_count(), 0);
     for (Vertex v = 0; v < tin.vertex_count(); ++v) {
-      if (std::binary_search(asked.begin(), asked.end(), tin.point(v), before)) piece_->places.fixed[v] = 1;
+      if (std::binary_search(asked.begin(), asked.end(), tin.point(v), before)) piece_->lattice.fixed[v] = 1;
     }
   }
 
@@ -239,7 +239,7 @@ class EngineRun {
   }
 
   double fraction(double first_error) const {
-    const double goal = criterion_.has_error_goal() ? criterion_.judge().goal() : 0;
+    const double goal = criterion_.has_error_goal() ? criterion_.metric().goal() : 0;
     return std::max(budget_.used(size()), error_progress(first_error, refinement_->worst_error(), goal));
   }
 
@@ -259,7 +259,7 @@ class EngineRun {
     take(*build_domain(raster_, options_.domain.outline_tolerance, field_.frame));
     insert_points();
     std::optional<DataDependentRule> rule;
-    if (options_.strategy.edges.data_dependent) rule.emplace(criterion_.judge(), options_.strategy.edges);
+    if (options_.strategy.edges.data_dependent) rule.emplace(criterion_.metric(), options_.strategy.edges);
     Triangulation& tin = piece_->tin;
     for (Point p : points) {
       const auto location = tin.locate(p, tin.last_touched());
@@ -270,7 +270,7 @@ class EngineRun {
   void finish_edges(Simplified& result) {
     result.work = refinement_->work();
     take_best_prefix();
-    const Work settling = settle_edges(piece_->tin, criterion_.judge(), options_.strategy.edges,
+    const Work settling = settle_edges(piece_->tin, criterion_.metric(), options_.strategy.edges,
                                        result.stop == StopReason::kMaxError || result.stop == StopReason::kExact);
     result.work.samples_scanned += settling.samples_scanned;
     result.work.triangles_scanned += settling.triangles_scanned;
@@ -282,17 +282,17 @@ class EngineRun {
     const auto start = Clock::now();
     refinement_.reset();
     piece_->aims = criterion_.aims();
-    piece_->is_refined = !lays_first();
+    piece_->is_refined = !inserts_first();
     piece_->check = [this](std::uint64_t count, double share, double error) -> Result<void> {
       if (reporter_.due() && !reporter_.report("lines", share, count - unused_, error))
-        return fail(ErrorKind::kCancelled, "cancelled while laying lines");
+        return fail(ErrorKind::kCancelled, "cancelled while inserting lines");
       return plan_.memory.check_mesh(0, count - unused_, share);
     };
     Work work;
     const ConstraintGoals goals{criterion_.aim(), plan_.fits && plan_.releases_starts, options_.run.threads};
     if (auto inserted = insert_constraints(*piece_, *lines_, goals, work); !inserted) return inserted;
     if (!piece_->has_surface) return fail(ErrorKind::kInput, kNothingInCutline);
-    if (lays_first()) result.work = work;
+    if (inserts_first()) result.work = work;
     record(result, "lines", start, work);
     return {};
   }
@@ -329,7 +329,7 @@ class EngineRun {
     }
     const auto fitted = fit_piece(*piece_, std::move(options));
     if (!fitted) return tl::unexpected(fitted.error());
-    note_places(result);
+    note_vertices(result);
     result.is_cut_short = fitted->is_cut_short;
     record(result, "fit", start);
     result.passes.back().removals = fitted->removed;
@@ -358,18 +358,18 @@ class EngineRun {
       return plan_.memory.check_mesh(rows, count, now / (before + (now - before) / share));
     };
     task.foresee = [&](double triangles) { return check_need(triangles, plan_.memory, rows); };
-    auto work = refine_shapes(raster_, piece_->tin, piece_->places, task);
+    auto work = refine_shapes(raster_, piece_->tin, piece_->lattice, task);
     if (!work) return work;
-    note_places(result);
+    note_vertices(result);
     result.passes.push_back(
         {"shape", seconds_since(start), work->samples_scanned, work->triangles_scanned, work->insertions});
     return work;
   }
 
   /// After fitting.
-  void note_places(Simplified& result) {
+  void note_vertices(Simplified& result) {
     exact_ = plan_.is_exact;
-    if (plan_.frees_vertices && !piece_->places.are_samples()) result.vertices = Vertices::kFree;
+    if (plan_.frees_vertices && !piece_->lattice.are_samples()) result.vertices = Vertices::kFree;
   }
 
   /// As many as the memory leaves room for, each with a window of samples.
@@ -400,13 +400,13 @@ class EngineRun {
     const auto start = Clock::now();
     const SampleHeights heights = !plan_.is_streamed ? SampleHeights(raster_) : SampleHeights(field_, heights_);
     const bool has_more = options_.output.normals || options_.output.uvs || !field_.channels.empty();
-    const LatticePoints at = has_more ? frozen_points(piece_->tin, piece_->places) : LatticePoints{};
+    const LatticePoints at = has_more ? frozen_points(piece_->tin, piece_->lattice) : LatticePoints{};
     if (is_last) {
       result.mesh =
-          melt_down(heights, std::move(piece_->tin), piece_->places, field_.frame, options_.output.float32_positions);
+          melt_down(heights, std::move(piece_->tin), piece_->lattice, field_.frame, options_.output.float32_positions);
       piece_.reset();
     } else {
-      result.mesh = freeze(heights, piece_->tin, piece_->places, field_.frame, options_.output.float32_positions);
+      result.mesh = freeze(heights, piece_->tin, piece_->lattice, field_.frame, options_.output.float32_positions);
     }
     if (options_.output.normals) result.mesh.normals = sample_normals(clean_field(), at);
     if (options_.output.uvs) result.mesh.uvs = sample_uvs(raster_.cols, raster_.rows, at);
@@ -459,7 +459,7 @@ class EngineRun {
       if (proof->kept) return {};
       if (!piece_) return fail(exact_ ? ErrorKind::kInternal : ErrorKind::kPromise, proof->broken);
       if (!refinement_)
-        refinement_.emplace(criterion_.judge(), piece_->tin, options_.strategy.algorithm, options_.strategy.edges,
+        refinement_.emplace(criterion_.metric(), piece_->tin, options_.strategy.algorithm, options_.strategy.edges,
                             Refinement::Start::kClean);
       const auto again = Clock::now();
       const auto mended = mend(proof->offenders, result);

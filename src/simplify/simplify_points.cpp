@@ -1,6 +1,6 @@
-// Scattered points to a mesh, as a list of passes. Milestones: after `find_places` every point has a place of its own
-// on the lattice; after `build_domain` the hull is fixed; after `refine` and `take_best_prefix` no vertex is added;
-// what `prove` has seen is what is returned.
+// Scattered points to a mesh, as a list of passes. Milestones: after `snap_points` every point has a lattice point of
+// its own; after `build_domain` the hull is fixed; after `refine` and `take_best_prefix` no vertex is added; what
+// `prove` has seen is what is returned.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "grid/far_points.h"
-#include "grid/point_places.h"
+#include "grid/snapped_points.h"
 #include "measure/point_judge.h"
 #include "mesh/thin_triangles.h"
 #include "pieces/goals.h"
@@ -32,7 +32,7 @@ Result<void> check_options(const PointOptions& options) {
 }
 
 /// Heights that vertices have in a mesh of float32 positions.
-Result<std::vector<double>> round_heights(const PointSet& points, const PointPlaces& places) {
+Result<std::vector<double>> round_heights(const PointSet& points, const SnappedPoints& snapped) {
   for (const auto& values : {std::span(points.x), std::span(points.y)}) {
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     if (*most - *least > std::numeric_limits<float>::max())
@@ -42,14 +42,14 @@ Result<std::vector<double>> round_heights(const PointSet& points, const PointPla
                               *most - *least));
   }
   std::vector<double> heights;
-  heights.reserve(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (std::abs(places.z[i]) > std::numeric_limits<float>::max())
+  heights.reserve(snapped.size());
+  for (std::size_t i = 0; i < snapped.size(); ++i) {
+    if (std::abs(snapped.z[i]) > std::numeric_limits<float>::max())
       return fail(ErrorKind::kPromise,
                   fmt::format("the height {} of point {} does not fit float32: write OBJ or PLY, whose positions are "
                               "double",
-                              places.z[i], places.source[i]));
-    heights.push_back(double{static_cast<float>(places.z[i])});
+                              snapped.z[i], snapped.source[i]));
+    heights.push_back(double{static_cast<float>(snapped.z[i])});
   }
   return heights;
 }
@@ -66,19 +66,19 @@ double middle(std::span<const double> values) {
 /// One run of the engine towards the goals.
 class PointRun {
  public:
-  PointRun(const PointSet& points, const PointPlaces& places, std::span<const double> heights,
+  PointRun(const PointSet& points, const SnappedPoints& snapped, std::span<const double> heights,
            const PointOptions& options, ScatteredDomain domain)
       : points_(points),
-        places_(places),
+        snapped_(snapped),
         heights_(heights),
         options_(options),
         budget_(options.max_triangles, options.max_vertices),
         bound_(options.max_error.value_or(0)),
         domain_(std::move(domain)),
-        seeds_(domain_.place_of.size()),
-        refinement_(std::in_place, places, heights, domain_, bound_),
+        seeds_(domain_.point_of.size()),
+        refinement_(std::in_place, snapped, heights, domain_, bound_),
         reporter_(options.run.progress) {
-    for (double z : places.z) largest_height_ = std::max(largest_height_, std::abs(z));
+    for (double z : snapped.z) largest_height_ = std::max(largest_height_, std::abs(z));
   }
 
   Result<Simplified> execute(Clock::time_point start) {
@@ -99,7 +99,7 @@ class PointRun {
 
   Result<void> refine(StopReason& stop) {
     const double first_error = refinement_->worst_error();
-    best_ = {domain_.place_of.size(), in_last_stretch() ? first_error : std::numeric_limits<double>::infinity()};
+    best_ = {domain_.point_of.size(), in_last_stretch() ? first_error : std::numeric_limits<double>::infinity()};
     for (std::uint64_t step = 0;; ++step) {
       if (refinement_->done()) {
         stop = options_.max_error ? StopReason::kMaxError : StopReason::kExact;
@@ -117,7 +117,7 @@ class PointRun {
       refinement_->insert_worst();
       ++insertions_;
       if (in_last_stretch() && refinement_->worst_error() <= best_.error)
-        best_ = {domain_.place_of.size(), refinement_->worst_error()};
+        best_ = {domain_.point_of.size(), refinement_->worst_error()};
     }
   }
 
@@ -129,17 +129,17 @@ class PointRun {
   /// Where the best prefix is looked for.
   bool in_last_stretch() const { return options_.best_of_budget && budget_.in_last_stretch(size()); }
 
-  /// Max error is not monotone: a budget may stop on a spike. An earlier mesh is had by inserting the same places
+  /// Max error is not monotone: a budget may stop on a spike. An earlier mesh is had by inserting the same points
   /// again.
   void take_best_prefix() {
-    if (refinement_->done() || std::isinf(best_.error) || best_.vertices == domain_.place_of.size()) return;
-    const std::vector<std::uint32_t> inserted(domain_.place_of.begin() + static_cast<std::ptrdiff_t>(seeds_),
-                                              domain_.place_of.begin() + static_cast<std::ptrdiff_t>(best_.vertices));
+    if (refinement_->done() || std::isinf(best_.error) || best_.vertices == domain_.point_of.size()) return;
+    const std::vector<std::uint32_t> inserted(domain_.point_of.begin() + static_cast<std::ptrdiff_t>(seeds_),
+                                              domain_.point_of.begin() + static_cast<std::ptrdiff_t>(best_.vertices));
     refinement_.reset();
-    domain_ = *build_domain(places_);
-    for (const std::uint32_t place : inserted) {
-      const Point p = places_.at[place];
-      domain_.insert(place, p, domain_.tin.locate(p, domain_.tin.last_touched()));
+    domain_ = *build_domain(snapped_);
+    for (const std::uint32_t point : inserted) {
+      const Point p = snapped_.at[point];
+      domain_.insert(point, p, domain_.tin.locate(p, domain_.tin.last_touched()));
     }
   }
 
@@ -150,13 +150,13 @@ class PointRun {
     mesh.origin = {middle(points_.x), middle(points_.y), 0};
     std::vector<std::uint32_t> ids(tin.vertex_count(), kNone);
     for (Vertex v = 0; v < tin.vertex_count(); ++v) {
-      const std::uint32_t place = domain_.place_of[v];
-      if (place == kNone) continue;
+      const std::uint32_t point = domain_.point_of[v];
+      if (point == kNone) continue;
       ids[v] = static_cast<std::uint32_t>(mesh.vertex_count());
-      const std::uint32_t source = places_.source[place];
+      const std::uint32_t source = snapped_.source[point];
       for (const double offset : {points_.x[source] - mesh.origin[0], points_.y[source] - mesh.origin[1]})
         mesh.positions.push_back(options_.float32_positions ? double{static_cast<float>(offset)} : offset);
-      mesh.positions.push_back(heights_[place]);
+      mesh.positions.push_back(heights_[point]);
     }
     // The lattice's rows count southwards: what is positive there is clockwise seen from above.
     for (Triangle t = 0; t < tin.triangle_count(); ++t) {
@@ -166,44 +166,44 @@ class PointRun {
     remove_thin_triangles(mesh, 4 * position_rounding(mesh), thinnest_border_);
     optimize_order(mesh);
     if (refinement_) {
-      result.work.samples_scanned = refinement_->places_judged();
+      result.work.samples_scanned = refinement_->points_scanned();
       result.work.triangles_scanned = refinement_->lists_dealt();
     }
     result.work.passes = insertions_;
   }
 
-  /// How far vertices may lie from their places on the lattice, along x or y.
+  /// How far vertices may lie from their lattice points, along x or y.
   double position_rounding(const Mesh& mesh) const {
     double reach = 0;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       if (i % 3 != 2) reach = std::max(reach, std::abs(mesh.positions[i]));
     }
-    const double snapping = places_.is_exact ? 0 : places_.lattice.step / 2;
+    const double snapping = snapped_.is_exact ? 0 : snapped_.lattice.step / 2;
     return std::max(snapping, reach * (options_.float32_positions ? 0x1p-24 : 0x1p-53));
   }
 
-  std::uint32_t place_of_point(std::int32_t point) {
-    if (places_by_point_.empty()) {
-      places_by_point_.resize(points_.size(), kNone);
-      for (std::uint32_t place = 0; place < places_.size(); ++place) places_by_point_[places_.source[place]] = place;
+  std::uint32_t point_of_source(std::int32_t source) {
+    if (points_by_source_.empty()) {
+      points_by_source_.resize(points_.size(), kNone);
+      for (std::uint32_t point = 0; point < snapped_.size(); ++point) points_by_source_[snapped_.source[point]] = point;
     }
-    return places_by_point_[static_cast<std::size_t>(point)];
+    return points_by_source_[static_cast<std::size_t>(source)];
   }
 
   /// Inserts the points that break the bound in the judge's eyes, as far as the budgets allow, and refines on. Returns
   /// false if that cannot help.
   Result<bool> mend(Simplified& result) {
     std::vector<std::uint32_t> offenders;
-    for (const Offender& o : result.measurement.offenders) offenders.push_back(place_of_point(o.col));
+    for (const Offender& o : result.measurement.offenders) offenders.push_back(point_of_source(o.col));
     // A vertex among them: its own rounding breaks the bound, and no other vertex can mend that.
-    const auto is_vertex = [this](std::uint32_t place) { return refinement_->gain_at(place) == 0; };
+    const auto is_vertex = [this](std::uint32_t point) { return refinement_->gain_at(point) == 0; };
     if (offenders.empty() || std::any_of(offenders.begin(), offenders.end(), is_vertex)) return false;
-    for (const std::uint32_t place : offenders) {
-      if (const auto budget = exceeded(refinement_->gain_at(place))) {
+    for (const std::uint32_t point : offenders) {
+      if (const auto budget = exceeded(refinement_->gain_at(point))) {
         result.stop = *budget;
         return true;
       }
-      refinement_->insert(place);
+      refinement_->insert(point);
       ++insertions_;
     }
     if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
@@ -216,9 +216,9 @@ class PointRun {
   /// for covered.
   bool trim_border(const Mesh& mesh) {
     const double thinnest = std::max(8 * thinnest_border_, 32 * position_rounding(mesh));
-    const double area = places_.lattice.step * places_.lattice.step * static_cast<double>(places_.lattice.cols) *
-                        static_cast<double>(places_.lattice.rows);
-    if (thinnest > std::sqrt(area / static_cast<double>(places_.size())) / 64) return false;
+    const double area = snapped_.lattice.step * snapped_.lattice.step * static_cast<double>(snapped_.lattice.cols) *
+                        static_cast<double>(snapped_.lattice.rows);
+    if (thinnest > std::sqrt(area / static_cast<double>(snapped_.size())) / 64) return false;
     thinnest_border_ = thinnest;
     return true;
   }
@@ -232,7 +232,7 @@ class PointRun {
     if (options_.max_error) judge.collect_above = bound_ + allowance();
     for (;;) {
       const auto start = Clock::now();
-      auto measurement = judge::judge_points(points_, places_, result.mesh, judge);
+      auto measurement = judge::judge_points(points_, snapped_, result.mesh, judge);
       if (!measurement) return tl::unexpected(measurement.error());
       result.measurement = std::move(*measurement);
       result.seconds_measure += seconds_since(start);
@@ -267,12 +267,12 @@ class PointRun {
                   "or write OBJ or PLY, whose positions are double"
                 : fmt::format(": points are snapped to a lattice of step {}, which alone costs that much; ask for a "
                               "larger error, or split the points into smaller areas",
-                              places_.lattice.step)) +
+                              snapped_.lattice.step)) +
            (far.empty() ? "" : "; " + far);
   }
 
   const PointSet& points_;
-  const PointPlaces& places_;
+  const SnappedPoints& snapped_;
   std::span<const double> heights_;
   const PointOptions& options_;
   Budget budget_;
@@ -281,7 +281,7 @@ class PointRun {
   ScatteredDomain domain_;
   std::size_t seeds_;
   std::optional<ScatteredRefinement> refinement_;
-  std::vector<std::uint32_t> places_by_point_;
+  std::vector<std::uint32_t> points_by_source_;
   std::uint64_t insertions_ = 0;
   Reporter reporter_;
   Prefix best_{0, std::numeric_limits<double>::infinity()};
@@ -292,22 +292,22 @@ class PointRun {
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options) try {
   const auto start = Clock::now();
   if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
-  const auto places = find_places(points, options.duplicates);
-  if (!places) return tl::unexpected(places.error());
-  auto domain = build_domain(*places);
+  const auto snapped = snap_points(points, options.duplicates);
+  if (!snapped) return tl::unexpected(snapped.error());
+  auto domain = build_domain(*snapped);
   if (!domain) return tl::unexpected(domain.error());
   std::vector<double> rounded;
   if (options.float32_positions) {
-    auto heights = round_heights(points, *places);
+    auto heights = round_heights(points, *snapped);
     if (!heights) return tl::unexpected(heights.error());
     rounded = std::move(*heights);
   }
   SimplifiedPoints result;
   result.points = points.size();
-  result.duplicates = places->duplicates;
+  result.duplicates = snapped->duplicates;
   result.on_hull = domain->on_hull;
-  result.lattice_step = places->lattice.step;
-  PointRun run(points, *places, options.float32_positions ? std::span<const double>(rounded) : places->z, options,
+  result.lattice_step = snapped->lattice.step;
+  PointRun run(points, *snapped, options.float32_positions ? std::span<const double>(rounded) : snapped->z, options,
                std::move(*domain));
   auto simplified = run.execute(start);
   if (!simplified) return tl::unexpected(simplified.error());

@@ -232,8 +232,8 @@ Result<Suggestions> suggest_errors(const HeightField& field, std::span<const dou
     Result<Refiner> refiner = Refiner::create(window.field);
     const auto cols = static_cast<std::uint64_t>(window.field.cols),
                rows = static_cast<std::uint64_t>(window.field.rows);
-    const bool is_void = !refiner && refiner.error().kind == ErrorKind::kInput && windows.size() > 1;
-    if (is_void) continue;
+    const bool is_nodata = !refiner && refiner.error().kind == ErrorKind::kInput && windows.size() > 1;
+    if (is_nodata) continue;
     if (!refiner) return tl::unexpected(std::move(refiner.error()));
     full += 2 * (cols - 1) * (rows - 1);
     suggestions.samples_used += cols * rows;

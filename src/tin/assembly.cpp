@@ -52,7 +52,7 @@ void PieceMaker::clear(std::size_t vertices) {
 }
 
 /// Where p is, or would be.
-PieceMaker::Slot& PieceMaker::find(Place p) {
+PieceMaker::Slot& PieceMaker::find(TilePoint p) {
   constexpr std::uint32_t kGolden = 2654435769;  // 2^32 / golden ratio: neighbours are spread
   std::size_t i = (p * kGolden) >> shift_;
   while (slots_[i].id != kNone && slots_[i].at != p) i = (i + 1) & (slots_.size() - 1);

@@ -13,7 +13,7 @@ namespace scarp {
 struct TilePiece {
   Point first;  ///< the tile's first sample in the raster
   std::int32_t cols = 0, rows = 0;
-  Array<Place> points;           ///< vertices, in the order of first use
+  Array<TilePoint> points;       ///< vertices, in the order of first use
   Array<std::uint32_t> corners;  ///< 3 per triangle: indices into points
   Array<TileMesh::Link> links;   ///< 3 per triangle
   Array<std::uint8_t> outside;   ///< 1 per triangle
@@ -26,17 +26,17 @@ class PieceMaker {
 
  private:
   struct Slot {
-    Place at;
+    TilePoint at;
     std::uint32_t id;  // kNone: free
   };
   void clear(std::size_t vertices);
-  Slot& find(Place p);
+  Slot& find(TilePoint p);
 
   Array<Slot> slots_;  // a hash table, open addressing
   unsigned shift_ = 0;
 };
 
-/// Joins pieces that are appended row of tiles by row of tiles, each row from left to right. Vertices on shared borders
+/// Joins pieces that are appended strip by strip, each row from left to right. Vertices on shared borders
 /// become one; edges there become ordinary edges, or constrained ones where the domain ends.
 class Assembly {
  public:

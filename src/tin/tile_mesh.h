@@ -1,7 +1,7 @@
 // The workbench of one tile: a constrained Delaunay triangulation that grows by cavities instead of flips.
 //
-// A triangle is 32 bytes, two to a cache line, and holds all that insertion looks at: corners as places, links, and a
-// word that belongs to the owner (its candidate). There is no array of vertices: a vertex is its place. Each insertion
+// A triangle is 32 bytes, two to a cache line, and holds all that insertion looks at: corners as points, links, and a
+// word that belongs to the owner (its candidate). There is no array of vertices: a vertex is its point. Each insertion
 // finds the cavity of the point (the triangles whose circle holds it, up to constrained edges), then writes every new
 // triangle once; Lawson's flips write most of them several times. Both give the same triangulation, up to cocircular
 // ties.
@@ -26,7 +26,7 @@ class TileMesh {
   static constexpr Link kBorder = 0xffffffffu;
 
   struct alignas(32) Record {
-    std::array<Place, 3> corners;  // positive orientation
+    std::array<TilePoint, 3> corners;  // positive orientation
     std::array<Link, 3> links;     // what lies beyond edge k
     std::int64_t key;              // the owner's, at least 0; kOutside: not part of the domain
   };
@@ -53,23 +53,23 @@ class TileMesh {
   struct Cavity {
     std::span<const Id> removed;  ///< t first
     struct Side {
-      Place from, to;  ///< the cavity lies to the left
+      TilePoint from, to;  ///< the cavity lies to the left
       Link beyond;
       bool outside;  ///< of the removed triangle that the side belonged to
     };
     std::span<const Side> sides;  ///< counter-clockwise around p
   };
-  Cavity find_cavity(Id t, Place p);
+  Cavity find_cavity(Id t, TilePoint p);
 
   /// Replaces the cavity that find_cavity(t, p) found last by a fan around p; returns the new triangles, their keys 0
   /// or kOutside. Removed ids are used again. Constraints and outsides are handed on.
-  std::span<const Id> fill_cavity(Place p);
+  std::span<const Id> fill_cavity(TilePoint p);
 
   /// Walks from `hint` to the triangle that holds p (closed).
-  Id locate(Place p, Id hint) const;
+  Id locate(TilePoint p, Id hint) const;
   /// Inserts p wherever it lies; `hint` is any triangle. Returns one of the new triangles; where p is a vertex, one at
   /// p.
-  Id insert(Place p, Id hint);
+  Id insert(TilePoint p, Id hint);
 
  private:
   void set_link(Link at, Link to) { records_[triangle_of(at)].links[edge_of(at)] = to; }
@@ -80,7 +80,7 @@ class TileMesh {
   std::vector<Cavity::Side> sides_;
   std::vector<Link> stack_;
   bool splits_constraint_ = false;  // p lies on a constrained edge, whose halves stay constrained
-  Place split_from_ = 0, split_to_ = 0;
+  TilePoint split_from_ = 0, split_to_ = 0;
 };
 
 }  // namespace scarp

@@ -45,7 +45,7 @@ succeeds "$scarp" simplify hills.tif ring.glb -e 12 --breaklines ring.geojson --
 succeeds "$scarp" measure hills.tif ring.glb --fail-above 12
 succeeds "$scarp" simplify hills.tif level.obj -e 12 --breaklines soft.geojson --breakline-z level --line-conflict mean
 succeeds "$scarp" simplify hills.tif both.glb -e 12 --breaklines soft.geojson --breaklines ring.geojson --report r.json --overwrite
-[ "$(json r.json breaklines laid)" = 4 ] || fail "not all lines of two files are laid"
+[ "$(json r.json breaklines laid)" = 4 ] || fail "not all lines of two files are inserted"
 
 # What cannot be is refused, by name.
 refuses 2 "cross.geojson" "$scarp" simplify hills.tif x.glb -e 12 --breaklines cross.geojson
@@ -90,4 +90,4 @@ json.dump({"type": "FeatureCollection", "features": [{"type": "Feature", "proper
 PYTHON
 succeeds "$scarp" simplify "$dem" same.glb -e 50 --crs EPSG:4326 --breaklines road.geojson
 refuses 1 "gdalwarp -t_srs EPSG:32616 $dem" "$scarp" simplify "$dem" x.glb -e 50 --crs EPSG:32616 --breaklines road.geojson
-refuses 1 "--water and --crs EPSG:32616" "$scarp" simplify "$dem" x.glb -e 50 --crs EPSG:32616 --water lake.geojson
+refuses 1 "--water cannot be combined with --crs EPSG:32616" "$scarp" simplify "$dem" x.glb -e 50 --crs EPSG:32616 --water lake.geojson

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# --cliff with --memory: walls are found in a file by rows, cross rows of tiles, and take few triangles there too; the
+# --cliff with --memory: walls are found in a file by rows, cross strips, and take few triangles there too; the
 # bound holds, the bytes are those of any number of threads, and what walls take counts.
 source "$(dirname "$0")/lib.sh"
 need python3
 
-# A village of 33 houses askew, each 60 x 36 samples, some beside a void.
+# A village of 33 houses askew, each 60 x 36 samples, some beside nodata.
 python3 - <<'PYTHON'
 from array import array
 def height(x, y):
@@ -23,7 +23,7 @@ with open("town.hdr", "w") as file:
                "ulxmap 0\nulymap 999\nxdim 1\nydim 1\n")
 PYTHON
 
-small=80M # the samples alone are 5 MB, so they stay in their file, and rows of tiles are low
+small=80M # the samples alone are 5 MB, so they stay in their file, and strips are low
 for effort in fast normal high; do
   succeeds "$scarp" simplify town.bil town.obj -e 1 --effort "$effort" --cliff 4 --memory "$small" -j 1 \
     --report town.json --overwrite

@@ -140,8 +140,8 @@ refuses 2 "--tolerance negative.tif: the value -5" simplify --tolerance negative
 make_raster zeros.tif 0
 refuses 2 "no weight is above 0" simplify -e 20 --mask zeros.tif
 refuses 2 "missing.tif" simplify -e 20 --mask missing.tif
-refuses 1 "--mask and --tolerance contradict each other" simplify -e 20 --mask weights.tif --tolerance bounds.tif
-refuses 1 "--mask and --tolerance contradict each other" "$scarp" measure "$dem" t.glb --mask weights.tif --tolerance bounds.tif
+refuses 1 "--mask cannot be combined with --tolerance" simplify -e 20 --mask weights.tif --tolerance bounds.tif
+refuses 1 "--mask cannot be combined with --tolerance" "$scarp" measure "$dem" t.glb --mask weights.tif --tolerance bounds.tif
 refuses 1 "no goal is given" simplify --mask weights.tif
 cp weights.tif copy.tif
 refuses 1 "input file" simplify -e 20 --mask copy.tif --error-raster copy.tif --overwrite

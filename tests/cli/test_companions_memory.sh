@@ -6,7 +6,7 @@ source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate gdalinfo
 
 succeeds "$scarp" generate smooth 500 600 smooth.tif --seed 3 --range 300 -q
-# Voids in bands along contours, among heights and among weights.
+# Nodata in bands along contours, among heights and among weights.
 gdal_translate -q -ot Int16 -a_nodata 255 smooth.tif whole.tif
 gdal_translate -q -ot Float32 whole.tif hills.tif
 succeeds "$scarp" generate smooth 500 600 other.tif --seed 8 --range 300 -q
@@ -21,7 +21,7 @@ with open("long.txt", "w") as script:
     for k in range(200000): print("i", k % 500, k // 500, file=script)
 PYTHON
 
-small=74 # of which the samples, 1.2 MB, may take 1, so they stay in their file, and rows of tiles are low
+small=74 # of which the samples, 1.2 MB, may take 1, so they stay in their file, and strips are low
 same() { # same A B KEY...: the reports agree
   python3 -I -S - "$@" <<'PYTHON' || fail "the figures are not those in memory"
 import json, sys

@@ -151,7 +151,7 @@ refuses 2 "no cell with three heights" "$scarp" simplify "$dem" x.glb -e 20 --cu
 refuses 2 "point.geojson" "$scarp" simplify "$dem" x.glb -e 20 --cutline point.geojson
 refuses 2 "nothing.gpkg" "$scarp" simplify "$dem" x.glb -e 20 --cutline nothing.gpkg
 refuses 2 "nothing of the polygons is left" "$scarp" simplify "$dem" x.glb -e 20 --cutline star.geojson --inset 20000
-# A print of what lies in the polygon, whole and in sheets.
+# A print of what lies in the polygon, whole and in print tiles.
 succeeds "$scarp" simplify "$dem" print.stl -e 20 --cutline star.geojson --solid size=100mm
 succeeds "$scarp" measure "$dem" print.stl --cutline star.geojson --fail-above 20
 grep -q "closed solid" "$logs/out" || fail "the print is not closed"

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# --cutline, --inset and --mask-outside with --memory: polygons cross rows of tiles whose samples stay in their file, and
+# --cutline, --inset and --mask-outside with --memory: polygons cross strips whose samples stay in their file, and
 # the surface that stays is the one that would stay in memory.
 source "$(dirname "$0")/lib.sh"
 need python3 ogrinfo
@@ -13,14 +13,14 @@ def collection(name, *polygons):
         for rings in polygons]}, open(name, "w"))
 star = [[550 + r * math.cos(a), 400 + 0.85 * r * math.sin(a)] for k in range(14) for a, r in [(k * math.pi / 7, 430 if k % 2 else 260)]]
 hole = [[460.3, 330.2], [640.1, 370.7], [520.6, 530.4]]
-# All along a sample's rows and columns, and where rows of tiles may meet.
+# All along a sample's rows and columns, and where strips may meet.
 blocks = [[[[10, y], [110, y], [110, y + h], [10, y + h]]] for y, h in [(20, 80), (125, 125), (266, 1), (532, 250)]]
 collection("star.geojson", [star, hole], *blocks)
 collection("away.geojson", [[[-90, -90], [-80, -90], [-80, -80]]])
 collection("line.geojson", [[[500, 100], [600, 100.5], [550.5, 330], [500, 700.25]]])
 PYTHON
 
-small=76M # the samples alone are 3 MB, so they stay in their file, and rows of tiles are low
+small=76M # the samples alone are 3 MB, so they stay in their file, and strips are low
 cut=(--cutline star.geojson)
 succeeds "$scarp" simplify hills.tif held.obj -e 12 --effort fast "${cut[@]}" --report held.json
 for effort in fast normal high max; do
@@ -71,7 +71,7 @@ succeeds "$scarp" measure hills.tif flats.obj "${cut[@]}" --fail-above 12.5 --me
 refuses 2 "beside the raster" "$scarp" simplify hills.tif x.obj -e 12 --memory "$small" \
   --cutline away.geojson
 
-# Along cells of the grid: what is void in memory is void here.
+# Along cells of the grid: what is nodata in memory is nodata here.
 succeeds "$scarp" simplify hills.tif mask1.obj -e 12 --effort fast "${cut[@]}" --mask-outside --memory "$small" --report mask1.json
 succeeds "$scarp" simplify hills.tif mask2.obj -e 12 --effort fast "${cut[@]}" --mask-outside --report mask2.json
 for key in "cutline samples_outside" samples "input valid" "input min" "input max"; do

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# --effort with --memory: rows of tiles are fitted while their samples are there; the same promise, the same bytes on any
+# --effort with --memory: strips are fitted while their samples are there; the same promise, the same bytes on any
 # number of threads, fewer triangles.
 source "$(dirname "$0")/lib.sh"
 need python3
-small=80M # less than the samples need: they stay in their file, and rows of tiles are low
+small=80M # less than the samples need: they stay in their file, and strips are low
 
 succeeds "$scarp" generate smooth 1500 1400 smooth.tif -q
 for raster in smooth.tif "$dem"; do

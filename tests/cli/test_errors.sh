@@ -48,7 +48,7 @@ refuses 1 "--band 0" "$scarp" simplify "$dem" out.glb -e 1 --band 0
 refuses 1 "--band two" "$scarp" simplify "$dem" out.glb -e 1 --band two
 refuses 1 "--nodata none" "$scarp" simplify "$dem" out.glb -e 1 --nodata none
 refuses 1 "--decode png" "$scarp" simplify "$dem" out.glb -e 1 --decode png
-refuses 1 "--decode and --band" "$scarp" simplify "$dem" out.glb -e 1 --decode mapbox --band 2
+refuses 1 "--decode cannot be combined with --band" "$scarp" simplify "$dem" out.glb -e 1 --decode mapbox --band 2
 refuses 1 "--nodata-policy ignore" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy ignore
 refuses 1 "--fill-distance" "$scarp" simplify "$dem" out.glb -e 1 --fill-distance 5
 refuses 1 "--fill-distance 0" "$scarp" simplify "$dem" out.glb -e 1 --nodata-policy fill --fill-distance 0
@@ -59,7 +59,7 @@ refuses 1 "--outline-tolerance -1" "$scarp" simplify "$dem" out.glb -e 1 --outli
 refuses 1 "--num-threads -1" "$scarp" simplify "$dem" out.glb -e 1 -j -1
 refuses 1 "--base nan" "$scarp" simplify "$dem" out.glb -e 1 --base nan
 refuses 1 "--base -1e300 is out of the range" "$scarp" simplify "$dem" out.glb -e 1 --base -1e300
-refuses 1 "--normals and --base" "$scarp" simplify "$dem" out.glb -e 1 --base 0 --normals
+refuses 1 "--normals cannot be combined with --base" "$scarp" simplify "$dem" out.glb -e 1 --base 0 --normals
 refuses 1 "--base 2000" "$scarp" simplify "$dem" out.glb -e 50 --base 2000
 grep -Eq 'lowest vertex, which is at [0-9]+' "$logs/err" || fail "--base does not name the lowest vertex"
 refuses 1 "EPSG:999999" "$scarp" simplify "$dem" out.glb -e 1 --crs EPSG:999999

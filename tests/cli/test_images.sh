@@ -132,9 +132,9 @@ refuses 1 "STL has no place for colours" image out.stl -e 8
 refuses 1 "OBJ has a place for 8-bit colours only" "$scarp" simplify stack.tif out.obj -e 8 --image
 refuses 1 "TIN has no place for colours" image out.tin -e 8
 refuses 1 "has no place for colours" image out.tif -e 8
-refuses 1 "--image and --texture contradict each other" image out.glb -e 8 --texture photo.tif
-refuses 1 "--image and --decode contradict each other" image out.glb -e 8 --decode terrarium
-refuses 1 "--image and --nodata-policy contradict each other" image out.glb -e 8 --nodata-policy fill
+refuses 1 "--image cannot be combined with --texture" image out.glb -e 8 --texture photo.tif
+refuses 1 "--image cannot be combined with --decode" image out.glb -e 8 --decode terrarium
+refuses 1 "--image cannot be combined with --nodata-policy" image out.glb -e 8 --nodata-policy fill
 refuses 1 "--importance measures features of heights" image out.glb -e 8 --importance 'global*local'
 refuses 1 "--channel-weights has 2 weights for 3 bands" image out.glb -e 8 --channel-weights 1,2
 for bad in 1,-2,3 1,,3 a '' 1,2,3, 1,nan,2; do refuses 1 "--channel-weights" image out.glb -e 8 --channel-weights "$bad"; done

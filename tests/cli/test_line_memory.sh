@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# --breaklines and --rivers with --memory: lines cross rows of tiles whose samples stay in their file, and are chains of
+# --breaklines and --rivers with --memory: lines cross strips whose samples stay in their file, and are chains of
 # edges all the same; the bound holds, the bytes are those of any number of threads, and what lines take counts.
 source "$(dirname "$0")/lib.sh"
 need python3
@@ -18,7 +18,7 @@ collection("hard.geojson", [spiral(300, [900])])
 collection("rivers.geojson", [[[100, 900], [400.5, 300], [900, 120.25]]])
 PYTHON
 
-small=76M # the samples alone are 5 MB, so they stay in their file, and rows of tiles are low
+small=76M # the samples alone are 5 MB, so they stay in their file, and strips are low
 for lines in soft hard; do
   for effort in fast normal high; do
     for threads in 1 2; do

@@ -55,7 +55,7 @@ done
 refuses 1 '--memory 80M is too little: the mesh has' "$scarp" simplify fractal.tif o.glb -e 0 --effort normal --memory 80M
 gdal_translate -q -of VRT -outsize 300000 100 "$dem" wide.vrt
 refuses 1 '--memory 80M is too little: ' "$scarp" simplify wide.vrt o.glb -e 5 --memory 80M
-grep -q 'M are needed before the mesh' "$logs/err" || fail "rows of tiles that do not fit are not said to be the reason"
+grep -q 'M are needed before the mesh' "$logs/err" || fail "strips that do not fit are not said to be the reason"
 
 # Sizes.
 for size in 999999999T 1e30G 1e400 1000001T; do

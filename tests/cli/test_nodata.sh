@@ -3,7 +3,7 @@
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate awk
 
-# A 60 x 40 hill with a rectangular void (columns 20..29, rows 10..19), one lone valid sample in it, and a void corner.
+# A 60 x 40 hill with a rectangle of nodata (columns 20..29, rows 10..19), one lone valid sample in it, and a nodata corner.
 awk 'BEGIN {
   print "ncols 60\nnrows 40\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999";
   for (r = 0; r < 40; ++r) {
@@ -18,10 +18,10 @@ awk 'BEGIN {
 voids=$((100 - 1 + 9))
 
 succeeds "$scarp" simplify hill.asc hole.obj -e 1 --report r.json
-[ "$(json r.json input void)" = $voids ] || fail "$(json r.json input void) voids instead of $voids"
+[ "$(json r.json input void)" = $voids ] || fail "$(json r.json input void) nodata samples instead of $voids"
 [ "$(json r.json stray)" = 1 ] || fail "the lone sample is not stray"
 [ "$(json r.json samples)" = $((2400 - voids - 1)) ] || fail "judged $(json r.json samples)"
-[ "$(json r.json void_cells_covered)" = 0 ] || fail "the mesh covers voids"
+[ "$(json r.json void_cells_covered)" = 0 ] || fail "the mesh covers nodata"
 [ "$(json r.json topology border_loops)" = 2 ] || fail "no hole"
 grep -q '1 outside every cell' "$logs/out" || fail "the stray sample is not told"
 succeeds "$scarp" measure hill.asc hole.obj --fail-above 1
@@ -39,7 +39,7 @@ succeeds "$scarp" simplify hill.asc fill.obj -e 1 --nodata-policy fill --report 
 [ "$(json f.json input filled)" = $voids ] || fail "filled $(json f.json input filled)"
 [ "$(json f.json samples)" = 2400 ] || fail "filled samples are not judged"
 [ "$(json f.json topology border_loops)" = 1 ] || fail "a hole is left"
-grep -q "filled  *$voids void samples" "$logs/out" || fail "the summary does not tell what was filled"
+grep -q "filled  *$voids nodata samples" "$logs/out" || fail "the summary does not tell what was filled"
 succeeds "$scarp" simplify hill.asc near.obj -e 1 --nodata-policy fill --fill-distance 1 --report n.json
 holds "$(json n.json input filled) > 0 && $(json n.json input filled) < $voids"
 
@@ -50,7 +50,7 @@ succeeds "$scarp" simplify hill.asc back.obj -e 1 --nodata-policy background --b
 holds "$(json b.json input min) > 0"
 grep -Eq '^v [^ ]+ [^ ]+ -20(\.0*)?$' back.obj || fail "no vertex at the background's height"
 
-# An outline that may move outwards gets simpler, and loses no sample. The void is a disc here.
+# An outline that may move outwards gets simpler, and loses no sample. The nodata area is a disc here.
 awk 'BEGIN {
   print "ncols 80\nnrows 80\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999";
   for (r = 0; r < 80; ++r) {

@@ -44,7 +44,7 @@ done
 succeeds "$scarp" simplify "$dem" raster -e 20 --of dem
 gdalinfo raster | grep -q 'Type=Float32' || fail "--of dem is no GeoTIFF"
 
-# The error raster: mesh minus sample, from either verb.
+# The error raster: mesh minus sample, from either command.
 succeeds "$scarp" simplify "$dem" e.glb -e 20 --error-raster e1.tif --report s.json --overwrite
 succeeds "$scarp" measure "$dem" e.glb --error-raster e2.tif
 [ "$(gdalinfo -checksum e1.tif | grep Checksum)" = "$(gdalinfo -checksum e2.tif | grep Checksum)" ] || fail "the error rasters differ"
@@ -74,7 +74,7 @@ for output in s.stl s.tin s.svg s.tif; do
   succeeds "$scarp" simplify "$dem" $output -e 100 --normals
   grep -q 'has no place for vertex normals' "$logs/err" || fail "no word about lost normals in $output"
 done
-refuses 1 "--normals and --image contradict each other" "$scarp" simplify "$dem" out.glb -e 20 --image --normals
+refuses 1 "--normals cannot be combined with --image" "$scarp" simplify "$dem" out.glb -e 20 --image --normals
 # A raster's approximation stays on the raster's grid; drawings follow --crs.
 for output in crs.tif crs.pgm; do
   succeeds "$scarp" simplify "$dem" $output -e 100 --crs EPSG:32616

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# simplify and measure agree on real terrain of every kind: voids, lidar, cliffs, sea floor, other worlds, cities.
+# simplify and measure agree on real terrain of every kind: nodata, lidar, cliffs, sea floor, other worlds, cities.
 . "$(dirname "$0")/lib.sh"
 
 shared=${SCARP_SHARED:-$SCARP_SOURCE/../shared}/data
@@ -13,7 +13,7 @@ while read -r file error format; do
   mesh=$scratch/${file%%.*}.$format
   "$scarp" simplify "$shared/$file" "$mesh" -e "$error" -q || fail "simplify $file failed"
   "$scarp" measure "$shared/$file" "$mesh" --fail-above "$error" --json >"$scratch/m.json" || fail "measure does not agree on $file at $error"
-  python3 - "$scratch/m.json" "$file" <<'PY' || fail "$file: covered voids or lost samples"
+  python3 - "$scratch/m.json" "$file" <<'PY' || fail "$file: covered nodata or lost samples"
 import json, sys
 m = json.load(open(sys.argv[1]))
 print(f"{sys.argv[2]}: {m['triangles']} triangles, max {m['max_error']:.6g}, rmse {m['rmse']:.4g}")

@@ -5,7 +5,7 @@ source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
 succeeds "$scarp" generate smooth 500 600 smooth.tif --seed 3 --range 300 -q
-# Voids in bands along contours, among heights and among tolerances.
+# Nodata in bands along contours, among heights and among tolerances.
 gdal_translate -q -ot Int16 -a_nodata 255 smooth.tif whole.tif
 gdal_translate -q -ot Float32 whole.tif hills.tif
 succeeds "$scarp" generate smooth 500 600 other.tif --seed 8 --range 300 -q
@@ -24,7 +24,7 @@ layer("road.geojson", "LineString", [[[-20.3, 560.2], [320.6, 350.4], [490.8, 20
 layer("long.geojson", "LineString", [[[i % 500, i // 500] for i in range(90000)]])
 PYTHON
 
-small=74 # of which the samples, 1.2 MB, may take 1, so they stay in their file, and rows of tiles are low
+small=74 # of which the samples, 1.2 MB, may take 1, so they stay in their file, and strips are low
 sites=(--roi site.geojson=2 --roi road.geojson=5 --falloff 90)
 same() { # same A B KEY...: the reports agree
   python3 -I -S - "$@" <<'PYTHON' || fail "the figures are not those in memory"
@@ -92,8 +92,8 @@ holds "$(json coarse0.json over_tolerance) > 1000"
 # What cannot be is refused before the work.
 refuses 2 "--tolerance broken.tif: the value -" "$scarp" simplify hills.tif x.obj --tolerance broken.tif --memory "${small}M"
 refuses 2 "gdal_translate" "$scarp" simplify hills.tif x.obj --tolerance narrow.tif --memory "${small}M"
-for verb in "simplify hills.tif x.obj -e 40" "measure hills.tif coarse.obj --fail-above 40"; do
-  refuses 1 "--memory is too little: --roi takes 9M; allow 90M" "$scarp" $verb --roi long.geojson=2 --memory "${small}M"
+for command in "simplify hills.tif x.obj -e 40" "measure hills.tif coarse.obj --fail-above 40"; do
+  refuses 1 "--memory is too little: --roi takes 9M; allow 90M" "$scarp" $command --roi long.geojson=2 --memory "${small}M"
 done
 
 # Bounds of samples that fit in memory count, too: those of a raster that would fit alone are read in windows.

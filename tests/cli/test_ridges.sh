@@ -3,7 +3,7 @@
 source "$(dirname "$0")/lib.sh"
 need python3
 
-# Two crests and the valley between them, askew, that falls; a void.
+# Two crests and the valley between them, askew, that falls; nodata.
 python3 - <<'PYTHON'
 def height(x, y):
     u = 0.93 * x + 0.37 * y

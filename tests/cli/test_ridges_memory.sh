@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# --ridges with --memory: the same lines as in memory, laid row of tiles by row of tiles; the bound holds, the bytes are
+# --ridges with --memory: the same lines as in memory, inserted strip by strip; the bound holds, the bytes are
 # those of any number of threads, and what is searched through counts.
 source "$(dirname "$0")/lib.sh"
 
 succeeds "$scarp" generate fractal 1300 1000 hills.tif --seed 3 -q
-small=80M # the samples alone are 5 MB, so they stay in their file, and rows of tiles are low
+small=80M # the samples alone are 5 MB, so they stay in their file, and strips are low
 goal="-e 20 --ridges 25"
 for more in "--effort fast" "--effort normal" "--effort normal --keep-ridges"; do
   # shellcheck disable=SC2086

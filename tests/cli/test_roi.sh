@@ -26,7 +26,7 @@ done
 for effort in fast normal high; do
   succeeds "$scarp" simplify "$dem" lines.glb -e 50 --roi site.geojson=2 --falloff 5000 --breaklines road.geojson \
     --effort "$effort" --report lines.json --overwrite
-  [ "$(json lines.json breaklines laid)" = 1 ] || fail "the line is not laid with $effort effort"
+  [ "$(json lines.json breaklines laid)" = 1 ] || fail "the line is not inserted with $effort effort"
   succeeds "$scarp" measure "$dem" lines.glb --fail-above 50 --roi site.geojson=2 --falloff 5000
 done
 try "$scarp" measure "$dem" roi.glb --fail-above 50 --roi site.geojson=2 --falloff 5000

@@ -39,7 +39,7 @@ read -r count smallest shortest longest < <(python3 "$shape_of" graded.obj)
 holds "$smallest >= 20"
 succeeds "$scarp" measure "$dem" graded.obj --fail-above 60
 
-# Voids, and lines that meet at angles below what is asked: these are counted, all others hold.
+# Nodata, and lines that meet at angles below what is asked: these are counted, all others hold.
 succeeds "$scarp" simplify "$dem" plain.2dm -e 20 --report r.json --overwrite
 [ "$(json r.json shape)" = null ] || fail "a report of shapes that nobody asked for"
 succeeds "$scarp" generate smooth 60 50 hills.tif --seed 4 -q

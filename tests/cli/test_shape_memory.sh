@@ -23,7 +23,7 @@ for effort in fast normal high; do
   holds "$count < 1.1 * $whole"
 done
 
-# Lines are split where they run, whatever rows of tiles they cross.
+# Lines are split where they run, whatever strips they cross.
 echo '{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry":
  {"type": "LineString", "coordinates": [[5.3, 7.1], [990.7, 733.2]]}}, {"type": "Feature", "properties": {}, "geometry":
  {"type": "LineString", "coordinates": [[-50, 512], [1100, 512]]}}]}' >lines.geojson

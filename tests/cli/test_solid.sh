@@ -1,5 +1,5 @@
 #!/bin/bash
-# Solids for printing, whole and in sheets: as large as asked, closed in the eyes of admesh and of the 3MF consortium's
+# Solids for printing, whole and in print tiles: as large as asked, closed in the eyes of admesh and of the 3MF consortium's
 # library, within the bound in the eyes of measure, and refused in one sentence where they cannot be.
 source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
@@ -55,7 +55,7 @@ succeeds "$scarp" simplify "$dem" thick.stl -e 50 --solid size=10cm,thickness=3m
 lowest=$(json thick.json input min)
 holds "($lowest - $(json thick.json solid base)) * $(json thick.json solid scale 2) > 2.8"
 
-# Voids are holes through the solid, and parts that touch in a point are apart.
+# Nodata areas are holes through the solid, and parts that touch in a point are apart.
 make_raster voids.tif 'nan if (col // 40 + row // 40) % 3 == 0 and col % 40 < 30 else 100 + col + row if (col, row) != (5, 5) else nan'
 make_raster board.tif 'nan if (col % 2 == 0) != (row % 3 == 0) and col < 20 else 10 * math.sin(col / 9) + row / 5'
 for raster in voids board; do
@@ -66,13 +66,13 @@ for raster in voids board; do
   succeeds "$scarp" measure $raster.tif $raster.3mf --fail-above 2
 done
 
-# Sheets: files or objects; together they are the whole.
+# Print tiles: files or objects; together they are the whole.
 succeeds "$scarp" simplify "$dem" cut.stl -e 20 --solid size=400mm,base=0 --split 2x3,joint=dovetail --report cut.json
-[ "$(ls cut-r?-c?.stl | wc -l)" = 6 ] || fail "not six sheets: $(ls)"
+[ "$(ls cut-r?-c?.stl | wc -l)" = 6 ] || fail "not six print tiles: $(ls)"
 [ ! -e cut.stl ] || fail "the whole is there too"
 for sheet in cut-r?-c?.stl; do admesh_likes "$sheet"; done
 succeeds "$scarp" simplify "$dem" one.stl -e 20 --solid size=400mm,base=0 --report one.json
-python3 - cut.json one.json <<'PYTHON' || fail "the sheets are not the whole"
+python3 - cut.json one.json <<'PYTHON' || fail "the print tiles are not the whole"
 import json, sys
 cut, one = (json.load(open(f))["solid"] for f in sys.argv[1:])
 assert [(p["row"], p["column"]) for p in cut["pieces"]] == [(r, c) for r in (1, 2, 3) for c in (1, 2)]
@@ -86,7 +86,7 @@ lib3mf_likes cut.3mf 6 "$(json cut.json solid triangles)"
 "$scarp" measure "$dem" cut.3mf --json >judged.json
 holds "$(json judged.json uncovered) == 0 && $(json judged.json max_error) <= 20"
 
-# With a gap, sheets are apart, and samples in it have no surface.
+# With a gap, print tiles are apart, and samples in it have no surface.
 succeeds "$scarp" simplify "$dem" gap.3mf -e 20 --solid size=400mm --split 3x2,joint=dovetail,gap=1mm --report gap.json
 lib3mf_likes gap.3mf 6 "$(json gap.json solid triangles)"
 holds "$(json gap.json solid uncovered) > 0"
@@ -94,7 +94,7 @@ holds "$(json gap.json solid uncovered) > 0"
 holds "$(json judged.json uncovered) == $(json gap.json solid uncovered) && $(json judged.json max_error) <= 20"
 holds "$(json judged.json topology overlaps) + $(json judged.json topology non_manifold_edges) == 0"
 
-# The same where the samples stay in their file, whole and in sheets.
+# The same where the samples stay in their file, whole and in print tiles.
 succeeds "$scarp" generate fractal 1300 1000 wide.tif --seed 2 -q
 for split in "" "--split 2x2,joint=dovetail,gap=0.3mm"; do
   # shellcheck disable=SC2086
@@ -119,7 +119,7 @@ refuses 1 "GLB has no place for millimetres" "$scarp" simplify "$dem" x.glb -e 2
 refuses 1 "3MF holds closed solids only" "$scarp" simplify "$dem" x.3mf -e 20
 refuses 1 "120kg is no length above 0" "$scarp" simplify "$dem" x.stl -e 20 --solid size=120kg
 refuses 1 "needs the size of the print" "$scarp" simplify "$dem" x.stl -e 20 --solid thickness=3mm
-refuses 1 "base and thickness contradict" "$scarp" simplify "$dem" x.stl -e 20 --solid base=0,thickness=3
+refuses 1 "base cannot be combined with thickness" "$scarp" simplify "$dem" x.stl -e 20 --solid base=0,thickness=3
 refuses 1 "--split needs --solid" "$scarp" simplify "$dem" x.stl -e 20 --split 2x2
 refuses 1 "no COLUMNSxROWS" "$scarp" simplify "$dem" x.stl -e 20 --solid size=100 --split 3
 # Ten thousand names are compared in no time.
@@ -136,8 +136,8 @@ for goal in "-t 1500" "-e 60 --cliff 150" "-t 1500 --cliff 150"; do
 done
 holds "$(json budget.json triangles) <= 1500"
 refuses 1 "which --crs bends" "$scarp" simplify "$dem" x.stl -e 20 --crs EPSG:32617 --solid size=100 --split 2x2
-refuses 1 "--solid and --base contradict" "$scarp" simplify "$dem" x.stl -e 20 --base 0 --solid size=100
+refuses 1 "--solid cannot be combined with --base" "$scarp" simplify "$dem" x.stl -e 20 --base 0 --solid size=100
 refuses 3 "rounded to float32" "$scarp" simplify "$dem" x.stl -e 0 --solid size=100
 touch old-r2-c1.stl
 refuses 4 "old-r2-c1.stl exists" "$scarp" simplify "$dem" old.stl -e 20 --solid size=100 --split 2x2
-echo "solids and sheets are closed, and keep the bound"
+echo "solids and print tiles are closed, and keep the bound"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # --water with --rivers, and --detect-flats, with --memory: the lakes are those of a raster in memory, level in the
-# mesh across all rows of tiles; the bytes are those of any number of threads, and what lakes take counts.
+# mesh across all strips; the bytes are those of any number of threads, and what lakes take counts.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate
 
@@ -19,7 +19,7 @@ layer("lakes.geojson", "Polygon", [west, [[[900, 300], [1200, 350], [1000, 700],
 layer("rivers.geojson", "LineString", [[[20.3, 990.2], [250.6, 700.4], [700.2, 500.7], [1090.8, 20.3]]])
 PYTHON
 
-small=76M # the samples stay in their file, and rows of tiles are low
+small=76M # the samples stay in their file, and strips are low
 check() { # check NAME RASTER EFFORT OPTION...: runs with --memory, their report against that of one without
   local name=$1 raster=$2 effort=$3 threads
   shift 3

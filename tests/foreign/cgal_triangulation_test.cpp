@@ -177,7 +177,7 @@ RC_GTEST_PROP(cgal, lines_that_cross_in_lattice_points_are_cut_as_cgal_cuts_them
   RC_ASSERT(constrained_edges(peer) == line_edges(arranged));
 }
 
-RC_GTEST_PROP(cgal, a_laid_triangulation_holds_the_edges_and_areas_of_cgals, ()) {
+RC_GTEST_PROP(cgal, a_constrained_triangulation_holds_the_edges_and_areas_of_cgals, ()) {
   const Soup soup = any_soup();
   const Arrangement arranged = soup.arrange();
   ConstraintGraph graph;
@@ -189,7 +189,7 @@ RC_GTEST_PROP(cgal, a_laid_triangulation_holds_the_edges_and_areas_of_cgals, ())
   const std::vector<float> heights(static_cast<std::size_t>(soup.cols) * static_cast<std::size_t>(soup.rows), 0.0F);
   Triangulation tin(soup.cols, soup.rows);
   for (const Point p : soup.samples) tin.insert(p, tin.locate(p, tin.last_touched()));
-  RC_ASSERT(ConstrainedMesh::lay({heights.data(), soup.cols, soup.rows}, tin, graph).has_value());
+  RC_ASSERT(ConstrainedMesh::insert({heights.data(), soup.cols, soup.rows}, tin, graph).has_value());
 
   Peer peer;
   for (Vertex v = 0; v < tin.vertex_count(); ++v) peer.insert(to_peer(tin.point(v)));

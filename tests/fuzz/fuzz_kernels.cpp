@@ -1,5 +1,5 @@
 // Any tile and any triangles: all scan kernels of this machine give the bits of the scalar twin. The bytes choose the
-// size, the heights (few levels, voids, wild magnitudes), the threshold, and then triangles and hints, two bytes a
+// size, the heights (few levels, nodata, wild magnitudes), the threshold, and then triangles and hints, two bytes a
 // coordinate.
 #include <cmath>
 #include <cstdint>
@@ -56,12 +56,12 @@ struct Tile {
   /// By the twin, which all others must repeat.
   void fill_blocks() {
     const auto all = scarp::available_kernels();
-    std::uint64_t voids = 0;
-    const float most = all.back().fill_blocks(view, low.data(), high.data(), voids);
+    std::uint64_t nodata = 0;
+    const float most = all.back().fill_blocks(view, low.data(), high.data(), nodata);
     const std::vector<float> expected_low = low, expected_high = high;
     for (const scarp::ScanKernels& kernels : all) {
-      std::uint64_t also_voids = 0;
-      require(kernels.fill_blocks(view, low.data(), high.data(), also_voids) == most && also_voids == voids);
+      std::uint64_t also_nodata = 0;
+      require(kernels.fill_blocks(view, low.data(), high.data(), also_nodata) == most && also_nodata == nodata);
       require(low == expected_low && high == expected_high);
     }
   }
@@ -72,8 +72,8 @@ scarp::Point draw_point(Bytes& bytes, const scarp::TileView& view) {
   return {x, bytes.below(view.rows)};
 }
 
-void check_scan(const Tile& tile, double threshold, const std::vector<std::array<scarp::Place, 3>>& triangles,
-                const std::vector<scarp::Place>& hints) {
+void check_scan(const Tile& tile, double threshold, const std::vector<std::array<scarp::TilePoint, 3>>& triangles,
+                const std::vector<scarp::TilePoint>& hints) {
   const auto all = scarp::available_kernels();
   std::vector<scarp::ScanHit> expected(triangles.size()), hits(triangles.size());
   all.back().scan(tile.view, threshold, triangles, {}, expected.data());
@@ -93,20 +93,20 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Tile tile(bytes);
   tile.fill_blocks();
   const double threshold = std::ldexp(bytes.next(), bytes.next() % 160 - 88);
-  std::vector<scarp::Place> hints(bytes.next() % 8);
-  for (scarp::Place& hint : hints) {
+  std::vector<scarp::TilePoint> hints(bytes.next() % 8);
+  for (scarp::TilePoint& hint : hints) {
     const scarp::Point p = draw_point(bytes, tile.view);
-    hint = scarp::place(p.x, p.y);
+    hint = scarp::tile_point(p.x, p.y);
   }
-  std::vector<std::array<scarp::Place, 3>> triangles;
+  std::vector<std::array<scarp::TilePoint, 3>> triangles;
   while (bytes.left() > 0 && triangles.size() < 50) {
     std::array<scarp::Point, 3> p{draw_point(bytes, tile.view), draw_point(bytes, tile.view),
                                   draw_point(bytes, tile.view)};
     if (orient(p[0], p[1], p[2]) < 0) std::swap(p[1], p[2]);
-    std::array<scarp::Place, 3> corners{};
+    std::array<scarp::TilePoint, 3> corners{};
     bool valid = orient(p[0], p[1], p[2]) > 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      corners[i] = scarp::place(p[i].x, p[i].y);
+      corners[i] = scarp::tile_point(p[i].x, p[i].y);
       valid = valid && !std::isnan(tile.view.at(corners[i]));
     }
     if (valid) triangles.push_back(corners);

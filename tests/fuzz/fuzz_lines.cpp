@@ -37,7 +37,7 @@ struct Task {
   scarp::SimplifyOptions options;
   double cliff = 0, ridge = 0;
   std::uint64_t budget = 0;
-  bool has_voids = false, are_hard = false, are_lakes = false, are_rivers = false, is_cut = false,
+  bool has_nodata = false, are_hard = false, are_lakes = false, are_rivers = false, is_cut = false,
        are_ridges_kept = false;
 };
 
@@ -50,7 +50,7 @@ Task read_task(Bytes& bytes) {
   const int levels = bytes.next() % 100 + 1;
   const float step = std::ldexp(1.0F, bytes.next() % 16 - 8);
   const std::uint8_t kinds = bytes.next(), effort = bytes.next(), shapes = bytes.next();
-  task.has_voids = (kinds & 1) != 0;
+  task.has_nodata = (kinds & 1) != 0;
   task.are_hard = (kinds & 2) != 0;
   task.are_lakes = (kinds & 4) != 0;
   task.are_rivers = (kinds & 8) != 0;
@@ -70,8 +70,8 @@ Task read_task(Bytes& bytes) {
   if ((shapes & 19) == 16) task.budget = 2 + 3 * (shapes / 32U) + bytes.next();
   for (int i = 0; i < field.cols * field.rows; ++i) {
     const std::uint8_t byte = bytes.next();
-    field.samples.push_back(task.has_voids && byte >= 245 ? std::numeric_limits<float>::quiet_NaN()
-                                                          : static_cast<float>(byte % levels) * step);
+    field.samples.push_back(task.has_nodata && byte >= 245 ? std::numeric_limits<float>::quiet_NaN()
+                                                           : static_cast<float>(byte % levels) * step);
   }
   return task;
 }
@@ -215,14 +215,14 @@ void judge(const Task& task, const scarp::Simplified& result) {
     require(judged->max_error <= *task.options.goals.max_error + 1e-12 * largest_height(edited));
   }
   require(judged->max_error == result.measurement.max_error);
-  require(judged->void_cells_covered == 0);
+  require(judged->nodata_cells_covered == 0);
 }
 
 void walk(const Task& task, const scarp::Mesh& mesh) {
-  if (task.has_voids || task.is_cut) return;  // lines then have pieces
+  if (task.has_nodata || task.is_cut) return;  // lines then have pieces
   const Walk walk(mesh);
   for (const scarp::Line& line : task.options.features.breaklines.lines) {
-    if (scarp::is_fault(line) || scarp::is_ridge_line(line)) continue;
+    if (scarp::is_wall(line) || scarp::is_ridge_line(line)) continue;
     for (std::size_t k = 1; k < line.points.size(); ++k) {
       const auto &from = line.points[k - 1], &to = line.points[k];
       Piece piece{{from[0], from[1]}, {to[0], to[1]}};

@@ -1,6 +1,6 @@
 // Any small raster, any goal, any effort and any strategy: the promise holds, every sample of the domain is covered,
 // and the mesh is sound; or an error with words. The bytes choose the size, the goals, how steep the heights are, and
-// then one height each: a few values stand for voids and infinities, and few levels make ties the rule.
+// then one height each: a few values stand for nodata and infinities, and few levels make ties the rule.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -62,7 +62,7 @@ void check_made(const scarp::HeightField& field, const scarp::SimplifyOptions& o
   require(judged->is_sound());
   require(judged->max_error == proof.max_error && judged->rmse == proof.rmse && judged->uncovered == 0);
   require(judged->over_tolerance == 0 || result->stop != scarp::StopReason::kMaxError);
-  require(judged->void_cells_covered == 0 || options.domain.outline_tolerance > 0);
+  require(judged->nodata_cells_covered == 0 || options.domain.outline_tolerance > 0);
 }
 
 /// Two bytes choose a strategy; one that contradicts itself must be refused with words.

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "grid/vertex_places.h"
+#include "grid/vertex_lattice.h"
 #include "laws/fields.h"
 #include "scarp/cutline.h"
 #include "scarp/mesh.h"
@@ -198,7 +198,7 @@ inline std::int64_t doubled_in_cell(const Field& field, std::int32_t col, std::i
     if (corners != (15 & ~(1 << k))) continue;
     x0 -= std::int64_t{col} * kLatticeSteps, x1 -= std::int64_t{col} * kLatticeSteps;
     y0 -= std::int64_t{row} * kLatticeSteps, y1 -= std::int64_t{row} * kLatticeSteps;
-    // So that the void corner is the last of both.
+    // So that the nodata corner is the last of both.
     if (k % 2 == 0) std::tie(x0, x1) = std::pair(kLatticeSteps - x1, kLatticeSteps - x0);
     if (k / 2 == 0) std::tie(y0, y1) = std::pair(kLatticeSteps - y1, kLatticeSteps - y0);
     return doubled_below(x0, x1, y0, y1, kLatticeSteps);

@@ -10,7 +10,7 @@
 
 namespace scarp::testing {
 
-/// Up to `largest` samples a side, any relief, with or without voids.
+/// Up to `largest` samples a side, any relief, with or without nodata.
 inline Field any_field(std::int32_t largest) {
   const auto cols = *rc::gen::inRange(2, largest), rows = *rc::gen::inRange(2, largest);
   const auto relief = *rc::gen::elementOf(std::vector<Relief>(std::begin(kReliefs), std::end(kReliefs)));

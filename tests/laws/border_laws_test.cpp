@@ -140,26 +140,26 @@ std::set<std::pair<std::int32_t, std::int32_t>> vertices_on(const TileMesh& mesh
                                                             const BorderLine& line) {
   std::set<std::pair<std::int32_t, std::int32_t>> found;
   for (TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {
-    for (const Place p : mesh[t].corners) {
-      const std::int32_t x = window.col + place_x(p), y = window.row + place_y(p);
+    for (const TilePoint p : mesh[t].corners) {
+      const std::int32_t x = window.col + tile_x(p), y = window.row + tile_y(p);
       if (line.is_vertical ? x == line.col : y == line.row) found.insert({x, y});
     }
   }
   return found;
 }
 
-std::vector<Place> border_of(const Field& field, const TileWindow& window, const SharedSides& shared,
-                             double threshold) {
-  std::vector<Place> border;
+std::vector<TilePoint> border_of(const Field& field, const TileWindow& window, const SharedSides& shared,
+                                 double threshold) {
+  std::vector<TilePoint> border;
   for (const BorderLine& line : shared_lines(window, shared)) {
     for (const std::int32_t step : chain_of(field, line, threshold))
-      border.push_back(place(line.col - window.col + (line.is_vertical ? 0 : step),
-                             line.row - window.row + (line.is_vertical ? step : 0)));
+      border.push_back(tile_point(line.col - window.col + (line.is_vertical ? 0 : step),
+                                  line.row - window.row + (line.is_vertical ? step : 0)));
   }
   return border;
 }
 
-// The rule about voids: whatever outlines the two tiles have, their vertices on the shared side are the chain's.
+// The rule about nodata: whatever outlines the two tiles have, their vertices on the shared side are the chain's.
 RC_GTEST_PROP(border_chain, both_tiles_start_with_the_chain_and_the_corners_on_a_shared_side, ()) {
   const Field field = any_field(4, 50);
   const double threshold = any_threshold();
@@ -189,7 +189,7 @@ TEST(border_chain, a_straight_line_keeps_nothing_and_a_peak_itself) {
   EXPECT_TRUE(chain_of(field, line, 1).empty());
 }
 
-TEST(border_chain, a_void_beside_the_line_keeps_where_its_cells_begin_and_end) {
+TEST(border_chain, nodata_beside_the_line_keeps_where_its_cells_begin_and_end) {
   Field field{9, 3, std::vector<float>(27, 5)};
   field.samples[4] = NAN;
   EXPECT_EQ(chain_of(field, {0, 1, 8, false}, 1), (std::vector<std::int32_t>{3, 4, 5}));

@@ -14,7 +14,7 @@
 #include "laws/fit_meshes.h"
 #include "laws/mesh_laws.h"
 #include "laws/tile_meshes.h"
-#include "metric/sample_judge.h"
+#include "metric/sample_metric.h"
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
 
@@ -34,10 +34,10 @@ std::vector<float> any_bounds(const Field& field) { return testing::any_bounds(f
 std::optional<Triangulation> refined(const Field& field, const std::vector<float>& bounds) {
   auto domain = build_domain(field.raster(), 0, grid_frame(field.rows));
   if (!domain) return std::nullopt;
-  Judging judging{field.raster(), {{field.samples.data(), 1}}};
-  judging.bounds = bounds.data();
-  const SampleJudge judge(judging);
-  Refinement refinement(judge, domain->tin);
+  MetricSettings settings{field.raster(), {{field.samples.data(), 1}}};
+  settings.bounds = bounds.data();
+  const SampleMetric metric(settings);
+  Refinement refinement(metric, domain->tin);
   while (!refinement.done()) refinement.insert_worst();
   return std::move(domain->tin);
 }
@@ -82,14 +82,14 @@ struct Oracle {
 };
 
 bool keeps_bounds(const Field& field, const std::vector<float>& bounds, const Fitted& fitted) {
-  const std::int32_t scale = kLatticeSteps / fitted.places.steps;
+  const std::int32_t scale = kLatticeSteps / fitted.lattice.steps;
   for (Triangle t = 0; t < fitted.tin.triangle_count(); ++t) {
     if (fitted.tin.is_outside(t)) continue;
     std::array<Point, 3> places = fitted.tin.corners(t);
     std::array<float, 3> heights;
     for (unsigned k = 0; k < 3; ++k) {
-      heights[k] = fitted.places.are_samples() ? field.raster().at(places[k])
-                                               : fitted.places.heights[fitted.tin.origin(3 * t + k)];
+      heights[k] = fitted.lattice.are_samples() ? field.raster().at(places[k])
+                                                : fitted.lattice.heights[fitted.tin.origin(3 * t + k)];
       places[k] = {places[k].x * scale, places[k].y * scale};
     }
     if (!Oracle(field, bounds, places, heights).keeps) return false;
@@ -121,7 +121,7 @@ RC_GTEST_PROP(bounds, of_a_triangle_are_decided_as_exact_arithmetic_does, ()) {
   const Oracle oracle(field, bounds, places, heights);
   const TriangleError error(field.raster(), {0, 0}, SampleBounds{bounds.data(), 0.25},
                             {1, *rc::gen::element(ErrorRule::Power::kTwo, ErrorRule::Power::kEight)});
-  const auto verdict = error.judge(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
+  const auto verdict = error.assess(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
   RC_ASSERT((verdict.kind == TriangleError::Verdict::Kind::kKeeps) == oracle.keeps);
   if (oracle.keeps) {
     RC_ASSERT(verdict.worst <= 1);
@@ -131,7 +131,7 @@ RC_GTEST_PROP(bounds, of_a_triangle_are_decided_as_exact_arithmetic_does, ()) {
   }
   const double slack = 2.5;
   const TriangleError loose = error.with({slack, ErrorRule::Power::kEight});
-  const auto passed = loose.judge(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
+  const auto passed = loose.assess(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
   if (passed.kind == TriangleError::Verdict::Kind::kKeeps) {
     RC_ASSERT((passed.worst <= 1) == oracle.keeps);
   } else {
@@ -173,7 +173,7 @@ RC_GTEST_PROP(bounds, are_kept_by_every_effort_on_any_number_of_threads, ()) {
                      .patch_side = *rc::gen::element(0, 5, 16, 40)};
   const auto first = *fit(field.raster(), *refined(field, bounds), options);
   RC_ASSERT(keeps_bounds(field, bounds, first));
-  const std::int32_t steps = first.places.steps;
+  const std::int32_t steps = first.lattice.steps;
   const std::string unsound = testing::verify_triangulation(first.tin, (field.cols - 1) * steps + 1,
                                                             (field.rows - 1) * steps + 1, testing::Edges::kAny);
   RC_ASSERT(unsound == "");
@@ -274,9 +274,9 @@ RC_GTEST_PROP(bounds, are_kept_in_the_eyes_of_the_judge, ()) {
     return;
   }
   for (float& bound : bounds) bound = bound * 1.000001f + 1e-6f;
-  MeasureOptions judge;
-  judge.tolerance = bounds;
-  const Measurement m = *measure(view, result->mesh, judge);
+  MeasureOptions metric;
+  metric.tolerance = bounds;
+  const Measurement m = *measure(view, result->mesh, metric);
   RC_ASSERT(m.over_tolerance == 0u);
   RC_ASSERT(m.uncovered == 0u);
   RC_ASSERT(m.is_sound());
@@ -299,9 +299,9 @@ TEST(bounds, are_kept_in_the_dominant_order_on_any_number_of_threads) {
     EXPECT_EQ(one.order, Order::kDominant);
     EXPECT_EQ(one.mesh.positions, three.mesh.positions);
     EXPECT_EQ(one.mesh.triangles, three.mesh.triangles);
-    MeasureOptions judge;
-    judge.tolerance = bounds;
-    const Measurement m = *measure(field.view(), one.mesh, judge);
+    MeasureOptions metric;
+    metric.tolerance = bounds;
+    const Measurement m = *measure(field.view(), one.mesh, metric);
     EXPECT_EQ(m.over_tolerance, 0u);
     EXPECT_EQ(m.uncovered, 0u);
     EXPECT_TRUE(m.is_sound());

@@ -14,7 +14,7 @@ namespace scarp::breaklines_laws_test {
 namespace {
 
 constexpr double kSoft = std::numeric_limits<double>::quiet_NaN();
-constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNodata = std::numeric_limits<float>::quiet_NaN();
 
 /// Samples of a plane, and lines on or over it.
 struct Scene {
@@ -130,11 +130,11 @@ RC_GTEST_PROP(breaklines, every_vertex_in_the_raster_is_a_point_within_half_a_st
   }
 }
 
-RC_GTEST_PROP(breaklines, no_void_leaks_into_the_surface, ()) {
+RC_GTEST_PROP(breaklines, no_nodata_leaks_into_the_surface, ()) {
   Stage stage(*rc::gen::arbitrary<std::uint32_t>());
   Scene scene = stage.plane();
   for (int count = stage.below(6); count > 0; --count)
-    scene.samples[static_cast<std::size_t>(stage.below(static_cast<int>(scene.samples.size())))] = kVoid;
+    scene.samples[static_cast<std::size_t>(stage.below(static_cast<int>(scene.samples.size())))] = kNodata;
   stage.add_lines(scene, false, 0);
   const auto placed = scene.place();
   RC_ASSERT(placed.has_value());

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "features/crack_chains.h"
-#include "features/fault_lines.h"
+#include "features/wall_lines.h"
 #include "laws/array_source.h"
 #include "laws/fields.h"
 #include "scarp/cliffs.h"
@@ -74,7 +74,7 @@ bool meet(const Piece& p, const Piece& q) {
          (d == 0 && within(q, p.b));
 }
 
-std::vector<Piece> pieces_of(const std::vector<FaultVertex>& line) {
+std::vector<Piece> pieces_of(const std::vector<WallVertex>& line) {
   std::vector<Piece> pieces;
   for (std::size_t k = 0; k + 1 < line.size(); ++k) pieces.push_back({line[k].at, line[k + 1].at});
   return pieces;
@@ -120,10 +120,10 @@ RC_GTEST_PROP(CliffLaws, LinesRunBetweenHighAndLowSamplesAndDoNotMeet, ()) {
   const double height = seed % 4 == 1 ? 1.5 : 4;
   std::vector<Piece> others;
   for (const CrackChain& chain : chains_of(raster, height)) {
-    for (const Fault& fault : find_faults(chain, 1)) {
-      RC_ASSERT(fault.top.size() == fault.foot.size());
-      RC_ASSERT(fault.top.size() >= 2u);
-      std::vector<Piece> top = pieces_of(fault.top), foot = pieces_of(fault.foot);
+    for (const Wall& wall : find_walls(chain, 1)) {
+      RC_ASSERT(wall.top.size() == wall.foot.size());
+      RC_ASSERT(wall.top.size() >= 2u);
+      std::vector<Piece> top = pieces_of(wall.top), foot = pieces_of(wall.foot);
       check_sides(raster, height, top);
       check_sides(raster, height, foot);
       for (const Piece& a : top) {
@@ -184,7 +184,7 @@ RC_GTEST_PROP(CliffLaws, OfASourceAreThoseOfTheSameSamplesInMemory, ()) {
              streamed = detect_cliffs(testing::with_source(field.view(), source), options);
   RC_ASSERT(held.has_value());
   RC_ASSERT(streamed.has_value());
-  RC_ASSERT(streamed->faults == held->faults);
+  RC_ASSERT(streamed->wall_count == held->wall_count);
   RC_ASSERT(streamed->vertices == held->vertices);
   RC_ASSERT(streamed->lines.size() == held->lines.size());
   for (std::size_t k = 0; k < held->lines.size(); ++k) {
@@ -251,7 +251,7 @@ TEST(Cliffs, AHouseAskewTakesTensOfTriangles) {
   }
   const auto cliffs = detect_cliffs(field.view(), {3, 0.5});
   ASSERT_TRUE(cliffs);
-  EXPECT_EQ(cliffs->faults, 1u);
+  EXPECT_EQ(cliffs->wall_count, 1u);
   EXPECT_LE(cliffs->vertices, 16u);
   for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
     SimplifyOptions options;
@@ -264,13 +264,13 @@ TEST(Cliffs, AHouseAskewTakesTensOfTriangles) {
   }
 }
 
-TEST(Cliffs, VoidsAndSmallStepsAreNone) {
+TEST(Cliffs, NodataAndSmallStepsAreNone) {
   Field field = city(5, 30, 2, 0);
   for (std::size_t i = 0; i < field.samples.size(); i += 3) field.samples[i] = std::numeric_limits<float>::quiet_NaN();
-  const auto beside_voids = detect_cliffs(field.view(), {4, 1}),
+  const auto beside_nodata = detect_cliffs(field.view(), {4, 1}),
              too_high = detect_cliffs(city(5, 30, 2, 0).view(), {50, 1});
-  ASSERT_TRUE(beside_voids && too_high);
-  EXPECT_EQ(beside_voids->lines.size(), 0u);
+  ASSERT_TRUE(beside_nodata && too_high);
+  EXPECT_EQ(beside_nodata->lines.size(), 0u);
   EXPECT_EQ(too_high->lines.size(), 0u);
 }
 

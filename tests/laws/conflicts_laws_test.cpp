@@ -37,7 +37,7 @@ class Bend : public PointTransform {
   }
 };
 
-/// Land with a wall, and with voids.
+/// Land with a wall, and with nodata.
 testing::Field make_land() {
   testing::Field land = testing::random_field(17, 40, 30, testing::Relief::kRidges, 0.01);
   for (std::int32_t y = 0; y < land.rows; ++y) {

@@ -12,7 +12,7 @@ namespace {
 
 using testing::Field;
 
-/// Some edges of a triangulation of any places: they cross nowhere. Heights are near those of the raster.
+/// Some edges of a triangulation of any lattice points: they cross nowhere. Heights are near those of the raster.
 ConstraintGraph any_graph(const Field& field) {
   Triangulation tin(testing::in_steps(field.cols), testing::in_steps(field.rows));
   const int count = *rc::gen::inRange(0, 30);
@@ -83,8 +83,8 @@ std::string find_moved_point(const Fitted& fitted, const ConstraintGraph& graph,
     const auto v = find_vertex(fitted.tin, p);
     if (!v) return fmt::format("no vertex at ({}, {})", p.x, p.y);
     const float height =
-        PlaceHeights::is_sample(p) ? raster.at({p.x / kLatticeSteps, p.y / kLatticeSteps}) : graph.heights[i];
-    if (fitted.places.heights[*v] != height) return fmt::format("another height at ({}, {})", p.x, p.y);
+        LatticeHeights::is_sample(p) ? raster.at({p.x / kLatticeSteps, p.y / kLatticeSteps}) : graph.heights[i];
+    if (fitted.lattice.heights[*v] != height) return fmt::format("another height at ({}, {})", p.x, p.y);
   }
   return "";
 }
@@ -96,12 +96,12 @@ RC_GTEST_PROP(constraints, lines_and_the_bound_survive_refinement_and_fitting, (
   const double threshold = *rc::gen::element(0.0, 0.5, 1.0, 7.3, 30.0);
   const ConstraintGraph graph = any_graph(field);
   auto tin = *testing::refined(field, threshold);
-  auto laid = ConstrainedMesh::lay(field.raster(), tin, graph);
-  RC_ASSERT(laid.has_value());
+  auto inserted = ConstrainedMesh::insert(field.raster(), tin, graph);
+  RC_ASSERT(inserted.has_value());
   RC_ASSERT(find_lost_line(tin, graph) == "");
   {
-    const LatticeJudge judge(field.raster(), laid->heights(), threshold, {});
-    Refinement refinement(judge, tin);
+    const LatticeMetric metric(field.raster(), inserted->heights(), threshold, {});
+    Refinement refinement(metric, tin);
     while (!refinement.done()) refinement.insert_worst();
   }
   FitOptions options;
@@ -111,21 +111,21 @@ RC_GTEST_PROP(constraints, lines_and_the_bound_survive_refinement_and_fitting, (
   options.min_shape = *rc::gen::element(0.0, 0.1);
   options.patch_side = *rc::gen::element(0, 7);
   options.threads = *rc::gen::element(1, 2);
-  VertexPlaces places = laid->places();
-  Fitted before{std::move(tin), {}, std::move(places)};
+  VertexLattice lattice = inserted->lattice();
+  Fitted before{std::move(tin), {}, std::move(lattice)};
   RC_ASSERT(testing::find_broken_bound(field.raster(), before, threshold) == "");
   const std::size_t vertices = before.tin.vertex_count();
-  const Fitted fitted = *fit(field.raster(), std::move(before.tin), std::move(before.places), options);
+  const Fitted fitted = *fit(field.raster(), std::move(before.tin), std::move(before.lattice), options);
   RC_ASSERT(fitted.tin.vertex_count() <= vertices);
   RC_ASSERT(testing::find_broken_bound(field.raster(), fitted, threshold) == "");
   RC_ASSERT(find_lost_line(fitted.tin, graph) == "");
   RC_ASSERT(find_moved_point(fitted, graph, field.raster()) == "");
 }
 
-TEST(constraints, heights_of_thousands_of_places_are_found_again) {
+TEST(constraints, heights_of_thousands_of_lattice_points_are_found_again) {
   const std::vector<float> samples(4, 7.0F);
-  PlaceHeights heights(Raster{samples.data(), 2, 2});
-  const auto is_between = [](std::int32_t k) { return !PlaceHeights::is_sample({k % 257, k / 257}); };
+  LatticeHeights heights(Raster{samples.data(), 2, 2});
+  const auto is_between = [](std::int32_t k) { return !LatticeHeights::is_sample({k % 257, k / 257}); };
   for (std::int32_t round : {0, 1}) {
     for (std::int32_t k = 0; k < 257 * 257; k += 7) {
       if (is_between(k)) heights.set({k % 257, k / 257}, static_cast<float>(k + round));

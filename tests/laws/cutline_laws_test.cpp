@@ -66,7 +66,7 @@ Measurement judged(const Field& field, const SimplifyOptions& options, const Sim
   const Measurement m = *measure(field.view(), result.mesh, judge);
   RC_ASSERT(m.max_error <= *options.goals.max_error + 1e-9);
   RC_ASSERT(m.uncovered == 0u);
-  RC_ASSERT(m.void_cells_covered == 0u);
+  RC_ASSERT(m.nodata_cells_covered == 0u);
   RC_ASSERT(m.is_sound());
   return m;
 }
@@ -148,7 +148,7 @@ TEST(cutlines, of_the_whole_raster_change_nothing_but_what_lines_change) {
   EXPECT_EQ(whole->measurement.samples, 1200u);
 }
 
-TEST(cutlines, beside_the_raster_or_on_voids_are_refused) {
+TEST(cutlines, beside_the_raster_or_on_nodata_are_refused) {
   Field field = testing::random_field(5, 20, 20, testing::Relief::kRidges);
   for (std::int32_t row = 0; row < 10; ++row) {
     for (std::int32_t col = 0; col < 20; ++col) field.samples[static_cast<std::size_t>(20 * row + col)] = NAN;
@@ -166,7 +166,7 @@ TEST(cutlines, beside_the_raster_or_on_voids_are_refused) {
   };
   EXPECT_EQ(refuse(2, 11), "");
   EXPECT_NE(refuse(100, 100).find("beside the raster"), std::string::npos);
-  EXPECT_NE(refuse(2, 2).find("voids only"), std::string::npos);
+  EXPECT_NE(refuse(2, 2).find("nodata only"), std::string::npos);
 }
 
 TEST(cutlines, are_closed_or_refused) {
@@ -183,7 +183,7 @@ TEST(cutlines, are_closed_or_refused) {
   EXPECT_NE(refused.error().message.find("open is an open line"), std::string::npos);
 }
 
-TEST(cutlines, along_samples_make_the_others_void) {
+TEST(cutlines, along_samples_make_the_others_nodata) {
   OwnedHeightField field;
   field.cols = field.rows = 5;
   field.samples.assign(25, 1);
@@ -193,7 +193,7 @@ TEST(cutlines, along_samples_make_the_others_void) {
   ring.polygon = 0;
   ring.points = {{0.5, 0.5, 0}, {3.5, 0.5, 0}, {3.5, 3.5, 0}, {0.5, 3.5, 0}, {0.5, 0.5, 0}};
   cutline.rings = {ring};
-  const auto left = void_outside(field, cutline);
+  const auto left = mask_outside(field, cutline);
   ASSERT_TRUE(left);
   EXPECT_EQ(left->lost, 16u);
   EXPECT_EQ(left->kept, 9u);

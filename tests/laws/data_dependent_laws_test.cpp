@@ -6,7 +6,7 @@
 
 #include "geom/plane.h"
 #include "laws/strategies.h"
-#include "metric/height_judge.h"
+#include "metric/height_metric.h"
 #include "refine/data_dependent.h"
 #include "refine/domain.h"
 #include "refine/quadrilateral.h"
@@ -87,8 +87,8 @@ RC_GTEST_PROP(data_dependent, edges_are_those_of_the_textbook_rule, ()) {
   RC_PRE(fast.has_value());
   const EdgeScore score = *rc::gen::element(EdgeScore::kSum, EdgeScore::kMax);
   const double threshold = *rc::gen::element(0.0, 0.2, 0.5, 1.0);
-  const HeightJudge judge(raster, 0);
-  Refinement refinement(judge, fast->tin, Algorithm::kHeap, {true, score, threshold, 0, false});
+  const HeightMetric metric(raster, 0);
+  Refinement refinement(metric, fast->tin, Algorithm::kHeap, {true, score, threshold, 0, false});
   TextbookRule rule(raster, score, threshold);
   while (!refinement.done()) {
     refinement.insert_worst();
@@ -114,9 +114,9 @@ RC_GTEST_PROP(data_dependent, the_engines_largest_error_is_the_largest_error, ()
   const Raster raster = field.raster();
   auto domain = build_domain(raster, 0, grid_frame(field.rows));
   RC_PRE(domain.has_value());
-  const HeightJudge judge(raster, 0);
+  const HeightMetric metric(raster, 0);
   const EdgeRule rule = testing::any_edge_rule();
-  Refinement refinement(judge, domain->tin, Algorithm::kHeap, rule);
+  Refinement refinement(metric, domain->tin, Algorithm::kHeap, rule);
   const auto steps = *rc::gen::inRange(1, 120);
   for (int k = 0; k < steps && !refinement.done(); ++k) refinement.insert_worst();
   double largest = 0;

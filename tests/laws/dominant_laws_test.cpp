@@ -41,11 +41,11 @@ Field any_field(std::int32_t largest) {
 
 double any_threshold() { return *rc::gen::element(0.0, 1e-9, 1e-7, 1e-6, 0.01, 0.5, 1.0, 2.0, 7.3, 30.0, 1e5); }
 
-std::vector<Place> refine(const Field& field, double threshold, const ScanKernels& kernels, TileMesh& mesh) {
+std::vector<TilePoint> refine(const Field& field, double threshold, const ScanKernels& kernels, TileMesh& mesh) {
   Started started;
   if (!start(field, started)) return {};
   TileScanner scanner(started.tile.view(), threshold, kernels);
-  std::vector<Place> inserted;
+  std::vector<TilePoint> inserted;
   const DominantRun run = refine_dominant(started.mesh, scanner, SIZE_MAX, &inserted);
   EXPECT_TRUE(run.finished);
   EXPECT_EQ(run.insertions, inserted.size());
@@ -109,7 +109,7 @@ void scan_all(TileMesh& mesh, TileScanner& scanner) {
 }
 
 /// A triangle whose candidate is p and a local maximum.
-std::optional<TileMesh::Id> find_maximum(TileMesh& mesh, std::optional<Place> p) {
+std::optional<TileMesh::Id> find_maximum(TileMesh& mesh, std::optional<TilePoint> p) {
   for (TileMesh::Id t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh[t].key > 0 && (!p || candidate_of(mesh[t].key) == *p) && is_local_maximum(mesh, t)) return t;
   }
@@ -126,7 +126,7 @@ RC_GTEST_PROP(dominant, inserts_local_maxima_only_and_leaves_none, ()) {
   RC_PRE(start(field, slow));
   TileScanner scanner(slow.tile.view(), threshold, available_kernels().back());
   scan_all(slow.mesh, scanner);
-  for (const Place p : inserted) {
+  for (const TilePoint p : inserted) {
     const auto t = find_maximum(slow.mesh, p);
     RC_ASSERT(t.has_value());
     slow.mesh.find_cavity(*t, p);
@@ -150,7 +150,7 @@ TEST(dominant, another_order_of_local_maxima_keeps_the_bound_with_as_many_vertic
       TileScanner scanner(twin.tile.view(), threshold);
       scan_all(twin.mesh, scanner);
       while (const auto t = find_maximum(twin.mesh, std::nullopt)) {
-        const Place p = candidate_of(twin.mesh[*t].key);
+        const TilePoint p = candidate_of(twin.mesh[*t].key);
         twin.mesh.find_cavity(*t, p);
         scanner.scan(twin.mesh, twin.mesh.fill_cavity(p), {});
       }
@@ -223,8 +223,8 @@ TEST(coarse_start, puts_no_vertex_on_a_shared_side_and_leaves_a_sound_mesh) {
       EXPECT_EQ(testing::verify_tile_mesh(started.mesh, cols, rows), "");
       EXPECT_EQ(started.mesh.vertex_count() > 4, std::min(cols, rows) > 64);
       for (TileMesh::Id t = 0; t < started.mesh.triangle_count(); ++t) {
-        for (const Place p : started.mesh[t].corners) {
-          const std::int32_t x = place_x(p), y = place_y(p);
+        for (const TilePoint p : started.mesh[t].corners) {
+          const std::int32_t x = tile_x(p), y = tile_y(p);
           const bool is_corner = (x == 0 || x == cols - 1) && (y == 0 || y == rows - 1);
           EXPECT_TRUE(is_corner || !((shared.left && x == 0) || (shared.top && y == 0) ||
                                      (shared.right && x == cols - 1) || (shared.bottom && y == rows - 1)));

@@ -186,7 +186,7 @@ TEST(channels_of_efforts, refuse_free_vertices) {
   EXPECT_EQ(made.error().kind, ErrorKind::kUsage);
 }
 
-/// Of the mesh seen from above, exact: places are eighths of samples.
+/// Of the mesh seen from above, exact: lattice points are eighths of samples.
 double area_of(const Mesh& mesh) {
   double area = 0;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {

@@ -53,7 +53,7 @@ RC_GTEST_PROP(effort, keeps_the_promise_in_the_eyes_of_the_judge, ()) {
   const Measurement m = *measure(view, result->mesh);
   RC_ASSERT(m.max_error <= goal + 1e-9);
   RC_ASSERT(m.uncovered == 0u);
-  RC_ASSERT(m.void_cells_covered == 0u);
+  RC_ASSERT(m.nodata_cells_covered == 0u);
   RC_ASSERT(m.is_sound());
   RC_ASSERT(m.max_error == result->measurement.max_error);
 }
@@ -130,7 +130,7 @@ TEST(effort, rounded_positions_of_free_vertices_keep_the_promise_or_stay_on_samp
   }
 }
 
-TEST(effort, normals_and_uvs_of_free_vertices_are_those_of_their_places) {
+TEST(effort, normals_and_uvs_of_free_vertices_are_those_of_their_lattice_points) {
   Field field{60, 50, std::vector<float>(3000)};
   for (std::size_t y = 0; y < 50; ++y)
     for (std::size_t x = 0; x < 60; ++x)

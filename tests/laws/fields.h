@@ -23,9 +23,9 @@ struct Field {
 enum class Relief { kTies, kFlat, kCliff, kReal, kRidges };
 
 /// Heights with the troubles of real rasters: few distinct values (ties), plateaus, cliffs, arbitrary floats.
-/// `void_share` of the samples are NaN, in blobs.
+/// `nodata_share` of the samples are NaN, in blobs.
 inline Field random_field(std::uint32_t seed, std::int32_t cols, std::int32_t rows, Relief relief,
-                          double void_share = 0) {
+                          double nodata_share = 0) {
   std::mt19937 random(seed);
   const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };
   Field field{cols, rows, std::vector<float>(static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows))};
@@ -53,8 +53,8 @@ inline Field random_field(std::uint32_t seed, std::int32_t cols, std::int32_t ro
       }
     }
   }
-  if (void_share > 0) {
-    const auto blobs = static_cast<int>(1 + void_share * cols * rows / 6);
+  if (nodata_share > 0) {
+    const auto blobs = static_cast<int>(1 + nodata_share * cols * rows / 6);
     for (int blob = 0; blob < blobs; ++blob) {
       const auto bx = static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(cols));
       const auto by = static_cast<std::int32_t>(random() % static_cast<std::uint32_t>(rows));

@@ -216,7 +216,7 @@ RC_GTEST_PROP(triangle_error, decides_as_exact_arithmetic_does_at_every_sample, 
   RC_PRE(area_of(corners[0], corners[1], corners[2]) != 0);
   if (area_of(corners[0], corners[1], corners[2]) < 0) std::swap(corners[1], corners[2]);
   const TriangleError error(field.raster(), {0, 0}, threshold);
-  const auto verdict = error.judge(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
+  const auto verdict = error.assess(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
   const Oracle oracle(field.raster(), corners, threshold);
   RC_ASSERT((verdict.kind == TriangleError::Verdict::Kind::kKeeps) == oracle.keeps);
   if (oracle.keeps && threshold > 1e-6)
@@ -241,7 +241,7 @@ RC_GTEST_PROP(triangle_error, lets_through_what_the_slack_allows_and_tells_what_
   const TriangleError error(field.raster(), {0, 0}, threshold);
   const double slack = *rc::gen::element(1.5, 2.5, 4.0);
   const TriangleError loose = error.with({slack, ErrorRule::Power::kEight});
-  const auto verdict = loose.judge(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
+  const auto verdict = loose.assess(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
   const Oracle oracle(field.raster(), corners, threshold);
   const bool passes = verdict.kind == TriangleError::Verdict::Kind::kKeeps;
   if (std::abs(oracle.worst - slack) > 1e-3) RC_ASSERT(passes == (oracle.worst < slack));
@@ -298,10 +298,10 @@ RC_GTEST_PROP(triangle_error, gives_up_only_where_the_energy_reaches_the_limit, 
   std::array<FitCorner, 3> corners{any_corner(field), any_corner(field), any_corner(field)};
   RC_PRE(area_of(corners[0], corners[1], corners[2]) > 0);
   const TriangleError error(field.raster(), {0, 0}, threshold);
-  const auto whole = error.judge(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
+  const auto whole = error.assess(corners[0], corners[1], corners[2], std::numeric_limits<float>::infinity());
   RC_PRE(whole.kind == TriangleError::Verdict::Kind::kKeeps);
   const auto limit = static_cast<float>(*rc::gen::element(0.0, 0.1, 1.0, 5.0));
-  const auto limited = error.judge(corners[0], corners[1], corners[2], limit);
+  const auto limited = error.assess(corners[0], corners[1], corners[2], limit);
   RC_ASSERT((limited.kind == TriangleError::Verdict::Kind::kKeeps) == (whole.energy < limit));
 }
 
@@ -318,7 +318,7 @@ double least_energy(const TriangleError& error, const std::vector<FitCorner>& ri
   for (std::size_t q = first + 1; q < last; ++q) {
     if (area_of(ring[first], ring[q], ring[last]) <= 0) continue;
     if (shape_of(ring[first], ring[q], ring[last]) < floor) continue;
-    const auto verdict = error.judge(ring[first], ring[q], ring[last], std::numeric_limits<float>::infinity());
+    const auto verdict = error.assess(ring[first], ring[q], ring[last], std::numeric_limits<float>::infinity());
     if (verdict.kind != TriangleError::Verdict::Kind::kKeeps) continue;
     best = std::min(best, double{verdict.energy} + least_energy(error, ring, first, q, floor) +
                               least_energy(error, ring, q, last, floor));

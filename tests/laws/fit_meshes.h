@@ -13,7 +13,7 @@
 #include "geom/exact_error.h"
 #include "laws/fields.h"
 #include "laws/tile_meshes.h"
-#include "metric/height_judge.h"
+#include "metric/height_metric.h"
 #include "refine/domain.h"
 #include "refine/refinement.h"
 
@@ -34,8 +34,8 @@ inline double any_threshold() { return *rc::gen::element(0.0, 1e-7, 0.5, 1.0, 2.
 inline std::optional<Triangulation> refined(const Field& field, double threshold) {
   auto domain = build_domain(field.raster(), 0, grid_frame(field.rows));
   if (!domain) return std::nullopt;
-  const HeightJudge judge(field.raster(), threshold);
-  Refinement refinement(judge, domain->tin);
+  const HeightMetric metric(field.raster(), threshold);
+  Refinement refinement(metric, domain->tin);
   while (!refinement.done()) refinement.insert_worst();
   return std::move(domain->tin);
 }
@@ -92,7 +92,7 @@ inline std::string find_broken_bound(const Raster& raster, const Fitted& fitted,
     if (fitted.tin.is_outside(t)) continue;
     const std::array<Point, 3> corners = fitted.tin.corners(t);
     std::array<float, 3> heights;
-    for (unsigned k = 0; k < 3; ++k) heights[k] = fitted.places.heights[fitted.tin.origin(3 * t + k)];
+    for (unsigned k = 0; k < 3; ++k) heights[k] = fitted.lattice.heights[fitted.tin.origin(3 * t + k)];
     const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
     const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});
     for (Point s{left / kLatticeSteps, top / kLatticeSteps}; s.y * kLatticeSteps <= bottom; ++s.y) {
@@ -124,7 +124,7 @@ inline double sum_of_squares(const Raster& raster, const Fitted& fitted) {
           const std::int64_t weight =
               orient(corners[(k + 1) % 3], corners[(k + 2) % 3], {s.x * kLatticeSteps, s.y * kLatticeSteps});
           inside = inside && weight >= 0;
-          height += static_cast<double>(weight) / area * double{fitted.places.heights[fitted.tin.origin(3 * t + k)]};
+          height += static_cast<double>(weight) / area * double{fitted.lattice.heights[fitted.tin.origin(3 * t + k)]};
         }
         if (inside) sum += (height - raster.at(s)) * (height - raster.at(s));
       }

@@ -150,7 +150,7 @@ TEST(line_budget, is_used_where_triangles_grow_smoothly) {
       EXPECT_GE(made->mesh.triangle_count(), 97 * budget / 100);
       EXPECT_EQ(made->stop, StopReason::kMaxTriangles);
       EXPECT_EQ(made->passes.front().name, "search");
-      EXPECT_EQ(made->lines_laid, 1u);
+      EXPECT_EQ(made->lines_inserted, 1u);
     }
   }
 }

@@ -35,7 +35,7 @@ RC_GTEST_PROP(lines, keep_the_bound_against_the_edited_raster_in_the_eyes_of_the
   const Measurement m = *measure(field.view(), result->mesh);
   RC_ASSERT(m.max_error <= *options.goals.max_error + 1e-9);
   RC_ASSERT(m.uncovered == 0u);
-  RC_ASSERT(m.void_cells_covered == 0u);
+  RC_ASSERT(m.nodata_cells_covered == 0u);
   RC_ASSERT(m.is_sound());
 }
 

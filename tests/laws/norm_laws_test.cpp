@@ -1,4 +1,4 @@
-// Fitting where heights and channels count together: what it lets through is what the judge of refinement would.
+// Fitting where heights and channels count together: what it lets through is what the error metric of refinement would.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -14,7 +14,7 @@
 #include "fit/norm_error.h"
 #include "laws/fit_meshes.h"
 #include "laws/mesh_laws.h"
-#include "metric/sample_judge.h"
+#include "metric/sample_metric.h"
 
 namespace scarp::norm_laws_test {
 namespace {
@@ -27,23 +27,23 @@ using testing::Relief;
 /// Heights, channels of other reliefs beside them, and how they count.
 struct Stack {
   std::vector<Field> layers;  // the first is the heights
-  std::vector<JudgedField> judged;
+  std::vector<MetricField> judged;
   Norm norm = Norm::kSum;
   double threshold = 0;
   std::vector<float> bounds;
 
   const Field& heights() const { return layers[0]; }
-  Judging judging() const {
-    Judging judging{heights().raster(), judged, norm, threshold};
-    if (!bounds.empty()) judging.bounds = bounds.data();
-    return judging;
+  MetricSettings settings() const {
+    MetricSettings settings{heights().raster(), judged, norm, threshold};
+    if (!bounds.empty()) settings.bounds = bounds.data();
+    return settings;
   }
-  FitNorm fit_norm(const Judge& judge) const {
+  FitNorm fit_norm(const ErrorMetric& metric) const {
     FitNorm of;
-    for (const JudgedField& field : judged) of.fields.push_back({field.samples, field.scale});
+    for (const MetricField& field : judged) of.fields.push_back({field.samples, field.scale});
     of.norm = norm;
-    of.find_breach = [&judge](const std::array<Point, 3>& corners) {
-      const auto candidate = judge.find_candidate(corners, judge.fit(corners, {}));
+    of.find_breach = [&metric](const std::array<Point, 3>& corners) {
+      const auto candidate = metric.find_candidate(corners, metric.fit(corners, {}));
       return candidate ? std::optional(candidate->at) : std::nullopt;
     };
     return of;
@@ -53,7 +53,7 @@ struct Stack {
   }
   NormError errors(const FitNorm& of, double unit) const {
     NormError::Samples samples{heights().raster(), {}, {0, 0}, {0, 0}};
-    for (const JudgedField& field : judged) samples.fields.push_back(field.samples);
+    for (const MetricField& field : judged) samples.fields.push_back(field.samples);
     return bounds.empty() ? NormError(of, std::move(samples), threshold)
                           : NormError(of, std::move(samples), SampleBounds{bounds.data(), unit});
   }
@@ -65,16 +65,16 @@ Stack any_stack(std::int32_t largest) {
   const auto count = *rc::gen::element(1, 1, 2, 3, 5);
   for (int k = 0; k <= count; ++k) {
     const int relief = *rc::gen::inRange(0, 5);
-    const double voids = k == 0 ? *rc::gen::element(0.0, 0.0, 0.05, 0.3) : 0.0;
+    const double nodata = k == 0 ? *rc::gen::element(0.0, 0.0, 0.05, 0.3) : 0.0;
     stack.layers.push_back(
-        testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), cols, rows, testing::kReliefs[relief], voids));
+        testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), cols, rows, testing::kReliefs[relief], nodata));
   }
   for (std::size_t k = 0; k < stack.layers.size(); ++k) {
     const double scale = *rc::gen::element(1.0, 1.0, 0.3, 20.0);
     const bool counts = k > 0 || *rc::gen::arbitrary<bool>();
     if (counts) stack.judged.push_back({stack.layers[k].samples.data(), scale});
   }
-  // Where heights are void channels may be anything.
+  // Where heights are nodata channels may be anything.
   for (std::size_t i = 0; i < stack.layers[0].samples.size(); ++i) {
     if (std::isnan(stack.layers[0].samples[i])) stack.layers[1].samples[i] = std::numeric_limits<float>::infinity();
   }
@@ -139,7 +139,7 @@ struct Oracle {
            double unit, double slack) {
     std::vector<double> errors;
     double sum = 0, squares = 0, largest = 0;
-    for (const JudgedField& field : stack.judged) {
+    for (const MetricField& field : stack.judged) {
       const Raster values{field.samples, stack.heights().cols, stack.heights().rows};
       double error = -values.at(p);
       for (std::size_t k = 0; k < 3; ++k) error += weights[k] * double{values.at(corners[k])};
@@ -173,15 +173,15 @@ RC_GTEST_PROP(norms, of_a_triangle_are_decided_as_refinement_does, ()) {
   const Stack stack = any_stack(*rc::gen::element(6, 30));
   const auto corners = any_corners(stack);
   RC_PRE(corners.has_value());
-  const SampleJudge judge(stack.judging());
-  const FitNorm norm = stack.fit_norm(judge);
+  const SampleMetric metric(stack.settings());
+  const FitNorm norm = stack.fit_norm(metric);
   const double unit = stack.bounds.empty() ? stack.threshold : 4;
   const NormError error = stack.errors(norm, unit);
   const NormError::Corners at{at_sample(stack, (*corners)[0]), at_sample(stack, (*corners)[1]),
                               at_sample(stack, (*corners)[2])};
   const auto power = *rc::gen::element(ErrorRule::Power::kTwo, ErrorRule::Power::kEight);
   const bool keeps = !norm.find_breach(*corners);
-  const auto verdict = error.judge(at, kAnyEnergy, {1, power});
+  const auto verdict = error.assess(at, kAnyEnergy, {1, power});
   RC_ASSERT((verdict.kind == Kind::kKeeps) == keeps);
   const Oracle strict(stack, *corners, unit);
   if (keeps) {
@@ -194,14 +194,14 @@ RC_GTEST_PROP(norms, of_a_triangle_are_decided_as_refinement_does, ()) {
   }
   if (!error.has_energy()) return;
   const double slack = 2.5;
-  const auto loose = error.judge(at, kAnyEnergy, {slack, ErrorRule::Power::kEight});
+  const auto loose = error.assess(at, kAnyEnergy, {slack, ErrorRule::Power::kEight});
   const Oracle wide(stack, *corners, unit, slack);
   constexpr double kDoubtful = 1e-2;
   if (std::abs(wide.excess) > kDoubtful) RC_ASSERT((loose.kind == Kind::kKeeps) == (wide.excess < 0));
   if (loose.kind != Kind::kKeeps) return;
   RC_ASSERT((loose.worst <= 1) == keeps);
   RC_ASSERT(std::abs(double{loose.energy} - wide.energy) <= 1e-2 * (1 + wide.energy));
-  RC_ASSERT(error.judge(at, 0, {slack, ErrorRule::Power::kEight}).kind == Kind::kCostly);
+  RC_ASSERT(error.assess(at, 0, {slack, ErrorRule::Power::kEight}).kind == Kind::kCostly);
 }
 
 RC_GTEST_PROP(norms, pull_as_the_samples_do, ()) {
@@ -213,8 +213,8 @@ RC_GTEST_PROP(norms, pull_as_the_samples_do, ()) {
   const double unit = stack.bounds.empty() ? stack.threshold : 4;
   const Oracle oracle(stack, *corners, unit);
   RC_PRE(oracle.worst < 10);
-  const SampleJudge judge(stack.judging());
-  const FitNorm norm = stack.fit_norm(judge);
+  const SampleMetric metric(stack.settings());
+  const FitNorm norm = stack.fit_norm(metric);
   std::vector<TriangleError::Pull> pulls;
   stack.errors(norm, unit)
       .pull({at_sample(stack, (*corners)[0]), at_sample(stack, (*corners)[1]), at_sample(stack, (*corners)[2])}, pulls);
@@ -228,8 +228,8 @@ RC_GTEST_PROP(norms, pull_as_the_samples_do, ()) {
 std::optional<Triangulation> refined(const Stack& stack) {
   auto domain = build_domain(stack.heights().raster(), 0, grid_frame(stack.heights().rows));
   if (!domain) return std::nullopt;
-  const SampleJudge judge(stack.judging());
-  Refinement refinement(judge, domain->tin);
+  const SampleMetric metric(stack.settings());
+  Refinement refinement(metric, domain->tin);
   while (!refinement.done()) refinement.insert_worst();
   return std::move(domain->tin);
 }
@@ -239,8 +239,8 @@ RC_GTEST_PROP(norms, are_kept_by_every_effort_on_any_number_of_threads, ()) {
   auto tin = refined(stack);
   RC_PRE(tin.has_value());
   const std::size_t before = tin->triangle_count();
-  const SampleJudge judge(stack.judging());
-  const FitNorm norm = stack.fit_norm(judge);
+  const SampleMetric metric(stack.settings());
+  const FitNorm norm = stack.fit_norm(metric);
   FitOptions options{.threshold = stack.threshold,
                      .bounds = stack.bounds,
                      .norm = &norm,
@@ -250,7 +250,7 @@ RC_GTEST_PROP(norms, are_kept_by_every_effort_on_any_number_of_threads, ()) {
                      .vertices_are_free = *rc::gen::arbitrary<bool>(),
                      .patch_side = *rc::gen::element(0, 5, 16)};
   const auto first = *fit(stack.heights().raster(), std::move(*tin), options);
-  RC_ASSERT(first.places.are_samples());
+  RC_ASSERT(first.lattice.are_samples());
   RC_ASSERT(first.tin.triangle_count() <= before);
   for (Triangle t = 0; t < first.tin.triangle_count(); ++t)
     RC_ASSERT(first.tin.is_outside(t) || !norm.find_breach(first.tin.corners(t)));
@@ -266,8 +266,8 @@ TEST(norms, of_the_same_field_thrice_take_as_many_triangles_as_heights_alone) {
   const Field field = testing::random_field(7, 200, 150, Relief::kRidges);
   Stack stack{{field}, {}, Norm::kMax, 4, {}};
   for (int k = 0; k < 3; ++k) stack.judged.push_back({stack.layers[0].samples.data(), 1});
-  const SampleJudge judge(stack.judging());
-  const FitNorm norm = stack.fit_norm(judge);
+  const SampleMetric metric(stack.settings());
+  const FitNorm norm = stack.fit_norm(metric);
   for (const FitDepth& depth : {FitDepth{}, kHighDepth}) {
     FitOptions options{.threshold = 4, .depth = depth};
     const auto plain = *fit(field.raster(), *testing::refined(field, 4), options);

@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-#include "grid/point_places.h"
+#include "grid/snapped_points.h"
 #include "laws/fields.h"
 #include "laws/point_sets.h"
 #include "refine/scattered.h"
@@ -28,19 +28,19 @@ PointSet any_points(int most, Scatter scatter, Heights heights) {
   return testing::random_points(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(3, most), scatter, heights);
 }
 
-/// False where all places lie on one line: nothing can be promised there.
+/// False where all points lie on one line: nothing can be promised there.
 bool has_area(const PointSet& points) {
-  const auto places = find_places(points, DuplicatePolicy::kFirst);
-  return places && build_domain(*places).has_value();
+  const auto snapped = snap_points(points, DuplicatePolicy::kFirst);
+  return snapped && build_domain(*snapped).has_value();
 }
 
 /// Largest |mesh − z| over the points, by the textbook: every point against every triangle, in barycentric coordinates.
 /// `missed` counts points in no triangle.
-double naive_error(const PointSet& points, const PointPlaces& places, const Mesh& mesh, int& missed) {
+double naive_error(const PointSet& points, const SnappedPoints& snapped, const Mesh& mesh, int& missed) {
   double worst = 0;
   missed = 0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const double x = points.x[places.source[i]] - mesh.origin[0], y = points.y[places.source[i]] - mesh.origin[1];
+  for (std::size_t i = 0; i < snapped.size(); ++i) {
+    const double x = points.x[snapped.source[i]] - mesh.origin[0], y = points.y[snapped.source[i]] - mesh.origin[1];
     double error = -1;
     for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
       const double* p[3];
@@ -52,7 +52,7 @@ double naive_error(const PointSet& points, const PointPlaces& places, const Mesh
       const double u = area(x, y, p[1][0], p[1][1], p[2][0], p[2][1]) / whole,
                    v = area(p[0][0], p[0][1], x, y, p[2][0], p[2][1]) / whole, w = 1 - u - v;
       if (std::min({u, v, w}) < -1e-9) continue;
-      error = std::max(error, std::abs(u * p[0][2] + v * p[1][2] + w * p[2][2] - places.z[i]));
+      error = std::max(error, std::abs(u * p[0][2] + v * p[1][2] + w * p[2][2] - snapped.z[i]));
     }
     missed += error < 0;
     worst = std::max(worst, error);
@@ -70,14 +70,14 @@ RC_GTEST_PROP(points, keep_the_promise_in_the_eyes_of_the_textbook, ()) {
   const auto result = simplify_points(points, {.max_error = goal, .float32_positions = false, .duplicates = policy});
   if (!result) RC_FAIL(result.error().message);
   const Measurement& m = result->simplified.measurement;
-  const auto places = *find_places(points, policy);
+  const auto snapped = *snap_points(points, policy);
   RC_ASSERT(m.is_sound());
   RC_ASSERT(m.border_loops == 1u);
   RC_ASSERT(m.uncovered == 0u);
   RC_ASSERT(m.samples + result->duplicates == points.size());
   RC_ASSERT(m.max_error <= goal + 1e-12 * (goal + 50));
   int missed = 0;
-  const double naive = naive_error(points, places, result->simplified.mesh, missed);
+  const double naive = naive_error(points, snapped, result->simplified.mesh, missed);
   RC_ASSERT(missed == 0);
   RC_ASSERT(std::abs(naive - m.max_error) < 1e-5);
 }
@@ -116,30 +116,30 @@ RC_GTEST_PROP(points, keep_the_promise_in_float32_or_say_that_they_cannot, ()) {
 }
 
 /// Algorithm I: look at everything before each insertion.
-std::vector<std::uint32_t> insert_by_brute_force(const PointPlaces& places, double threshold) {
-  ScatteredDomain domain = *build_domain(places);
+std::vector<std::uint32_t> insert_by_brute_force(const SnappedPoints& snapped, double threshold) {
+  ScatteredDomain domain = *build_domain(snapped);
   for (;;) {
     Candidate worst{-1, {}};
-    std::uint32_t worst_place = kNone;
+    std::uint32_t worst_point = kNone;
     for (Triangle t = 0; t < domain.tin.triangle_count(); ++t) {
       if (domain.tin.is_outside(t)) continue;
       const auto corners = domain.tin.corners(t);
       std::array<double, 3> heights;
-      for (std::uint32_t k = 0; k < 3; ++k) heights[k] = places.z[domain.place_of[domain.tin.origin(3 * t + k)]];
+      for (std::uint32_t k = 0; k < 3; ++k) heights[k] = snapped.z[domain.point_of[domain.tin.origin(3 * t + k)]];
       const Plane plane = Plane::through_double(corners, heights);
-      for (std::uint32_t place = 0; place < places.size(); ++place) {
-        const Point p = places.at[place];
+      for (std::uint32_t point = 0; point < snapped.size(); ++point) {
+        const Point p = snapped.at[point];
         bool is_inside = true;
         for (int k = 0; k < 3; ++k) is_inside = is_inside && orient(corners[k], corners[(k + 1) % 3], p) >= 0;
         const bool is_corner = p == corners[0] || p == corners[1] || p == corners[2];
-        const Candidate candidate{std::abs(plane.height_at(p) - places.z[place]), p};
+        const Candidate candidate{std::abs(plane.height_at(p) - snapped.z[point]), p};
         if (!is_inside || is_corner || !(candidate.error > threshold) || !is_worse(candidate, worst)) continue;
         worst = candidate;
-        worst_place = place;
+        worst_point = point;
       }
     }
-    if (worst_place == kNone) return domain.place_of;
-    domain.insert(worst_place, worst.at, domain.tin.locate(worst.at, 0));
+    if (worst_point == kNone) return domain.point_of;
+    domain.insert(worst_point, worst.at, domain.tin.locate(worst.at, 0));
   }
 }
 
@@ -147,23 +147,23 @@ RC_GTEST_PROP(points, are_inserted_in_the_order_of_brute_force, ()) {
   const PointSet points = any_points(70, any_scatter(), Heights::kReal);
   RC_PRE(has_area(points));
   const double goal = *rc::gen::element(0.0, 1.0, 10.0);
-  const auto places = *find_places(points, DuplicatePolicy::kFirst);
-  ScatteredDomain domain = *build_domain(places);
-  ScatteredRefinement refinement(places, places.z, domain, goal);
+  const auto snapped = *snap_points(points, DuplicatePolicy::kFirst);
+  ScatteredDomain domain = *build_domain(snapped);
+  ScatteredRefinement refinement(snapped, snapped.z, domain, goal);
   std::uint64_t triangles = refinement.triangle_count();
   while (!refinement.done()) {
     triangles += refinement.next_gain();
     refinement.insert_worst();
     RC_ASSERT(refinement.triangle_count() == triangles);
   }
-  const auto expected = insert_by_brute_force(places, goal);
+  const auto expected = insert_by_brute_force(snapped, goal);
   if (goal > 0) {
-    RC_ASSERT(domain.place_of == expected);
+    RC_ASSERT(domain.point_of == expected);
   } else {
     // Points that a plane explains up to rounding are told apart exactly by the engine only.
-    const std::size_t common = std::min(domain.place_of.size(), expected.size());
+    const std::size_t common = std::min(domain.point_of.size(), expected.size());
     RC_ASSERT(
-        std::equal(expected.begin(), expected.begin() + static_cast<std::ptrdiff_t>(common), domain.place_of.begin()));
+        std::equal(expected.begin(), expected.begin() + static_cast<std::ptrdiff_t>(common), domain.point_of.begin()));
   }
 }
 
@@ -203,24 +203,24 @@ RC_GTEST_PROP(points, give_the_same_mesh_in_any_order_and_on_any_number_of_threa
   RC_ASSERT(a->duplicates == b->duplicates);
 }
 
-RC_GTEST_PROP(points, that_differ_keep_places_of_their_own, ()) {
+RC_GTEST_PROP(points, that_differ_keep_lattice_points_of_their_own, ()) {
   const Scatter scatter = any_scatter();
   const PointSet points = any_points(300, scatter, Heights::kReal);
   std::map<std::pair<double, double>, int> distinct;
   for (std::size_t i = 0; i < points.size(); ++i) ++distinct[{points.x[i], points.y[i]}];
-  const auto places = *find_places(points, DuplicatePolicy::kFirst);
-  RC_ASSERT(places.size() == distinct.size());
-  RC_ASSERT(places.duplicates == points.size() - distinct.size());
+  const auto snapped = *snap_points(points, DuplicatePolicy::kFirst);
+  RC_ASSERT(snapped.size() == distinct.size());
+  RC_ASSERT(snapped.duplicates == points.size() - distinct.size());
   const auto [west, east] = std::minmax_element(points.x.begin(), points.x.end());
   const double extent = std::max(*east - *west, *std::max_element(points.y.begin(), points.y.end()) -
                                                     *std::min_element(points.y.begin(), points.y.end()));
-  const double off = scatter == Scatter::kUtm ? 1e-9 : 0.51 * places.lattice.step + 1e-15 * extent;
+  const double off = scatter == Scatter::kUtm ? 1e-9 : 0.51 * snapped.lattice.step + 1e-15 * extent;
   const double north = *std::max_element(points.y.begin(), points.y.end());
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Point p = places.at[i];
-    RC_ASSERT(p.x >= 0 && p.y >= 0 && p.x < places.lattice.cols && p.y < places.lattice.rows);
-    RC_ASSERT(std::abs(*west + p.x * places.lattice.step - points.x[places.source[i]]) <= off);
-    RC_ASSERT(std::abs(north - p.y * places.lattice.step - points.y[places.source[i]]) <= off);
+  for (std::size_t i = 0; i < snapped.size(); ++i) {
+    const Point p = snapped.at[i];
+    RC_ASSERT(p.x >= 0 && p.y >= 0 && p.x < snapped.lattice.cols && p.y < snapped.lattice.rows);
+    RC_ASSERT(std::abs(*west + p.x * snapped.lattice.step - points.x[snapped.source[i]]) <= off);
+    RC_ASSERT(std::abs(north - p.y * snapped.lattice.step - points.y[snapped.source[i]]) <= off);
   }
 }
 

@@ -15,7 +15,7 @@
 #include "laws/mesh_laws.h"
 #include "laws/sanitized.h"
 #include "laws/tile_meshes.h"
-#include "metric/height_judge.h"
+#include "metric/height_metric.h"
 #include "pieces/release.h"
 #include "pieces/tiled.h"
 
@@ -77,8 +77,8 @@ TEST_P(RealRasters, KeepTheBoundInExactArithmeticWithAnyTiles) {
     auto tiled = refine_tiled(field_, {.threshold = threshold, .threads = 2, .tile_side = side});
     ASSERT_TRUE(tiled && *tiled);
     Triangulation& tin = (*tiled)->domain.tin;
-    const HeightJudge judge(raster, threshold);
-    release_seams(tin, judge, std::move((*tiled)->seams));
+    const HeightMetric metric(raster, threshold);
+    release_seams(tin, metric, std::move((*tiled)->seams));
     EXPECT_EQ(testing::verify_triangulation(tin, raster.cols, raster.rows, testing::Edges::kAny), "");
     EXPECT_EQ(testing::find_broken_bound(raster, tin, threshold), "");
     EXPECT_EQ(testing::outside_area2(tin), testing::outside_area2(domain->tin));
@@ -111,8 +111,8 @@ TEST_P(RealRasters, AreRepairedWithinTheBoundWhateverTheFreedom) {
   free.vertices_are_free = true;
   const auto refined = [&] {
     auto domain = build_domain(raster, 0, field_.frame);
-    const HeightJudge judge(raster, threshold);
-    Refinement refinement(judge, domain->tin);
+    const HeightMetric metric(raster, threshold);
+    Refinement refinement(metric, domain->tin);
     while (!refinement.done()) refinement.insert_worst();
     return std::move(domain->tin);
   };

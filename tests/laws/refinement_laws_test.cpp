@@ -7,7 +7,7 @@
 #include "geom/exact_error.h"
 #include "laws/fields.h"
 #include "laws/mesh_laws.h"
-#include "metric/height_judge.h"
+#include "metric/height_metric.h"
 #include "refine/domain.h"
 #include "refine/refinement.h"
 #include "refine/textbook.h"
@@ -21,8 +21,8 @@ using testing::Relief;
 
 std::vector<Point> insert_by_queue(const Raster& raster, Triangulation& tin, double threshold, std::size_t most) {
   const std::size_t seeds = tin.vertex_count();
-  const HeightJudge judge(raster, threshold);
-  Refinement refinement(judge, tin);
+  const HeightMetric metric(raster, threshold);
+  Refinement refinement(metric, tin);
   while (!refinement.done() && tin.vertex_count() < seeds + most) refinement.insert_worst();
   std::vector<Point> points;
   for (std::size_t v = seeds; v < tin.vertex_count(); ++v) points.push_back(tin.point(static_cast<Vertex>(v)));
@@ -39,9 +39,9 @@ Case random_case(std::int32_t largest) {
   const auto cols = *rc::gen::inRange(2, largest), rows = *rc::gen::inRange(2, largest);
   const auto relief =
       *rc::gen::elementOf(std::vector<Relief>(std::begin(testing::kReliefs), std::end(testing::kReliefs)));
-  const auto voids = *rc::gen::element(0.0, 0.0, 0.05, 0.3, 0.7);
+  const auto nodata = *rc::gen::element(0.0, 0.0, 0.05, 0.3, 0.7);
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
-  return {testing::random_field(seed, cols, rows, relief, voids), *rc::gen::element(0.0, 0.25, 1.0, 2.0, 7.3),
+  return {testing::random_field(seed, cols, rows, relief, nodata), *rc::gen::element(0.0, 0.25, 1.0, 2.0, 7.3),
           *rc::gen::element(0.0, 0.0, 1.0, 2.5)};
 }
 
@@ -153,8 +153,8 @@ TEST(refinement, a_plane_needs_no_vertex_but_the_corners) {
 TEST(refinement, next_gain_says_how_many_triangles_will_come) {
   const Field field = testing::random_field(7, 25, 19, Relief::kReal, 0.1);
   auto domain = build_domain(field.raster(), 0, grid_frame(19));
-  const HeightJudge judge(field.raster(), 0);
-  Refinement refinement(judge, domain->tin);
+  const HeightMetric metric(field.raster(), 0);
+  Refinement refinement(metric, domain->tin);
   while (!refinement.done()) {
     const auto expected = refinement.triangle_count() + refinement.next_gain();
     refinement.insert_worst();

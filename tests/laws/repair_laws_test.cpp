@@ -99,8 +99,8 @@ RC_GTEST_PROP(repair, of_free_vertices_keeps_the_bound_the_domain_the_constraint
                             .min_shape = *rc::gen::element(0.0, 0.1),
                             .vertices_are_free = true,
                             .patch_side = *rc::gen::element(0, 1, 5, 16, 40)});
-  RC_ASSERT(fitted.places.steps == kLatticeSteps);
-  RC_ASSERT(fitted.places.heights.size() == fitted.tin.vertex_count());
+  RC_ASSERT(fitted.lattice.steps == kLatticeSteps);
+  RC_ASSERT(fitted.lattice.heights.size() == fitted.tin.vertex_count());
   const std::string unsound = testing::verify_triangulation(fitted.tin, testing::in_steps(field.cols),
                                                             testing::in_steps(field.rows), testing::Edges::kAny);
   RC_ASSERT(unsound == "");
@@ -115,7 +115,7 @@ RC_GTEST_PROP(repair, of_free_vertices_keeps_the_bound_the_domain_the_constraint
   }
   RC_ASSERT(fitted.tin.vertex_count() + fitted.counts.removed == vertices);
   const auto [lowest, highest] = range_of(field);
-  for (const float height : fitted.places.heights)
+  for (const float height : fitted.lattice.heights)
     RC_ASSERT(std::isnan(height) || (lowest <= height && height <= highest));
 }
 
@@ -152,7 +152,7 @@ RC_GTEST_PROP(repair, threads_change_nothing, ()) {
     options.threads = threads;
     const auto again = *fit(field.raster(), *refined(field, threshold), options);
     RC_ASSERT(is_same(again.tin, first.tin));
-    RC_ASSERT(have_same_bits(again.places.heights, first.places.heights));
+    RC_ASSERT(have_same_bits(again.lattice.heights, first.lattice.heights));
     RC_ASSERT(again.counts.tried == first.counts.tried);
   }
 }
@@ -179,7 +179,7 @@ RC_GTEST_PROP(repair, leaves_a_sound_mesh_within_the_bound_whenever_the_time_is_
                             .patch_side = *rc::gen::element(0, 5, 16, 40),
                             .is_time_up = up_after(*rc::gen::element(0, 1, 10, 100, 1000, 1'000'000)),
                             .goes_on = true});
-  const std::int32_t steps = fitted.places.steps;
+  const std::int32_t steps = fitted.lattice.steps;
   const std::string unsound = testing::verify_triangulation(fitted.tin, (field.cols - 1) * steps + 1,
                                                             (field.rows - 1) * steps + 1, testing::Edges::kAny);
   RC_ASSERT(unsound == "");
@@ -254,14 +254,14 @@ struct Bench {
   Field field = any_field();
   double threshold = *rc::gen::element(0.5, 1.0, 2.0, 7.3, 30.0);
   std::optional<Triangulation> tin = refined(field, threshold);
-  VertexPlaces places;
+  VertexLattice lattice;
   Patch patch;
   std::vector<Vertex> vertices;
 
   bool cut() {
     if (!tin) return false;
     PatchCutter::Scratch scratch;
-    patch = PatchCutter(field.raster(), *tin, places, {std::max(field.cols, field.rows), 0}, {}, 1)
+    patch = PatchCutter(field.raster(), *tin, lattice, {std::max(field.cols, field.rows), 0}, {}, 1)
                 .cut(0, scratch, vertices);
     return patch.face_count() > 0;
   }
@@ -421,7 +421,7 @@ bool keeps_shape(const Patch& patch, const Picture& before, const ShapeRule& rul
 bool is_measured(const Patch& patch, const TriangleError& error) {
   for (Patch::Id f = 0; f < patch.face_count(); ++f) {
     const auto& [a, b, c] = patch.face(f).corners;
-    const auto verdict = error.judge(patch.at(a), patch.at(b), patch.at(c), std::numeric_limits<float>::infinity());
+    const auto verdict = error.assess(patch.at(a), patch.at(b), patch.at(c), std::numeric_limits<float>::infinity());
     if (verdict.kind != TriangleError::Verdict::Kind::kKeeps) return false;
     // The order of the corners decides about the last bits.
     const float energy = patch.face(f).energy;
@@ -564,7 +564,7 @@ RC_GTEST_PROP(collapse, makes_one_vertex_of_two_within_the_bound_the_range_and_t
   for (Patch::Id f = 0; f < patch.face_count(); ++f) {
     const auto& [a, b, c] = patch.face(f).corners;
     if (a == kNone) continue;
-    const auto verdict = error.judge(patch.at(a), patch.at(b), patch.at(c), std::numeric_limits<float>::infinity());
+    const auto verdict = error.assess(patch.at(a), patch.at(b), patch.at(c), std::numeric_limits<float>::infinity());
     RC_ASSERT(verdict.kind == TriangleError::Verdict::Kind::kKeeps);
   }
 }

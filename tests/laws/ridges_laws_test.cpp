@@ -32,7 +32,7 @@ Field negated(Field field) {
   return field;
 }
 
-/// Hills with crests and beds, on some of them voids.
+/// Hills with crests and beds, on some of them nodata.
 Field hills(std::uint32_t seed) {
   const auto side = static_cast<std::int32_t>(30 + seed % 20);
   return testing::random_field(seed, side, side + 3, testing::Relief::kRidges, seed % 3 == 0 ? 0.02 : 0);
@@ -229,7 +229,7 @@ RC_GTEST_PROP(RidgeLaws, MeshesWithRidgesKeepTheBoundAndAreSound, ()) {
   RC_ASSERT(one->measurement.max_error <= *options.goals.max_error);
   RC_ASSERT(one->measurement.uncovered == 0u);
   RC_ASSERT(one->edits.empty());
-  RC_ASSERT(one->lines_laid == 0u);
+  RC_ASSERT(one->lines_inserted == 0u);
   const auto judged = measure(field.view(), one->mesh);
   RC_ASSERT(judged.has_value());
   RC_ASSERT(judged->max_error <= *options.goals.max_error);

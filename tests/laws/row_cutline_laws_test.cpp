@@ -1,4 +1,4 @@
-// Laws of cutlines where samples come row of tiles by row of tiles: the same surface stays as in memory, within the
+// Laws of cutlines where samples come strip by strip: the same surface stays as in memory, within the
 // same bound.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -84,7 +84,7 @@ struct CutScene {
     const auto cliffs = *detect_cliffs(streamed, walls);
     options.features.breaklines.affine = options.features.cutline.affine;
     options.features.breaklines.lines = cliffs.lines;
-    return cliffs.faults;
+    return cliffs.wall_count;
   }
   Result<FieldLines> lines() const {
     return prepare_lines(streamed, options.features.breaklines, options.features.cutline, *options.goals.max_error / 2,
@@ -128,7 +128,7 @@ void check_cut(CutScene& scene) {
   RC_ASSERT(judged.has_value());
   RC_ASSERT(judged->max_error <= *scene.options.goals.max_error + 1e-9);
   RC_ASSERT(judged->uncovered == 0u);
-  RC_ASSERT(judged->void_cells_covered == 0u);
+  RC_ASSERT(judged->nodata_cells_covered == 0u);
   RC_ASSERT(judged->is_sound());
 }
 
@@ -163,7 +163,7 @@ RC_GTEST_PROP(row_cutlines, leave_exactly_the_area_of_the_polygons_that_has_data
             static_cast<double>(testing::doubled_area(scene.field, scene.options.features.cutline)));
 }
 
-RC_GTEST_PROP(row_cutlines, are_laid_alike_by_any_number_of_threads, ()) {
+RC_GTEST_PROP(row_cutlines, are_inserted_alike_by_any_number_of_threads, ()) {
   CutScene scene(40);
   scene.options.features.cutline = scene.draughtsman.rings(scene.field);
   scene.options.run.threads = 1;
@@ -187,11 +187,11 @@ RC_GTEST_PROP(row_cutlines, in_one_row_are_those_of_a_raster_in_memory, ()) {
   const auto held = prepare_lines(scene.field.view(), scene.options.features.breaklines, scene.options.features.cutline,
                                   *scene.options.goals.max_error / 2, 1);
   RC_ASSERT(streamed.has_value() || !held.has_value());
-  // Beside voids the outline is cut at every sample.
+  // Beside nodata the outline is cut at every sample.
   const bool is_whole =
       std::none_of(scene.field.samples.begin(), scene.field.samples.end(), [](float z) { return std::isnan(z); });
   RC_PRE(held.has_value() && is_whole);
-  RC_ASSERT(streamed->laid == held->laid);
+  RC_ASSERT(streamed->inserted == held->inserted);
   RC_ASSERT(streamed->graph.points == held->graph.points);
   RC_ASSERT(streamed->graph.heights == held->graph.heights);
   RC_ASSERT(streamed->graph.edges == held->graph.edges);
@@ -200,7 +200,7 @@ RC_GTEST_PROP(row_cutlines, in_one_row_are_those_of_a_raster_in_memory, ()) {
   RC_ASSERT(streamed->edits.size() == held->edits.size());
 }
 
-RC_GTEST_PROP(row_cutlines, make_windows_void_as_they_make_the_whole, ()) {
+RC_GTEST_PROP(row_cutlines, mask_windows_as_they_mask_the_whole, ()) {
   CutScene scene(40);
   scene.options.features.cutline = scene.draughtsman.rings(scene.field);
   const auto held = prepare_lines(scene.field.view(), {}, scene.options.features.cutline, 1, 1);
@@ -237,7 +237,7 @@ RC_GTEST_PROP(row_cutlines, along_cells_leave_the_samples_that_they_leave_in_mem
   streamed.source = std::make_shared<ArraySource>(scene.field.view());
   streamed.info.has_range = false;
   const HeightRange range = height_range(held);
-  const auto kept = void_outside(held, cutline), left = void_outside(streamed, cutline);
+  const auto kept = mask_outside(held, cutline), left = mask_outside(streamed, cutline);
   RC_ASSERT(kept.has_value() && left.has_value());
   RC_ASSERT(kept->lost == left->lost && kept->kept == left->kept && kept->has_surface == left->has_surface);
   RC_ASSERT(kept->kept == height_range(held).valid);
@@ -270,8 +270,8 @@ TEST(row_cutlines, say_what_the_source_says) {
   streamed.cols = field.cols;
   streamed.rows = field.rows;
   streamed.source = std::make_shared<ArraySource>(field.view(), 30);
-  EXPECT_EQ(void_outside(streamed, options.features.cutline).error().message, "row 30 is broken");
-  const auto stop = void_outside(streamed, options.features.cutline, [](const Progress&) { return false; });
+  EXPECT_EQ(mask_outside(streamed, options.features.cutline).error().message, "row 30 is broken");
+  const auto stop = mask_outside(streamed, options.features.cutline, [](const Progress&) { return false; });
   EXPECT_EQ(stop.error().kind, ErrorKind::kCancelled);
 }
 
@@ -318,7 +318,7 @@ TEST(row_cutlines, at_the_public_door_leave_the_samples_that_a_raster_in_memory_
   };
   SimplifyOptions options;
   options.goals.max_error = 5;
-  options.run.memory.limit = 2'200'000;  // rows of tiles meet at the rows 233 and 466
+  options.run.memory.limit = 2'200'000;  // strips meet at the rows 233 and 466
   // Along a row that tiles share, and across one, with a hole.
   options.features.cutline.rings = {
       ring_of(LineRole::kOuter, 0, {{20, 150, 0}, {200, 150, 0}, {200, 233, 0}, {20, 233, 0}}),

@@ -1,4 +1,4 @@
-// Laws of efforts where samples come row of tiles by row of tiles: the promise is that of refinement.
+// Laws of efforts where samples come strip by strip: the promise is that of refinement.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -49,7 +49,7 @@ Result<std::optional<Tiled>> refine_and_fit(const HeightField& field, const Simp
   return refine_tiled(field, tiles);
 }
 
-VertexPlaces places_of(const Tiled& tiled) {
+VertexLattice lattice_of(const Tiled& tiled) {
   return {tiled.steps, tiled.steps > 1 ? tiled.heights : std::vector<float>(), {}};
 }
 
@@ -72,10 +72,10 @@ RC_GTEST_PROP(rows, that_are_fitted_keep_the_bound_and_the_domain, ()) {
   RC_ASSERT(testing::outside_area2(tin) == tiled.steps * tiled.steps * testing::outside_area2(domain->tin));
   RC_ASSERT(tiled.domain.whole == domain->whole);
   const auto judged = measure(
-      field.view(), freeze(SampleHeights(streamed, tiled.heights), tin, places_of(tiled), field.view().frame, false));
+      field.view(), freeze(SampleHeights(streamed, tiled.heights), tin, lattice_of(tiled), field.view().frame, false));
   RC_ASSERT(judged.has_value());
   RC_ASSERT(judged->uncovered == 0u);
-  RC_ASSERT(judged->void_cells_covered == 0u);
+  RC_ASSERT(judged->nodata_cells_covered == 0u);
   RC_ASSERT(judged->is_sound());
   RC_ASSERT(judged->max_error <= *options.goals.max_error + 1e-9);
 }
@@ -99,7 +99,7 @@ RC_GTEST_PROP(rows, are_fitted_alike_by_any_number_of_threads, ()) {
   RC_ASSERT((*first)->seams == (*again)->seams);
 }
 
-/// So much that there are several rows of tiles.
+/// So much that there are several strips.
 SimplifyOptions in_little_memory(const HeightField& field, double max_error, Effort effort) {
   SimplifyOptions options;
   options.goals.max_error = max_error;

@@ -1,4 +1,4 @@
-// Laws of lines where samples come row of tiles by row of tiles: they are chains of edges across all rows, and the
+// Laws of lines where samples come strip by strip: they are chains of edges across all rows, and the
 // promise is that of lines in memory.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -33,7 +33,7 @@ using testing::ArraySource;
 using testing::Field;
 using testing::with_source;
 
-/// A field that is read window by window, and its lines cut where rows of tiles meet.
+/// A field that is read window by window, and its lines cut where strips meet.
 struct RowScene {
   Field field = any_field(50);
   ArraySource source{field.view()};
@@ -141,12 +141,12 @@ RC_GTEST_PROP(row_lines, are_chains_of_edges_and_the_bound_holds_against_the_edi
                                              scene.field.view().frame, false));
   RC_ASSERT(judged.has_value());
   RC_ASSERT(judged->uncovered == 0u);
-  RC_ASSERT(judged->void_cells_covered == 0u);
+  RC_ASSERT(judged->nodata_cells_covered == 0u);
   RC_ASSERT(judged->is_sound());
   RC_ASSERT(judged->max_error <= *scene.options.goals.max_error + 1e-9);
 }
 
-RC_GTEST_PROP(row_lines, are_laid_alike_by_any_number_of_threads, ()) {
+RC_GTEST_PROP(row_lines, are_inserted_alike_by_any_number_of_threads, ()) {
   RowScene scene;
   const auto lines = scene.lines();
   RC_PRE(lines.has_value());
@@ -173,8 +173,8 @@ RC_GTEST_PROP(row_lines, in_one_row_are_those_of_a_raster_in_memory, ()) {
       prepare_lines(scene.field.view(), scene.options.features.breaklines, {}, *scene.options.goals.max_error / 2, 1);
   RC_ASSERT(streamed.has_value() == held.has_value());
   if (!held) return;
-  RC_ASSERT(streamed->laid == held->laid);
-  // Beside voids the outline is cut at every sample.
+  RC_ASSERT(streamed->inserted == held->inserted);
+  // Beside nodata the outline is cut at every sample.
   const bool is_whole =
       std::none_of(scene.field.samples.begin(), scene.field.samples.end(), [](float z) { return std::isnan(z); });
   if (!is_whole) return;
@@ -182,7 +182,7 @@ RC_GTEST_PROP(row_lines, in_one_row_are_those_of_a_raster_in_memory, ()) {
   RC_ASSERT(streamed->graph.heights == held->graph.heights);
   RC_ASSERT(streamed->graph.edges == held->graph.edges);
   RC_ASSERT(streamed->graph.is_start == held->graph.is_start);
-  RC_ASSERT(streamed->graph.is_laid_first == held->graph.is_laid_first);
+  RC_ASSERT(streamed->graph.is_inserted_first == held->graph.is_inserted_first);
   RC_ASSERT(streamed->edits.size() == held->edits.size());
   for (std::size_t k = 0; k < held->edits.size(); ++k) {
     const SampleEdit &a = held->edits[k], &b = streamed->edits[k];
@@ -210,7 +210,7 @@ TEST(row_lines, at_the_public_door_change_the_samples_that_hard_lines_pass) {
     options.quality.effort = effort;
     const auto made = simplify(streamed, options);
     ASSERT_TRUE(made) << made.error().message;
-    EXPECT_EQ(made->lines_laid, 2u);
+    EXPECT_EQ(made->lines_inserted, 2u);
     EXPECT_EQ(made->edits.size(), 831u);
     EXPECT_LE(made->measurement.max_error, 5 + 1e-9);
     const auto edited = edit_source({std::shared_ptr<const void>(), &source}, made->edits);

@@ -13,12 +13,12 @@ using testing::Field;
 using testing::Relief;
 using testing::ScanTile;
 
-std::vector<Place> random_places(const TileView& tile, std::mt19937& random, unsigned count) {
-  std::vector<Place> places(count);
-  for (Place& p : places)
-    p = place(static_cast<std::int32_t>(random() % static_cast<unsigned>(tile.cols)),
-              static_cast<std::int32_t>(random() % static_cast<unsigned>(tile.rows)));
-  return places;
+std::vector<TilePoint> random_points(const TileView& tile, std::mt19937& random, unsigned count) {
+  std::vector<TilePoint> points(count);
+  for (TilePoint& p : points)
+    p = tile_point(static_cast<std::int32_t>(random() % static_cast<unsigned>(tile.cols)),
+                   static_cast<std::int32_t>(random() % static_cast<unsigned>(tile.rows)));
+  return points;
 }
 
 /// Whether all kernels agree with the twin about random triangles of the field.
@@ -26,7 +26,7 @@ void expect_agreement(const Field& field, std::uint32_t seed, int triangle_count
   std::mt19937 random(seed);
   const ScanTile tile(field);
   const auto triangles = random_triangles(tile, random, triangle_count);
-  const std::vector<Place> hints = random_places(tile.view(), random, static_cast<unsigned>(random() % 12));
+  const std::vector<TilePoint> hints = random_points(tile.view(), random, static_cast<unsigned>(random() % 12));
   const std::span<const ScanKernels> all = available_kernels();
   for (const double threshold : thresholds) {
     std::vector<ScanHit> expected(triangles.size());
@@ -50,16 +50,16 @@ RC_GTEST_PROP(scan_kernels_laws, agree_on_small_tiles, ()) {
   const auto cols = *rc::gen::inRange(2, 90), rows = *rc::gen::inRange(2, 90);
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
   const Relief relief = testing::kReliefs[*rc::gen::inRange(0, 5)];
-  const double voids = *rc::gen::element(0.0, 0.02, 0.3);
-  expect_agreement(testing::random_field(seed, cols, rows, relief, voids), seed, 100, {0, 0.5, 2, 30});
+  const double nodata = *rc::gen::element(0.0, 0.02, 0.3);
+  expect_agreement(testing::random_field(seed, cols, rows, relief, nodata), seed, 100, {0, 0.5, 2, 30});
 }
 
 RC_GTEST_PROP(scan_kernels_laws, agree_on_large_tiles, ()) {
   const auto cols = *rc::gen::inRange(200, 700), rows = *rc::gen::inRange(200, 700);
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
   const Relief relief = testing::kReliefs[*rc::gen::inRange(0, 5)];
-  const double voids = *rc::gen::element(0.0, 0.02);
-  expect_agreement(testing::random_field(seed, cols, rows, relief, voids), seed, 12, {0, 1.5, 40});
+  const double nodata = *rc::gen::element(0.0, 0.02);
+  expect_agreement(testing::random_field(seed, cols, rows, relief, nodata), seed, 12, {0, 1.5, 40});
 }
 
 TEST(scan_kernels_laws, agree_on_the_largest_tile) {
@@ -101,7 +101,7 @@ RC_GTEST_PROP(scan_kernels_laws, guard_bounds_the_rounding, ()) {
       const long double zb = tile.view().at(corners[1]) - za, zc = tile.view().at(corners[2]) - za;
       const auto weight_b = static_cast<long double>(orient(p[2], p[0], s));
       const auto weight_c = static_cast<long double>(orient(p[0], p[1], s));
-      const long double sample = tile.view().at(place(s.x, s.y)) - za;
+      const long double sample = tile.view().at(tile_point(s.x, s.y)) - za;
       return std::abs((zb * weight_b + zc * weight_c) / area - sample);
     };
     const double threshold =
@@ -113,7 +113,7 @@ RC_GTEST_PROP(scan_kernels_laws, guard_bounds_the_rounding, ()) {
         const long double exact = exact_error({x, y});
         const float along = plane.slope_x * static_cast<float>(x - p[0].x);
         const float across = plane.slope_y * static_cast<float>(y - p[0].y);
-        const float computed = std::abs(along + across - (tile.view().at(place(x, y)) - plane.height));
+        const float computed = std::abs(along + across - (tile.view().at(tile_point(x, y)) - plane.height));
         if (exact <= 2 * static_cast<long double>(threshold)) RC_ASSERT(std::abs(exact - computed) <= guard);
         if (exact > threshold && guard <= threshold) RC_ASSERT(computed > scan_floor(threshold, plane.guard));
         if (computed > threshold + guard) RC_ASSERT(exact > threshold);
@@ -128,13 +128,13 @@ RC_GTEST_PROP(scan_kernels_laws, blocks_hold_their_smallest_and_largest, ()) {
   ScanTile tile(testing::random_field(seed, cols, rows, testing::kReliefs[*rc::gen::inRange(0, 5)],
                                       *rc::gen::element(0.0, 0.1, 3.0)));
   const std::vector<float> low = tile.low(), high = tile.high();
-  const std::uint64_t voids = tile.voids();
+  const std::uint64_t nodata = tile.nodata();
   const float most = tile.fill(available_kernels().back());
   for (const ScanKernels& kernels : available_kernels()) {
     RC_ASSERT(tile.fill(kernels) == most);
     RC_ASSERT(tile.low() == low);
     RC_ASSERT(tile.high() == high);
-    RC_ASSERT(tile.voids() == voids);
+    RC_ASSERT(tile.nodata() == nodata);
   }
 }
 

@@ -35,24 +35,24 @@ class ScanTile {
   ScanTile(const ScanTile&) = delete;
   ScanTile& operator=(const ScanTile&) = delete;
 
-  float fill(const ScanKernels& kernels) { return kernels.fill_blocks(view_, low_.data(), high_.data(), voids_); }
+  float fill(const ScanKernels& kernels) { return kernels.fill_blocks(view_, low_.data(), high_.data(), nodata_); }
 
   const TileView& view() const { return view_; }
-  std::uint64_t voids() const { return voids_; }
+  std::uint64_t nodata() const { return nodata_; }
   const std::vector<float>& low() const { return low_; }
   const std::vector<float>& high() const { return high_; }
-  bool is_void(Point p) const { return std::isnan(view_.at(place(p.x, p.y))); }
+  bool is_nodata(Point p) const { return std::isnan(view_.at(tile_point(p.x, p.y))); }
 
  private:
   std::vector<float> samples_, low_, high_;
   TileView view_;
-  std::uint64_t voids_ = 0;
+  std::uint64_t nodata_ = 0;
 };
 
 /// Triangles within the tile whose corners are heights, anywhere or all near each other, counter-clockwise.
-inline std::vector<std::array<Place, 3>> random_triangles(const ScanTile& tile, std::mt19937& random, int count) {
+inline std::vector<std::array<TilePoint, 3>> random_triangles(const ScanTile& tile, std::mt19937& random, int count) {
   const TileView& view = tile.view();
-  std::vector<std::array<Place, 3>> triangles;
+  std::vector<std::array<TilePoint, 3>> triangles;
   for (int tries = 0; tries < 50 * count && triangles.size() < static_cast<std::size_t>(count); ++tries) {
     const std::int32_t reach_x = 1 << random() % 13, reach_y = 1 << random() % 13;
     const auto below = [&](std::int32_t n) { return static_cast<std::int32_t>(random() % static_cast<unsigned>(n)); };
@@ -61,8 +61,8 @@ inline std::vector<std::array<Place, 3>> random_triangles(const ScanTile& tile, 
     for (Point& corner : p)
       corner = {std::min(view.cols - 1, x + below(reach_x + 1)), std::min(view.rows - 1, y + below(reach_y + 1))};
     if (orient(p[0], p[1], p[2]) < 0) std::swap(p[1], p[2]);
-    if (orient(p[0], p[1], p[2]) <= 0 || tile.is_void(p[0]) || tile.is_void(p[1]) || tile.is_void(p[2])) continue;
-    triangles.push_back({place(p[0].x, p[0].y), place(p[1].x, p[1].y), place(p[2].x, p[2].y)});
+    if (orient(p[0], p[1], p[2]) <= 0 || tile.is_nodata(p[0]) || tile.is_nodata(p[1]) || tile.is_nodata(p[2])) continue;
+    triangles.push_back({tile_point(p[0].x, p[0].y), tile_point(p[1].x, p[1].y), tile_point(p[2].x, p[2].y)});
   }
   return triangles;
 }

@@ -151,7 +151,7 @@ RC_GTEST_PROP(shape, angles_that_theory_grants_hold_without_an_exception, ()) {
   SimplifyOptions options = any_run();
   options.quality.shape.min_angle = *rc::gen::element(5.0, 15.0, 20.0);
   const Simplified result = simplified(view, options);
-  // Corners of voids have 45 degrees at least where samples are squares.
+  // Corners of nodata have 45 degrees at least where samples are squares.
   const bool has_squares = view.frame.kind == Frame::Kind::kGrid && view.frame.affine[1] == -view.frame.affine[5] &&
                            view.frame.affine[2] == 0 && view.frame.affine[4] == 0;
   RC_CLASSIFY(has_squares);

@@ -1,4 +1,4 @@
-// Laws of the public door: goals, budgets, voids, frames, determinism.
+// Laws of the public door: goals, budgets, nodata, frames, determinism.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -29,7 +29,7 @@ RC_GTEST_PROP(simplify, keeps_the_promise_in_the_eyes_of_the_judge, ()) {
   RC_ASSERT(m.max_error <= goal + 1e-9);
   if (goal == 0) RC_ASSERT(m.max_error <= 1e-9);
   RC_ASSERT(m.uncovered == 0u);
-  RC_ASSERT(m.void_cells_covered == 0u);
+  RC_ASSERT(m.nodata_cells_covered == 0u);
   RC_ASSERT(m.is_sound());
   RC_ASSERT(result->stop == StopReason::kMaxError);
   RC_ASSERT(m.max_error == result->measurement.max_error);
@@ -109,15 +109,15 @@ TEST(simplify, three_valid_corners_make_one_triangle) {
 
 TEST(simplify, nodata_and_infinities_are_never_heights) {
   Field field = testing::random_field(5, 30, 30, Relief::kRidges);
-  Field voids = field;
+  Field nodata = field;
   for (const std::size_t k : {0u, 29u, 333u, 334u, 500u}) {
     field.samples[k] = k % 2 ? -9999.0f : std::numeric_limits<float>::infinity();
-    voids.samples[k] = std::numeric_limits<float>::quiet_NaN();
+    nodata.samples[k] = std::numeric_limits<float>::quiet_NaN();
   }
   HeightField declared = field.view();
   declared.nodata = -9999.0f;
   const auto a = simplify(declared, {.goals = {.max_error = 2.0}}),
-             b = simplify(voids.view(), {.goals = {.max_error = 2.0}});
+             b = simplify(nodata.view(), {.goals = {.max_error = 2.0}});
   ASSERT_TRUE(a && b);
   EXPECT_EQ(a->mesh.positions, b->mesh.positions);
   EXPECT_EQ(a->mesh.triangles, b->mesh.triangles);
@@ -325,7 +325,7 @@ TEST(simplify, budgets_hold_where_the_judge_asks_for_more_vertices) {
   }
 }
 
-TEST(simplify, a_simplified_outline_in_a_curved_frame_has_no_void_vertices) {
+TEST(simplify, a_simplified_outline_in_a_curved_frame_has_no_nodata_vertices) {
   Field field = testing::random_field(17, 90, 90, Relief::kRidges);
   for (std::int32_t y = 0; y < 90; ++y)
     for (std::int32_t x = 0; x < 90; ++x)

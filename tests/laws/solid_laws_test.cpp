@@ -1,5 +1,5 @@
-// Solids and sheets of random terrains: closed for those who know places only, as large as what lies under the surface,
-// and within the bound.
+// Solids and print tiles of random terrains: closed for those who know places only, as large as what lies under the
+// surface, and within the bound.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -72,15 +72,15 @@ RC_GTEST_PROP(SolidLaws, ClosedAndAsLargeAsWhatLiesUnderTheSurface, ()) {
   }
 }
 
-RC_GTEST_PROP(SolidLaws, SheetsAreTheWholeAndKeepTheBound, ()) {
+RC_GTEST_PROP(SolidLaws, PrintTilesAreTheWholeAndKeepTheBound, ()) {
   auto field = any_field(40);
   const double bound = *rc::gen::element(0.5, 5.0, 30.0);
-  SheetOptions options;
+  PrintTileOptions options;
   options.columns = *rc::gen::inRange(1, 4);
   options.rows = *rc::gen::inRange(1, 4);
   options.dovetail = *rc::gen::arbitrary<bool>();
   options.gap = *rc::gen::element(0.0, 0.0, 0.11);
-  const auto plan = SheetPlan::make(field.cols, field.rows, options);
+  const auto plan = PrintTilePlan::make(field.cols, field.rows, options);
   if (!plan) RC_DISCARD("too few samples");
   SimplifyOptions simplify_options{.goals = {.max_error = bound}, .output = {.float32_positions = false}};
   simplify_options.features.breaklines.lines = plan->lines(simplify_options.features.breaklines.affine);
@@ -92,12 +92,12 @@ RC_GTEST_PROP(SolidLaws, SheetsAreTheWholeAndKeepTheBound, ()) {
   double volume = 0;
   Mesh tops;
   std::size_t triangles = 0;
-  for (Mesh& sheet : cut_sheets(simplified->mesh, view.frame, *plan)) {
-    if (sheet.triangles.empty()) continue;
-    place_mesh(sheet, placement);
-    const std::size_t corners = sheet.triangles.size();
+  for (Mesh& tile : cut_print_tiles(simplified->mesh, view.frame, *plan)) {
+    if (tile.triangles.empty()) continue;
+    place_mesh(tile, placement);
+    const std::size_t corners = tile.triangles.size();
     triangles += corners / 3;
-    const auto solid = build_solid(std::move(sheet), 0);
+    const auto solid = build_solid(std::move(tile), 0);
     RC_ASSERT(solid.has_value());
     const SolidFacts facts = measure_solid(*solid);
     RC_ASSERT(facts.is_solid());
@@ -123,42 +123,42 @@ RC_GTEST_PROP(SolidLaws, SheetsAreTheWholeAndKeepTheBound, ()) {
   }
 }
 
-TEST(SheetPlan, EverySampleIsInOneSheetAndTabsReachOver) {
-  SheetOptions options;
+TEST(PrintTilePlan, EverySampleIsInOnePrintTileAndTabsReachOver) {
+  PrintTileOptions options;
   options.columns = 2;
   options.rows = 3;
   options.dovetail = true;
-  const auto plan = SheetPlan::make(101, 121, options);
+  const auto plan = PrintTilePlan::make(101, 121, options);
   ASSERT_TRUE(plan);
   EXPECT_EQ(plan->lines({0, 1, 0, 0, 0, 1}).size(), 3u);
-  EXPECT_EQ(plan->sheet_at(0.5, 0.5), 0);
-  EXPECT_EQ(plan->sheet_at(99.5, 0.5), 1);
-  EXPECT_EQ(plan->sheet_at(0.5, 119.5), 4);
-  EXPECT_EQ(plan->sheet_at(52, 20.5), 0) << "the tab in the middle of the first row of sheets";
-  EXPECT_EQ(plan->sheet_at(52, 3), 1);
-  EXPECT_EQ(plan->sheet_at(25, 42), 0);
-  EXPECT_EQ(plan->sheet_at(3, 42), 2);
+  EXPECT_EQ(plan->tile_at(0.5, 0.5), 0);
+  EXPECT_EQ(plan->tile_at(99.5, 0.5), 1);
+  EXPECT_EQ(plan->tile_at(0.5, 119.5), 4);
+  EXPECT_EQ(plan->tile_at(52, 20.5), 0) << "the tab in the middle of the first row of print tiles";
+  EXPECT_EQ(plan->tile_at(52, 3), 1);
+  EXPECT_EQ(plan->tile_at(25, 42), 0);
+  EXPECT_EQ(plan->tile_at(3, 42), 2);
   options.gap = 0.5;
-  const auto apart = SheetPlan::make(101, 121, options);
+  const auto apart = PrintTilePlan::make(101, 121, options);
   ASSERT_TRUE(apart);
   EXPECT_EQ(apart->lines({0, 1, 0, 0, 0, 1}).size(), 6u);
-  EXPECT_EQ(apart->sheet_at(50.2, 3), std::nullopt);
-  EXPECT_EQ(apart->sheet_at(50.3, 3), 1);
-  EXPECT_EQ(apart->sheet_at(49.7, 3), 0);
+  EXPECT_EQ(apart->tile_at(50.2, 3), std::nullopt);
+  EXPECT_EQ(apart->tile_at(50.3, 3), 1);
+  EXPECT_EQ(apart->tile_at(49.7, 3), 0);
 }
 
-TEST(SheetPlan, RefusesWhatIsTooNarrow) {
-  SheetOptions options;
+TEST(PrintTilePlan, RefusesWhatIsTooNarrow) {
+  PrintTileOptions options;
   options.columns = 5;
-  EXPECT_FALSE(SheetPlan::make(8, 8, options));
-  EXPECT_TRUE(SheetPlan::make(11, 8, options));
+  EXPECT_FALSE(PrintTilePlan::make(8, 8, options));
+  EXPECT_TRUE(PrintTilePlan::make(11, 8, options));
   options.dovetail = true;
-  const auto narrow = SheetPlan::make(50, 50, options);
+  const auto narrow = PrintTilePlan::make(50, 50, options);
   ASSERT_FALSE(narrow);
   EXPECT_EQ(narrow.error().kind, ErrorKind::kUsage);
   EXPECT_NE(narrow.error().message.find("12 cells"), std::string::npos);
   options.gap = 10;
-  EXPECT_FALSE(SheetPlan::make(500, 500, options));
+  EXPECT_FALSE(PrintTilePlan::make(500, 500, options));
 }
 
 }  // namespace

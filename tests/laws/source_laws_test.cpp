@@ -46,7 +46,7 @@ void expect_same(const Measurement& a, const Measurement& b) {
                                static_cast<double>(m.samples),
                                static_cast<double>(m.uncovered),
                                static_cast<double>(m.stray),
-                               static_cast<double>(m.void_cells_covered),
+                               static_cast<double>(m.nodata_cells_covered),
                                static_cast<double>(m.over_tolerance),
                                static_cast<double>(m.heights.valid),
                                static_cast<double>(m.offenders.size()),
@@ -60,7 +60,7 @@ void expect_same(const Measurement& a, const Measurement& b) {
   }
 }
 
-/// A mesh of another field of the same size: errors of all sizes, samples without a triangle, covered voids, gaps.
+/// A mesh of another field of the same size: errors of all sizes, samples without a triangle, covered nodata, gaps.
 RC_GTEST_PROP(sources, are_judged_as_the_same_samples_in_memory, ()) {
   const Field field = any_field(2, 90);
   Field other = testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), field.cols, field.rows, Relief::kRidges,

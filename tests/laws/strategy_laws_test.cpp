@@ -8,9 +8,9 @@
 
 #include "laws/array_source.h"
 #include "laws/strategies.h"
-#include "metric/height_judge.h"
+#include "metric/height_metric.h"
 #include "metric/importance.h"
-#include "metric/sample_judge.h"
+#include "metric/sample_metric.h"
 #include "refine/domain.h"
 #include "refine/refinement.h"
 
@@ -22,11 +22,11 @@ using testing::Relief;
 
 constexpr double kRounding = 1e-6;  // of the test's own interpolation
 
-Field any_field(std::int32_t largest, std::vector<double> voids = {0.0, 0.0, 0.1, 0.4}) {
+Field any_field(std::int32_t largest, std::vector<double> nodata = {0.0, 0.0, 0.1, 0.4}) {
   const auto cols = *rc::gen::inRange(2, largest), rows = *rc::gen::inRange(2, largest);
   const auto relief =
       *rc::gen::elementOf(std::vector<Relief>(std::begin(testing::kReliefs), std::end(testing::kReliefs)));
-  return testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), cols, rows, relief, *rc::gen::elementOf(voids));
+  return testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), cols, rows, relief, *rc::gen::elementOf(nodata));
 }
 
 std::vector<float> any_values(const Field& field, std::vector<float> choices) {
@@ -47,7 +47,7 @@ RC_GTEST_PROP(strategies, keep_the_bound_whatever_is_chosen, ()) {
   const Measurement m = *measure(field.view(), result->mesh);
   RC_ASSERT(m.max_error <= *options.goals.max_error + 1e-9);
   RC_ASSERT(m.uncovered == 0u);
-  RC_ASSERT(m.void_cells_covered == 0u);
+  RC_ASSERT(m.nodata_cells_covered == 0u);
   RC_ASSERT(m.is_sound());
   RC_ASSERT(result->stop == StopReason::kMaxError);
 }
@@ -188,8 +188,8 @@ RC_GTEST_PROP(strategies, channels_are_bounded_by_their_norm_with_the_heights, (
   RC_ASSERT(result->combined_max_error <= *options.goals.max_error * (1 + 1e-6));
 }
 
-// One field of scale 1 under one bound is what the plain judge judges: the general one must not see it otherwise.
-RC_GTEST_PROP(judges, the_general_one_agrees_with_the_plain_one, ()) {
+// One field of scale 1 under one bound is what the plain metric measures: the general one must not see it otherwise.
+RC_GTEST_PROP(metrics, the_general_one_agrees_with_the_plain_one, ()) {
   const Field field = any_field(22);
   const Raster raster = field.raster();
   auto plain = build_domain(raster, 0, grid_frame(field.rows)),
@@ -197,12 +197,12 @@ RC_GTEST_PROP(judges, the_general_one_agrees_with_the_plain_one, ()) {
   RC_PRE(plain.has_value());
   const double threshold = *rc::gen::element(0.0, 0.25, 1.0, 2.0, 7.3);
   const EdgeRule rule = *rc::gen::arbitrary<bool>() ? testing::any_edge_rule() : EdgeRule();
-  const HeightJudge height_judge(raster, threshold);
-  Judging judging{raster, {{field.samples.data(), 1}}};
-  judging.threshold = judging.goal = threshold;
-  const SampleJudge sample_judge(judging);
-  Refinement first(height_judge, plain->tin, Algorithm::kHeap, rule);
-  Refinement second(sample_judge, general->tin, Algorithm::kHeap, rule);
+  const HeightMetric height_metric(raster, threshold);
+  MetricSettings settings{raster, {{field.samples.data(), 1}}};
+  settings.threshold = settings.goal = threshold;
+  const SampleMetric sample_metric(settings);
+  Refinement first(height_metric, plain->tin, Algorithm::kHeap, rule);
+  Refinement second(sample_metric, general->tin, Algorithm::kHeap, rule);
   while (!first.done() && !second.done()) {
     RC_ASSERT(first.worst_error() == second.worst_error());
     first.insert_worst();

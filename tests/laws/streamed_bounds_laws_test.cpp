@@ -80,11 +80,11 @@ Measurement judged(const HeightField& field, const Mesh& mesh, const std::vector
 void expect_kept(const Measurement& m) {
   RC_ASSERT(m.over_tolerance == 0u);
   RC_ASSERT(m.uncovered == 0u);
-  RC_ASSERT(m.void_cells_covered == 0u);
+  RC_ASSERT(m.nodata_cells_covered == 0u);
   RC_ASSERT(m.is_sound());
 }
 
-/// In rows of tiles of a side.
+/// In strips of tiles of a side.
 Result<std::optional<Tiled>> refine(const Scene& scene, std::int32_t side, const FieldLines* lines) {
   const double most = scene.options.goals.max_error.value_or(HUGE_VAL),
                threshold = scene.options.goals.max_error.value_or(0);
@@ -96,7 +96,7 @@ Result<std::optional<Tiled>> refine(const Scene& scene, std::int32_t side, const
   return refine_tiled(lines != nullptr ? lines->apply(scene.streamed) : scene.streamed, tiles);
 }
 
-VertexPlaces places_of(const Tiled& tiled) {
+VertexLattice places_of(const Tiled& tiled) {
   return {tiled.steps, tiled.steps > 1 ? tiled.heights : std::vector<float>(), {}};
 }
 
@@ -227,7 +227,7 @@ RC_GTEST_PROP(streamed_bounds, of_a_border_are_kept_by_what_splits_it, ()) {
   RC_ASSERT(split_border(field.view(), line, kept, LineBound(own))->empty());
 }
 
-/// So much memory that there are several rows of tiles.
+/// So much memory that there are several strips.
 TEST(streamed_bounds, take_about_as_many_triangles_as_in_memory_at_the_public_door) {
   Field field{400, 500, {}};
   std::vector<float> bounds;

@@ -1,4 +1,4 @@
-// Laws of budgets where samples come row of tiles by row of tiles: an error is searched for, so what fits is kept to.
+// Laws of budgets where samples come strip by strip: an error is searched for, so what fits is kept to.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -95,7 +95,7 @@ TEST(streamed_budgets, that_are_too_small_are_refused_with_the_least_that_would_
   const auto made = simplify(with_source(field.view(), source), options);
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().message,
-            "1 triangle is too few: the outline of the valid data and its rows of tiles alone need 2; "
+            "1 triangle is too few: the outline of the valid data and its strips alone need 2; "
             "allow more");
 }
 

@@ -47,10 +47,10 @@ RC_GTEST_PROP(streamed_shapes, samples_are_those_of_the_raster_whether_rows_are_
   }
 }
 
-/// A mesh that knows no sample but those of the outline, all places with their heights.
+/// A mesh that knows no sample but those of the outline, all lattice points with their heights.
 struct Start {
   Triangulation tin;
-  VertexPlaces places{kLatticeSteps, {}, {}};
+  VertexLattice lattice{kLatticeSteps, {}, {}};
 };
 
 std::optional<Start> outline_of(const Field& field) {
@@ -58,7 +58,7 @@ std::optional<Start> outline_of(const Field& field) {
   if (!domain) return std::nullopt;
   Start start{std::move(domain->tin)};
   for (Vertex v = 0; v < start.tin.vertex_count(); ++v)
-    start.places.heights.push_back(field.raster().at(start.tin.point(v)));
+    start.lattice.heights.push_back(field.raster().at(start.tin.point(v)));
   start.tin.scale(kLatticeSteps);
   return start;
 }
@@ -99,12 +99,12 @@ RC_GTEST_PROP(streamed_shapes, bands_leave_no_goal_behind, ()) {
     return {};
   };
   const auto outside = testing::outside_area2(start->tin);
-  const auto work = refine_shapes({nullptr, field.cols, field.rows}, start->tin, start->places, task);
+  const auto work = refine_shapes({nullptr, field.cols, field.rows}, start->tin, start->lattice, task);
   RC_ASSERT(work.has_value());
   RC_ASSERT(testing::verify_triangulation(start->tin, (field.cols - 1) * kLatticeSteps + 1,
                                           (field.rows - 1) * kLatticeSteps + 1, testing::Edges::kAny) == "");
   RC_ASSERT(testing::outside_area2(start->tin) == outside);
-  const Mesh mesh = freeze(SampleHeights(streamed, {}), start->tin, start->places, frame, false);
+  const Mesh mesh = freeze(SampleHeights(streamed, {}), start->tin, start->lattice, frame, false);
   for (float& bound : bounds) bound = bound * 1.000001f + 1e-6f;
   MeasureOptions judge;
   judge.tolerance = bounds;
@@ -125,8 +125,8 @@ RC_GTEST_PROP(streamed_shapes, fitting_by_windows_is_fitting, ()) {
   const double threshold = testing::any_threshold();
   auto tin = testing::refined(field, threshold);
   RC_PRE(tin.has_value());
-  VertexPlaces places{kLatticeSteps, {}, {}};
-  for (Vertex v = 0; v < tin->vertex_count(); ++v) places.heights.push_back(field.raster().at(tin->point(v)));
+  VertexLattice lattice{kLatticeSteps, {}, {}};
+  for (Vertex v = 0; v < tin->vertex_count(); ++v) lattice.heights.push_back(field.raster().at(tin->point(v)));
   tin->scale(kLatticeSteps);
   FitOptions options;
   options.threshold = threshold;
@@ -155,7 +155,7 @@ RC_GTEST_PROP(streamed_shapes, fitting_by_windows_is_fitting, ()) {
     for (float& bound : bounds) bound = std::max(bound, std::nextafter(static_cast<float>(threshold), kNoBound));
   }
   options.bounds = bounds;
-  const auto whole = fit(field.raster(), copy(), places, options);
+  const auto whole = fit(field.raster(), copy(), lattice, options);
   const ArraySource source(field.view());
   const HeightField streamed = with_source(field.view(), source);
   FitOptions by_windows = options;
@@ -163,7 +163,7 @@ RC_GTEST_PROP(streamed_shapes, fitting_by_windows_is_fitting, ()) {
   const ArrayBounds tolerances(bounds, field.cols);
   const SourceBounds by_sample(tolerances, HUGE_VAL, {});
   read_windows(streamed, {}, by_windows, bounds.empty() ? nullptr : &by_sample);
-  const auto read = fit({nullptr, field.cols, field.rows}, copy(), places, by_windows);
+  const auto read = fit({nullptr, field.cols, field.rows}, copy(), lattice, by_windows);
   RC_ASSERT(whole.has_value() && read.has_value());
   const Triangulation &a = whole->tin, &b = read->tin;
   RC_ASSERT(a.vertex_count() == b.vertex_count() && a.triangle_count() == b.triangle_count());
@@ -182,7 +182,7 @@ SimplifyOptions in_little_memory(Effort effort) {
   return options;
 }
 
-/// Waves of some hundred samples, with a void.
+/// Waves of some hundred samples, with nodata.
 Field wavy_field(std::int32_t cols, std::int32_t rows) {
   Field field{cols, rows, {}};
   for (std::int32_t y = 0; y < rows; ++y) {

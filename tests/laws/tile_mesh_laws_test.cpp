@@ -37,7 +37,7 @@ void insert_into_both(TileMesh& mesh, Triangulation& tin, std::mt19937& random, 
                       Lie lie, int count) {
   for (int k = 0; k < count; ++k) {
     const Point p = random_point(random, cols, rows, lie);
-    mesh.insert(place(p.x, p.y), static_cast<TileMesh::Id>(random() % mesh.triangle_count()));
+    mesh.insert(tile_point(p.x, p.y), static_cast<TileMesh::Id>(random() % mesh.triangle_count()));
     tin.insert(p, tin.locate(p, tin.last_touched()));
   }
 }
@@ -135,7 +135,7 @@ RC_GTEST_PROP(tile_mesh, locates_every_point_from_every_triangle, ()) {
   for (int k = 0; k < 200; ++k) {
     const Point p = random_point(random, cols, rows, Lie::kAnywhere);
     const auto hint = static_cast<TileMesh::Id>(random() % mesh.triangle_count());
-    const auto& corners = mesh[mesh.locate(place(p.x, p.y), hint)].corners;
+    const auto& corners = mesh[mesh.locate(tile_point(p.x, p.y), hint)].corners;
     for (std::size_t e = 0; e < 3; ++e) RC_ASSERT(orient(point_of(corners[e]), point_of(corners[(e + 1) % 3]), p) >= 0);
   }
 }
@@ -147,19 +147,19 @@ RC_GTEST_PROP(tile_mesh, a_cavity_says_what_will_change, ()) {
   mesh.reset(cols, rows);
   for (int k = 0; k < 60; ++k) {
     const Point p = random_point(random, cols, rows, k % 3 == 0 ? Lie::kOnBorder : Lie::kAnywhere);
-    const TileMesh::Id t = mesh.locate(place(p.x, p.y), 0);
+    const TileMesh::Id t = mesh.locate(tile_point(p.x, p.y), 0);
     const auto& corners = mesh[t].corners;
-    if (std::find(corners.begin(), corners.end(), place(p.x, p.y)) != corners.end()) continue;
+    if (std::find(corners.begin(), corners.end(), tile_point(p.x, p.y)) != corners.end()) continue;
     std::vector<TileMesh::Record> before;
     for (TileMesh::Id id = 0; id < mesh.triangle_count(); ++id) before.push_back(mesh[id]);
-    const TileMesh::Cavity cavity = mesh.find_cavity(t, place(p.x, p.y));
+    const TileMesh::Cavity cavity = mesh.find_cavity(t, tile_point(p.x, p.y));
     RC_ASSERT(cavity.removed[0] == t);
     const std::vector<TileMesh::Id> removed(cavity.removed.begin(), cavity.removed.end());
     for (std::size_t i = 0; i < cavity.sides.size(); ++i)
       RC_ASSERT(cavity.sides[i].to == cavity.sides[(i + 1) % cavity.sides.size()].from);
-    const auto fresh = mesh.fill_cavity(place(p.x, p.y));
+    const auto fresh = mesh.fill_cavity(tile_point(p.x, p.y));
     for (const TileMesh::Id id : fresh) {
-      RC_ASSERT(mesh[id].corners[0] == place(p.x, p.y));
+      RC_ASSERT(mesh[id].corners[0] == tile_point(p.x, p.y));
       RC_ASSERT(mesh[id].key == 0);
     }
     for (TileMesh::Id id = 0; id < before.size(); ++id) {
@@ -180,8 +180,8 @@ TEST(tile_mesh, memory_of_an_earlier_tile_does_not_show) {
     TileMesh::Id hint = 0;
     for (int k = 0; k < 100; ++k) {
       const Point p = random_point(random, cols, rows, k % 4 == 0 ? Lie::kOnBorder : Lie::kAnywhere);
-      hint = used.insert(place(p.x, p.y), hint);
-      fresh.insert(place(p.x, p.y), hint % static_cast<TileMesh::Id>(fresh.triangle_count()));
+      hint = used.insert(tile_point(p.x, p.y), hint);
+      fresh.insert(tile_point(p.x, p.y), hint % static_cast<TileMesh::Id>(fresh.triangle_count()));
     }
     ASSERT_EQ(testing::verify_tile_mesh(used, cols, rows), "");
     ASSERT_EQ(used.vertex_count(), fresh.vertex_count());
@@ -191,10 +191,10 @@ TEST(tile_mesh, memory_of_an_earlier_tile_does_not_show) {
 TEST(tile_mesh, a_vertex_is_not_inserted_twice) {
   TileMesh mesh;
   mesh.reset(9, 9);
-  mesh.insert(place(4, 4), 0);
-  const TileMesh::Id t = mesh.insert(place(4, 4), 1);
+  mesh.insert(tile_point(4, 4), 0);
+  const TileMesh::Id t = mesh.insert(tile_point(4, 4), 1);
   EXPECT_EQ(mesh.vertex_count(), 5u);
-  EXPECT_NE(std::find(mesh[t].corners.begin(), mesh[t].corners.end(), place(4, 4)), mesh[t].corners.end());
+  EXPECT_NE(std::find(mesh[t].corners.begin(), mesh[t].corners.end(), tile_point(4, 4)), mesh[t].corners.end());
 }
 
 }  // namespace

@@ -57,10 +57,10 @@ inline std::string verify_tile_mesh(const TileMesh& mesh, std::int32_t cols, std
   return "";
 }
 
-/// A triangle by its places, the smallest first, and whether it is outside.
-using NamedTriangle = std::array<Place, 4>;
+/// A triangle by its points, the smallest first, and whether it is outside.
+using NamedTriangle = std::array<TilePoint, 4>;
 
-inline NamedTriangle name_triangle(std::array<Place, 3> corners, bool outside) {
+inline NamedTriangle name_triangle(std::array<TilePoint, 3> corners, bool outside) {
   std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
   return {corners[0], corners[1], corners[2], outside};
 }
@@ -77,7 +77,8 @@ inline std::vector<NamedTriangle> triangles_of(const Triangulation& tin) {
   std::vector<NamedTriangle> triangles;
   for (Triangle t = 0; t < tin.triangle_count(); ++t) {
     const auto [a, b, c] = tin.corners(t);
-    triangles.push_back(name_triangle({place(a.x, a.y), place(b.x, b.y), place(c.x, c.y)}, tin.is_outside(t)));
+    triangles.push_back(
+        name_triangle({tile_point(a.x, a.y), tile_point(b.x, b.y), tile_point(c.x, c.y)}, tin.is_outside(t)));
   }
   std::sort(triangles.begin(), triangles.end());
   return triangles;
@@ -123,13 +124,13 @@ inline bool is_clearly_kept(const std::array<Point, 3>& corners, const std::arra
   return error + 0x1p-48 * magnitude < threshold;
 }
 
-/// A sample of the closed triangle that breaks the bound as a real number, or a corner that is void; "" if there is
+/// A sample of the closed triangle that breaks the bound as a real number, or a corner that is nodata; "" if there is
 /// none. By looking at every sample of the bounding box.
 inline std::string find_broken_bound(const Raster& raster, const std::array<Point, 3>& corners, double threshold) {
   std::array<float, 3> heights;
   for (std::size_t k = 0; k < 3; ++k) {
     heights[k] = raster.at(corners[k]);
-    if (!raster.is_valid(corners[k])) return fmt::format("the vertex ({}, {}) is void", corners[k].x, corners[k].y);
+    if (!raster.is_valid(corners[k])) return fmt::format("the vertex ({}, {}) is nodata", corners[k].x, corners[k].y);
   }
   const auto [left, right] = std::minmax({corners[0].x, corners[1].x, corners[2].x});
   const auto [top, bottom] = std::minmax({corners[0].y, corners[1].y, corners[2].y});

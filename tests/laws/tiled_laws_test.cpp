@@ -7,7 +7,7 @@
 
 #include "laws/mesh_laws.h"
 #include "laws/tile_meshes.h"
-#include "metric/height_judge.h"
+#include "metric/height_metric.h"
 #include "pieces/freeze.h"
 #include "pieces/release.h"
 #include "pieces/tile_plan.h"
@@ -25,7 +25,7 @@ using testing::Relief;
 TilePiece random_piece(std::mt19937& random, const TileWindow& window, const SharedSides& shared, PieceMaker& maker) {
   TileMesh mesh;
   mesh.reset(window.cols, window.rows);
-  const auto insert = [&](std::int32_t x, std::int32_t y) { mesh.insert(place(x, y), 0); };
+  const auto insert = [&](std::int32_t x, std::int32_t y) { mesh.insert(tile_point(x, y), 0); };
   for (const BorderLine& line : shared_lines(window, shared)) {
     for (std::int32_t step = 1; step < line.steps; ++step) {
       const std::int32_t x = line.col + (line.is_vertical ? 0 : step), y = line.row + (line.is_vertical ? step : 0);
@@ -105,7 +105,7 @@ TiledOptions any_options() {
 }
 
 /// A free edge that is not Delaunay though both triangles of the other diagonal would keep the bound; "" if none.
-std::string find_needless_edge(const Triangulation& tin, const Judge& judge) {
+std::string find_needless_edge(const Triangulation& tin, const ErrorMetric& metric) {
   for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
     const HalfEdge g = tin.twin(h);
     if (g == kNone || tin.is_constrained(h) || tin.is_outside(h / 3)) continue;
@@ -113,7 +113,7 @@ std::string find_needless_edge(const Triangulation& tin, const Judge& judge) {
     const Point a = corner(h), b = corner(g), c = corner(Triangulation::previous(h)),
                 d = corner(Triangulation::previous(g));
     const auto keeps_bound = [&](const std::array<Point, 3>& corners) {
-      return !judge.find_candidate(corners, judge.fit(corners, {}));
+      return !metric.find_candidate(corners, metric.fit(corners, {}));
     };
     if (in_circle(a, b, c, d) > 0 && keeps_bound({c, d, b}) && keeps_bound({d, c, a}))
       return fmt::format("({}, {}) to ({}, {})", a.x, a.y, b.x, b.y);
@@ -146,20 +146,20 @@ RC_GTEST_PROP(tiled, keeps_the_bound_and_the_domain_with_any_tiles, ()) {
   const std::string broken = testing::find_broken_bound(raster, tin, options.threshold);
   RC_ASSERT(broken == "");
 
-  const HeightJudge judge(raster, options.threshold);
-  release_seams(tin, judge, std::move(tiled.seams));
+  const HeightMetric metric(raster, options.threshold);
+  release_seams(tin, metric, std::move(tiled.seams));
   const std::string unsound_after = testing::verify_triangulation(tin, field.cols, field.rows, testing::Edges::kAny);
   RC_ASSERT(unsound_after == "");
   RC_ASSERT(testing::outside_area2(tin) == testing::outside_area2(domain->tin));
   const std::string broken_after = testing::find_broken_bound(raster, tin, options.threshold);
   RC_ASSERT(broken_after == "");
-  const std::string needless = find_needless_edge(tin, judge);
+  const std::string needless = find_needless_edge(tin, metric);
   RC_ASSERT(needless == "");
 
   const auto judged = measure(field.view(), freeze(SampleHeights(raster), tin, {}, grid_frame(field.rows), true));
   RC_ASSERT(judged.has_value());
   RC_ASSERT(judged->uncovered == 0u);
-  RC_ASSERT(judged->void_cells_covered == 0u);
+  RC_ASSERT(judged->nodata_cells_covered == 0u);
   RC_ASSERT(judged->is_sound());
   RC_ASSERT(judged->max_error <= options.threshold + 1e-9);
   std::set<Vertex> used;
@@ -200,8 +200,8 @@ RC_GTEST_PROP(tiled, threads_change_nothing, ()) {
 }
 
 TEST(tiled, the_largest_small_raster_keeps_the_bound_at_every_tile_side) {
-  for (const double voids : {0.0, 0.02}) {
-    const Field field = testing::random_field(5, 200, 150, Relief::kRidges, voids);
+  for (const double nodata : {0.0, 0.02}) {
+    const Field field = testing::random_field(5, 200, 150, Relief::kRidges, nodata);
     for (const std::int32_t side : {8, 31, 64, 512}) {
       const auto tiled = refine_tiled(field.view(), {.threshold = 3, .threads = 2, .tile_side = side});
       ASSERT_TRUE(tiled && *tiled);

@@ -276,7 +276,7 @@ RC_GTEST_PROP(flats, are_those_that_a_flood_finds_in_memory_and_in_a_source, ())
   RC_ASSERT(are_same(*streamed, *held));
 }
 
-/// Waves with a plateau across rows of tiles.
+/// Waves with a plateau across strips.
 Field terrace() {
   Field field{500, 900, {}};
   for (std::int32_t y = 0; y < field.rows; ++y) {

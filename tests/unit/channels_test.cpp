@@ -1,4 +1,4 @@
-// Images as channels: every band, with its colours, voids and place.
+// Images as channels: every band, with its colours, nodata and place.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,7 +59,7 @@ TEST(Channels, APhotoHasRedGreenAndBlue) {
   EXPECT_TRUE(one->is_8bit);
 }
 
-TEST(Channels, ManyBandsKeepTheirOrderScaleAndVoids) {
+TEST(Channels, ManyBandsKeepTheirOrderScaleAndNodata) {
   const ScratchFolder scratch;
   constexpr int kBands = 5, kCols = 300, kRows = 900;
   std::vector<std::uint16_t> values;

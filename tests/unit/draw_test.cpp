@@ -39,7 +39,7 @@ TEST(DrawPreview, LightsSlopesFromTheUpperLeft) {
   EXPECT_GT(brightness(pixel(picture, 10, 20)), brightness(pixel(picture, 30, 20)) + 60);
 }
 
-TEST(DrawPreview, LeavesVoidsWhite) {
+TEST(DrawPreview, LeavesNodataWhite) {
   Terrain terrain = wavy_terrain(30, 30);
   for (int r = 5; r < 15; ++r) {
     for (int c = 5; c < 15; ++c) terrain.at(c, r) = NAN;
@@ -103,7 +103,7 @@ TEST(GridPositions, AreFoundInAFrameThatIsNotAffine) {
   EXPECT_NEAR(at.rows[3], 77.5, 0.02);
 }
 
-TEST(DrawErrorMap, ShowsSignAndSizeAndVoids) {
+TEST(DrawErrorMap, ShowsSignAndSizeAndNodata) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const std::vector<float> errors{-2, 0, 2, nan};
   const Picture picture = draw_error_map(errors, 4, 1, 2);

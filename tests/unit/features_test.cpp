@@ -54,7 +54,7 @@ TEST(Features, AreFittedInTheirOrder) {
   ASSERT_TRUE(fitted) << fitted.error().message;
   ASSERT_EQ(fitted->rivers.size(), 1u);
   ASSERT_TRUE(fitted->walls && fitted->ridges);
-  EXPECT_GT(fitted->walls->faults, 0u);
+  EXPECT_GT(fitted->walls->wall_count, 0u);
 
   std::vector<Line> lines;
   const auto rivers = carve_rivers(field.view(), features.rivers, {}, {features.breaklines.affine, 0.5});
@@ -82,7 +82,7 @@ TEST(Features, ServeABudgetsSearch) {
   EXPECT_LE(simplified->mesh.triangle_count(), 600u);
   const auto fitted = fit_features(field.view(), features, {simplified->lines_for});
   ASSERT_TRUE(fitted);
-  EXPECT_GE(fitted->lines.lines.size(), simplified->lines_laid);
+  EXPECT_GE(fitted->lines.lines.size(), simplified->lines_inserted);
 }
 
 TEST(Features, AreThoseOfAnyKindOfSamples) {
@@ -98,9 +98,9 @@ TEST(Features, AreThoseOfAnyKindOfSamples) {
   with_nodata.nodata = -9999.0f;
   Field holed = field;
   holed.samples[5] = holed.samples[9] = std::numeric_limits<float>::quiet_NaN();
-  const auto voids = fit_features(with_nodata, features, {1.0}), holes = fit_features(holed.view(), features, {1.0});
-  ASSERT_TRUE(held && streamed && voids && holes);
-  for (const auto& [a, b] : {std::pair{&*held, &*streamed}, std::pair{&*voids, &*holes}}) {
+  const auto nodata = fit_features(with_nodata, features, {1.0}), holes = fit_features(holed.view(), features, {1.0});
+  ASSERT_TRUE(held && streamed && nodata && holes);
+  for (const auto& [a, b] : {std::pair{&*held, &*streamed}, std::pair{&*nodata, &*holes}}) {
     ASSERT_EQ(a->lines.lines.size(), b->lines.lines.size());
     for (std::size_t k = 0; k < a->lines.lines.size(); ++k)
       EXPECT_TRUE(same_points(a->lines.lines[k], b->lines.lines[k])) << k;

@@ -31,12 +31,12 @@ inline Terrain wavy_terrain(int cols, int rows) {
   return terrain;
 }
 
-inline Terrain random_terrain(int cols, int rows, double void_share, std::mt19937& random) {
+inline Terrain random_terrain(int cols, int rows, double nodata_share, std::mt19937& random) {
   Terrain terrain{{}, cols, rows, grid_frame(rows)};
   std::uniform_real_distribution<double> unit(0, 1);
   for (int i = 0; i < cols * rows; ++i) {
-    terrain.samples.push_back(unit(random) < void_share ? std::numeric_limits<float>::quiet_NaN()
-                                                        : static_cast<float>(unit(random) * 100));
+    terrain.samples.push_back(unit(random) < nodata_share ? std::numeric_limits<float>::quiet_NaN()
+                                                          : static_cast<float>(unit(random) * 100));
   }
   return terrain;
 }
@@ -48,7 +48,7 @@ inline void add_vertex(Mesh& mesh, const Frame& frame, double col, double row, d
 }
 
 /// All cells of the grid whose sides are multiples of `step`, two triangles each, counter-clockwise from above.
-/// REQUIRES: cols − 1 and rows − 1 are multiples of step; no voids at the vertices.
+/// REQUIRES: cols − 1 and rows − 1 are multiples of step; no nodata at the vertices.
 inline Mesh grid_mesh(const Terrain& terrain, int step) {
   Mesh mesh;
   const int nc = (terrain.cols - 1) / step + 1, nr = (terrain.rows - 1) / step + 1;

@@ -16,8 +16,8 @@ namespace {
 constexpr double kTolerance = 1.0 / 256;
 
 struct Judged {
-  std::vector<double> errors;  // NaN: void, stray or uncovered
-  std::uint64_t uncovered = 0, stray = 0, void_cells = 0;
+  std::vector<double> errors;  // NaN: nodata, stray or uncovered
+  std::uint64_t uncovered = 0, stray = 0, nodata_cells = 0;
   bool is_clear_cut = true;  // no sample or cell lies so near to a limit that rounding decides
 };
 
@@ -149,7 +149,7 @@ Judged ask_oracle(const Terrain& terrain, const Mesh& mesh) {
         if (std::abs(depth - kTolerance) < 1e-9L) out.is_clear_cut = false;
         is_covered = is_covered || depth > kTolerance;
       }
-      out.void_cells += is_covered;
+      out.nodata_cells += is_covered;
     }
   }
   return out;
@@ -200,7 +200,7 @@ void expect_agreement(const Judged& oracle, const Verdict& verdict, int cols) {
   EXPECT_EQ(m.samples, samples);
   EXPECT_EQ(m.uncovered, oracle.uncovered);
   EXPECT_EQ(m.stray, oracle.stray);
-  EXPECT_EQ(m.void_cells_covered, oracle.void_cells);
+  EXPECT_EQ(m.nodata_cells_covered, oracle.nodata_cells);
   if (samples == 0) return;
   const auto n = static_cast<double>(samples);
   EXPECT_NEAR(m.max_error, largest, 1e-9 * largest);
@@ -292,8 +292,8 @@ TEST(Measure, GivesTheSameAnswersInADressedUpFrame) {
     EXPECT_EQ(grid.numbers.uncovered, 0u);
     EXPECT_EQ(dressed.numbers.uncovered, 0u);
     EXPECT_EQ(grid.numbers.stray, dressed.numbers.stray);
-    EXPECT_GT(grid.numbers.void_cells_covered, 0u);
-    EXPECT_EQ(grid.numbers.void_cells_covered, dressed.numbers.void_cells_covered);
+    EXPECT_GT(grid.numbers.nodata_cells_covered, 0u);
+    EXPECT_EQ(grid.numbers.nodata_cells_covered, dressed.numbers.nodata_cells_covered);
     EXPECT_NEAR(grid.numbers.max_error, dressed.numbers.max_error, 1e-6);
     EXPECT_NEAR(grid.numbers.rmse, dressed.numbers.rmse, 1e-6);
     ASSERT_EQ(grid.errors.size(), dressed.errors.size());
@@ -379,7 +379,7 @@ TEST(Measure, IsBitEqualWithAnyNumberOfThreads) {
     EXPECT_EQ(a.p50, b.p50);
     EXPECT_EQ(a.p999, b.p999);
     EXPECT_EQ(a.uncovered, b.uncovered);
-    EXPECT_EQ(a.void_cells_covered, b.void_cells_covered);
+    EXPECT_EQ(a.nodata_cells_covered, b.nodata_cells_covered);
     EXPECT_EQ(a.overlaps, b.overlaps);
     ASSERT_EQ(a.offenders.size(), b.offenders.size());
     for (std::size_t i = 0; i < a.offenders.size(); ++i) {
@@ -390,7 +390,7 @@ TEST(Measure, IsBitEqualWithAnyNumberOfThreads) {
   }
 }
 
-TEST(Measure, TakesNodataAndInfinitiesAsVoid) {
+TEST(Measure, TakesInfinitiesAsNodata) {
   Terrain terrain = wavy_terrain(9, 9);
   const Mesh mesh = grid_mesh(terrain, 8);
   terrain.at(3, 3) = HUGE_VALF;
@@ -400,7 +400,7 @@ TEST(Measure, TakesNodataAndInfinitiesAsVoid) {
   const auto result = measure(field, mesh);
   EXPECT_EQ(result->samples, 79u);
   EXPECT_LT(result->max_error, 50);
-  EXPECT_EQ(result->void_cells_covered, 8u);
+  EXPECT_EQ(result->nodata_cells_covered, 8u);
 }
 
 TEST(Measure, NamesTheWorstSampleOfEachTriangle) {

@@ -12,7 +12,7 @@
 namespace scarp {
 namespace {
 
-/// 'x' is a height, '.' a void.
+/// 'x' is a height, '.' nodata.
 testing::Field field_of(const std::vector<std::string>& picture) {
   testing::Field field{static_cast<std::int32_t>(picture[0].size()), static_cast<std::int32_t>(picture.size()), {}};
   for (const auto& row : picture)
@@ -41,14 +41,14 @@ TEST(outline, a_whole_raster_is_its_rectangle) {
   EXPECT_EQ(twice_area(outline), 4);
 }
 
-TEST(outline, a_void_corner_leaves_half_a_cell) {
+TEST(outline, a_nodata_corner_leaves_half_a_cell) {
   const Outline outline = trace_outline(field_of({".x", "xx"}).raster());
   ASSERT_EQ(outline.size(), 1u);
   EXPECT_EQ(outline[0].size(), 3u);
   EXPECT_EQ(twice_area(outline), 1);
 }
 
-TEST(outline, a_void_sample_inside_makes_a_hole_of_half_cells) {
+TEST(outline, a_nodata_sample_inside_makes_a_hole_of_half_cells) {
   const Outline outline = trace_outline(field_of({"xxxxx", "xxxxx", "xx.xx", "xxxxx", "xxxxx"}).raster());
   ASSERT_EQ(outline.size(), 2u);
   EXPECT_EQ(twice_area(outline[0]), 32);

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "grid/far_points.h"
-#include "grid/point_places.h"
+#include "grid/snapped_points.h"
 #include "unit/raster_files.h"
 
 namespace scarp {
@@ -290,7 +290,7 @@ TEST(point_sets, name_the_few_points_that_lie_far_from_all_others) {
 
 TEST(point_sets, the_lattice_is_the_coarsest_that_holds_the_decimals) {
   const auto step = [](std::vector<std::array<double, 3>> list) {
-    return find_places(set_of(std::move(list)), DuplicatePolicy::kFirst)->lattice.step;
+    return snap_points(set_of(std::move(list)), DuplicatePolicy::kFirst)->lattice.step;
   };
   EXPECT_EQ(step({{0.1, 0, 0}, {0.25, 4, 0}}), 0.05);
   EXPECT_EQ(step({{500015, 4000000, 0}, {500045, 4000090, 0}}), 30);

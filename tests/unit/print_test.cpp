@@ -32,19 +32,19 @@ TEST(Print, KeepsItsBoundAsItIsWritten) {
     options.goals.max_error = error;
     const auto printed = simplify_for_print(held, print, options);
     ASSERT_TRUE(printed) << printed.error().message;
-    ASSERT_EQ(printed->print.sheets.size(), 1u);
-    const Sheet& sheet = printed->print.sheets.front();
-    EXPECT_TRUE(sheet.facts.is_solid()) << sheet.facts.list_faults();
+    ASSERT_EQ(printed->print.tiles.size(), 1u);
+    const PrintTile& tile = printed->print.tiles.front();
+    EXPECT_TRUE(tile.facts.is_solid()) << tile.facts.list_faults();
     EXPECT_LE(printed->print.max_error, error);
     EXPECT_EQ(printed->print.uncovered, 0u);
-    EXPECT_EQ(printed->print.vertices(), sheet.mesh.vertex_count());
-    const double longest = std::max(sheet.facts.high[0] - sheet.facts.low[0], sheet.facts.high[1] - sheet.facts.low[1]);
+    EXPECT_EQ(printed->print.vertices(), tile.mesh.vertex_count());
+    const double longest = std::max(tile.facts.high[0] - tile.facts.low[0], tile.facts.high[1] - tile.facts.low[1]);
     EXPECT_LE(longest, 120.001);
     EXPECT_GE(longest, 119.99);
-    EXPECT_EQ(sheet.facts.low[2], 0);
+    EXPECT_EQ(tile.facts.low[2], 0);
     EXPECT_EQ(printed->print.placement.scale[2], 1.5 * printed->print.placement.scale[0]);
 
-    Mesh back = sheet.mesh;
+    Mesh back = tile.mesh;
     ASSERT_TRUE(undo_placement(back));
     const auto judged = measure(held, back, {.topology = false});
     ASSERT_TRUE(judged);
@@ -52,7 +52,7 @@ TEST(Print, KeepsItsBoundAsItIsWritten) {
   }
 }
 
-TEST(Print, IsCutIntoSheets) {
+TEST(Print, IsCutIntoPrintTiles) {
   const Field field = random_field(7, 100, 80, Relief::kRidges);
   OwnedHeightField held = owned(field);
   PrintOptions print;
@@ -64,16 +64,16 @@ TEST(Print, IsCutIntoSheets) {
   options.goals.max_error = 4;
   const auto printed = simplify_for_print(held, print, options);
   ASSERT_TRUE(printed) << printed.error().message;
-  ASSERT_EQ(printed->print.sheets.size(), 4u);
-  EXPECT_EQ(printed->print.empty_sheets, 0);
+  ASSERT_EQ(printed->print.tiles.size(), 4u);
+  EXPECT_EQ(printed->print.empty_tiles, 0);
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_EQ(printed->print.sheets[k].row, static_cast<int>(k) / 2 + 1);
-    EXPECT_EQ(printed->print.sheets[k].column, static_cast<int>(k) % 2 + 1);
-    EXPECT_TRUE(printed->print.sheets[k].facts.is_solid());
+    EXPECT_EQ(printed->print.tiles[k].row, static_cast<int>(k) / 2 + 1);
+    EXPECT_EQ(printed->print.tiles[k].column, static_cast<int>(k) % 2 + 1);
+    EXPECT_TRUE(printed->print.tiles[k].facts.is_solid());
   }
   EXPECT_EQ(printed->print.uncovered, 0u);
   EXPECT_LE(printed->print.max_error, 4);
-  EXPECT_EQ(printed->simplified.lines_laid, 0u) << "cuts are no lines of the caller's";
+  EXPECT_EQ(printed->simplified.lines_inserted, 0u) << "cuts are no lines of the caller's";
   print.gap = 2;
   const auto gapped = simplify_for_print(held, print, options);
   ASSERT_TRUE(gapped) << gapped.error().message;
@@ -89,7 +89,7 @@ TEST(Print, HasItsUndersideWhereItIsAsked) {
   print.base = -80.25;
   const auto low = simplify_for_print(held, print, options);
   ASSERT_TRUE(low) << low.error().message;
-  EXPECT_EQ(low->print.sheets.front().facts.low[2], -80.25);
+  EXPECT_EQ(low->print.tiles.front().facts.low[2], -80.25);
   print.base.reset();
   print.size = 100;
   print.printed_thickness = 3;
@@ -112,12 +112,12 @@ TEST(Print, RefusesWhatCannotBe) {
     return printed.error().message;
   };
   EXPECT_TRUE(message({.base = 300}).starts_with("base=300 is not below the lowest vertex"));
-  EXPECT_TRUE(message({.base = 0, .thickness = 1}).starts_with("base and thickness contradict"));
+  EXPECT_TRUE(message({.base = 0, .thickness = 1}).starts_with("base cannot be combined with thickness"));
   EXPECT_TRUE(message({.size = 0}).starts_with("size=0 is not above 0"));
   EXPECT_TRUE(message({.exaggerate = -1}).starts_with("exaggerate=-1"));
-  EXPECT_TRUE(message({.columns = 90, .rows = 1}).starts_with("sheets: "));
-  EXPECT_TRUE(message({.columns = 0}).starts_with("sheets: "));
-  EXPECT_TRUE(message({.gap = 1}).starts_with("sheets: "));
+  EXPECT_TRUE(message({.columns = 90, .rows = 1}).starts_with("print tiles: "));
+  EXPECT_TRUE(message({.columns = 0}).starts_with("print tiles: "));
+  EXPECT_TRUE(message({.gap = 1}).starts_with("print tiles: "));
   PrintOptions fine;
   fine.size = 1e-3;
   options.goals.max_error = 0;

@@ -13,7 +13,7 @@ struct Row {
   int cols, rows;
   const char* type;
   double min, max;
-  double void_percent;  ///< share of samples that are nodata
+  double nodata_percent;  ///< share of samples that are nodata
   Frame::Kind frame;
 };
 
@@ -73,9 +73,10 @@ TEST(RasterReference, TheTableHolds) {
     EXPECT_EQ(read->info.sample_type, row.type) << row.file;
     EXPECT_NEAR(read->info.min, row.min, std::abs(row.min) * 5e-6 + 1e-6) << row.file;
     EXPECT_NEAR(read->info.max, row.max, std::abs(row.max) * 5e-6 + 1e-6) << row.file;
-    const double void_percent =
+    const double nodata_percent =
         100 - 100.0 * static_cast<double>(read->info.valid) / static_cast<double>(read->samples.size());
-    EXPECT_NEAR(void_percent, row.void_percent, row.void_percent == 0 ? 0 : row.void_percent * 0.03 + 1e-9) << row.file;
+    EXPECT_NEAR(nodata_percent, row.nodata_percent, row.nodata_percent == 0 ? 0 : row.nodata_percent * 0.03 + 1e-9)
+        << row.file;
     EXPECT_EQ(read->sample_rounding, 0) << row.file;
     EXPECT_EQ(read->frame.kind, row.frame) << row.file;
     if (row.frame != kSource) {

@@ -100,7 +100,7 @@ TEST(rivers, are_lines_of_the_mesh_in_every_effort) {
     for (const River& river : *rivers) options.features.breaklines.lines.push_back(river.course);
     const auto result = simplify(field, options);
     ASSERT_TRUE(result) << result.error().message;
-    EXPECT_EQ(result->lines_laid, 2u);
+    EXPECT_EQ(result->lines_inserted, 2u);
     for (const River& river : *rivers) {
       for (const auto& [x, y, z] : river.course.points) {
         bool is_there = false;

@@ -315,8 +315,8 @@ TEST(Threads, NeverChangeAMeshWithLines) {
     ASSERT_TRUE(one && many);
     EXPECT_EQ(one->mesh.positions, many->mesh.positions);
     EXPECT_EQ(one->mesh.triangles, many->mesh.triangles);
-    EXPECT_EQ(one->lines_laid, 60u);
-    EXPECT_EQ(many->lines_laid, 60u);
+    EXPECT_EQ(one->lines_inserted, 60u);
+    EXPECT_EQ(many->lines_inserted, 60u);
   }
 }
 

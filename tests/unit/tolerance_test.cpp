@@ -101,15 +101,15 @@ TEST(Resample, IsTheSampleAndItsError) {
     const auto heights = resample(terrain.view(), mesh, 1);
     ASSERT_TRUE(heights);
     ASSERT_EQ(heights->size(), errors.size());
-    std::size_t voids = 0;
+    std::size_t nodata = 0;
     for (std::size_t i = 0; i < errors.size(); ++i) {
       const float height = (*heights)[i];
       ASSERT_EQ(std::isnan(height), std::isnan(errors[i]));
-      voids += std::isnan(height);
+      nodata += std::isnan(height);
       if (std::isnan(height)) continue;
       ASSERT_NEAR(height, double{terrain.samples[i]} + errors[i], 1e-4);
     }
-    EXPECT_GT(voids, 1u);
+    EXPECT_GT(nodata, 1u);
     for (const auto& [c, r] : {std::array{0, 0}, {20, 20}, {40, 20}, {60, 0}}) {
       EXPECT_EQ((*heights)[static_cast<std::size_t>(r * 61 + c)], plain.at(c, r));
     }

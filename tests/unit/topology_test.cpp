@@ -99,7 +99,7 @@ TEST(Holes, OfAnyTriangleOfTheFullGridAreSeen) {
   expect_every_hole_seen(terrain, mesh);
 }
 
-TEST(Holes, BesideVoidsAndHalfCellsAreSeen) {
+TEST(Holes, BesideNodataAndHalfCellsAreSeen) {
   std::mt19937 random(3);
   for (int round = 0; round < 20; ++round) {
     const Terrain terrain = random_terrain(9, 8, 0.12, random);

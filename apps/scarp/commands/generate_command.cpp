@@ -69,17 +69,17 @@ void place(OwnedHeightField& field, double size) {
 
 }  // namespace
 
-GenerateCommand::GenerateCommand(CLI::App& program) : verb_(add_command(program, kGenerate)) {
-  add_option(*verb_, OptionId::kStyle, style_);
-  add_option(*verb_, OptionId::kCols, cols_);
-  add_option(*verb_, OptionId::kRows, rows_);
-  add_option(*verb_, OptionId::kOutput, output_);
-  add_option(*verb_, OptionId::kSeed, seed_);
-  add_option(*verb_, OptionId::kRange, range_);
-  add_option(*verb_, OptionId::kSize, size_);
-  add_option(*verb_, OptionId::kOf, format_);
-  add_flag(*verb_, OptionId::kOverwrite, overwrite_);
-  add_flag(*verb_, OptionId::kQuiet, quiet_);
+GenerateCommand::GenerateCommand(CLI::App& program) : command_(add_command(program, kGenerate)) {
+  add_option(*command_, OptionId::kStyle, style_);
+  add_option(*command_, OptionId::kCols, cols_);
+  add_option(*command_, OptionId::kRows, rows_);
+  add_option(*command_, OptionId::kOutput, output_);
+  add_option(*command_, OptionId::kSeed, seed_);
+  add_option(*command_, OptionId::kRange, range_);
+  add_option(*command_, OptionId::kSize, size_);
+  add_option(*command_, OptionId::kOf, format_);
+  add_flag(*command_, OptionId::kOverwrite, overwrite_);
+  add_flag(*command_, OptionId::kQuiet, quiet_);
 }
 
 Result<void> GenerateCommand::run() const {

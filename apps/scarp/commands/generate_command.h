@@ -10,16 +10,16 @@ namespace scarp::cli {
 
 class GenerateCommand {
  public:
-  /// Adds the verb to the program. This object must stay alive and in place until run() is done.
+  /// Adds the command to the program. This object must stay alive and in place until run() is done.
   explicit GenerateCommand(CLI::App& program);
   GenerateCommand(const GenerateCommand&) = delete;
   GenerateCommand& operator=(const GenerateCommand&) = delete;
 
-  bool is_chosen() const { return verb_->parsed(); }
+  bool is_chosen() const { return command_->parsed(); }
   Result<void> run() const;
 
  private:
-  CLI::App* verb_;
+  CLI::App* command_;
   std::string style_, cols_, rows_, output_;
   Given seed_, range_, size_, format_;
   bool overwrite_ = false, quiet_ = false;

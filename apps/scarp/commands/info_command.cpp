@@ -91,12 +91,12 @@ std::string make_table(const OwnedHeightField& field, const Suggestions& suggest
 
 }  // namespace
 
-InfoCommand::InfoCommand(CLI::App& program) : verb_(add_command(program, kInfo)) {
-  add_option(*verb_, OptionId::kRaster, raster_.path);
-  raster_.add_to(*verb_);
-  add_flag(*verb_, OptionId::kJson, json_);
-  add_flag(*verb_, OptionId::kQuiet, quiet_);
-  add_flag(*verb_, OptionId::kJsonProgress, json_progress_);
+InfoCommand::InfoCommand(CLI::App& program) : command_(add_command(program, kInfo)) {
+  add_option(*command_, OptionId::kRaster, raster_.path);
+  raster_.add_to(*command_);
+  add_flag(*command_, OptionId::kJson, json_);
+  add_flag(*command_, OptionId::kQuiet, quiet_);
+  add_flag(*command_, OptionId::kJsonProgress, json_progress_);
 }
 
 Result<void> InfoCommand::run(const std::string& command_line) const {

@@ -44,23 +44,23 @@ Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::s
 
 }  // namespace
 
-MeasureCommand::MeasureCommand(CLI::App& program) : verb_(add_command(program, kMeasure)) {
-  add_option(*verb_, OptionId::kRaster, raster_.path);
-  add_option(*verb_, OptionId::kMesh, mesh_);
-  raster_.add_to(*verb_);
-  points_.add_to(*verb_);
-  add_option(*verb_, OptionId::kFailAbove, fail_above_);
-  companions_.add_to(*verb_);
-  cut_.add_to(*verb_);
-  channels_.add_to(*verb_);
-  add_flag(*verb_, OptionId::kJson, json_);
-  add_option(*verb_, OptionId::kMap, map_);
-  add_option(*verb_, OptionId::kErrorRaster, error_raster_);
-  add_flag(*verb_, OptionId::kOverwrite, overwrite_);
-  add_option(*verb_, OptionId::kThreads, threads_);
-  memory_.add_to(*verb_);
-  add_flag(*verb_, OptionId::kQuiet, quiet_);
-  add_flag(*verb_, OptionId::kJsonProgress, json_progress_);
+MeasureCommand::MeasureCommand(CLI::App& program) : command_(add_command(program, kMeasure)) {
+  add_option(*command_, OptionId::kRaster, raster_.path);
+  add_option(*command_, OptionId::kMesh, mesh_);
+  raster_.add_to(*command_);
+  points_.add_to(*command_);
+  add_option(*command_, OptionId::kFailAbove, fail_above_);
+  companions_.add_to(*command_);
+  cut_.add_to(*command_);
+  channels_.add_to(*command_);
+  add_flag(*command_, OptionId::kJson, json_);
+  add_option(*command_, OptionId::kMap, map_);
+  add_option(*command_, OptionId::kErrorRaster, error_raster_);
+  add_flag(*command_, OptionId::kOverwrite, overwrite_);
+  add_option(*command_, OptionId::kThreads, threads_);
+  memory_.add_to(*command_);
+  add_flag(*command_, OptionId::kQuiet, quiet_);
+  add_flag(*command_, OptionId::kJsonProgress, json_progress_);
 }
 
 Result<void> MeasureCommand::check_outputs_of_run() const {
@@ -233,7 +233,7 @@ Result<Judgement> MeasureCommand::judge(const ProgressCallback& progress, const 
 Result<void> MeasureCommand::run(const std::string& command_line) const {
   const Clock::time_point start = Clock::now();
   if (points_.are_meant(raster_.path)) {
-    return run_measure_points(*verb_,
+    return run_measure_points(*command_,
                               {raster_.path, mesh_, raster_.crs, fail_above_, threads_, json_, quiet_, json_progress_},
                               points_, command_line);
   }
@@ -252,7 +252,7 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
   const Result<std::optional<std::uint64_t>> limit = memory_.parse();
   if (!limit) return tl::unexpected(limit.error());
   if (*limit && judged.plan.image) {
-    return fail(ErrorKind::kUsage, "--memory and --image contradict each other: images are read as a whole");
+    return fail(ErrorKind::kUsage, "--memory cannot be combined with --image: images are read as a whole");
   }
   if (fail_above_) {
     const Result<double> bound = parse_non_negative("--fail-above", *fail_above_);

@@ -19,12 +19,12 @@ namespace scarp::cli {
 
 class MeasureCommand {
  public:
-  /// Adds the verb to the program. This object must stay alive and in place until run() is done.
+  /// Adds the command to the program. This object must stay alive and in place until run() is done.
   explicit MeasureCommand(CLI::App& program);
   MeasureCommand(const MeasureCommand&) = delete;
   MeasureCommand& operator=(const MeasureCommand&) = delete;
 
-  bool is_chosen() const { return verb_->parsed(); }
+  bool is_chosen() const { return command_->parsed(); }
   /// `command_line` is what the user typed, for the report.
   Result<void> run(const std::string& command_line) const;
 
@@ -43,7 +43,7 @@ class MeasureCommand {
   Result<Judgement> judge(const ProgressCallback& progress, const Judged& judged, StreamedErrors& errors) const;
   Result<void> write_files(const Judged& judged, StreamedErrors& errors) const;
 
-  CLI::App* verb_;
+  CLI::App* command_;
   RasterArguments raster_;
   PointsArguments points_;
   std::string mesh_;

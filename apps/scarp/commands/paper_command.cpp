@@ -29,7 +29,7 @@ void add_header(paper::Study& study) {
       "what is known of the experiments in M. Garland and P. S. Heckbert, *Fast Polygonal Approximation of Terrains "
       "and Height Fields* (CMU-CS-95-181, 1995): the paper.",
       study.timing ? "" : " --no-timing", version()));
-  if (study.fields.are_reports) {
+  if (study.fields.are_of_paper) {
     study.page.paragraph(
         "In brackets: the figure of Scape 1.2, the paper's own program, measured on the same fields, and Scarp's "
         "difference from it. The figures are listed in `apps/scarp/paper/figures.h`. The fields are the paper's five: "
@@ -76,12 +76,12 @@ Result<void> write_all(const paper::Study& study, const fs::path& page, bool ove
 
 }  // namespace
 
-PaperCommand::PaperCommand(CLI::App& program) : verb_(add_command(program, kPaper)) {
-  add_option(*verb_, OptionId::kData, data_);
-  add_option(*verb_, OptionId::kOut, out_);
-  add_flag(*verb_, OptionId::kNoTiming, no_timing_);
-  add_flag(*verb_, OptionId::kOverwrite, overwrite_);
-  add_flag(*verb_, OptionId::kQuiet, quiet_);
+PaperCommand::PaperCommand(CLI::App& program) : command_(add_command(program, kPaper)) {
+  add_option(*command_, OptionId::kData, data_);
+  add_option(*command_, OptionId::kOut, out_);
+  add_flag(*command_, OptionId::kNoTiming, no_timing_);
+  add_flag(*command_, OptionId::kOverwrite, overwrite_);
+  add_flag(*command_, OptionId::kQuiet, quiet_);
 }
 
 Result<void> PaperCommand::run() const {

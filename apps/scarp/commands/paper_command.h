@@ -1,4 +1,4 @@
-// scarp paper: repeats the report's experiments.
+// scarp paper: repeats the experiments of the 1995 paper.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -10,16 +10,16 @@ namespace scarp::cli {
 
 class PaperCommand {
  public:
-  /// Adds the verb to the program. This object must stay alive and in place until run() is done.
+  /// Adds the command to the program. This object must stay alive and in place until run() is done.
   explicit PaperCommand(CLI::App& program);
   PaperCommand(const PaperCommand&) = delete;
   PaperCommand& operator=(const PaperCommand&) = delete;
 
-  bool is_chosen() const { return verb_->parsed(); }
+  bool is_chosen() const { return command_->parsed(); }
   Result<void> run() const;
 
  private:
-  CLI::App* verb_;
+  CLI::App* command_;
   std::string data_, out_ = "docs";
   bool no_timing_ = false, overwrite_ = false, quiet_ = false;
 };

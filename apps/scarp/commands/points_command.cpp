@@ -19,13 +19,13 @@
 namespace scarp::cli {
 namespace {
 
-/// Points have no use for many of the verb's options; silence would be a lie.
-Result<void> refuse_raster_options(const CLI::App& verb, const std::string& path) {
+/// Points have no use for many of the command's options; silence would be a lie.
+Result<void> refuse_raster_options(const CLI::App& command, const std::string& path) {
   constexpr std::array<std::string_view, 17> kMeant{
       "--max-error",     "--max-triangles", "--max-points",  "--crs",        "--of",     "--base",
       "--report",        "--overwrite",     "--num-threads", "--quiet",      "--points", "--layer",
       "--json-progress", "--duplicates",    "--z-field",     "--fail-above", "--json"};
-  for (const CLI::Option* option : verb.get_options()) {
+  for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     const bool is_meant = option->get_positional() || std::find(kMeant.begin(), kMeant.end(), name) != kMeant.end();
     if (option->count() > 0 && !is_meant)
@@ -102,10 +102,10 @@ Error with_path(Error error, const std::string& path) {
 
 }  // namespace
 
-Result<void> run_simplify_points(const CLI::App& verb, const SimplifyArguments& given, const PointsArguments& arguments,
-                                 const std::string& command_line) {
+Result<void> run_simplify_points(const CLI::App& command, const SimplifyArguments& given,
+                                 const PointsArguments& arguments, const std::string& command_line) {
   const Clock::time_point start = Clock::now();
-  if (auto meant = refuse_raster_options(verb, given.raster.path); !meant) return meant;
+  if (auto meant = refuse_raster_options(command, given.raster.path); !meant) return meant;
   if (!given.max_error && !given.max_triangles && !given.max_points)
     return fail(ErrorKind::kUsage,
                 "no goal is given: say how good the mesh must be, such as -e 1 for heights within 1 unit, or how small "
@@ -180,10 +180,10 @@ Result<void> run_simplify_points(const CLI::App& verb, const SimplifyArguments& 
   return {};
 }
 
-Result<void> run_measure_points(const CLI::App& verb, const MeasurePointsArguments& given,
+Result<void> run_measure_points(const CLI::App& command, const MeasurePointsArguments& given,
                                 const PointsArguments& arguments, const std::string& command_line) {
   const Clock::time_point start = Clock::now();
-  if (auto meant = refuse_raster_options(verb, given.path); !meant) return meant;
+  if (auto meant = refuse_raster_options(command, given.path); !meant) return meant;
   const Result<int> threads = parse_threads(given.threads);
   if (!threads) return tl::unexpected(threads.error());
   JudgedPoints judged;

@@ -12,7 +12,7 @@ class App;
 
 namespace scarp::cli {
 
-/// The options of every verb that reads points.
+/// The options of every command that reads points.
 struct PointsArguments {
   bool points = false;
   Given duplicates, layer, z_field;
@@ -31,11 +31,11 @@ struct MeasurePointsArguments {
   bool json = false, quiet = false, json_progress = false;
 };
 
-/// `verb` is asked which options were given: those for rasters are refused by name. `command_line` is what the user
+/// `command` is asked which options were given: those for rasters are refused by name. `command_line` is what the user
 /// typed, for the report.
-Result<void> run_simplify_points(const CLI::App& verb, const SimplifyArguments& given, const PointsArguments& points,
+Result<void> run_simplify_points(const CLI::App& command, const SimplifyArguments& given, const PointsArguments& points,
                                  const std::string& command_line);
-Result<void> run_measure_points(const CLI::App& verb, const MeasurePointsArguments& given,
+Result<void> run_measure_points(const CLI::App& command, const MeasurePointsArguments& given,
                                 const PointsArguments& points, const std::string& command_line);
 
 }  // namespace scarp::cli

@@ -46,7 +46,7 @@ Result<void> read_heights(const SimplifyPlan& plan, const ReadOptions& options, 
   }
   outcome.field = std::move(*field);
   outcome.as_read = outcome.field.info;
-  if (plan.policy == NodataPolicy::kFill) outcome.filled = fill_voids(outcome.field, plan.fill_distance);
+  if (plan.policy == NodataPolicy::kFill) outcome.filled = fill_nodata(outcome.field, plan.fill_distance);
   if (plan.policy == NodataPolicy::kBackground) outcome.filled = fill_background(outcome.field, plan.background);
   Result<Channels> textures = read_textures(plan.channels, outcome.field, options.run.progress);
   if (!textures) return tl::unexpected(std::move(textures.error()));
@@ -233,14 +233,14 @@ Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyO
 
 }  // namespace
 
-SimplifyCommand::SimplifyCommand(CLI::App& program) : verb_(add_command(program, kSimplify)) {
-  given_.add_to(*verb_);
-  points_.add_to(*verb_);
+SimplifyCommand::SimplifyCommand(CLI::App& program) : command_(add_command(program, kSimplify)) {
+  given_.add_to(*command_);
+  points_.add_to(*command_);
 }
 
 Result<void> SimplifyCommand::run(const std::string& command_line) const {
   const Clock::time_point start = Clock::now();
-  if (points_.are_meant(given_.raster.path)) return run_simplify_points(*verb_, given_, points_, command_line);
+  if (points_.are_meant(given_.raster.path)) return run_simplify_points(*command_, given_, points_, command_line);
   if (auto unused = points_.check_unused(given_.raster.path); !unused) return unused;
   Result<SimplifyPlan> plan = plan_simplify(given_);
   if (!plan) return tl::unexpected(std::move(plan.error()));
@@ -313,7 +313,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
         "or "
         "the heights span magnitudes beyond exact arithmetic");
   }
-  if (fitted.given_lines() > 0 && outcome.simplified.lines_laid == 0) {
+  if (fitted.given_lines() > 0 && outcome.simplified.lines_inserted == 0) {
     outcome.warnings.push_back(
         fmt::format("{}: no line lies on the raster's surface, so they change nothing: is their CRS the right one?",
                     plan->lines.find_lines()));

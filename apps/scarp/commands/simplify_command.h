@@ -11,17 +11,17 @@ namespace scarp::cli {
 
 class SimplifyCommand {
  public:
-  /// Adds the verb to the program. This object must stay alive and in place until run() is done.
+  /// Adds the command to the program. This object must stay alive and in place until run() is done.
   explicit SimplifyCommand(CLI::App& program);
   SimplifyCommand(const SimplifyCommand&) = delete;
   SimplifyCommand& operator=(const SimplifyCommand&) = delete;
 
-  bool is_chosen() const { return verb_->parsed(); }
+  bool is_chosen() const { return command_->parsed(); }
   /// `command_line` is what the user typed, for the report.
   Result<void> run(const std::string& command_line) const;
 
  private:
-  CLI::App* verb_;
+  CLI::App* command_;
   SimplifyArguments given_;
   PointsArguments points_;
 };

@@ -113,30 +113,30 @@ Result<void> add_error_raster(const SimplifyPlan& plan, const ProgressCallback& 
   return {};
 }
 
-/// The sheets of the print, with the terrain's metadata.
+/// The print tiles, with the terrain's metadata.
 std::vector<Mesh> named_solids(const Outcome& outcome) {
   std::vector<Mesh> solids;
-  const bool is_whole = outcome.print->sheets.size() == 1 && outcome.print->empty_sheets == 0;
-  for (const Sheet& sheet : outcome.print->sheets) {
-    solids.push_back(sheet.mesh);
+  const bool is_whole = outcome.print->tiles.size() == 1 && outcome.print->empty_tiles == 0;
+  for (const PrintTile& tile : outcome.print->tiles) {
+    solids.push_back(tile.mesh);
     solids.back().metadata.insert(outcome.simplified.mesh.metadata.begin(), outcome.simplified.mesh.metadata.end());
-    solids.back().metadata["name"] = is_whole ? "terrain" : fmt::format("r{}-c{}", sheet.row, sheet.column);
+    solids.back().metadata["name"] = is_whole ? "terrain" : fmt::format("r{}-c{}", tile.row, tile.column);
   }
   return solids;
 }
 
-/// A file for each sheet; the first file is OUTPUT's, whose place the first of them takes.
-Result<void> encode_sheets(const SimplifyPlan& plan, const Outcome& outcome, std::vector<ReadyFile>& files) {
+/// A file for each print tile; the first file is OUTPUT's, whose place the first of them takes.
+Result<void> encode_print_tiles(const SimplifyPlan& plan, const Outcome& outcome, std::vector<ReadyFile>& files) {
   const std::vector<std::string> paths = print_paths(plan, *outcome.print);
   const std::vector<Mesh> solids = named_solids(outcome);
-  std::vector<ReadyFile> sheets;
+  std::vector<ReadyFile> tiles;
   for (std::size_t k = 0; k < solids.size(); ++k) {
     Result<std::vector<std::uint8_t>> bytes = encode_mesh(solids[k], plan.format.mesh);
     if (!bytes) return tl::unexpected(std::move(bytes.error()));
-    sheets.push_back({paths[k], plan.format.name(), std::move(*bytes)});
+    tiles.push_back({paths[k], plan.format.name(), std::move(*bytes)});
   }
   files.erase(files.begin());
-  files.insert(files.begin(), std::make_move_iterator(sheets.begin()), std::make_move_iterator(sheets.end()));
+  files.insert(files.begin(), std::make_move_iterator(tiles.begin()), std::make_move_iterator(tiles.end()));
   return {};
 }
 
@@ -184,7 +184,8 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
   if (!added) return tl::unexpected(std::move(added.error()));
   add_metadata(plan, outcome);
   if (outcome.print && plan.format.mesh != MeshFormat::k3mf) {
-    if (auto encoded = encode_sheets(plan, outcome, files); !encoded) return tl::unexpected(std::move(encoded.error()));
+    if (auto encoded = encode_print_tiles(plan, outcome, files); !encoded)
+      return tl::unexpected(std::move(encoded.error()));
     return files;
   }
   if (auto encoded = encode_output(plan, outcome, files.front()); !encoded) return tl::unexpected(encoded.error());

@@ -88,8 +88,8 @@ void add_solid(Json& report, const SimplifyPlan& plan, const SimplifyRun& run) {
 
 std::vector<std::string> print_paths(const SimplifyPlan& plan, const Print& print) {
   std::vector<std::string> paths;
-  if (plan.has_file_per_sheet()) {
-    for (const Sheet& sheet : print.sheets) paths.push_back(sheet_path(plan.output, sheet.row, sheet.column));
+  if (plan.has_file_per_tile()) {
+    for (const PrintTile& tile : print.tiles) paths.push_back(tile_path(plan.output, tile.row, tile.column));
   } else {
     paths.push_back(plan.output);
   }

@@ -47,7 +47,7 @@ Json describe_passes(const SimplifyRun& run);
 Json describe_seconds(const SimplifyRun& run);
 Json describe_outputs(const std::vector<ReadyFile>& files);
 void add_solid(Json& report, const SimplifyPlan& plan, const SimplifyRun& run);
-/// The file of each sheet of the print, or one that holds them all.
+/// The file of each print tile, or one that holds them all.
 std::vector<std::string> print_paths(const SimplifyPlan& plan, const Print& print);
 
 /// A line of the summary, and those that every summary has.

@@ -39,8 +39,8 @@ Result<PrintedTerrain> simplify_as_print(const PrintOptions& plan, OwnedHeightFi
   if (printed) return printed;
   Error error = std::move(printed.error());
   if (error.message.starts_with("base=")) error.message.insert(0, "--solid ");
-  constexpr std::string_view kSheets = "sheets:";
-  if (error.message.starts_with(kSheets)) error.message.replace(0, kSheets.size(), "--split:");
+  constexpr std::string_view kPrintTiles = "print tiles:";
+  if (error.message.starts_with(kPrintTiles)) error.message.replace(0, kPrintTiles.size(), "--split:");
   return tl::unexpected(std::move(error));
 }
 
@@ -53,10 +53,10 @@ Json describe_print(const PrintOptions& plan, const Print& print, const std::vec
              {"max_error", print.max_error},
              {"uncovered", print.uncovered}};
   Json list = Json::array();
-  for (std::size_t k = 0; k < print.sheets.size(); ++k) {
-    const Sheet& sheet = print.sheets[k];
-    Json entry{{"path", paths.size() == 1 ? paths[0] : paths[k]}, {"row", sheet.row}, {"column", sheet.column}};
-    entry.update(describe_facts(sheet.mesh, sheet.facts));
+  for (std::size_t k = 0; k < print.tiles.size(); ++k) {
+    const PrintTile& tile = print.tiles[k];
+    Json entry{{"path", paths.size() == 1 ? paths[0] : paths[k]}, {"row", tile.row}, {"column", tile.column}};
+    entry.update(describe_facts(tile.mesh, tile.facts));
     list.push_back(std::move(entry));
   }
   solid["pieces"] = std::move(list);
@@ -68,12 +68,12 @@ std::string print_lines(const PrintOptions& plan, const Print& print) {
                                                        format_plural(print.triangles(), "triangle"),
                                                        format_number(print.base), format_number(print.max_error)));
   if (print.uncovered > 0)
-    text += summary_line("", format_plural(print.uncovered, "sample") + " in the gaps between sheets");
-  if (print.sheets.size() == 1) return text + summary_line("", size_text(print.sheets.front().facts, plan));
-  for (const Sheet& sheet : print.sheets) {
+    text += summary_line("", format_plural(print.uncovered, "sample") + " in the gaps between print tiles");
+  if (print.tiles.size() == 1) return text + summary_line("", size_text(print.tiles.front().facts, plan));
+  for (const PrintTile& tile : print.tiles) {
     text += summary_line(
-        fmt::format("sheet r{} c{}", sheet.row, sheet.column).c_str(),
-        fmt::format("{}, {}", format_plural(sheet.facts.triangles, "triangle"), size_text(sheet.facts, plan)));
+        fmt::format("tile r{} c{}", tile.row, tile.column).c_str(),
+        fmt::format("{}, {}", format_plural(tile.facts.triangles, "triangle"), size_text(tile.facts, plan)));
   }
   return text;
 }

@@ -13,7 +13,7 @@ namespace scarp::cli {
 Result<PrintedTerrain> simplify_as_print(const PrintOptions& plan, OwnedHeightField& field,
                                          const SimplifyOptions& options);
 
-/// The "solid" object of the report; `paths` has the file of each sheet, or one for all.
+/// The "solid" object of the report; `paths` has the file of each print tile, or one for all.
 Json describe_print(const PrintOptions& plan, const Print& print, const std::vector<std::string>& paths);
 /// Its part of the summary.
 std::string print_lines(const PrintOptions& plan, const Print& print);

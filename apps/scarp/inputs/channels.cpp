@@ -126,10 +126,10 @@ Result<ChannelPlan> ChannelArguments::parse(const RasterArguments& raster) const
   plan.image = image;
   plan.textures = textures;
   if (image && !textures.empty()) {
-    return fail(ErrorKind::kUsage, "--image and --texture contradict each other: an image has no heights to texture");
+    return fail(ErrorKind::kUsage, "--image cannot be combined with --texture: an image has no heights to texture");
   }
   if (image && raster.decode) {
-    return fail(ErrorKind::kUsage, "--image and --decode contradict each other: decoded bands are heights");
+    return fail(ErrorKind::kUsage, "--image cannot be combined with --decode: decoded bands are heights");
   }
   for (const std::string& texture : textures) {
     if (texture.empty()) return fail(ErrorKind::kUsage, "the name of --texture is empty");

@@ -61,7 +61,7 @@ struct Channels {
 Result<Channels> read_textures(const ChannelPlan& plan, const OwnedHeightField& heights,
                                const ProgressCallback& progress);
 
-/// An image as a height field of zeros, void where a band has no value, and its bands as channels. The error of a
+/// An image as a height field of zeros, nodata where a band has no value, and its bands as channels. The error of a
 /// sample is the norm of weight · |error| of each band, in grey levels; bands that are not bytes are brought to the
 /// largest range of any of them.
 struct Image {

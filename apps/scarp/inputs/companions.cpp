@@ -194,7 +194,7 @@ Result<void> CompanionArguments::check(const char* bound_option, bool has_bound)
     if (const auto region = parse_region(text); !region) return tl::unexpected(region.error());
   }
   if (mask && !roi.empty())
-    return fail(ErrorKind::kUsage, "--mask and --roi contradict each other: regions have errors, not weights");
+    return fail(ErrorKind::kUsage, "--mask cannot be combined with --roi: regions have errors, not weights");
   if (falloff) {
     if (const auto distance = parse_non_negative("--falloff", *falloff); !distance)
       return tl::unexpected(distance.error());
@@ -206,7 +206,7 @@ Result<void> CompanionArguments::check(const char* bound_option, bool has_bound)
   }
   if (mask && tolerance) {
     return fail(ErrorKind::kUsage,
-                "--mask and --tolerance contradict each other: divide the bound by the weights into one tolerance");
+                "--mask cannot be combined with --tolerance: divide the bound by the weights into one tolerance");
   }
   return {};
 }

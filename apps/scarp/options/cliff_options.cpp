@@ -32,14 +32,14 @@ std::optional<WallGoals> CliffArguments::goals() const {
 Json describe_cliffs(const CliffArguments& given, const std::optional<Cliffs>& cliffs) {
   if (!cliffs) return nullptr;
   return Json{{"height", *parse_non_negative("--cliff", *given.height)},
-              {"walls", cliffs->faults},
+              {"walls", cliffs->wall_count},
               {"lines", cliffs->lines.size()},
               {"line_vertices", cliffs->vertices}};
 }
 
 std::string cliffs_line(const std::optional<Cliffs>& cliffs) {
   if (!cliffs) return "";
-  return summary_line("cliffs", fmt::format("{} between two lines each, {}", format_plural(cliffs->faults, "wall"),
+  return summary_line("cliffs", fmt::format("{} between two lines each, {}", format_plural(cliffs->wall_count, "wall"),
                                             format_count(cliffs->vertices) + " vertices in all"));
 }
 

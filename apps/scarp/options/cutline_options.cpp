@@ -75,17 +75,17 @@ Result<Cut> read_cut(const CutlineArguments& given, const RasterInfo& raster, co
     cut.cutline.rings = std::move(*moved);
   }
   if (!given.mask_outside) return cut;
-  const auto left = void_outside(field, cut.cutline, progress);
+  const auto left = mask_outside(field, cut.cutline, progress);
   if (!left) return tl::unexpected(left.error());
   cut.masked = left->lost;
   cut.bytes = left->bytes;
   cut.cutline.rings = {};
-  const bool is_void = left->kept == 0;
-  if (is_void || (cut.masked > 0 && !left->has_surface))
+  const bool is_empty = left->kept == 0;
+  if (is_empty || (cut.masked > 0 && !left->has_surface))
     return fail(ErrorKind::kInput,
                 fmt::format("--cutline {} --mask-outside: no {} of {} lies in the polygons{}",
-                            shell_word(given.files.front()), is_void ? "height" : "cell with three heights",
-                            raster.path, is_void ? "" : ": leave --mask-outside out to cut through cells"));
+                            shell_word(given.files.front()), is_empty ? "height" : "cell with three heights",
+                            raster.path, is_empty ? "" : ": leave --mask-outside out to cut through cells"));
   return cut;
 }
 

@@ -75,7 +75,7 @@ Result<void> LineArguments::check() const {
   if (needing != nullptr && breaklines.empty() && !may_meet)
     return fail(ErrorKind::kUsage, fmt::format("{} needs --breaklines: there are no lines without", needing));
   if (are_soft && z_field)
-    return fail(ErrorKind::kUsage, "--soft-breaklines and --breakline-z contradict each other: leave one of them out");
+    return fail(ErrorKind::kUsage, "--soft-breaklines cannot be combined with --breakline-z; drop one of them");
   if (percentile) {
     if (water.empty()) return fail(ErrorKind::kUsage, "--water-percentile needs --water: there is no lake without");
     const Result<double> share = parse_non_negative("--water-percentile", *percentile);
@@ -86,7 +86,7 @@ Result<void> LineArguments::check() const {
   if (flats) {
     if (!water.empty())
       return fail(ErrorKind::kUsage,
-                  "--detect-flats and --water contradict each other: lakes are found, or named by a file");
+                  "--detect-flats cannot be combined with --water: lakes are found, or named by a file");
     const Result<std::uint64_t> samples = parse_count("--detect-flats", *flats, 3);
     if (!samples) return tl::unexpected(samples.error());
   }
@@ -102,7 +102,7 @@ Result<void> check_frame_of_lines(const LineArguments& given, const Frame& frame
   const std::string crs = shell_word(crs_option);
   return fail(
       ErrorKind::kUsage,
-      fmt::format("{} and --crs {} contradict each other: lines are laid where the grid is regular, and in that "
+      fmt::format("{} cannot be combined with --crs {}: lines are inserted where the grid is regular, and in that "
                   "CRS it is bent. Leave --crs out, or bend the raster first: gdalwarp -t_srs {} {} warped.tif",
                   lines, crs, crs, shell_word(input)));
 }
@@ -134,22 +134,22 @@ Result<LineConstraints> LineArguments::read(const RasterInfo& raster, int rows, 
   return constraints;
 }
 
-Json describe_lines(const LineArguments& given, std::uint64_t lines, std::uint64_t laid,
+Json describe_lines(const LineArguments& given, std::uint64_t lines, std::uint64_t inserted,
                     const std::vector<SampleEdit>& edits) {
   if (given.breaklines.empty()) return nullptr;
   return Json{{"files", given.breaklines},
               {"lines", lines},
-              {"laid", laid},
+              {"laid", inserted},
               {"edited_samples", edits.size()},
               {"largest_edit", largest_edit(edits)}};
 }
 
-std::string lines_line(std::uint64_t lines, std::uint64_t laid, const std::vector<SampleEdit>& edits) {
+std::string lines_line(std::uint64_t lines, std::uint64_t inserted, const std::vector<SampleEdit>& edits) {
   if (lines == 0) return "";
   std::string text = format_plural(lines, "line");
-  if (laid != lines) {
-    text = fmt::format("{} of {}, the {} beside the raster", laid == 0 ? "none" : format_count(laid), text,
-                       lines - laid == 1 ? "other lies" : "others lie");
+  if (inserted != lines) {
+    text = fmt::format("{} of {}, the {} beside the raster", inserted == 0 ? "none" : format_count(inserted), text,
+                       lines - inserted == 1 ? "other lies" : "others lie");
   }
   if (!edits.empty())
     text +=

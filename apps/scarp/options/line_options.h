@@ -44,9 +44,9 @@ Result<void> check_frame_of_lines(const LineArguments& given, const Frame& frame
                                   const std::string& input);
 
 /// The "breaklines" object of a report; null without lines.
-Json describe_lines(const LineArguments& given, std::uint64_t lines, std::uint64_t laid,
+Json describe_lines(const LineArguments& given, std::uint64_t lines, std::uint64_t inserted,
                     const std::vector<SampleEdit>& edits);
 /// Of the summary; empty without lines.
-std::string lines_line(std::uint64_t lines, std::uint64_t laid, const std::vector<SampleEdit>& edits);
+std::string lines_line(std::uint64_t lines, std::uint64_t inserted, const std::vector<SampleEdit>& edits);
 
 }  // namespace scarp::cli

@@ -138,7 +138,7 @@ Result<ReadOptions> RasterArguments::parse() const {
                   fmt::format("--decode {} is unknown: choose terrarium or mapbox", shell_word(*decode)));
     }
     if (band) {
-      return fail(ErrorKind::kUsage, "--decode and --band contradict each other: decoding takes bands 1, 2 and 3");
+      return fail(ErrorKind::kUsage, "--decode cannot be combined with --band: decoding takes bands 1, 2 and 3");
     }
   }
   if (crs) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kNames = "glb, obj, ply, stl, tin, 2dm, vtu, vtp, landxml, dxf, gpkg, 3mf, svg, eps or dem";
 
-/// What the verbs must know of a mesh format before they write it.
+/// What the commands must know of a mesh format before they write it.
 struct MeshRow {
   MeshFormat format;
   const char* name;

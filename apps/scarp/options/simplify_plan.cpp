@@ -85,7 +85,7 @@ Result<void> plan_channels(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.channels = *channels;
   plan.simplify.goals.norm = channels->norm;
   if (channels->image && plan.policy != NodataPolicy::kHole) {
-    return fail(ErrorKind::kUsage, "--image and --nodata-policy contradict each other: missing pixels are holes");
+    return fail(ErrorKind::kUsage, "--image cannot be combined with --nodata-policy: missing pixels are holes");
   }
   if (channels->has_channels() && !channels->image && channels->texture_weight == 1) {
     if (given.max_error) {
@@ -139,8 +139,7 @@ Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   // Water is level where all corners of its triangles are: at samples and on its shore.
   const char* lakes = given.lines.find_lakes();
   if (lakes != nullptr && plan.simplify.quality.vertices == Vertices::kFree)
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} and --vertices free contradict each other: leave one of them out", lakes));
+    return fail(ErrorKind::kUsage, fmt::format("{} cannot be combined with --vertices free; drop one of them", lakes));
   if (lakes != nullptr) plan.simplify.quality.vertices = Vertices::kSamples;
   return {};
 }
@@ -177,8 +176,7 @@ Result<void> plan_solid(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.solid = *solid;
   if (!plan.solid) return {};
   if (const char* obstacle = find_print_obstacle(given); obstacle != nullptr)
-    return fail(ErrorKind::kUsage,
-                fmt::format("--solid and {} contradict each other: leave one of them out", obstacle));
+    return fail(ErrorKind::kUsage, fmt::format("--solid cannot be combined with {}; drop one of them", obstacle));
   return {};
 }
 
@@ -194,7 +192,7 @@ Result<void> plan_solid_format(const SimplifyArguments& given, SimplifyPlan& pla
                 fmt::format("--solid is for printing, and {} has no place for millimetres: choose .stl, .3mf, .obj or "
                             ".ply, or --base for a solid in the raster's units",
                             format.title()));
-  if (plan.has_file_per_sheet() && is_stdout(given.output))
+  if (plan.has_file_per_tile() && is_stdout(given.output))
     return fail(ErrorKind::kUsage, "--split writes several files: /dev/stdout is only one");
   return {};
 }
@@ -218,12 +216,11 @@ Result<void> plan_attributes(const SimplifyArguments& given, SimplifyPlan& plan)
                 fmt::format("--base makes a solid, which {} cannot hold: choose a mesh format", title));
   }
   if (given.normals && given.base) {
-    return fail(ErrorKind::kUsage,
-                "--normals and --base contradict each other: a solid's walls have no terrain normal");
+    return fail(ErrorKind::kUsage, "--normals cannot be combined with --base: a solid's walls have no terrain normal");
   }
   if (given.normals && given.channels.image) {
     return fail(ErrorKind::kUsage,
-                "--normals and --image contradict each other: an image is flat, and its normals say nothing");
+                "--normals cannot be combined with --image: an image is flat, and its normals say nothing");
   }
   if (format.kind == OutputKind::kDem && given.raster.crs) {
     plan.warnings.push_back("a raster's approximation lies on the raster's own grid, whatever --crs says");
@@ -260,10 +257,10 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (auto solid = plan_solid_format(given, plan); !solid) return solid;
 
   std::vector<PlannedOutput> outputs;
-  if (!plan.has_file_per_sheet()) outputs.push_back({"OUTPUT", given.output});
-  for (int k = 0; plan.has_file_per_sheet() && k < plan.solid->columns * plan.solid->rows; ++k) {
+  if (!plan.has_file_per_tile()) outputs.push_back({"OUTPUT", given.output});
+  for (int k = 0; plan.has_file_per_tile() && k < plan.solid->columns * plan.solid->rows; ++k) {
     const int columns = plan.solid->columns;
-    outputs.push_back({"--split", sheet_path(given.output, k / columns + 1, k % columns + 1)});
+    outputs.push_back({"--split", tile_path(given.output, k / columns + 1, k % columns + 1)});
   }
   const std::pair<const char*, const Given*> pictures[] = {{"--preview", &given.preview}, {"--render", &given.render}};
   for (const auto& [option, path] : pictures) {
@@ -304,7 +301,7 @@ Result<void> plan_memory(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.memory = *limit;
   if (!plan.memory) return {};
   if (plan.channels.image) {
-    return fail(ErrorKind::kUsage, "--memory and --image contradict each other: images are read as a whole");
+    return fail(ErrorKind::kUsage, "--memory cannot be combined with --image: images are read as a whole");
   }
   plan.simplify.run.memory.limit = *plan.memory;
   plan.simplify.run.memory.per_vertex = plan.format.bytes_per_vertex();

@@ -78,8 +78,8 @@ struct SimplifyPlan {
   /// without what cannot change the mesh (threads, quietness, other outputs, the output's name).
   std::string canonical_command;
 
-  /// Of a print in sheets; else OUTPUT holds them all.
-  bool has_file_per_sheet() const { return solid && solid->is_split() && format.mesh != MeshFormat::k3mf; }
+  /// Of a print in print tiles; else OUTPUT holds them all.
+  bool has_file_per_tile() const { return solid && solid->is_split() && format.mesh != MeshFormat::k3mf; }
 };
 
 Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given);

@@ -103,8 +103,9 @@ Result<void> take_split(const Pair& pair, bool is_first, PrintOptions& plan, boo
     if (plan.columns >= 1 && plan.rows >= 1 && plan.columns <= 100 && plan.rows <= 100) return {};
   }
   if (is_first)
-    return fail(ErrorKind::kUsage, fmt::format("--split {} is no COLUMNSxROWS of sheets, 1 to 100 each, such as 2x3",
-                                               shell_word(key + (value ? "=" + *value : ""))));
+    return fail(ErrorKind::kUsage,
+                fmt::format("--split {} is no COLUMNSxROWS of print tiles, 1 to 100 each, such as 2x3",
+                            shell_word(key + (value ? "=" + *value : ""))));
   if (key == "gap" && value) {
     const Result<Length> gap = parse_length("--split gap", *value);
     if (!gap) return tl::unexpected(gap.error());
@@ -129,7 +130,8 @@ void SolidArguments::add_to(CLI::App& command) {
 
 Result<std::optional<PrintOptions>> SolidArguments::parse() const {
   if (!solid) {
-    if (split) return fail(ErrorKind::kUsage, "--split needs --solid: sheets are solids, such as --solid size=120mm");
+    if (split)
+      return fail(ErrorKind::kUsage, "--split needs --solid: print tiles are solids, such as --solid size=120mm");
     return std::optional<PrintOptions>();
   }
   PrintOptions plan;
@@ -137,7 +139,7 @@ Result<std::optional<PrintOptions>> SolidArguments::parse() const {
     if (auto taken = take_solid(pair, plan); !taken) return tl::unexpected(taken.error());
   }
   if (plan.base && (plan.thickness || plan.printed_thickness))
-    return fail(ErrorKind::kUsage, "--solid base and thickness contradict each other: leave one of them out");
+    return fail(ErrorKind::kUsage, "--solid base cannot be combined with thickness; drop one of them");
   bool is_first = true, is_gap_metric = false;
   for (const Pair& pair : split ? split_pairs(*split) : std::vector<Pair>()) {
     if (auto taken = take_split(pair, is_first, plan, is_gap_metric); !taken) return tl::unexpected(taken.error());
@@ -154,7 +156,7 @@ Result<std::optional<PrintOptions>> SolidArguments::parse() const {
   return std::optional(plan);
 }
 
-std::string sheet_path(const std::string& output, int row, int column) {
+std::string tile_path(const std::string& output, int row, int column) {
   const std::size_t point = output.size() - lower_extension(output).size();
   return fmt::format("{}-r{}-c{}{}", output.substr(0, point), row, column, output.substr(point));
 }

@@ -1,4 +1,4 @@
-// --solid and --split: a print of the terrain, whole or in sheets.
+// --solid and --split: a print of the terrain, whole or in print tiles.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ struct SolidArguments {
   std::string canonical() const { return canonical_option("--solid", solid) + canonical_option("--split", split); }
 };
 
-/// "hills-r1-c2.stl": the file of a sheet.
-std::string sheet_path(const std::string& output, int row, int column);
+/// "hills-r1-c2.stl": the file of a print tile.
+std::string tile_path(const std::string& output, int row, int column);
 
 }  // namespace scarp::cli

@@ -9,7 +9,7 @@ namespace {
 struct Rule {
   const char* name;
   Batch batch;
-  const BatchFigures* figures;  ///< null: the report's program has no such rule
+  const BatchFigures* figures;  ///< null: the paper's program has no such rule
 };
 
 constexpr std::array<Rule, 7> kRules{{{"sequential", {Batch::Rule::kSequential, 1}, &kSequential},

@@ -137,7 +137,7 @@ Result<void> add_gain_table(Study& study, const ModeTrials& trials) {
                     number(static_cast<double>(sum.work.samples_scanned) /
                            static_cast<double>(std::max<std::uint64_t>(delaunay.work.samples_scanned, 1)))});
   }
-  if (study.fields.are_reports) {
+  if (study.fields.are_of_paper) {
     rows.push_back({"*Scape*", fmt::format("−{:g} to −{:g} %", kGainAt5Least, kGainAt5Most),
                     fmt::format("{:g} to {:g} %", kFewerLeast, kFewerMost), "",
                     fmt::format("{:g} to {:g} %", kThinLeast[0], kThinMost[0]),
@@ -220,7 +220,7 @@ Result<void> add_times(Study& study) {
       fmt::format("*Measured once, on the machine that wrote this page:* time against Delaunay at 1 %, median of three "
                   "rounds of runs "
                   "in turn{}.",
-                  study.fields.are_reports
+                  study.fields.are_of_paper
                       ? fmt::format(" (Scape, sum: {:g} to {:g})", kDataDependentTimeLeast, kDataDependentTimeMost)
                       : ""));
   std::vector<std::string> header{"field"};
@@ -265,7 +265,7 @@ Result<void> add_edge_sweep(Study& study) {
       const Result<Trial> trial = study.refine(*field, field->share(1), with_edges(scape_edges(EdgeScore::kSum, q)));
       if (!trial) return tl::unexpected(trial.error());
       std::optional<double> scape;
-      if (const int at = position_of(kThreeFields, field->key); study.fields.are_reports && at >= 0) {
+      if (const int at = position_of(kThreeFields, field->key); study.fields.are_of_paper && at >= 0) {
         scape = kSweep[static_cast<std::size_t>(at)][k];
         theirs.points.push_back({q, *scape / *figure_of(study, kReportFields, kDelaunayRmse, *field)});
       }

@@ -79,7 +79,7 @@ Plot make_plot(const Study& study, const std::vector<Series>& all) {
     plot.curves.push_back(std::move(measured));
     plot.curves.push_back(std::move(fitted));
   }
-  if (study.fields.are_reports) {
+  if (study.fields.are_of_paper) {
     Curve scape{"Scape", Curve::Style::kLineAndPoints, {}, 6};
     for (const ScanFigure& figure : kScans)
       scape.points.push_back({static_cast<double>(figure.vertices), figure.millions * 1e6 / (1024 * 1024)});
@@ -90,7 +90,7 @@ Plot make_plot(const Study& study, const std::vector<Series>& all) {
 
 std::optional<double> scape_scans(const Study& study, const Field& field, std::uint64_t vertices) {
   for (const ScanFigure& figure : kScans) {
-    if (study.fields.are_reports && field.key == kScanField && figure.vertices == vertices) return figure.millions;
+    if (study.fields.are_of_paper && field.key == kScanField && figure.vertices == vertices) return figure.millions;
   }
   return std::nullopt;
 }
@@ -131,14 +131,14 @@ Result<void> add_effort(Study& study) {
   if (!drawn) return drawn;
   std::vector<std::string> remarks;
   for (const Series& series : all) {
-    const bool compares = study.fields.are_reports && series.field->key == kScanField;
+    const bool compares = study.fields.are_of_paper && series.field->key == kScanField;
     remarks.push_back(fmt::format("Fitted on {}: samples scanned, without corners, = n ({}){}.", series.field->key,
                                   describe(series.line),
                                   compares ? "; Scape: n (" + describe({kScanSlope, kScanOffset}) + ")" : ""));
   }
   remarks.push_back(fmt::format(
       "The queue moves {} to {} entries a vertex{}: log m, as a heap should.", number(least), number(most),
-      study.fields.are_reports ? fmt::format(" (Scape: {:g} to {:g} swaps)", kSwapsLeast, kSwapsMost) : ""));
+      study.fields.are_of_paper ? fmt::format(" (Scape: {:g} to {:g} swaps)", kSwapsLeast, kSwapsMost) : ""));
   if (!counts.empty()) {
     remarks.push_back(counts.sentence("counts of samples") +
                       " Scape passes over samples that are vertices, Scarp looks at the corners of each triangle and "

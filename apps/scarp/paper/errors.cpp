@@ -33,7 +33,7 @@ Result<void> add_reference_rows(Study& study) {
                     fmt::format("{:.2f} %", 100 * trial->rmse / field.relief())});
     return {};
   };
-  if (study.fields.are_reports) {
+  if (study.fields.are_of_paper) {
     for (const ReferenceRow& row : kReferenceRows) {
       const Field* field = study.find(row.field);
       if (field == nullptr) continue;
@@ -106,7 +106,7 @@ Result<Curves> trace(const Field& field, int color) {
 }
 
 Result<void> add_spikes(Study& study) {
-  const Field* crater = study.fields.are_reports ? study.find("crater") : nullptr;
+  const Field* crater = study.fields.are_of_paper ? study.find("crater") : nullptr;
   if (crater == nullptr) return {};
   std::vector<std::vector<std::string>> rows;
   for (const MaxErrorFigure& figure : kCraterSpikes) {
@@ -139,7 +139,7 @@ Result<void> add_error_curves(Study& study) {
     Curve their_max{"", Curve::Style::kPoints, {}, color}, their_rmse = their_max;
     for (const ReferenceRow& row : kReferenceRows) {
       const auto m = static_cast<double>(row.vertices);
-      if (!study.fields.are_reports || field.key != row.field || row.vertices > field.samples() / 10 + 1) continue;
+      if (!study.fields.are_of_paper || field.key != row.field || row.vertices > field.samples() / 10 + 1) continue;
       their_max.points.push_back({m, 100 * row.max_error / field.relief()});
       their_rmse.points.push_back({m, 100 * row.rmse / field.relief()});
     }
@@ -149,7 +149,7 @@ Result<void> add_error_curves(Study& study) {
   }
   if (max_plot.curves.empty()) return {};
   study.page.heading(3, "Error against vertices");
-  study.page.paragraph(study.fields.are_reports ? "Circles: Scape's rows above." : "Greedy insertion, Delaunay.");
+  study.page.paragraph(study.fields.are_of_paper ? "Circles: Scape's rows above." : "Greedy insertion, Delaunay.");
   Result<void> drawn = study.add_plot("rms_error", rmse_plot);
   if (drawn) drawn = study.add_plot("max_error", max_plot);
   return drawn ? add_spikes(study) : drawn;

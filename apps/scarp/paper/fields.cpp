@@ -78,8 +78,8 @@ Result<Fields> read_fields(const std::string& folder) {
     if (!field) return tl::unexpected(std::move(field.error()));
     fields.all.push_back(std::move(*field));
   }
-  fields.are_reports = !fields.all.empty();
-  if (fields.are_reports) return fields;
+  fields.are_of_paper = !fields.all.empty();
+  if (fields.are_of_paper) return fields;
 
   const Result<std::vector<fs::path>> paths = list_rasters(folder);
   if (!paths) return tl::unexpected(paths.error());

@@ -1,4 +1,4 @@
-// The rasters of a folder: the report's five fields, or whatever else is there.
+// The rasters of a folder: the paper's five fields, or whatever else is there.
 #pragma once
 
 #include <cstdint>
@@ -16,19 +16,19 @@ struct Field {
   OwnedHeightField heights;
 
   std::uint64_t samples() const { return heights.samples.size(); }
-  /// That share of the samples, rounded: the report's numbers of vertices.
+  /// That share of the samples, rounded: the paper's numbers of vertices.
   std::uint64_t share(double percent) const;
   double relief() const { return heights.info.max - heights.info.min; }
 };
 
 struct Fields {
-  std::vector<Field> all;                  ///< the report's in its order, others by name
-  bool are_reports = false;                ///< at least one is the report's; no others are read then
+  std::vector<Field> all;                  ///< the paper's in its order, others by name
+  bool are_of_paper = false;               ///< at least one is the paper's; no others are read then
   std::vector<std::string> left_out = {};  ///< sentences
 };
 
-/// Finds scape_crater.stm, crater.stm, crater.pgm, crater.tif, … for each of the report's fields; a folder without any
-/// of them gives all its rasters. Rasters with voids or of more than four million samples are left out. kInput where
+/// Finds scape_crater.stm, crater.stm, crater.pgm, crater.tif, … for each of the paper's fields; a folder without any
+/// of them gives all its rasters. Rasters with nodata or of more than four million samples are left out. kInput where
 /// none is left, or one cannot be read.
 Result<Fields> read_fields(const std::string& folder);
 

@@ -8,7 +8,7 @@
 
 namespace scarp::paper {
 
-/// The report's fields, in its order.
+/// The paper's fields, in its order.
 inline constexpr std::array<const char*, 5> kReportFields{"crater", "ashby", "ozark", "ntc", "westUS"};
 /// Those that 1.2, 2.6 and the sweep of 3.7 are about.
 inline constexpr std::array<const char*, 3> kThreeFields{"crater", "ashby", "westUS"};

@@ -11,7 +11,7 @@
 namespace scarp::paper {
 namespace {
 
-/// The report used the mandrill; these are free.
+/// The paper used the mandrill; these are free.
 struct Image {
   const char* file;
   const char* source;

@@ -39,12 +39,12 @@ class Study {
   void note(const std::string& what) const;
   /// The field called `key`; null if it is not there.
   const Field* find(const std::string& key) const;
-  /// Of the report's fields those that are named, else all.
+  /// Of the paper's fields those that are named, else all.
   template <std::size_t N>
   std::vector<const Field*> choose(const std::array<const char*, N>& keys) const {
     std::vector<const Field*> chosen;
     for (const Field& field : fields.all) {
-      if (!fields.are_reports || position_of(keys, field.key) >= 0) chosen.push_back(&field);
+      if (!fields.are_of_paper || position_of(keys, field.key) >= 0) chosen.push_back(&field);
     }
     return chosen;
   }
@@ -76,7 +76,7 @@ class Study {
 
 /// Options for exactly that many vertices.
 PaperOptions exactly(std::uint64_t vertices, PaperOptions options = {});
-/// Data-dependent triangulation as the report's program does it: edges are not settled after the last insertion.
+/// Data-dependent triangulation as the paper's program does it: edges are not settled after the last insertion.
 EdgeRule scape_edges(EdgeScore score, double shape_threshold);
 /// A rule for the options.
 PaperOptions with_edges(const EdgeRule& edges);
@@ -89,11 +89,11 @@ struct UniformGrid {
 };
 UniformGrid uniform_grid(int field_cols, int field_rows, std::uint64_t vertices);
 
-/// A figure of the report's program for a field, if there is one.
+/// A figure of the paper's program for a field, if there is one.
 template <std::size_t N, class Figures>
 std::optional<double> figure_of(const Study& study, const std::array<const char*, N>& keys, const Figures& figures,
                                 const Field& field) {
-  const int at = study.fields.are_reports ? position_of(keys, field.key) : -1;
+  const int at = study.fields.are_of_paper ? position_of(keys, field.key) : -1;
   if (at < 0) return std::nullopt;
   return static_cast<double>(figures[static_cast<std::size_t>(at)]);
 }

@@ -13,7 +13,7 @@ constexpr int kPictureSide = 224;
 
 struct Emphasis {
   const char* name;
-  double colors;  ///< the report's emphasis: 0 heights alone, 1 colours alone
+  double colors;  ///< the paper's emphasis: 0 heights alone, 1 colours alone
 };
 constexpr std::array<Emphasis, 5> kEmphases{{{"heights alone", 0},
                                              {"both, emphasis 0.02", 0.02},

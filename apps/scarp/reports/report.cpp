@@ -111,7 +111,7 @@ void add_coverage(Json& report, const Measurement& measured) {
   report["samples"] = measured.samples;
   report["uncovered"] = measured.uncovered;
   report["stray"] = measured.stray;
-  report["void_cells_covered"] = measured.void_cells_covered;
+  report["void_cells_covered"] = measured.nodata_cells_covered;
   report["topology"] = describe_topology(measured);
 }
 

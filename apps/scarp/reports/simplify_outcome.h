@@ -19,7 +19,7 @@ namespace scarp::cli {
 /// Everything that the files, the report and the summary tell.
 struct Outcome : SimplifyRun {
   OwnedHeightField field;
-  RasterInfo as_read;   ///< before voids were filled
+  RasterInfo as_read;   ///< before nodata was filled
   HeightRange heights;  ///< of the samples that were judged
   Channels channels;
   Companions companions;

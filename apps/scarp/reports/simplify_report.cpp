@@ -148,7 +148,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["strategy"]["roi"] = plan.companions.roi.empty() ? Json(nullptr) : Json(plan.companions.roi);
   report["strategy"]["falloff"] = or_null(plan.companions.falloff);
   report["breaklines"] = describe_lines(plan.lines, outcome.simplified.features.given_lines(),
-                                        outcome.simplified.lines_laid, outcome.simplified.edits);
+                                        outcome.simplified.lines_inserted, outcome.simplified.edits);
   report["water"] = describe_lakes(outcome.features.lakes);
   report["rivers"] = describe_rivers(outcome.simplified.features.rivers);
   report["cliffs"] = describe_cliffs(plan.cliff, outcome.simplified.features.walls);
@@ -186,7 +186,7 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
                                    format_count(info.valid), is_image ? "pixels" : "samples",
                                    is_image ? format_plural(outcome.channels.count(), "band") + "," : "heights",
                                    format_number(info.min), format_number(info.max), unit));
-  if (outcome.filled > 0) text += summary_line("filled", format_plural(outcome.filled, "void sample"));
+  if (outcome.filled > 0) text += summary_line("filled", format_plural(outcome.filled, "nodata sample"));
   text += files_lines(plan, files);
   text += summary_line("vertices", format_count(outcome.vertices));
   const std::uint64_t full = full_grid_triangles(outcome.field);
@@ -196,8 +196,8 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
                   format_share(static_cast<double>(outcome.triangles), static_cast<double>(full)), format_count(full)));
   text += waters_lines(outcome.features.lakes, outcome.simplified.features.rivers);
   if (!plan.cut.files.empty()) text += summary_line("cutline", cut_words(outcome.cut, outcome.simplified.cut_off));
-  text +=
-      lines_line(outcome.simplified.features.given_lines(), outcome.simplified.lines_laid, outcome.simplified.edits);
+  text += lines_line(outcome.simplified.features.given_lines(), outcome.simplified.lines_inserted,
+                     outcome.simplified.edits);
   text += cliffs_line(outcome.simplified.features.walls);
   text += ridges_line(outcome.simplified.features.ridges);
   text += shape_line(plan.simplify.quality.shape, outcome.simplified);

@@ -10,14 +10,14 @@
 
 namespace scarp {
 
-/// The samples of `source`, void where CutRows::void_beyond() says. Cost: a window's own.
+/// The samples of `source`, nodata where CutRows::mask_beyond() says. Cost: a window's own.
 class CutSource final : public SampleSource {
  public:
   CutSource(const SampleSource& source, std::shared_ptr<const CutRows> cut) : source_(source), cut_(std::move(cut)) {}
 
   Result<void> read(int col, int row, int cols, int rows, float* out, std::ptrdiff_t stride) const override {
     if (auto copied = source_.read(col, row, cols, rows, out, stride); !copied) return copied;
-    cut_->void_beyond(col, row, cols, rows, out, stride);
+    cut_->mask_beyond(col, row, cols, rows, out, stride);
     return {};
   }
   bool is_in_memory() const override { return source_.is_in_memory(); }

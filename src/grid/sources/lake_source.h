@@ -16,8 +16,8 @@ struct LevelRun {
   bool only_raises = false;  ///< those that lie above it stay
 };
 
-/// `source` with some samples at other heights; voids stay voids. `runs`: in raster order, apart from each other. Cost:
-/// a window's own, and a search for its first run in each row.
+/// `source` with some samples at other heights; nodata stays nodata. `runs`: in raster order, apart from each other.
+/// Cost: a window's own, and a search for its first run in each row.
 std::shared_ptr<const SampleSource> level_source(std::shared_ptr<const SampleSource> source,
                                                  std::vector<LevelRun> runs);
 

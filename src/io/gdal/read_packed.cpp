@@ -21,7 +21,7 @@ double decode_height(Decode decode, const std::uint8_t* rgb) {
 }
 
 /// A colour that stands for nodata: every band's declared value.
-std::optional<std::array<std::uint8_t, 3>> find_void_colour(GDALDatasetH dataset) {
+std::optional<std::array<std::uint8_t, 3>> find_nodata_colour(GDALDatasetH dataset) {
   std::array<std::uint8_t, 3> colour{};
   for (int k = 0; k < 3; ++k) {
     int declared = 0;
@@ -41,7 +41,7 @@ class PackedReader : public WindowReader {
         bands_(GDALGetRasterCount(dataset)),
         red_(GDALGetRasterBand(dataset, 1)),
         masked_(bands_ == 3 && (GDALGetMaskFlags(red_) & GMF_PER_DATASET) != 0),
-        void_colour_(options.nodata ? std::nullopt : find_void_colour(dataset)) {}
+        nodata_colour_(options.nodata ? std::nullopt : find_nodata_colour(dataset)) {}
 
   bool read(const Window& w, float* out, std::ptrdiff_t stride) override {
     const auto count = static_cast<std::size_t>(w.cols) * static_cast<std::size_t>(w.rows);
@@ -69,10 +69,10 @@ class PackedReader : public WindowReader {
  private:
   float height_of(const std::uint8_t* rgb, bool is_masked) {
     const double height = decode_height(decode_, rgb);
-    const bool is_void = (bands_ == 4 && rgb[3] == 0) || is_masked ||
-                         (void_colour_ && std::equal(rgb, rgb + 3, void_colour_->begin())) ||
-                         (nodata_ && static_cast<float>(*nodata_) == static_cast<float>(height));
-    if (is_void) return std::numeric_limits<float>::quiet_NaN();
+    const bool is_nodata = (bands_ == 4 && rgb[3] == 0) || is_masked ||
+                           (nodata_colour_ && std::equal(rgb, rgb + 3, nodata_colour_->begin())) ||
+                           (nodata_ && static_cast<float>(*nodata_) == static_cast<float>(height));
+    if (is_nodata) return std::numeric_limits<float>::quiet_NaN();
     const auto z = static_cast<float>(height);
     findings_.rounding = std::max(findings_.rounding, std::abs(height - static_cast<double>(z)));
     return z;
@@ -84,7 +84,7 @@ class PackedReader : public WindowReader {
   int bands_;
   GDALRasterBandH red_;
   bool masked_;
-  std::optional<std::array<std::uint8_t, 3>> void_colour_;
+  std::optional<std::array<std::uint8_t, 3>> nodata_colour_;
   std::vector<std::uint8_t> pixels_, mask_;
 };
 

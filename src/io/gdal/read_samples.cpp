@@ -26,7 +26,7 @@ namespace scarp::gdal {
 namespace {
 
 constexpr std::size_t kCodes = 65536;
-constexpr float kVoidSample = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNodataSample = std::numeric_limits<float>::quiet_NaN();
 constexpr double kLargest = std::numeric_limits<float>::max();
 
 /// "−3.40282e+38" and its like stand for the lowest float however few digits survived, and no terrain is that high.
@@ -51,7 +51,7 @@ class NodataTest {
   std::optional<Raw> value_;
 };
 
-float to_float32(double value) { return std::abs(value) <= kLargest ? static_cast<float>(value) : kVoidSample; }
+float to_float32(double value) { return std::abs(value) <= kLargest ? static_cast<float>(value) : kNodataSample; }
 
 /// |raw − rounded|, without error of its own.
 double distance(double raw, float rounded) { return std::abs(raw - static_cast<double>(rounded)); }
@@ -102,9 +102,9 @@ class BandReader : public WindowReader {
       for (int col = 0; col < window.cols; ++col) {
         if (plan_.signed_byte && z[col] > 127) z[col] -= 256;
         if (is_nodata(z[col]) || std::isnan(z[col])) {
-          z[col] = kVoidSample;
+          z[col] = kNodataSample;
         } else if (std::isinf(z[col])) {
-          z[col] = kVoidSample;
+          z[col] = kNodataSample;
           ++findings_.infinities;
         }
       }
@@ -145,14 +145,14 @@ class BandReader : public WindowReader {
   template <class Raw>
   float convert(Raw raw, const NodataTest<Raw>& is_nodata) {
     if (plan_.signed_byte && raw > 127) raw -= 256;
-    if (is_nodata(raw)) return kVoidSample;
+    if (is_nodata(raw)) return kNodataSample;
     double value = static_cast<double>(raw);
-    if (std::isnan(value)) return kVoidSample;
+    if (std::isnan(value)) return kNodataSample;
     if (is_scaled(plan_)) value = value * plan_.scale + plan_.offset;
     const float z = to_float32(value);
     if (std::isnan(z)) {
       ++findings_.infinities;
-      return kVoidSample;
+      return kNodataSample;
     }
     const double moved = is_scaled(plan_) || std::is_floating_point_v<Raw> ? distance(value, z) : distance(raw, z);
     findings_.rounding = std::max(findings_.rounding, moved);
@@ -171,7 +171,7 @@ class BandReader : public WindowReader {
     for (int row = 0; row < window.rows; ++row) {
       float* z = row_of(row);
       for (int col = 0; col < window.cols; ++col, ++shown) {
-        if (*shown == 0) z[col] = kVoidSample;
+        if (*shown == 0) z[col] = kNodataSample;
       }
     }
     return true;
@@ -254,7 +254,7 @@ Result<void> read_codes(Session& session, const BandPlan& plan, const ReadOption
 
   BandReader reader(plan);
   RasterInfo& info = field.info;
-  std::vector<float> heights(kCodes, kVoidSample);
+  std::vector<float> heights(kCodes, kNodataSample);
   for (std::size_t code = 0; code < kCodes; ++code) {
     if (counts[code] == 0) continue;
     const std::uint64_t infinities_before = reader.findings().infinities;

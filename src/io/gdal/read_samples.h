@@ -36,7 +36,7 @@ void warn_of_colours(GDALDatasetH dataset, const BandPlan& plan, RasterInfo& inf
 
 /// What reading came upon.
 struct Findings {
-  std::uint64_t infinities = 0;  ///< infinities and values beyond float32, which became void
+  std::uint64_t infinities = 0;  ///< infinities and values beyond float32, which became nodata
   double rounding = 0;           ///< largest |value − float32 sample|
 };
 

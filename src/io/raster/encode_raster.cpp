@@ -18,13 +18,13 @@ Result<std::vector<std::uint8_t>> encode_pgm(const RasterImage& raster) {
   std::vector<std::uint8_t> bytes(header.begin(), header.end());
   bytes.reserve(header.size() + 2 * raster.samples.size());
   const auto cols = static_cast<std::size_t>(raster.cols);
-  bool has_void = false;
-  std::size_t brightest = raster.samples.size();  // the first sample that looks like a void
+  bool has_nodata = false;
+  std::size_t brightest = raster.samples.size();  // the first sample that looks like nodata
   for (std::size_t i = 0; i < raster.samples.size(); ++i) {
     const float sample = raster.samples[i];
     double value = kPgmMost;
     if (std::isnan(sample)) {
-      has_void = true;
+      has_nodata = true;
     } else {
       value = std::floor(double{sample} + 0.5);
       if (!(value >= 0 && value <= kPgmMost)) {
@@ -38,10 +38,10 @@ Result<std::vector<std::uint8_t>> encode_pgm(const RasterImage& raster) {
     bytes.push_back(static_cast<std::uint8_t>(number >> 8));
     bytes.push_back(static_cast<std::uint8_t>(number & 255));
   }
-  if (has_void && brightest < raster.samples.size()) {
+  if (has_nodata && brightest < raster.samples.size()) {
     return fail(ErrorKind::kOutput,
                 fmt::format("sample ({}, {}) is 65535, which stands for nodata in the PGM of a raster "
-                            "with voids; write GeoTIFF",
+                            "with missing samples; write GeoTIFF",
                             brightest % cols, brightest / cols));
   }
   return bytes;

@@ -101,8 +101,8 @@ class PgmSamples {
       return fail(ErrorKind::kInput, fmt::format("{}: sample ({}, {}) is {}, above the header's maxval {}", name_,
                                                  index % header_.cols, index / header_.cols, value, header_.maxval));
     }
-    const bool is_void = nodata_ && *nodata_ == value;
-    out_[index] = is_void ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(value);
+    const bool is_nodata = nodata_ && *nodata_ == value;
+    out_[index] = is_nodata ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(value);
     return {};
   }
 

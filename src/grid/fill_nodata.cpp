@@ -1,11 +1,11 @@
-// Filling voids.
+// Filling nodata.
 //
-// Problem: a void sample needs a height from the valid samples around it, near ones first, in time that does not grow
-// with the size of the void.
+// Problem: a nodata sample needs a height from the valid samples around it, near ones first, in time that does not grow
+// with the size of the area.
 //
 // Idea: look along the eight compass directions only. "The nearest valid sample to the north-west" of a sample is the
 // one of its north-western neighbour, unless that neighbour is valid itself: one sweep down the rows carries the
-// answers for W, N, NW and NE, one sweep up those for E, S, SW and SE. Each void sample gathers Σ w and
+// answers for W, N, NW and NE, one sweep up those for E, S, SW and SE. Each nodata sample gathers Σ w and
 // Σ w·(z − reference), w = 1 / distance², in two passes over the raster. The reference is the first height found: over
 // a flat surround the result is that height exactly. Σ w is a float, for memory; Σ w·(z − reference) may be beyond
 // float's range. Heights are written at the end, so that no filled sample feeds another.
@@ -28,7 +28,7 @@ struct Seen {
   int steps = -1;  ///< away; -1: there is none
 };
 
-/// Sums of one void sample: 16 bytes.
+/// Sums of one nodata sample: 16 bytes.
 struct Gathered {
   float reference = 0;
   float weight = 0;
@@ -40,8 +40,8 @@ class Sweeper {
   Sweeper(const OwnedHeightField& field, std::vector<Gathered>& gathered, double max_distance)
       : field_(field), gathered_(gathered), max_squared_(max_distance * max_distance) {}
 
-  /// Visits rows downwards (`step` = +1) or upwards (−1), columns in the same sense, and lets each void gather along
-  /// the four directions that lie behind the sweep.
+  /// Visits rows downwards (`step` = +1) or upwards (−1), columns in the same sense, and lets each nodata sample gather
+  /// along the four directions that lie behind the sweep.
   void sweep(int step) {
     const int cols = field_.cols, rows = field_.rows;
     const std::size_t width = static_cast<std::size_t>(cols);
@@ -103,11 +103,11 @@ class Sweeper {
 
 }  // namespace
 
-std::uint64_t fill_voids(OwnedHeightField& field, double max_distance) {
-  std::size_t voids = 0;
-  for (const float z : field.samples) voids += std::isfinite(z) ? 0 : 1;
-  if (voids == 0) return 0;
-  std::vector<Gathered> gathered(voids);
+std::uint64_t fill_nodata(OwnedHeightField& field, double max_distance) {
+  std::size_t nodata = 0;
+  for (const float z : field.samples) nodata += std::isfinite(z) ? 0 : 1;
+  if (nodata == 0) return 0;
+  std::vector<Gathered> gathered(nodata);
   Sweeper sweeper(field, gathered, max_distance);
   sweeper.sweep(1);
   sweeper.sweep(-1);

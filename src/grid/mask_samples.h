@@ -10,18 +10,18 @@
 
 namespace scarp {
 
-/// Makes those of the samples [begin, end) of a row void (NaN) that no run holds. `runs`: of that row, ascending, apart
-/// from each other. `samples`: from `begin` on.
-inline void void_beside(std::span<const SampleRun> runs, std::int32_t begin, std::int32_t end, float* samples) {
+/// Makes those of the samples [begin, end) of a row nodata (NaN) that no run holds. `runs`: of that row, ascending,
+/// apart from each other. `samples`: from `begin` on.
+inline void mask_beside(std::span<const SampleRun> runs, std::int32_t begin, std::int32_t end, float* samples) {
   std::int32_t done = begin;
-  const auto void_up_to = [&](std::int32_t to) {
+  const auto mask_up_to = [&](std::int32_t to) {
     if (to > done) std::fill(samples + (done - begin), samples + (to - begin), std::numeric_limits<float>::quiet_NaN());
   };
   for (const SampleRun& run : runs) {
-    void_up_to(std::min(run.begin, end));
+    mask_up_to(std::min(run.begin, end));
     done = std::max(done, run.end);
   }
-  void_up_to(end);
+  mask_up_to(end);
 }
 
 }  // namespace scarp

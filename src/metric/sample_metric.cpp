@@ -1,4 +1,4 @@
-#include "metric/sample_judge.h"
+#include "metric/sample_metric.h"
 
 #include <algorithm>
 #include <array>
@@ -39,7 +39,7 @@ void add_to_norm(Norm norm, double error, double& total) {
 }  // namespace
 
 /// A plane for each field. Few fields, the usual case, cost no allocation and no clearing of many planes.
-struct SampleJudge::Surface {
+struct SampleMetric::Surface {
   static constexpr std::size_t kFew = 4;
   std::array<Plane, kFew> few;
   std::vector<Plane> more;
@@ -55,73 +55,73 @@ struct SampleJudge::Surface {
   const Plane& plane(std::size_t k) const { return k < kFew ? few[k] : more[k - kFew]; }
 };
 
-Judging judging_by_bounds(const Raster& raster, std::span<const float> bounds) {
-  Judging judging{raster, {{raster.samples, 1}}};
-  judging.bounds = bounds.data();
-  judging.per_bound = true;
-  judging.goal = 1;
-  return judging;
+MetricSettings settings_by_bounds(const Raster& raster, std::span<const float> bounds) {
+  MetricSettings settings{raster, {{raster.samples, 1}}};
+  settings.bounds = bounds.data();
+  settings.per_bound = true;
+  settings.goal = 1;
+  return settings;
 }
 
-SampleJudge::SampleJudge(Judging judging) : judging_(std::move(judging)) {}
+SampleMetric::SampleMetric(MetricSettings settings) : settings_(std::move(settings)) {}
 
-std::array<float, 3> SampleJudge::values_at(const JudgedField& field, const std::array<Point, 3>& corners) const {
+std::array<float, 3> SampleMetric::values_at(const MetricField& field, const std::array<Point, 3>& corners) const {
   return {field.samples[index_of(corners[0])], field.samples[index_of(corners[1])],
           field.samples[index_of(corners[2])]};
 }
 
-SampleJudge::Surface SampleJudge::surface(const std::array<Point, 3>& corners) const {
+SampleMetric::Surface SampleMetric::surface(const std::array<Point, 3>& corners) const {
   Surface surface;
-  for (std::size_t k = 0; k < judging_.fields.size(); ++k) {
-    surface.add(k, Plane::through(corners, values_at(judging_.fields[k], corners)));
-    surface.guard += judging_.fields[k].scale * surface.plane(k).guard;
+  for (std::size_t k = 0; k < settings_.fields.size(); ++k) {
+    surface.add(k, Plane::through(corners, values_at(settings_.fields[k], corners)));
+    surface.guard += settings_.fields[k].scale * surface.plane(k).guard;
   }
   return surface;
 }
 
-void SampleJudge::combine_row(const Surface& surface, Point start, std::span<double> errors) const {
+void SampleMetric::combine_row(const Surface& surface, Point start, std::span<double> errors) const {
   const std::size_t index = index_of(start);
   std::fill(errors.begin(), errors.end(), 0.0);
-  for (std::size_t k = 0; k < judging_.fields.size(); ++k) {
+  for (std::size_t k = 0; k < settings_.fields.size(); ++k) {
     const Plane& plane = surface.plane(k);
-    const double row_height = plane.row_height(start.y), scale = judging_.fields[k].scale;
-    const float* samples = judging_.fields[k].samples + index;
+    const double row_height = plane.row_height(start.y), scale = settings_.fields[k].scale;
+    const float* samples = settings_.fields[k].samples + index;
     const auto each = [&](auto&& add) {
       for (std::size_t i = 0; i < errors.size(); ++i) {
         const double along = static_cast<double>(start.x - plane.base.x + static_cast<std::int32_t>(i));
         add(errors[i], scale * std::abs(row_height + plane.slope_x * along - double{samples[i]}));
       }
     };
-    if (judging_.norm == Norm::kSum || judging_.fields.size() == 1) {
+    if (settings_.norm == Norm::kSum || settings_.fields.size() == 1) {
       each([](double& total, double error) { total += error; });
-    } else if (judging_.norm == Norm::kSquares) {
+    } else if (settings_.norm == Norm::kSquares) {
       each([](double& total, double error) { total += error * error; });
     } else {
       each([](double& total, double error) { total = std::max(total, error); });
     }
   }
-  if (judging_.norm == Norm::kSquares && judging_.fields.size() > 1) {
+  if (settings_.norm == Norm::kSquares && settings_.fields.size() > 1) {
     for (double& error : errors) error = std::sqrt(error);
   }
 }
 
-double SampleJudge::combine(const Surface& surface, Point p) const {
+double SampleMetric::combine(const Surface& surface, Point p) const {
   double error = 0;
   combine_row(surface, p, {&error, 1});
   return error;
 }
 
-double SampleJudge::weighted(double error, std::size_t index) const {
-  if (judging_.per_bound) return error * double{per_bound(judging_.bounds[index])};
-  return judging_.factors != nullptr && judging_.by_error ? error * double{judging_.factors[index]} : error;
+double SampleMetric::weighted(double error, std::size_t index) const {
+  if (settings_.per_bound) return error * double{per_bound(settings_.bounds[index])};
+  return settings_.factors != nullptr && settings_.by_error ? error * double{settings_.factors[index]} : error;
 }
 
-double SampleJudge::importance(double error, std::size_t index) const {
-  const double value = judging_.by_error ? weighted(error, index) : double{judging_.factors[index]};
+double SampleMetric::importance(double error, std::size_t index) const {
+  const double value = settings_.by_error ? weighted(error, index) : double{settings_.factors[index]};
   return value > 0 ? value : error * kUnimportant;
 }
 
-Fit SampleJudge::fit(const std::array<Point, 3>& corners, const FitQuestion& question) const {
+Fit SampleMetric::fit(const std::array<Point, 3>& corners, const FitQuestion& question) const {
   const Surface surface = this->surface(corners);
   Fit fit;
   fit.guard = surface.guard;
@@ -136,7 +136,7 @@ Fit SampleJudge::fit(const std::array<Point, 3>& corners, const FitQuestion& que
       const std::size_t index = index_of({begin, y});
       for (std::size_t i = 0; i < count; ++i) {
         const double error = errors[i];
-        if (std::isnan(judging_.heights.samples[index + i])) continue;
+        if (std::isnan(settings_.heights.samples[index + i])) continue;
         const double score = weighted(error, index + i);
         fit.max_error = std::max(fit.max_error, score);
         fit.sum_squares += score * score;
@@ -158,17 +158,17 @@ Fit SampleJudge::fit(const std::array<Point, 3>& corners, const FitQuestion& que
   return fit;
 }
 
-void SampleJudge::refine_scores(const Surface& surface, const std::array<Point, 3>& corners,
-                                const FitQuestion& question, Fit& fit) const {
+void SampleMetric::refine_scores(const Surface& surface, const std::array<Point, 3>& corners,
+                                 const FitQuestion& question, Fit& fit) const {
   const auto error_at = [&](std::int32_t x, std::int32_t y, double fx, double fy) {
     double total = 0;
-    for (std::size_t k = 0; k < judging_.fields.size(); ++k) {
+    for (std::size_t k = 0; k < settings_.fields.size(); ++k) {
       const Plane& plane = surface.plane(k);
       const double height = plane.height + plane.slope_y * (fy - plane.base.y) + plane.slope_x * (fx - plane.base.x);
-      const double sample = interpolate(judging_.fields[k].samples, judging_.heights.cols, x, y, question.lattice);
-      add_to_norm(judging_.norm, judging_.fields[k].scale * std::abs(height - sample), total);
+      const double sample = interpolate(settings_.fields[k].samples, settings_.heights.cols, x, y, question.lattice);
+      add_to_norm(settings_.norm, settings_.fields[k].scale * std::abs(height - sample), total);
     }
-    return judging_.norm == Norm::kSquares ? std::sqrt(total) : total;
+    return settings_.norm == Norm::kSquares ? std::sqrt(total) : total;
   };
   double most = 0, squares = 0;
   scan_fine(corners, question.lattice, [&](std::int32_t x, std::int32_t y, double fx, double fy) {
@@ -184,18 +184,18 @@ void SampleJudge::refine_scores(const Surface& surface, const std::array<Point, 
   fit.sum_squares = squares / (double{1} * question.lattice * question.lattice);
 }
 
-bool SampleJudge::exceeds(const std::array<Point, 3>& corners, Point p, std::size_t index) const {
+bool SampleMetric::exceeds(const std::array<Point, 3>& corners, Point p, std::size_t index) const {
   const double bound = bound_at(index);
-  const auto field_exceeds = [&](const JudgedField& field) {
+  const auto field_exceeds = [&](const MetricField& field) {
     return exceeds_exactly(corners, values_at(field, corners), p, field.samples[index], bound);
   };
   if (std::find(corners.begin(), corners.end(), p) != corners.end()) return false;
-  if (bound == 0 || (judging_.fields.size() == 1 && judging_.fields[0].scale == 1))
-    return std::any_of(judging_.fields.begin(), judging_.fields.end(), field_exceeds);
+  if (bound == 0 || (settings_.fields.size() == 1 && settings_.fields[0].scale == 1))
+    return std::any_of(settings_.fields.begin(), settings_.fields.end(), field_exceeds);
   return true;
 }
 
-std::optional<Candidate> SampleJudge::find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const {
+std::optional<Candidate> SampleMetric::find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const {
   std::optional<Candidate> worst;
   if (fit.worst.error >= 0) worst = fit.worst;
   if (!fit.unsettled) return worst;
@@ -204,7 +204,7 @@ std::optional<Candidate> SampleJudge::find_candidate(const std::array<Point, 3>&
     for (std::int32_t x = first; x <= last; ++x) {
       const Point p{x, y};
       const std::size_t index = index_of(p);
-      if (std::isnan(judging_.heights.samples[index])) continue;
+      if (std::isnan(settings_.heights.samples[index])) continue;
       const double error = combine(surface, p), bound = bound_at(index);
       const double margin = surface.guard + kNormRounding * error;
       if (!(std::abs(error - bound) <= margin)) continue;
@@ -215,25 +215,25 @@ std::optional<Candidate> SampleJudge::find_candidate(const std::array<Point, 3>&
   return worst;
 }
 
-double SampleJudge::squares_between(Point a, Point b) const {
+double SampleMetric::squares_between(Point a, Point b) const {
   double squares = 0;
   visit_between(a, b, [&](Point p, double share) {
     const std::size_t index = index_of(p);
-    if (std::isnan(judging_.heights.samples[index])) return;
+    if (std::isnan(settings_.heights.samples[index])) return;
     double total = 0;
-    for (const JudgedField& field : judging_.fields) {
+    for (const MetricField& field : settings_.fields) {
       const double from = field.samples[index_of(a)], rise = double{field.samples[index_of(b)]} - from;
-      add_to_norm(judging_.norm, field.scale * std::abs(from + share * rise - double{field.samples[index]}), total);
+      add_to_norm(settings_.norm, field.scale * std::abs(from + share * rise - double{field.samples[index]}), total);
     }
-    const double error = weighted(judging_.norm == Norm::kSquares ? std::sqrt(total) : total, index);
+    const double error = weighted(settings_.norm == Norm::kSquares ? std::sqrt(total) : total, index);
     squares += error * error;
   });
   return squares;
 }
 
-double SampleJudge::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {
+double SampleMetric::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {
   double sum = 0;
-  for (const JudgedField& field : judging_.fields)
+  for (const MetricField& field : settings_.fields)
     sum += field.scale * bend_of(Plane::through(a, values_at(field, a)), Plane::through(b, values_at(field, b)));
   return sum;
 }

@@ -8,13 +8,13 @@
 
 #include "geom/plane.h"
 #include "grid/raster.h"
-#include "metric/judge.h"
+#include "metric/error_metric.h"
 #include "scarp/goals.h"
 
 namespace scarp {
 
 /// One of the fields whose errors are combined. All have values wherever the heights have.
-struct JudgedField {
+struct MetricField {
   const float* samples = nullptr;
   double scale = 1;  ///< above 0
 };
@@ -25,30 +25,30 @@ inline constexpr float kMostFactor = 1e30f;
 inline float per_bound(float bound) { return std::min(1 / bound, kMostFactor); }
 
 /// Borrows everything.
-struct Judging {
+struct MetricSettings {
   Raster heights;                   ///< says which samples count
-  std::vector<JudgedField> fields;  ///< at least one
+  std::vector<MetricField> fields;  ///< at least one
   Norm norm = Norm::kSum;
   double threshold = 0;            ///< bound of the combined error, where `bounds` is null
   const float* bounds = nullptr;   ///< bound of each sample, +infinity for none
   const float* factors = nullptr;  ///< importance = error · factor; null: the error
   bool per_bound = false;          ///< importance = error · per_bound(bound); without `factors`
   bool by_error = true;            ///< false: importance = factor
-  double goal = 0;                 ///< see Judge::goal()
+  double goal = 0;                 ///< see ErrorMetric::goal()
 };
 
 /// Of heights alone, each with a bound of its own, ranked by the error over it.
-Judging judging_by_bounds(const Raster& raster, std::span<const float> bounds);
+MetricSettings settings_by_bounds(const Raster& raster, std::span<const float> bounds);
 
 /// With one field of scale 1 bounds are decided exactly. A norm of several is decided within its rounding on the safe
 /// side, exactly only at bound 0: a sample may be inserted whose norm equals its bound, none is left that exceeds it.
-class SampleJudge final : public Judge {
+class SampleMetric final : public ErrorMetric {
  public:
-  explicit SampleJudge(Judging judging);
+  explicit SampleMetric(MetricSettings settings);
 
   Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const override;
   std::optional<Candidate> find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const override;
-  double goal() const override { return judging_.goal; }
+  double goal() const override { return settings_.goal; }
   double squares_between(Point a, Point b) const override;
   double bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const override;
 
@@ -59,20 +59,20 @@ class SampleJudge final : public Judge {
   void combine_row(const Surface& surface, Point start, std::span<double> errors) const;
   double combine(const Surface& surface, Point p) const;
   double bound_at(std::size_t index) const {
-    return judging_.bounds != nullptr ? double{judging_.bounds[index]} : judging_.threshold;
+    return settings_.bounds != nullptr ? double{settings_.bounds[index]} : settings_.threshold;
   }
   double importance(double error, std::size_t index) const;
   double weighted(double error, std::size_t index) const;
   bool exceeds(const std::array<Point, 3>& corners, Point p, std::size_t index) const;
-  std::array<float, 3> values_at(const JudgedField& field, const std::array<Point, 3>& corners) const;
+  std::array<float, 3> values_at(const MetricField& field, const std::array<Point, 3>& corners) const;
   std::size_t index_of(Point p) const {
-    return static_cast<std::size_t>(p.y) * static_cast<std::size_t>(judging_.heights.cols) +
+    return static_cast<std::size_t>(p.y) * static_cast<std::size_t>(settings_.heights.cols) +
            static_cast<std::size_t>(p.x);
   }
   void refine_scores(const Surface& surface, const std::array<Point, 3>& corners, const FitQuestion& question,
                      Fit& fit) const;
 
-  Judging judging_;
+  MetricSettings settings_;
 };
 
 }  // namespace scarp

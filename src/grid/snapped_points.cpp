@@ -1,4 +1,4 @@
-#include "grid/point_places.h"
+#include "grid/snapped_points.h"
 
 #include <fmt/format.h>
 
@@ -167,7 +167,7 @@ Result<void> check(const PointSet& points) {
 
 }  // namespace
 
-Result<PointPlaces> find_places(const PointSet& points, DuplicatePolicy policy) {
+Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy) {
   if (auto checked = check(points); !checked) return tl::unexpected(checked.error());
   Extent x, y, z;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -184,11 +184,11 @@ Result<PointPlaces> find_places(const PointSet& points, DuplicatePolicy policy) 
                 fmt::format("all points lie within {} of each other; only a larger extent than 1e-100 can be "
                             "triangulated: give x and y in a smaller unit",
                             extent));
-  PointPlaces places;
+  SnappedPoints result;
   Snapped snapped;
   if (auto decimal = snap_to_decimals(points, x, y)) {
     snapped = std::move(*decimal);
-    places.is_exact = true;
+    result.is_exact = true;
   } else {
     snapped = snap_to_power_of_two(points, x, y);
   }
@@ -200,18 +200,18 @@ Result<PointPlaces> find_places(const PointSet& points, DuplicatePolicy policy) 
         {curve_place(static_cast<std::uint64_t>(snapped.at[i].x), static_cast<std::uint64_t>(snapped.at[i].y)), i});
   std::sort(keys.begin(), keys.end(),
             [](const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.point < b.point; });
-  places.lattice = snapped.lattice;
+  result.lattice = snapped.lattice;
   for (std::size_t i = 0, end = 0; i < keys.size(); i = end) {
     while (end < keys.size() && keys[end].key == keys[i].key) ++end;
     if (const Keyed* stranger = find_stranger(points, &keys[i], &keys[i] + (end - i)); stranger != &keys[i] + (end - i))
       return refuse_to_merge(points, keys[i].point, stranger->point, extent);
     const auto [point, height] = choose(points, policy, &keys[i], &keys[i] + (end - i));
-    places.at.push_back(snapped.at[point]);
-    places.source.push_back(point);
-    places.z.push_back(height);
+    result.at.push_back(snapped.at[point]);
+    result.source.push_back(point);
+    result.z.push_back(height);
   }
-  places.duplicates = points.size() - places.size();
-  return places;
+  result.duplicates = points.size() - result.size();
+  return result;
 }
 
 }  // namespace scarp

@@ -9,24 +9,24 @@
 
 #include "geom/plane.h"
 #include "grid/bands.h"
-#include "grid/vertex_places.h"
-#include "metric/judge.h"
+#include "grid/vertex_lattice.h"
+#include "metric/error_metric.h"
 
 namespace scarp {
 
 /// Heights of lattice points: given ones, else the sample's.
-class PlaceHeights {
+class LatticeHeights {
  public:
-  explicit PlaceHeights(const SampleView& samples) : samples_(samples), slots_(kFewest) {}
-  void set(Point place, float height);
+  explicit LatticeHeights(const SampleView& samples) : samples_(samples), slots_(kFewest) {}
+  void set(Point point, float height);
   /// Makes room for so many, so that set() need not move others.
   void reserve(std::size_t count);
-  static bool is_sample(Point place) { return place.x % kLatticeSteps == 0 && place.y % kLatticeSteps == 0; }
+  static bool is_sample(Point point) { return point.x % kLatticeSteps == 0 && point.y % kLatticeSteps == 0; }
   /// REQUIRES: it was given, or is a sample's.
-  float at(Point place) const {
-    if (is_sample(place) && !has_samples_) return sample(place);
-    const Slot& slot = slots_[find(key(place))];
-    return slot.key != 0 ? slot.height : sample(place);
+  float at(Point point) const {
+    if (is_sample(point) && !has_samples_) return sample(point);
+    const Slot& slot = slots_[find(key(point))];
+    return slot.key != 0 ? slot.height : sample(point);
   }
 
  private:
@@ -37,9 +37,9 @@ class PlaceHeights {
   };
   static constexpr std::size_t kFewest = 64;
 
-  float sample(Point place) const { return samples_.at({place.x / kLatticeSteps, place.y / kLatticeSteps}); }
-  static std::uint64_t key(Point place) {
-    return (std::uint64_t{static_cast<std::uint32_t>(place.y)} << 32 | static_cast<std::uint32_t>(place.x)) + 1;
+  float sample(Point point) const { return samples_.at({point.x / kLatticeSteps, point.y / kLatticeSteps}); }
+  static std::uint64_t key(Point point) {
+    return (std::uint64_t{static_cast<std::uint32_t>(point.y)} << 32 | static_cast<std::uint32_t>(point.x)) + 1;
   }
   /// The key's slot, or the one where it would stand.
   std::size_t find(std::uint64_t key) const {
@@ -56,15 +56,16 @@ class PlaceHeights {
 
 /// Corners and candidates are in kLatticeSteps. Where samples have bounds of their own (row-major, +infinity for none),
 /// importance is the error over the bound, else the error. Bounds are decided exactly.
-class LatticeJudge final : public Judge {
+class LatticeMetric final : public ErrorMetric {
  public:
   /// `heights` and the bounds stay alive.
-  LatticeJudge(const SampleView& samples, const PlaceHeights& heights, double threshold, std::span<const float> bounds)
+  LatticeMetric(const SampleView& samples, const LatticeHeights& heights, double threshold,
+                std::span<const float> bounds)
       : samples_(samples), heights_(heights), threshold_(threshold) {
     if (!bounds.empty()) bounds_ = SampleView(Raster{bounds.data(), samples.cols(), samples.rows()});
   }
   /// With per-sample bounds of which rows are held elsewhere.
-  LatticeJudge(const SampleView& samples, const PlaceHeights& heights, const Band& bounds)
+  LatticeMetric(const SampleView& samples, const LatticeHeights& heights, const Band& bounds)
       : samples_(samples), heights_(heights), bounds_(bounds) {}
 
   Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const override;
@@ -81,7 +82,7 @@ class LatticeJudge final : public Judge {
   double importance(double error, double bound) const;
 
   SampleView samples_;
-  const PlaceHeights& heights_;
+  const LatticeHeights& heights_;
   double threshold_ = 0;
   std::optional<SampleView> bounds_;
 };

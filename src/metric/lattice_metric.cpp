@@ -1,4 +1,4 @@
-#include "metric/lattice_judge.h"
+#include "metric/lattice_metric.h"
 
 #include <bit>
 #include <cmath>
@@ -14,19 +14,19 @@ namespace scarp {
 
 namespace {
 
-Point place_of(std::int32_t x, std::int32_t y) { return {x * kLatticeSteps, y * kLatticeSteps}; }
+Point lattice_point(std::int32_t x, std::int32_t y) { return {x * kLatticeSteps, y * kLatticeSteps}; }
 
 }  // namespace
 
-void PlaceHeights::set(Point place, float height) {
-  Slot& slot = slots_[find(key(place))];
+void LatticeHeights::set(Point point, float height) {
+  Slot& slot = slots_[find(key(point))];
   if (slot.key == 0) ++taken_;
-  slot = {key(place), height};
-  has_samples_ = has_samples_ || is_sample(place);
+  slot = {key(point), height};
+  has_samples_ = has_samples_ || is_sample(point);
   reserve(taken_);
 }
 
-void PlaceHeights::reserve(std::size_t count) {
+void LatticeHeights::reserve(std::size_t count) {
   if (2 * count <= slots_.size()) return;
   const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(std::bit_ceil(2 * count)));
   for (const Slot& moved : old) {
@@ -34,21 +34,21 @@ void PlaceHeights::reserve(std::size_t count) {
   }
 }
 
-std::array<float, 3> LatticeJudge::heights_at(const std::array<Point, 3>& corners) const {
+std::array<float, 3> LatticeMetric::heights_at(const std::array<Point, 3>& corners) const {
   return {heights_.at(corners[0]), heights_.at(corners[1]), heights_.at(corners[2])};
 }
 
-double LatticeJudge::importance(double error, double bound) const {
+double LatticeMetric::importance(double error, double bound) const {
   if (!bounds_) return error;
   return error == 0 ? 0 : error / bound;
 }
 
-Fit LatticeJudge::fit(const std::array<Point, 3>& corners, const FitQuestion&) const {
+Fit LatticeMetric::fit(const std::array<Point, 3>& corners, const FitQuestion&) const {
   return bounds_ ? fit_by_bounds(corners) : fit_evenly(corners);
 }
 
 /// The largest error, where it may exceed the threshold.
-Fit LatticeJudge::fit_evenly(const std::array<Point, 3>& corners) const {
+Fit LatticeMetric::fit_evenly(const std::array<Point, 3>& corners) const {
   const Plane plane = plane_of(corners);
   const double least = threshold_ - plane.guard;
   double worst = std::nextafter(least, -1.0);  // what equals `least` is in doubt too
@@ -65,14 +65,14 @@ Fit LatticeJudge::fit_evenly(const std::array<Point, 3>& corners) const {
     if (last - first + 1 >= kMinVectorRow) {
       std::int32_t found = 0;
       if (kernels.scan_row(samples, last - first + 1, row_height, slope, first - base, worst, found))
-        at = place_of(first + found, y);
+        at = lattice_point(first + found, y);
       return;
     }
     for (std::int32_t x = first; x <= last; ++x) {
       const double error = std::abs(row_height + slope * (x - base) - double{samples[x - first]});
-      if (!(error > worst)) continue;  // void, or not the worst
+      if (!(error > worst)) continue;  // nodata, or not the worst
       worst = error;
-      at = place_of(x, y);
+      at = lattice_point(x, y);
     }
   });
   if (!(worst >= least && worst >= 0)) return fit;
@@ -82,7 +82,7 @@ Fit LatticeJudge::fit_evenly(const std::array<Point, 3>& corners) const {
   return fit;
 }
 
-Fit LatticeJudge::fit_by_bounds(const std::array<Point, 3>& corners) const {
+Fit LatticeMetric::fit_by_bounds(const std::array<Point, 3>& corners) const {
   const Plane plane = plane_of(corners);
   Fit fit;
   fit.guard = plane.guard;
@@ -95,17 +95,17 @@ Fit LatticeJudge::fit_by_bounds(const std::array<Point, 3>& corners) const {
       const double offset = static_cast<double>(x * kLatticeSteps - plane.base.x);
       const double error = std::abs(row_height + plane.slope_x * offset - double{samples[x - first]});
       const double bound = bounds[x - first];
-      if (!(error >= bound - plane.guard)) continue;  // void, or within its bound for certain
+      if (!(error >= bound - plane.guard)) continue;  // nodata, or within its bound for certain
       fit.max_error = std::max(fit.max_error, error);
       fit.unsettled = true;
       const double share = importance(error, bound);
-      if (share > fit.worst.error) fit.worst = {share, place_of(x, y)};
+      if (share > fit.worst.error) fit.worst = {share, lattice_point(x, y)};
     }
   });
   return fit;
 }
 
-std::optional<Candidate> LatticeJudge::find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const {
+std::optional<Candidate> LatticeMetric::find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const {
   if (!fit.unsettled) return std::nullopt;
   if (!bounds_ && fit.worst.error > threshold_ + fit.guard) return fit.worst;
   const Plane plane = plane_of(corners);
@@ -116,30 +116,30 @@ std::optional<Candidate> LatticeJudge::find_candidate(const std::array<Point, 3>
     const float* const bounds = bounds_ ? bounds_->samples(first, y, last - first + 1) : nullptr;
     for (std::int32_t x = first; x <= last; ++x) {
       const float sample = samples[x - first];
-      const Point place = place_of(x, y);
-      const double error = std::abs(plane.height_at(place) - double{sample});
+      const Point point = lattice_point(x, y);
+      const double error = std::abs(plane.height_at(point) - double{sample});
       const double bound = bounds != nullptr ? double{bounds[x - first]} : threshold_;
       if (!(error >= bound - plane.guard) || std::isinf(bound)) continue;
       const double share = importance(error, bound);
       if (worst && share <= worst->error) continue;
-      if (exceeds_exactly(corners, heights, place, sample, bound)) worst = Candidate{share, place};
+      if (exceeds_exactly(corners, heights, point, sample, bound)) worst = Candidate{share, point};
     }
   });
   return worst;
 }
 
-double LatticeJudge::squares_between(Point a, Point b) const {
+double LatticeMetric::squares_between(Point a, Point b) const {
   double squares = 0;
   const double from = heights_.at(a), rise = double{heights_.at(b)} - from;
   visit_between(a, b, [&](Point p, double share) {
-    if (!PlaceHeights::is_sample(p)) return;
+    if (!LatticeHeights::is_sample(p)) return;
     const double error = from + share * rise - double{heights_.at(p)};
     if (!std::isnan(error)) squares += error * error;
   });
   return squares;
 }
 
-double LatticeJudge::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {
+double LatticeMetric::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {
   return bend_of(plane_of(a), plane_of(b));
 }
 

@@ -1,12 +1,12 @@
 // A large print is made of print tiles. The cuts run along rows and columns of samples, where the mesh can have edges
 // whose ends lie on samples; a tab in the middle of each shared edge is a trapezoid that is wider at its head, so that
-// sheets hook into each other as the pieces of a jigsaw do and slide together from above.
+// print tiles hook into each other as the pieces of a jigsaw do and slide together from above.
 //
-// Every cut is a polyline from one end of the raster to the other. simplify() lays it into the mesh as a soft line, so
-// that triangles lie on one side of it, and each triangle belongs to the sheet that its centre lies in. Both neighbours
-// get their vertices from the same mesh: what one of them ends with the other begins with.
+// Every cut is a polyline from one end of the raster to the other. simplify() inserts it into the mesh as a soft line,
+// so that triangles lie on one side of it, and each triangle belongs to the print tile that its centre lies in. Both
+// neighbours get their vertices from the same mesh: what one of them ends with the other begins with.
 //
-// A gap is two polylines instead of one, each half of it beside the cut; what lies between is no sheet's.
+// A gap is two polylines instead of one, each half of it beside the cut; what lies between is no print tile's.
 
 #include <fmt/format.h>
 
@@ -22,9 +22,9 @@ namespace {
 
 using Point2 = std::array<double, 2>;
 
-constexpr int kLeastCells = 2;                               // of a sheet, across
-constexpr int kLeastTabCells = 12;                           // of a sheet that has tabs
-constexpr double kHead = 0.30, kNeck = 0.18, kDepth = 0.12;  // shares of the sheet that the tab stands on or in
+constexpr int kLeastCells = 2;                               // of a print tile, across
+constexpr int kLeastTabCells = 12;                           // of a print tile that has tabs
+constexpr double kHead = 0.30, kNeck = 0.18, kDepth = 0.12;  // shares of the print tile that the tab stands on or in
 
 /// Where print tiles begin and end, in samples.
 std::vector<int> divide(int samples, int parts) {
@@ -35,12 +35,12 @@ std::vector<int> divide(int samples, int parts) {
   return at;
 }
 
-/// Along a cut at `across`, from the first sample to the last: straight, or with a tab in the middle of each sheet. As
-/// (along, across).
-std::vector<Point2> draw_cut(int across, const std::vector<int>& sheets, double depth, bool dovetail) {
-  std::vector<Point2> cut{{double(sheets.front()), double(across)}};
-  for (std::size_t k = 0; dovetail && k + 1 < sheets.size(); ++k) {
-    const double middle = (sheets[k] + sheets[k + 1]) / 2, span = sheets[k + 1] - sheets[k];
+/// Along a cut at `across`, from the first sample to the last: straight, or with a tab in the middle of each print
+/// tile. As (along, across).
+std::vector<Point2> draw_cut(int across, const std::vector<int>& tiles, double depth, bool dovetail) {
+  std::vector<Point2> cut{{double(tiles.front()), double(across)}};
+  for (std::size_t k = 0; dovetail && k + 1 < tiles.size(); ++k) {
+    const double middle = (tiles[k] + tiles[k + 1]) / 2, span = tiles[k + 1] - tiles[k];
     const double neck = std::max(1.0, std::round(span * kNeck / 2)),
                  head = std::max(neck + 1, std::round(span * kHead / 2));
     const double from = std::floor(middle);
@@ -49,7 +49,7 @@ std::vector<Point2> draw_cut(int across, const std::vector<int>& sheets, double 
     cut.push_back({from + head, across + depth});
     cut.push_back({from + neck, double(across)});
   }
-  cut.push_back({double(sheets.back()), double(across)});
+  cut.push_back({double(tiles.back()), double(across)});
   return cut;
 }
 
@@ -94,13 +94,14 @@ bool is_before(const std::vector<Point2>& cut, Point2 p) {
 Result<void> check_span(const char* what, int samples, int parts, bool dovetail) {
   const int least = dovetail ? kLeastTabCells : kLeastCells;
   if (parts >= 1 && (samples - 1) / parts >= least) return {};
-  return fail(ErrorKind::kUsage, fmt::format("{} samples cannot be cut into {} {} of sheets: each needs {} cells{}",
-                                             samples, parts, what, least, dovetail ? " to hold its tabs" : ""));
+  return fail(ErrorKind::kUsage,
+              fmt::format("{} samples cannot be cut into {} {} of print tiles: each needs {} cells{}", samples, parts,
+                          what, least, dovetail ? " to hold its tabs" : ""));
 }
 
 }  // namespace
 
-Result<SheetPlan> SheetPlan::make(int cols, int rows, const SheetOptions& options) {
+Result<PrintTilePlan> PrintTilePlan::make(int cols, int rows, const PrintTileOptions& options) {
   if (auto fits = check_span("columns", cols, options.columns, options.dovetail); !fits)
     return tl::unexpected(fits.error());
   if (auto fits = check_span("rows", rows, options.rows, options.dovetail); !fits) return tl::unexpected(fits.error());
@@ -110,15 +111,16 @@ Result<SheetPlan> SheetPlan::make(int cols, int rows, const SheetOptions& option
   const double narrowest = std::min(width * options.cell[0], height * options.cell[1]);
   const double widest = narrowest * (options.dovetail ? kNeck / 4 : 0.25);
   if (!(options.gap >= 0) || options.gap > widest) {
-    return fail(ErrorKind::kUsage, fmt::format("a gap of {:.6g} between sheets is too wide: they leave room for {:.6g}",
-                                               options.gap, widest));
+    return fail(ErrorKind::kUsage,
+                fmt::format("a gap of {:.6g} between print tiles is too wide: they leave room for {:.6g}", options.gap,
+                            widest));
   }
-  SheetPlan plan;
+  PrintTilePlan plan;
   plan.options_ = options;
   const double depth = kDepth * narrowest;
-  const auto cut = [&](int across, const std::vector<int>& sheets, Point2 cell) {
+  const auto cut = [&](int across, const std::vector<int>& tiles, Point2 cell) {
     const std::vector<Point2> line =
-        draw_cut(across, sheets, std::max(1.0, std::round(depth / cell[1])), options.dovetail);
+        draw_cut(across, tiles, std::max(1.0, std::round(depth / cell[1])), options.dovetail);
     return Cut{shift(line, -options.gap / 2, cell), shift(line, options.gap / 2, cell)};
   };
   for (int k = 1; k < options.columns; ++k) {
@@ -132,7 +134,7 @@ Result<SheetPlan> SheetPlan::make(int cols, int rows, const SheetOptions& option
   return plan;
 }
 
-std::vector<Line> SheetPlan::lines(const std::array<double, 6>& affine) const {
+std::vector<Line> PrintTilePlan::lines(const std::array<double, 6>& affine) const {
   std::vector<Line> lines;
   const auto add = [&](const std::vector<Point2>& cut, const char* what, std::size_t number) {
     Line line;
@@ -149,12 +151,12 @@ std::vector<Line> SheetPlan::lines(const std::array<double, 6>& affine) const {
       if (options_.gap > 0) add(cuts[k].high, what, k);
     }
   };
-  add_all(column_cuts_, "columns of sheets");
-  add_all(row_cuts_, "rows of sheets");
+  add_all(column_cuts_, "columns of print tiles");
+  add_all(row_cuts_, "rows of print tiles");
   return lines;
 }
 
-std::optional<int> SheetPlan::interval_at(const std::vector<Cut>& cuts, bool across_columns, Point2 at) const {
+std::optional<int> PrintTilePlan::interval_at(const std::vector<Cut>& cuts, bool across_columns, Point2 at) const {
   const auto is_before_cut = [&](std::vector<Point2> line) {
     if (across_columns) turn_over(line);
     return is_before(line, across_columns ? Point2{at[1], at[0]} : at);
@@ -166,22 +168,22 @@ std::optional<int> SheetPlan::interval_at(const std::vector<Cut>& cuts, bool acr
   return static_cast<int>(cuts.size());
 }
 
-std::optional<int> SheetPlan::sheet_at(double col, double row) const {
+std::optional<int> PrintTilePlan::tile_at(double col, double row) const {
   const std::optional<int> column = interval_at(column_cuts_, true, {col, row}),
                            down = interval_at(row_cuts_, false, {col, row});
   if (!column || !down) return std::nullopt;
   return *down * options_.columns + *column;
 }
 
-std::vector<Mesh> cut_sheets(const Mesh& terrain, const Frame& frame, const SheetPlan& plan) {
-  std::vector<Mesh> sheets(static_cast<std::size_t>(plan.columns() * plan.rows()));
-  for (Mesh& sheet : sheets) {
-    sheet.origin = terrain.origin;
-    sheet.metadata = terrain.metadata;
+std::vector<Mesh> cut_print_tiles(const Mesh& terrain, const Frame& frame, const PrintTilePlan& plan) {
+  std::vector<Mesh> tiles(static_cast<std::size_t>(plan.columns() * plan.rows()));
+  for (Mesh& tile : tiles) {
+    tile.origin = terrain.origin;
+    tile.metadata = terrain.metadata;
   }
   const std::array<double, 6>& a = frame.affine;
   constexpr std::uint32_t kNoVertex = 0xffffffff;
-  std::vector<std::vector<std::uint32_t>> ids(sheets.size());
+  std::vector<std::vector<std::uint32_t>> ids(tiles.size());
   for (std::size_t t = 0; t < terrain.triangles.size(); t += 3) {
     double x = 0, y = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -191,20 +193,20 @@ std::vector<Mesh> cut_sheets(const Mesh& terrain, const Frame& frame, const Shee
     }
     const double determinant = frame.determinant();
     const std::optional<int> at =
-        plan.sheet_at((a[5] * x - a[2] * y) / determinant, (a[1] * y - a[4] * x) / determinant);
+        plan.tile_at((a[5] * x - a[2] * y) / determinant, (a[1] * y - a[4] * x) / determinant);
     if (!at) continue;
     const auto k = static_cast<std::size_t>(*at);
     if (ids[k].empty()) ids[k].assign(terrain.vertex_count(), kNoVertex);
     for (std::size_t corner = t; corner < t + 3; ++corner) {
       const std::size_t v = terrain.triangles[corner];
       if (ids[k][v] == kNoVertex) {
-        ids[k][v] = static_cast<std::uint32_t>(sheets[k].vertex_count());
-        for (std::size_t i = 3 * v; i < 3 * v + 3; ++i) sheets[k].positions.push_back(terrain.positions[i]);
+        ids[k][v] = static_cast<std::uint32_t>(tiles[k].vertex_count());
+        for (std::size_t i = 3 * v; i < 3 * v + 3; ++i) tiles[k].positions.push_back(terrain.positions[i]);
       }
-      sheets[k].triangles.push_back(ids[k][v]);
+      tiles[k].triangles.push_back(ids[k][v]);
     }
   }
-  return sheets;
+  return tiles;
 }
 
 }  // namespace scarp

@@ -1,4 +1,4 @@
-#include "features/fault_lines.h"
+#include "features/wall_lines.h"
 
 #include <algorithm>
 #include <array>
@@ -10,46 +10,46 @@
 namespace scarp {
 namespace {
 
-/// All in kLatticeSteps: half the distance of top and foot on a crack; the distance of places on cracks, and in cells.
-/// Twice as many places on the streets of Athens take five times as long and 1 % off the vertices; none in cells add 4
+/// All in kLatticeSteps: half the distance of top and foot on a crack; the distance of pairs on cracks, and in cells.
+/// Twice as many pairs on the streets of Athens take five times as long and 1 % off the vertices; none in cells add 4
 /// %.
-constexpr std::int32_t kHalfGap = 2, kPlaceStep = 16, kCellStep = 64;
+constexpr std::int32_t kHalfGap = 2, kPairStep = 16, kCellStep = 64;
 /// What two vertices cost, one on either line, and a crack without lines.
 constexpr std::int32_t kPairCost = 10, kCrackCost = 3;
-constexpr std::size_t kLongestFaultLink = 1024;  ///< in stations
+constexpr std::size_t kLongestWallLink = 1024;  ///< in stations
 
-constexpr std::uint32_t kNoPlace = 0xffffffff;
+constexpr std::uint32_t kNoPair = 0xffffffff;
 constexpr std::int32_t kNeverReached = std::numeric_limits<std::int32_t>::max() / 2;
 
-struct FaultVector {
+struct WallVector {
   std::int64_t x, y;
 };
-FaultVector operator-(Point a, Point b) { return {std::int64_t{a.x} - b.x, std::int64_t{a.y} - b.y}; }
+WallVector operator-(Point a, Point b) { return {std::int64_t{a.x} - b.x, std::int64_t{a.y} - b.y}; }
 /// Whether b points to the left of a, rows downwards.
-bool is_left(FaultVector a, FaultVector b) { return a.x * b.y - a.y * b.x < 0; }
+bool is_left(WallVector a, WallVector b) { return a.x * b.y - a.y * b.x < 0; }
 
 Point scaled(Point p) { return {p.x * kLatticeSteps, p.y * kLatticeSteps}; }
 
-/// Fewest vertices by dynamic programming over the places that vertices may take.
-class FaultSearch {
+/// Fewest vertices by dynamic programming over the pairs of lattice points that vertices may take.
+class WallSearch {
  public:
-  explicit FaultSearch(double tolerance) : tolerance_(tolerance) {}
+  explicit WallSearch(double tolerance) : tolerance_(tolerance) {}
 
-  std::vector<Fault> search(const CrackChain& chain) {
+  std::vector<Wall> search(const CrackChain& chain) {
     for (std::size_t k = 0; k < chain.cracks.size(); ++k) {
       if (k > 0) add_cell(chain.cracks[k - 1], chain.cracks[k]);
       add_crack(chain.cracks[k]);
     }
-    run(kNoPlace);
-    std::vector<std::uint32_t> places = trace(kNoPlace);
-    if (chain.is_ring && !places.empty()) {
-      const std::uint32_t cut = places[places.size() / 2];
+    run(kNoPair);
+    std::vector<std::uint32_t> pairs = trace(kNoPair);
+    if (chain.is_ring && !pairs.empty()) {
+      const std::uint32_t cut = pairs[pairs.size() / 2];
       turn(chain.cracks, stations_[station_of_[cut]]);
       const std::uint32_t first = cut - begin_of_cut_;
       run(first);
-      places = trace(first);
+      pairs = trace(first);
     }
-    return faults(places);
+    return walls(pairs);
   }
 
  private:
@@ -57,22 +57,22 @@ class FaultSearch {
   struct Station {
     std::size_t crack;
     bool is_cell;
-    std::uint32_t begin, end;  // its places
+    std::uint32_t begin, end;  // its pairs
     Point middle;
     double high, low;
   };
-  struct Place {
+  struct PointPair {
     Point top, foot;
   };
   struct State {
     std::int32_t cost = kNeverReached;
-    std::uint32_t from = kNoPlace;  // where the link comes from; kNoPlace: lines begin here
+    std::uint32_t from = kNoPair;  // where the link comes from; kNoPair: lines begin here
   };
 
   void clear() {
     cracks_.clear();
     stations_.clear();
-    places_.clear();
+    pairs_.clear();
     station_of_.clear();
   }
 
@@ -98,8 +98,8 @@ class FaultSearch {
     const std::int32_t dx = crack.low.x - crack.high.x, dy = crack.low.y - crack.high.y;
     const auto at = [&](std::int32_t t) { return Point{high.x + dx * t, high.y + dy * t}; };
     const std::uint32_t begin = begin_station();
-    for (std::int32_t t = kPlaceStep; t < kLatticeSteps; t += kPlaceStep)
-      places_.push_back({at(t - kHalfGap), at(t + kHalfGap)});
+    for (std::int32_t t = kPairStep; t < kLatticeSteps; t += kPairStep)
+      pairs_.push_back({at(t - kHalfGap), at(t + kHalfGap)});
     end_station({cracks_.size(), false, begin, 0, at(kLatticeSteps / 2), double{crack.top}, double{crack.foot}});
     cracks_.push_back(crack);
   }
@@ -119,32 +119,32 @@ class FaultSearch {
     const std::uint32_t begin = begin_station();
     for (std::int32_t down = kCellStep; down < kLatticeSteps; down += kCellStep) {
       for (std::int32_t right = kCellStep; right < kLatticeSteps; right += kCellStep)
-        places_.push_back({at(right - gap, down - gap), at(right + gap, down + gap)});
+        pairs_.push_back({at(right - gap, down - gap), at(right + gap, down + gap)});
     }
     end_station({cracks_.empty() ? 0 : cracks_.size() - 1, true, begin, 0, at(kLatticeSteps / 2, kLatticeSteps / 2),
                  (double{before.top} + double{after.top}) / 2, (double{before.foot} + double{after.foot}) / 2});
   }
 
-  std::uint32_t begin_station() const { return static_cast<std::uint32_t>(places_.size()); }
+  std::uint32_t begin_station() const { return static_cast<std::uint32_t>(pairs_.size()); }
   void end_station(Station station) {
-    station.end = static_cast<std::uint32_t>(places_.size());
-    station_of_.resize(places_.size(), static_cast<std::uint32_t>(stations_.size()));
+    station.end = static_cast<std::uint32_t>(pairs_.size());
+    station_of_.resize(pairs_.size(), static_cast<std::uint32_t>(stations_.size()));
     stations_.push_back(station);
   }
 
   void run(std::uint32_t first) {
-    states_.assign(places_.size(), {});
+    states_.assign(pairs_.size(), {});
     off_.assign(cracks_.size() + 1, {});
     off_[0].cost = 0;
     for (std::size_t s = 0; s < stations_.size(); ++s) {
       const Station& station = stations_[s];
-      if (first != kNoPlace && s == 0) {
-        states_[first] = {kPairCost, kNoPlace};
+      if (first != kNoPair && s == 0) {
+        states_[first] = {kPairCost, kNoPair};
       } else {
         begin_lines(station);
       }
       // A ring's last crack is its first: lines go on there, or have ended before.
-      if (!station.is_cell) end_lines(station, first == kNoPlace || s + 1 < stations_.size());
+      if (!station.is_cell) end_lines(station, first == kNoPair || s + 1 < stations_.size());
       find_ends(s);
       for (std::uint32_t p = station.begin; p < station.end; ++p) {
         if (states_[p].cost < kNeverReached) spread(s, p);
@@ -156,12 +156,12 @@ class FaultSearch {
     if (station.is_cell) return;
     const std::int32_t cost = off_[station.crack].cost + kPairCost;
     for (std::uint32_t p = station.begin; p < station.end; ++p) {
-      if (cost < states_[p].cost) states_[p] = {cost, kNoPlace};
+      if (cost < states_[p].cost) states_[p] = {cost, kNoPair};
     }
   }
   void end_lines(const Station& station, bool may_end) {
     State& after = off_[station.crack + 1];
-    after = {off_[station.crack].cost + kCrackCost, kNoPlace};
+    after = {off_[station.crack].cost + kCrackCost, kNoPair};
     if (!may_end) return;
     for (std::uint32_t p = station.begin; p < station.end; ++p) {
       if (states_[p].cost < after.cost) after = {states_[p].cost, p};
@@ -174,9 +174,9 @@ class FaultSearch {
     ends_.clear();
     double high_least = -kFar, high_most = kFar, low_least = -kFar, low_most = kFar;
     const Station& from = stations_[s];
-    for (std::size_t t = s + 1; t < std::min(stations_.size(), s + kLongestFaultLink); ++t) {
+    for (std::size_t t = s + 1; t < std::min(stations_.size(), s + kLongestWallLink); ++t) {
       const Station& to = stations_[t];
-      const FaultVector way = to.middle - from.middle;
+      const WallVector way = to.middle - from.middle;
       const double length = std::max(std::sqrt(static_cast<double>(way.x * way.x + way.y * way.y)), 1.0);
       const double rise = (to.high - from.high) / length, fall = (to.low - from.low) / length;
       ends_.push_back(rise >= high_least && rise <= high_most && fall >= low_least && fall <= low_most);
@@ -190,16 +190,16 @@ class FaultSearch {
     }
   }
 
-  /// Links from a place of station s to all that it sees through the cracks.
+  /// Links from a pair of station s to all that it sees through the cracks.
   void spread(std::size_t s, std::uint32_t p) {
     const std::int32_t cost = states_[p].cost + kPairCost;
-    const Place& from = places_[p];
-    FaultVector high_limit{0, 0}, low_limit{0, 0};
+    const PointPair& from = pairs_[p];
+    WallVector high_limit{0, 0}, low_limit{0, 0};
     bool is_limited = false;
     for (std::size_t t = s + 1; t <= s + ends_.size(); ++t) {
       const Station& to = stations_[t];
       if (!to.is_cell) {
-        const FaultVector h = scaled(cracks_[to.crack].high) - from.top, l = scaled(cracks_[to.crack].low) - from.foot;
+        const WallVector h = scaled(cracks_[to.crack].high) - from.top, l = scaled(cracks_[to.crack].low) - from.foot;
         if (!is_limited || !is_left(high_limit, h)) high_limit = h;
         if (!is_limited || is_left(low_limit, l)) low_limit = l;
         is_limited = true;
@@ -208,8 +208,8 @@ class FaultSearch {
       if (ends_[t - s - 1] == 0) continue;
       for (std::uint32_t q = to.begin; q < to.end; ++q) {
         if (!(cost < states_[q].cost)) continue;
-        const Place& end = places_[q];
-        const FaultVector above = end.top - from.top, below = end.foot - from.foot;
+        const PointPair& end = pairs_[q];
+        const WallVector above = end.top - from.top, below = end.foot - from.foot;
         if (is_limited && !(is_left(above, high_limit) && is_left(low_limit, below))) continue;
         // The lines must not cross.
         if (!is_left(from.foot - from.top, above) || !is_left(end.foot - end.top, above)) continue;
@@ -218,52 +218,52 @@ class FaultSearch {
     }
   }
 
-  /// Places of vertices, from the last to the first.
+  /// Pairs of vertices, from the last to the first.
   std::vector<std::uint32_t> trace(std::uint32_t first) const {
-    std::vector<std::uint32_t> places;
+    std::vector<std::uint32_t> pairs;
     std::size_t crack = cracks_.size();
-    std::uint32_t p = kNoPlace;
-    if (first != kNoPlace) {
+    std::uint32_t p = kNoPair;
+    if (first != kNoPair) {
       // A ring's last vertex is its first.
       const std::uint32_t last = stations_.back().begin + first;
       if (states_[last].cost - kPairCost < off_[crack].cost) p = last;
     }
     for (;;) {
-      if (p == kNoPlace) {
-        if (crack == 0) return places;
+      if (p == kNoPair) {
+        if (crack == 0) return pairs;
         p = off_[crack].from;
-        if (p == kNoPlace) --crack;
+        if (p == kNoPair) --crack;
         continue;
       }
-      places.push_back(p);
-      if (p == first) return places;
-      if (states_[p].from == kNoPlace) crack = stations_[station_of_[p]].crack;
+      pairs.push_back(p);
+      if (p == first) return pairs;
+      if (states_[p].from == kNoPair) crack = stations_[station_of_[p]].crack;
       p = states_[p].from;
     }
   }
 
-  std::vector<Fault> faults(const std::vector<std::uint32_t>& places) const {
-    std::vector<Fault> faults;
-    for (auto p = places.rbegin(); p != places.rend(); ++p) {
-      if (states_[*p].from == kNoPlace) faults.emplace_back();
+  std::vector<Wall> walls(const std::vector<std::uint32_t>& pairs) const {
+    std::vector<Wall> walls;
+    for (auto p = pairs.rbegin(); p != pairs.rend(); ++p) {
+      if (states_[*p].from == kNoPair) walls.emplace_back();
       const Station& station = stations_[station_of_[*p]];
-      faults.back().top.push_back({places_[*p].top, static_cast<float>(station.high)});
-      faults.back().foot.push_back({places_[*p].foot, static_cast<float>(station.low)});
+      walls.back().top.push_back({pairs_[*p].top, static_cast<float>(station.high)});
+      walls.back().foot.push_back({pairs_[*p].foot, static_cast<float>(station.low)});
     }
     // Parts of a ring on both sides of the cut.
-    if (faults.size() > 1 && faults.back().top.back() == faults.front().top.front()) {
-      Fault& last = faults.back();
-      last.top.insert(last.top.end(), faults.front().top.begin() + 1, faults.front().top.end());
-      last.foot.insert(last.foot.end(), faults.front().foot.begin() + 1, faults.front().foot.end());
-      faults.erase(faults.begin());
+    if (walls.size() > 1 && walls.back().top.back() == walls.front().top.front()) {
+      Wall& last = walls.back();
+      last.top.insert(last.top.end(), walls.front().top.begin() + 1, walls.front().top.end());
+      last.foot.insert(last.foot.end(), walls.front().foot.begin() + 1, walls.front().foot.end());
+      walls.erase(walls.begin());
     }
-    return faults;
+    return walls;
   }
 
   double tolerance_;
   std::vector<Crack> cracks_;
   std::vector<Station> stations_;
-  std::vector<Place> places_;
+  std::vector<PointPair> pairs_;
   std::vector<std::uint32_t> station_of_;
   std::uint32_t begin_of_cut_ = 0;
   std::vector<State> states_;
@@ -273,8 +273,6 @@ class FaultSearch {
 
 }  // namespace
 
-std::vector<Fault> find_faults(const CrackChain& chain, double tolerance) {
-  return FaultSearch(tolerance).search(chain);
-}
+std::vector<Wall> find_walls(const CrackChain& chain, double tolerance) { return WallSearch(tolerance).search(chain); }
 
 }  // namespace scarp

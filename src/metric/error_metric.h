@@ -39,13 +39,13 @@ struct FitQuestion {
   }
 };
 
-class Judge {
+class ErrorMetric {
  public:
-  virtual ~Judge() = default;
+  virtual ~ErrorMetric() = default;
   /// REQUIRES: corners are valid samples, orient(corners) > 0.
   virtual Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const = 0;
   /// The most important sample of those that break their bound as real numbers; nothing if none does. `fit` is this
-  /// judge's complete fit of the same corners.
+  /// metric's complete fit of the same corners.
   virtual std::optional<Candidate> find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const = 0;
   /// The importance of a sample that just keeps the bound, where importance is an error; else 0.
   virtual double goal() const = 0;

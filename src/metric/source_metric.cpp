@@ -1,4 +1,4 @@
-#include "metric/source_judge.h"
+#include "metric/source_metric.h"
 
 #include <algorithm>
 #include <initializer_list>
@@ -7,8 +7,8 @@
 
 #include "grid/source_failure.h"
 #include "grid/window.h"
-#include "metric/height_judge.h"
-#include "metric/sample_judge.h"
+#include "metric/height_metric.h"
+#include "metric/sample_metric.h"
 
 namespace scarp {
 
@@ -33,14 +33,14 @@ class Window {
     or_throw(read_window(field, first_.x, first_.y, cols, rows, samples_.data(), cols));
     const Raster raster{samples_.data(), cols, rows};
     if (bounds == nullptr) {
-      judge_ = std::make_unique<HeightJudge>(raster, threshold);
+      metric_ = std::make_unique<HeightMetric>(raster, threshold);
       return;
     }
     bounds_.resize(samples_.size());
     or_throw(bounds->read_aims(first_, cols, rows, bounds_.data(), cols));
-    judge_ = std::make_unique<SampleJudge>(judging_by_bounds(raster, bounds_));
+    metric_ = std::make_unique<SampleMetric>(settings_by_bounds(raster, bounds_));
   }
-  const Judge& judge() const { return *judge_; }
+  const ErrorMetric& metric() const { return *metric_; }
   Point inside(Point p) const { return {p.x - first_.x, p.y - first_.y}; }
   std::array<Point, 3> inside(const std::array<Point, 3>& p) const {
     return {inside(p[0]), inside(p[1]), inside(p[2])};
@@ -53,34 +53,34 @@ class Window {
  private:
   Point first_;
   std::vector<float> samples_, bounds_;
-  std::unique_ptr<Judge> judge_;
+  std::unique_ptr<ErrorMetric> metric_;
 };
 
 }  // namespace
 
-Fit SourceJudge::fit(const std::array<Point, 3>& corners, const FitQuestion& question) const {
+Fit SourceMetric::fit(const std::array<Point, 3>& corners, const FitQuestion& question) const {
   const Window window(field_, threshold_, bounds_, {corners[0], corners[1], corners[2]});
-  Fit fit = window.judge().fit(window.inside(corners), question);
+  Fit fit = window.metric().fit(window.inside(corners), question);
   fit.worst = window.outside(fit.worst);
   return fit;
 }
 
-std::optional<Candidate> SourceJudge::find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const {
+std::optional<Candidate> SourceMetric::find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const {
   const Window window(field_, threshold_, bounds_, {corners[0], corners[1], corners[2]});
   Fit inside = fit;
   inside.worst.at = window.inside(fit.worst.at);
-  const auto found = window.judge().find_candidate(window.inside(corners), inside);
+  const auto found = window.metric().find_candidate(window.inside(corners), inside);
   return found ? std::optional(window.outside(*found)) : std::nullopt;
 }
 
-double SourceJudge::squares_between(Point a, Point b) const {
+double SourceMetric::squares_between(Point a, Point b) const {
   const Window window(field_, threshold_, bounds_, {a, b});
-  return window.judge().squares_between(window.inside(a), window.inside(b));
+  return window.metric().squares_between(window.inside(a), window.inside(b));
 }
 
-double SourceJudge::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {
+double SourceMetric::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {
   const Window window(field_, threshold_, bounds_, {a[0], a[1], a[2], b[0], b[1], b[2]});
-  return window.judge().bend(window.inside(a), window.inside(b));
+  return window.metric().bend(window.inside(a), window.inside(b));
 }
 
 }  // namespace scarp

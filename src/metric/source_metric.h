@@ -1,18 +1,18 @@
 // The plain error metric of samples that are not in memory as floats.
 #pragma once
 
-#include "metric/judge.h"
+#include "metric/error_metric.h"
 #include "metric/source_bounds.h"
 #include "scarp/height_field.h"
 
 namespace scarp {
 
-/// HeightJudge's answers, bit for bit, or SampleJudge's where samples have bounds of their own, each from a window of
+/// HeightMetric's answers, bit for bit, or SampleMetric's where samples have bounds of their own, each from a window of
 /// the source around the triangle: for few questions. Throws SourceFailure where a source fails.
-class SourceJudge final : public Judge {
+class SourceMetric final : public ErrorMetric {
  public:
   /// `bounds`: null where the threshold holds for all; stay alive.
-  SourceJudge(const HeightField& field, double threshold, const SourceBounds* bounds = nullptr)
+  SourceMetric(const HeightField& field, double threshold, const SourceBounds* bounds = nullptr)
       : field_(field), threshold_(threshold), bounds_(bounds) {}
 
   Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const override;

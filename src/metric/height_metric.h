@@ -2,13 +2,13 @@
 #pragma once
 
 #include "grid/raster.h"
-#include "metric/judge.h"
+#include "metric/error_metric.h"
 
 namespace scarp {
 
-class HeightJudge final : public Judge {
+class HeightMetric final : public ErrorMetric {
  public:
-  HeightJudge(const Raster& raster, double threshold) : raster_(raster), threshold_(threshold) {}
+  HeightMetric(const Raster& raster, double threshold) : raster_(raster), threshold_(threshold) {}
 
   Fit fit(const std::array<Point, 3>& corners, const FitQuestion& question) const override;
   std::optional<Candidate> find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const override;

@@ -1,4 +1,4 @@
-#include "metric/height_judge.h"
+#include "metric/height_metric.h"
 
 #include <algorithm>
 #include <cmath>
@@ -109,13 +109,13 @@ std::optional<Candidate> scan_exactly(const Raster& raster, const std::array<Poi
 
 }  // namespace
 
-Fit HeightJudge::fit(const std::array<Point, 3>& corners, const FitQuestion& question) const {
+Fit HeightMetric::fit(const std::array<Point, 3>& corners, const FitQuestion& question) const {
   Fit fit = question.squares ? scan<true>(raster_, corners, question) : scan<false>(raster_, corners, question);
   if (question.lattice > 1 && fit.complete) refine_scores(raster_, corners, question, fit);
   return fit;
 }
 
-std::optional<Candidate> HeightJudge::find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const {
+std::optional<Candidate> HeightMetric::find_candidate(const std::array<Point, 3>& corners, const Fit& fit) const {
   const Candidate& worst = fit.worst;
   if (worst.error > threshold_ + fit.guard) return worst;
   if (worst.error < threshold_ - fit.guard) return std::nullopt;
@@ -124,7 +124,7 @@ std::optional<Candidate> HeightJudge::find_candidate(const std::array<Point, 3>&
   return scan_exactly(raster_, corners, Plane::through(corners, heights_at(raster_, corners)), threshold_);
 }
 
-double HeightJudge::squares_between(Point a, Point b) const {
+double HeightMetric::squares_between(Point a, Point b) const {
   double squares = 0;
   const double from = raster_.at(a), rise = double{raster_.at(b)} - from;
   visit_between(a, b, [&](Point p, double share) {
@@ -134,7 +134,7 @@ double HeightJudge::squares_between(Point a, Point b) const {
   return squares;
 }
 
-double HeightJudge::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {
+double HeightMetric::bend(const std::array<Point, 3>& a, const std::array<Point, 3>& b) const {
   return bend_of(Plane::through(a, heights_at(raster_, a)), Plane::through(b, heights_at(raster_, b)));
 }
 

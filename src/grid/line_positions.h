@@ -9,9 +9,9 @@
 
 namespace scarp {
 
-/// Fails with kInput, naming line and place, for a vertex farther away than kFarthestSample (grid/affine_map.h), or
+/// Fails with kInput, naming line and position, for a vertex farther away than kFarthestSample (grid/affine_map.h), or
 /// nowhere. `affine`: from samples to the coordinates of the line. REQUIRES: it can be inverted.
-Result<void> check_line_places(const std::string& name, std::span<const std::array<double, 3>> points,
-                               const std::array<double, 6>& affine);
+Result<void> check_line_positions(const std::string& name, std::span<const std::array<double, 3>> points,
+                                  const std::array<double, 6>& affine);
 
 }  // namespace scarp
