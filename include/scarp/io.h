@@ -36,6 +36,9 @@ struct ReadOptions {
   Run run = {};
   /// open_height_field() reads a streamed raster once through, for the range in its info. DEFAULT: false.
   bool with_range = false;
+  /// The samples are tolerances or weights, not heights: a raster without any value is no error, and the warning about
+  /// infinities names the file. DEFAULT: false.
+  bool as_values = false;
 };
 
 /// Reads one raster. Scarp's own readers read PGM (P2, P5) and Scape's STM; GDAL reads all else, with any path or URL

@@ -49,6 +49,7 @@ struct OwnedTolerances {
   std::shared_ptr<const SampleSource> source;  ///< for Tolerances::source; null where they are values
   std::vector<bool> found;                     ///< by region, whether any part of it lies in the raster
   std::uint64_t bytes = 0;                     ///< of memory that the regions take, where there is a source
+  bool has_values = false;                     ///< a sample of the raster has a value
 };
 
 /// Makes the tolerances of `raster` and of `regions`. A value of the raster that was rounded to float32
@@ -59,8 +60,9 @@ struct OwnedTolerances {
 /// `raster` lies on the grid of the heights; find_grid_difference() checks that. The call takes ownership of it. The
 /// regions are not needed after the call. With in_windows the call reads the raster through once.
 /// Fails with kUsage without raster and regions, for a raster of another size than the grid, and for one with a source
-/// where values are asked for; with kInput, naming the raster's file, for a negative value and where no sample has one;
-/// as the raster's source does; with kCancelled. REQUIRES: of the grid as region_tolerances(), where there are regions.
+/// where values are asked for; with kInput, naming the raster's file, for a negative value, and where no sample has one
+/// and neither regions nor a tolerance beyond them bound any; as the raster's source does; with kCancelled.
+/// REQUIRES: of the grid as region_tolerances(), where there are regions.
 /// Cost: O(samples) for the raster; for regions that of region_tolerances() or make_region_bounds().
 Result<OwnedTolerances> make_tolerances(std::optional<OwnedHeightField> raster, std::span<const Region> regions,
                                         const RegionGrid& grid, const ToleranceOptions& options = {});

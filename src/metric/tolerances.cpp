@@ -150,16 +150,17 @@ Result<OwnedTolerances> make_tolerances(std::optional<OwnedHeightField> raster, 
                                                raster->cols, raster->rows, grid.cols, grid.rows));
   if (raster && raster->source && !options.in_windows)
     return fail(ErrorKind::kUsage, raster->info.path + " is not in memory: ask for tolerances in windows");
+  OwnedTolerances made;
   if (raster) {
     const ProgressCallback& progress = options.in_windows ? options.run.progress : ProgressCallback();
     const auto largest = look_through(*raster, progress);
     if (!largest) return tl::unexpected(largest.error());
-    if (!*largest)
+    made.has_values = largest->has_value();
+    if (!made.has_values && regions.empty() && !grid.beyond)
       return fail(ErrorKind::kInput, fmt::format("{}: none of its {} x {} samples has a value", raster->info.path,
                                                  raster->cols, raster->rows));
   }
 
-  OwnedTolerances made;
   if (options.in_windows) {
     if (raster) {
       const bool is_rounded = raster->sample_rounding > 0;

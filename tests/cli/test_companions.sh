@@ -66,6 +66,28 @@ make_raster exact.tif '0 if (col, row) == (200, 100) else nan'
 succeeds "$scarp" simplify "$dem" exact.obj --tolerance exact.tif --crs grid
 grep -q '^v 200 243 ' exact.obj || fail "a sample of tolerance 0 is no vertex"
 
+# No value means E; where nothing has a value, the raster changes nothing. Infinite tolerances are no heights.
+make_raster none.tif nan
+succeeds "$scarp" simplify "$dem" bare.obj -e 20 --crs grid
+succeeds "$scarp" simplify "$dem" none.obj -e 20 --tolerance none.tif --crs grid --report s.json --overwrite
+grep -q '^scarp: warning: --tolerance none.tif holds no value: it changes nothing$' "$logs/err" || fail "no word about no value"
+[ "$(json s.json max_error)" = "$("$scarp" measure "$dem" bare.obj --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["max_error"])')" ] ||
+  fail "a raster without a value changes the mesh"
+grep '^[vf] ' bare.obj > bare.txt
+grep '^[vf] ' none.obj | cmp - bare.txt || fail "a raster without a value changes the mesh"
+succeeds "$scarp" measure "$dem" none.obj --tolerance none.tif --fail-above 20
+refuses 2 "--tolerance none.tif: none of its 403 x 344 samples has a value" "$scarp" simplify "$dem" x.obj -t 500 --tolerance none.tif
+make_raster tiny.tif '1000 if col < 2 else 2e-37'
+gdal_translate -q -a_scale 1e38 tiny.tif endless.tif
+succeeds "$scarp" simplify "$dem" endless.obj --tolerance endless.tif
+grep -q '^scarp: warning: endless.tif: 688 values are infinite or too large for a float32 and taken as no value$' "$logs/err" ||
+  fail "the warning does not tell of the file's values"
+# A budget without room for samples of tolerance 0 breaks some, and says so.
+make_raster strict.tif '0 if row % 3 == 0 else nan'
+succeeds "$scarp" simplify "$dem" strict.obj -t 500 --tolerance strict.tif --report s.json --overwrite
+[ "$(json s.json tolerance_factor)" = '"inf"' ] || fail "samples of tolerance 0 are said to be kept"
+grep -q '^scarp: warning: the budget has no room for all samples of tolerance 0' "$logs/err" || fail "no word about broken tolerances"
+
 # Scripts: what is inserted is a vertex, what is ignored has no bound.
 printf '# a corner of the map\ns 10 20\n\ns 11 20\ni 300 300\nu 301 300\n' > steps.txt
 succeeds "$scarp" simplify "$dem" scripted.obj -t 40 --script steps.txt --crs grid --report s.json --overwrite
@@ -139,7 +161,10 @@ refuses 2 "--mask negative.tif: the value -5 at column 0, row 0 is negative" sim
 refuses 2 "--tolerance negative.tif: the value -5" simplify --tolerance negative.tif
 make_raster zeros.tif 0
 refuses 2 "no weight is above 0" simplify -e 20 --mask zeros.tif
+refuses 2 "--mask none.tif: no weight is above 0" simplify -e 20 --mask none.tif
 refuses 2 "missing.tif" simplify -e 20 --mask missing.tif
+make_raster holes.tif 'nan if col % 20 == row % 20 == 0 else row'
+refuses 1 "or simplify the outline with --outline-tolerance" "$scarp" simplify holes.tif x.obj -t 1
 refuses 1 "--mask cannot be combined with --tolerance" simplify -e 20 --mask weights.tif --tolerance bounds.tif
 refuses 1 "--mask cannot be combined with --tolerance" "$scarp" measure "$dem" t.glb --mask weights.tif --tolerance bounds.tif
 refuses 1 "no goal is given" simplify --mask weights.tif

@@ -70,11 +70,22 @@ succeeds "$scarp" measure hills.tif made.obj --error-raster /dev/stdout --memory
 cmp "$logs/out" much.tif || fail "other errors go to standard output"
 refuses 4 "made.tif exists" "$scarp" measure hills.tif made.obj --error-raster made.tif --memory "${small}M"
 gdal_translate -q -of VRT -outsize 300000 60 hills.tif wide.vrt
-refuses 1 "--memory is too little: --error-raster takes 615M" "$scarp" measure wide.vrt made.obj --error-raster w.tif --memory "${small}M"
+refuses 1 "--memory is too little: --error-raster takes 310M" "$scarp" measure wide.vrt made.obj --error-raster w.tif --memory "${small}M"
 bash -c 'ulimit -f 8; exec "$@"' - "$scarp" measure hills.tif made.obj --error-raster full.tif --memory "${small}M" \
   > "$logs/out" 2> "$logs/err" && fail "a file is larger than it may be"
 grep -q "cannot write full.tif" "$logs/err" || fail "the sentence does not name the file"
+[ "$(wc -l < "$logs/err")" = 1 ] || fail "not one line on stderr"
 [ -z "$(find . -name '.scarp-*' -o -name 'full*' -o -name w.tif)" ] || fail "files are left"
+
+# Blocks of other sizes than the heights' beside them: of weights that are read, and of what is written.
+gdal_translate -q -ot Int16 -a_nodata none -co TILED=YES -outsize 1500 6000 smooth.tif tall.tif
+gdal_translate -q -ot Byte -a_nodata none -co TILED=YES -scale 0 300 0 200 -outsize 1500 6000 smooth.tif heavy.tif
+within 86 "$scarp" simplify tall.tif tall.obj -e 20 --error-raster tall_errors.tif --memory 86M -j 2
+within 86 "$scarp" simplify tall.tif tall_near.tif -e 20 --memory 86M -j 2
+within 86 "$scarp" measure tall.tif tall.obj --mask heavy.tif --error-raster tall_again.tif --map tall.png --memory 86M -j 2
+succeeds "$scarp" measure tall.tif tall.obj --error-raster tall_whole.tif
+cmp tall_errors.tif tall_again.tif || fail "measure writes other errors than simplify"
+cmp tall_errors.tif tall_whole.tif || fail "errors by rows are not those of the whole raster"
 
 # The approximation as a raster: heights and their errors.
 within "$small" "$scarp" simplify hills.tif near.tif -e 20 --error-raster errors.tif --memory "${small}M" -j 1

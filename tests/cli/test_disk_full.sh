@@ -7,6 +7,14 @@ limited() { bash -c 'ulimit -f 8; exec "$@"' - "$@"; }
 for format in glb obj ply stl 2dm vtu xml dxf gpkg; do
   refuses 4 "out.$format" limited "$scarp" simplify "$dem" "out.$format" -e 20
 done
+refuses 4 "out.tif" limited "$scarp" simplify "$dem" out.tif -e 20
+# Rows that are written while samples stay in their file.
+if command -v gdal_translate > /dev/null; then
+  gdal_translate -q -r cubic -ot Float32 -co TILED=YES -outsize 300% 300% "$dem" tall.tif
+  refuses 4 "errors.tif" limited "$scarp" simplify tall.tif out.obj -p 100 --error-raster errors.tif --memory 75M -q
+  refuses 4 "out.tif" limited "$scarp" simplify tall.tif out.tif -p 100 --memory 75M -q
+  rm tall.tif
+fi
 echo mine > old.glb
 refuses 4 "old.glb" limited "$scarp" simplify "$dem" old.glb -e 20 --overwrite
 

@@ -14,6 +14,8 @@ layer("site.geojson", "Polygon", square)
 layer("road.geojson", "LineString", [[-84.40, 36.20], [-84.10, 36.40]])
 layer("away.geojson", "Polygon", [[[1, 1], [2, 1], [2, 2], [1, 1]]])
 PYTHON
+refuses 1 "--roi site.geojson=inf: the error inf is not a finite number" "$scarp" simplify "$dem" x.glb -e 50 --roi site.geojson=inf
+refuses 1 "--roi site.geojson=-1: the error -1 is negative" "$scarp" simplify "$dem" x.glb -e 50 --roi site.geojson=-1
 for effort in fast high; do
   succeeds "$scarp" simplify "$dem" roi.glb -e 50 --roi site.geojson=2 --effort "$effort" --report roi.json --overwrite
   succeeds "$scarp" measure "$dem" roi.glb --fail-above 50 --roi site.geojson=2

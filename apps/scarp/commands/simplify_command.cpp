@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "inputs/waters.h"
@@ -231,6 +232,14 @@ Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyO
   return std::move(printed->simplified);
 }
 
+/// What the library says of an outline tolerance, in the words of the option.
+Error name_outline(Error error) {
+  constexpr std::string_view kTolerance = "an outline tolerance";
+  if (const std::size_t at = error.message.find(kTolerance); at != std::string::npos)
+    error.message.replace(at, kTolerance.size(), "--outline-tolerance");
+  return error;
+}
+
 }  // namespace
 
 SimplifyCommand::SimplifyCommand(CLI::App& program) : command_(add_command(program, kSimplify)) {
@@ -275,7 +284,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   if (auto checked = check_conflicts(given_, outcome.view(), options); !checked) return checked;
   Result<Simplified> simplified = simplify_as_planned(*plan, options, outcome);
   if (!simplified) {
-    Error error = name_memory(given_.memory, outcome.field, std::move(simplified.error()));
+    Error error = name_outline(name_memory(given_.memory, outcome.field, std::move(simplified.error())));
     if (plan->error_goal)
       error = name_goal(*plan->error_goal, outcome.as_read.max - outcome.as_read.min, std::move(error));
     if (error.kind == ErrorKind::kInput && !error.message.starts_with(plan->input) && !error.message.starts_with("--"))
@@ -317,6 +326,11 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
     outcome.warnings.push_back(
         fmt::format("{}: no line lies on the raster's surface, so they change nothing: is their CRS the right one?",
                     plan->lines.find_lines()));
+  }
+  if (outcome.companions.has_tolerance() && std::isinf(outcome.simplified.tolerance_factor)) {
+    outcome.warnings.push_back(
+        "the budget has no room for all samples of tolerance 0: the mesh breaks some, and no factor of the tolerances "
+        "is kept; allow more");
   }
   if (const std::string faults = list_faults(outcome.simplified.measurement); !faults.empty()) {
     outcome.warnings.push_back("the mesh keeps its error bound but is not sound: " + faults);

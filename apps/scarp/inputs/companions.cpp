@@ -24,6 +24,7 @@ Result<OwnedHeightField> read_values(const char* option, const std::string& path
                                      const OwnedHeightField& field, const CompanionRun& run, bool in_windows) {
   ReadOptions options;
   options.crs = "grid";
+  options.as_values = true;
   options.run.progress = run.progress;
   Result<OwnedHeightField> values =
       in_windows ? read_beside(path, options, run.memory) : read_height_field(path, options);
@@ -63,7 +64,8 @@ Result<RegionFile> parse_region(const std::string& text) {
   if (at == std::string::npos || at == 0)
     return fail(ErrorKind::kUsage,
                 fmt::format("--roi {}: behind the file an error is missing, such as {}=0.2", shell_word(text), text));
-  const Result<double> tolerance = parse_non_negative("--roi FILE=", text.substr(at + 1));
+  const Result<double> tolerance =
+      parse_non_negative(fmt::format("--roi {}: the error", shell_word(text)), text.substr(at + 1));
   if (!tolerance) return tl::unexpected(tolerance.error());
   return RegionFile{text.substr(0, at), *tolerance};
 }
@@ -136,6 +138,10 @@ Result<void> read_tolerances(const CompanionArguments& given, const RasterInfo& 
   auto made = make_tolerances(std::move(values), *regions, grid_of(given, raster, field, bound),
                               {in_windows, {run.threads, {}, run.progress}});
   if (!made) return name_option("--tolerance", " ", std::move(made.error()));
+  if (given.tolerance && !made->has_values) {
+    companions.warnings.push_back(fmt::format("--tolerance {} holds no value: it changes nothing", *given.tolerance));
+    if (regions->empty()) return {};
+  }
   warn_of_missing(given, made->found, companions);
   companions.bytes += made->bytes + bytes;
   companions.tolerances = std::move(*made);

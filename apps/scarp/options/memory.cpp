@@ -36,7 +36,7 @@ std::optional<double> find_unit(std::string unit) {
 /// search, run after run, would pass the limit.
 void give_back_early() {
 #ifdef M_MMAP_THRESHOLD
-  constexpr int kLarge = 1 << 18;
+  constexpr int kLarge = 1 << 16;
   mallopt(M_MMAP_THRESHOLD, kLarge);
 #endif
 }

@@ -4,9 +4,13 @@
 #include <fmt/format.h>
 #include <gdal.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <memory>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "io/gdal/crs.h"
 #include "io/gdal/memory_file.h"
@@ -21,17 +25,29 @@ tl::unexpected<Error> refuse_geotiff(const std::string& why) {
   return fail(ErrorKind::kOutput, "the raster cannot be encoded as GeoTIFF: " + why);
 }
 
+/// Blocks go to the file past GDAL's block cache: there they would drive out those of the rasters that are read, and
+/// blocks of two sizes leave holes in memory that neither fits.
 class GdalGeoTiff final : public GeoTiff {
  public:
-  GdalGeoTiff(gdal::Dataset dataset, int cols) : dataset_(std::move(dataset)), cols_(cols) {}
+  GdalGeoTiff(gdal::Dataset dataset, int cols) : dataset_(std::move(dataset)), cols_(cols) {
+    GDALGetBlockSize(GDALGetRasterBand(dataset_.get(), 1), &block_cols_, &block_rows_);
+    block_.resize(static_cast<std::size_t>(block_cols_) * static_cast<std::size_t>(block_rows_));
+  }
+  ~GdalGeoTiff() override {
+    if (dataset_) std::ignore = close();
+  }
 
   Result<void> write(int row, int rows, const float* samples) override {
     gdal::Session session;
     GDALRasterBandH band = GDALGetRasterBand(dataset_.get(), 1);
-    const bool good = GDALRasterIOEx(band, GF_Write, 0, row, cols_, rows, const_cast<float*>(samples), cols_, rows,
-                                     GDT_Float32, 0, 0, nullptr) == CE_None &&
-                      GDALFlushRasterCache(band) == CE_None;  // here, not by whoever reads another file next
-    if (!good || session.failed()) return refuse_geotiff(session.reason());
+    for (int first = 0; first < rows; first += block_rows_) {
+      for (int col = 0; col < cols_; col += block_cols_) {
+        fill_block(samples + static_cast<std::size_t>(first) * static_cast<std::size_t>(cols_) + col,
+                   std::min(block_rows_, rows - first), std::min(block_cols_, cols_ - col));
+        const CPLErr written = GDALWriteBlock(band, col / block_cols_, (row + first) / block_rows_, block_.data());
+        if (written != CE_None || session.failed()) return refuse_geotiff(session.reason());
+      }
+    }
     return {};
   }
   Result<void> close() override {
@@ -43,8 +59,18 @@ class GdalGeoTiff final : public GeoTiff {
   }
 
  private:
+  /// Zeros lie beyond the raster's last column and row.
+  void fill_block(const float* samples, int rows, int cols) {
+    std::fill(block_.begin(), block_.end(), 0.0f);
+    for (int y = 0; y < rows; ++y) {
+      const float* from = samples + static_cast<std::size_t>(y) * static_cast<std::size_t>(cols_);
+      std::copy_n(from, cols, block_.begin() + static_cast<std::ptrdiff_t>(y) * block_cols_);
+    }
+  }
+
   gdal::Dataset dataset_;
-  int cols_;
+  int cols_, block_cols_ = 0, block_rows_ = 0;
+  std::vector<float> block_;
 };
 
 }  // namespace

@@ -116,7 +116,7 @@ Result<OwnedHeightField> read_samples(Session& session, OpenedRaster opened, con
   auto samples = read_windows(session, opened.first_band(options), *reader, options, field, infinities);
   if (!samples) return tl::unexpected(samples.error());
   add_gdal_warnings(session, field.info);
-  if (auto finished = finish_raster(field, infinities); !finished) return tl::unexpected(finished.error());
+  if (auto finished = finish_raster(field, infinities, options); !finished) return tl::unexpected(finished.error());
   return std::move(field);
 }
 
@@ -175,7 +175,7 @@ Result<void> survey(Session& session, GDALRasterBandH band, WindowReader& reader
   if (auto done = for_each_window(session, band, extent, options.run.progress, look); !done) return done;
   info.has_range = true;
   field.sample_rounding = reader.findings().rounding;
-  return finish_info(field, reader.findings().infinities);
+  return finish_info(field, reader.findings().infinities, options);
 }
 
 /// Leaves the samples in their file.
@@ -211,7 +211,7 @@ Result<OwnedHeightField> open_field(const std::string& path, const ReadOptions& 
   auto read = read_codes(session, opened->plan.band, options, field, infinities);
   if (!read) return tl::unexpected(read.error());
   add_gdal_warnings(session, field.info);
-  if (auto finished = finish_info(field, infinities); !finished) return tl::unexpected(finished.error());
+  if (auto finished = finish_info(field, infinities, options); !finished) return tl::unexpected(finished.error());
   return std::move(field);
 }
 

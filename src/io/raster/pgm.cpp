@@ -191,7 +191,7 @@ Result<OwnedHeightField> decode_pgm(std::span<const std::uint8_t> bytes, const s
   auto decoded =
       header->plain ? decode_plain(bytes, *header, name, samples) : decode_raw(bytes, *header, name, samples);
   if (!decoded) return tl::unexpected(decoded.error());
-  if (auto finished = finish_raster(field, 0); !finished) return tl::unexpected(finished.error());
+  if (auto finished = finish_raster(field, 0, options); !finished) return tl::unexpected(finished.error());
   return field;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "base/caught.h"
@@ -26,7 +27,9 @@ Result<RasterFile> RasterFile::create(const std::string& path, int cols, int row
   if (!staged) return tl::unexpected(staged.error());
   auto tiff = create_geotiff(staged->name(), cols, rows, like);
   if (!tiff) return name_path(path, tiff.error());
-  return RasterFile(std::make_unique<Impl>(Impl{std::move(*staged), std::move(*tiff), cols, rows}));
+  auto impl = std::make_unique<Impl>(Impl{std::move(*staged), std::move(*tiff), cols, rows});
+  impl->held.reserve(static_cast<std::size_t>(cols) * static_cast<std::size_t>(std::min(rows, kRowsOfBlock)));
+  return RasterFile(std::move(impl));
 } catch (...) {
   return caught(ErrorKind::kOutput, "write " + path);
 }
@@ -55,7 +58,8 @@ Result<void> RasterFile::finish() {
 std::uint64_t RasterFile::size() const { return impl_->size; }
 
 std::uint64_t RasterFile::bytes(int cols) {
-  return 2 * sizeof(float) * static_cast<std::uint64_t>(cols) * static_cast<std::uint64_t>(kRowsOfBlock);
+  constexpr std::uint64_t kBytesToEncode = 2'000'000;  // a block, its copies and the compressor
+  return kBytesToEncode + sizeof(float) * static_cast<std::uint64_t>(cols) * static_cast<std::uint64_t>(kRowsOfBlock);
 }
 
 }  // namespace scarp

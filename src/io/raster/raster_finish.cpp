@@ -60,15 +60,23 @@ Result<void> allocate_samples(const std::string& name, OwnedHeightField& field) 
   return {};
 }
 
-Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities) {
+Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities, const ReadOptions& options) {
   const HeightRange range = height_range(field);
   field.info.valid = range.valid;
   field.info.min = range.min;
   field.info.max = range.max;
-  return finish_info(field, infinities);
+  return finish_info(field, infinities, options);
 }
 
-Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities) {
+Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities, const ReadOptions& options) {
+  if (options.as_values) {
+    if (infinities > 0) {
+      field.info.warnings.push_back(
+          fmt::format("{}: {} infinite or too large for a float32 and taken as no value", field.info.path,
+                      infinities == 1 ? "1 value is" : fmt::format("{} values are", infinities)));
+    }
+    return {};
+  }
   if (infinities > 0) {
     field.info.warnings.push_back(fmt::format("{} {} infinite or too large for a height and taken as nodata",
                                               infinities, infinities == 1 ? "sample is" : "samples are"));

@@ -21,10 +21,10 @@ Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std:
 Result<void> allocate_samples(const std::string& name, OwnedHeightField& field);
 
 /// Fills in valid, min and max; then finish_info().
-Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities);
+Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities, const ReadOptions& options);
 
-/// Warns of `infinities` samples that became nodata; kInput if no sample is a height.
-Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities);
+/// Warns of `infinities` samples that became nodata; kInput if no sample is a height, unless they are read as values.
+Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities, const ReadOptions& options);
 
 /// The frame of a raster without georeference: kUsage if options.crs asks for anything but the grid.
 Result<Frame> ungeoreferenced_frame(const std::string& name, int rows, const std::string& crs);

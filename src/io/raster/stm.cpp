@@ -99,7 +99,7 @@ Result<OwnedHeightField> decode_stm(std::span<const std::uint8_t> bytes, const s
     const int value = data[2 * k + high] << 8 | data[2 * k + 1 - high];
     field.samples[k] = value == nodata ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(value);
   }
-  if (auto finished = finish_raster(field, 0); !finished) return tl::unexpected(finished.error());
+  if (auto finished = finish_raster(field, 0, options); !finished) return tl::unexpected(finished.error());
   return field;
 }
 
