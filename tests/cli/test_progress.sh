@@ -38,7 +38,11 @@ PYTHON
 
 # A terminal: a line that is rewritten and erased in the end.
 if command -v script > /dev/null; then
-  script -qec "'$scarp' simplify big.tif out.glb -e 5 --order greedy --overwrite" typescript < /dev/null > /dev/null
+  # The line comes after a second; a fast machine needs a smaller error to work so long.
+  for error in 5 1 0.2 0; do
+    script -qec "'$scarp' simplify big.tif out.glb -e $error --order greedy --overwrite" typescript < /dev/null > /dev/null
+    if grep -aq 'refine.*%.*vertices' typescript; then break; fi
+  done
   grep -aq 'refine.*%.*vertices' typescript || fail "no progress on a terminal"
   grep -aq 'Reached the error goal' typescript || fail "no summary on a terminal"
   script -qec "'$scarp' simplify '$dem' out.glb -e 100 --report quick.json --overwrite" typescript < /dev/null > /dev/null
