@@ -22,7 +22,7 @@ enum class Order {
 /// of the same size.
 enum class Effort {
   kAuto,  ///< kNormal if min_shape or the like asks for it, or if it is possible, the order is not set to greedy, and
-          ///< there is neither a memory limit nor a per-sample tolerance; else kFast
+          ///< there is neither a memory limit nor, without a budget, a per-sample tolerance; else kFast
   kFast,    ///< none: the refined mesh stays
   kNormal,  ///< removes vertices while every sample stays within the bound: half the triangles, for a few times the
             ///< time. Works strip by strip if samples are not in memory; see simplify().
