@@ -123,8 +123,8 @@ void TriangleError::narrow(const FitCorner& a, const FitCorner& b, const FitCorn
   each_residual(task, {a, b, c}, [&](Floats t, Floats share) {
     const Masks weighs = share > all(kLeastShare);
     const Floats down = (all(-1) - t) / share, up = (all(1) - t) / share;
-    lowest = weighs & (down > lowest) ? down : lowest;
-    highest = weighs & (up < highest) ? up : highest;
+    lowest = (weighs & (down > lowest)) ? down : lowest;
+    highest = (weighs & (up < highest)) ? up : highest;
   });
   room.lowest = std::max({lowest[0], lowest[1], lowest[2], lowest[3]});
   room.highest = std::min({highest[0], highest[1], highest[2], highest[3]});

@@ -118,7 +118,7 @@ class Inspection {
   }
 
   void find_parts() {
-    std::vector<bool> is_seen(facts_.triangles, false);
+    std::vector<bool> is_seen(static_cast<std::size_t>(facts_.triangles), false);
     std::vector<std::uint32_t> pending;
     for (std::uint32_t start = 0; start < facts_.triangles; ++start) {
       if (is_seen[start]) continue;

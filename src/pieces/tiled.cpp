@@ -159,7 +159,7 @@ class TiledRun {
     if (!status_) return tl::unexpected(status_.error());
     if (is_unsuited_) return std::optional<Tiled>();
     const bool is_whole = assembly_.is_whole();
-    if (!fixed_.empty()) fixed_.resize(assembly_.vertex_count(), 0);
+    if (!fixed_.empty()) fixed_.resize(static_cast<std::size_t>(assembly_.vertex_count()), 0);
     std::vector<HalfEdge> seams;
     DomainMesh domain{assembly_.finish(seams), is_whole};
     if (!is_whole) domain.unused = count_unused(domain.tin);
@@ -290,13 +290,13 @@ class TiledRun {
 
   void keep_heights(const std::vector<float>& heights) {
     if (heights.empty()) return;
-    heights_.resize(assembly_.vertex_count());
+    heights_.resize(static_cast<std::size_t>(assembly_.vertex_count()));
     for (std::size_t k = 0; k < heights.size(); ++k) heights_[assembly_.last_vertices()[k]] = heights[k];
   }
 
   void keep_fixed(const std::vector<std::uint8_t>& fixed) {
     if (fixed.empty()) return;
-    fixed_.resize(assembly_.vertex_count(), 0);
+    fixed_.resize(static_cast<std::size_t>(assembly_.vertex_count()), 0);
     for (std::size_t k = 0; k < fixed.size(); ++k) {
       if (fixed[k] != 0) fixed_[assembly_.last_vertices()[k]] = 1;
     }
