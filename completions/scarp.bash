@@ -4,10 +4,10 @@ _scarp() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command='' options='' word
   COMPREPLY=()
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
-    case $word in simplify | measure | info | generate | paper | help) command=$word && break ;; esac
+    case $word in simplify | measure | info | generate | paper | help | version) command=$word && break ;; esac
   done
   if [[ -z $command ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure info generate paper help --help --version' -- "$current"))
+    COMPREPLY=($(compgen -W 'simplify measure info generate paper help version --help --version' -- "$current"))
     return
   fi
 
@@ -17,13 +17,13 @@ _scarp() {
       "simplify --nodata" | "simplify --fill-distance" | "simplify --background" | "simplify --outline-tolerance" | \
       "simplify --falloff" | "simplify --breakline-z" | "simplify --inset" | "simplify --cliff" | \
       "simplify --ridges" | "simplify --water-percentile" | "simplify --detect-flats" | "simplify --min-angle" | \
-      "simplify --max-edge" | "simplify --grade" | "simplify --base" | "simplify --split" | \
-      "simplify --texture-weight" | "simplify --channel-weights" | "simplify --layer" | "simplify --z-field" | \
-      "simplify --shape-threshold" | "simplify --supersample" | "simplify --memory" | "simplify -j" | \
-      "simplify --num-threads" | "measure --fail-above" | "measure --band" | "measure --nodata" | \
-      "measure --falloff" | "measure --inset" | "measure --texture-weight" | "measure --channel-weights" | \
-      "measure --layer" | "measure --z-field" | "measure --memory" | "measure -j" | "measure --num-threads" | \
-      "info --band" | "info --nodata" | "generate --seed" | "generate --range" | "generate --size")
+      "simplify --max-edge" | "simplify --grade" | "simplify --base" | "simplify --split" | "simplify --memory" | \
+      "simplify -j" | "simplify --num-threads" | "simplify --texture-weight" | "simplify --channel-weights" | \
+      "simplify --layer" | "simplify --z-field" | "simplify --shape-threshold" | "simplify --supersample" | \
+      "measure --fail-above" | "measure --band" | "measure --nodata" | "measure --falloff" | "measure --inset" | \
+      "measure --memory" | "measure -j" | "measure --num-threads" | "measure --texture-weight" | \
+      "measure --channel-weights" | "measure --layer" | "measure --z-field" | "info --band" | "info --nodata" | \
+      "info --layer" | "info --z-field" | "generate --seed" | "generate --range" | "generate --size")
       return
       ;;
     "simplify --objective")
@@ -121,29 +121,34 @@ _scarp() {
         options+=' --mask --tolerance --roi --falloff --script --breaklines --breakline-z --soft-breaklines'
         options+=' --line-conflict --cutline --inset --mask-outside --cliff --ridges --keep-ridges --water'
         options+=' --water-percentile --detect-flats --rivers --min-angle --max-edge --grade --base --solid'
-        options+=' --split --texture --texture-weight --image --norm --channel-weights --points --duplicates'
+        options+=' --split --memory --num-threads --quiet --timing --json-progress --help --help-all'
+        options+=' --version --texture --texture-weight --image --norm --channel-weights --points --duplicates'
         options+=' --layer --z-field --order --importance --one-pass --algorithm --batch --edges'
-        options+=' --edge-score --shape-threshold --supersample --memory --num-threads --quiet --timing --json-progress'
-        options+=' --help --version'
+        options+=' --edge-score --shape-threshold --supersample'
         ;;
       measure)
         options+=' --fail-above --band --decode --crs --json --map --error-raster --overwrite'
         options+=' --nodata --mask --tolerance --roi --falloff --script --cutline --inset'
-        options+=' --mask-outside --texture --texture-weight --image --norm --channel-weights --points --duplicates'
-        options+=' --layer --z-field --memory --num-threads --quiet --json-progress --help --version'
+        options+=' --mask-outside --memory --num-threads --quiet --json-progress --help --help-all --version'
+        options+=' --texture --texture-weight --image --norm --channel-weights --points --duplicates --layer'
+        options+=' --z-field'
         ;;
       info)
-        options+=' --band --decode --crs --json --nodata --quiet --json-progress --help'
-        options+=' --version'
+        options+=' --band --decode --crs --no-suggest --json --nodata --quiet --json-progress'
+        options+=' --help --help-all --version --points --layer --z-field'
         ;;
       generate)
-        options+=' --seed --range --size --of --overwrite --quiet --help --version'
+        options+=' --seed --range --size --of --overwrite --quiet --help --help-all'
+        options+=' --version'
         ;;
       paper)
-        options+=' --data --out --no-timing --overwrite --quiet --help --version'
+        options+=' --data --out --no-timing --overwrite --quiet --help --help-all --version'
         ;;
       help)
-        options+=' --json --help --version'
+        options+=' --all --json --help --help-all --version'
+        ;;
+      version)
+        options+=' --help --help-all --version'
         ;;
     esac
     COMPREPLY=($(compgen -W "$options" -- "$current"))
@@ -154,7 +159,7 @@ _scarp() {
     return
   fi
   if [[ $command == help && $COMP_CWORD -eq 2 ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure info generate paper help' -- "$current"))
+    COMPREPLY=($(compgen -W 'simplify measure info generate paper help version' -- "$current"))
     return
   fi
   COMPREPLY=($(compgen -f -- "$current"))

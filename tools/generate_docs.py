@@ -131,7 +131,7 @@ def cli_page(table, old):
         return f"{match.group(1)}\n{markdown_table(table, match.group(0).split()[2].rstrip(':'), words, shown)}\n<!-- end -->"
 
     new = re.sub(r"(<!-- options [a-z]+: ([a-z0-9 -]+?) -->)\n(?:[^\n]*\n)*?<!-- end -->", fill, old)
-    missing = {option["name"] for option in table.options if option["name"].startswith("-")} - shown - {"--help", "--version"}
+    missing = {option["name"] for option in table.options if option["name"].startswith("-")} - shown - {"--help", "--help-all", "--version"}
     if missing:
         raise SystemExit(f"docs/cli.md: no table has {', '.join(sorted(missing))}")
     return new
@@ -222,7 +222,7 @@ def zsh_line(option):
     if option["type"] != "flag":
         value = f":{zsh_text(option['value'] or option['name'])}:{zsh_action(option)}"
     before = "*" if option["repeatable"] else f"({' '.join(names)})" if len(names) > 1 else ""
-    if option["name"] in ("--help", "--version"):
+    if option["name"] in ("--help", "--help-all", "--version"):
         before = "(- *)"
     words = "'{" + ",".join(names) + "}'" if len(names) > 1 else names[0]
     return f"'{before}{words}[{zsh_text(first_sentence(option))}]{value}'"

@@ -18,6 +18,7 @@
 #include "commands/simplify_command.h"
 #include "options/help.h"
 #include "options/missing_value.h"
+#include "options/unknown_words.h"
 #include "scarp/version.h"
 #include "terminal/signals.h"
 #include "terminal/text.h"
@@ -35,11 +36,11 @@ std::string join_command_line(int argc, char** argv) {
 }
 
 /// The help of the command that was chosen, or the program's.
-std::string help_text(const CLI::App& program) {
+std::string help_text(const CLI::App& program, bool all) {
   check_table(program);
   const CommandRow* chosen = nullptr;
   for (const CLI::App* command : program.get_subcommands()) chosen = find_command(command->get_name());
-  return chosen != nullptr ? command_help(*chosen) : program_help();
+  return chosen != nullptr ? command_help(*chosen, all) : program_help();
 }
 
 /// CLI11's complaint about the number of values, in words.
@@ -56,7 +57,9 @@ Error end_usage(const std::string& sentence, const std::string& command) {
 /// What CLI11 objects to, as one sentence that ends with where to read more.
 Error describe(const CLI::ParseError& error, const CLI::App& program) {
   std::string command, sentence;
-  for (const CLI::App* chosen : program.get_subcommands()) command = " " + chosen->get_name();
+  const CLI::App* chosen = nullptr;
+  for (const CLI::App* candidate : program.get_subcommands()) chosen = candidate;
+  if (chosen != nullptr) command = " " + chosen->get_name();
   const std::vector<std::string> unknown = program.remaining(true);
   if (command.empty() && !unknown.empty() && unknown.front().rfind('-', 0) != 0) {
     return unknown_command(unknown.front());
@@ -64,7 +67,8 @@ Error describe(const CLI::ParseError& error, const CLI::App& program) {
     sentence = "no command given: " + choose_command();
   } else if (!unknown.empty()) {
     const bool is_option = unknown.front().rfind('-', 0) == 0;
-    sentence = fmt::format("{} {} is unknown", is_option ? "option" : "argument", shell_word(unknown.front()));
+    sentence = is_option ? describe_unknown_option(chosen, unknown.front())
+                         : fmt::format("argument {} is unknown", shell_word(unknown.front()));
   } else if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ArgumentMismatch)) {
     sentence = describe_mismatch(error.what());
   } else {
@@ -85,6 +89,7 @@ int run_program(int argc, char** argv) {
   CLI::App program("", "scarp");
   program.set_version_flag("--version", fmt::format("scarp {}", scarp::version()));
   program.set_help_flag("-h,--help");
+  program.set_help_all_flag("--help-all");
   program.require_subcommand(1);
   SimplifyCommand simplify(program);
   MeasureCommand measure(program);
@@ -92,19 +97,25 @@ int run_program(int argc, char** argv) {
   GenerateCommand generate(program);
   PaperCommand paper(program);
   HelpCommand help(program);
+  const CLI::App* const version_command = add_command(program, kVersionCommand);
 
+  if (const auto complaint = find_foreign_option(program, argc, argv))
+    return report_end(tl::unexpected(end_usage(*complaint, std::string(" ") + argv[1])));
   if (const auto complaint = find_missing_value(program, argc, argv))
     return report_end(tl::unexpected(end_usage(*complaint, std::string(" ") + argv[1])));
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    return report_end(print_to_stdout(help_text(program)));
+    return report_end(print_to_stdout(help_text(program, false)));
+  } catch (const CLI::CallForAllHelp&) {
+    return report_end(print_to_stdout(help_text(program, true)));
   } catch (const CLI::CallForVersion& version) {
     return report_end(print_to_stdout(std::string(version.what()) + "\n"));
   } catch (const CLI::ParseError& error) {
     return report_end(tl::unexpected(describe(error, program)));
   }
 
+  if (version_command->parsed()) return report_end(print_to_stdout(fmt::format("scarp {}\n", scarp::version())));
   const std::string command_line = join_command_line(argc, argv);
   return report_end(simplify.is_chosen()   ? simplify.run(command_line)
                     : measure.is_chosen()  ? measure.run(command_line)

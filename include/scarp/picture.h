@@ -1,8 +1,10 @@
 // Pictures of height fields, meshes and errors.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "scarp/height_field.h"
@@ -13,23 +15,51 @@
 
 namespace scarp {
 
-/// Hillshade of the field with the mesh's edges over it, at most `max_side` pixels wide or high. Nodata samples are
-/// white. Streamed samples are read once, from the top; memory: 112 bytes a pixel. Fails with kInput for fewer than 2×2
-/// samples, and as the field's source does.
-Result<Picture> draw_preview(const HeightField& field, const Mesh& mesh, int max_side = 1400);
+enum class MarkKind { kLake, kWater, kBreakline, kRidge, kWall, kCutline };
+
+/// A line to be marked on a picture. Rings of lakes are filled, even-odd.
+struct Mark {
+  MarkKind kind = MarkKind::kBreakline;
+  std::vector<std::array<double, 2>> points;  ///< columns and rows of samples
+};
+
+struct PreviewOptions {
+  int max_side = 1400;  ///< pixels that the picture is wide or high, at most
+  /// Metres that a cell is wide and high. DEFAULT: its lengths in the field's frame, and no scale bar.
+  std::array<double, 2> cell{0, 0};
+  std::string unit = {};  ///< of heights, for the legend
+  std::vector<Mark> marks = {};
+};
+
+/// Hillshade of the field with the mesh's edges and the marks over it, in the shape that it has on the ground. Edges of
+/// triangles fade as these come down to a few pixels. Nodata samples are white. Tints tell heights; below 0 they are
+/// blue, but in fields without a georeference. A picture of 300 pixels and more has a legend below. Streamed samples
+/// are read once, from the top; memory: 112 bytes a pixel. Fails with kInput for fewer than 2×2 samples, and as the
+/// field's source does.
+Result<Picture> draw_preview(const HeightField& field, const Mesh& mesh, const PreviewOptions& options = {});
+
+struct ErrorMapOptions {
+  double limit = 0;                  ///< end of the scale; <= 0: the largest |error|
+  int max_side = 1400;               ///< pixels that the picture is wide or high, at most
+  std::array<double, 2> cell{0, 0};  ///< lengths of a cell along x and y. DEFAULT: 0, a square
+  std::string unit = {};             ///< of errors
+  std::string title = {};            ///< above the map
+};
 
 /// Map of signed errors (row-major, cols·rows, NaN = nodata or uncovered) in diverging colours, blue below and red
-/// above the samples, with a scale bar from −limit to +limit in z units. `limit` <= 0: the largest |error|.
-Picture draw_error_map(std::span<const float> errors, int cols, int rows, double limit = 0, int max_side = 1400);
+/// above the samples, with a scale from −limit to +limit in z units.
+Picture draw_error_map(std::span<const float> errors, int cols, int rows, const ErrorMapOptions& options = {});
 /// The same map of errors that come row by row. Memory: 7 bytes a pixel. REQUIRES: at least 1×1 samples.
 class ErrorMap {
  public:
-  ErrorMap(int cols, int rows, int max_side = 1400);
+  ErrorMap(int cols, int rows, ErrorMapOptions options = {});
   void add(int row, std::span<const float> errors);
-  Picture draw(double limit = 0) const;
+  Picture draw() const;
 
  private:
-  int cols_, rows_, max_side_, width_, height_;
+  int cols_, rows_, width_, height_;
+  ErrorMapOptions options_;
+  std::array<int, 2> size_;    // of the map in the picture
   std::vector<float> errors_;  // of each pixel the one of the largest size; NaN where there is none
   double largest_ = 0;
 };

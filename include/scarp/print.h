@@ -26,6 +26,9 @@ struct PrintOptions {
   /// The longest side in millimetres, above 0. DEFAULT: none, the coordinates are those of the frame.
   std::optional<double> size = std::nullopt;
   double exaggerate = 1;      ///< factor of heights, above 0
+  /// The max error on the print, in print units, above 0; beside Goals::max_error, the stricter one counts. DEFAULT:
+  /// none.
+  std::optional<double> max_error = std::nullopt;
   int columns = 1, rows = 1;  ///< of print tiles, at least 1
   bool dovetail = false;      ///< as PrintTileOptions::dovetail
   double gap = 0;             ///< between print tiles, in print units, at least 0
@@ -60,6 +63,10 @@ struct PrintedTerrain {
   Simplified simplified;  ///< the terrain that the print was made of, in the frame of the field
   Print print;
 };
+
+/// Print units for one z unit, before there is a mesh: of the samples that have heights. Reads a field that is not in
+/// memory once. Fails where a read does, and with kInput if no sample has a height.
+Result<double> estimate_print_scale(const HeightField& field, const PrintOptions& print);
 
 /// Simplifies a field for a print. Rounding the placed positions to float32 moves them. So the mesh is made with 1/1024
 /// of the max error in reserve; if that is not enough, it is made again with a smaller max error, up to three times.

@@ -4,20 +4,6 @@
 #include <cmath>
 
 namespace scarp::draw {
-namespace {
-
-/// One string a character, seven rows of five, top first.
-constexpr std::string_view kCharacters = "0123456789.-+e";
-constexpr std::array<std::string_view, 14> kGlyphs{
-    ".###.#...##..###.#.###..##...#.###.", "..#...##....#....#....#....#...###.", ".###.#...#....#...#...#...#...#####",
-    "#####...#...#.....#.....##...#.###.", "...#...##..#.#.#..#.#####...#....#.", "######....####.....#....##...#.###.",
-    "..##..#...#....####.#...##...#.###.", "#####....#...#...#...#....#....#...", ".###.#...##...#.###.#...##...#.###.",
-    ".###.#...##...#.####....#...#..##..", ".........................##...##...", "...............#####...............",
-    ".......#....#..#####..#....#.......", "...........###.#...#######.....###.",
-};
-
-}  // namespace
-
 Picture blank(int width, int height) {
   const std::size_t bytes = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3;
   return {width, height, std::vector<std::uint8_t>(bytes, 255)};
@@ -71,20 +57,6 @@ void LineLayer::blend_into(Picture& picture, const Colour& ink) const {
       picture.rgb[3 * i + k] =
           static_cast<std::uint8_t>(under + (ink[k] - under) * static_cast<double>(cover_[i]) + 0.5);
     }
-  }
-}
-
-void write_number(Picture& picture, int x, int y, int size, std::string_view text, const Colour& ink) {
-  for (const char character : text) {
-    const std::size_t glyph = kCharacters.find(character);
-    for (int square = 0; glyph != std::string_view::npos && square < 35; ++square) {
-      if (kGlyphs[glyph][static_cast<std::size_t>(square)] != '#') continue;
-      for (int dy = 0; dy < size; ++dy) {
-        for (int dx = 0; dx < size; ++dx)
-          set_pixel(picture, x + square % 5 * size + dx, y + square / 5 * size + dy, ink);
-      }
-    }
-    x += character_step(size);
   }
 }
 

@@ -1,10 +1,9 @@
-// Colours, lines and digits on a Picture.
+// Colours and lines on a Picture.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string_view>
 #include <vector>
 
 #include "scarp/io.h"
@@ -45,11 +44,5 @@ class LineLayer {
   int width_, height_;
   std::vector<float> cover_;
 };
-
-/// Writes digits, '.', '-', '+' and 'e' in glyphs of 5 × 7 squares of `size` pixels; other characters are spaces. The
-/// upper left corner is at (x, y); what lies outside is cut off.
-void write_number(Picture& picture, int x, int y, int size, std::string_view text, const Colour& ink);
-/// Pixels from one character to the next.
-constexpr int character_step(int size) { return 6 * size; }
 
 }  // namespace scarp::draw

@@ -110,7 +110,8 @@ Picture draw_hillshade(const HeightField& field, const Mesh& mesh) {
     for (std::size_t k = 0; k < 3; ++k) z += weights[k] * mesh.positions[3 * std::size_t{v[k]} + 2];
     relief.z[static_cast<std::size_t>(row) * static_cast<std::size_t>(field.cols) + static_cast<std::size_t>(col)] = z;
   });
-  const auto colours = draw::shade(relief, field.frame, field.cols, field.rows);
+  const auto colours =
+      draw::shade(relief, draw::ground_of(field.frame, field.cols, field.rows), field.cols, field.rows).colours;
   Picture picture = draw::blank(field.cols, field.rows);
   for (int y = 0; y < field.rows; ++y) {
     for (int x = 0; x < field.cols; ++x) {

@@ -14,6 +14,8 @@
 namespace scarp::draw {
 namespace {
 
+/// From deep to shallow.
+constexpr std::array<Colour, 3> kSeaTints{Colour{72, 110, 168}, Colour{126, 166, 206}, Colour{190, 217, 234}};
 constexpr std::array<Colour, 4> kTints{Colour{176, 201, 170}, Colour{226, 222, 178}, Colour{222, 190, 148},
                                        Colour{232, 216, 206}};
 
@@ -53,33 +55,57 @@ double choose_exaggeration(const Relief& relief, const std::vector<std::array<do
 }
 
 /// Colours by pixel of the relief.
-std::vector<Colour> paint(const Relief& relief, const std::vector<std::array<double, 2>>& slopes, double exaggeration) {
-  double lowest = HUGE_VAL, highest = -HUGE_VAL;
-  for (const double z : relief.z) {
-    if (std::isnan(z)) continue;
-    lowest = std::min(lowest, z);
-    highest = std::max(highest, z);
-  }
-  const double per_range = highest > lowest ? 1 / (highest - lowest) : 0;
+std::vector<Colour> paint(const Relief& relief, const std::vector<std::array<double, 2>>& slopes, double exaggeration,
+                          const Tints& tints) {
   std::vector<Colour> colours(relief.z.size(), Colour{255, 255, 255});
   for (std::size_t i = 0; i < colours.size(); ++i) {
     if (std::isnan(relief.z[i])) continue;
     const double gx = slopes[i][0] * exaggeration, gy = slopes[i][1] * exaggeration;
     const double light = std::max(0.0, (0.5 * gx - 0.5 * gy + std::sqrt(0.5)) / std::sqrt(1 + gx * gx + gy * gy));
-    const Colour tint = draw::ramp(kTints, (relief.z[i] - lowest) * per_range);
+    const Colour tint = tints.at(relief.z[i]);
     for (std::size_t k = 0; k < 3; ++k) colours[i][k] = std::min(250.0, tint[k] * (0.3 + 0.95 * light));
   }
   return colours;
 }
 
+Tints find_tints(const Relief& relief, bool has_sea) {
+  Tints tints{HUGE_VAL, -HUGE_VAL, has_sea};
+  for (const double z : relief.z) {
+    if (std::isnan(z)) continue;
+    tints.lowest = std::min(tints.lowest, z);
+    tints.highest = std::max(tints.highest, z);
+  }
+  return tints;
+}
+
 }  // namespace
 
-std::vector<Colour> shade(const Relief& relief, const Frame& frame, int cols, int rows) {
-  auto [step_x, step_y] = step_lengths(frame, cols, rows);
-  if (!(step_x > 0) || !std::isfinite(step_x) || !(step_y > 0) || !std::isfinite(step_y)) step_x = step_y = 1;
-  const auto slopes = find_slopes(relief, step_x * cols / relief.width, step_y * rows / relief.height);
-  const bool is_metric = frame.kind == Frame::Kind::kLocal || frame.kind == Frame::Kind::kProjected;
-  return paint(relief, slopes, choose_exaggeration(relief, slopes, is_metric));
+Colour Tints::at(double z) const {
+  if (has_sea && z < 0) {
+    // A shore a little below zero is no deep sea.
+    const double deepest = std::max(-lowest, highest / 10);
+    return ramp(kSeaTints, 1 + z / deepest);
+  }
+  const double foot = has_sea && lowest < 0 ? 0 : lowest;
+  return ramp(kTints, highest > foot ? (z - foot) / (highest - foot) : 0);
+}
+
+Ground ground_of(const Frame& frame, int cols, int rows) {
+  Ground ground;
+  const auto steps = step_lengths(frame, cols, rows);
+  ground.step_x = steps[0];
+  ground.step_y = steps[1];
+  if (!(ground.step_x > 0) || !std::isfinite(ground.step_x) || !(ground.step_y > 0) || !std::isfinite(ground.step_y))
+    ground.step_x = ground.step_y = 1;
+  ground.is_metric = frame.kind == Frame::Kind::kLocal || frame.kind == Frame::Kind::kProjected;
+  ground.has_sea = frame.kind != Frame::Kind::kGrid;
+  return ground;
+}
+
+Shaded shade(const Relief& relief, const Ground& ground, int cols, int rows) {
+  const auto slopes = find_slopes(relief, ground.step_x * cols / relief.width, ground.step_y * rows / relief.height);
+  const Tints tints = find_tints(relief, ground.has_sea);
+  return {paint(relief, slopes, choose_exaggeration(relief, slopes, ground.is_metric), tints), tints};
 }
 
 }  // namespace scarp::draw

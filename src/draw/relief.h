@@ -18,8 +18,27 @@ struct Relief {
   }
 };
 
-/// Hillshade by pixel, tinted by height, white where nodata. The relief shows all of a grid of cols × rows samples in
-/// `frame`, whose cells make slopes true.
-std::vector<Colour> shade(const Relief& relief, const Frame& frame, int cols, int rows);
+/// Colours of heights. Below sea level they are blues, where heights have one.
+struct Tints {
+  double lowest = 0, highest = 0;
+  bool has_sea = false;
+  Colour at(double z) const;
+};
+
+/// What lies under a grid of samples.
+struct Ground {
+  double step_x = 1, step_y = 1;  ///< lengths of a cell
+  bool is_metric = false;         ///< in the unit of the heights
+  bool has_sea = false;           ///< heights count from the sea
+};
+Ground ground_of(const Frame& frame, int cols, int rows);
+
+struct Shaded {
+  std::vector<Colour> colours;  ///< by pixel of the relief, white where nodata
+  Tints tints;
+};
+
+/// Hillshade, tinted by height. The relief shows all of a grid of cols × rows samples, whose cells make slopes true.
+Shaded shade(const Relief& relief, const Ground& ground, int cols, int rows);
 
 }  // namespace scarp::draw

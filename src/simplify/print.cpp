@@ -36,6 +36,7 @@ Result<void> check_print(const PrintOptions& print) {
     return refuse("printed_thickness", *print.printed_thickness);
   if (print.size && !is_above_0(*print.size)) return refuse("size", *print.size);
   if (!is_above_0(print.exaggerate)) return refuse("exaggerate", print.exaggerate);
+  if (print.max_error && !is_above_0(*print.max_error)) return refuse("max_error", *print.max_error);
   if (print.columns < 1 || print.rows < 1)
     return fail(ErrorKind::kUsage,
                 fmt::format("print tiles: {} x {} are none: there must be at least 1 x 1", print.columns, print.rows));
@@ -242,15 +243,33 @@ std::uint64_t Print::triangles() const {
   return sum;
 }
 
+Result<double> estimate_print_scale(const HeightField& field, const PrintOptions& print) {
+  if (auto sound = check_print(print); !sound) return tl::unexpected(sound.error());
+  if (!print.size) return print.exaggerate;
+  const Result<double> longest = longest_side(field);
+  if (!longest) return tl::unexpected(longest.error());
+  if (!(*longest > 0)) return fail(ErrorKind::kInput, "no sample has a height");
+  return round_down(*print.size / *longest) * print.exaggerate;
+}
+
 Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOptions& print, SimplifyOptions options) {
   if (auto sound = check_print(print); !sound) return tl::unexpected(sound.error());
+  // The mesh may come out smaller than the samples, within a cutline; then the scale is larger and the run repeated.
+  std::optional<double> asked = options.goals.max_error;
+  const auto tighten = [&](double scale) {
+    if (print.max_error) asked = std::min(asked.value_or(HUGE_VAL), *print.max_error / scale);
+  };
+  if (print.max_error) {
+    const Result<double> scale = estimate_print_scale(field, print);
+    if (!scale) return tl::unexpected(scale.error());
+    tighten(*scale);
+  }
   const Result<std::optional<PrintTilePlan>> tiles = plan_print_tiles(print, field);
   if (!tiles) return tl::unexpected(tiles.error());
   const auto lines = static_cast<std::ptrdiff_t>(options.features.breaklines.lines.size());
   if (*tiles) add_cuts(**tiles, options.features.breaklines);
   const auto cuts = static_cast<std::uint64_t>(std::ssize(options.features.breaklines.lines) - lines);
   options.output.float32_positions = false;  // they are rounded where the print stands
-  const std::optional<double> asked = options.goals.max_error;
   const Cutline* cutline = options.features.cutline.rings.empty() ? nullptr : &options.features.cutline;
   if (asked) options.goals.max_error = *asked * (1 - kReserve);
   std::vector<SampleEdit> edits;
@@ -261,6 +280,8 @@ Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOp
     if (run == 1) edits = simplified->edits;
     Result<Print> made = make_print(print, field, *tiles, simplified->mesh, cutline, options.run.threads);
     if (!made) return tl::unexpected(std::move(made.error()));
+    const std::optional<double> before = asked;
+    tighten(made->placement.scale[2]);
     const double excess =
         asked ? made->max_error + field.sample_rounding - *asked - judging_allowance(*asked, made->heights) : 0;
     const bool has_budget_ended =
@@ -272,7 +293,7 @@ Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOp
       if (cuts > 0) fitted.erase(fitted.begin() + lines, fitted.begin() + lines + static_cast<std::ptrdiff_t>(cuts));
       return PrintedTerrain{std::move(*simplified), std::move(*made)};
     }
-    options.goals.max_error = *options.goals.max_error - 2 * excess;
+    options.goals.max_error = *asked < *before ? *asked * (1 - kReserve) : *options.goals.max_error - 2 * excess;
     if (run == kMostPrints || *options.goals.max_error < 0) {
       return fail(ErrorKind::kPromise,
                   fmt::format("the solid's max error is {:.6g} and not {:.6g}: its positions are rounded to float32, "

@@ -13,7 +13,7 @@ sed -e 's/\\-/-/g' -e 's/\\f[RIBP]//g' "$man" >man.txt
 sed -nE '/^complete/s/ -l ([a-z-]+)/ --\1/gp' "$completions/scarp.fish" >fish.txt
 
 commands=$("$scarp" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
-[ "$(wc -w <<<"$commands")" = 6 ] || fail "--help lists other commands: $commands"
+[ "$(wc -w <<<"$commands")" = 7 ] || fail "--help lists other commands: $commands"
 "$scarp" help >help.txt
 "$scarp" --help | cmp - help.txt || fail "scarp help and scarp --help differ"
 : >all_options
@@ -22,8 +22,13 @@ for command in $commands; do
     grep -qw -- "$command" "$text" || fail "the command $command is missing in $text"
   done
   "$scarp" help "$command" >help.txt
-  "$scarp" "$command" --help | cmp - help.txt || fail "scarp help $command and scarp $command --help differ"
+  for help in --help -h; do
+    "$scarp" "$command" $help | cmp - help.txt || fail "scarp help $command and scarp $command $help differ"
+  done
   [ -z "$(awk 'length > 100' help.txt)" ] || fail "$command --help has a long line: $(awk 'length > 100' help.txt)"
+  "$scarp" help "$command" --all >help.txt
+  "$scarp" "$command" --help-all | cmp - help.txt || fail "scarp help $command --all and scarp $command --help-all differ"
+  [ -z "$(awk 'length > 100' help.txt)" ] || fail "$command --help-all has a long line: $(awk 'length > 100' help.txt)"
   options=$(sed '/^Examples:/q' help.txt | grep -oE -- '^(  -[a-z], |      )--[a-z-]+' | grep -oE -- '--[a-z-]+')
   [ "$(wc -w <<<"$options")" -ge 3 ] || fail "scarp $command --help lists hardly any option"
   for option in $options; do
@@ -38,6 +43,17 @@ for command in $commands; do
     _ "$completions/scarp.bash" "$command" | sort)
   [ "$offered" = "$(sort <<<"$options")" ] || fail "bash offers after $command: $offered"
 done
+# The first page fits a screen: goals first, eight examples, and the way to the rest, in which they stand last that few
+# will need.
+"$scarp" simplify -h >help.txt
+[ "$(wc -l <help.txt)" -le 40 ] || fail "scarp simplify -h is longer than a screen: $(wc -l <help.txt) lines"
+[ "$(grep -c '^  scarp simplify ' help.txt)" = 8 ] || fail "scarp simplify -h has not eight examples"
+grep -A 1 '^Goals' help.txt | grep -q -- '--max-error' || fail "scarp simplify -h does not begin with the goals"
+grep -q -- '--help-all' help.txt || fail "scarp simplify -h does not name --help-all"
+"$scarp" simplify --help-all | grep '^[A-Z].*:$' | sed 's/[ :].*//' | xargs >groups.txt
+[[ $(<groups.txt) == "Arguments Goals "*" Textures Scattered The Examples" ]] || fail "groups in another order: $(<groups.txt)"
+[ "$("$scarp" version)" = "$("$scarp" --version)" ] || fail "scarp version and scarp --version differ"
+
 offered=$(bash -c 'source "$1"; COMP_WORDS=(scarp simplify --effort h); COMP_CWORD=3; _scarp; echo "${COMPREPLY[@]}"' \
   _ "$completions/scarp.bash")
 [ "$offered" = high ] || fail "bash offers after --effort: $offered"
@@ -77,7 +93,7 @@ for row in table["options"]:
     assert key not in seen, f"{key} twice"
     seen.add(key)
     assert list(row) == ["name", "short", "command", "group", "type", "value", "unit", "default", "range", "choices",
-                         "repeatable", "required", "help"], row
+                         "repeatable", "required", "help", "brief"], row
     assert row["help"].endswith(".") and row["help"][0].isupper(), row["help"]
     assert len(re.split(r"\.(?: |$)", row["help"])[0]) <= 160, f"{key}: a first sentence too long for completions"
     assert (row["type"] != "choice") or len(row["choices"]) > 1, row

@@ -5,13 +5,42 @@ need gdal_translate gdal_create python3
 
 # Options.
 refuses 1 "no command given: choose simplify" "$scarp"
-refuses 1 "unknown command 'simplfy'" "$scarp" simplfy "$dem" out.glb
-refuses 1 "unknown command 'simplfy'" "$scarp" help simplfy
+refuses 1 "unknown command 'simplfy' (did you mean simplify?)" "$scarp" simplfy "$dem" out.glb
+refuses 1 "unknown command 'simplfy' (did you mean simplify?)" "$scarp" help simplfy
+refuses 1 "did you mean measure?" "$scarp" validate "$dem" out.glb
+refuses 1 "unknown command 'frobnicate': choose simplify" "$scarp" frobnicate
+refuses 1 "a file comes behind one, as in scarp simplify dem.tif OUTPUT -e 1" "$scarp" dem.tif out.glb
+refuses 1 "option --versoin is unknown (did you mean --version?)" "$scarp" --versoin
 refuses 1 "scarp info" "$scarp" simplify "$dem" out.glb
 refuses 1 "INPUT" "$scarp" simplify
 refuses 1 "OUTPUT" "$scarp" simplify "$dem" -e 1
 refuses 1 "option --frobnicate is unknown" "$scarp" simplify "$dem" out.glb -e 1 --frobnicate
 refuses 1 "scarp simplify --help" "$scarp" simplify "$dem" out.glb -e 1 --frobnicate
+# Misspelled, or another program's.
+while read -r given meant; do
+  refuses 1 "option $given is unknown (did you mean $meant?)" "$scarp" simplify "$dem" out.glb "$given" 1
+done <<'END'
+--effor --effort
+--error --max-error
+--max_error --max-error
+--max-eror --max-error
+--t_srs --crs
+-t_srs --crs
+-of --of
+-effort --effort
+-preview --preview
+--threads --num-threads
+--thread --num-threads
+--force --overwrite
+-srcnodata --nodata
+END
+refuses 1 "option --error=5 is unknown (did you mean --max-error?)" "$scarp" simplify "$dem" out.glb --error=5
+refuses 1 "gdal_edit.py -a_srs" "$scarp" simplify "$dem" out.glb -e 1 -a_srs EPSG:32611
+refuses 1 "the output is the word behind the input" "$scarp" simplify "$dem" -o out.glb -e 1
+for area in -te --bbox; do
+  refuses 1 "option $area is unknown (" "$scarp" simplify "$dem" out.glb -e 1 $area 1 2 3 4
+done
+refuses 1 "(did you mean --fail-above?)" "$scarp" measure "$dem" out.glb --fail-abov 1
 refuses 1 "argument more.glb is unknown" "$scarp" simplify "$dem" out.glb more.glb -e 1
 refuses 1 "--max-error needs a value" "$scarp" simplify "$dem" out.glb -e
 for behind in --overwrite -q --order=greedy --frobnicate --help; do
@@ -26,18 +55,23 @@ succeeds "$scarp" simplify "$dem" "$root/o.glb" -e 100 --report=--plain -q # a v
 rm ./--plain "$root/o.glb"
 refuses 2 "nofile: no such file" "$scarp" simplify --breaklines nofile "$dem" out.glb -e 100 # one value each time
 refuses 1 "--max-error is given more than once" "$scarp" simplify "$dem" out.glb -e 1 -e 2
-for bad in -5 -0.1% nan NaN inf -inf garbage 5m 1e999 % "" "5 %" 0x10; do
+for bad in -5 -0.1% nan NaN inf -inf garbage 5mi 5x 1e999 % m mm -1m "" "5 %" 0x10; do
   refuses 1 "" "$scarp" simplify "$dem" out.glb "--max-error=$bad"
 done
 refuses 1 "--max-error -5 is negative" "$scarp" simplify "$dem" out.glb -e -5
 refuses 1 "--max-error nan" "$scarp" simplify "$dem" out.glb -e nan
-refuses 1 "--max-error 5m" "$scarp" simplify "$dem" out.glb -e 5m
-for bad in 0 -1 nan 1.5 1e6 many 99999999999999999999; do
+refuses 1 "--max-error 5mi" "$scarp" simplify "$dem" out.glb -e 5mi
+refuses 1 "--max-error 0.1mm is an error on a print, which needs its size" "$scarp" simplify "$dem" out.stl -e 0.1mm
+refuses 1 "--max-error 0.1mm is an error on a print, which needs its size" "$scarp" simplify "$dem" out.stl -e 0.1mm --solid base=0
+refuses 1 "--max-error 0mm is not above 0" "$scarp" simplify "$dem" out.stl -e 0mm --solid size=9cm
+refuses 1 "grey levels" "$scarp" simplify "$dem" out.glb -e 1m --image
+for bad in 0 -1 nan 1.5 1.0001k inf k 5kk 1e-3 0x10 many 99999999999999999999; do
   refuses 1 "--max-triangles $bad" "$scarp" simplify "$dem" out.glb -t "$bad"
   refuses 1 "--max-points $bad" "$scarp" simplify "$dem" out.glb -p "$bad"
 done
 refuses 1 "--max-triangles 99999999999999999999 is too large" "$scarp" simplify "$dem" out.glb -t 99999999999999999999
-refuses 1 "--max-triangles 1e6 is not a whole number of at least 1, in digits alone" "$scarp" simplify "$dem" out.glb -t 1e6
+refuses 1 "--max-triangles 1.5 is not a whole number of at least 1, such as 5000, 50k" "$scarp" simplify "$dem" out.glb -t 1.5
+refuses 1 "--max-triangles 1e30 is too large" "$scarp" simplify "$dem" out.glb -t 1e30
 refuses 1 "--num-threads 99999999999999999999 is too large" "$scarp" simplify "$dem" out.glb -e 1 -j 99999999999999999999
 refuses 1 "--num-threads 1025 is more than 1024: ask for fewer" "$scarp" simplify "$dem" out.glb -e 1 -j 1025
 for option in --max-error --base --nodata --outline-tolerance; do

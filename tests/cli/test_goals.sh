@@ -50,3 +50,31 @@ succeeds "$scarp" simplify plain.tif plain.obj -e 1% --overwrite
 # A budget below what the outline needs.
 refuses 1 "" "$scarp" simplify "$dem" small.glb -t 1
 refuses 1 "" "$scarp" simplify "$dem" small.glb -p 3
+
+# Numbers as people type them.
+run -t 3k
+budget=$(json r.json goal max_triangles)
+[ "$budget" = 3000 ] || fail "-t 3k asks for $budget triangles"
+run -e 20 -t 1e5 -p 2M
+[ "$(json r.json goal max_triangles)" = 100000 ] || fail "-t 1e5"
+[ "$(json r.json goal max_points)" = 2000000 ] || fail "-p 2M"
+gdal_translate -q "$dem" metres.tif
+gdal_edit.py -units metre metres.tif 2> /dev/null || python3 - <<'PYTHON'
+import subprocess
+subprocess.run(["gdal_translate", "-q", "-of", "VRT", "metres.tif", "metres.vrt"], check=True)
+text = open("metres.vrt").read()
+open("metres.vrt", "w").write(text.replace("<ColorInterp>", "<UnitType>metre</UnitType><ColorInterp>", 1))
+subprocess.run(["gdal_translate", "-q", "metres.vrt", "metres.tif"], check=True)
+PYTHON
+for goal in 20 20m 2000cm; do
+  succeeds "$scarp" simplify metres.tif "by_$goal.obj" -e "$goal" --report r.json --overwrite
+  [ "$(json r.json goal max_error)" = 20.0 ] || fail "-e $goal is $(json r.json goal max_error)"
+  grep -v '^#' "by_$goal.obj" > mesh && [ "$(cksum < mesh)" = "${first:=$(cksum < mesh)}" ] || fail "-e $goal: another mesh"
+  [ ! -s "$logs/err" ] || fail "-e $goal of metres warns: $(cat "$logs/err")"
+done
+refuses 1 "--max-error is in ft, but the heights are in m" "$scarp" simplify metres.tif out2.glb -e 60ft
+succeeds "$scarp" simplify "$dem" out.glb -e 20m --overwrite
+unit=$("$scarp" info "$dem" --json --no-suggest | python3 -c 'import json, sys; print(json.load(sys.stdin)["input"].get("unit") or "")')
+if [ -z "$unit" ]; then
+  grep -q 'does not tell the unit of its heights' "$logs/err" || fail "a goal in metres of heights without a unit passes in silence"
+fi

@@ -38,3 +38,51 @@ holds "$(json r.json triangles) <= 2 * $budget && $(json r.json triangles) >= 0.
 gdal_translate -q -a_nodata 300 "$dem" holes.tif
 succeeds "$scarp" info holes.tif
 grep -q 'missing .*%, nodata 300' "$logs/out" || fail "nodata is not told"
+
+# The facts come before the engine runs, and alone if nothing else is wanted.
+succeeds "$scarp" info "$dem" --no-suggest
+grep -q 'relief 840' "$logs/out" || fail "--no-suggest leaves out the facts"
+if grep -q 'Suggested' "$logs/out"; then fail "--no-suggest suggests"; fi
+succeeds "$scarp" info "$dem" --no-suggest --json
+cp "$logs/out" info.json
+[ "$(json info.json suggestions)" = '[]' ] || fail "--no-suggest --json: $(json info.json suggestions)"
+python3 - "$scarp" large.tif <<'PYTHON' || fail "the facts wait for the suggestions"
+import os, signal, subprocess, sys
+run = subprocess.Popen([sys.argv[1], "info", sys.argv[2]], stdout=subprocess.PIPE)
+seen = b""
+while b"mesh frame" not in seen:
+    piece = os.read(run.stdout.fileno(), 65536)  # the end would be empty
+    assert piece, seen
+    seen += piece
+assert b"Suggested" not in seen, "both came at once"
+run.send_signal(signal.SIGINT)
+run.communicate()
+PYTHON
+
+# Points and meshes.
+printf 'x,y,z\n0,0,1\n9,0,2\n0,9,3.5\n9,9,4\n' > survey.csv
+succeeds "$scarp" info survey.csv
+for words in 'points  *4$' 'heights  *1 to 4, relief 3' 'x  *0 to 9, 9 in all'; do
+  grep -q "$words" "$logs/out" || fail "info of points does not tell '$words'"
+done
+succeeds "$scarp" info survey.csv --json
+cp "$logs/out" info.json
+[ "$(json info.json points count)" = 4 ] || fail "count of points"
+[ "$(json info.json points bounds high)" = '[9.0, 9.0, 4.0]' ] || fail "bounds: $(json info.json points bounds high)"
+refuses 1 "--band is for rasters" "$scarp" info survey.csv --band 1
+refuses 1 "--layer is for points" "$scarp" info "$dem" --layer a
+for mesh in m.glb m.obj m.ply m.stl m.2dm m.xml; do
+  succeeds "$scarp" simplify "$dem" $mesh -e 50 --report r.json --overwrite
+  succeeds "$scarp" info $mesh --json
+  cp "$logs/out" info.json
+  [ "$(json info.json mesh triangles)" = "$(json r.json triangles)" ] || fail "info $mesh: triangles"
+  [ "$(json info.json mesh bytes)" = "$(stat -c %s $mesh)" ] || fail "info $mesh: bytes"
+done
+succeeds "$scarp" simplify "$dem" dressed.glb -e 50 --normals --uvs
+succeeds "$scarp" info dressed.glb
+for words in 'attributes  *normals, uvs' 'command  *scarp simplify jacksboro_fault.tif' 'triangles, .* vertices' \
+  'z  *23[0-9.]* to 10[0-9.]*, [0-9.]* in all'; do
+  grep -q "$words" "$logs/out" || fail "info of a mesh does not tell '$words': $(cat "$logs/out")"
+done
+refuses 1 "--crs is for rasters, and dressed.glb holds a mesh" "$scarp" info dressed.glb --crs local
+refuses 2 "missing.glb" "$scarp" info missing.glb

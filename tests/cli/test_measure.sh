@@ -91,3 +91,15 @@ awk '$1 == "v" { $2 += 1e7 } { print }' good.obj > away.obj
 fails 'covered by no triangle' away.obj
 try "$scarp" measure "$dem" away.obj
 grep -q '^scarp: warning: no sample of .* is covered by away.obj' "$logs/err" || fail "no word about coordinates"
+
+# A verdict in percent of the relief (840), as simplify's goal: the recipe for a build.
+succeeds "$scarp" simplify "$dem" percent.glb -e 1% --overwrite
+succeeds "$scarp" measure "$dem" percent.glb --fail-above 1%
+succeeds "$scarp" measure "$dem" percent.glb --fail-above 1% --json
+cp "$logs/out" percent.json
+[ "$(json percent.json fail_above)" = 8.4 ] || fail "1% of 840 is $(json percent.json fail_above)"
+try "$scarp" measure "$dem" percent.glb --fail-above 0.9%
+[ "$code" = 3 ] || fail "--fail-above 0.9% of a mesh for 1% ends with $code"
+refuses 1 "--fail-above 1mm is an error on a print" "$scarp" measure "$dem" percent.glb --fail-above 1mm
+# The mesh before the raster.
+refuses 1 "percent.glb is a mesh: the raster comes first, scarp measure" "$scarp" measure percent.glb "$dem"

@@ -112,6 +112,21 @@ for split in "" "--split 2x2,joint=dovetail,gap=0.3mm"; do
   lib3mf_likes small.3mf $sheets "$(json small.json solid triangles)"
 done
 
+# Errors in millimetres of the print, and a hint where it is nearly flat. By hand: 120 mm are 31,719 m on the longer side.
+succeeds "$scarp" simplify "$dem" mm.stl -e 0.05mm --solid size=120mm,exaggerate=3 --report mm.json
+holds "$(json mm.json solid max_error) * $(json mm.json solid scale 2) <= 0.05"
+holds "$(json mm.json solid max_error) * $(json mm.json solid scale 2) >= 0.03"
+holds "$(json mm.json solid scale 2) * $(json mm.json goal max_error) - 0.05 < 1e-9"
+if grep -q 'hint' "$logs/out"; then fail "9.4 mm of relief are called flat"; fi
+succeeds "$scarp" simplify "$dem" flat.stl -e 0.05mm --solid size=120mm
+grep -q 'the relief is 3.2 mm on the print; --solid exaggerate=3 makes it 9.5 mm' "$logs/out" ||
+  fail "no hint for a flat print: $(cat "$logs/out")"
+# Within a cutline the print is at a larger scale than the whole raster would be.
+echo '{"type":"Polygon","coordinates":[[[-84.3,36.25],[-84.2,36.25],[-84.2,36.35],[-84.3,36.35],[-84.3,36.25]]]}' >part.geojson
+succeeds "$scarp" simplify "$dem" part.stl -e 0.2mm --solid size=120mm --cutline part.geojson --report part.json
+holds "$(json part.json solid max_error) * $(json part.json solid scale 2) <= 0.2"
+holds "$(json part.json goal max_error) * $(json part.json solid scale 2) <= 0.2000001"
+
 # Refusals.
 refuses 1 "no key bse: choose base, thickness, size, exaggerate or walls" "$scarp" simplify "$dem" x.stl -e 20 --solid bse=1
 refuses 1 "base=300 is not below the lowest vertex, which is at 2" "$scarp" simplify "$dem" x.stl -e 20 --solid base=300

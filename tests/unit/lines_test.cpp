@@ -201,7 +201,7 @@ TEST_F(LineFiles, a_colon_names_the_layer) {
   const std::string folder = scratch_.file("two");
   EXPECT_EQ(read(folder + ":shores").lines[0].points[0][0], 5);
   EXPECT_TRUE(contains(read(folder + ":roads").lines[0].name, "two:roads feature 1"));
-  EXPECT_TRUE(contains(refuse(folder + ":rivers"), "holds no layer 'rivers', only "));
+  EXPECT_TRUE(contains(refuse(folder + ":rivers"), "has no layer 'rivers' (found: "));
   EXPECT_TRUE(contains(refuse(folder), "holds several layers; name one"));
   const std::string with_colon = write("with:colon.geojson", geojson({kPlain}));
   EXPECT_EQ(read(with_colon).lines.size(), 1u);
@@ -215,7 +215,7 @@ TEST_F(LineFiles, what_cannot_be_used_is_refused_by_name) {
   EXPECT_TRUE(contains(refuse(write("text.txt", "no lines here")), "no vector data"));
   EXPECT_TRUE(contains(refuse(write("a.geojson", geojson({}))), "holds no lines or polygons"));
   EXPECT_TRUE(contains(refuse(write("b.geojson", geojson({R"({"type":"Point","coordinates":[1,2]})"}))),
-                       "holds no layer of lines or polygons"));
+                       "has no layer of lines or polygons"));
   EXPECT_TRUE(contains(refuse(write("c.csv", "id,WKT\n1,\"LINESTRING(1 2,3 4)\"\n2,\"LINESTRING(1 2,1e999 4)\"\n")),
                        "feature 2 has a vertex"));
 }

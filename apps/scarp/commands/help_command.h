@@ -22,7 +22,7 @@ class HelpCommand {
  private:
   CLI::App* command_;
   std::optional<std::string> about_;
-  bool json_ = false;
+  bool json_ = false, all_ = false;
 };
 
 }  // namespace scarp::cli

@@ -1,4 +1,4 @@
-// scarp info: what a raster holds, and which errors suit it.
+// scarp info: what a raster, points or a mesh hold, and which errors suit a raster.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -21,7 +21,13 @@ class InfoCommand {
  private:
   CLI::App* command_;
   RasterArguments raster_;
-  bool json_ = false, quiet_ = false, json_progress_ = false;
+  Given layer_, z_field_;
+  bool points_ = false, no_suggest_ = false, json_ = false, quiet_ = false, json_progress_ = false;
+
+  Result<void> run_points(const std::string& command_line) const;
+  Result<void> run_mesh(const std::string& format, const std::string& command_line) const;
+  /// Fails if an option was given that what the file holds has no use for.
+  Result<void> refuse(const char* kind, bool takes_crs) const;
 };
 
 }  // namespace scarp::cli

@@ -7,6 +7,7 @@
 
 #include "options/option_table.h"
 #include "reports/measure_report.h"
+#include "reports/pictures.h"
 #include "reports/report.h"
 #include "scarp/picture.h"
 #include "scarp/solid.h"
@@ -63,6 +64,17 @@ MeasureCommand::MeasureCommand(CLI::App& program) : command_(add_command(program
   add_flag(*command_, OptionId::kJsonProgress, json_progress_);
 }
 
+/// The likeliest mistake of all: the mesh before the raster.
+Result<void> MeasureCommand::check_order() const {
+  const auto is_mesh = [](const std::string& path) {
+    const auto format = find_mesh_format(lower_extension(path));
+    return format && *format != MeshFormat::kGpkg && *format != MeshFormat::kLandXml;
+  };
+  if (!is_mesh(raster_.path) || find_mesh_format(lower_extension(mesh_))) return {};
+  return fail(ErrorKind::kUsage, fmt::format("{} is a mesh: the raster comes first, scarp measure {} {}",
+                                             shell_word(raster_.path), shell_word(mesh_), shell_word(raster_.path)));
+}
+
 Result<void> MeasureCommand::check_outputs_of_run() const {
   std::vector<PlannedOutput> outputs;
   if (map_) {
@@ -89,6 +101,11 @@ Result<void> MeasureCommand::check_outputs_of_run() const {
   return {};
 }
 
+ErrorMapOptions MeasureCommand::map_options(const Judged& judged, int max_side) const {
+  const std::string unit = judged.plan.image ? "grey levels" : short_unit(judged.field.info.unit);
+  return error_map_options(judged.field.info, unit, mesh_, max_side);
+}
+
 Result<void> MeasureCommand::write_files(const Judged& judged, StreamedErrors& streamed) const {
   if (!map_ && !error_raster_) return {};
   const OwnedHeightField& field = judged.field;
@@ -98,7 +115,8 @@ Result<void> MeasureCommand::write_files(const Judged& judged, StreamedErrors& s
   std::vector<std::uint8_t> map, raster;
   std::vector<FileBytes> files;
   if (map_) {
-    const Picture picture = streamed.map ? streamed.map->draw() : draw_error_map(errors, field.cols, field.rows);
+    const Picture picture =
+        streamed.map ? streamed.map->draw() : draw_error_map(errors, field.cols, field.rows, map_options(judged, 1400));
     Result<std::vector<std::uint8_t>> png = encode_png(picture);
     if (!png) return tl::unexpected(std::move(png.error()));
     map = std::move(*png);
@@ -125,6 +143,7 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
   if (!mesh) return tl::unexpected(std::move(mesh.error()));
   judged.mesh = std::move(*mesh);
   undo_placement(judged.mesh);
+  read->with_range = judged.goal && judged.goal->percent_of_relief;
   const auto crs_of_mesh = judged.mesh.metadata.find("crs_option");
   const bool crs_from_mesh = !raster_.crs && crs_of_mesh != judged.mesh.metadata.end();
   if (crs_from_mesh) read->crs = crs_of_mesh->second;
@@ -138,6 +157,13 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
   if (!judged.channels.empty()) {
     const Result<void> restored = restore_channels(judged.mesh, judged.channels, mesh_);
     if (!restored) return restored;
+  }
+  if (judged.goal) {
+    RasterInfo& info = judged.field.info;
+    if (judged.plan.image && !judged.goal->unit.empty())
+      return fail(ErrorKind::kUsage, "--fail-above with a unit is for heights: errors of --image are in grey levels");
+    if (auto fits = check_unit("--fail-above", *judged.goal, info.unit, info.warnings); !fits) return fits;
+    judged.fail_above = judged.goal->absolute(judged.plan.image ? judged.channels.relief : info.max - info.min);
   }
   const Result<std::optional<std::uint64_t>> limit = memory_.parse();
   if (!limit) return tl::unexpected(limit.error());
@@ -196,7 +222,8 @@ Result<MeasureCommand::StreamedErrors> MeasureCommand::begin_errors(const Judged
   if (map_) {
     const std::uint64_t limit = memory_.parse()->value_or(0);
     const MemoryShare memory{limit, bytes_taken(field, limit) + judged.companions.bytes};
-    errors.map.emplace(field.cols, field.rows, picture_side(field, memory, judged.mesh.vertex_count()));
+    const int side = picture_side(field, memory, judged.mesh.vertex_count());
+    errors.map.emplace(field.cols, field.rows, map_options(judged, side));
   }
   if (error_raster_) {
     auto raster = RasterFile::create(*error_raster_, field.cols, field.rows, &field.info, overwrite_);
@@ -238,6 +265,7 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
                               points_, command_line);
   }
   if (auto unused = points_.check_unused(raster_.path); !unused) return unused;
+  if (auto ordered = check_order(); !ordered) return ordered;
   Judged judged;
   const Result<ReadOptions> read = raster_.parse();
   if (!read) return tl::unexpected(read.error());
@@ -255,9 +283,10 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
     return fail(ErrorKind::kUsage, "--memory cannot be combined with --image: images are read as a whole");
   }
   if (fail_above_) {
-    const Result<double> bound = parse_non_negative("--fail-above", *fail_above_);
-    if (!bound) return tl::unexpected(bound.error());
-    judged.fail_above = *bound;
+    Result<ErrorGoal> goal = parse_error_goal("--fail-above", *fail_above_);
+    if (!goal) return tl::unexpected(std::move(goal.error()));
+    if (auto fits = refuse_print("--fail-above", *goal); !fits) return fits;
+    judged.goal = std::move(*goal);
   }
   const Result<void> outputs = check_outputs_of_run();
   if (!outputs) return outputs;

@@ -29,6 +29,8 @@ class MeasureCommand {
   Result<void> run(const std::string& command_line) const;
 
  private:
+  ErrorMapOptions map_options(const Judged& judged, int max_side) const;
+  Result<void> check_order() const;
   Result<void> check_outputs_of_run() const;
   Result<void> read_inputs(const ProgressCallback& progress, Judged& judged) const;
   Result<void> read_field(const ReadOptions& options, Judged& judged) const;

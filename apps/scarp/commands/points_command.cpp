@@ -131,6 +131,10 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
   outcome.warnings = plan->warnings;
   outcome.warnings.insert(outcome.warnings.end(), outcome.points.warnings.begin(), outcome.points.warnings.end());
   const HeightRange heights = height_range(outcome.points);
+  if (plan->error_goal) {
+    if (auto fits = refuse_print("--max-error", *plan->error_goal); !fits) return fits;
+    if (auto fits = check_unit("--max-error", *plan->error_goal, "", outcome.warnings); !fits) return fits;
+  }
   if (plan->error_goal) outcome.asked = plan->error_goal->absolute(heights.max - heights.min);
   outcome.seconds_read = seconds_since(start);
 
@@ -187,10 +191,12 @@ Result<void> run_measure_points(const CLI::App& command, const MeasurePointsArgu
   const Result<int> threads = parse_threads(given.threads);
   if (!threads) return tl::unexpected(threads.error());
   JudgedPoints judged;
+  std::optional<ErrorGoal> goal;
   if (given.fail_above) {
-    const Result<double> bound = parse_non_negative("--fail-above", *given.fail_above);
-    if (!bound) return tl::unexpected(bound.error());
-    judged.fail_above = *bound;
+    Result<ErrorGoal> parsed = parse_error_goal("--fail-above", *given.fail_above);
+    if (!parsed) return tl::unexpected(std::move(parsed.error()));
+    if (auto fits = refuse_print("--fail-above", *parsed); !fits) return fits;
+    goal = std::move(*parsed);
   }
   ProgressDisplay display(ProgressDisplay::choose(given.json_progress, given.quiet));
   Result<Mesh> mesh = read_mesh(given.mesh);
@@ -210,6 +216,11 @@ Result<void> run_measure_points(const CLI::App& command, const MeasurePointsArgu
     return tl::unexpected(explain_frame(std::move(points.error()), *crs, given.mesh, given.path));
   if (!points) return tl::unexpected(std::move(points.error()));
   judged.points = std::move(*points);
+  if (goal) {
+    if (auto fits = check_unit("--fail-above", *goal, "", judged.points.warnings); !fits) return fits;
+    const HeightRange heights = height_range(judged.points);
+    judged.fail_above = goal->absolute(heights.max - heights.min);
+  }
   judged.seconds_read = seconds_since(start);
 
   const Clock::time_point measure_start = Clock::now();

@@ -52,7 +52,14 @@ Result<void> read_heights(const SimplifyPlan& plan, const ReadOptions& options, 
   Result<Channels> textures = read_textures(plan.channels, outcome.field, options.run.progress);
   if (!textures) return tl::unexpected(std::move(textures.error()));
   outcome.channels = std::move(*textures);
-  if (plan.error_goal) outcome.asked = plan.error_goal->absolute(outcome.as_read.max - outcome.as_read.min);
+  if (!plan.error_goal) return {};
+  auto& warnings = outcome.as_read.warnings;
+  if (auto fits = check_unit("--max-error", *plan.error_goal, outcome.as_read.unit, warnings); !fits) return fits;
+  outcome.asked = plan.error_goal->absolute(outcome.as_read.max - outcome.as_read.min);
+  if (!plan.error_goal->is_on_print) return {};
+  const Result<double> scale = estimate_print_scale(outcome.field.view(), *plan.solid);
+  if (!scale) return fail(scale.error().kind, fmt::format("{}: {}", plan.input, scale.error().message));
+  outcome.asked = plan.error_goal->value / *scale;
   return {};
 }
 
@@ -62,6 +69,8 @@ Result<void> read_colors(const SimplifyPlan& plan, const ReadOptions& options, b
   outcome.field = std::move(image->field);
   outcome.channels = std::move(image->channels);
   outcome.as_read = outcome.field.info;
+  if (plan.error_goal && !plan.error_goal->unit.empty())
+    return fail(ErrorKind::kUsage, "--max-error with a unit is for heights: errors of --image are in grey levels");
   if (plan.error_goal) outcome.asked = plan.error_goal->absolute(outcome.channels.relief);
   return {};
 }
@@ -229,6 +238,9 @@ Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyO
   Result<PrintedTerrain> printed = simplify_as_print(*plan.solid, outcome.field, options);
   if (!printed) return tl::unexpected(std::move(printed.error()));
   outcome.print = std::move(printed->print);
+  // The mesh may be smaller than the samples, and the print of it at a larger scale than was estimated.
+  if (plan.solid->max_error && outcome.asked)
+    outcome.asked = std::min(*outcome.asked, *plan.solid->max_error / outcome.print->placement.scale[2]);
   return std::move(printed->simplified);
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "reports/pictures.h"
 #include "reports/report.h"
 #include "reports/simplify_outcome.h"
 #include "scarp/picture.h"
@@ -54,7 +55,7 @@ Result<void> add_render(const SimplifyPlan& plan, Outcome& outcome, std::vector<
 Result<void> add_preview(const SimplifyPlan& plan, const Outcome& outcome, std::vector<ReadyFile>& files) {
   const Mesh& mesh = outcome.simplified.mesh;
   const int side = picture_side(outcome.field, memory_of(plan, outcome), mesh.vertex_count());
-  const Result<Picture> picture = draw_preview(outcome.field, mesh, side);
+  const Result<Picture> picture = draw_preview(outcome.field, mesh, preview_options(outcome, side));
   if (!picture) return tl::unexpected(picture.error());
   return add_picture(*plan.preview, *picture, files);
 }

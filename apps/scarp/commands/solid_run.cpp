@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -16,6 +17,19 @@ std::string size_text(const SolidFacts& facts, const PrintOptions& plan) {
   return fmt::format("{} x {} x {}{}", format_number(facts.high[0] - facts.low[0]),
                      format_number(facts.high[1] - facts.low[1]), format_number(facts.high[2] - facts.low[2]),
                      plan.size ? " mm" : "");
+}
+
+/// In print units.
+double relief_of(const Print& print) { return (print.heights.max - print.heights.min) * print.placement.scale[2]; }
+
+/// What to ask for where the print is nearly flat.
+std::string relief_line(const PrintOptions& plan, const Print& print) {
+  constexpr double kLow = 5, kGood = 8, kMost = 100;  // millimetres, millimetres, times
+  const double relief = relief_of(print), factor = std::ceil(kGood / relief);
+  if (!plan.size || !(relief > 0) || relief >= kLow || factor > kMost) return "";
+  return summary_line(
+      "hint", fmt::format("the relief is {:.2g} mm on the print; --solid exaggerate={} makes it {:.2g} mm", relief,
+                          format_number(plan.exaggerate * factor), relief * factor));
 }
 
 Json describe_facts(const Mesh& mesh, const SolidFacts& facts) {
@@ -51,6 +65,7 @@ Json describe_print(const PrintOptions& plan, const Print& print, const std::vec
              {"unit", plan.size ? Json("mm") : Json(nullptr)},
              {"scale", print.placement.scale},
              {"max_error", print.max_error},
+             {"relief", relief_of(print)},
              {"uncovered", print.uncovered}};
   Json list = Json::array();
   for (std::size_t k = 0; k < print.tiles.size(); ++k) {
@@ -64,9 +79,13 @@ Json describe_print(const PrintOptions& plan, const Print& print, const std::vec
 }
 
 std::string print_lines(const PrintOptions& plan, const Print& print) {
-  std::string text = summary_line("solid", fmt::format("{}, closed, base at {}, max error {} as written",
-                                                       format_plural(print.triangles(), "triangle"),
-                                                       format_number(print.base), format_number(print.max_error)));
+  const std::string on_print =
+      plan.size ? fmt::format(", {:.2g} mm on the print", print.max_error * print.placement.scale[2]) : "";
+  std::string text =
+      summary_line("solid", fmt::format("{}, closed, base at {}, max error {} as written{}",
+                                        format_plural(print.triangles(), "triangle"), format_number(print.base),
+                                        format_number(print.max_error), on_print));
+  text += relief_line(plan, print);
   if (print.uncovered > 0)
     text += summary_line("", format_plural(print.uncovered, "sample") + " in the gaps between print tiles");
   if (print.tiles.size() == 1) return text + summary_line("", size_text(print.tiles.front().facts, plan));

@@ -60,7 +60,7 @@ std::string lakes_line(const std::vector<Lake>& lakes) {
   }
   const std::string changed =
       samples == 0 ? ", flat as they are"
-                   : fmt::format("; {} changed by up to {}: the errors are those against the changed raster",
+                   : fmt::format(" flattened ({} changed, at most {}); errors are relative to the flattened raster",
                                  format_plural(samples, "sample"), format_number(largest));
   return summary_line("water", format_plural(lakes.size(), "lake") + changed);
 }

@@ -10,14 +10,12 @@ constexpr CommandRow kCommandRows[] = {
      "Examples:\n"
      "  scarp simplify dem.tif hills.glb -e 1                  every sample within 1 m\n"
      "  scarp simplify dem.tif hills.glb -e 1 --effort high    fewer triangles, more time\n"
-     "  scarp simplify dem.tif hills.glb -e 1 --crs local      metres around the centre, for viewers\n"
-     "  scarp simplify dem.tif hills.obj -e 0.5%               within half a percent of the relief\n"
-     "  scarp simplify dem.tif hills.glb -t 5000 --preview hills.png --report hills.json\n"
-     "  scarp simplify dem.tif print.3mf -e 1 --solid size=120mm    a solid for a 3-D printer\n"
-     "  scarp simplify tile.png tile.glb -e 1 --decode terrarium    a tile from the web\n"
+     "  scarp simplify dem.tif hills.obj -e 0.5% --crs local   half a percent of the relief, for viewers\n"
+     "  scarp simplify dem.tif hills.glb -t 50k --preview hills.png --report hills.json\n"
+     "  scarp simplify dem.tif flood.2dm -e 0.5 --breaklines dikes.gpkg --min-angle 25\n"
+     "  scarp simplify dem.tif print.3mf -e 0.1mm --solid size=120mm\n"
      "  scarp simplify survey.csv hills.glb -e 0.5             scattered points: x, y, z\n"
-     "  scarp simplify dem.tif hills.glb -e 1 --texture ortho.tif   colours count too\n"
-     "  scarp simplify photo.png photo.glb -p 2000 --image --render seen.png\n"
+     "  scarp simplify tile.png tile.glb -e 1 --decode terrarium    a tile from the web\n"
      "'scarp info dem.tif' suggests errors. 'scarp measure dem.tif hills.glb' checks a mesh.\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
     {kMeasure, "measure", "Judge a mesh file against its raster, sample by sample", "RASTER MESH [OPTIONS]",
@@ -31,11 +29,13 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp measure dem.tif hills.glb --script outliers.txt --fail-above 1\n"
      "  scarp measure photo.png photo.glb --image --fail-above 8\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
-    {kInfo, "info", "Describe a raster and suggest errors for it", "RASTER [OPTIONS]",
-     "The suggested errors are found by running the engine: on the whole raster up to 2 million samples,\n"
-     "on windows of it beyond that (an estimate).\n"
+    {kInfo, "info", "Describe a raster, points or a mesh, and suggest errors for a raster", "FILE [OPTIONS]",
+     "The facts come at once, the suggestions when they are found, by running the engine: on the whole\n"
+     "raster up to 2 million samples, on windows of it beyond that (an estimate).\n"
      "Examples:\n"
      "  scarp info dem.tif\n"
+     "  scarp info huge.tif --no-suggest\n"
+     "  scarp info hills.glb\n"
      "  scarp info N27E086.hgt.zip --json\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
     {kGenerate, "generate", "Make a synthetic raster of heights", "STYLE COLS ROWS OUTPUT [OPTIONS]",
@@ -60,8 +60,10 @@ constexpr CommandRow kCommandRows[] = {
     {kHelpCommand, "help", "Explain a command, or print the table of options", "[COMMAND] [OPTIONS]",
      "Examples:\n"
      "  scarp help simplify              the same as scarp simplify --help\n"
+     "  scarp help simplify --all        the same as scarp simplify --help-all\n"
      "  scarp help --json                every command and option, for programs that build on Scarp\n"
      "Exit codes: 0 ok, 1 usage, 4 output, 70 internal error.\n"},
+    {kVersionCommand, "version", "Print the version", "", "Exit codes: 0 ok, 1 usage, 4 output.\n"},
 };
 
 }  // namespace

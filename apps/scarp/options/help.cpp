@@ -12,7 +12,8 @@
 namespace scarp::cli {
 namespace {
 
-constexpr std::size_t kWidth = 100, kColumn = 30;
+constexpr std::size_t kWidth = 100, kColumn = 33;
+constexpr std::ptrdiff_t kScreen = 40;  // lines
 
 /// The words in lines of at most kWidth, all but the first behind kColumn blanks.
 std::string wrap(const std::string& text) {
@@ -56,6 +57,38 @@ std::string left_of(const OptionRow& row) {
                      value.empty() ? "" : " ", value);
 }
 
+std::string title_of(const GroupRow& group) {
+  return fmt::format("\n{}{}:\n", group.name, group.note[0] != 0 ? fmt::format(" ({})", group.note) : "");
+}
+
+/// By subject.
+std::string list_options(const std::vector<const OptionRow*>& rows) {
+  std::string text;
+  for (const GroupRow& group : group_rows()) {
+    std::string entries;
+    for (const OptionRow* row : rows) {
+      if (row->group == group.group) entries += entry(left_of(*row), full_help(*row));
+    }
+    if (!entries.empty()) text += title_of(group) + entries;
+  }
+  return text;
+}
+
+/// Arguments, goals, and the most used of all others.
+std::string list_briefly(const std::vector<const OptionRow*>& rows) {
+  std::string arguments, goals, others;
+  for (const OptionRow* row : rows) {
+    if (row->brief[0] == 0) continue;
+    (row->group == OptionGroup::kArguments ? arguments
+     : row->group == OptionGroup::kGoals   ? goals
+                                           : others) += entry(left_of(*row), row->brief);
+  }
+  for (const GroupRow& group : group_rows()) {
+    if (group.group == OptionGroup::kGoals) goals.insert(0, title_of(group));
+  }
+  return arguments + goals + "\nMost used (all: --help-all):\n" + others;
+}
+
 const char* type_name(OptionType type) {
   switch (type) {
     case OptionType::kFlag:
@@ -92,7 +125,8 @@ nlohmann::ordered_json describe_option(const OptionRow& row, const CommandRow& c
           {"choices", row.list_choices()},
           {"repeatable", row.is_repeatable},
           {"required", row.is_required},
-          {"help", row.help}};
+          {"help", row.help},
+          {"brief", or_null(row.brief)}};
 }
 
 }  // namespace
@@ -111,21 +145,18 @@ std::string program_help() {
          "  scarp info dem.tif                                what is in it, and which errors suit it\n"
          "  scarp simplify dem.tif hills.glb -e 1             a mesh within 1 m of every sample\n"
          "  scarp measure dem.tif hills.glb --fail-above 1    check it independently\n"
-         "'scarp help COMMAND' explains a command and its options.\n";
+         "'scarp help COMMAND' explains a command, 'scarp COMMAND --help-all' lists all of its options.\n";
 }
 
-std::string command_help(const CommandRow& command) {
-  std::string text = fmt::format("{}.\n\nUsage: scarp {} {}\n", command.summary, command.name, command.usage);
+std::string command_help(const CommandRow& command, bool all) {
+  const std::string head = fmt::format("{}.\n\nUsage: scarp {} {}\n", command.summary, command.name, command.usage);
   const auto rows = rows_of(command.command);
-  for (const GroupRow& group : group_rows()) {
-    std::string entries;
-    for (const OptionRow* row : rows) {
-      if (row->group == group.group) entries += entry(left_of(*row), full_help(*row));
-    }
-    if (entries.empty()) continue;
-    text += fmt::format("\n{}{}:\n{}", group.name, group.note[0] != 0 ? fmt::format(" ({})", group.note) : "", entries);
-  }
-  return text + "\n" + command.notes;
+  const std::string page = head + list_options(rows) + "\n" + command.notes;
+  const bool has_brief = std::any_of(rows.begin(), rows.end(), [](const OptionRow* row) {
+    return row->brief[0] != 0 && row->group == OptionGroup::kGoals;
+  });
+  if (all || !has_brief || std::count(page.begin(), page.end(), '\n') <= kScreen) return page;
+  return head + list_briefly(rows) + "\n" + command.notes;
 }
 
 std::string help_json(const CommandRow* command) {
@@ -146,10 +177,6 @@ std::string choose_command() {
   for (std::size_t k = 0; k < rows.size(); ++k)
     text += (k == 0 ? "choose " : k + 1 == rows.size() ? " or " : ", ") + std::string(rows[k].name);
   return text;
-}
-
-Error unknown_command(const std::string& word) {
-  return {ErrorKind::kUsage, fmt::format("unknown command '{}': {}; see scarp --help", word, choose_command())};
 }
 
 void check_table(const CLI::App& program) {

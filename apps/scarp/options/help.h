@@ -14,14 +14,13 @@ namespace scarp::cli {
 
 /// The program's help: its commands, and three to begin with.
 std::string program_help();
-/// A command's help. No line is longer than 100 characters.
-std::string command_help(const CommandRow& command);
+/// A command's help. No line is longer than 100 characters. Unless `all` options are asked for, those of a command that
+/// would not fit a screen are the most used ones, one line each.
+std::string command_help(const CommandRow& command, bool all);
 /// The table of one command, or of all (null), as JSON. Keys keep their names.
 std::string help_json(const CommandRow* command);
 /// "choose simplify, measure or info", of all commands.
 std::string choose_command();
-/// Of a word that is no command's name.
-Error unknown_command(const std::string& word);
 /// Throws std::logic_error if the table has an option that the program does not take.
 void check_table(const CLI::App& program);
 

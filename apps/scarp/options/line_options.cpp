@@ -152,9 +152,8 @@ std::string lines_line(std::uint64_t lines, std::uint64_t inserted, const std::v
                        lines - inserted == 1 ? "other lies" : "others lie");
   }
   if (!edits.empty())
-    text +=
-        fmt::format("; {} given their heights, changed by up to {}: the errors are those against the changed raster",
-                    format_plural(edits.size(), "sample"), format_number(largest_edit(edits)));
+    text += fmt::format("; {} given their heights (changed by at most {}); errors are relative to the changed raster",
+                        format_plural(edits.size(), "sample"), format_number(largest_edit(edits)));
   return summary_line("breaklines", text);
 }
 

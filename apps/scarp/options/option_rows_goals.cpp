@@ -15,10 +15,12 @@ constexpr OptionRow kGoalRows[] = {
      .group = OptionGroup::kGoals,
      .type = kNumber,
      .value = "M|P%",
-     .unit = "units of the heights, or % of the relief",
+     .unit = "units of the heights, % of the relief, or m, cm, ft, mm",
      .range = "at least 0",
      .help = "No sample is farther than this from the mesh, measured vertically. M is in the units of the heights, "
-             "P% (0.5%) is a share of the relief. 0 reproduces every sample."},
+             "P% (0.5%) is a share of the relief. 1m, 50cm and 3ft name the unit; 0.1mm is an error on the print of "
+             "--solid size=. 0 reproduces every sample.",
+     .brief = "No sample is farther than this from the mesh; 0.5%: of the relief"},
     {.id = kMaxTriangles,
      .name = "--max-triangles",
      .short_name = "-t",
@@ -28,7 +30,8 @@ constexpr OptionRow kGoalRows[] = {
      .value = "N",
      .unit = "triangles",
      .range = "at least 1",
-     .help = "At most this many triangles."},
+     .help = "At most this many triangles. 50k, 2M and 1e5 will do.",
+     .brief = "At most this many triangles, such as 50k"},
     {.id = kMaxPoints,
      .name = "--max-points",
      .short_name = "-p",
@@ -38,7 +41,8 @@ constexpr OptionRow kGoalRows[] = {
      .value = "N",
      .unit = "vertices",
      .range = "at least 1",
-     .help = "At most this many vertices."},
+     .help = "At most this many vertices.",
+     .brief = "At most this many vertices"},
     {.id = kObjective,
      .name = "--objective",
      .commands = kSimplify,
@@ -53,11 +57,12 @@ constexpr OptionRow kGoalRows[] = {
      .commands = kMeasure,
      .group = OptionGroup::kVerdict,
      .type = kNumber,
-     .value = "E",
-     .unit = "units of the heights",
+     .value = "E|P%",
+     .unit = "units of the heights, % of the relief, or m, cm, ft",
      .range = "at least 0",
-     .help = "End with exit code 3 if an error is above this, a sample is uncovered or the mesh is not sound. Errors "
-             "are in the units of the heights: weighted with --mask, combined with --texture and --image."},
+     .help = "End with exit code 3 if an error is above this, a sample is uncovered or the mesh is not sound. E and "
+             "P% are as for --max-error of simplify. Errors are in the units of the heights: weighted with --mask, "
+             "combined with --texture and --image."},
 
     {.id = kEffort,
      .name = "--effort",
@@ -69,7 +74,8 @@ constexpr OptionRow kGoalRows[] = {
      .by_default = "normal; fast with tolerances (unless beside a budget), strategies or --memory",
      .help = "How much work to do for fewer triangles. fast: refine only. normal: also remove vertices; 0.56 of the "
              "triangles of fast. high: also move vertices; 0.36. max: try more of that; 0.30. CPU time is 0.5, 1.2, "
-             "6.5 and 62 times that of --order greedy. With -t or -p: a smaller error instead."},
+             "6.5 and 62 times that of --order greedy. With -t or -p: a smaller error instead.",
+     .brief = "fast, normal, high or max: fewer triangles for more time"},
     {.id = kVertices,
      .name = "--vertices",
      .commands = kSimplify,

@@ -16,7 +16,8 @@ constexpr OptionRow kLineRows[] = {
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
      .help = "Lines of a vector file become edges of the mesh, rings of polygons too. Lines with heights keep them, "
-             "lines without follow the raster."},
+             "lines without follow the raster.",
+     .brief = "Lines of a vector file become edges"},
     {.id = kBreaklineZ,
      .name = "--breakline-z",
      .commands = kSimplify,
@@ -49,7 +50,8 @@ constexpr OptionRow kLineRows[] = {
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
      .help = "Clip the surface to the polygons of a vector file. Their rings become edges of the mesh; the union of "
-             "all files counts."},
+             "all files counts.",
+     .brief = "Clip the surface to polygons"},
     {.id = kCutline,
      .name = "--cutline",
      .commands = kMeasure,
@@ -109,7 +111,8 @@ constexpr OptionRow kLineRows[] = {
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
      .help = "Lakes: each polygon of a vector file becomes flat, at a low height of its shore. The shore becomes edges "
-             "of the mesh."},
+             "of the mesh.",
+     .brief = "Lakes become flat"},
     {.id = kWaterPercentile,
      .name = "--water-percentile",
      .commands = kSimplify,

@@ -26,11 +26,11 @@ constexpr GroupRow kGroups[] = {
     {OptionGroup::kWater, "Water", ""},
     {OptionGroup::kShape, "Shape", "for simulation: vertices are added until it holds"},
     {OptionGroup::kSolids, "Solids", "for printing"},
+    {OptionGroup::kMemory, "Memory", ""},
+    {OptionGroup::kRun, "Run", ""},
     {OptionGroup::kTextures, "Textures and images", ""},
     {OptionGroup::kPoints, "Scattered points", ".csv, .xyz, .gpkg, .geojson, .shp ..."},
     {OptionGroup::kStrategies, "The 1995 paper's strategies", "the promise stays the same"},
-    {OptionGroup::kMemory, "Memory", ""},
-    {OptionGroup::kRun, "Run", ""},
 };
 
 std::vector<const OptionRow*> sort_rows() {

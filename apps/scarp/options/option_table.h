@@ -98,6 +98,7 @@ enum class OptionId {
   kSize,
   kData,
   kOut,
+  kNoSuggest,
   kNoTiming,
   kMemory,
   kThreads,
@@ -105,6 +106,8 @@ enum class OptionId {
   kTiming,
   kJsonProgress,
   kHelp,
+  kHelpAll,
+  kAll,
   kVersion,
 };
 
@@ -123,11 +126,11 @@ enum class OptionGroup {
   kWater,
   kShape,
   kSolids,
+  kMemory,
+  kRun,
   kTextures,
   kPoints,
   kStrategies,
-  kMemory,
-  kRun,
 };
 
 enum class OptionType {
@@ -142,8 +145,9 @@ enum class OptionType {
 
 /// Commands as bits, so that a row can belong to several.
 using Commands = unsigned;
-inline constexpr Commands kSimplify = 1, kMeasure = 2, kInfo = 4, kGenerate = 8, kPaper = 16, kHelpCommand = 32;
-inline constexpr Commands kEveryCommand = 63;
+inline constexpr Commands kSimplify = 1, kMeasure = 2, kInfo = 4, kGenerate = 8, kPaper = 16, kHelpCommand = 32,
+                          kVersionCommand = 64;
+inline constexpr Commands kEveryCommand = 127;
 
 struct OptionRow {
   OptionId id;
@@ -159,7 +163,8 @@ struct OptionRow {
   const char* range = "";
   bool is_repeatable = false;
   bool is_required = false;
-  const char* help;  ///< one or two sentences; completions take the first
+  const char* help;        ///< one or two sentences; completions take the first
+  const char* brief = "";  ///< one line for -h, where all options do not fit a screen; empty: not among them
 
   bool is_argument() const { return name[0] != '-'; }
   std::vector<std::string> list_choices() const;

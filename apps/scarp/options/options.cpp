@@ -26,6 +26,29 @@ Result<void> check_size(std::string_view option, const std::string& text, const 
   return fail(ErrorKind::kUsage, fmt::format("{} {} is too large: a number goes up to 1.79e308", option, text));
 }
 
+struct GoalUnit {
+  const char* suffix;
+  const char* unit;
+  double of_one;  ///< how many are one of `unit`
+};
+
+constexpr GoalUnit kGoalUnits[] = {{"%", "", 1}, {"mm", "", 1}, {"cm", "m", 100}, {"m", "m", 1}, {"ft", "ft", 1}};
+
+/// 50k, 2M, 1e5: a number with the letter of a power of 1000 behind it; nothing for other text.
+std::optional<double> find_rounded_count(std::string_view text) {
+  double factor = 1;
+  if (!text.empty()) {
+    constexpr std::pair<char, double> kFactors[] = {{'k', 1e3}, {'K', 1e3}, {'M', 1e6}, {'G', 1e9}};
+    for (const auto& [letter, value] : kFactors) {
+      if (text.back() == letter) factor = value;
+    }
+    if (factor > 1) text.remove_suffix(1);
+  }
+  const std::optional<double> number = find_number(text);
+  if (!number || std::isnan(*number)) return std::nullopt;
+  return *number * factor;
+}
+
 }  // namespace
 
 Result<double> parse_number(std::string_view option, const std::string& text) {
@@ -48,13 +71,18 @@ Result<double> parse_non_negative(std::string_view option, const std::string& te
 Result<std::uint64_t> parse_count(std::string_view option, const std::string& text, std::uint64_t least) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool is_whole = end == text.data() + text.size();
-  if (is_whole && error == std::errc::result_out_of_range) {
+  const bool is_digits = end == text.data() + text.size() && error != std::errc::invalid_argument;
+  const std::optional<double> rounded = is_digits ? std::nullopt : find_rounded_count(text);
+  constexpr double kMost = 0x1p53;  // up to which doubles are exact
+  if ((is_digits && error == std::errc::result_out_of_range) || (rounded && *rounded > kMost)) {
     return fail(ErrorKind::kUsage, fmt::format("{} {} is too large: give a smaller number", option, text));
   }
-  if (!is_whole || error != std::errc() || value < least) {
-    return fail(ErrorKind::kUsage, fmt::format("{} {} is not a whole number of at least {}, in digits alone", option,
-                                               shell_word(text), least));
+  const bool is_whole = is_digits || (rounded && *rounded >= 0 && *rounded == std::floor(*rounded));
+  if (rounded && is_whole) value = static_cast<std::uint64_t>(*rounded);
+  if (!is_whole || value < least) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} {} is not a whole number of at least {}, such as 5000, 50k, 2M or 1e5", option,
+                            shell_word(text), least));
   }
   return value;
 }
@@ -76,15 +104,25 @@ std::string canonical_option(const char* name, const Given& text) {
 
 Result<ErrorGoal> parse_error_goal(std::string_view option, const std::string& text) {
   ErrorGoal goal;
-  goal.percent_of_relief = !text.empty() && text.back() == '%';
-  const std::optional<double> value =
-      find_number(std::string_view(text).substr(0, text.size() - (goal.percent_of_relief ? 1 : 0)));
+  std::string_view number = text;
+  double divisor = 1;
+  for (const auto& [suffix, unit, of_one] : kGoalUnits) {
+    if (!number.ends_with(suffix)) continue;
+    number.remove_suffix(std::string_view(suffix).size());
+    goal.percent_of_relief = suffix[0] == '%';
+    goal.is_on_print = std::string_view(suffix) == "mm";
+    goal.unit = unit;
+    divisor = of_one;
+    break;
+  }
+  std::optional<double> value = find_number(number);
   if (auto fits = check_size(option, text, value); !fits) return tl::unexpected(fits.error());
   if (!value || !std::isfinite(*value)) {
     return fail(ErrorKind::kUsage, fmt::format("{} {} is neither a finite number, in the units of the heights, nor a "
-                                               "percentage of the relief such as 0.5%",
+                                               "percentage of the relief such as 0.5%, nor a length such as 1m",
                                                option, shell_word(text)));
   }
+  *value /= divisor;
   if (*value < 0 || std::signbit(*value)) {
     return fail(ErrorKind::kUsage,
                 fmt::format("{} {} is negative: it must be at least 0, and 0 reproduces every sample", option,
@@ -92,6 +130,33 @@ Result<ErrorGoal> parse_error_goal(std::string_view option, const std::string& t
   }
   goal.value = *value;
   return goal;
+}
+
+Result<void> refuse_print(std::string_view option, const ErrorGoal& goal) {
+  if (!goal.is_on_print) return {};
+  return fail(ErrorKind::kUsage, fmt::format("{} {}mm is an error on a print, and there is none here: give it in the "
+                                             "units of the heights",
+                                             option, format_number(goal.value)));
+}
+
+Result<void> check_unit(std::string_view option, const ErrorGoal& goal, const std::string& unit_of_heights,
+                        std::vector<std::string>& warnings) {
+  if (goal.unit.empty()) return {};
+  if (unit_of_heights.empty()) {
+    warnings.push_back(fmt::format("the file does not tell the unit of its heights: {} {}{} takes it for {}", option,
+                                   format_number(goal.value), goal.unit, goal.unit == "m" ? "the metre" : "the foot"));
+    return {};
+  }
+  const bool is_foot = unit_of_heights == "ft" || unit_of_heights.find("foot") != std::string::npos ||
+                       unit_of_heights.find("feet") != std::string::npos;
+  const bool is_metre = unit_of_heights == "m" || unit_of_heights == "metre" || unit_of_heights == "meter" ||
+                        unit_of_heights == "metres" || unit_of_heights == "meters";
+  if (goal.unit == "m" ? is_metre : is_foot) return {};
+  const double factor = goal.unit == "m" && is_foot ? 1 / 0.3048 : goal.unit == "ft" && is_metre ? 0.3048 : 0;
+  const std::string instead =
+      factor > 0 ? fmt::format(": give {} {:.6g}", option, goal.value * factor) : ": give a number without a unit";
+  return fail(ErrorKind::kUsage,
+              fmt::format("{} is in {}, but the heights are in {}{}", option, goal.unit, unit_of_heights, instead));
 }
 
 Error name_goal(const ErrorGoal& goal, double relief, Error error) {

@@ -67,10 +67,19 @@ std::string canonical_option(const char* name, const Given& text);
 struct ErrorGoal {
   double value = 0;
   bool percent_of_relief = false;
+  bool is_on_print = false;  ///< in millimetres of a print
+  std::string unit;          ///< of the value, "m" or "ft"; empty: that of the heights
   /// In z units, for a raster of the given relief.
   double absolute(double relief) const { return percent_of_relief ? value / 100 * relief : value; }
 };
+/// A number, perhaps with % or a unit behind it: m, cm, ft, or mm of a print.
 Result<ErrorGoal> parse_error_goal(std::string_view option, const std::string& text);
+/// Fails for a goal in millimetres of a print, where there is none.
+Result<void> refuse_print(std::string_view option, const ErrorGoal& goal);
+/// Fails for a goal in another unit than that of the heights. Heights of no known unit are taken for the goal's, which
+/// a warning says.
+Result<void> check_unit(std::string_view option, const ErrorGoal& goal, const std::string& unit_of_heights,
+                        std::vector<std::string>& warnings);
 /// What the library says of a max error, with the share of the relief that was asked for.
 Error name_goal(const ErrorGoal& goal, double relief, Error error);
 

@@ -124,10 +124,11 @@ Result<OutputFormat> choose_output_format(const Given& of, const std::string& ou
     return *named;
   }
   if (const std::optional<OutputFormat> named = find_format_of_extension(extension)) return *named;
-  return fail(ErrorKind::kUsage,
-              fmt::format("{} does not tell a format: end it in .glb, .obj, .ply, .stl, .tin, .2dm, .vtu, .vtp, .xml, "
-                          ".dxf, .gpkg, .3mf, .svg, .eps, .tif or .pgm, or choose one with --of",
-                          shell_word(output)));
+  return fail(
+      ErrorKind::kUsage,
+      fmt::format("cannot tell the format from {}: use .glb, .obj, .ply, .stl, .tin, .2dm, .vtu, .vtp, .xml, .dxf, "
+                  ".gpkg, .3mf, .svg, .eps, .tif or .pgm, or --of FORMAT{}",
+                  shell_word(output), extension == ".gltf" ? "; glTF is written as .glb" : ""));
 }
 
 Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, const std::string& unit) {

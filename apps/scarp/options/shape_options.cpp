@@ -83,8 +83,9 @@ std::string shape_line(const ShapeGoals& goals, const Simplified& simplified) {
   std::string text = fmt::format("smallest angle {} degrees", format_number(shape.min_angle));
   if (goals.min_angle > 0) text += fmt::format(" (asked {})", format_number(goals.min_angle));
   if (shape.below > 0)
-    text += fmt::format(", {} below: {} forced by corners, {} for want of room", format_plural(shape.below, "triangle"),
-                        format_count(shape.forced), format_count(shape.below - shape.forced));
+    text += fmt::format(", {} below ({} forced by sharp corners, {} where no vertex could be added)",
+                        format_plural(shape.below, "triangle"), format_count(shape.forced),
+                        format_count(shape.below - shape.forced));
   return summary_line("shape", fmt::format("{}; edges {} to {}", text, format_number(shape.shortest_edge),
                                            format_number(shape.longest_edge)));
 }

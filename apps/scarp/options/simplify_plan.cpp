@@ -174,6 +174,17 @@ Result<void> plan_solid(const SimplifyArguments& given, SimplifyPlan& plan) {
   const Result<std::optional<PrintOptions>> solid = given.solid.parse();
   if (!solid) return tl::unexpected(solid.error());
   plan.solid = *solid;
+  if (plan.error_goal && plan.error_goal->is_on_print) {
+    if (!plan.solid || !plan.solid->size)
+      return fail(ErrorKind::kUsage, fmt::format("--max-error {} is an error on a print, which needs its size: --solid "
+                                                 "size=120mm",
+                                                 *given.max_error));
+    if (!(plan.error_goal->value > 0))
+      return fail(
+          ErrorKind::kUsage,
+          fmt::format("--max-error {} is not above 0: give 0 without a unit for every sample", *given.max_error));
+    plan.solid->max_error = plan.error_goal->value;
+  }
   if (!plan.solid) return {};
   if (const char* obstacle = find_print_obstacle(given); obstacle != nullptr)
     return fail(ErrorKind::kUsage, fmt::format("--solid cannot be combined with {}; drop one of them", obstacle));

@@ -1,4 +1,4 @@
-// 2.6: many insertions between two looks at the mesh.
+// 2.6: several insertions a pass.
 #include <fmt/format.h>
 
 #include "paper/study.h"

@@ -8,6 +8,7 @@
 #include "inputs/channels.h"
 #include "inputs/companions.h"
 #include "options/cutline_options.h"
+#include "options/options.h"
 #include "reports/json.h"
 #include "scarp/height_field.h"
 #include "scarp/judge.h"
@@ -23,7 +24,8 @@ struct Judged {
   Cut cut;
   Mesh mesh;
   Judgement judgement;
-  std::optional<double> fail_above;
+  std::optional<ErrorGoal> goal;      ///< of --fail-above
+  std::optional<double> fail_above;   ///< in z units
   std::optional<std::string> broken;  ///< why the mesh fails; nothing if it passes or nothing was asked
   int band = 1;
   std::vector<std::string> warnings;

@@ -70,10 +70,10 @@ Result<OGRLayerH> find_layer(const OpenedLayer& opened) {
   if (!fitting.empty())
     return fail(ErrorKind::kInput, fmt::format("{}: holds several layers; name one, as in {}:{}: {}", opened.path,
                                                opened.path, OGR_L_GetName(fitting.front()), names));
-  const std::string found = names.empty() ? "no layers" : "only " + names;
+  const std::string found = names.empty() ? "it has no layers" : "found: " + names;
   if (opened.layer.empty())
-    return fail(ErrorKind::kInput, fmt::format("{}: holds no layer of lines or polygons, {}", opened.path, found));
-  return fail(ErrorKind::kInput, fmt::format("{}: holds no layer '{}', {}", opened.path, opened.layer, found));
+    return fail(ErrorKind::kInput, fmt::format("{} has no layer of lines or polygons ({})", opened.path, found));
+  return fail(ErrorKind::kInput, fmt::format("{} has no layer '{}' ({})", opened.path, opened.layer, found));
 }
 
 /// Collects the lines and rings of features.

@@ -1,0 +1,199 @@
+#include "options/unknown_words.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+#include <vector>
+
+#include "options/help.h"
+#include "options/option_table.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+struct Foreign {
+  const char* words;   ///< of other programs, without dashes, separated by blanks
+  const char* meant;   ///< Scarp's option; empty if there is none
+  const char* advice;  ///< in place of "did you mean"; may be empty
+};
+
+/// Names that users of GDAL, hmm, delatin, gltfpack and mesh programs type. An entry whose option the command does not
+/// have is passed over.
+constexpr Foreign kForeign[] = {
+    {"error err epsilon eps zerror z-error max-err maxerror tol threshold", "--max-error", ""},
+    {"triangles faces target-faces target-triangles tris num-triangles", "--max-triangles", ""},
+    {"num-points num-vertices max-vertices", "--max-points", ""},
+    {"ratio si simplify-ratio decimate", "--max-triangles",
+     "give the number of triangles with -t, or the error with -e"},
+    {"a-srs s-srs", "",
+     "the input's CRS is the file's own: gdal_edit.py -a_srs CRS FILE changes it; --crs is the mesh's"},
+    {"t-srs srs epsg proj projection", "--crs", ""},
+    {"a-nodata srcnodata dstnodata no-data nodata-value nodatavalue", "--nodata", ""},
+    {"of f format output-format", "--of", ""},
+    {"o output out", "--report", "the output is the word behind the input: scarp simplify INPUT OUTPUT"},
+    {"i input in", "--crs", "the input is a word of its own, without an option"},
+    {"te bbox extent bounds projwin", "--te", ""},
+    {"tr res outsize", "--resolution", ""},
+    {"te bbox extent bounds projwin srcwin", "",
+     "cut the raster first, with gdal_translate -projwin or gdalwarp -te, or clip to a polygon with --cutline"},
+    {"tr ts res outsize", "", "change the raster first, with gdalwarp -tr or gdal_translate -outsize"},
+    {"z zscale z-exaggeration vertical-exaggeration exaggerate exaggeration", "--z-scale", ""},
+    {"exaggerate exaggeration z-exaggeration vertical-exaggeration", "--solid", "give it as --solid exaggerate=2"},
+    {"force y overwrite-existing clobber", "--overwrite", ""},
+    {"threads jobs nt", "--num-threads", ""},
+    {"b", "--band", ""},
+    {"l", "--layer", ""},
+    {"zfield z-column", "--z-field", ""},
+    {"clip cutlines crop-to-cutline csql cl", "--cutline", ""},
+    {"lakes", "--water", ""},
+    {"bl breakline", "--breaklines", ""},
+    {"v V verbose debug", "--timing", "--timing tells what each pass took, --version the version"},
+    {"co", "", "formats have no creation options"},
+    {"optimize quality level compression-level", "--effort", ""},
+};
+
+/// Lower case but for single letters, with dashes for underscores, without dashes in front and a value behind.
+std::string bare(const std::string& word) {
+  std::string name = word.substr(std::min(word.find_first_not_of('-'), word.size()));
+  name.resize(std::min(name.find('='), name.size()));
+  for (char& c : name) {
+    if (c == '_') c = '-';
+    if (name.size() > 1) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return name;
+}
+
+bool holds_word(std::string_view words, std::string_view word) {
+  for (std::size_t begin = 0; begin < words.size();) {
+    const std::size_t end = std::min(words.find(' ', begin), words.size());
+    if (words.substr(begin, end - begin) == word) return true;
+    begin = end + 1;
+  }
+  return false;
+}
+
+/// Letters to change, add, leave out or exchange with their neighbours.
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> steps(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) {
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      std::size_t& least = steps[i][j];
+      if (i == 0 || j == 0) {
+        least = i + j;
+        continue;
+      }
+      least = std::min({steps[i - 1][j] + 1, steps[i][j - 1] + 1, steps[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        least = std::min(least, steps[i - 2][j - 2] + 1);
+    }
+  }
+  return steps[a.size()][b.size()];
+}
+
+/// The name that is like the word; empty if none is.
+std::string find_alike(const std::string& word, const std::vector<std::string>& names) {
+  std::string best;
+  std::size_t least = std::min<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string& name : names) {
+    const bool is_beginning = word.size() >= 3 && name.starts_with(word);
+    const std::size_t steps = is_beginning ? std::min<std::size_t>(1, least - 1) : distance(word, name);
+    if (steps < least) best = name, least = steps;
+  }
+  const auto holds = [&](const std::string& name) { return name.find(word) != std::string::npos; };
+  if (best.empty() && word.size() >= 4 && std::count_if(names.begin(), names.end(), holds) == 1)
+    best = *std::find_if(names.begin(), names.end(), holds);
+  return best;
+}
+
+std::vector<std::string> names_of(const CLI::App* command) {
+  std::vector<std::string> names;
+  const CommandRow* const row = command != nullptr ? find_command(command->get_name()) : nullptr;
+  if (row == nullptr) return {"help", "help-all", "version"};
+  for (const OptionRow* option : rows_of(row->command)) {
+    if (!option->is_argument()) names.emplace_back(bare(option->name));
+  }
+  return names;
+}
+
+/// "did you mean --effort?", or better advice; empty if nothing is like the word.
+std::string advise(const CLI::App* command, const std::string& word) {
+  const std::string name = bare(word);
+  const std::vector<std::string> names = names_of(command);
+  const auto has = [&](const std::string& option) {
+    return std::find(names.begin(), names.end(), bare(option)) != names.end();
+  };
+  if (has(name)) return fmt::format("did you mean --{}?", name);
+  for (const Foreign& foreign : kForeign) {
+    if (!holds_word(foreign.words, name) || command == nullptr) continue;
+    if (foreign.meant[0] != 0 && !has(foreign.meant)) continue;
+    return foreign.advice[0] != 0 ? foreign.advice : fmt::format("did you mean {}?", foreign.meant);
+  }
+  const std::string alike = find_alike(name, names);
+  return alike.empty() ? "" : fmt::format("did you mean --{}?", alike);
+}
+
+const CLI::App* find_chosen(const CLI::App& program, std::string_view name) {
+  for (const CLI::App* command : program.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == name) return command;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::string describe_unknown_option(const CLI::App* command, const std::string& word) {
+  const std::string advice = advise(command, word);
+  const std::string sentence = fmt::format("option {} is unknown", shell_word(word));
+  return advice.empty() ? sentence : fmt::format("{} ({})", sentence, advice);
+}
+
+std::optional<std::string> find_foreign_option(const CLI::App& program, int argc, const char* const* argv) {
+  const CLI::App* command = argc > 1 ? find_chosen(program, argv[1]) : nullptr;
+  if (command == nullptr) return std::nullopt;
+  for (int k = 2; k < argc && std::string_view(argv[k]) != "--"; ++k) {
+    const std::string word = argv[k];
+    const bool is_option = word.size() > 2 && word[0] == '-' && std::isalpha(static_cast<unsigned char>(word[1]));
+    const std::size_t equals = word.find('=');
+    const CLI::Option* option = word[0] == '-' ? command->get_option_no_throw(word.substr(0, equals)) : nullptr;
+    if (option != nullptr) {
+      if (option->get_items_expected_max() > 0 && equals == std::string::npos) ++k;
+    } else if (is_option && !advise(command, word).empty() && bare(word).size() > 1) {
+      const std::string name = bare(word);
+      const bool is_known = holds_word("help version", name) || command->get_option_no_throw("--" + name) != nullptr;
+      const bool is_foreign = std::any_of(std::begin(kForeign), std::end(kForeign),
+                                          [&](const Foreign& foreign) { return holds_word(foreign.words, name); });
+      if (is_known || is_foreign) return describe_unknown_option(command, word);
+    }
+  }
+  return std::nullopt;
+}
+
+Error unknown_command(const std::string& word) {
+  constexpr std::pair<const char*, const char*> kMeant[] = {
+      {"simplify", "decimate reduce mesh tin convert triangulate simplification translate"},
+      {"measure", "check validate judge compare verify error diff"},
+      {"info", "gdalinfo describe stats show inspect"},
+      {"generate", "create make synthesize"}};
+  std::vector<std::string> names;
+  for (const CommandRow& row : command_rows()) names.emplace_back(row.name);
+  std::string meant;
+  for (const auto& [name, words] : kMeant) {
+    if (holds_word(words, bare(word))) meant = name;
+  }
+  if (meant.empty()) meant = find_alike(bare(word), names);
+  const bool is_file = meant.empty() && word.find_first_of("./") != std::string::npos;
+  const std::string hint = !meant.empty() ? fmt::format(" (did you mean {}?)", meant) : ": " + choose_command();
+  return {
+      ErrorKind::kUsage,
+      is_file
+          ? fmt::format(
+                "unknown command '{}': a file comes behind one, as in scarp simplify {} OUTPUT -e 1; see scarp --help",
+                word, shell_word(word))
+          : fmt::format("unknown command '{}'{}; see scarp --help", word, hint)};
+}
+
+}  // namespace scarp::cli
