@@ -49,6 +49,9 @@ if command -v pkg-config >/dev/null; then
   # shellcheck disable=SC2046
   c++ -std=c++20 "$source_tree/tests/consume/main.cpp" -o "$scratch/by_pkg_config" $(pkg-config --cflags --libs scarp)
   LD_LIBRARY_PATH="$prefix/lib" "$scratch/by_pkg_config" || fail "pkg-config"
+  # shellcheck disable=SC2046
+  c++ -std=c++20 "$source_tree/docs/guide/library.cpp" -o "$scratch/guide" $(pkg-config --cflags --libs scarp)
+  (cd "$scratch" && LD_LIBRARY_PATH="$prefix/lib" ./guide) || fail "the program of docs/guide/library.md"
   [ "$(pkg-config --modversion scarp)" = "$("$prefix/bin/scarp" --version | grep -o '[0-9][0-9.]*' | head -n 1)" ] ||
     fail "scarp.pc and the program disagree about the version"
 else

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# Every command of the README and of the guides runs as it stands, in the folder of examples, and does what it says.
+source "$(dirname "$0")/lib.sh"
+need python3
+readme=$SCARP_SOURCE/README.md
+[ "$(wc -l < "$readme")" -le 120 ] || fail "the README has more than 120 lines: $(wc -l < "$readme")"
+PATH=$(dirname "$scarp"):$PATH
+
+# commands FILE: those of the cookbook's rows, and of indented code, without comments. A line that ends in \ goes on.
+commands() {
+  python3 - "$1" <<'PYTHON'
+import re, sys
+text = open(sys.argv[1], encoding="utf-8").read().replace("\\\n", " ")
+for line in text.split("\n"):
+    for command in re.findall(r"^\|.*\| `(scarp [^`]*)`", line) or re.findall(r"^    (scarp .*)", line):
+        print(re.sub(r"\s+", " ", re.sub(r" +#.*", "", command)))
+PYTHON
+}
+
+# run_all FILE: in a folder of its own, with the examples.
+run_all() {
+  local folder=$scratch/$(basename "$1" .md) line
+  mkdir "$folder"
+  cp -L "$SCARP_SOURCE"/data/examples/* "$folder"
+  cd "$folder"
+  commands "$1" > "$root/commands"
+  while read -r line; do
+    try bash -c "$line"
+    [ "$code" = 0 ] || fail "exit code $code: $(basename "$1"): $line"
+  done < "$root/commands"
+  cd "$scratch"
+}
+
+run_all "$readme"
+[ "$(wc -l < "$root/commands")" -ge 35 ] || fail "the README has only $(wc -l < "$root/commands") commands"
+for row in Basics GIS 'Web and games' Simulation Printing 'The 1995 paper'; do
+  grep -qF "| **$row** | |" "$readme" || fail "the cookbook has no group $row"
+done
+python3 - "$SCARP_SOURCE/docs/guide" <<'PYTHON' || fail "library.md does not show library.cpp"
+import pathlib, sys
+folder = pathlib.Path(sys.argv[1])
+code = (folder / "library.cpp").read_text()
+assert "```cpp\n" + code[code.index("#include"):] + "```\n" in (folder / "library.md").read_text()
+PYTHON
+for guide in "$SCARP_SOURCE"/docs/guide/*.md; do
+  run_all "$guide"
+  while read -r picture; do
+    [ -s "$SCARP_SOURCE/docs/guide/$picture" ] || fail "$guide shows $picture, which is not there"
+  done < <(grep -oE '\]\([^)]*\.png\)' "$guide" | sed 's/^](//; s/)$//')
+done

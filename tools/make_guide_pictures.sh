@@ -1,0 +1,70 @@
+#!/bin/bash
+# Makes the pictures of docs/guide and of the README. Views in three dimensions need f3d, and xvfb-run where there is no
+# display (Debian: f3d, xvfb); pngquant and GDAL make them small (pngquant, gdal-bin).
+#
+# usage: tools/make_guide_pictures.sh PROGRAM
+set -euo pipefail
+scarp=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+tree=$(cd "$(dirname "$0")/.." && pwd)
+out=$tree/docs/guide/images
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cp -L "$tree"/data/examples/* "$scratch"
+mkdir -p "$out"
+cd "$scratch"
+# shrink PICTURE WIDTH: a small file, for a repository.
+shrink() {
+  gdal_translate -q -of PNG -r cubic -outsize "$2" 0 "$1" "$scratch/small.png" && rm -f "$scratch/small.png.aux.xml"
+  pngquant --force --speed 1 --output "$1" 96 "$scratch/small.png"
+}
+simplify() { "$scarp" simplify "$@" --quiet --overwrite; }
+
+# view MESH PICTURE UP POSITION FOCAL [OPTIONS]: as f3d draws it.
+view() {
+  local mesh=$1 picture=$2 up=$3 position=$4 focal=$5
+  shift 5
+  local run=()
+  if [ -z "${DISPLAY:-}" ]; then run=(xvfb-run -a); fi
+  "${run[@]}" f3d "$mesh" --output "$out/$picture" --resolution 900,540 --up "$up" --camera-position "$position" \
+    --camera-focal-point "$focal" --bg-color 1,1,1 --axis=false --grid=false --filename=false --roughness 1 --color 0.93,0.88,0.76 "$@" > /dev/null
+  shrink "$out/$picture" 900
+}
+
+simplify dem.tif hills.glb -e 20 --preview "$tree/docs/images/jacksboro.png"
+shrink "$tree/docs/images/jacksboro.png" 900
+
+simplify dem.tif lakes.glb -e 20 --water lakes.geojson --rivers streams.geojson --preview "$out/gis_water.png"
+shrink "$out/gis_water.png" 900
+simplify dem.tif parcel.glb -e 40 --cutline parcel.geojson --roi site.geojson=5 --falloff 2000 --preview "$out/gis_parcel.png"
+shrink "$out/gis_parcel.png" 900
+simplify dem.tif tin.2dm -e 20 --crs EPSG:32616
+"$scarp" measure dem.tif tin.2dm --map "$out/gis_errors.png" --quiet --overwrite
+shrink "$out/gis_errors.png" 700
+
+simplify dem.tif flow.2dm -e 20 --breaklines dikes.geojson --min-angle 25 --max-edge 1500 --grade 0.3 \
+  --preview "$out/simulation_lines.png"
+shrink "$out/simulation_lines.png" 900
+
+# Heights are three times as high in the views, or there is little to be seen.
+python3 - << 'PYTHON'
+import subprocess
+subprocess.run(["gdal_translate", "-q", "-of", "VRT", "dem.tif", "tall.vrt"], check=True)
+text = open("tall.vrt").read()
+open("tall.vrt", "w").write(text.replace("<SourceBand>1</SourceBand>", "<SourceBand>1</SourceBand><ScaleOffset>0</ScaleOffset><ScaleRatio>3</ScaleRatio>")
+                            .replace("<SimpleSource>", "<ComplexSource>").replace("</SimpleSource>", "</ComplexSource>"))
+PYTHON
+place=(+Z 0,-30000,16000 0,-2000,1500)
+simplify tall.vrt terrain.ply -t 20k --crs local --normals
+view terrain.ply games_normals.png "${place[@]}"
+simplify tall.vrt flat.ply -t 20k --crs local
+view flat.ply games_flat.png "${place[@]}"
+for level in "0 15" "1 60" "2 240"; do
+  read -r number error <<< "$level"
+  simplify tall.vrt "lod$number.ply" -e "$error" --crs local
+  view "lod$number.ply" "games_lod$number.png" "${place[@]}" --edges --line-width 0.6
+done
+
+simplify dem.tif hills.stl -e 0.1mm --solid size=120mm,exaggerate=3,thickness=3mm
+view hills.stl printing_solid.png +Z -40,-90,110 57,60,0
+simplify dem.tif big.stl -e 0.1mm --solid size=360mm,exaggerate=3 --split 2x2,joint=dovetail,gap=0.2mm
+view big-r1-c1.stl printing_tile.png +Z 120,-60,220 100,260,0
