@@ -19,6 +19,25 @@ shrink() {
 }
 simplify() { "$scarp" simplify "$@" --quiet --overwrite; }
 
+# The sky that lights the views: a sun in the north-west, as a Radiance picture of longitudes and latitudes.
+python3 - sky.hdr << 'PYTHON'
+import math, sys
+WIDTH, HEIGHT, SUN = 256, 128, (2.5, 0.55)
+def pixel(*colour):
+    fraction, exponent = math.frexp(max(colour))
+    return bytes([*(min(255, int(part * fraction * 256 / max(colour))) for part in colour), exponent + 128])
+rows = []
+for y in range(HEIGHT):
+    latitude = math.pi * (0.5 - (y + 0.5) / HEIGHT)
+    for x in range(WIDTH):
+        longitude = 2 * math.pi * (x + 0.5) / WIDTH
+        nearness = math.sin(latitude) * math.sin(SUN[1]) + math.cos(latitude) * math.cos(SUN[1]) * math.cos(longitude - SUN[0])
+        sun, sky = 13 if nearness > 0.97 else 0, 0.15 if latitude > 0 else 0.06
+        rows.append(pixel(sky + sun, sky + 0.95 * sun, 1.1 * sky + 0.85 * sun))
+with open(sys.argv[1], "wb") as file:
+    file.write(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (HEIGHT, WIDTH) + b"".join(rows))
+PYTHON
+
 # view MESH PICTURE UP POSITION FOCAL [OPTIONS]: as f3d draws it.
 view() {
   local mesh=$1 picture=$2 up=$3 position=$4 focal=$5
@@ -26,7 +45,7 @@ view() {
   local run=()
   if [ -z "${DISPLAY:-}" ]; then run=(xvfb-run -a); fi
   "${run[@]}" f3d "$mesh" --output "$out/$picture" --resolution 900,540 --up "$up" --camera-position "$position" \
-    --camera-focal-point "$focal" --bg-color 1,1,1 --axis=false --grid=false --filename=false --roughness 1 --color 0.93,0.88,0.76 "$@" > /dev/null
+    --camera-focal-point "$focal" --hdri "$scratch/sky.hdr" --roughness 1 --color 0.87,0.82,0.7 --axis=false --grid=false --filename=false "$@" > /dev/null
   shrink "$out/$picture" 900
 }
 

@@ -19,8 +19,8 @@ PYTHON
 
 # run_all FILE: in a folder of its own, with the examples.
 run_all() {
-  local folder=$scratch/$(basename "$1" .md) line
-  mkdir "$folder"
+  local folder line
+  folder=$(mktemp -d "$scratch/XXXXXX")
   cp -L "$SCARP_SOURCE"/data/examples/* "$folder"
   cd "$folder"
   commands "$1" > "$root/commands"
