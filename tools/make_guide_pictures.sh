@@ -60,7 +60,7 @@ simplify dem.tif tin.2dm -e 20 --crs EPSG:32616
 "$scarp" measure dem.tif tin.2dm --map "$out/gis_errors.png" --quiet --overwrite
 shrink "$out/gis_errors.png" 700
 
-simplify dem.tif flow.2dm -e 20 --breaklines dikes.geojson --min-angle 25 --max-edge 1500 --grade 0.3 \
+simplify dem.tif flow.2dm -e 20 --crs local --breaklines dikes.geojson --min-angle 25 --max-edge 1500 --grade 0.3 \
   --preview "$out/simulation_lines.png"
 shrink "$out/simulation_lines.png" 900
 
