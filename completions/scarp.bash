@@ -38,6 +38,10 @@ _scarp() {
       COMPREPLY=($(compgen -W 'source local grid EPSG:' -- "$current"))
       return
       ;;
+    "simplify --up" | "measure --up")
+      COMPREPLY=($(compgen -W 'y z' -- "$current"))
+      return
+      ;;
     "simplify --of")
       COMPREPLY=($(compgen -W 'glb obj ply stl tin 2dm vtu vtp landxml dxf gpkg 3mf svg eps dem' -- "$current"))
       return

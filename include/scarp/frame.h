@@ -31,7 +31,7 @@ struct Frame {
   enum class Kind {
     kGrid,       ///< x = col, y = rows − 1 − row, cell size 1
     kSource,     ///< the raster's own CRS
-    kLocal,      ///< metres east and north of the raster's centre (geographic rasters), affine in the grid
+    kLocal,      ///< metres east and north of the raster's centre, or feet, or cells; affine in the grid
     kProjected,  ///< another CRS, reached through `transform`
   };
   Kind kind = Kind::kGrid;

@@ -78,7 +78,8 @@ struct RasterInfo {
   std::string crs;               ///< of the file, "EPSG:4326" where an authority is known, else WKT; empty if none
   bool is_geographic = false;    ///< x and y of the file are degrees
   std::string unit;              ///< of z where the file says so; else empty
-  std::optional<double> nodata;  ///< the nodata value used
+  double z_scale = 1, z_offset = 0;  ///< those of ReadOptions: heights are z_scale · value + z_offset
+  std::optional<double> nodata;      ///< the nodata value used, of the file's values
   std::array<double, 6> geotransform{0, 1, 0, 0, 0, 1};  ///< GDAL's, of the pixel *corner*; identity if none
   bool has_georeference = false;
   double cell_x = 1, cell_y = 1;      ///< size of a cell in the units of the file's CRS

@@ -20,17 +20,28 @@ namespace scarp {
 
 enum class Decode { kNone, kTerrarium, kMapbox };
 
+/// The frame of a mesh whose coordinates nobody chose.
+enum class DefaultFrame {
+  kLocal,   ///< around the raster's centre: for viewers, whose numbers are short
+  kMetric,  ///< local for degrees, else the raster's own CRS: for files that hold doubles, and a shape in space
+  kSource,  ///< the raster's own CRS, degrees too: for files drawn on maps
+};
+
 struct ReadOptions {
   int band = 1;                                 ///< 1-based
   std::optional<double> nodata = std::nullopt;  ///< overrides the file's value, which then is an ordinary height
   Decode decode = Decode::kNone;  ///< heights packed into red, green, blue (8 bit each); alpha 0 is nodata
-  /// Frame of the mesh. Empty (DEFAULT): the local metric frame for geographic rasters, the raster's own CRS for
-  /// projected ones, the grid frame without georeference. "source": the raster's own coordinates. "local": the local
-  /// metric frame. "grid": columns and rows. Anything else is a CRS for GDAL ("EPSG:32611", WKT, PROJ string).
+  /// Frame of the mesh. Empty (DEFAULT): `default_frame`, the grid frame without georeference. "source": the raster's
+  /// own coordinates. "local": around the raster's centre, in metres, or in the CRS's feet. "grid": columns and rows.
+  /// Anything else is a CRS for GDAL ("EPSG:32611", "32611", WKT, PROJ string).
   std::string crs = {};
-  /// An empty `crs` leaves geographic rasters in their own coordinates, degrees, for files drawn on maps.
-  /// DEFAULT: false.
-  bool keep_degrees = false;
+  DefaultFrame default_frame = DefaultFrame::kLocal;
+  /// A height is z_scale · value + z_offset, where the value is what the file says with its own scale and offset. All
+  /// heights of the field, its range and its errors are these. nodata is the file's value. DEFAULT: as in the file.
+  double z_scale = 1, z_offset = 0;  ///< finite; z_scale is not 0
+  /// Width of a cell in the mesh, for a raster without georeference or with crs "grid"; the frame is then around the
+  /// raster's centre. kUsage with any other frame. DEFAULT: 1, the grid frame.
+  std::optional<double> cell_size = std::nullopt;
   /// Memory::limit, 0: the machine's memory. read_height_field() refuses to read a raster that needs more;
   /// open_height_field() keeps as much of it in memory. And progress.
   Run run = {};
@@ -47,6 +58,21 @@ struct ReadOptions {
 /// Fails with kInput: missing, not a raster, truncated, fewer than 2×2 samples, band out of range, no valid sample;
 /// kUsage for a CRS that is unknown or cannot be reached.
 Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options = {});
+
+/// Where a mesh lies in the coordinates of its raster's file.
+struct PlaceInSource {
+  /// From x and y of the mesh: source x = t[0] + t[1]·x + t[2]·y, source y = t[3] + t[4]·x + t[5]·y.
+  std::array<double, 6> to_source{0, 1, 0, 0, 0, 1};
+  std::string crs;  ///< of the source, as RasterInfo::crs; empty if it has none
+
+  /// Source coordinates of x = 0, y = 0.
+  std::array<double, 2> origin() const { return {to_source[0], to_source[3]}; }
+};
+/// Nothing for frames that are not affine. Without georeference the source's coordinates are those of the grid frame.
+std::optional<PlaceInSource> place_in_source(const Frame& frame, const RasterInfo& info, int rows);
+
+/// The CRS as the text of a .prj file (ESRI's WKT, one line); nothing if it is unknown, and in a build without GDAL.
+std::optional<std::string> projection_text(const std::string& crs);
 
 /// Opens one raster of any size, for simplify() and measure(). If the memory limit holds its samples as floats (4 bytes
 /// each) they are read as by read_height_field(). If it holds 16-bit samples as they are (2 bytes each: Byte, Int16 and
@@ -148,7 +174,7 @@ enum class MeshFormat { kGlb, kObj, kPly, kStl, kTin, k2dm, kVtu, kVtp, kLandXml
 std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
 
 /// The file's bytes. GLB: y up (x, z, −y), float32, origin as node translation, metadata in asset.extras. OBJ: text,
-/// absolute coordinates that read back to the same doubles, metadata as comments. PLY: binary little-endian, double,
+/// absolute coordinates that read back to the same doubles, metadata as comments. PLY: binary little-endian,
 /// absolute. STL: binary, float32 offsets from the origin, z up. TIN: text, absolute coordinates that read back to the
 /// same doubles. 2DM, LandXML, DXF: text, absolute coordinates that read back to the same doubles. VTU, VTP: double,
 /// absolute, raw little-endian arrays behind the XML. GeoPackage: double, absolute, in the CRS that metadata["crs"]
@@ -159,7 +185,10 @@ std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path);
 /// on the versions of GDAL and SQLite, a 3MF file's on that of zlib. Fails with kOutput where the format cannot hold
 /// the mesh: more vertices or triangles than signed 32-bit numbers count in 2DM and LandXML; degrees, a unit that
 /// LandXML does not know, or heights in another unit than x and y in LandXML.
-Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format);
+///
+/// PLY has float32 positions where every one is exactly a float32, as in the local frame, else doubles, as with
+/// `double_positions`. A mesh that turn_y_up() has turned can be OBJ, PLY or STL; decode_mesh() turns it back.
+Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format, bool double_positions = false);
 /// A 3MF file (core specification 1.2) of one or more solids, each an object named by its metadata["name"]: positions
 /// rounded to float32 and written so that they read back the same, offsets from the origin of the first object; its
 /// other metadata as the file's. The unit is the millimetre where metadata["placement"] says that the solid was placed

@@ -43,6 +43,13 @@ struct Mesh {
 /// corners, same winding; deterministic. Unused vertices are dropped. Cost: O(triangles).
 void optimize_order(Mesh& mesh);
 
+/// Turns the mesh y up: (x, y, z) becomes (x, z, −y), normals too, and metadata["up"] is "y". undo_y_up() turns a mesh
+/// that is_y_up() back; its metadata then says "z". Both are exact. All functions but these and the writers expect
+/// meshes that are z up.
+void turn_y_up(Mesh& mesh);
+void undo_y_up(Mesh& mesh);
+bool is_y_up(const Mesh& mesh);
+
 /// Closes an open terrain mesh into a solid: a flat base at z = `base` (absolute) and vertical walls along every border
 /// edge, outward-oriented, so that each edge has exactly two triangles. Border vertices between their neighbours on a
 /// line along x or y have no vertex below them: a part with n border vertices, of which c have one, and h holes gets

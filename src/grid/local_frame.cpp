@@ -20,6 +20,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scarp/degrees.h"
@@ -72,7 +73,7 @@ bool is_degenerate(const std::array<double, 6>& affine) {
 }
 
 Result<Frame> local_frame(const std::array<double, 6>& samples, const MetresPerUnit& metres, int cols, int rows,
-                          const std::string& crs) {
+                          const std::string& crs, const LocalUnit& unit) {
   const auto& a = samples;
   const double col = cols / 2, row = rows / 2;
   const double x = a[0] + a[1] * col + a[2] * row, y = a[3] + a[4] * col + a[5] * row;
@@ -90,9 +91,24 @@ Result<Frame> local_frame(const std::array<double, 6>& samples, const MetresPerU
   if (is_degenerate(frame.affine)) {
     return fail(ErrorKind::kUsage, "its cells are too unequal for a local frame in float32; choose the frame 'source'");
   }
-  frame.description =
-      fmt::format("local metres east and north of {:.9g}, {:.9g} ({}), {:.6g} m x {:.6g} m a cell", x, y, crs,
-                  std::hypot(frame.affine[1], frame.affine[4]), std::hypot(frame.affine[2], frame.affine[5]));
+  frame.description = fmt::format("local {} east and north of {:.9g}, {:.9g} ({}), {:.6g}{} x {:.6g}{} a cell",
+                                  unit.name, x, y, crs, std::hypot(frame.affine[1], frame.affine[4]), unit.suffix,
+                                  std::hypot(frame.affine[2], frame.affine[5]), unit.suffix);
+  return frame;
+}
+
+Result<Frame> cell_frame(double cell, int cols, int rows) {
+  Frame frame;
+  frame.kind = Frame::Kind::kLocal;
+  // Rounded for the longer side, so that cells stay square.
+  const int side = std::max(cols, rows);
+  const double width = centred_affine({cell, 0, 0, -cell}, side, side)[1], reach = cell * side;
+  frame.affine = centred_affine({width, 0, 0, -width}, cols, rows);
+  if (!(cell > 0) || is_degenerate(frame.affine) || !(reach < 1e30)) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("a cell size of {} makes no frame: give a positive width that float32 can hold", cell));
+  }
+  frame.description = fmt::format("local units around the raster's centre, {:.6g} a cell", frame.affine[1]);
   return frame;
 }
 

@@ -39,6 +39,8 @@ Result<std::vector<std::uint8_t>> encode_gpkg(const Mesh&) {
   return fail(ErrorKind::kOutput, "GeoPackage cannot be written: this build of Scarp has no GDAL, which encodes it");
 }
 
+std::optional<std::string> projection_text(const std::string&) { return {}; }
+
 bool is_same_crs(const std::string& a, const std::string& b) { return a == b; }
 
 Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptions&) {

@@ -27,7 +27,7 @@ PYTHON
 for lines in soft hard ring ugly; do
   for effort in fast normal high; do
     for threads in 1 2; do
-      succeeds "$scarp" simplify hills.tif "$lines$threads.obj" -e 12 --effort "$effort" --breaklines "$lines.geojson" \
+      succeeds "$scarp" simplify hills.tif "$lines$threads.obj" -e 12 --up z --effort "$effort" --breaklines "$lines.geojson" \
         -j "$threads" --report r.json --overwrite
     done
     cmp "${lines}1.obj" "${lines}2.obj" || fail "-j 2 makes another mesh with $lines lines and $effort effort"
@@ -43,14 +43,14 @@ for lines in soft hard ring ugly; do
 done
 succeeds "$scarp" simplify hills.tif ring.glb -e 12 --breaklines ring.geojson --soft-breaklines
 succeeds "$scarp" measure hills.tif ring.glb --fail-above 12
-succeeds "$scarp" simplify hills.tif level.obj -e 12 --breaklines soft.geojson --breakline-z level --line-conflict mean
+succeeds "$scarp" simplify hills.tif level.obj -e 12 --up z --breaklines soft.geojson --breakline-z level --line-conflict mean
 succeeds "$scarp" simplify hills.tif both.glb -e 12 --breaklines soft.geojson --breaklines ring.geojson --report r.json --overwrite
 [ "$(json r.json breaklines laid)" = 4 ] || fail "not all lines of two files are inserted"
 
 # What cannot be is refused, by name.
 refuses 2 "cross.geojson" "$scarp" simplify hills.tif x.glb -e 12 --breaklines cross.geojson
 for rule in first mean highest; do
-  succeeds "$scarp" simplify hills.tif "$rule.obj" -e 12 --breaklines cross.geojson --line-conflict "$rule"
+  succeeds "$scarp" simplify hills.tif "$rule.obj" -e 12 --up z --breaklines cross.geojson --line-conflict "$rule"
 done
 refuses 1 "--line-conflict" "$scarp" simplify hills.tif x.glb -e 12 --breaklines cross.geojson --line-conflict odd
 refuses 1 "--breaklines" "$scarp" simplify hills.tif x.glb -e 12 --line-conflict mean

@@ -63,7 +63,7 @@ area_of() { # FILE LAYER
 burn star.geojson inside.tif
 succeeds gdal_translate -q -of XYZ inside.tif inside.xyz
 for effort in fast normal high max; do
-  succeeds "$scarp" simplify "$dem" cut.obj -e 20 --effort "$effort" --cutline star.geojson --crs source --report cut.json --overwrite
+  succeeds "$scarp" simplify "$dem" cut.obj -e 20 --up z --effort "$effort" --cutline star.geojson --crs source --report cut.json --overwrite
   holds "$(json cut.json max_error) <= 20"
   [ "$(json cut.json topology sound)" = true ] || fail "a cutline and $effort effort make an unsound mesh"
   [ "$(json cut.json cutline polygons)" = 2 ] || fail "a multipolygon of two is not two polygons"

@@ -31,7 +31,7 @@ try "$scarp" measure "$dem" grid.obj --fail-above 20 --crs source
 [ "$code" = 3 ] || fail "a mesh in the wrong frame passes"
 
 # Normals.
-succeeds "$scarp" simplify "$dem" normals.obj -e 20 --normals
+succeeds "$scarp" simplify "$dem" normals.obj -e 20 --up z --normals
 [ "$(grep -c '^vn ' normals.obj)" = "$(grep -c '^v ' normals.obj)" ] || fail "not one normal a vertex"
 awk '$1 == "vn" { n = $2 * $2 + $3 * $3 + $4 * $4; if (n < 0.999 || n > 1.001 || $4 <= 0) exit 1 }' normals.obj ||
   fail "normals are not unit vectors that point up"

@@ -15,8 +15,8 @@ python_with() {
 }
 
 gdalwarp -q -t_srs EPSG:32616 -r bilinear -dstnodata -9999 -ot Float32 "$dem" utm.tif
-succeeds "$scarp" simplify utm.tif utm.obj -e 20 --report utm.json
-succeeds "$scarp" simplify "$dem" deg.obj -e 20 --crs source --report deg.json
+succeeds "$scarp" simplify utm.tif utm.obj -e 20 --crs source --up z --report utm.json
+succeeds "$scarp" simplify "$dem" deg.obj -e 20 --crs source --up z --report deg.json
 for raster in utm deg; do
   input=$raster.tif
   [ $raster = utm ] || input=$dem

@@ -3,7 +3,7 @@
 source "$(dirname "$0")/lib.sh"
 need python3 awk
 
-succeeds "$scarp" simplify "$dem" good.obj -e 20
+succeeds "$scarp" simplify "$dem" good.obj -e 20 --up z
 succeeds "$scarp" measure "$dem" good.obj --fail-above 20
 grep -q '^Passed: max error' "$logs/out" || fail "no verdict in the table"
 grep -q 'sound; [0-9,]* open edges in 1 border loop' "$logs/out" || fail "no topology in the table"
@@ -73,7 +73,7 @@ print("\n".join(l for l in lines if l is not largest))
 PYTHON
 fails 'covered by no triangle, the first at column [0-9]+, row [0-9]+' hole.obj
 # A triangle without samples inside is missed too: one of the smallest of a fine mesh is dropped.
-succeeds "$scarp" simplify "$dem" fine.obj -e 2
+succeeds "$scarp" simplify "$dem" fine.obj -e 2 --up z
 python3 - fine.obj <<'PYTHON' > pinhole.obj
 import sys
 lines = [l for l in open(sys.argv[1]).read().splitlines() if not l.startswith("# scarp.")]
@@ -88,9 +88,19 @@ fails 'not sound: [123] gaps?' pinhole.obj 2
 holds "$(try "$scarp" measure "$dem" pinhole.obj --json; json "$logs/out" topology gaps) >= 1"
 # The table of a mesh of another place says so.
 awk '$1 == "v" { $2 += 1e7 } { print }' good.obj > away.obj
-fails 'covered by no triangle' away.obj
+# A mesh that lies elsewhere is not judged: no number, exit code 3, and where the two lie.
+for options in "" "--fail-above 20"; do
+  try "$scarp" measure "$dem" away.obj $options --json
+  [ "$code" = 3 ] || fail "a mesh elsewhere ends with $code"
+  for key in max_error max_error_at rmse mean_error mean_abs_error p50 p95 p99 p999; do
+    [ "$(json "$logs/out" $key)" = null ] || fail "a mesh elsewhere has the $key $(json "$logs/out" $key)"
+  done
+  [ "$(json "$logs/out" passed)" = false ] || fail "a mesh elsewhere passes"
+  grep -q 'covers no sample of .*: its vertices lie at x 9[0-9.]* to 10[0-9.]* and y .*, the samples at x -15' "$logs/err" ||
+    fail "no word where they lie"
+done
 try "$scarp" measure "$dem" away.obj
-grep -q '^scarp: warning: no sample of .* is covered by away.obj' "$logs/err" || fail "no word about coordinates"
+[ "$code" = 3 ] && grep -q 'max error *none: no sample is covered' "$logs/out" || fail "the table tells an error of nothing"
 
 # A verdict in percent of the relief (840), as simplify's goal: the recipe for a build.
 succeeds "$scarp" simplify "$dem" percent.glb -e 1% --overwrite

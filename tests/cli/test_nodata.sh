@@ -43,7 +43,7 @@ grep -q "filled  *$voids nodata samples" "$logs/out" || fail "the summary does n
 succeeds "$scarp" simplify hill.asc near.obj -e 1 --nodata-policy fill --fill-distance 1 --report n.json
 holds "$(json n.json input filled) > 0 && $(json n.json input filled) < $voids"
 
-succeeds "$scarp" simplify hill.asc back.obj -e 1 --nodata-policy background --background -20 --report b.json
+succeeds "$scarp" simplify hill.asc back.obj -e 1 --up z --nodata-policy background --background -20 --report b.json
 [ "$(json b.json input filled)" = $voids ] || fail "background filled $(json b.json input filled)"
 [ "$(json b.json samples)" = 2400 ] || fail "background samples are not judged"
 # The relief that percentages are of is the terrain's own.

@@ -72,7 +72,9 @@ fi
 succeeds "$scarp" simplify "$dem" grid.ply -e 50 --crs grid -q
 refuses 1 "grid.ply says of itself that its coordinates are the columns and rows" "$scarp" measure survey.csv grid.ply
 refuses 1 "cannot be given in 'grid'" "$scarp" measure survey.csv grid.ply --crs grid
-succeeds "$scarp" measure survey.csv grid.ply --crs source -q
+try "$scarp" measure survey.csv grid.ply --crs source --json
+[ "$code" = 3 ] && grep -q 'covers no sample of survey.csv' "$logs/err" || fail "a mesh elsewhere ends with $code"
+[ "$(json "$logs/out" max_error) $(json "$logs/out" passed)" = "null false" ] || fail "a mesh elsewhere has an error"
 succeeds "$scarp" simplify "$dem" utm.ply -e 50 --crs EPSG:32612 -q
 refuses 1 "utm.ply names that CRS as its own, --crs overrides it" "$scarp" measure survey.csv utm.ply
 

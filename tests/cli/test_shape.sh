@@ -30,11 +30,11 @@ assert not any(report["shape"]["histogram"][:5])
 PYTHON
 
 # In metres; the edges of the file are no longer than asked.
-succeeds "$scarp" simplify "$dem" short.obj -e 20 --max-edge 400
+succeeds "$scarp" simplify "$dem" short.obj -e 20 --up z --max-edge 400
 read -r count smallest shortest longest < <(python3 "$shape_of" short.obj)
 holds "$longest <= 400"
 succeeds "$scarp" measure "$dem" short.obj --fail-above 20
-succeeds "$scarp" simplify "$dem" graded.obj -e 60 --grade 0.3 --min-angle 20 --max-edge 3000
+succeeds "$scarp" simplify "$dem" graded.obj -e 60 --up z --grade 0.3 --min-angle 20 --max-edge 3000
 read -r count smallest shortest longest < <(python3 "$shape_of" graded.obj)
 holds "$smallest >= 20"
 succeeds "$scarp" measure "$dem" graded.obj --fail-above 60
@@ -47,20 +47,20 @@ echo '{"type": "FeatureCollection", "features": [
  {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[5.2, 5.4], [50.3, 40.1], [9.7, 12.3]]}},
  {"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": [[40, 5], [10.5, 40.25]]}}]}' >lines.geojson
 for effort in fast high; do
-  succeeds "$scarp" simplify hills.tif river.obj -e 10 --min-angle 25 --breaklines lines.geojson --effort "$effort" --report r.json --overwrite
+  succeeds "$scarp" simplify hills.tif river.obj -e 10 --up z --min-angle 25 --breaklines lines.geojson --effort "$effort" --report r.json --overwrite
   [ "$(json r.json topology sound)" = true ] || fail "lines and angles make an unsound mesh"
   holds "$(json r.json shape forced) > 0 && $(json r.json shape forced) <= $(json r.json shape below)"
   holds "$(json r.json shape below) < 0.01 * $(json r.json triangles)"
   succeeds "$scarp" measure hills.tif river.obj --fail-above 10
 done
-succeeds "$scarp" simplify hills.tif river.obj -e 10 --min-angle 25 --overwrite
+succeeds "$scarp" simplify hills.tif river.obj -e 10 --up z --min-angle 25 --overwrite
 grep -q "shape .*smallest angle .*asked 25" "$logs/out" || fail "the summary does not tell the smallest angle"
 
 # Water stays flat up to its shore.
 echo '{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry":
  {"type": "Polygon", "coordinates": [[[10.3, 10.2], [30.6, 8.1], [33.2, 25.7], [15.4, 29.9], [10.3, 10.2]]]}}]}' >lake.geojson
 for effort in fast normal high; do
-  succeeds "$scarp" simplify hills.tif lake.obj -e 10 --min-angle 25 --max-edge 3 --water lake.geojson --effort "$effort" \
+  succeeds "$scarp" simplify hills.tif lake.obj -e 10 --up z --min-angle 25 --max-edge 3 --water lake.geojson --effort "$effort" \
     --report r.json --overwrite
   python3 - "$(json r.json water 0 level)" <<'PYTHON' || fail "a lake is not flat with $effort effort"
 import sys
@@ -84,7 +84,7 @@ done
 succeeds "$scarp" generate smooth 1200 60 flat.tif --seed 1 -q
 echo '{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {}, "geometry": {"type": "Polygon",
  "coordinates": [[[57.7, 15.8], [1172.1, 9.4], [1137.5, 38.7], [41.8, 43.6], [57.7, 15.8]]]}}]}' >long.geojson
-succeeds "$scarp" simplify flat.tif long.obj -e 10 --max-edge 60 --water long.geojson --effort fast
+succeeds "$scarp" simplify flat.tif long.obj -e 10 --up z --max-edge 60 --water long.geojson --effort fast
 read -r count smallest shortest longest < <(python3 "$shape_of" long.obj)
 holds "$longest <= 60"
 

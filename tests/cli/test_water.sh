@@ -14,7 +14,7 @@ layer("lakes.geojson", [west, [[[-84.2, 36.3], [-84.15, 36.31], [-84.17, 36.34],
 layer("away.geojson", [[[[1, 1], [2, 1], [2, 2], [1, 1]]]])
 PYTHON
 for effort in fast normal high max; do
-  succeeds "$scarp" simplify "$dem" lake.obj -e 20 --effort "$effort" --water lakes.geojson --crs grid --report lake.json --overwrite
+  succeeds "$scarp" simplify "$dem" lake.obj -e 20 --up z --effort "$effort" --water lakes.geojson --crs grid --report lake.json --overwrite
   holds "$(json lake.json max_error) <= 20"
   [ "$(json lake.json topology sound)" = true ] || fail "lakes and $effort effort make an unsound mesh"
   python3 - <<'PYTHON' || fail "a lake is not flat with $effort effort"
@@ -68,7 +68,7 @@ json.dump({"type": "FeatureCollection", "features": [
     open("rivers.geojson", "w"))
 PYTHON
 for effort in fast normal high; do
-  succeeds "$scarp" simplify "$dem" river.obj -e 20 --effort "$effort" --detect-flats 12 --rivers rivers.geojson --crs grid \
+  succeeds "$scarp" simplify "$dem" river.obj -e 20 --up z --effort "$effort" --detect-flats 12 --rivers rivers.geojson --crs grid \
     --report river.json --overwrite
   holds "$(json river.json max_error) <= 20"
   python3 - <<'PYTHON' || fail "a river rises with $effort effort"

@@ -127,6 +127,40 @@ TEST_P(MeshFile, BrokenMeshesAreRefused) {
 INSTANTIATE_TEST_SUITE_P(All, MeshFile, ::testing::Range(0, 10),
                          [](const auto& format) { return std::string(kNames[format.param] + 2); });
 
+TEST(MeshFiles, TurnedYUpAreReadAsTheyWere) {
+  Mesh mesh = test::sample_mesh(true);
+  mesh.positions[1] = 0;
+  Mesh turned = mesh;
+  turn_y_up(turned);
+  EXPECT_TRUE(is_y_up(turned));
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const auto p = mesh.vertex(v), q = turned.vertex(v);
+    EXPECT_EQ(q, (std::array{p[0], p[2], -p[1]}));
+  }
+  EXPECT_FALSE(std::signbit(turned.positions[2]));
+  for (const MeshFormat format : {MeshFormat::kObj, MeshFormat::kPly, MeshFormat::kStl}) {
+    const auto written = encode_mesh(turned, format);
+    ASSERT_TRUE(written);
+    EXPECT_NE(*written, *encode_mesh(mesh, format));
+    const auto back = decode_mesh(*written, "x"), plain = decode_mesh(*encode_mesh(mesh, format), "x");
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_FALSE(is_y_up(*back));
+    EXPECT_EQ(back->metadata.at("up"), "z");
+    EXPECT_TRUE(test::same_geometry(*plain, *back));
+    EXPECT_EQ(plain->metadata.count("up"), 0u);
+  }
+  for (const MeshFormat format : {MeshFormat::kGlb, MeshFormat::k2dm, MeshFormat::kVtu}) {
+    EXPECT_FALSE(encode_mesh(turned, format));
+    mesh.metadata["up"] = "z";
+    EXPECT_TRUE(encode_mesh(mesh, format));
+  }
+  Mesh placed = mesh;  // an STL header that is full
+  placed.origin = {512345.123456789, -4023456.987654321, 1234.56789012345};
+  turn_y_up(placed);
+  EXPECT_EQ(decode_mesh(*encode_mesh(placed, MeshFormat::kStl), "x.stl")->origin,
+            (std::array{512345.123456789, -4023456.987654321, 1234.56789012345}));
+}
+
 TEST(MeshFormats, AreFoundByNameAndExtension) {
   EXPECT_EQ(find_mesh_format("GLB"), MeshFormat::kGlb);
   EXPECT_EQ(find_mesh_format("/a.b/hills.Obj"), MeshFormat::kObj);

@@ -25,6 +25,22 @@ TEST(Ply, RoundTripKeepsEveryBit) {
   }
 }
 
+TEST(Ply, HasFloatsWhereTheySayItAll) {
+  const auto header_holds = [](const Mesh& mesh, bool doubles, const std::string& words) {
+    const auto bytes = encode_mesh(mesh, MeshFormat::kPly, doubles);
+    const auto back = decode_mesh(*bytes, "x.ply");
+    EXPECT_TRUE(test::same_geometry(mesh, *back));
+    return std::string(bytes->begin(), bytes->end()).find(words) != std::string::npos;
+  };
+  Mesh mesh = sample_mesh();
+  EXPECT_TRUE(header_holds(mesh, false, "property double x")) << "its origin needs them";
+  mesh.origin = {0, 0, 0};
+  EXPECT_TRUE(header_holds(mesh, false, "property float x"));
+  EXPECT_TRUE(header_holds(mesh, true, "property double x"));
+  mesh.positions[5] = 0.1;
+  EXPECT_TRUE(header_holds(mesh, false, "property double x"));
+}
+
 TEST(Ply, ReadsTextWithUnknownElementsAndPolygons) {
   const auto mesh =
       decode_mesh(to_bytes("ply\nformat ascii 1.0\ncomment crs EPSG:4326\nelement nothing 99999999999\n"

@@ -59,8 +59,9 @@ TEST_F(RasterFormats, GeoTiffTypesAndLayouts) {
       EXPECT_EQ(read->info.sample_type, type);
       EXPECT_EQ(read->info.format, "GTiff");
       EXPECT_EQ(read->info.crs, "EPSG:32611");
-      EXPECT_EQ(read->frame.kind, Frame::Kind::kSource);
-      EXPECT_EQ(read->frame.apply_affine(0, 0), (std::array<double, 2>{500015, 4099985}));
+      EXPECT_EQ(read->frame.kind, Frame::Kind::kLocal);
+      EXPECT_EQ(place_in_source(read->frame, read->info, read->rows)->origin(),
+                (std::array<double, 2>{504515, 4095785}));
     }
   }
 }

@@ -47,13 +47,127 @@ TEST_F(RasterFrames, WithoutGeoreference) {
     EXPECT_FALSE(read->info.has_georeference);
     EXPECT_TRUE(read->info.crs.empty());
   }
-  for (const std::string crs : {"source", "local", "EPSG:32611"})
-    EXPECT_EQ(read_error(path, in(crs)).kind, ErrorKind::kUsage);
+  for (const std::string crs : {"source", "EPSG:32611"}) EXPECT_EQ(read_error(path, in(crs)).kind, ErrorKind::kUsage);
+  const auto local = read_height_field(path, in("local"));
+  ASSERT_TRUE(local) << local.error().message;
+  EXPECT_EQ(local->frame.affine, (std::array<double, 6>{-20, 1, 0, 15, 0, -1}));
+}
+
+TEST_F(RasterFrames, CellsHaveTheWidthThatWasGiven) {
+  ReadOptions options;
+  options.cell_size = 0.1;
+  const auto read = read_height_field(scratch_.file("raw"), options);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->frame.kind, Frame::Kind::kLocal);
+  EXPECT_NEAR(read->frame.affine[1], 0.1, 1e-7);
+  EXPECT_EQ(read->frame.affine[5], -read->frame.affine[1]);
+  EXPECT_EQ(frame_origin(read->frame, kCols, kRows), (std::array<double, 2>{0, 0}));
+  EXPECT_TRUE(offsets_are_exact(read->frame, kCols, kRows));
+  const auto place = place_in_source(read->frame, read->info, kRows);
+  ASSERT_TRUE(place);
+  EXPECT_EQ(place->origin(), (std::array<double, 2>{20, 14}));  // as grid_frame() has it
+  EXPECT_NEAR(place->to_source[1], 10, 1e-5);
+  EXPECT_TRUE(place->crs.empty());
+
+  const std::string path = placed("EPSG:32611", "500000, 30, 0, 4100000, 0, -30");
+  const Error error = read_error(path, options);
+  EXPECT_EQ(error.kind, ErrorKind::kUsage);
+  EXPECT_TRUE(contains(error.message, "has a georeference")) << error.message;
+  options.crs = "grid";
+  options.cell_size = 8;
+  const auto cells = read_height_field(path, options);
+  ASSERT_TRUE(cells) << cells.error().message;
+  EXPECT_EQ(cells->frame.affine, (std::array<double, 6>{-160, 8, 0, 120, 0, -8}));
+  for (const double size : {0.0, -1.0, 1e-300, 1e300}) {
+    options.cell_size = size;
+    EXPECT_EQ(read_error(path, options).kind, ErrorKind::kUsage) << size;
+  }
+}
+
+TEST_F(RasterFrames, DefaultsFollowWhatReadsTheFile) {
+  const std::string projected = placed("EPSG:32611", "500000, 30, 0, 4100000, 0, -30");
+  ReadOptions options;
+  EXPECT_EQ(read_height_field(projected, options)->frame.affine, (std::array<double, 6>{-600, 30, 0, 450, 0, -30}));
+  for (const DefaultFrame frame : {DefaultFrame::kMetric, DefaultFrame::kSource}) {
+    options.default_frame = frame;
+    EXPECT_EQ(read_height_field(projected, options)->frame.kind, Frame::Kind::kSource);
+  }
+  const std::string degrees = placed("EPSG:4326", "9.98, 0.001, 0, 45.0155, 0, -0.001");
+  EXPECT_EQ(read_height_field(degrees, options)->frame.kind, Frame::Kind::kSource);
+  for (const DefaultFrame frame : {DefaultFrame::kMetric, DefaultFrame::kLocal}) {
+    options.default_frame = frame;
+    EXPECT_EQ(read_height_field(degrees, options)->frame.kind, Frame::Kind::kLocal);
+  }
+  const auto nowhere = read_height_field(placed("", "100, 2, 0, 50, 0, -2"));
+  ASSERT_TRUE(nowhere) << nowhere.error().message;
+  EXPECT_EQ(nowhere->frame.affine, (std::array<double, 6>{-40, 2, 0, 30, 0, -2}));
+  EXPECT_TRUE(contains(nowhere->frame.description, "local units")) << nowhere->frame.description;
+}
+
+TEST_F(RasterFrames, TellTheWayBackToTheSource) {
+  for (const std::string geotransform : {"500000, 30, 0, 4100000, 0, -30", "500000, 8.1, 4, 4100000, 4, -8.3"}) {
+    const auto read = read_height_field(placed("EPSG:32611", geotransform));
+    ASSERT_TRUE(read) << read.error().message;
+    const auto place = place_in_source(read->frame, read->info, kRows);
+    ASSERT_TRUE(place);
+    EXPECT_EQ(place->crs, "EPSG:32611");
+    const Frame source = read_height_field(placed("EPSG:32611", geotransform), in("source"))->frame;
+    for (const auto& [col, row] : {std::pair{0.0, 0.0}, {40.0, 0.0}, {13.5, 29.0}}) {
+      const auto [x, y] = read->frame.apply_affine(col, row);
+      const auto& t = place->to_source;
+      const auto there = source.apply_affine(col, row);
+      EXPECT_NEAR(t[0] + t[1] * x + t[2] * y, there[0], 1e-8);
+      EXPECT_NEAR(t[3] + t[4] * x + t[5] * y, there[1], 1e-8);
+    }
+    EXPECT_EQ(place_in_source(source, read->info, kRows)->to_source, (std::array<double, 6>{0, 1, 0, 0, 0, 1}));
+  }
+  const auto bent = read_height_field(placed("EPSG:4326", "9.98, 0.001, 0, 45.0155, 0, -0.001"), in("32632"));
+  ASSERT_TRUE(bent) << bent.error().message;
+  EXPECT_EQ(bent->frame.crs, "EPSG:32632");
+  EXPECT_FALSE(place_in_source(bent->frame, bent->info, kRows));
+}
+
+TEST_F(RasterFrames, HeightsAreScaled) {
+  const std::string path = placed("EPSG:32611", "500000, 30, 0, 4100000, 0, -30",
+                                  "<UnitType>ft</UnitType><NoDataValue>7</NoDataValue><Scale>2</Scale>");
+  ReadOptions options;
+  options.z_scale = 0.3048;
+  options.z_offset = 100;
+  const auto whole = read_height_field(path, options);
+  ASSERT_TRUE(whole) << whole.error().message;
+  EXPECT_TRUE(std::isnan(whole->samples[7])) << "nodata is the file's value";
+  EXPECT_EQ(whole->samples[8], static_cast<float>(8 * (2 * 0.3048) + 100));
+  EXPECT_GT(whole->sample_rounding, 0);
+  EXPECT_EQ(whole->info.max, whole->samples.back());
+  EXPECT_EQ(whole->info.unit, "m");
+  EXPECT_FALSE(warns(whole->info, "z is in")) << "feet have become metres";
+  options.run.memory.limit = 100;
+  const auto streamed = open_height_field(path, options);
+  ASSERT_TRUE(streamed) << streamed.error().message;
+  ASSERT_TRUE(streamed->source);
+  std::vector<float> samples(whole->samples.size());
+  ASSERT_TRUE(streamed->source->read(0, 0, kCols, kRows, samples.data(), kCols));
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (k != 7) EXPECT_EQ(samples[k], whole->samples[k]);
+  }
+  EXPECT_EQ(streamed->sample_rounding, whole->sample_rounding);
+  options.run.memory.limit = 0;
+  options.z_scale = 3;
+  EXPECT_TRUE(read_height_field(path, options)->info.unit.empty()) << "nobody knows it";
+
+  testing::write_text(scratch_.file("dem.pgm"), "P2 2 2 255\n1 2 3 4\n");
+  options.z_scale = -0.1;
+  options.nodata = 3;
+  const auto pgm = read_height_field(scratch_.file("dem.pgm"), options);
+  ASSERT_TRUE(pgm) << pgm.error().message;
+  EXPECT_EQ(pgm->samples[0], static_cast<float>(99.9));
+  EXPECT_TRUE(std::isnan(pgm->samples[2]));
+  EXPECT_EQ(pgm->info.z_scale, -0.1);
 }
 
 TEST_F(RasterFrames, ProjectedKeepsItsCoordinates) {
   const std::string path = placed("EPSG:32611", "500000, 30, 0, 4100000, 0, -30");
-  for (const std::string crs : {"", "source", "EPSG:32611", "+proj=utm +zone=11 +datum=WGS84"}) {
+  for (const std::string crs : {"source", "EPSG:32611", "32611", "+proj=utm +zone=11 +datum=WGS84"}) {
     const auto read = read_height_field(path, in(crs));
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->frame.kind, Frame::Kind::kSource) << crs;
@@ -70,7 +184,7 @@ TEST_F(RasterFrames, ProjectedKeepsItsCoordinates) {
 }
 
 TEST_F(RasterFrames, RotatedAndSouthUp) {
-  const auto turned = read_height_field(placed("EPSG:32611", "500000, 8, 4, 4100000, 4, -8"));
+  const auto turned = read_height_field(placed("EPSG:32611", "500000, 8, 4, 4100000, 4, -8"), in("source"));
   ASSERT_TRUE(turned) << turned.error().message;
   EXPECT_EQ(turned->frame.affine, (std::array<double, 6>{500006, 8, 4, 4099998, 4, -8}));
   EXPECT_EQ(turned->info.cell_x, std::hypot(8, 4));

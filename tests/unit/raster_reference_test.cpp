@@ -65,8 +65,10 @@ constexpr Row kTable[] = {
 TEST(RasterReference, TheTableHolds) {
   const std::string folder = testing::reference_folder();
   if (folder.empty()) GTEST_SKIP() << "the shared rasters are not here";
+  ReadOptions options;
+  options.default_frame = DefaultFrame::kMetric;
   for (const Row& row : kTable) {
-    const auto read = read_height_field(folder + row.file);
+    const auto read = read_height_field(folder + row.file, options);
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(read->cols, row.cols) << row.file;
     EXPECT_EQ(read->rows, row.rows) << row.file;

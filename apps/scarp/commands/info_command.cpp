@@ -7,6 +7,7 @@
 #include <fstream>
 #include <utility>
 
+#include "inputs/heightmap.h"
 #include "options/option_table.h"
 #include "reports/info_report.h"
 #include "terminal/progress_display.h"
@@ -53,8 +54,9 @@ Result<void> InfoCommand::run(const std::string& command_line) const {
   if (!read) return tl::unexpected(std::move(read.error()));
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
   read->run.progress = display.callback();
-  const Result<OwnedHeightField> field = read_height_field(raster_.path, *read);
+  Result<OwnedHeightField> field = read_height_field(raster_.path, *read);
   if (!field) return tl::unexpected(field.error());
+  if (const auto needle = find_needle(*field, field->info)) field->info.warnings.push_back(*needle);
   if (!json_) {
     display.finish();
     if (!quiet_) print_warnings(field->info.warnings);
@@ -76,6 +78,9 @@ Result<void> InfoCommand::refuse(const char* kind, bool takes_crs) const {
   const std::pair<const char*, bool> given[] = {{"--band", raster_.band.has_value()},
                                                 {"--nodata", raster_.nodata.has_value()},
                                                 {"--decode", raster_.decode.has_value()},
+                                                {"--z-scale", raster_.z_scale.has_value()},
+                                                {"--z-offset", raster_.z_offset.has_value()},
+                                                {"--cell-size", raster_.cell_size.has_value()},
                                                 {"--crs", raster_.crs.has_value() && !takes_crs}};
   for (const auto& [name, is_given] : given) {
     if (is_given)

@@ -5,7 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "inputs/mesh_place.h"
 #include "options/option_table.h"
+#include "options/output_kind.h"
 #include "reports/measure_report.h"
 #include "reports/pictures.h"
 #include "reports/report.h"
@@ -49,6 +51,7 @@ MeasureCommand::MeasureCommand(CLI::App& program) : command_(add_command(program
   add_option(*command_, OptionId::kRaster, raster_.path);
   add_option(*command_, OptionId::kMesh, mesh_);
   raster_.add_to(*command_);
+  add_option(*command_, OptionId::kUp, up_);
   points_.add_to(*command_);
   add_option(*command_, OptionId::kFailAbove, fail_above_);
   companions_.add_to(*command_);
@@ -135,18 +138,21 @@ Result<void> MeasureCommand::write_files(const Judged& judged, StreamedErrors& s
 }
 
 Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judged& judged) const {
-  Result<ReadOptions> read = raster_.parse();
-  if (!read) return tl::unexpected(std::move(read.error()));
-  judged.band = read->band;
-  read->run.progress = progress;
   Result<Mesh> mesh = read_mesh(mesh_);
   if (!mesh) return tl::unexpected(std::move(mesh.error()));
   judged.mesh = std::move(*mesh);
+  turn_up(judged.is_y_up, judged.mesh);
   undo_placement(judged.mesh);
+  const RasterArguments asked = remember(judged.mesh);
+  const bool crs_from_mesh = asked.crs && !raster_.crs;
+  Result<ReadOptions> read = asked.parse();
+  if (!read) {
+    read.error().message += fmt::format("; {} says so of itself, the option overrides it", mesh_);
+    return tl::unexpected(std::move(read.error()));
+  }
+  judged.band = read->band;
+  read->run.progress = progress;
   read->with_range = judged.goal && judged.goal->percent_of_relief;
-  const auto crs_of_mesh = judged.mesh.metadata.find("crs_option");
-  const bool crs_from_mesh = !raster_.crs && crs_of_mesh != judged.mesh.metadata.end();
-  if (crs_from_mesh) read->crs = crs_of_mesh->second;
   Result<void> has_field = read_field(*read, judged);
   if (!has_field) {
     if (crs_from_mesh && has_field.error().kind == ErrorKind::kUsage) {
@@ -154,6 +160,7 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
     }
     return has_field;
   }
+  if (!asked.crs) fit_frame(judged.mesh, judged.field);
   if (!judged.channels.empty()) {
     const Result<void> restored = restore_channels(judged.mesh, judged.channels, mesh_);
     if (!restored) return restored;
@@ -183,6 +190,26 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
   judged.warnings = judged.field.info.warnings;
   judged.warnings.insert(judged.warnings.end(), judged.companions.warnings.begin(), judged.companions.warnings.end());
   return {};
+}
+
+RasterArguments MeasureCommand::remember(const Mesh& mesh) const {
+  RasterArguments asked = raster_;
+  const std::pair<const char*, Given*> options[] = {{"crs_option", &asked.crs},
+                                                    {"z_scale", &asked.z_scale},
+                                                    {"z_offset", &asked.z_offset},
+                                                    {"cell_size", &asked.cell_size}};
+  for (const auto& [key, option] : options) {
+    const auto entry = mesh.metadata.find(key);
+    if (!*option && entry != mesh.metadata.end()) *option = entry->second;
+  }
+  return asked;
+}
+
+void MeasureCommand::turn_up(bool is_y_up, Mesh& mesh) const {
+  // A file that says which axis is up has been turned as it says.
+  if (!is_y_up || mesh.metadata.contains("up") || find_mesh_format(mesh_) == MeshFormat::kGlb) return;
+  mesh.metadata["up"] = *up_;
+  undo_y_up(mesh);
 }
 
 Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judged) const {
@@ -271,6 +298,9 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
   if (!read) return tl::unexpected(read.error());
   const Result<int> threads = parse_threads(threads_);
   if (!threads) return tl::unexpected(threads.error());
+  const Result<bool> is_y_up = parse_up(up_);
+  if (!is_y_up) return tl::unexpected(is_y_up.error());
+  judged.is_y_up = *is_y_up;
   Result<ChannelPlan> plan = channels_.parse(raster_);
   if (!plan) return tl::unexpected(std::move(plan.error()));
   judged.plan = std::move(*plan);
@@ -305,10 +335,8 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
   complete_info(judged.judgement.heights.heights, judged.field.info);
   judged.seconds_measure = seconds_since(measure_start);
   decide(judged);
-  if (judged.judgement.heights.samples == 0) {
-    judged.warnings.push_back(fmt::format(
-        "no sample of {} is covered by {}: do they have the same coordinates (--crs)?", raster_.path, mesh_));
-  }
+  if (judged.judgement.heights.samples == 0)
+    judged.broken = describe_elsewhere(extent_of(judged.mesh), extent_of(judged.field.view()), raster_.path);
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
   const Result<void> files = write_files(judged, *errors);
   if (!files) return files;

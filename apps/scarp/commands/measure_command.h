@@ -33,6 +33,10 @@ class MeasureCommand {
   Result<void> check_order() const;
   Result<void> check_outputs_of_run() const;
   Result<void> read_inputs(const ProgressCallback& progress, Judged& judged) const;
+  /// The raster's options, with what the mesh says of itself where they were not given.
+  RasterArguments remember(const Mesh& mesh) const;
+  /// Turns a mesh that does not say which axis is up.
+  void turn_up(bool is_y_up, Mesh& mesh) const;
   Result<void> read_field(const ReadOptions& options, Judged& judged) const;
   /// The first option that was given and needs all samples in memory; nothing if there is none.
   std::optional<std::string> find_need_of_samples() const;
@@ -53,7 +57,7 @@ class MeasureCommand {
   CutlineArguments cut_;
   ChannelArguments channels_;
   MemoryArguments memory_;
-  Given map_, error_raster_, fail_above_, threads_;
+  Given up_, map_, error_raster_, fail_above_, threads_;
   bool json_ = false, overwrite_ = false, quiet_ = false, json_progress_ = false;
 };
 

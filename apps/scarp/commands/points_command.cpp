@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "inputs/mesh_place.h"
 #include "reports/points_report.h"
 #include "reports/report.h"
 #include "terminal/clock.h"
@@ -21,9 +22,9 @@ namespace {
 
 /// Points have no use for many of the command's options; silence would be a lie.
 Result<void> refuse_raster_options(const CLI::App& command, const std::string& path) {
-  constexpr std::array<std::string_view, 17> kMeant{
-      "--max-error",     "--max-triangles", "--max-points",  "--crs",        "--of",     "--base",
-      "--report",        "--overwrite",     "--num-threads", "--quiet",      "--points", "--layer",
+  constexpr std::array<std::string_view, 19> kMeant{
+      "--max-error",     "--max-triangles", "--max-points",  "--crs",        "--of",     "--base",  "--up",
+      "--report",        "--overwrite",     "--num-threads", "--quiet",      "--points", "--layer", "--double",
       "--json-progress", "--duplicates",    "--z-field",     "--fail-above", "--json"};
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
@@ -48,9 +49,10 @@ Result<PointSet> read(const std::string& path, const PointsArguments& arguments,
                             .progress = progress});
 }
 
-/// As --crs: points, unlike rasters, always have coordinates of their own.
+/// As --crs; empty: local for degrees, else the points' own.
 std::string crs_option(const SimplifyPlan& plan) {
-  return plan.read.crs.empty() && plan.read.keep_degrees ? "source" : plan.read.crs;
+  if (!plan.read.crs.empty()) return plan.read.crs;
+  return plan.read.default_frame == DefaultFrame::kSource ? "source" : "";
 }
 
 std::string canonical_command(const SimplifyPlan& plan, const PointsArguments& arguments) {
@@ -75,7 +77,8 @@ void add_metadata(const SimplifyPlan& plan, const PointsArguments& arguments, Po
 Result<ReadyFile> encode(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
   if (auto finished = finish_mesh(plan, outcome); !finished) return tl::unexpected(std::move(finished.error()));
   add_metadata(plan, arguments, outcome);
-  auto bytes = encode_as(plan.format, outcome.simplified.mesh);
+  turn_as_planned(plan, outcome.simplified.mesh);
+  auto bytes = encode_as(plan.format, outcome.simplified.mesh, plan.doubles);
   if (!bytes) return tl::unexpected(std::move(bytes.error()));
   return ReadyFile{plan.output, plan.format.name(), std::move(*bytes)};
 }
@@ -128,6 +131,9 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
   if (!points) return tl::unexpected(std::move(points.error()));
   outcome.points = std::move(*points);
   if (auto checked = check_crs_of(plan->format, outcome.points.crs, ""); !checked) return checked;
+  auto projection = plan_projection_file(*plan, outcome.points.crs);
+  if (!projection) return tl::unexpected(std::move(projection.error()));
+  outcome.projection = std::move(*projection);
   outcome.warnings = plan->warnings;
   outcome.warnings.insert(outcome.warnings.end(), outcome.points.warnings.begin(), outcome.points.warnings.end());
   const HeightRange heights = height_range(outcome.points);
@@ -142,7 +148,7 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
   options.max_error = outcome.asked;
   options.max_triangles = plan->simplify.goals.max_triangles;
   options.max_vertices = plan->simplify.goals.max_vertices;
-  options.float32_positions = plan->simplify.output.float32_positions;
+  options.float32_positions = plan->format.is_float32();  // points do not lie where float32 is exact
   options.duplicates = outcome.policy;
   options.run.threads = plan->simplify.run.threads;
   options.run.progress = display.callback();
@@ -163,9 +169,12 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
   const Clock::time_point write_start = Clock::now();
   Result<ReadyFile> file = encode(*plan, arguments, outcome);
   if (!file) return tl::unexpected(std::move(file.error()));
-  const std::vector<ReadyFile> files{std::move(*file)};
+  std::vector<ReadyFile> files{std::move(*file)};
+  if (outcome.projection) files.push_back(ready(*outcome.projection));
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
-  const Result<void> written = write_file(plan->output, files.front().bytes, plan->overwrite);
+  std::vector<FileBytes> named;
+  for (const ReadyFile& each : files) named.push_back({each.path, each.bytes});
+  const Result<void> written = write_files(named, plan->overwrite);
   if (!written) return written;
   outcome.seconds_write = seconds_since(write_start);
   outcome.seconds_total = seconds_since(start);
@@ -233,8 +242,7 @@ Result<void> run_measure_points(const CLI::App& command, const MeasurePointsArgu
   judged.seconds_measure = seconds_since(measure_start);
   if (judged.fail_above) judged.broken = find_broken(judged.points, judged.measured, *judged.fail_above);
   if (judged.measured.samples == 0)
-    judged.points.warnings.push_back(fmt::format(
-        "no point of {} is covered by {}: do they have the same coordinates (--crs)?", given.path, given.mesh));
+    judged.broken = describe_elsewhere(extent_of(judged.mesh), extent_of(judged.points), given.path);
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
   display.finish();
   judged.seconds_total = seconds_since(start);

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "inputs/heightmap.h"
 #include "inputs/waters.h"
 #include "options/conflicts.h"
 #include "options/option_table.h"
@@ -275,7 +276,11 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   if (!has_place) return has_place;
   const Frame& frame = outcome.field.frame;
   if (auto checked = check_crs_of(plan->format, frame.crs, outcome.as_read.unit); !checked) return checked;
-  if (plan->format.is_landxml() && frame.kind == Frame::Kind::kLocal && plan->read.crs.empty()) {
+  auto projection = plan_projection_file(*plan, frame.crs);
+  if (!projection) return tl::unexpected(std::move(projection.error()));
+  outcome.projection = std::move(*projection);
+  if (plan->format.is_landxml() && frame.kind == Frame::Kind::kLocal && outcome.as_read.is_geographic &&
+      plan->read.crs.empty()) {
     plan->warnings.push_back(
         "LandXML has no degrees: the surface is in metres around the raster's centre; a projected CRS (--crs) puts it "
         "in its place");
@@ -323,6 +328,8 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   const Result<void> promise = check_promise(outcome);
   if (!promise) return promise;
   outcome.warnings = plan->warnings;
+  const auto needle = plan->channels.image ? std::nullopt : find_needle(field, outcome.as_read);
+  if (needle) outcome.warnings.push_back(*needle);
   std::vector<const std::vector<std::string>*> sources{&outcome.as_read.warnings, &outcome.companions.warnings};
   if (!plan->channels.image) sources.push_back(&outcome.channels.bands.info.warnings);
   for (const std::vector<std::string>* more : sources) {

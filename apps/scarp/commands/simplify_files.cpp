@@ -14,13 +14,28 @@
 namespace scarp::cli {
 namespace {
 
+/// What measure needs as --crs.
+std::string crs_option(const SimplifyPlan& plan, const Frame& frame) {
+  if (!plan.read.crs.empty()) return plan.read.crs;
+  if (frame.kind == Frame::Kind::kGrid) return "grid";
+  return frame.kind == Frame::Kind::kLocal ? "local" : "source";
+}
+
 void add_metadata(const SimplifyPlan& plan, Outcome& outcome) {
   const Measurement& measured = outcome.simplified.measurement;
   const Frame& frame = outcome.field.frame;
-  const bool keeps_degrees = plan.read.keep_degrees && plan.read.crs.empty() && frame.kind == Frame::Kind::kSource;
-  add_origin(plan.canonical_command, frame.description, frame.crs, keeps_degrees ? "source" : plan.read.crs,
-             outcome.simplified.mesh);
+  add_origin(plan.canonical_command, frame.description, frame.crs, crs_option(plan, frame), outcome.simplified.mesh);
   std::map<std::string, std::string>& metadata = outcome.simplified.mesh.metadata;
+  Json place;
+  add_place(place, place_in_source(frame, outcome.as_read, outcome.field.rows));
+  if (!place["to_source"].is_null()) {
+    metadata["origin"] = place["origin"].dump();
+    if (!place["origin_crs"].is_null()) metadata["origin_crs"] = place["origin_crs"];
+    metadata["to_source"] = place["to_source"].dump();
+  }
+  if (plan.read.z_scale != 1) metadata["z_scale"] = Json(plan.read.z_scale).dump();
+  if (plan.read.z_offset != 0) metadata["z_offset"] = Json(plan.read.z_offset).dump();
+  if (plan.read.cell_size) metadata["cell_size"] = Json(*plan.read.cell_size).dump();
   if (!outcome.as_read.unit.empty()) metadata["unit"] = outcome.as_read.unit;
   Json error;
   error["asked"] = outcome.asked ? Json(*outcome.asked) : Json(nullptr);
@@ -115,12 +130,13 @@ Result<void> add_error_raster(const SimplifyPlan& plan, const ProgressCallback& 
 }
 
 /// The print tiles, with the terrain's metadata.
-std::vector<Mesh> named_solids(const Outcome& outcome) {
+std::vector<Mesh> named_solids(const SimplifyPlan& plan, const Outcome& outcome) {
   std::vector<Mesh> solids;
   const bool is_whole = outcome.print->tiles.size() == 1 && outcome.print->empty_tiles == 0;
   for (const PrintTile& tile : outcome.print->tiles) {
     solids.push_back(tile.mesh);
     solids.back().metadata.insert(outcome.simplified.mesh.metadata.begin(), outcome.simplified.mesh.metadata.end());
+    turn_as_planned(plan, solids.back());
     solids.back().metadata["name"] = is_whole ? "terrain" : fmt::format("r{}-c{}", tile.row, tile.column);
   }
   return solids;
@@ -129,10 +145,10 @@ std::vector<Mesh> named_solids(const Outcome& outcome) {
 /// A file for each print tile; the first file is OUTPUT's, whose place the first of them takes.
 Result<void> encode_print_tiles(const SimplifyPlan& plan, const Outcome& outcome, std::vector<ReadyFile>& files) {
   const std::vector<std::string> paths = print_paths(plan, *outcome.print);
-  const std::vector<Mesh> solids = named_solids(outcome);
+  const std::vector<Mesh> solids = named_solids(plan, outcome);
   std::vector<ReadyFile> tiles;
   for (std::size_t k = 0; k < solids.size(); ++k) {
-    Result<std::vector<std::uint8_t>> bytes = encode_mesh(solids[k], plan.format.mesh);
+    Result<std::vector<std::uint8_t>> bytes = encode_mesh(solids[k], plan.format.mesh, plan.doubles);
     if (!bytes) return tl::unexpected(std::move(bytes.error()));
     tiles.push_back({paths[k], plan.format.name(), std::move(*bytes)});
   }
@@ -161,9 +177,9 @@ Result<void> encode_output(const SimplifyPlan& plan, const Outcome& outcome, Rea
     file.raster = std::move(*raster);
     return {};
   }
-  Result<std::vector<std::uint8_t>> bytes = outcome.print ? encode_3mf(named_solids(outcome))
+  Result<std::vector<std::uint8_t>> bytes = outcome.print ? encode_3mf(named_solids(plan, outcome))
                                             : is_dem      ? encode_dem(plan, outcome)
-                                                          : encode_as(plan.format, mesh);
+                                                          : encode_as(plan.format, mesh, plan.doubles);
   if (!bytes) return tl::unexpected(std::move(bytes.error()));
   file.bytes = std::move(*bytes);
   return {};
@@ -189,7 +205,9 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
       return tl::unexpected(std::move(encoded.error()));
     return files;
   }
+  turn_as_planned(plan, mesh);
   if (auto encoded = encode_output(plan, outcome, files.front()); !encoded) return tl::unexpected(encoded.error());
+  if (outcome.projection) files.push_back(ready(*outcome.projection));
   return files;
 }
 

@@ -22,6 +22,8 @@ const char* end_of_effort() { return content_with_interrupt() ? "the interrupt" 
 
 }  // namespace
 
+ReadyFile ready(const ProjectionFile& file) { return {file.path, "prj", {file.text.begin(), file.text.end()}}; }
+
 Result<void> finish_mesh(const SimplifyPlan& plan, SimplifyRun& run) {
   Mesh& mesh = run.simplified.mesh;
   run.vertices = mesh.vertex_count();
@@ -40,6 +42,10 @@ void add_origin(const std::string& command, const std::string& frame, const std:
   mesh.metadata["frame"] = frame;
   if (!crs.empty()) mesh.metadata["crs"] = crs;
   if (!crs_option.empty()) mesh.metadata["crs_option"] = crs_option;
+}
+
+void turn_as_planned(const SimplifyPlan& plan, Mesh& mesh) {
+  if (plan.is_y_up) turn_y_up(mesh);
 }
 
 Json describe_goal(const SimplifyPlan& plan, const SimplifyRun& run) {

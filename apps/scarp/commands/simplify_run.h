@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/projection_file.h"
 #include "commands/solid_run.h"
 #include "options/simplify_plan.h"
 #include "reports/json.h"
@@ -25,12 +26,15 @@ struct ReadyFile {
   std::uint64_t size() const { return raster ? raster->size() : bytes.size(); }
 };
 
+ReadyFile ready(const ProjectionFile& file);
+
 struct SimplifyRun {
   std::optional<double> asked;  ///< max error in z units
   Simplified simplified;
   std::uint64_t vertices = 0, triangles = 0;              ///< of the terrain
   std::uint64_t solid_vertices = 0, solid_triangles = 0;  ///< with --base
   std::optional<Print> print;                             ///< with --solid
+  std::optional<ProjectionFile> projection;               ///< beside OUTPUT
   std::vector<std::string> warnings;
   double seconds_read = 0, seconds_write = 0, seconds_total = 0;
 };
@@ -40,6 +44,8 @@ Result<void> finish_mesh(const SimplifyPlan& plan, SimplifyRun& run);
 /// Writes into the mesh who made it, how, and in which frame; `crs_option` is what measure() needs as --crs, or empty.
 void add_origin(const std::string& command, const std::string& frame, const std::string& crs,
                 const std::string& crs_option, Mesh& mesh);
+/// The mesh as it is written: y up, if that was asked for.
+void turn_as_planned(const SimplifyPlan& plan, Mesh& mesh);
 
 /// The "goal", "passes", "seconds" and "outputs" of the report; "solid", where there is one.
 Json describe_goal(const SimplifyPlan& plan, const SimplifyRun& run);

@@ -10,7 +10,7 @@ constexpr CommandRow kCommandRows[] = {
      "Examples:\n"
      "  scarp simplify dem.tif hills.glb -e 1                  every sample within 1 m\n"
      "  scarp simplify dem.tif hills.glb -e 1 --effort high    fewer triangles, more time\n"
-     "  scarp simplify dem.tif hills.obj -e 0.5% --crs local   half a percent of the relief, for viewers\n"
+     "  scarp simplify dem.tif hills.obj -e 0.5%               half a percent of the relief\n"
      "  scarp simplify dem.tif hills.glb -t 50k --preview hills.png --report hills.json\n"
      "  scarp simplify dem.tif flood.2dm -e 0.5 --breaklines dikes.gpkg --min-angle 25\n"
      "  scarp simplify dem.tif print.3mf -e 0.1mm --solid size=120mm\n"

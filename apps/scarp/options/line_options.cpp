@@ -131,6 +131,10 @@ Result<LineConstraints> LineArguments::read(const RasterInfo& raster, int rows, 
   auto lines = read_files(breaklines, options, warnings);
   if (!lines) return tl::unexpected(std::move(lines.error()));
   constraints.lines = std::move(*lines);
+  // Their heights are the file's, as the raster's are.
+  for (Line& each : constraints.lines) {
+    for (auto& point : each.points) point[2] = raster.z_scale * point[2] + raster.z_offset;
+  }
   return constraints;
 }
 

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <tuple>
 
 #include "options/option_table.h"
 
@@ -47,6 +48,27 @@ std::optional<double> find_rounded_count(std::string_view text) {
   const std::optional<double> number = find_number(text);
   if (!number || std::isnan(*number)) return std::nullopt;
   return *number * factor;
+}
+
+/// --z-scale, --z-offset and --cell-size.
+Result<void> parse_heights(const RasterArguments& given, ReadOptions& options) {
+  for (const auto& [name, text, value] : {std::tuple{"--z-scale", &given.z_scale, &options.z_scale},
+                                          std::tuple{"--z-offset", &given.z_offset, &options.z_offset}}) {
+    if (!*text) continue;
+    const Result<double> number = parse_number(name, **text);
+    if (!number) return tl::unexpected(number.error());
+    *value = *number;
+  }
+  if (options.z_scale == 0)
+    return fail(ErrorKind::kUsage, "--z-scale 0 makes all heights equal: give a factor other than 0");
+  if (!given.cell_size) return {};
+  const Result<double> cell = parse_number("--cell-size", *given.cell_size);
+  if (!cell) return tl::unexpected(cell.error());
+  if (*cell <= 0)
+    return fail(ErrorKind::kUsage,
+                fmt::format("--cell-size {} is not above 0: give the width of a cell", *given.cell_size));
+  options.cell_size = *cell;
+  return {};
 }
 
 }  // namespace
@@ -172,6 +194,16 @@ void RasterArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kNodata, nodata);
   add_option(command, OptionId::kDecode, decode);
   add_option(command, OptionId::kCrs, crs);
+  add_option(command, OptionId::kZScale, z_scale);
+  add_option(command, OptionId::kZOffset, z_offset);
+  add_option(command, OptionId::kCellSize, cell_size);
+}
+
+std::string RasterArguments::canonical() const {
+  return canonical_option("--band", band) + canonical_option("--nodata", nodata) +
+         canonical_option("--decode", decode) + canonical_option("--crs", crs) +
+         canonical_option("--z-scale", z_scale) + canonical_option("--z-offset", z_offset) +
+         canonical_option("--cell-size", cell_size);
 }
 
 Result<ReadOptions> RasterArguments::parse() const {
@@ -210,6 +242,7 @@ Result<ReadOptions> RasterArguments::parse() const {
     if (crs->empty()) return fail(ErrorKind::kUsage, "--crs is empty: choose source, local, grid or a CRS");
     options.crs = *crs;
   }
+  if (auto heights = parse_heights(*this, options); !heights) return tl::unexpected(heights.error());
   return options;
 }
 

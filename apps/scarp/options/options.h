@@ -86,11 +86,13 @@ Error name_goal(const ErrorGoal& goal, double relief, Error error);
 /// The options of every command that reads a raster.
 struct RasterArguments {
   std::string path;
-  Given band, nodata, decode, crs;
+  Given band, nodata, decode, crs, z_scale, z_offset, cell_size;
 
   /// Adds the options; the path is an argument of its own.
   void add_to(CLI::App& command);
   Result<ReadOptions> parse() const;
+  /// " --band 2 --crs local": those that were given.
+  std::string canonical() const;
 };
 
 /// A file that the run will write, and the option that asked for it ("OUTPUT", "--report", …).

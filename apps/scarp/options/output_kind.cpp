@@ -20,20 +20,24 @@ struct MeshRow {
   const char* name;
   const char* title;
   std::uint64_t bytes_per_vertex;
-  bool holds_attributes, is_on_maps;
+  bool holds_attributes;
+  DefaultFrame frame;
+  const char* up;
+  bool has_choice_of_up;
 };
-constexpr MeshRow kMeshRows[] = {{MeshFormat::kGlb, "glb", "GLB", 80, true, false},
-                                 {MeshFormat::kObj, "obj", "OBJ", 190, true, false},
-                                 {MeshFormat::kPly, "ply", "PLY", 100, true, false},
-                                 {MeshFormat::kStl, "stl", "STL", 220, false, false},
-                                 {MeshFormat::kTin, "tin", "TIN", 400, false, false},
-                                 {MeshFormat::k2dm, "2dm", "2DM", 260, false, true},
-                                 {MeshFormat::kVtu, "vtu", "VTU", 120, true, false},
-                                 {MeshFormat::kVtp, "vtp", "VTP", 120, true, false},
-                                 {MeshFormat::kLandXml, "landxml", "LandXML", 260, false, false},
-                                 {MeshFormat::kDxf, "dxf", "DXF", 900, false, true},
-                                 {MeshFormat::kGpkg, "gpkg", "GeoPackage", 1200, false, true},
-                                 {MeshFormat::k3mf, "3mf", "3MF", 400, false, false}};
+constexpr MeshRow kMeshRows[] = {
+    {MeshFormat::kGlb, "glb", "GLB", 80, true, DefaultFrame::kLocal, "y", false},
+    {MeshFormat::kObj, "obj", "OBJ", 190, true, DefaultFrame::kLocal, "y", true},
+    {MeshFormat::kPly, "ply", "PLY", 100, true, DefaultFrame::kLocal, "z", true},
+    {MeshFormat::kStl, "stl", "STL", 220, false, DefaultFrame::kLocal, "z", true},
+    {MeshFormat::kTin, "tin", "TIN", 400, false, DefaultFrame::kMetric, "z", false},
+    {MeshFormat::k2dm, "2dm", "2DM", 260, false, DefaultFrame::kSource, "z", false},
+    {MeshFormat::kVtu, "vtu", "VTU", 120, true, DefaultFrame::kMetric, "z", false},
+    {MeshFormat::kVtp, "vtp", "VTP", 120, true, DefaultFrame::kMetric, "z", false},
+    {MeshFormat::kLandXml, "landxml", "LandXML", 260, false, DefaultFrame::kMetric, "z", false},
+    {MeshFormat::kDxf, "dxf", "DXF", 900, false, DefaultFrame::kSource, "z", false},
+    {MeshFormat::kGpkg, "gpkg", "GeoPackage", 1200, false, DefaultFrame::kSource, "z", false},
+    {MeshFormat::k3mf, "3mf", "3MF", 400, false, DefaultFrame::kLocal, "z", false}};
 
 const MeshRow& row_of(MeshFormat format) {
   for (const MeshRow& row : kMeshRows) {
@@ -107,7 +111,33 @@ bool OutputFormat::holds_prints() const {
          (mesh == MeshFormat::kStl || mesh == MeshFormat::k3mf || mesh == MeshFormat::kObj || mesh == MeshFormat::kPly);
 }
 
-bool OutputFormat::is_on_maps() const { return is_mesh() && row_of(mesh).is_on_maps; }
+DefaultFrame OutputFormat::default_frame() const { return is_mesh() ? row_of(mesh).frame : DefaultFrame::kMetric; }
+
+bool OutputFormat::has_projection_beside() const {
+  return is_mesh() && (mesh == MeshFormat::k2dm || mesh == MeshFormat::kDxf || mesh == MeshFormat::kTin ||
+                       mesh == MeshFormat::kLandXml);
+}
+
+Result<bool> parse_up(const Given& up) {
+  constexpr Choice<bool> kAxes[] = {{"y", true}, {"z", false}};
+  return up ? choose("--up", *up, kAxes) : Result<bool>(false);
+}
+
+Result<bool> choose_y_up(const Given& up, const OutputFormat& format, bool is_print) {
+  const MeshRow& row = row_of(format.mesh);
+  if (!format.is_mesh()) {
+    if (up) return fail(ErrorKind::kUsage, fmt::format("--up is for meshes, and OUTPUT is {}", format.title()));
+    return false;
+  }
+  if (!up) return row.has_choice_of_up && !is_print && *row.up == 'y';
+  const Result<bool> is_y = parse_up(up);
+  if (!is_y) return is_y;
+  if (!row.has_choice_of_up && *up != row.up) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("--up {}: {} is always {} up; choose .obj, .ply or .stl", *up, row.title, row.up));
+  }
+  return row.has_choice_of_up && *is_y;
+}
 
 Result<OutputFormat> choose_output_format(const Given& of, const std::string& output) {
   if (output.empty()) return fail(ErrorKind::kUsage, "the name of OUTPUT is empty");
@@ -151,10 +181,10 @@ Result<void> close_with_base(Mesh& mesh, double base) {
               fmt::format("--base {:.10g} is not below the lowest vertex, which is at {:.10g}", base, lowest));
 }
 
-Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh) {
+Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh, bool doubles) {
   if (format.kind == OutputKind::kSvg) return encode_svg(mesh);
   if (format.kind == OutputKind::kEps) return encode_eps(mesh);
-  return encode_mesh(mesh, format.mesh);
+  return encode_mesh(mesh, format.mesh, doubles);
 }
 
 }  // namespace scarp::cli

@@ -34,9 +34,19 @@ struct OutputFormat {
   bool holds_prints() const;
   /// Has a place for normals, uvs and colours.
   bool holds_attributes() const;
-  /// Is laid on maps: x and y are the raster's own, degrees too, unless a CRS was asked for.
-  bool is_on_maps() const;
+  /// Where x and y are unless a CRS was asked for.
+  DefaultFrame default_frame() const;
+  bool is_ply() const { return is_mesh() && mesh == MeshFormat::kPly; }
+  /// Has a CRS, and no place for it that all who read the format look at: a .prj file tells it.
+  bool has_projection_beside() const;
 };
+
+/// Whether --up says y.
+Result<bool> parse_up(const Given& up);
+
+/// Whether the mesh is turned y up before it is written, by --up or as those who read the format expect it. Not for
+/// GLB, whose writer does that itself. kUsage if the format knows one axis only, and it is the other.
+Result<bool> choose_y_up(const Given& up, const OutputFormat& format, bool is_print);
 
 /// By --of if it was given, else by the output's extension.
 Result<OutputFormat> choose_output_format(const Given& of, const std::string& output);
@@ -49,6 +59,6 @@ Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, co
 Result<void> close_with_base(Mesh& mesh, double base);
 
 /// The file's bytes. REQUIRES: not a kDem.
-Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh);
+Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh, bool doubles = false);
 
 }  // namespace scarp::cli

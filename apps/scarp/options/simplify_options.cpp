@@ -24,6 +24,8 @@ void SimplifyArguments::add_to(CLI::App& command) {
   shape.add_to(command);
   strategy.add_to(command);
   add_option(command, OptionId::kOf, format);
+  add_option(command, OptionId::kUp, up);
+  add_flag(command, OptionId::kDouble, doubles);
   add_flag(command, OptionId::kNormals, normals);
   add_flag(command, OptionId::kUvs, uvs);
   add_option(command, OptionId::kBase, base);

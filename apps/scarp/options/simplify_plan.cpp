@@ -214,7 +214,15 @@ Result<void> plan_attributes(const SimplifyArguments& given, SimplifyPlan& plan)
   const std::string title = format.title();
   plan.simplify.output.normals = given.normals && format.holds_attributes();
   plan.simplify.output.uvs = (given.uvs || plan.channels.has_channels()) && format.holds_attributes();
-  plan.simplify.output.float32_positions = format.is_float32();
+  const std::string& crs = plan.read.crs;
+  const bool is_centred = crs.empty() || crs == "local" || crs == "grid";
+  plan.simplify.output.float32_positions = format.is_float32() || (format.is_ply() && is_centred && !given.doubles);
+  plan.doubles = given.doubles;
+  if (given.doubles && !format.is_ply())
+    return fail(ErrorKind::kUsage, fmt::format("--double is for PLY: the positions of {} are what they are", title));
+  const Result<bool> is_y_up = choose_y_up(given.up, format, plan.solid.has_value());
+  if (!is_y_up) return tl::unexpected(is_y_up.error());
+  plan.is_y_up = *is_y_up;
   const bool shows_image =
       format.holds_attributes() || format.kind == OutputKind::kSvg || format.kind == OutputKind::kEps;
   if (given.channels.image && !shows_image) {
@@ -251,7 +259,7 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
   const Result<OutputFormat> format = choose_output_format(given.format, given.output);
   if (!format) return tl::unexpected(format.error());
   plan.format = *format;
-  plan.read.keep_degrees = format->is_on_maps();
+  plan.read.default_frame = format->default_frame();
   if (given.base) {
     const Result<double> base = parse_number("--base", *given.base);
     if (!base) return tl::unexpected(base.error());
@@ -328,20 +336,17 @@ Result<void> plan_memory(const SimplifyArguments& given, SimplifyPlan& plan) {
 }
 
 std::string canonical_command(const SimplifyArguments& given) {
-  std::string command = "scarp simplify " + shell_word(base_name(given.raster.path)) + " OUTPUT";
+  std::string command = "scarp simplify " + shell_word(base_name(given.raster.path)) + " OUTPUT" +
+                        canonical_option("--max-error", given.max_error) +
+                        canonical_option("--max-triangles", given.max_triangles) +
+                        canonical_option("--max-points", given.max_points) + given.raster.canonical();
   const std::pair<const char*, const Given*> options[] = {
-      {"--max-error", &given.max_error},
-      {"--max-triangles", &given.max_triangles},
-      {"--max-points", &given.max_points},
-      {"--band", &given.raster.band},
-      {"--nodata", &given.raster.nodata},
-      {"--decode", &given.raster.decode},
-      {"--crs", &given.raster.crs},
       {"--nodata-policy", &given.nodata_policy},
       {"--fill-distance", &given.fill_distance},
       {"--background", &given.background},
       {"--outline-tolerance", &given.outline_tolerance},
       {"--base", &given.base},
+      {"--up", &given.up},
   };
   for (const auto& [name, value] : options) {
     command += canonical_option(name, *value);
@@ -351,7 +356,8 @@ std::string canonical_command(const SimplifyArguments& given) {
              given.ridges.canonical() + given.cut.canonical() + given.shape.canonical() + given.channels.canonical() +
              given.strategy.canonical();
   if (given.strategy.asks_for_greedy()) command += " --order greedy";
-  return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "");
+  return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "") +
+         (given.doubles ? " --double" : "");
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ struct SimplifyArguments {
   std::string output;
   Given max_error, max_triangles, max_points;
   Given nodata_policy, fill_distance, background, outline_tolerance;
-  Given format, base, preview, render, error_raster, report, threads;
+  Given format, up, base, preview, render, error_raster, report, threads;
   StrategyArguments strategy;
   CompanionArguments companions;
   ChannelArguments channels;
@@ -45,7 +45,8 @@ struct SimplifyArguments {
   ShapeArguments shape;
   MemoryArguments memory;
   SolidArguments solid;
-  bool normals = false, uvs = false, overwrite = false, quiet = false, timing = false, json_progress = false;
+  bool normals = false, uvs = false, doubles = false, overwrite = false, quiet = false, timing = false,
+       json_progress = false;
 
   void add_to(CLI::App& command);
 };
@@ -71,6 +72,8 @@ struct SimplifyPlan {
   std::optional<PrintOptions> solid;
   std::optional<std::string> preview, render, error_raster, report;
   bool overwrite = false;
+  bool is_y_up = false;                      ///< see choose_y_up()
+  bool doubles = false;                      ///< as positions of a PLY
   std::optional<std::uint64_t> memory;       ///< what the process may take
   std::optional<std::string> needs_samples;  ///< an option that needs all samples in memory
   std::vector<std::string> warnings;

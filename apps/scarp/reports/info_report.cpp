@@ -18,8 +18,10 @@ namespace {
 
 std::string fact_line(const char* name, const std::string& value) { return fmt::format("  {:<14}{}\n", name, value); }
 
-std::string describe_cell(const RasterInfo& info) {
-  if (!info.has_georeference) return "1 x 1 (no georeference)";
+std::string describe_cell(const OwnedHeightField& field) {
+  const RasterInfo& info = field.info;
+  if (!info.has_georeference)
+    return fmt::format("{0} x {0} (no georeference)", format_number(std::abs(field.frame.affine[1])));
   const auto size = [](double x, double y) {
     return x == y ? format_number(x) : fmt::format("{} x {}", format_number(x), format_number(y));
   };
@@ -92,7 +94,7 @@ std::string raster_facts(const OwnedHeightField& field) {
   text += fact_line("missing", fmt::format("{}{}", format_share(missing, static_cast<double>(samples)),
                                            info.nodata ? fmt::format(", nodata {}", format_number(*info.nodata)) : ""));
   text += fact_line("CRS", describe_crs(info.crs));
-  text += fact_line("cell", describe_cell(info));
+  text += fact_line("cell", describe_cell(field));
   text += fact_line("mesh frame", field.frame.description);
   return text;
 }
@@ -119,7 +121,7 @@ Json raster_report(const OwnedHeightField& field, const Suggestions& suggestions
   report["scarp"] = version();
   report["command"] = command_line;
   report["input"] = describe_input(field, field.info, band);
-  report["frame"] = describe_frame(field.frame);
+  report["frame"] = describe_frame(field);
   report["full_triangles"] = full_grid_triangles(field);
   Json& rows = report["suggestions"];
   rows = Json::array();

@@ -41,6 +41,7 @@ std::optional<std::string> find_excess(const Judged& judged) {
 
 std::string describe_heights(const Judged& judged) {
   const Measurement& m = judged.judgement.heights;
+  if (m.samples == 0) return line("max error", "none: no sample is covered");
   const std::string unit = judged.field.info.unit.empty() ? "" : " " + judged.field.info.unit;
   std::string text;
   text += line("max error", fmt::format("{}{} at column {}, row {}", format_number(m.max_error), unit,
@@ -60,6 +61,7 @@ std::string describe_heights(const Judged& judged) {
 /// Channels, masks and tolerances.
 std::string describe_weighed(const Judged& judged) {
   std::string text;
+  if (judged.judgement.heights.samples == 0) return text;
   constexpr std::size_t kMostLines = 8;
   for (std::size_t k = 0; k < std::min(kMostLines, judged.judgement.channels.size()); ++k) {
     const Measurement& channel = judged.judgement.channels[k];
@@ -127,13 +129,14 @@ Json make_report(const Judged& judged, const std::string& mesh_path, const Cutli
   report["scarp"] = version();
   report["command"] = command_line;
   report["input"] = describe_input(judged.field, judged.field.info, judged.band);
-  report["frame"] = describe_frame(judged.field.frame);
+  report["frame"] = describe_frame(judged.field);
   report["mesh"] = Json{{"path", mesh_path}, {"metadata", judged.mesh.metadata}};
   report["vertices"] = judged.judgement.heights.vertices;
   report["triangles"] = judged.judgement.heights.triangles;
   report["full_triangles"] = full_grid_triangles(judged.field);
   if (!judged.plan.image) add_errors(report, judged.judgement.heights, judged.field.sample_rounding);
-  if (judged.judgement.weighted) {
+  const bool is_judged = judged.judgement.heights.samples > 0;
+  if (judged.judgement.weighted && is_judged) {
     report["weighted_max_error"] = finite_or_word(judged.judgement.weighted->largest.value);
     report["weighted_rmse"] = finite_or_word(judged.judgement.weighted->rmse);
     if (judged.companions.has_tolerance()) report["over_tolerance"] = judged.judgement.weighted->over;
@@ -143,13 +146,13 @@ Json make_report(const Judged& judged, const std::string& mesh_path, const Cutli
   if (judged.judgement.combined) {
     report["norm"] = norm_name(judged.plan.norm);
     report["height_scale"] = judged.channels.height_scale;
-    report["combined_max_error"] = judged.judgement.combined->largest.value;
+    report["combined_max_error"] = is_judged ? Json(judged.judgement.combined->largest.value) : Json(nullptr);
     report["channels"] = describe_channels(judged.channels.names, judged.channels.scales, judged.judgement.channels);
   }
   report["cutline"] = describe_cut(cutline, judged.cut, judged.judgement.heights.cut_off);
   add_coverage(report, judged.judgement.heights);
   report["fail_above"] = judged.fail_above ? Json(*judged.fail_above) : Json(nullptr);
-  report["passed"] = judged.has_verdict() ? Json(!judged.broken) : Json(nullptr);
+  report["passed"] = judged.has_verdict() || judged.broken ? Json(!judged.broken) : Json(nullptr);
   report["seconds"] =
       Json{{"read", judged.seconds_read}, {"measure", judged.seconds_measure}, {"total", judged.seconds_total}};
   report["warnings"] = judged.warnings;
@@ -180,7 +183,7 @@ std::string make_table(const Judged& judged, const std::string& raster_path, con
                                       : fmt::format("{} in {}", format_plural(m.open_edges, "open edge"),
                                                     format_plural(m.border_loops, "border loop"));
   text += line("topology", (faults.empty() ? "sound" : faults) + "; " + border);
-  if (!judged.has_verdict()) return text;
+  if (!judged.has_verdict() && !judged.broken) return text;
   return text + (judged.broken ? fmt::format("Failed: {}\n", *judged.broken) : describe_pass(judged));
 }
 

@@ -28,6 +28,7 @@ struct Judged {
   std::optional<double> fail_above;   ///< in z units
   std::optional<std::string> broken;  ///< why the mesh fails; nothing if it passes or nothing was asked
   int band = 1;
+  bool is_y_up = false;  ///< as --up says
   std::vector<std::string> warnings;
   double seconds_read = 0, seconds_measure = 0, seconds_total = 0;
 

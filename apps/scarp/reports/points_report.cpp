@@ -145,7 +145,7 @@ Json make_report(const JudgedPoints& judged, const std::string& mesh_path, const
   report["triangles"] = judged.measured.triangles;
   add_point_measurement(report, judged.points, judged.measured);
   report["fail_above"] = or_null(judged.fail_above);
-  report["passed"] = judged.fail_above ? Json(!judged.broken) : Json(nullptr);
+  report["passed"] = judged.fail_above || judged.broken ? Json(!judged.broken) : Json(nullptr);
   report["seconds"] =
       Json{{"read", judged.seconds_read}, {"measure", judged.seconds_measure}, {"total", judged.seconds_total}};
   report["warnings"] = judged.points.warnings;
@@ -157,12 +157,16 @@ std::string make_table(const JudgedPoints& judged, const std::string& mesh_path)
   const auto line = [](const char* name, const std::string& value) { return fmt::format("  {:<20}{}\n", name, value); };
   std::string text = fmt::format("{} judged by {}, {}\n", base_name(mesh_path), base_name(judged.points.path),
                                  format_plural(judged.points.size(), "point"));
-  text += line("max error", fmt::format("{} at {}", format_number(m.max_error), describe_place(judged.points, m)));
-  text += line("RMSE", format_number(m.rmse));
-  text += line("mean error", format_number(m.mean_error));
-  text += line("mean |error|", format_number(m.mean_abs_error));
-  text += line("P50, P95", fmt::format("{}, {}", format_number(m.p50), format_number(m.p95)));
-  text += line("P99, P99.9", fmt::format("{}, {}", format_number(m.p99), format_number(m.p999)));
+  if (m.samples == 0) {
+    text += line("max error", "none: no point is covered");
+  } else {
+    text += line("max error", fmt::format("{} at {}", format_number(m.max_error), describe_place(judged.points, m)));
+    text += line("RMSE", format_number(m.rmse));
+    text += line("mean error", format_number(m.mean_error));
+    text += line("mean |error|", format_number(m.mean_abs_error));
+    text += line("P50, P95", fmt::format("{}, {}", format_number(m.p50), format_number(m.p95)));
+    text += line("P99, P99.9", fmt::format("{}, {}", format_number(m.p99), format_number(m.p999)));
+  }
   text += line("points judged", format_count(m.samples));
   text += line("points uncovered", format_count(m.uncovered));
   text += line("duplicates",

@@ -61,6 +61,8 @@ Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, in
   input["min"] = as_read.min;
   input["max"] = as_read.max;
   input["nodata"] = or_null(as_read.nodata);
+  input["z_scale"] = as_read.z_scale;
+  input["z_offset"] = as_read.z_offset;
   input["unit"] = as_read.unit;
   input["crs"] = as_read.crs;
   input["geographic"] = as_read.is_geographic;
@@ -72,8 +74,17 @@ Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, in
   return input;
 }
 
-Json describe_frame(const Frame& frame) {
-  return Json{{"kind", kind_name(frame.kind)}, {"crs", frame.crs}, {"description", frame.description}};
+Json describe_frame(const OwnedHeightField& field) {
+  const Frame& frame = field.frame;
+  Json json{{"kind", kind_name(frame.kind)}, {"crs", frame.crs}, {"description", frame.description}};
+  add_place(json, place_in_source(frame, field.info, field.rows));
+  return json;
+}
+
+void add_place(Json& json, const std::optional<PlaceInSource>& place) {
+  json["origin"] = place ? Json(place->origin()) : Json(nullptr);
+  json["origin_crs"] = place && !place->crs.empty() ? Json(place->crs) : Json(nullptr);
+  json["to_source"] = place ? Json(place->to_source) : Json(nullptr);
 }
 
 const char* stop_name(StopReason stop) {
@@ -95,16 +106,18 @@ std::uint64_t full_grid_triangles(const HeightField& field) {
 }
 
 void add_errors(Json& report, const Measurement& measured, double sample_rounding) {
-  report["max_error"] = measured.max_error;
-  report["max_error_at"] = measured.max_error_at;
+  const bool is_judged = measured.samples > 0;
+  const auto judged = [&](const auto& value) { return is_judged ? Json(value) : Json(nullptr); };
+  report["max_error"] = judged(measured.max_error);
+  report["max_error_at"] = judged(measured.max_error_at);
   if (sample_rounding > 0) report["sample_rounding"] = sample_rounding;
-  report["rmse"] = measured.rmse;
-  report["mean_error"] = measured.mean_error;
-  report["mean_abs_error"] = measured.mean_abs_error;
-  report["p50"] = measured.p50;
-  report["p95"] = measured.p95;
-  report["p99"] = measured.p99;
-  report["p999"] = measured.p999;
+  report["rmse"] = judged(measured.rmse);
+  report["mean_error"] = judged(measured.mean_error);
+  report["mean_abs_error"] = judged(measured.mean_abs_error);
+  report["p50"] = judged(measured.p50);
+  report["p95"] = judged(measured.p95);
+  report["p99"] = judged(measured.p99);
+  report["p999"] = judged(measured.p999);
 }
 
 void add_coverage(Json& report, const Measurement& measured) {

@@ -137,7 +137,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["command"] = command_line;
   report["input"] = describe_input(outcome.field, outcome.as_read, plan.read.band);
   report["input"]["filled"] = outcome.filled;
-  report["frame"] = describe_frame(outcome.field.frame);
+  report["frame"] = describe_frame(outcome.field);
   report["goal"] = describe_goal(plan, outcome);
   report["strategy"] = describe_strategy(plan.simplify, plan.strategy, outcome.simplified);
   for (const auto& [key, file] : {std::pair{"mask", &plan.companions.mask},

@@ -11,6 +11,7 @@
 #include "io/gdal/session.h"
 #include "io/raster/crs_description.h"
 #include "io/raster/raster_source.h"
+#include "scarp/io.h"
 
 namespace scarp::gdal {
 namespace {
@@ -100,8 +101,9 @@ Crs copy_crs(OGRSpatialReferenceH borrowed) {
 }
 
 Crs find_crs(const std::string& definition) {
+  const bool is_code = !definition.empty() && definition.find_first_not_of("0123456789") == std::string::npos;
   OGRSpatialReferenceH crs = OSRNewSpatialReference(nullptr);
-  if (OSRSetFromUserInput(crs, definition.c_str()) != OGRERR_NONE) {
+  if (OSRSetFromUserInput(crs, ((is_code ? "EPSG:" : "") + definition).c_str()) != OGRERR_NONE) {
     OSRDestroySpatialReference(crs);
     return nullptr;
   }
@@ -162,6 +164,18 @@ std::optional<CrsDescription> describe_crs(const std::string& crs) {
   description.is_geographic = OSRIsGeographic(known.get()) != 0;
   if (!description.is_geographic) description.unit_in_metres = OSRGetLinearUnits(known.get(), nullptr);
   return description;
+}
+
+std::optional<std::string> projection_text(const std::string& crs) {
+  gdal::Session quiet;
+  const gdal::Crs known = crs.empty() ? nullptr : gdal::find_crs(crs);
+  if (!known) return {};
+  const char* options[] = {"FORMAT=WKT1_ESRI", nullptr};
+  char* wkt = nullptr;
+  std::optional<std::string> text;
+  if (OSRExportToWktEx(known.get(), &wkt, options) == OGRERR_NONE && wkt != nullptr) text = wkt;
+  CPLFree(wkt);
+  return text;
 }
 
 bool is_same_crs(const std::string& a, const std::string& b) {

@@ -24,7 +24,7 @@ Crs crs_of(GDALDatasetH dataset);
 /// Null for null and for a CRS without a name.
 Crs copy_crs(OGRSpatialReferenceH borrowed);
 
-/// From an option: "EPSG:32611", WKT, a PROJ string. Null if GDAL does not know it.
+/// From an option: "EPSG:32611", "32611", WKT, a PROJ string. Null if GDAL does not know it.
 Crs find_crs(const std::string& definition);
 
 /// "EPSG:32611" where an authority is known, else WKT.

@@ -76,8 +76,12 @@ void warn_of_distortion(const Georeference& geo, RasterInfo& info) {
   }
 }
 
-Result<Frame> metric_frame(const Georeference& geo, RasterInfo& info) {
-  auto frame = local_frame(geo.samples, metres_per_unit(geo), geo.cols, geo.rows, short_name(geo.crs));
+/// Feet stay feet, and units that nobody knows stay what they are: heights are rather in them than in metres.
+Result<Frame> centred_frame(const Georeference& geo, RasterInfo& info) {
+  const bool keeps_unit = !geo.crs || geo.is_in_feet();
+  const MetresPerUnit metres = keeps_unit ? MetresPerUnit{1, 1} : metres_per_unit(geo);
+  const LocalUnit unit = !geo.crs ? LocalUnit{"units", ""} : keeps_unit ? LocalUnit{"feet", " ft"} : LocalUnit{};
+  auto frame = local_frame(geo.samples, metres, geo.cols, geo.rows, geo.crs ? short_name(geo.crs) : "no CRS", unit);
   if (!frame) return fail(frame.error().kind, info.path + ": " + frame.error().message);
   if (geo.geographic) warn_of_distortion(geo, info);
   return frame;
@@ -165,6 +169,8 @@ bool looks_like_degrees(const Georeference& geo) {
 
 }  // namespace
 
+bool Georeference::is_in_feet() const { return !geographic && is_foot(unit_name); }
+
 Result<Georeference> read_georeference(GDALDatasetH dataset, const std::string& path) {
   Georeference geo;
   geo.cols = GDALGetRasterXSize(dataset);
@@ -203,32 +209,42 @@ void describe_georeference(const Georeference& geo, RasterInfo& info) {
   }
 }
 
-Result<Frame> choose_frame(const Georeference& geo, const std::string& wanted, RasterInfo& info) {
+Result<Frame> choose_frame(const Georeference& geo, const ReadOptions& options, RasterInfo& info) {
+  const std::string& wanted = options.crs;
   if (!geo.located) {
-    auto frame = ungeoreferenced_frame(info.path, geo.rows, wanted);
+    auto frame = ungeoreferenced_frame(info.path, geo.cols, geo.rows, options);
     if (frame && geo.crs) {
       info.warnings.push_back(info.path + " has a CRS but no position in it: x and y are columns and rows");
     }
     return frame;
   }
-  if (wanted == "grid") return grid_frame(geo.rows);
+  if (wanted == "grid") return grid_or_cells(info.path, geo.cols, geo.rows, options);
+  if (options.cell_size) {
+    return fail(ErrorKind::kUsage, info.path +
+                                       " has a georeference, which says how wide its cells are: leave the cell size "
+                                       "out, or ask for the frame 'grid'");
+  }
   if (looks_like_degrees(geo)) {
     info.warnings.push_back(
         "the raster has no CRS, but its coordinates look like degrees, which do not mix with heights: if so, "
         "say so with gdal_edit -a_srs EPSG:4326");
   }
-  if (wanted.empty()) return geo.geographic ? metric_frame(geo, info) : source_frame(geo);
-  if (wanted == "source") {
+  const DefaultFrame otherwise = options.default_frame;
+  const bool is_local =
+      wanted == "local" ||
+      (wanted.empty() && (otherwise == DefaultFrame::kLocal || (otherwise == DefaultFrame::kMetric && geo.geographic)));
+  if (is_local) return centred_frame(geo, info);
+  if (wanted.empty() || wanted == "source") {
     if (geo.geographic) warn_of_degrees(info);
     return source_frame(geo);
   }
   if (!geo.crs) {
     return fail(ErrorKind::kUsage,
-                fmt::format("{} has no CRS, so its coordinates cannot be given in '{}': ask for 'source' or "
+                fmt::format("{} has no CRS, so its coordinates cannot be given in '{}': ask for 'source', 'local' or "
                             "'grid', or give it its CRS first (gdal_edit -a_srs)",
                             info.path, wanted));
   }
-  return wanted == "local" ? metric_frame(geo, info) : projected_frame(geo, wanted, info);
+  return projected_frame(geo, wanted, info);
 }
 
 }  // namespace scarp::gdal

@@ -5,6 +5,7 @@
 
 #include "io/gdal/crs.h"
 #include "scarp/height_field.h"
+#include "scarp/io.h"
 
 namespace scarp::gdal {
 
@@ -18,6 +19,9 @@ struct Georeference {
   bool geographic = false;
   double unit_in_metres = 1;  ///< of x and y; in radians if geographic
   std::string unit_name;      ///< "metre", "degree", …; empty if there is no CRS
+
+  /// A projected CRS in feet, whose heights mostly are in feet too.
+  bool is_in_feet() const;
 };
 
 /// Fails with kInput if the geotransform maps all samples to a line or is not finite.
@@ -26,8 +30,8 @@ Result<Georeference> read_georeference(GDALDatasetH dataset, const std::string& 
 /// Fills in the CRS, cell sizes and warnings of `info`.
 void describe_georeference(const Georeference& georeference, RasterInfo& info);
 
-/// The frame that ReadOptions::crs asks for. Warnings go to `info`. kUsage if the CRS is unknown or cannot be reached
-/// from every part of the raster.
-Result<Frame> choose_frame(const Georeference& georeference, const std::string& wanted, RasterInfo& info);
+/// The frame that the options ask for. Warnings go to `info`. kUsage if the CRS is unknown or cannot be reached from
+/// every part of the raster.
+Result<Frame> choose_frame(const Georeference& georeference, const ReadOptions& options, RasterInfo& info);
 
 }  // namespace scarp::gdal

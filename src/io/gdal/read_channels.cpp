@@ -144,7 +144,7 @@ Result<OwnedChannels> read(const std::string& path, const ReadOptions& options, 
   auto fits = check_raster_size(path, static_cast<std::uint64_t>(geo->cols), static_cast<std::uint64_t>(geo->rows),
                                 options, plan->channels);
   if (!fits) return tl::unexpected(fits.error());
-  auto frame = choose_frame(*geo, options.crs, channels.info);
+  auto frame = choose_frame(*geo, options, channels.info);
   if (!frame) return tl::unexpected(frame.error());
   channels.frame = std::move(*frame);
   channels.cols = geo->cols;

@@ -37,6 +37,8 @@ class PackedReader : public WindowReader {
   PackedReader(GDALDatasetH dataset, const ReadOptions& options)
       : dataset_(dataset),
         decode_(options.decode),
+        z_scale_(options.z_scale),
+        z_offset_(options.z_offset),
         nodata_(options.nodata),
         bands_(GDALGetRasterCount(dataset)),
         red_(GDALGetRasterBand(dataset, 1)),
@@ -73,13 +75,15 @@ class PackedReader : public WindowReader {
                            (nodata_colour_ && std::equal(rgb, rgb + 3, nodata_colour_->begin())) ||
                            (nodata_ && static_cast<float>(*nodata_) == static_cast<float>(height));
     if (is_nodata) return std::numeric_limits<float>::quiet_NaN();
-    const auto z = static_cast<float>(height);
-    findings_.rounding = std::max(findings_.rounding, std::abs(height - static_cast<double>(z)));
+    const double scaled = z_scale_ * height + z_offset_;
+    const auto z = static_cast<float>(scaled);
+    findings_.rounding = std::max(findings_.rounding, std::abs(scaled - static_cast<double>(z)));
     return z;
   }
 
   GDALDatasetH dataset_;
   Decode decode_;
+  double z_scale_, z_offset_;
   std::optional<double> nodata_;
   int bands_;
   GDALRasterBandH red_;

@@ -27,18 +27,26 @@ struct Plan {
   RasterInfo info;
 };
 
-bool is_foot(const std::string& unit) {
-  return unit == "ft" || unit.find("foot") != std::string::npos || unit.find("feet") != std::string::npos;
-}
+constexpr double kMetresPerFoot = 0.3048;
 
 /// x and y in one unit, z in another: the promise holds, the shape does not.
 void warn_of_units(const Frame& frame, const Georeference& geo, RasterInfo& info) {
-  if (frame.kind == Frame::Kind::kGrid || info.unit.empty()) return;
+  if (!geo.located || frame.kind == Frame::Kind::kGrid || info.unit.empty()) return;
   const bool feet_up = is_foot(info.unit);
-  const bool feet_across = frame.kind == Frame::Kind::kSource && !geo.geographic && is_foot(geo.unit_name);
+  const bool feet_across = frame.kind != Frame::Kind::kProjected && geo.is_in_feet();
   if (feet_up == feet_across) return;
-  info.warnings.push_back(fmt::format("z is in {} but x and y are in {}: scale the heights first if the shape matters",
-                                      info.unit, feet_across ? geo.unit_name : "metres"));
+  info.warnings.push_back(fmt::format(
+      "z is in {} but x and y are in {}: if the shape matters, --z-scale {:.6g} makes "
+      "them one unit",
+      info.unit, feet_across ? geo.unit_name : "metres", feet_across ? 1 / kMetresPerFoot : kMetresPerFoot));
+}
+
+/// The band's values are decoded with the file's scale and the caller's at once, so that every way of reading knows
+/// them. The unit is known only where feet become metres.
+void scale_heights(const ReadOptions& options, Plan& plan) {
+  plan.band.scale *= options.z_scale;
+  plan.band.offset = options.z_scale * plan.band.offset + options.z_offset;
+  describe_heights(options, plan.info);
 }
 
 Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOptions& options) {
@@ -94,9 +102,9 @@ Result<OpenedRaster> open(Session& session, const std::string& path, const ReadO
   const Georeference& geo = plan->georeference;
   const auto cols = static_cast<std::uint64_t>(geo.cols), rows = static_cast<std::uint64_t>(geo.rows);
   if (auto fits = check_raster_sides(path, cols, rows); !fits) return tl::unexpected(fits.error());
-  const bool keep_degrees = options.keep_degrees && options.crs.empty() && geo.located;
-  auto frame = choose_frame(geo, keep_degrees ? "source" : options.crs, plan->info);
+  auto frame = choose_frame(geo, options, plan->info);
   if (!frame) return tl::unexpected(frame.error());
+  scale_heights(options, *plan);
   warn_of_units(*frame, geo, plan->info);
   OpenedRaster opened;
   opened.field.cols = geo.cols;
@@ -186,8 +194,8 @@ Result<OwnedHeightField> keep_in_file(Session& session, OpenedRaster opened, con
   OwnedHeightField& field = opened.field;
   field.info.has_range = false;
   auto reader = opened.make_reader(options);
-  const bool may_round =
-      options.decode == Decode::kMapbox || (options.decode == Decode::kNone && !is_float32(opened.plan.band));
+  const bool may_round = options.decode == Decode::kNone ? !is_float32(opened.plan.band)
+                                                         : options.decode == Decode::kMapbox || scales_heights(options);
   if (options.with_range || may_round) {
     auto seen = survey(session, opened.first_band(options), *reader, options, field);
     if (!seen) return tl::unexpected(seen.error());

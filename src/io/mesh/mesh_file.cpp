@@ -80,7 +80,7 @@ struct FormatRow {
 };
 constexpr FormatRow kFormats[] = {{MeshFormat::kGlb, "glb", encode_glb, decode_glb, true},
                                   {MeshFormat::kObj, "obj", encode_obj, decode_obj, false},
-                                  {MeshFormat::kPly, "ply", encode_ply, decode_ply, false},
+                                  {MeshFormat::kPly, "ply", nullptr, decode_ply, false},
                                   {MeshFormat::kStl, "stl", encode_stl, decode_stl, true},
                                   {MeshFormat::kTin, "tin", encode_tin, decode_tin, false},
                                   {MeshFormat::k2dm, "2dm", encode_2dm, decode_2dm, false},
@@ -90,6 +90,11 @@ constexpr FormatRow kFormats[] = {{MeshFormat::kGlb, "glb", encode_glb, decode_g
                                   {MeshFormat::kDxf, "dxf", encode_dxf, decode_dxf, false},
                                   {MeshFormat::kGpkg, "gpkg", encode_gpkg, nullptr, false},
                                   {MeshFormat::k3mf, "3mf", encode_one_3mf, decode_3mf, true}};
+
+/// Neither fixed by a standard nor by all who use it.
+bool has_up_axis(MeshFormat format) {
+  return format == MeshFormat::kObj || format == MeshFormat::kPly || format == MeshFormat::kStl;
+}
 
 const FormatRow* find_row(MeshFormat format) {
   for (const FormatRow& row : kFormats) {
@@ -244,6 +249,8 @@ std::optional<std::array<double, 3>> parse_origin(std::string_view text) {
   return origin;
 }
 
+const char* axes_text(const Mesh& mesh) { return is_y_up(mesh) ? "x east, y up, z south" : "x east, y north, z up"; }
+
 void set_origin(Mesh& mesh, const std::array<double, 3>& origin) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     const double base = origin[i % 3], absolute = mesh.positions[i];
@@ -268,14 +275,17 @@ std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path) {
   return {};
 }
 
-Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format) {
+Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat format, bool double_positions) {
   const FormatRow* row = find_row(format);
   if (row == nullptr) return fail(ErrorKind::kInternal, "encode_mesh() was given no format");
+  if (is_y_up(mesh) && !has_up_axis(format)) {
+    return fail(ErrorKind::kOutput, "the mesh is y up, which OBJ, PLY and STL may be; undo_y_up() turns it back");
+  }
   if (std::string why = find_unwritable(mesh, row->as_float); !why.empty()) {
     return fail(ErrorKind::kOutput, std::move(why));
   }
   try {
-    return row->encode(mesh);
+    return format == MeshFormat::kPly ? encode_ply(mesh, double_positions) : row->encode(mesh);
   } catch (...) {
     return caught(ErrorKind::kOutput, "encode the mesh");
   }
@@ -296,6 +306,8 @@ Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string&
     Result<Mesh> mesh = decode(bytes);
     if (!mesh) return unusable(mesh.error().message);
     drop_partial_attributes(*mesh);
+    if (!has_up_axis(*format)) mesh->metadata.erase("up");
+    undo_y_up(*mesh);
     if (const std::string why = find_unreadable(*mesh); !why.empty()) return unusable(why);
     return mesh;
   } catch (...) {

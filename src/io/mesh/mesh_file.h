@@ -39,6 +39,9 @@ std::string origin_text(const std::array<double, 3>& origin);
 /// Three finite numbers, or nothing.
 std::optional<std::array<double, 3>> parse_origin(std::string_view text);
 
+/// "x east, y north, z up", or what they are in a mesh that is y up.
+const char* axes_text(const Mesh& mesh);
+
 /// Takes absolute positions and expresses them relative to `origin`, if then vertex(v) is exactly what it was for every
 /// v; else leaves them absolute.
 void set_origin(Mesh& mesh, const std::array<double, 3>& origin);
@@ -58,7 +61,7 @@ std::string find_unreadable(const Mesh& mesh);
 // that the caller completes with the file's name, and may throw std::bad_alloc or std::length_error.
 Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh);
 Result<std::vector<std::uint8_t>> encode_obj(const Mesh& mesh);
-Result<std::vector<std::uint8_t>> encode_ply(const Mesh& mesh);
+Result<std::vector<std::uint8_t>> encode_ply(const Mesh& mesh, bool double_positions);
 Result<std::vector<std::uint8_t>> encode_stl(const Mesh& mesh);
 Result<std::vector<std::uint8_t>> encode_tin(const Mesh& mesh);
 Result<Mesh> decode_glb(std::span<const std::uint8_t> bytes);

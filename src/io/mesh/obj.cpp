@@ -144,7 +144,7 @@ Result<std::vector<std::uint8_t>> encode_obj(const Mesh& mesh) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(mesh.positions.size() * 14 + mesh.normals.size() * 12 + mesh.triangles.size() * 8);
   auto out = std::back_inserter(bytes);
-  fmt::format_to(out, "# Terrain by Scarp. Right-handed, x east, y north, z up; faces counter-clockwise from above.\n");
+  fmt::format_to(out, "# Terrain by Scarp. Right-handed, {}; faces counter-clockwise from above.\n", axes_text(mesh));
   TextComments::write(mesh, bytes);
   fmt::format_to(out, "o terrain\n");
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {

@@ -1,5 +1,6 @@
-// PLY: a text header that describes the rest. We write binary little-endian doubles at absolute positions; we read text
-// and both byte orders, any numeric types, properties in any order, elements we do not know, and polygons.
+// PLY: a text header that describes the rest. We write binary little-endian numbers at absolute positions: floats where
+// they say it all, which more programs read, else doubles. We read text and both byte orders, any numeric types,
+// properties in any order, elements we do not know, and polygons.
 //
 // The reader walks each element's items property by property. Values of interest have a slot in a small table; all
 // others are stepped over.
@@ -311,13 +312,26 @@ class PlyReader {
   std::optional<std::array<double, 3>> origin_;
 };
 
+/// Whether float32 loses nothing of any position.
+bool are_float32(const Mesh& mesh) {
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    for (const double coordinate : mesh.vertex(v)) {
+      if (!(std::fabs(coordinate) <= double{std::numeric_limits<float>::max()})) return false;
+      if (double{static_cast<float>(coordinate)} != coordinate) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
-Result<std::vector<std::uint8_t>> encode_ply(const Mesh& mesh) {
+Result<std::vector<std::uint8_t>> encode_ply(const Mesh& mesh, bool double_positions) {
   const std::size_t vertices = mesh.vertex_count(), triangles = mesh.triangle_count();
   const bool with_normals = !mesh.normals.empty(), with_colors = !mesh.colors.empty(), with_uvs = !mesh.uvs.empty();
   const auto channels = static_cast<std::size_t>(mesh.channel_count);
-  std::string header = "ply\nformat binary_little_endian 1.0\ncomment Terrain by Scarp: x east, y north, z up\n";
+  const bool as_floats = !double_positions && are_float32(mesh);
+  std::string header =
+      fmt::format("ply\nformat binary_little_endian 1.0\ncomment Terrain by Scarp: {}\n", axes_text(mesh));
   if (mesh.origin != std::array<double, 3>{})
     header += fmt::format("comment {}{}\n", kPlyOrigin, origin_text(mesh.origin));
   const auto crs = mesh.metadata.find("crs");
@@ -327,7 +341,8 @@ Result<std::vector<std::uint8_t>> encode_ply(const Mesh& mesh) {
   for (const auto& [key, value] : mesh.metadata) {
     header += fmt::format("comment {}{}\n", kPlyKey, metadata_line(key, value));
   }
-  header += fmt::format("element vertex {}\nproperty double x\nproperty double y\nproperty double z\n", vertices);
+  header += fmt::format("element vertex {0}\nproperty {1} x\nproperty {1} y\nproperty {1} z\n", vertices,
+                        as_floats ? "float" : "double");
   if (with_normals) header += "property float nx\nproperty float ny\nproperty float nz\n";
   if (with_colors) header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   if (with_uvs) header += "property float s\nproperty float t\n";
@@ -335,12 +350,18 @@ Result<std::vector<std::uint8_t>> encode_ply(const Mesh& mesh) {
   header += fmt::format("element face {}\nproperty list uchar uint vertex_indices\nend_header\n", triangles);
 
   const std::size_t vertex_size =
-      24 + (with_normals ? 12 : 0) + (with_colors ? 3 : 0) + (with_uvs ? 8 : 0) + 4 * channels;
+      (as_floats ? 12 : 24) + (with_normals ? 12 : 0) + (with_colors ? 3 : 0) + (with_uvs ? 8 : 0) + 4 * channels;
   std::vector<std::uint8_t> bytes(header.size() + vertices * vertex_size + triangles * 13);
   std::memcpy(bytes.data(), header.data(), header.size());
   std::uint8_t* at = bytes.data() + header.size();
   for (std::size_t v = 0; v < vertices; ++v) {
-    for (const double coordinate : mesh.vertex(v)) store_number(at, coordinate);
+    for (const double coordinate : mesh.vertex(v)) {
+      if (as_floats) {
+        store_number(at, static_cast<float>(coordinate));
+      } else {
+        store_number(at, coordinate);
+      }
+    }
     for (std::size_t k = 0; with_normals && k < 3; ++k) store_number(at, mesh.normals[3 * v + k]);
     for (std::size_t k = 0; with_colors && k < 3; ++k) store_number(at, mesh.colors[3 * v + k]);
     if (with_uvs) {

@@ -22,11 +22,11 @@ namespace {
 
 constexpr std::size_t kHeaderSize = 80, kTriangleSize = 50;
 constexpr std::string_view kOriginDecimal = "scarp origin ", kOriginBits = "scarp origin bits ",
-                           kPlaced = "scarp placed ", kPlacedBytes = "scarp placed\1";
+                           kPlaced = "scarp placed ", kPlacedBytes = "scarp placed\1", kYUp = " up y";
 constexpr const char* kPlacementKey = "placement";
 
 std::string placement_header(const std::string& placement) {
-  if (kPlaced.size() + placement.size() < kHeaderSize) return fmt::format("{}{}", kPlaced, placement);
+  if (kPlaced.size() + placement.size() + kYUp.size() < kHeaderSize) return fmt::format("{}{}", kPlaced, placement);
   std::vector<std::uint8_t> bytes(48);
   std::uint8_t* at = bytes.data();
   TextCursor cursor({reinterpret_cast<const std::uint8_t*>(placement.data()), placement.size()});
@@ -52,15 +52,25 @@ std::optional<std::string> parse_placement(std::string_view header) {
 }
 
 /// Decimal where it fits into the header, which is nearly always; else the bits of the three doubles.
-std::string header_text(const Mesh& mesh) {
+std::string place_text(const Mesh& mesh) {
   const std::array<double, 3>& origin = mesh.origin;
   if (const auto placed = mesh.metadata.find(kPlacementKey); placed != mesh.metadata.end()) {
     if (std::string text = placement_header(placed->second); !text.empty()) return text;
   }
   std::string text = fmt::format("{}{}", kOriginDecimal, origin_text(origin));
-  if (text.size() < kHeaderSize) return text;
+  if (text.size() + kYUp.size() < kHeaderSize) return text;
   return fmt::format("{}{:016x}{:016x}{:016x}", kOriginBits, std::bit_cast<std::uint64_t>(origin[0]),
                      std::bit_cast<std::uint64_t>(origin[1]), std::bit_cast<std::uint64_t>(origin[2]));
+}
+
+std::string header_text(const Mesh& mesh) { return place_text(mesh) + (is_y_up(mesh) ? std::string(kYUp) : ""); }
+
+/// Takes the end off, and says whether it was there.
+bool take_y_up(std::string_view& header) {
+  header = header.substr(0, header.find_last_not_of('\0') + 1);
+  if (!header.starts_with("scarp ") || !header.ends_with(kYUp)) return false;
+  header.remove_suffix(kYUp.size());
+  return true;
 }
 
 std::optional<std::array<double, 3>> parse_header(std::string_view header) {
@@ -110,7 +120,8 @@ Result<Mesh> decode_binary(std::span<const std::uint8_t> bytes) {
       mesh.triangles.push_back(welder.find_or_add(x, y, z));
     }
   }
-  const std::string_view header(reinterpret_cast<const char*>(bytes.data()), kHeaderSize);
+  std::string_view header(reinterpret_cast<const char*>(bytes.data()), kHeaderSize);
+  if (take_y_up(header)) mesh.metadata["up"] = "y";
   if (const auto origin = parse_header(header)) mesh.origin = *origin;
   if (auto placement = parse_placement(header)) mesh.metadata[kPlacementKey] = std::move(*placement);
   return mesh;

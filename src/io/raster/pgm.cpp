@@ -165,7 +165,7 @@ Result<OwnedHeightField> decode_pgm(std::span<const std::uint8_t> bytes, const s
                                     const ReadOptions& options) {
   auto header = decode_pgm_header(bytes, name);
   if (!header) return tl::unexpected(header.error());
-  auto frame = bare_grid_frame(name, "a PGM", static_cast<int>(header->rows), options);
+  auto frame = bare_grid_frame(name, "a PGM", static_cast<int>(header->cols), static_cast<int>(header->rows), options);
   if (!frame) return tl::unexpected(frame.error());
 
   // The file itself must be long enough before its header's size is believed. A plain sample takes a digit and a space.
@@ -191,6 +191,7 @@ Result<OwnedHeightField> decode_pgm(std::span<const std::uint8_t> bytes, const s
   auto decoded =
       header->plain ? decode_plain(bytes, *header, name, samples) : decode_raw(bytes, *header, name, samples);
   if (!decoded) return tl::unexpected(decoded.error());
+  scale_values(options, field);
   if (auto finished = finish_raster(field, 0, options); !finished) return tl::unexpected(finished.error());
   return field;
 }

@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <exception>
+#include <iterator>
+
+#include "grid/local_frame.h"
 
 namespace scarp {
 
@@ -88,17 +93,51 @@ Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities, cons
   return {};
 }
 
-Result<Frame> ungeoreferenced_frame(const std::string& name, int rows, const std::string& crs) {
-  if (crs.empty() || crs == "grid") return grid_frame(rows);
+bool is_foot(const std::string& unit) {
+  return unit == "ft" || unit.find("foot") != std::string::npos || unit.find("feet") != std::string::npos;
+}
+
+bool scales_heights(const ReadOptions& options) { return options.z_scale != 1 || options.z_offset != 0; }
+
+void describe_heights(const ReadOptions& options, RasterInfo& info) {
+  info.z_scale = options.z_scale;
+  info.z_offset = options.z_offset;
+  constexpr double kFeet[] = {0.3048, 1200.0 / 3937};  // international, US survey
+  const auto is_near = [&](double foot) { return std::abs(std::abs(options.z_scale) / foot - 1) < 1e-5; };
+  if (std::abs(options.z_scale) == 1 || info.unit.empty()) return;
+  info.unit = is_foot(info.unit) && std::any_of(std::begin(kFeet), std::end(kFeet), is_near) ? "m" : "";
+}
+
+void scale_values(const ReadOptions& options, OwnedHeightField& field) {
+  describe_heights(options, field.info);
+  if (!scales_heights(options)) return;
+  for (float& z : field.samples) {
+    const double scaled = options.z_scale * static_cast<double>(z) + options.z_offset;
+    z = static_cast<float>(scaled);
+    if (std::isfinite(z)) field.sample_rounding = std::max(field.sample_rounding, std::abs(scaled - double{z}));
+  }
+}
+
+Result<Frame> grid_or_cells(const std::string& name, int cols, int rows, const ReadOptions& options) {
+  if (!options.cell_size && options.crs != "local") return grid_frame(rows);
+  auto frame = cell_frame(options.cell_size.value_or(1), cols, rows);
+  if (!frame) return fail(frame.error().kind, name + ": " + frame.error().message);
+  return frame;
+}
+
+Result<Frame> ungeoreferenced_frame(const std::string& name, int cols, int rows, const ReadOptions& options) {
+  const std::string& crs = options.crs;
+  if (crs.empty() || crs == "grid" || crs == "local") return grid_or_cells(name, cols, rows, options);
   return fail(
       ErrorKind::kUsage,
-      fmt::format("{} has no georeference, so its coordinates cannot be given in '{}': ask for 'grid', or give the "
-                  "raster a CRS and a position first (gdal_translate -a_srs -a_ullr)",
+      fmt::format("{} has no georeference, so its coordinates cannot be given in '{}': ask for 'grid' or 'local', or "
+                  "give the raster a CRS and a position first (gdal_translate -a_srs -a_ullr)",
                   name, crs));
 }
 
-Result<Frame> bare_grid_frame(const std::string& name, const char* kind, int rows, const ReadOptions& options) {
-  auto frame = ungeoreferenced_frame(name, rows, options.crs);
+Result<Frame> bare_grid_frame(const std::string& name, const char* kind, int cols, int rows,
+                              const ReadOptions& options) {
+  auto frame = ungeoreferenced_frame(name, cols, rows, options);
   if (!frame) return frame;
   if (options.band != 1)
     return fail(ErrorKind::kInput, fmt::format("{} has 1 band; there is no band {}", name, options.band));

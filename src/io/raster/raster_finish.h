@@ -26,12 +26,26 @@ Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities, co
 /// Warns of `infinities` samples that became nodata; kInput if no sample is a height, unless they are read as values.
 Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities, const ReadOptions& options);
 
-/// The frame of a raster without georeference: kUsage if options.crs asks for anything but the grid.
-Result<Frame> ungeoreferenced_frame(const std::string& name, int rows, const std::string& crs);
+/// By the names that files give the unit.
+bool is_foot(const std::string& unit);
+
+/// Whether heights are other than the file's values.
+bool scales_heights(const ReadOptions& options);
+/// Says in `info` that they are; the unit is then known only where feet became metres.
+void describe_heights(const ReadOptions& options, RasterInfo& info);
+/// Of whole values of a file without a scale of its own, already read: z_scale and z_offset, and their rounding.
+void scale_values(const ReadOptions& options, OwnedHeightField& field);
+
+/// The grid frame; with a cell size one around the raster's centre.
+Result<Frame> grid_or_cells(const std::string& name, int cols, int rows, const ReadOptions& options);
+
+/// The frame of a raster without georeference: kUsage if options.crs asks for a place.
+Result<Frame> ungeoreferenced_frame(const std::string& name, int cols, int rows, const ReadOptions& options);
 
 /// The same for a format of one band and nothing else (`kind`: "a PGM", …), which also refuses (kInput) options that
 /// ask for another band or for packed colours.
-Result<Frame> bare_grid_frame(const std::string& name, const char* kind, int rows, const ReadOptions& options);
+Result<Frame> bare_grid_frame(const std::string& name, const char* kind, int cols, int rows,
+                              const ReadOptions& options);
 
 /// "1.5 GiB", "37.0 MiB".
 std::string format_memory(double bytes);

@@ -73,7 +73,7 @@ Result<OwnedHeightField> decode_stm(std::span<const std::uint8_t> bytes, const s
                                     const ReadOptions& options) {
   auto header = decode_stm_header(bytes, name);
   if (!header) return tl::unexpected(header.error());
-  auto frame = bare_grid_frame(name, "an STM", static_cast<int>(header->rows), options);
+  auto frame = bare_grid_frame(name, "an STM", static_cast<int>(header->cols), static_cast<int>(header->rows), options);
   if (!frame) return tl::unexpected(frame.error());
   const std::uint64_t count = static_cast<std::uint64_t>(header->cols) * header->rows;
   const std::uint64_t there = bytes.size() - header->samples_at;
@@ -99,6 +99,7 @@ Result<OwnedHeightField> decode_stm(std::span<const std::uint8_t> bytes, const s
     const int value = data[2 * k + high] << 8 | data[2 * k + 1 - high];
     field.samples[k] = value == nodata ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(value);
   }
+  scale_values(options, field);
   if (auto finished = finish_raster(field, 0, options); !finished) return tl::unexpected(finished.error());
   return field;
 }

@@ -1,0 +1,36 @@
+// Where a mesh lies, and where what judges it does.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+
+#include "scarp/height_field.h"
+#include "scarp/mesh.h"
+#include "scarp/points.h"
+
+namespace scarp::cli {
+
+/// The smallest box around something, in x and y.
+struct Extent {
+  std::array<double, 2> low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  std::array<double, 2> high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+  void add(double x, double y);
+  /// Area in common as a share of the area of both; 0 where they do not meet.
+  double overlap(const Extent& other) const;
+  /// "x 0 to 100 and y -20 to 80".
+  std::string text() const;
+};
+Extent extent_of(const Mesh& mesh);
+Extent extent_of(const HeightField& field);
+Extent extent_of(const PointSet& points);
+
+/// For a mesh that says nothing of its frame: the raster's own coordinates, if it fits the raster there better than in
+/// the frame that was read.
+void fit_frame(const Mesh& mesh, OwnedHeightField& field);
+
+/// Why nothing can be judged: "no sample of RASTER is covered: …".
+std::string describe_elsewhere(const Extent& mesh, const Extent& reference, const std::string& what);
+
+}  // namespace scarp::cli
