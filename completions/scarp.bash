@@ -13,17 +13,19 @@ _scarp() {
 
   case "$command $previous" in
     "simplify -e" | "simplify --max-error" | "simplify -t" | "simplify --max-triangles" | "simplify -p" | \
-      "simplify --max-points" | "simplify --band" | "simplify --min-shape" | "simplify --time-limit" | \
-      "simplify --nodata" | "simplify --fill-distance" | "simplify --background" | "simplify --outline-tolerance" | \
-      "simplify --falloff" | "simplify --breakline-z" | "simplify --inset" | "simplify --cliff" | \
-      "simplify --ridges" | "simplify --water-percentile" | "simplify --detect-flats" | "simplify --min-angle" | \
-      "simplify --max-edge" | "simplify --grade" | "simplify --base" | "simplify --split" | "simplify --memory" | \
-      "simplify -j" | "simplify --num-threads" | "simplify --texture-weight" | "simplify --channel-weights" | \
-      "simplify --layer" | "simplify --z-field" | "simplify --shape-threshold" | "simplify --supersample" | \
-      "measure --fail-above" | "measure --band" | "measure --nodata" | "measure --falloff" | "measure --inset" | \
-      "measure --memory" | "measure -j" | "measure --num-threads" | "measure --texture-weight" | \
-      "measure --channel-weights" | "measure --layer" | "measure --z-field" | "info --band" | "info --nodata" | \
-      "info --layer" | "info --z-field" | "generate --seed" | "generate --range" | "generate --size")
+      "simplify --max-points" | "simplify --band" | "simplify --z-scale" | "simplify --z-offset" | \
+      "simplify --cell-size" | "simplify --min-shape" | "simplify --time-limit" | "simplify --nodata" | \
+      "simplify --fill-distance" | "simplify --background" | "simplify --outline-tolerance" | "simplify --falloff" | \
+      "simplify --breakline-z" | "simplify --inset" | "simplify --cliff" | "simplify --ridges" | \
+      "simplify --water-percentile" | "simplify --detect-flats" | "simplify --min-angle" | "simplify --max-edge" | \
+      "simplify --grade" | "simplify --base" | "simplify --split" | "simplify --memory" | "simplify -j" | \
+      "simplify --num-threads" | "simplify --texture-weight" | "simplify --channel-weights" | "simplify --layer" | \
+      "simplify --z-field" | "simplify --shape-threshold" | "simplify --supersample" | "measure --fail-above" | \
+      "measure --band" | "measure --z-scale" | "measure --z-offset" | "measure --cell-size" | "measure --nodata" | \
+      "measure --falloff" | "measure --inset" | "measure --memory" | "measure -j" | "measure --num-threads" | \
+      "measure --texture-weight" | "measure --channel-weights" | "measure --layer" | "measure --z-field" | \
+      "info --band" | "info --z-scale" | "info --z-offset" | "info --cell-size" | "info --nodata" | "info --layer" | \
+      "info --z-field" | "generate --seed" | "generate --range" | "generate --size")
       return
       ;;
     "simplify --objective")
@@ -119,27 +121,28 @@ _scarp() {
   if [[ $current == -* ]]; then
     case $command in
       simplify)
-        options+=' --max-error --max-triangles --max-points --objective --band --decode --crs --of'
-        options+=' --normals --uvs --preview --render --error-raster --report --overwrite --effort'
-        options+=' --vertices --min-shape --time-limit --nodata --nodata-policy --fill-distance --background --outline-tolerance'
-        options+=' --mask --tolerance --roi --falloff --script --breaklines --breakline-z --soft-breaklines'
-        options+=' --line-conflict --cutline --inset --mask-outside --cliff --ridges --keep-ridges --water'
-        options+=' --water-percentile --detect-flats --rivers --min-angle --max-edge --grade --base --solid'
-        options+=' --split --memory --num-threads --quiet --timing --json-progress --help --help-all'
-        options+=' --version --texture --texture-weight --image --norm --channel-weights --points --duplicates'
-        options+=' --layer --z-field --order --importance --one-pass --algorithm --batch --edges'
-        options+=' --edge-score --shape-threshold --supersample'
+        options+=' --max-error --max-triangles --max-points --objective --band --decode --z-scale --z-offset'
+        options+=' --cell-size --crs --up --double --of --normals --uvs --preview'
+        options+=' --render --error-raster --report --overwrite --effort --vertices --min-shape --time-limit'
+        options+=' --nodata --nodata-policy --fill-distance --background --outline-tolerance --mask --tolerance --roi'
+        options+=' --falloff --script --breaklines --breakline-z --soft-breaklines --line-conflict --cutline --inset'
+        options+=' --mask-outside --cliff --ridges --keep-ridges --water --water-percentile --detect-flats --rivers'
+        options+=' --min-angle --max-edge --grade --base --solid --split --memory --num-threads'
+        options+=' --quiet --timing --json-progress --help --help-all --version --texture --texture-weight'
+        options+=' --image --norm --channel-weights --points --duplicates --layer --z-field --order'
+        options+=' --importance --one-pass --algorithm --batch --edges --edge-score --shape-threshold --supersample'
         ;;
       measure)
-        options+=' --fail-above --band --decode --crs --json --map --error-raster --overwrite'
-        options+=' --nodata --mask --tolerance --roi --falloff --script --cutline --inset'
-        options+=' --mask-outside --memory --num-threads --quiet --json-progress --help --help-all --version'
-        options+=' --texture --texture-weight --image --norm --channel-weights --points --duplicates --layer'
-        options+=' --z-field'
+        options+=' --fail-above --band --decode --z-scale --z-offset --cell-size --crs --up'
+        options+=' --json --map --error-raster --overwrite --nodata --mask --tolerance --roi'
+        options+=' --falloff --script --cutline --inset --mask-outside --memory --num-threads --quiet'
+        options+=' --json-progress --help --help-all --version --texture --texture-weight --image --norm'
+        options+=' --channel-weights --points --duplicates --layer --z-field'
         ;;
       info)
-        options+=' --band --decode --crs --no-suggest --json --nodata --quiet --json-progress'
-        options+=' --help --help-all --version --points --layer --z-field'
+        options+=' --band --decode --z-scale --z-offset --cell-size --crs --no-suggest --json'
+        options+=' --nodata --quiet --json-progress --help --help-all --version --points --layer'
+        options+=' --z-field'
         ;;
       generate)
         options+=' --seed --range --size --of --overwrite --quiet --help --help-all'

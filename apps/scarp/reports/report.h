@@ -8,6 +8,7 @@
 
 #include "reports/json.h"
 #include "scarp/height_field.h"
+#include "scarp/io.h"
 #include "scarp/judge.h"
 #include "scarp/measure.h"
 #include "scarp/simplify.h"
