@@ -46,7 +46,9 @@ done
 # The first page fits a screen: goals first, eight examples, and the way to the rest, in which they stand last that few
 # will need.
 "$scarp" simplify -h >help.txt
-[ "$(wc -l <help.txt)" -le 40 ] || fail "scarp simplify -h is longer than a screen: $(wc -l <help.txt) lines"
+for command in $commands; do
+  [ "$("$scarp" "$command" -h | wc -l)" -le 40 ] || fail "scarp $command -h is longer than a screen"
+done
 [ "$(grep -c '^  scarp simplify ' help.txt)" = 8 ] || fail "scarp simplify -h has not eight examples"
 grep -A 1 '^Goals' help.txt | grep -q -- '--max-error' || fail "scarp simplify -h does not begin with the goals"
 grep -q -- '--help-all' help.txt || fail "scarp simplify -h does not name --help-all"

@@ -74,17 +74,22 @@ std::string list_options(const std::vector<const OptionRow*>& rows) {
   return text;
 }
 
-/// Arguments, goals, and the most used of all others.
+/// What the command is for, by the words of -h.
+bool is_brief_goal(const OptionRow* row) {
+  return row->brief[0] != 0 && (row->group == OptionGroup::kGoals || row->group == OptionGroup::kVerdict);
+}
+
+/// Arguments, goals or the verdict, and the most used of all others.
 std::string list_briefly(const std::vector<const OptionRow*>& rows) {
   std::string arguments, goals, others;
   for (const OptionRow* row : rows) {
     if (row->brief[0] == 0) continue;
-    (row->group == OptionGroup::kArguments ? arguments
-     : row->group == OptionGroup::kGoals   ? goals
-                                           : others) += entry(left_of(*row), row->brief);
-  }
-  for (const GroupRow& group : group_rows()) {
-    if (group.group == OptionGroup::kGoals) goals.insert(0, title_of(group));
+    if (is_brief_goal(row) && goals.empty()) {
+      goals = title_of(*std::find_if(group_rows().begin(), group_rows().end(),
+                                     [&](const GroupRow& group) { return group.group == row->group; }));
+    }
+    std::string& part = row->group == OptionGroup::kArguments ? arguments : is_brief_goal(row) ? goals : others;
+    part += entry(left_of(*row), row->brief);
   }
   return arguments + goals + "\nMost used (all: --help-all):\n" + others;
 }
@@ -152,10 +157,7 @@ std::string command_help(const CommandRow& command, bool all) {
   const std::string head = fmt::format("{}.\n\nUsage: scarp {} {}\n", command.summary, command.name, command.usage);
   const auto rows = rows_of(command.command);
   const std::string page = head + list_options(rows) + "\n" + command.notes;
-  const bool has_brief = std::any_of(rows.begin(), rows.end(), [](const OptionRow* row) {
-    return row->brief[0] != 0 && row->group == OptionGroup::kGoals;
-  });
-  if (all || !has_brief || std::count(page.begin(), page.end(), '\n') <= kScreen) return page;
+  if (all || std::count(page.begin(), page.end(), '\n') <= kScreen) return page;
   return head + list_briefly(rows) + "\n" + command.notes;
 }
 

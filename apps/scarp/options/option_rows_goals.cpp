@@ -62,7 +62,8 @@ constexpr OptionRow kGoalRows[] = {
      .range = "at least 0",
      .help = "End with exit code 3 if an error is above this, a sample is uncovered or the mesh is not sound. E and "
              "P% are as for --max-error of simplify. Errors are in the units of the heights: weighted with --mask, "
-             "combined with --texture and --image."},
+             "combined with --texture and --image.",
+     .brief = "Exit code 3 if an error is above this, or the mesh is not sound"},
 
     {.id = kEffort,
      .name = "--effort",

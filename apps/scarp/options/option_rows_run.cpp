@@ -30,7 +30,8 @@ constexpr OptionRow kRunRows[] = {
      .unit = "bytes, or with k M G T Ki Mi Gi Ti",
      .by_default = "no limit",
      .range = "at least 72M",
-     .help = "Memory limit, such as 1G. Larger rasters are read in bands of rows as they are judged."},
+     .help = "Memory limit, such as 1G. Larger rasters are read in bands of rows as they are judged.",
+     .brief = "Memory limit, such as 1G"},
 
     {.id = kThreads,
      .name = "--num-threads",

@@ -81,7 +81,8 @@ constexpr OptionRow kSampleRows[] = {
      .type = kFile,
      .value = "FILE",
      .help = "Raster of tolerances, one for each sample, in the units of the heights. End with exit code 3 if an error "
-             "is above its tolerance."},
+             "is above its tolerance.",
+     .brief = "Raster of tolerances, one for each sample"},
     {.id = kRoi,
      .name = "--roi",
      .commands = kSimplify,
