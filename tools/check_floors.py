@@ -20,7 +20,7 @@ ROOMS = {
     "door": (0, [], ANY, "`include/scarp`: the public headers, each a manual"),
     "base": (0, [], ["result", "progress", "version"], "lattice points, exact integers, arrays, threads, memory budget, progress"),
     "grid": (1, ["base"],
-             ["degrees", "edits", "frame", "generate", "height_field", "lines", "points", "progress", "result", "ridges", "strategy"],
+             ["border", "degrees", "edits", "frame", "generate", "height_field", "lines", "points", "progress", "result", "ridges", "strategy"],
              "rasters: outline, frames, runs, rows; `sources/`: samples that are not one array"),
     "geom": (1, ["base"], ["result"],
              "predicates, planes, the scan of a triangle and its kernels, arrangements of lines"),

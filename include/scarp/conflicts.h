@@ -22,6 +22,7 @@ enum class Field : std::uint8_t {
   kMaxTriangles,
   kMaxVertices,
   kOutlineTolerance,
+  kBorder,           ///< locked
   kDoublePositions,  ///< float32_positions is false
   kMask,
   kMaskSource,
@@ -47,6 +48,7 @@ enum class Field : std::uint8_t {
   kEnough,     ///< is_enough
   kObjectiveRms,
   kStrategy,  ///< of simplify_by_paper(), other than its default; never set in options of simplify()
+  kLevels,    ///< of simplify_levels(); never set in options of simplify()
   kNorm,
   kUvs,
   kNormals,

@@ -195,6 +195,11 @@ Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat forma
 /// (solid.h), else the metre. Fails with kOutput for a mesh that is no closed 2-manifold once its positions are rounded
 /// (measure_solid()).
 Result<std::vector<std::uint8_t>> encode_3mf(std::span<const Mesh> objects);
+/// One GLB file of several, levels of detail of one thing, the finest first (MSFT_lod): nodes NAME_LOD0, NAME_LOD1 …,
+/// of which the first is the scene's and names the others. Each level stays until the whole covers less than 1 / ratio²
+/// of the screen that it had to cover for the level before; for the finest that is 1. REQUIRES: encode_mesh() made the
+/// files; `ratio` above 1. Fails with kOutput above 4 GiB.
+Result<std::vector<std::uint8_t>> join_glb_levels(std::span<const std::vector<std::uint8_t>> levels, double ratio);
 /// Reads any of these formats but GeoPackage; recognises the format by content. Fails with kInput. Never trusts a
 /// length or an index in the file.
 Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);

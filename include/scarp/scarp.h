@@ -1,6 +1,7 @@
 // All public headers of the library.
 #pragma once
 
+#include "scarp/border.h"
 #include "scarp/cliffs.h"
 #include "scarp/conflicts.h"
 #include "scarp/degrees.h"
@@ -12,6 +13,7 @@
 #include "scarp/height_field.h"
 #include "scarp/io.h"
 #include "scarp/judge.h"
+#include "scarp/levels.h"
 #include "scarp/lines.h"
 #include "scarp/measure.h"
 #include "scarp/mesh.h"

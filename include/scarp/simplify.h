@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scarp/border.h"
 #include "scarp/features.h"
 #include "scarp/goals.h"
 #include "scarp/height_field.h"
@@ -28,6 +29,8 @@ struct Domain {
   /// How far, in samples, the outline of the valid data may be simplified, at least 0. It only moves outwards, over
   /// nodata: no valid sample is cut off. DEFAULT: 0, the exact outline.
   double outline_tolerance = 0;
+  /// The edge of the raster. DEFAULT: simplified with the surface.
+  Border border = {};
 };
 
 /// What the mesh holds.
@@ -152,6 +155,9 @@ struct Simplified {
 /// feature or a script that ignores, up to 16 more a sample; with channels 8 more a sample, and 4 a vertex and channel;
 /// with one pass 16 more a sample; with data-dependent edges about 300 more a vertex. Up to 32 MiB of work buffers stay
 /// in the process for later calls, on any thread: a second call on a small raster asks the system for next to nothing.
+///
+/// A locked border (border.h) is on the mesh as it is on its own; every effort keeps it, and max_error holds for its
+/// samples, too. Budgets must have room for it. It needs max_error or tolerances, and 4 bytes a sample more.
 ///
 /// Strategies (strategy.h) change which samples become vertices, never what is promised.
 ///

@@ -18,6 +18,16 @@ constexpr float kUnbounded = std::numeric_limits<float>::infinity();
 
 tl::unexpected<Error> usage(std::string message) { return fail(ErrorKind::kUsage, std::move(message)); }
 
+/// At a sample that is not ignored.
+double asked_of(const SimplifyOptions& options, std::optional<double> max_error, std::size_t i, double factor) {
+  const Tolerances& tolerances = options.tolerances;
+  double asked = max_error.value_or(tolerances.values.empty() ? 0 : HUGE_VAL);
+  if (!tolerances.values.empty()) asked = std::min(asked, factor * tolerances.values[i]);
+  if (tolerances.weights.empty()) return asked;
+  const double weight = tolerances.weights[i];
+  return weight > 0 ? divide_down(asked, weight) : HUGE_VAL;
+}
+
 }  // namespace
 
 bool has_tolerances(const SimplifyOptions& options) {
@@ -27,6 +37,14 @@ bool has_tolerances(const SimplifyOptions& options) {
 bool has_own_bounds(const HeightField& field, const SimplifyOptions& options) {
   const Tolerances& asked = options.tolerances;
   return field.samples != nullptr && !(asked.weights.empty() && asked.values.empty() && asked.ignored.empty());
+}
+
+double asked_bound(const SimplifyOptions& options, std::optional<double> max_error, Point at, std::int32_t cols) {
+  const std::span<const SampleAt> ignored = options.tolerances.ignored;
+  if (std::find(ignored.begin(), ignored.end(), SampleAt{at.x, at.y}) != ignored.end()) return HUGE_VAL;
+  const std::size_t i =
+      static_cast<std::size_t>(at.y) * static_cast<std::size_t>(cols) + static_cast<std::size_t>(at.x);
+  return asked_of(options, max_error, i, 1);
 }
 
 Result<Criterion> Criterion::make(const HeightField& field, const Request& options, const Raster& raster, double aim,
@@ -172,12 +190,7 @@ Result<void> Criterion::set_bounds() {
   const auto samples = static_cast<std::size_t>(raster_.cols) * static_cast<std::size_t>(raster_.rows);
   bounds_.resize(samples);
   for (std::size_t i = 0; i < samples; ++i) {
-    double asked = options_->goals.max_error.value_or(options_->tolerances.values.empty() ? 0 : HUGE_VAL);
-    if (!options_->tolerances.values.empty()) asked = std::min(asked, factor_ * options_->tolerances.values[i]);
-    if (!options_->tolerances.weights.empty()) {
-      const double weight = options_->tolerances.weights[i];
-      asked = weight > 0 ? divide_down(asked, weight) : HUGE_VAL;
-    }
+    const double asked = asked_of(*options_, options_->goals.max_error, i, factor_);
     if (has_error_goal() && asked < rule().reserve && !std::isnan(raster_.samples[i]))
       return tl::unexpected(rule().refuse(place(i), asked));
     bounds_[i] = rule().bound(asked);

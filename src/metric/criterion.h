@@ -22,6 +22,9 @@ namespace scarp {
 bool has_tolerances(const SimplifyOptions& options);
 /// Whether samples in memory have bounds of their own, by tolerances or weights, or because some are ignored.
 bool has_own_bounds(const HeightField& field, const SimplifyOptions& options);
+/// What tolerances, weights and `max_error` (nothing: none of all samples) ask for at a sample of a raster in memory;
+/// +infinity for nothing.
+double asked_bound(const SimplifyOptions& options, std::optional<double> max_error, Point at, std::int32_t cols);
 
 /// Owns the arrays of the engine's error metric: at most 12 bytes a sample, none for plain heights and for bounds read
 /// in windows.

@@ -32,6 +32,18 @@ const char* name_lines(const SimplifyOptions& options) {
   return all(is_ridge_line) ? "ridges" : "breaklines";
 }
 
+Result<void> check_border(const SimplifyOptions& options) {
+  const Border& border = options.domain.border;
+  if (!border.is_locked) return {};
+  if (!options.goals.max_error && !has_tolerances(options))
+    return usage("a locked border needs a max error: a budget finds another one for each raster");
+  const std::optional<double>& error = border.max_error;
+  if (error && !(*error >= 0 && *error <= options.goals.max_error.value_or(HUGE_VAL) && std::isfinite(*error)))
+    return usage(fmt::format("the border's max error must lie in 0 … {}, that of the mesh, not {}",
+                             options.goals.max_error.value_or(HUGE_VAL), *error));
+  return {};
+}
+
 Result<void> check_shape(const HeightField& field, const ShapeGoals& shape) {
   constexpr double kLargestAngle = 33, kLeastEdge = 0.125;
   if (!(shape.min_angle >= 0 && shape.min_angle <= kLargestAngle))
@@ -78,6 +90,7 @@ Result<void> check_needs(const HeightField& field, const SimplifyOptions& option
   const bool has_error_for_all = options.goals.max_error || has_budget(options);
   if (options.quality.min_shape && !(*options.quality.min_shape >= 0 && *options.quality.min_shape <= 0.5))
     return usage(fmt::format("the floor of shapes must lie in 0 … 0.5, not {}", *options.quality.min_shape));
+  if (auto sound = check_border(options); !sound) return sound;
   if (options.goals.objective == Objective::kRms && !has_budget(options))
     return usage("the rms objective needs a budget of triangles or vertices: a max error alone decides the mesh");
   if (options.quality.vertices == Vertices::kFree && options.quality.effort != Effort::kHigh &&

@@ -10,6 +10,7 @@
 #include "grid/samples.h"
 #include "grid/sources/cut_source.h"
 #include "metric/criterion.h"
+#include "pieces/locked_border.h"
 #include "pieces/strips.h"
 #include "pieces/tile_worker.h"
 #include "pieces/tiled.h"
@@ -126,9 +127,18 @@ Result<Simplified> run_greedily(const Plan& plan, LineWork* lines) {
   }
   auto samples = Samples::of(plan.field);
   if (!samples) return tl::unexpected(samples.error());
-  const auto criterion = Criterion::make(plan.field, plan.options, samples->raster(), plan.aim, plan.scale.factor);
+  const auto make_criterion = [&](const Raster& raster) {
+    return Criterion::make(plan.field, plan.options, raster, plan.aim, plan.scale.factor);
+  };
+  auto criterion = make_criterion(samples->raster());
   if (!criterion) return tl::unexpected(criterion.error());
-  return run_passes(plan, samples->raster(), *criterion, graph_of(lines), std::nullopt);
+  if (!plan.options.domain.border.is_locked)
+    return run_passes(plan, samples->raster(), *criterion, graph_of(lines), std::nullopt);
+  const auto border = LockedBorder::make(plan.field, plan.options, samples->raster());
+  if (!border) return tl::unexpected(border.error());
+  criterion = make_criterion(border->raster());
+  if (!criterion) return tl::unexpected(criterion.error());
+  return run_passes(plan, border->raster(), *criterion, nullptr, std::nullopt, border->vertices());
 }
 
 }  // namespace scarp

@@ -20,6 +20,7 @@
 #include "pieces/effort.h"
 #include "pieces/freeze.h"
 #include "pieces/goals.h"
+#include "pieces/locked_border.h"
 #include "pieces/passes.h"
 #include "pieces/release.h"
 #include "pieces/source_windows.h"
@@ -37,13 +38,15 @@ namespace {
 /// One run of the engine towards the goals.
 class EngineRun {
  public:
-  EngineRun(const Plan& plan, const Raster& raster, const Criterion& criterion, const ConstraintGraph* lines)
+  EngineRun(const Plan& plan, const Raster& raster, const Criterion& criterion, const ConstraintGraph* lines,
+            std::span<const Point> border)
       : plan_(plan),
         field_(plan.field),
         raster_(raster),
         options_(plan.options),
         criterion_(criterion),
         lines_(lines),
+        border_(border),
         budget_(options_),
         exact_(lattice_is_exact(field_, options_, lines == nullptr ? 1 : kLatticeSteps)),
         reporter_(options_.run.progress) {}
@@ -60,6 +63,7 @@ class EngineRun {
     if (auto inserted = insert_lines(result); !inserted) return tl::unexpected(inserted.error());
     const auto shaped = fit_and_shape(result);
     if (!shaped) return tl::unexpected(shaped.error());
+    if (auto kept = check_border(); !kept) return tl::unexpected(kept.error());
     // Vertices that lie exactly on their samples keep the bound by construction: nothing will be inserted after the
     // proof.
     const bool is_final = result.stop != StopReason::kMaxError || exact_ || !piece_->lattice.are_samples();
@@ -88,8 +92,9 @@ class EngineRun {
     if (inserts_first()) return {};
     start = Clock::now();
     refinement_.emplace(criterion_.metric(), piece_->tin, options_.strategy.algorithm, options_.strategy.edges);
-    const char* culprit = options_.features.points.empty() ? "the outline of the valid data alone needs"
-                                                           : "the outline of the valid data and the points need";
+    const char* culprit = !border_.empty() ? "the locked border and the outline of the valid data alone need"
+                          : options_.features.points.empty() ? "the outline of the valid data alone needs"
+                                                             : "the outline of the valid data and the points need";
     const char* advice = is_whole_ ? "" : ", or simplify the outline with an outline tolerance";
     if (auto fits = budget_.check(size(), culprit, advice); !fits) return fits;
     if (auto refined = refine(result.stop); !refined) return refined;
@@ -133,6 +138,8 @@ class EngineRun {
 
   /// Samples outside the domain cannot become vertices.
   void insert_points() {
+    for (const Point p : border_) insert_seed(p);
+    if (!border_.empty()) on_sides_ = find_side_vertices(piece_->tin, raster_, 1);
     for (const auto& [col, row] : options_.features.points) insert_seed({col, row});
     seeds_ = piece_->tin.vertex_count();
   }
@@ -142,6 +149,16 @@ class EngineRun {
     const HalfEdge twin = location.kind == Triangulation::Location::Kind::kOnEdge ? tin.twin(location.edge) : kNone;
     const bool inside = !tin.is_outside(location.edge / 3) || (twin != kNone && !tin.is_outside(twin / 3));
     if (inside && raster_.is_valid(p)) piece_->tin.insert(p, location);
+  }
+
+  /// No pass has a reason to touch a locked border; this is the proof that none did.
+  Result<void> check_border() const {
+    if (border_.empty()) return {};
+    std::vector<Point> expected = on_sides_;
+    for (Point& p : expected) p = {p.x * piece_->lattice.steps, p.y * piece_->lattice.steps};
+    if (find_side_vertices(piece_->tin, raster_, piece_->lattice.steps) == expected) return {};
+    return fail(ErrorKind::kPromise,
+                "the locked border cannot be kept: heights differ too much in magnitude for its line");
   }
 
   /// Points stay, whatever removal could do without.
@@ -425,6 +442,10 @@ class EngineRun {
   Result<bool> mend(const std::vector<Offender>& offenders, Simplified& result) {
     // A vertex among them: its own rounding breaks the bound, and no other vertex can mend that.
     const auto is_vertex = [this](const Offender& o) { return refinement_->gain_at({o.col, o.row}) == 0; };
+    const auto is_locked = [this](const Offender& o) {
+      return !border_.empty() && (o.col == 0 || o.row == 0 || o.col == raster_.cols - 1 || o.row == raster_.rows - 1);
+    };
+    if (std::any_of(offenders.begin(), offenders.end(), is_locked)) return false;
     if (offenders.empty() || std::any_of(offenders.begin(), offenders.end(), is_vertex)) return false;
     std::optional<StopReason> budget;
     for (const Offender& o : offenders) {
@@ -483,6 +504,8 @@ class EngineRun {
   const Request& options_;
   const Criterion& criterion_;
   const ConstraintGraph* lines_;
+  std::span<const Point> border_;  // a locked one's vertices
+  std::vector<Point> on_sides_;    // there when refinement begins, where a border is locked
   Budget budget_;
   std::optional<Piece> piece_;  // all of the raster: given back as soon as nothing can need it any more
   bool is_whole_ = true;        // every sample is a height
@@ -500,8 +523,8 @@ class EngineRun {
 }  // namespace
 
 Result<Simplified> run_passes(const Plan& plan, const Raster& raster, const Criterion& criterion,
-                              const ConstraintGraph* lines, std::optional<Tiled> tiled) {
-  return EngineRun(plan, raster, criterion, lines).execute(std::move(tiled));
+                              const ConstraintGraph* lines, std::optional<Tiled> tiled, std::span<const Point> border) {
+  return EngineRun(plan, raster, criterion, lines, border).execute(std::move(tiled));
 }
 
 }  // namespace scarp

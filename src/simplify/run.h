@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "grid/raster.h"
 #include "metric/criterion.h"
@@ -15,9 +16,11 @@ namespace scarp {
 struct ConstraintGraph;
 
 /// Carries out a plan on `raster`, the samples of its field: from the mesh of the dominant order where `tiled` is
-/// given, else greedily. `lines`: to be inserted into the mesh; null: none. Fails as simplify() does. REQUIRES:
+/// given, else greedily. `lines`: to be inserted into the mesh; null: none. `border`: the vertices of a locked border
+/// (locked_border.h), whose raster it then is; empty: none. Fails as simplify() does. REQUIRES:
 /// `criterion` was made for the plan; all outlive the call.
 Result<Simplified> run_passes(const Plan& plan, const Raster& raster, const Criterion& criterion,
-                              const ConstraintGraph* lines, std::optional<Tiled> tiled);
+                              const ConstraintGraph* lines, std::optional<Tiled> tiled,
+                              std::span<const Point> border = {});
 
 }  // namespace scarp

@@ -11,6 +11,7 @@
 #include "grid/samples.h"
 #include "grid/source_failure.h"
 #include "pieces/effort.h"
+#include "scarp/conflicts.h"
 #include "simplify/budget_search.h"
 #include "simplify/budget_task.h"
 #include "simplify/checks.h"
@@ -52,6 +53,8 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& ask
     if (auto sound = check(field, asked); !sound) return tl::unexpected(sound.error());
     SimplifyOptions options = asked;
     options.quality.effort = choose_effort(field, asked);
+    Border& border = options.domain.border;
+    if (!border.max_error) border.max_error = asked.goals.max_error;
     return has_budget(options) ? simplify_within_budget(field, options) : simplify_once(field, options);
   });
 }
@@ -65,6 +68,8 @@ Result<Simplified> simplify(const HeightField& field, const Goals& goals) {
 Result<Simplified> simplify_by_paper(const HeightField& field, const PaperOptions& options) {
   return without_exceptions([&]() -> Result<Simplified> {
     const Request request(options);
+    if (options.domain.border.is_locked)
+      return fail(ErrorKind::kUsage, describe(find_conflicts(Fields(Field::kStrategy, Field::kBorder)).front()));
     if (auto sound = check(field, request); !sound) return tl::unexpected(sound.error());
     return simplify_once(field, request);
   });

@@ -13,6 +13,7 @@
 #include "laws/fields.h"
 #include "scarp/cliffs.h"
 #include "scarp/conflicts.h"
+#include "scarp/levels.h"
 #include "scarp/paper.h"
 #include "scarp/ridges.h"
 #include "scarp/simplify.h"
@@ -61,13 +62,20 @@ struct Scene {
   HeightField field = land.view();
   SimplifyOptions options;
   Strategy strategy;
+  Levels levels;
 
   Fields fields() const {
-    const Fields of_strategy = strategy == Strategy{} ? Fields() : Fields(Field::kStrategy);
-    return fields_of(field, options) | of_strategy;
+    Fields fields = fields_of(field, options);
+    if (!(strategy == Strategy{})) fields.add(Field::kStrategy);
+    if (levels.count > 1) fields.add(Field::kLevels);
+    return fields;
   }
   /// REQUIRES: no conflict, where there is a strategy; its options have no place for one.
   Result<Simplified> run() const {
+    if (levels.count > 1) {
+      auto made = simplify_levels(field, options, levels);
+      return made ? Result<Simplified>(std::move(made->front())) : tl::unexpected(made.error());
+    }
     if (strategy == Strategy{}) return simplify(field, options);
     return simplify_by_paper(field, {options.goals, options.tolerances, options.features.points, options.domain,
                                      options.output, strategy, options.run});
@@ -110,6 +118,7 @@ std::vector<Setting> all_settings() {
       {Field::kMaxTriangles, [](Scene& s) { s.options.goals.max_triangles = kTriangles; }},
       {Field::kMaxVertices, [](Scene& s) { s.options.goals.max_vertices = kTriangles / 2; }},
       {Field::kOutlineTolerance, [](Scene& s) { s.options.domain.outline_tolerance = 1; }},
+      {Field::kBorder, [](Scene& s) { s.options.domain.border.is_locked = true; }},
       {Field::kDoublePositions, [](Scene& s) { s.options.output.float32_positions = false; }},
       {Field::kMask, [](Scene& s) { s.options.tolerances.weights = s.mask; }},
       {Field::kMaskSource, [](Scene& s) { s.options.tolerances.weights_source = &s.weights; }},
@@ -155,6 +164,11 @@ std::vector<Setting> all_settings() {
       {Field::kEnough, [](Scene& s) { s.options.run.is_enough = [] { return false; }; }},
       {Field::kObjectiveRms, [](Scene& s) { s.options.goals.objective = Objective::kRms; }},
       {Field::kStrategy, [](Scene& s) { s.strategy.edges.data_dependent = true; }},
+      {Field::kLevels,
+       [](Scene& s) {
+         s.levels.count = 2;
+         s.options.domain.border.is_locked = true;
+       }},
       {Field::kNorm, [](Scene& s) { s.options.goals.norm = Norm::kMax; }},
       {Field::kUvs, [](Scene& s) { s.options.output.uvs = true; }},
       {Field::kNormals, [](Scene& s) { s.options.output.normals = true; }},
@@ -227,7 +241,8 @@ void expect_kept(const Scene& scene, const Simplified& made, double tolerance = 
 
 /// Settings of which one brings the other along.
 bool brings(Field one, Field other) {
-  return (one == Field::kWalls || one == Field::kRidges) && other == Field::kBreaklines;
+  return ((one == Field::kWalls || one == Field::kRidges) && other == Field::kBreaklines) ||
+         (one == Field::kLevels && other == Field::kBorder);
 }
 
 bool names(const Conflict& conflict, Field one, Field other) {
@@ -263,7 +278,7 @@ bool is_refused(const Setting& one, const Setting& other, bool is_streamed) {
     }
     for (const Conflict& conflict : conflicts) is_named = is_named || names(conflict, one.field, other.field);
     if (!(scene.strategy == Strategy{})) continue;
-    const auto made = simplify(scene.field, scene.options);
+    const auto made = scene.run();
     EXPECT_FALSE(made);
     if (made) return false;
     EXPECT_EQ(made.error().kind, ErrorKind::kUsage);

@@ -131,9 +131,9 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
   if (!points) return tl::unexpected(std::move(points.error()));
   outcome.points = std::move(*points);
   if (auto checked = check_crs_of(plan->format, outcome.points.crs, ""); !checked) return checked;
-  auto projection = plan_projection_file(*plan, outcome.points.crs);
-  if (!projection) return tl::unexpected(std::move(projection.error()));
-  outcome.projection = std::move(*projection);
+  auto projections = plan_projection_files(*plan, outcome.points.crs);
+  if (!projections) return tl::unexpected(std::move(projections.error()));
+  outcome.projections = std::move(*projections);
   outcome.warnings = plan->warnings;
   outcome.warnings.insert(outcome.warnings.end(), outcome.points.warnings.begin(), outcome.points.warnings.end());
   const HeightRange heights = height_range(outcome.points);
@@ -170,7 +170,7 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
   Result<ReadyFile> file = encode(*plan, arguments, outcome);
   if (!file) return tl::unexpected(std::move(file.error()));
   std::vector<ReadyFile> files{std::move(*file)};
-  if (outcome.projection) files.push_back(ready(*outcome.projection));
+  for (const ProjectionFile& projection : outcome.projections) files.push_back(ready(projection));
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
   std::vector<FileBytes> named;
   for (const ReadyFile& each : files) named.push_back({each.path, each.bytes});

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "scarp/io.h"
@@ -34,6 +36,8 @@ std::string find_owner(const SimplifyPlan& plan, const fs::path& projection) {
   for (const auto* other : {&plan.preview, &plan.render, &plan.error_raster, &plan.report}) {
     if (*other) ours.push_back(fs::path(**other).filename());
   }
+  for (int k = 0; plan.has_file_per_level() && k < plan.levels->count; ++k)
+    ours.push_back(fs::path(level_path(plan.output, k)).filename());
   std::string owner;
   std::error_code error;
   const fs::path folder = projection.has_parent_path() ? projection.parent_path() : fs::path(".");
@@ -46,13 +50,10 @@ std::string find_owner(const SimplifyPlan& plan, const fs::path& projection) {
   return owner;
 }
 
-}  // namespace
-
-Result<std::optional<ProjectionFile>> plan_projection_file(const SimplifyPlan& plan, const std::string& crs) {
-  if (!plan.format.has_projection_beside() || is_stdout(plan.output)) return std::nullopt;
-  const auto text = projection_text(crs);
-  if (!text) return std::nullopt;
-  ProjectionFile file{fs::path(plan.output).replace_extension(".prj").string(), *text};
+/// `output`: the mesh.
+Result<std::optional<ProjectionFile>> plan_file(const SimplifyPlan& plan, const std::string& output,
+                                                const std::string& text) {
+  ProjectionFile file{fs::path(output).replace_extension(".prj").string(), text};
   std::error_code error;
   const bool is_there = fs::exists(file.path, error);
   if (is_there && text_of(file.path) == file.text) return std::nullopt;
@@ -65,6 +66,22 @@ Result<std::optional<ProjectionFile>> plan_projection_file(const SimplifyPlan& p
                             file.path, owner));
   }
   return file;
+}
+
+}  // namespace
+
+Result<std::vector<ProjectionFile>> plan_projection_files(const SimplifyPlan& plan, const std::string& crs) {
+  std::vector<ProjectionFile> files;
+  if (!plan.format.has_projection_beside() || is_stdout(plan.output)) return files;
+  const auto text = projection_text(crs);
+  if (!text) return files;
+  const int levels = plan.has_file_per_level() ? plan.levels->count : 1;
+  for (int k = 0; k < levels; ++k) {
+    auto file = plan_file(plan, plan.has_file_per_level() ? level_path(plan.output, k) : plan.output, *text);
+    if (!file) return tl::unexpected(std::move(file.error()));
+    if (*file) files.push_back(std::move(**file));
+  }
+  return files;
 }
 
 }  // namespace scarp::cli

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "commands/level_run.h"
 #include "inputs/heightmap.h"
 #include "inputs/waters.h"
 #include "options/conflicts.h"
@@ -235,6 +236,7 @@ Result<Simplified> simplify_as_planned(const SimplifyPlan& plan, const SimplifyO
     return simplify_by_paper(outcome.view(), {options.goals, options.tolerances, options.features.points,
                                               options.domain, options.output, plan.strategy, options.run});
   }
+  if (plan.levels) return simplify_as_levels(plan, options, outcome);
   if (!plan.solid) return simplify(outcome.view(), options);
   Result<PrintedTerrain> printed = simplify_as_print(*plan.solid, outcome.field, options);
   if (!printed) return tl::unexpected(std::move(printed.error()));
@@ -276,9 +278,9 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   if (!has_place) return has_place;
   const Frame& frame = outcome.field.frame;
   if (auto checked = check_crs_of(plan->format, frame.crs, outcome.as_read.unit); !checked) return checked;
-  auto projection = plan_projection_file(*plan, frame.crs);
-  if (!projection) return tl::unexpected(std::move(projection.error()));
-  outcome.projection = std::move(*projection);
+  auto projections = plan_projection_files(*plan, frame.crs);
+  if (!projections) return tl::unexpected(std::move(projections.error()));
+  outcome.projections = std::move(*projections);
   if (plan->format.is_landxml() && frame.kind == Frame::Kind::kLocal && outcome.as_read.is_geographic &&
       plan->read.crs.empty()) {
     plan->warnings.push_back(
@@ -325,7 +327,10 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
     const Result<void> judged = judge_bounded(*plan, display.callback(), outcome);
     if (!judged) return judged;
   }
-  const Result<void> promise = check_promise(outcome);
+  Result<void> promise = check_promise(outcome);
+  for (Level& level : outcome.coarser) {
+    if (promise) promise = with_level(outcome, level, [&] { return check_promise(outcome); });
+  }
   if (!promise) return promise;
   outcome.warnings = plan->warnings;
   const auto needle = plan->channels.image ? std::nullopt : find_needle(field, outcome.as_read);

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "commands/level_run.h"
 #include "reports/pictures.h"
 #include "reports/report.h"
 #include "reports/simplify_outcome.h"
@@ -185,6 +186,32 @@ Result<void> encode_output(const SimplifyPlan& plan, const Outcome& outcome, Rea
   return {};
 }
 
+/// In place of OUTPUT, which holds the finest level: all of them, in a file each or in one.
+Result<void> encode_levels(const SimplifyPlan& plan, Outcome& outcome, std::vector<ReadyFile>& files) {
+  std::vector<ReadyFile> levels{std::move(files.front())};
+  for (Level& level : outcome.coarser) {
+    const auto encoded = with_level(outcome, level, [&]() -> Result<void> {
+      add_metadata(plan, outcome);
+      turn_as_planned(plan, outcome.simplified.mesh);
+      levels.push_back({plan.output, plan.format.name(), {}});
+      return encode_output(plan, outcome, levels.back());
+    });
+    if (!encoded) return encoded;
+  }
+  files.erase(files.begin());
+  if (plan.levels_in_one) {
+    std::vector<std::vector<std::uint8_t>> all;
+    for (ReadyFile& level : levels) all.push_back(std::move(level.bytes));
+    auto joined = join_glb_levels(all, plan.levels->ratio);
+    if (!joined) return tl::unexpected(std::move(joined.error()));
+    levels = {{plan.output, plan.format.name(), std::move(*joined)}};
+  } else {
+    for (std::size_t k = 0; k < levels.size(); ++k) levels[k].path = level_path(plan.output, static_cast<int>(k));
+  }
+  files.insert(files.begin(), std::make_move_iterator(levels.begin()), std::make_move_iterator(levels.end()));
+  return {};
+}
+
 }  // namespace
 
 Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const ProgressCallback& progress,
@@ -207,7 +234,10 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
   }
   turn_as_planned(plan, mesh);
   if (auto encoded = encode_output(plan, outcome, files.front()); !encoded) return tl::unexpected(encoded.error());
-  if (outcome.projection) files.push_back(ready(*outcome.projection));
+  if (plan.levels) {
+    if (auto encoded = encode_levels(plan, outcome, files); !encoded) return tl::unexpected(std::move(encoded.error()));
+  }
+  for (const ProjectionFile& projection : outcome.projections) files.push_back(ready(projection));
   return files;
 }
 

@@ -34,7 +34,7 @@ struct SimplifyRun {
   std::uint64_t vertices = 0, triangles = 0;              ///< of the terrain
   std::uint64_t solid_vertices = 0, solid_triangles = 0;  ///< with --base
   std::optional<Print> print;                             ///< with --solid
-  std::optional<ProjectionFile> projection;               ///< beside OUTPUT
+  std::vector<ProjectionFile> projections;                ///< beside OUTPUT, or each level
   std::vector<std::string> warnings;
   double seconds_read = 0, seconds_write = 0, seconds_total = 0;
 };

@@ -22,6 +22,7 @@ Fields fields_given(const SimplifyArguments& given, const SimplifyPlan& plan) {
       {Field::kRidges, given.ridges.height.has_value()},
       {Field::kCutline, given.cut.find_cut() != nullptr},
       {Field::kStrategy, plan.by_paper},
+      {Field::kLevels, given.levels.lods.has_value()},
       {Field::kChannels, plan.channels.has_channels()}};
   for (const auto& [field, is_given] : others) {
     if (is_given) fields.add(field);
@@ -37,6 +38,7 @@ std::string option_of(Field field, const SimplifyArguments& given) {
     option = given.lines.find_lines();
     if (option == nullptr) option = given.cliff.height ? "--cliff" : given.ridges.height ? "--ridges" : "--split";
   }
+  if (field == Field::kBorder && given.levels.lods) option = "--lods";
   if (field == Field::kStrategy) option = given.strategy.find_strategy();
   if (field == Field::kChannels && given.channels.image) option = "--image";
   if (field == Field::kShape) option = given.shape.find_goal();

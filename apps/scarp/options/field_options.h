@@ -13,6 +13,7 @@ inline constexpr const char* kFieldOptions[] = {
     "--max-triangles",
     "--max-points",
     "--outline-tolerance",
+    "--lock-border",
     nullptr,  // positions are as the format has them
     "--mask",
     "--mask",
@@ -38,6 +39,7 @@ inline constexpr const char* kFieldOptions[] = {
     nullptr,  // Ctrl-C
     "--objective rms",
     "--importance",
+    "--lods",
     "--norm",
     "--uvs",
     "--normals",

@@ -106,6 +106,29 @@ constexpr OptionRow kGoalRows[] = {
      .range = "at least 0",
      .help = "Stop improving after SECONDS and write the best mesh so far. It still meets the bound, but depends on "
              "timing; max uses all of the time."},
+
+    {.id = kLods,
+     .name = "--lods",
+     .commands = kSimplify,
+     .group = OptionGroup::kLevels,
+     .type = kText,
+     .value = "N[:RATIO]",
+     .unit = "levels",
+     .help = "Write N levels of detail: files OUT_lod0.glb, OUT_lod1.glb ... of max errors E, RATIO times E ... (E: "
+             "-e). RATIO is 2 unless given. All have one outline, that of --lock-border."},
+    {.id = kLodsInOne,
+     .name = "--lods-in-one",
+     .commands = kSimplify,
+     .group = OptionGroup::kLevels,
+     .type = kFlag,
+     .help = "Write all levels to one GLB, as nodes with MSFT_lod."},
+    {.id = kLockBorder,
+     .name = "--lock-border",
+     .commands = kSimplify,
+     .group = OptionGroup::kLevels,
+     .type = kFlag,
+     .help = "Let the samples of the raster's edge alone decide the mesh there. Rasters that share a row or column of "
+             "samples then meet exactly, simplified apart with the same -e."},
 };
 
 }  // namespace

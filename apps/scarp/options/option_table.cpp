@@ -20,6 +20,7 @@ constexpr GroupRow kGroups[] = {
     {OptionGroup::kInput, "Input", ""},
     {OptionGroup::kOutput, "Output", ""},
     {OptionGroup::kEffort, "Effort", "fewer triangles for more time"},
+    {OptionGroup::kLevels, "Levels", "of detail, and borders that neighbours share"},
     {OptionGroup::kNodata, "Nodata", "missing samples"},
     {OptionGroup::kWhereItMatters, "Where it matters", "rasters on the grid of the heights, and vector files"},
     {OptionGroup::kLines, "Lines", "breaklines, cutlines, walls, ridges and valleys"},

@@ -15,6 +15,7 @@ void SimplifyArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kFillDistance, fill_distance);
   add_option(command, OptionId::kBackground, background);
   add_option(command, OptionId::kOutlineTolerance, outline_tolerance);
+  levels.add_to(command);
   companions.add_to(command);
   lines.add_to(command);
   cliff.add_to(command);

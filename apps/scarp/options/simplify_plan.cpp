@@ -157,6 +157,20 @@ Result<void> plan_objective(const SimplifyArguments& given, SimplifyPlan& plan) 
               "--objective rms needs a budget, -t or -p: a max error alone decides the mesh, whatever its RMSE");
 }
 
+Result<void> plan_levels(const SimplifyArguments& given, SimplifyPlan& plan) {
+  plan.simplify.domain.border.is_locked = given.levels.locks_border || given.levels.lods;
+  if (plan.simplify.domain.border.is_locked && !given.max_error && given.companions.find_tolerance() == nullptr) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} needs --max-error: a budget finds another error for each raster and level",
+                            given.levels.lods ? "--lods" : "--lock-border"));
+  }
+  if (given.levels.lods && (given.base || plan.solid))
+    return fail(ErrorKind::kUsage, fmt::format("--lods cannot be combined with {}: levels are surfaces that take each "
+                                               "other's place, not solids",
+                                               given.base ? "--base" : "--solid"));
+  return {};
+}
+
 Result<void> plan_conflicts(const SimplifyArguments& given, SimplifyPlan& plan) { return check_conflicts(given, plan); }
 
 /// The option that asks for more than one bound on heights, by which alone a print is judged; null if there is none.
@@ -275,8 +289,15 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (!attributes) return attributes;
   if (auto solid = plan_solid_format(given, plan); !solid) return solid;
 
+  const Result<std::optional<Levels>> levels = given.levels.parse(plan.format, given.output);
+  if (!levels) return tl::unexpected(levels.error());
+  plan.levels = *levels;
+  plan.levels_in_one = given.levels.in_one;
   std::vector<PlannedOutput> outputs;
-  if (!plan.has_file_per_tile()) outputs.push_back({"OUTPUT", given.output});
+  if (plan.has_file_per_level()) {
+    for (int k = 0; k < plan.levels->count; ++k) outputs.push_back({"--lods", level_path(given.output, k)});
+  } else if (!plan.has_file_per_tile())
+    outputs.push_back({"OUTPUT", given.output});
   for (int k = 0; plan.has_file_per_tile() && k < plan.solid->columns * plan.solid->rows; ++k) {
     const int columns = plan.solid->columns;
     outputs.push_back({"--split", tile_path(given.output, k / columns + 1, k % columns + 1)});
@@ -351,7 +372,7 @@ std::string canonical_command(const SimplifyArguments& given) {
   for (const auto& [name, value] : options) {
     command += canonical_option(name, *value);
   }
-  command += given.solid.canonical();
+  command += given.solid.canonical() + given.levels.canonical();
   command += given.companions.canonical() + given.lines.canonical() + given.cliff.canonical() +
              given.ridges.canonical() + given.cut.canonical() + given.shape.canonical() + given.channels.canonical() +
              given.strategy.canonical();
@@ -380,7 +401,7 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   if (!threads) return tl::unexpected(threads.error());
   plan.simplify.run.threads = *threads;
   for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_solid, plan_lines, plan_shape,
-                          plan_objective, plan_conflicts, plan_outputs, plan_memory}) {
+                          plan_levels, plan_objective, plan_conflicts, plan_outputs, plan_memory}) {
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());
   }

@@ -10,6 +10,7 @@
 #include "inputs/companions.h"
 #include "options/cliff_options.h"
 #include "options/cutline_options.h"
+#include "options/level_options.h"
 #include "options/line_options.h"
 #include "options/memory.h"
 #include "options/options.h"
@@ -35,6 +36,7 @@ struct SimplifyArguments {
   Given max_error, max_triangles, max_points;
   Given nodata_policy, fill_distance, background, outline_tolerance;
   Given format, up, base, preview, render, error_raster, report, threads;
+  LevelArguments levels;
   StrategyArguments strategy;
   CompanionArguments companions;
   ChannelArguments channels;
@@ -70,6 +72,8 @@ struct SimplifyPlan {
   float background = 0;
   std::optional<double> base;
   std::optional<PrintOptions> solid;
+  std::optional<Levels> levels;
+  bool levels_in_one = false;
   std::optional<std::string> preview, render, error_raster, report;
   bool overwrite = false;
   bool is_y_up = false;                      ///< see choose_y_up()
@@ -82,6 +86,7 @@ struct SimplifyPlan {
   std::string canonical_command;
 
   /// Of a print in print tiles; else OUTPUT holds them all.
+  bool has_file_per_level() const { return levels && !levels_in_one; }
   bool has_file_per_tile() const { return solid && solid->is_split() && format.mesh != MeshFormat::k3mf; }
 };
 

@@ -16,6 +16,12 @@
 
 namespace scarp::cli {
 
+/// A level of detail beside the finest.
+struct Level {
+  std::optional<double> asked;
+  Simplified simplified;
+};
+
 /// Everything that the files, the report and the summary tell.
 struct Outcome : SimplifyRun {
   OwnedHeightField field;
@@ -26,6 +32,7 @@ struct Outcome : SimplifyRun {
   Features features;
   Cut cut;
   std::uint64_t filled = 0;
+  std::vector<Level> coarser;
   std::optional<LargestError> bounded;  ///< where samples are ignored: of the others; images: norms
   std::optional<double> bounded_goal;   ///< where a script ignores them: of what the goal bounds
   std::optional<double> psnr;           ///< of the rendering, in dB; +infinity if it is the image

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "commands/level_run.h"
 #include "inputs/waters.h"
 #include "reports/report.h"
 #include "scarp/version.h"
@@ -162,6 +163,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   add_all_errors(report, plan, outcome);
   add_coverage(report, outcome.simplified.measurement);
   add_solid(report, plan, outcome);
+  report["levels"] = describe_levels(plan, outcome);
   const Work& work = outcome.simplified.work;
   report["work"] = Json{{"samples_scanned", work.samples_scanned},
                         {"triangles_scanned", work.triangles_scanned},
@@ -202,6 +204,7 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
   text += ridges_line(outcome.simplified.features.ridges);
   text += shape_line(plan.simplify.quality.shape, outcome.simplified);
   text += solid_line(plan, outcome);
+  text += levels_lines(outcome);
   text += describe_errors(plan, outcome);
   if (outcome.psnr) text += summary_line("PSNR", fmt::format("{:.2f} dB", *outcome.psnr));
   text += summary_line("judged", format_plural(measured.samples, "sample") + ", none uncovered" +

@@ -1,0 +1,125 @@
+#include "pieces/locked_border.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "metric/criterion.h"
+
+namespace scarp {
+
+/// One of the four, from west to east or from north to south.
+struct LockedBorder::Edge {
+  const char* name;
+  Point first, step;
+  std::int32_t count;
+  const std::vector<std::int32_t> EdgeVertices::*given;
+
+  Point at(std::int32_t i) const { return {first.x + i * step.x, first.y + i * step.y}; }
+};
+
+namespace {
+
+double height_on(std::span<const float> heights, std::int32_t a, std::int32_t b, std::int32_t i) {
+  const double from = heights[static_cast<std::size_t>(a)], to = heights[static_cast<std::size_t>(b)];
+  return from + (to - from) * (static_cast<double>(i - a) / (b - a));
+}
+
+/// `given`, and the ends of runs of heights.
+std::vector<std::int32_t> complete(std::span<const std::int32_t> given, std::span<const float> heights) {
+  const auto is_height = [&](std::size_t i) { return i < heights.size() && !std::isnan(heights[i]); };
+  std::vector<std::int32_t> ends, all;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    if (is_height(i) && !(is_height(i - 1) && is_height(i + 1))) ends.push_back(static_cast<std::int32_t>(i));
+  }
+  std::set_union(given.begin(), given.end(), ends.begin(), ends.end(), std::back_inserter(all));
+  return all;
+}
+
+/// Whether the samples from one vertex to the next are heights: the line is there.
+bool is_segment(std::span<const float> heights, std::int32_t a, std::int32_t b) {
+  return std::none_of(heights.begin() + a, heights.begin() + b, [](float z) { return std::isnan(z); });
+}
+
+}  // namespace
+
+Result<LockedBorder> LockedBorder::make(const HeightField& field, const SimplifyOptions& options,
+                                        const Raster& raster) {
+  LockedBorder border;
+  border.cols_ = raster.cols;
+  border.rows_ = raster.rows;
+  border.samples_.assign(raster.samples, raster.row(raster.rows));
+  const std::int32_t right = raster.cols - 1, bottom = raster.rows - 1;
+  const Edge edges[] = {{"top", {0, 0}, {1, 0}, raster.cols, &EdgeVertices::top},
+                        {"bottom", {0, bottom}, {1, 0}, raster.cols, &EdgeVertices::bottom},
+                        {"left", {0, 0}, {0, 1}, raster.rows, &EdgeVertices::left},
+                        {"right", {right, 0}, {0, 1}, raster.rows, &EdgeVertices::right}};
+  for (const Edge& edge : edges) {
+    if (auto added = border.add(edge, field, options, raster); !added) return tl::unexpected(added.error());
+  }
+  return border;
+}
+
+Result<void> LockedBorder::add(const Edge& edge, const HeightField& field, const SimplifyOptions& options,
+                               const Raster& raster) {
+  const Border& asked = options.domain.border;
+  std::vector<float> heights;
+  std::vector<double> bounds;
+  for (std::int32_t i = 0; i < edge.count; ++i) {
+    heights.push_back(raster.at(edge.at(i)));
+    const double bound = asked_bound(options, asked.max_error, edge.at(i), raster.cols);
+    bounds.push_back(std::isinf(bound) ? bound : tightened(bound, field.sample_rounding));
+  }
+  std::vector<std::int32_t> vertices;
+  if (asked.vertices) {
+    const std::vector<std::int32_t>& given = (*asked.vertices).*edge.given;
+    for (std::size_t k = 0; k < given.size(); ++k) {
+      const std::int32_t i = given[k];
+      if (i < 0 || i >= edge.count || (k > 0 && i <= given[k - 1]) || std::isnan(heights[static_cast<std::size_t>(i)]))
+        return fail(ErrorKind::kUsage,
+                    fmt::format("vertex {} of the border's {} edge is no sample with a height beyond the one before it",
+                                i, edge.name));
+    }
+    vertices = complete(given, heights);
+  } else {
+    vertices = simplify_edge(heights, 0, bounds);
+  }
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    vertices_.push_back(edge.at(vertices[k]));
+    if (k == 0 || !is_segment(heights, vertices[k - 1], vertices[k])) continue;
+    for (std::int32_t i = vertices[k - 1] + 1; i < vertices[k]; ++i) {
+      const double line = height_on(heights, vertices[k - 1], vertices[k], i);
+      const double sample = heights[static_cast<std::size_t>(i)], error = std::abs(line - sample);
+      if (asked.vertices && error > bounds[static_cast<std::size_t>(i)])
+        return fail(ErrorKind::kUsage,
+                    fmt::format("the border's {} edge misses sample ({}, {}) by {}, more than {}", edge.name,
+                                edge.at(i).x, edge.at(i).y, error, bounds[static_cast<std::size_t>(i)]));
+      const auto rounded = static_cast<float>(line);
+      if (std::abs(rounded - line) >= error) continue;
+      const Point p = edge.at(i);
+      samples_[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(cols_) + static_cast<std::size_t>(p.x)] =
+          rounded;
+    }
+  }
+  return {};
+}
+
+std::vector<Point> find_side_vertices(const Triangulation& tin, const Raster& raster, std::int32_t steps) {
+  const std::int32_t right = (raster.cols - 1) * steps, bottom = (raster.rows - 1) * steps;
+  std::vector<Point> points;
+  for (Vertex v = 0; v < tin.vertex_count(); ++v) {
+    const Point p = tin.point(v);
+    const bool is_on_row = p.y == 0 || p.y == bottom, is_on_column = p.x == 0 || p.x == right;
+    if (is_on_row != is_on_column) points.push_back(p);
+  }
+  std::sort(points.begin(), points.end(), before);
+  return points;
+}
+
+}  // namespace scarp

@@ -1,0 +1,45 @@
+// The locked border of a raster: lines along its edges, and the samples as the engine sees them, those of the edges on
+// the lines.
+//
+//     edge     o──·──·──o──·──o      o  vertices of the line: there before refinement, and after every effort
+//              │╲       │   ╱ │      ·  samples that take the line's height: no triangle misses them, so none asks for
+//              │  ╲     │ ╱   │         a vertex there
+#pragma once
+
+#include <vector>
+
+#include "base/point.h"
+#include "grid/raster.h"
+#include "scarp/height_field.h"
+#include "scarp/result.h"
+#include "scarp/simplify.h"
+#include "tin/triangulation.h"
+
+namespace scarp {
+
+class LockedBorder {
+ public:
+  /// `raster`: the field's samples, nodata as NaN. Fails with kUsage where a line that is given leaves the raster,
+  /// stands on nodata or breaks a bound. REQUIRES: options.domain.border is locked, and has a max error, unless the
+  /// samples have tolerances.
+  static Result<LockedBorder> make(const HeightField& field, const SimplifyOptions& options, const Raster& raster);
+
+  /// The samples that the lines' vertices are, edge by edge; corners twice.
+  const std::vector<Point>& vertices() const { return vertices_; }
+  Raster raster() const { return {samples_.data(), cols_, rows_}; }
+
+ private:
+  struct Edge;
+
+  Result<void> add(const Edge& edge, const HeightField& field, const SimplifyOptions& options, const Raster& raster);
+
+  std::vector<float> samples_;
+  std::int32_t cols_ = 0, rows_ = 0;
+  std::vector<Point> vertices_;
+};
+
+/// The vertices on the sides of the rectangle between its corners, sorted; `steps` of the triangulation's points
+/// between two samples.
+std::vector<Point> find_side_vertices(const Triangulation& tin, const Raster& raster, std::int32_t steps);
+
+}  // namespace scarp

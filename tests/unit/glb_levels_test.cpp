@@ -1,0 +1,50 @@
+// Levels of detail in one GLB file.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "laws/fields.h"
+#include "scarp/io.h"
+#include "scarp/levels.h"
+
+namespace scarp::glb_levels_test {
+namespace {
+
+TEST(glb_levels, are_nodes_of_which_the_scene_shows_the_finest) {
+  const testing::Field field = testing::random_field(3, 60, 50, testing::Relief::kRidges);
+  SimplifyOptions options;
+  options.goals.max_error = 1;
+  options.output.uvs = true;
+  const auto levels = simplify_levels(field.view(), options, {3, 3});
+  ASSERT_TRUE(levels) << levels.error().message;
+  std::vector<std::vector<std::uint8_t>> files;
+  for (const Simplified& level : *levels) files.push_back(*encode_mesh(level.mesh, MeshFormat::kGlb));
+  const auto joined = join_glb_levels(files, 3);
+  ASSERT_TRUE(joined) << joined.error().message;
+  const auto length = static_cast<std::ptrdiff_t>(std::size_t{(*joined)[12]} + ((*joined)[13] << 8));
+  const auto json = nlohmann::json::parse(joined->begin() + 20, joined->begin() + 20 + length);
+  EXPECT_EQ(json["nodes"].size(), 3u);
+  EXPECT_EQ(json["nodes"][2]["name"], "terrain_LOD2");
+  EXPECT_EQ(json["nodes"][0]["extensions"]["MSFT_lod"]["ids"], (nlohmann::json{1, 2}));
+  EXPECT_EQ(json["scenes"][0]["nodes"], (nlohmann::json{0}));
+  EXPECT_EQ(json["meshes"][2]["primitives"][0]["material"], 2);
+  EXPECT_EQ(json["materials"][2]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 2);
+  for (std::size_t k = 0; k < 3; ++k) {
+    // A file whose scene is another level reads as that level.
+    auto text = json;
+    text["scenes"][0]["nodes"] = {k};
+    std::string changed = text.dump();
+    changed.resize(static_cast<std::size_t>(length), ' ');
+    std::vector<std::uint8_t> bytes = *joined;
+    std::copy(changed.begin(), changed.end(), bytes.begin() + 20);
+    const auto mesh = decode_mesh(bytes, "levels.glb");
+    ASSERT_TRUE(mesh) << mesh.error().message;
+    EXPECT_EQ(mesh->positions, (*levels)[k].mesh.positions);
+    EXPECT_EQ(mesh->triangles, (*levels)[k].mesh.triangles);
+    EXPECT_EQ(mesh->uvs, (*levels)[k].mesh.uvs);
+  }
+}
+
+}  // namespace
+}  // namespace scarp::glb_levels_test
