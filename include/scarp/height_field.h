@@ -1,6 +1,7 @@
 // Height fields: samples on a rectangular grid.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -70,12 +71,26 @@ struct HeightField {
 
 inline constexpr int kMaxChannels = 64;
 
+/// A height, and how many samples have it.
+struct HeightCount {
+  double height = 0;
+  std::uint64_t samples = 0;
+};
+
+/// A height that most likely stands for nodata, though the raster does not say so: see find_undeclared_nodata().
+struct UndeclaredNodata {
+  HeightCount of;
+  bool is_high = false;     ///< above all others, not below
+  double min = 0, max = 0;  ///< of the others
+};
+
 /// Metadata of a raster that was read.
 struct RasterInfo {
   std::string path;
   std::string format;            ///< "GTiff", "PGM", "STM", …
   std::string sample_type;       ///< type in the file: "Int16", "Float32", …
   std::string crs;               ///< of the file, "EPSG:4326" where an authority is known, else WKT; empty if none
+  std::string crs_unit;          ///< of its x and y: "metre", "US survey foot", "degree"; empty if there is no CRS
   bool is_geographic = false;    ///< x and y of the file are degrees
   std::string unit;              ///< of z where the file says so; else empty
   double z_scale = 1, z_offset = 0;  ///< those of ReadOptions: heights are z_scale · value + z_offset
@@ -87,6 +102,7 @@ struct RasterInfo {
   bool has_range = true;              ///< false: valid, min and max are not known, for the raster has not been read yet
   std::uint64_t valid = 0;            ///< samples that are heights
   double min = 0, max = 0;            ///< of the valid samples
+  std::vector<UndeclaredNodata> undeclared_nodata;  ///< among them, if has_range
   std::vector<std::string> warnings;  ///< sentences for the user: infinities taken as nodata, …
 };
 
@@ -110,10 +126,29 @@ struct OwnedHeightField {
 /// Number, minimum and maximum of the samples that are heights. min = max = 0 if there are none, and for a field whose
 /// samples are not in memory: see Measurement::heights for these.
 struct HeightRange {
+  static constexpr std::size_t kEnds = 6;
+
   std::uint64_t valid = 0;
   double min = 0, max = 0;
+  /// The lowest and the highest heights, each once, from the outermost inwards, and how many samples have each; as far
+  /// as there are so many, else of 0 samples.
+  std::array<HeightCount, kEnds> lowest{}, highest{};
+
+  /// Adds the samples of another part of the raster.
+  void add(const HeightRange& part);
 };
 HeightRange height_range(const HeightField& field);
+
+/// The heights at either end of the range that most likely stand for nodata. A height does where it is far from all
+/// others within:
+/// - a usual sign for nodata (-999, -32768; 9999, 99999, 999999, 32767, 65535 and 1e20 or more, below 0 or above), by a
+///   fifth of the others' range;
+/// - 0, by a twentieth of it and by at least 10, where a thousandth of the samples has it: a sea that honestly lies at
+/// 0
+///   has a shore that is not much higher;
+/// - any other, by 50 times their range, where at most a hundredth of the samples has it.
+/// The others must differ, and more heights than HeightRange::kEnds − 1 at one end are not seen through. Cost: O(1).
+std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range);
 
 /// Fills nodata by interpolation: each nodata sample within `max_distance` samples (Euclidean, along the eight compass
 /// directions) of a valid one becomes the mean of the nearest valid samples in those directions, weighted by inverse

@@ -104,6 +104,11 @@ struct OwnedChannels {
 /// than kMaxChannels bands, for an alpha band among them, and for packed heights (options.decode).
 Result<OwnedChannels> read_channels(const std::string& path, const ReadOptions& options = {}, bool all_bands = true);
 
+/// Longitude and latitude in degrees of a place in a CRS as RasterInfo and PointSet name it: in WGS 84 where there is a
+/// way to it, else in the CRS's own longitude and latitude. Nothing where the CRS is empty or unknown, or PROJ knows no
+/// way, and in a build without GDAL.
+std::optional<std::array<double, 2>> find_degrees(const std::string& crs, double x, double y);
+
 /// Nothing if two rasters lie on the same grid; else what differs, as the second half of a sentence ("is 10 x 20
 /// samples instead of 30 x 40", "is in EPSG:32611 instead of EPSG:4326", "begins at …"). A raster without georeference
 /// fits any of its size.

@@ -21,8 +21,8 @@ enum class Order {
 /// How much work follows refinement: for a smaller mesh that satisfies the same bound; with a budget, for a better mesh
 /// of the same size.
 enum class Effort {
-  kAuto,  ///< kNormal if min_shape or the like asks for it, or if it is possible, the order is not set to greedy, and
-          ///< there is neither a memory limit nor, without a budget, a per-sample tolerance; else kFast
+  kAuto,    ///< kNormal; kFast in the greedy order if that is asked for, unless min_shape or the like ask for more,
+            ///< and where a memory limit leaves no room for removal. Simplified::why_fast tells.
   kFast,    ///< none: the refined mesh stays
   kNormal,  ///< removes vertices while every sample stays within the bound: half the triangles, for a few times the
             ///< time. Works strip by strip if samples are not in memory; see simplify().
@@ -41,8 +41,7 @@ enum class Vertices {
 };
 
 struct Quality {
-  /// kAuto is kNormal where min_shape, Run::is_time_up or Objective::kRms ask for more than refinement, and for
-  /// tolerances beside a budget; kFast for tolerances alone. DEFAULT: kAuto.
+  /// DEFAULT: kAuto.
   Effort effort = Effort::kAuto;
   /// kFree fails with kUsage below kHigh. DEFAULT: kAuto.
   Vertices vertices = Vertices::kAuto;

@@ -67,6 +67,15 @@ struct SampleEdit {
   float before = 0, after = 0;
 };
 
+/// Why Effort::kAuto became Effort::kFast.
+enum class WhyFast {
+  kNone,      ///< it did not
+  kOrder,     ///< Order::kGreedy was asked for: the paper's algorithm, which only inserts
+  kStrategy,  ///< simplify_by_paper()
+  kMemory,    ///< removal needs more than the memory limit leaves
+  kBudget,    ///< for the budget, no mesh of normal effort was better than that of insertion
+};
+
 /// Which goal ended the run.
 enum class StopReason { kMaxError, kMaxTriangles, kMaxVertices, kExact };
 
@@ -92,6 +101,7 @@ struct Simplified {
   Work work;                                      ///< what the engine did
   Order order = Order::kGreedy;                   ///< the order that was taken, never kAuto
   Effort effort = Effort::kFast;                  ///< the effort that was made, never kAuto
+  WhyFast why_fast = WhyFast::kNone;              ///< why `effort` is kFast where kAuto was asked for
   Vertices vertices = Vertices::kSamples;         ///< where they are, never kAuto
   bool is_cut_short = false;                      ///< by Run::is_time_up or is_enough
   std::vector<SampleEdit> edits;                  ///< by breaklines, in raster order
@@ -100,6 +110,9 @@ struct Simplified {
   /// The max error that lines were inserted for, given or found; without one, tolerance_factor times the largest
   /// tolerance that is finite.
   double lines_for = 0;
+  /// That the outline of the valid data alone needs, as far as Domain::outline_tolerance leaves it. 0 where every
+  /// sample is valid, and with lines or a cutline.
+  std::uint64_t outline_triangles = 0;
   std::uint64_t cut_off = 0;         ///< valid samples outside the cutline
   std::optional<ShapeReport> shape;  ///< of `mesh`, where Quality::shape asks for something
   std::vector<Pass> passes;          ///< in the order in which they ended

@@ -16,6 +16,10 @@ std::uint64_t megabytes(double bytes) { return static_cast<std::uint64_t>(std::c
 
 }  // namespace
 
+bool is_memory_refusal(const Error& error) {
+  return error.kind == ErrorKind::kUsage && error.message.starts_with("the memory limit is too little");
+}
+
 int MemoryBudget::threads_within(std::uint64_t bytes, int threads) const {
   if (!is_limited()) return threads;
   const std::uint64_t most = rest() / 4 / std::max<std::uint64_t>(1, bytes);

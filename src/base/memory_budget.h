@@ -28,4 +28,7 @@ struct MemoryBudget {
   Result<void> check_part(std::uint64_t bytes, double share, const char* what, const char* advice) const;
 };
 
+/// Whether this is what a MemoryBudget fails with.
+bool is_memory_refusal(const Error& error);
+
 }  // namespace scarp

@@ -35,6 +35,8 @@ Result<std::unique_ptr<GeoTiff>> create_geotiff(const std::string&, int, int, co
 
 std::optional<CrsDescription> describe_crs(const std::string&) { return {}; }
 
+std::optional<std::array<double, 2>> find_degrees(const std::string&, double, double) { return {}; }
+
 Result<std::vector<std::uint8_t>> encode_gpkg(const Mesh&) {
   return fail(ErrorKind::kOutput, "GeoPackage cannot be written: this build of Scarp has no GDAL, which encodes it");
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "grid/affine_map.h"
+#include "grid/height_range.h"
 #include "grid/line_marks.h"
 #include "grid/line_positions.h"
 #include "grid/mask_samples.h"
@@ -109,13 +110,9 @@ class OutsideCount {
   /// `samples`: of a row, as they were.
   void add(std::span<const SampleRun> within, std::span<const float> samples) {
     here_.assign(samples.size(), 0);
-    std::uint64_t valid = 0, kept = 0;
-    for (const float z : samples) {
-      if (std::isnan(z)) continue;
-      ++valid;
-      least_ = std::min(least_, z);
-      most_ = std::max(most_, z);
-    }
+    const HeightRange here = range_of(samples);
+    range_.add(here);
+    std::uint64_t kept = 0;
     for (const SampleRun& run : within) {
       for (auto col = static_cast<std::size_t>(run.begin); col < static_cast<std::size_t>(run.end); ++col)
         kept += here_[col] = std::isnan(samples[col]) ? 0 : 1;
@@ -124,22 +121,16 @@ class OutsideCount {
       result_.has_surface = above_[col] + above_[col + 1] + here_[col] + here_[col + 1] >= 3;
     std::swap(above_, here_);
     result_.kept += kept;
-    result_.lost += valid - kept;
+    result_.lost += here.valid - kept;
   }
   const MaskedOutside& result() const { return result_; }
   /// The range of all heights.
-  void complete(RasterInfo& info) const {
-    info.has_range = true;
-    info.valid = result_.kept + result_.lost;
-    if (info.valid == 0) return;
-    info.min = double{least_};
-    info.max = double{most_};
-  }
+  const HeightRange& range() const { return range_; }
 
  private:
   MaskedOutside result_;
   std::vector<std::uint8_t> above_, here_;  // heights within, by column
-  float least_ = std::numeric_limits<float>::infinity(), most_ = -std::numeric_limits<float>::infinity();
+  HeightRange range_;
 };
 
 }  // namespace
@@ -198,7 +189,7 @@ Result<MaskedOutside> mask_outside(OwnedHeightField& field, const Cutline& cutli
       return tl::unexpected(read.error());
     count.add(within->row(row), samples);
   }
-  if (!field.info.has_range) count.complete(field.info);
+  if (!field.info.has_range) set_range(count.range(), field.info);
   field.source = std::make_shared<SourceWithin>(std::move(field.source), within);
   MaskedOutside result = count.result();
   result.bytes = sizeof(SampleRun) * runs.runs().size() + sizeof(std::size_t) * static_cast<std::size_t>(field.rows);

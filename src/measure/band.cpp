@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "grid/height_range.h"
 #include "grid/window.h"
 
 namespace scarp::judge {
@@ -21,31 +22,6 @@ bool mark_heights(const float* samples, std::vector<std::uint8_t>& marks) {
   return all;
 }
 
-/// The range of all samples. Lanes, since one minimum would have to wait for the one before it.
-HeightRange find_range(std::span<const float> samples) {
-  constexpr std::size_t kLanes = 8;
-  std::array<float, kLanes> least, most;
-  std::array<std::uint32_t, kLanes> valid{};
-  least.fill(std::numeric_limits<float>::infinity());
-  most.fill(-std::numeric_limits<float>::infinity());
-  const auto look = [&](std::size_t lane, float z) {
-    least[lane] = z < least[lane] ? z : least[lane];
-    most[lane] = z > most[lane] ? z : most[lane];
-    valid[lane] += z == z ? 1 : 0;
-  };
-  const std::size_t whole = samples.size() / kLanes * kLanes;
-  for (std::size_t i = 0; i < whole; i += kLanes) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) look(lane, samples[i + lane]);
-  }
-  for (std::size_t i = whole; i < samples.size(); ++i) look(i - whole, samples[i]);
-  HeightRange range;
-  for (const std::uint32_t count : valid) range.valid += count;
-  if (range.valid == 0) return range;
-  range.min = *std::min_element(least.begin(), least.end());
-  range.max = *std::max_element(most.begin(), most.end());
-  return range;
-}
-
 }  // namespace
 
 Result<Band> Band::read(const HeightField& field, int first, int rows, const Limits& limits, double guard) {
@@ -59,7 +35,7 @@ Result<Band> Band::read(const HeightField& field, int first, int rows, const Lim
     auto read = limits.source->read(0, first, field.cols, rows, band.tolerances_.data(), field.cols);
     if (!read) return tl::unexpected(std::move(read.error()));
   }
-  band.report_.heights = find_range({band.heights(first), band.errors_.size()});
+  band.report_.heights = range_of({band.heights(first), band.errors_.size()});
   band.classify();
   if (limits.region != nullptr) band.cut();
   return band;

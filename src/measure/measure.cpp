@@ -88,7 +88,7 @@ class Verdict {
       : options_(options), cols_(cols), result_(result) {}
 
   void add(int first_row, BandReport& report) {
-    add(report.heights);
+    result_.heights.add(report.heights);
     if (result_.uncovered == 0) result_.uncovered_at = report.uncovered_at;
     result_.uncovered += report.uncovered;
     result_.over_tolerance += report.over_tolerance;
@@ -135,13 +135,6 @@ class Verdict {
   }
 
  private:
-  void add(const HeightRange& range) {
-    HeightRange& all = result_.heights;
-    if (range.valid == 0) return;
-    all.min = all.valid == 0 ? range.min : std::min(all.min, range.min);
-    all.max = all.valid == 0 ? range.max : std::max(all.max, range.max);
-    all.valid += range.valid;
-  }
   /// A triangle in several bands has one offender, and so have two triangles that share a sample.
   void merge_offenders() {
     std::sort(offenders_.begin(), offenders_.end(), judge::is_worse_of_triangle);

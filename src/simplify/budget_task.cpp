@@ -25,11 +25,7 @@ HeightRange read_range(const HeightField& field) {
     HeightField part = field;
     part.samples = rows.samples.samples;
     part.rows = rows.samples.rows;
-    const HeightRange here = height_range(part);
-    if (here.valid == 0) return {};
-    range.min = range.valid == 0 ? here.min : std::min(range.min, here.min);
-    range.max = range.valid == 0 ? here.max : std::max(range.max, here.max);
-    range.valid += here.valid;
+    range.add(height_range(part));
     return {};
   });
   if (!swept) throw SourceFailure{swept.error()};

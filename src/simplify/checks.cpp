@@ -65,6 +65,18 @@ Result<void> check_shape(const HeightField& field, const ShapeGoals& shape) {
 
 }  // namespace
 
+namespace {
+
+/// A number of two digits, at least this one. REQUIRES: value > 0.
+double round_to_two_digits(double value) {
+  const double exponent = std::floor(std::log10(value)) - 1, unit = std::pow(10, std::abs(exponent));
+  const auto scale = [&](double count) { return exponent < 0 ? count / unit : count * unit; };
+  const double count = std::ceil(exponent < 0 ? value * unit : value / unit);
+  return scale(scale(count) < value ? count + 1 : count);
+}
+
+}  // namespace
+
 Result<void> check_values(const HeightField& field, const SimplifyOptions& options) {
   if (auto goals = check_goals(options); !goals) return goals;
   if (!(options.domain.outline_tolerance >= 0 && std::isfinite(options.domain.outline_tolerance)))
@@ -74,9 +86,9 @@ Result<void> check_values(const HeightField& field, const SimplifyOptions& optio
     return fail(
         ErrorKind::kPromise,
         fmt::format(
-            "a max error of {} cannot be kept: the raster's values do not fit float32 and are rounded by up to {}; "
-            "ask for at least that much",
-            *options.goals.max_error, field.sample_rounding));
+            "a max error of {} cannot be kept: the raster's values do not fit float32 and are rounded by up to {:.3g}; "
+            "ask for {} or more",
+            *options.goals.max_error, field.sample_rounding, round_to_two_digits(field.sample_rounding)));
   return {};
 }
 
@@ -117,13 +129,7 @@ Effort choose_effort(const HeightField& field, const SimplifyOptions& options) {
   if (options.quality.effort != Effort::kAuto) return options.quality.effort;
   const Fields set = fields_of(field, options);
   if (set.has_any(Fields(Field::kMinShape, Field::kTimeLimit, Field::kObjectiveRms))) return Effort::kNormal;
-  // Removal stays away from bounds of samples, which insertion spends where they are small. Tolerances that a budget
-  // has no room for are searched for.
-  constexpr Fields kReasonsForFast(Field::kMask, Field::kMaskSource, Field::kIgnored, Field::kPoints,
-                                   Field::kOrderGreedy, Field::kMemoryLimit);
-  constexpr Fields kTolerances(Field::kTolerance, Field::kToleranceSource);
-  const bool is_fast = set.has_any(kReasonsForFast) || (set.has_any(kTolerances) && !has_budget(options));
-  return is_fast ? Effort::kFast : Effort::kNormal;
+  return set.has(Field::kOrderGreedy) ? Effort::kFast : Effort::kNormal;
 }
 
 }  // namespace scarp

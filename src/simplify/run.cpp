@@ -30,6 +30,7 @@
 #include "shape/shape_need.h"
 #include "shape/shape_refinement.h"
 #include "simplify/proof.h"
+#include "tin/border_count.h"
 
 namespace scarp {
 
@@ -415,6 +416,7 @@ class EngineRun {
   /// The last time the workbench's memory is given back on the way.
   void freeze_into(Simplified& result, bool is_last) {
     const auto start = Clock::now();
+    if (!is_whole_ && !plan_.has_lines) result.outline_triangles = count_border_triangles(piece_->tin);
     const SampleHeights heights = !plan_.is_streamed ? SampleHeights(raster_) : SampleHeights(field_, heights_);
     const bool has_more = options_.output.normals || options_.output.uvs || !field_.channels.empty();
     const LatticePoints at = has_more ? frozen_points(piece_->tin, piece_->lattice) : LatticePoints{};

@@ -8,6 +8,7 @@
 #include <functional>
 #include <new>
 
+#include "base/memory_budget.h"
 #include "grid/samples.h"
 #include "grid/source_failure.h"
 #include "pieces/effort.h"
@@ -26,6 +27,32 @@ Result<Simplified> simplify_within_budget(const HeightField& field, SimplifyOpti
   if (options.quality.effort == Effort::kFast && insertion_stops(field, options)) return simplify_once(field, options);
   if (has_norm(field)) options.quality.vertices = Vertices::kSamples;
   return search_budget(options, make_budget_task(field, options));
+}
+
+/// REQUIRES: a chosen effort.
+Result<Simplified> make_mesh(const HeightField& field, const SimplifyOptions& options) {
+  return has_budget(options) ? simplify_within_budget(field, options) : simplify_once(field, options);
+}
+
+/// With an effort that nobody asked for. Where memory is too little for it, the mesh is refined only. One thread needs
+/// least, so that one decides: the mesh must not depend on their number.
+Result<Simplified> simplify_by_default(const HeightField& field, SimplifyOptions options) {
+  const bool is_fast = options.quality.effort == Effort::kFast;
+  WhyFast why = is_fast ? WhyFast::kOrder : WhyFast::kBudget;
+  auto made = make_mesh(field, options);
+  const auto lacks_memory = [&] { return !made && is_memory_refusal(made.error()) && !is_fast; };
+  if (lacks_memory() && options.run.threads != 1) {
+    SimplifyOptions alone = options;
+    alone.run.threads = 1;
+    made = make_mesh(field, alone);
+  }
+  if (lacks_memory()) {
+    options.quality.effort = Effort::kFast;
+    why = WhyFast::kMemory;
+    made = make_mesh(field, options);
+  }
+  if (made && made->effort == Effort::kFast) made->why_fast = why;
+  return made;
 }
 
 Result<void> check(const HeightField& field, const SimplifyOptions& options) {
@@ -55,7 +82,7 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& ask
     options.quality.effort = choose_effort(field, asked);
     Border& border = options.domain.border;
     if (!border.max_error) border.max_error = asked.goals.max_error;
-    return has_budget(options) ? simplify_within_budget(field, options) : simplify_once(field, options);
+    return asked.quality.effort == Effort::kAuto ? simplify_by_default(field, options) : make_mesh(field, options);
   });
 }
 
@@ -71,7 +98,9 @@ Result<Simplified> simplify_by_paper(const HeightField& field, const PaperOption
     if (options.domain.border.is_locked)
       return fail(ErrorKind::kUsage, describe(find_conflicts(Fields(Field::kStrategy, Field::kBorder)).front()));
     if (auto sound = check(field, request); !sound) return tl::unexpected(sound.error());
-    return simplify_once(field, request);
+    auto made = simplify_once(field, request);
+    if (made) made->why_fast = WhyFast::kStrategy;
+    return made;
   });
 }
 

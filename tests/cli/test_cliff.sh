@@ -32,6 +32,7 @@ cmp one.glb two.glb || fail "-j 2 makes another mesh"
 
 # No step is that high: the same mesh as without.
 succeeds "$scarp" simplify house.asc high.obj -e 0.5 --cliff 30 --report high.json
+grep -q '^scarp: warning: --cliff 30: no wall was found' "$logs/err" || fail "no word on walls that are not there"
 succeeds "$scarp" simplify house.asc none.obj -e 0.5
 [ "$(json high.json cliffs walls)" = 0 ] || fail "a wall where there is none"
 [ "$(grep -vc '^#' high.obj)" = "$(grep -vc '^#' none.obj)" ] || fail "--cliff changes a mesh without cliffs"

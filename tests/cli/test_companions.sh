@@ -44,7 +44,7 @@ holds "$(json s.json max_error) + $(json s.json sample_rounding) <= 2000"
 
 # Tolerances are a goal of their own, alone or beside an error.
 succeeds "$scarp" simplify "$dem" t.glb --tolerance bounds.tif --report s.json --overwrite
-grep -q '^Kept every tolerance: ' "$logs/out" || fail "the summary does not tell that tolerances are kept"
+grep -q '^Kept every tolerance, after [0-9.]* s$' "$logs/out" || fail "the summary does not tell that tolerances are kept"
 succeeds "$scarp" measure "$dem" t.glb --tolerance bounds.tif --json
 cp "$logs/out" m.json
 same weighted_max_error weighted_rmse max_error
@@ -103,7 +103,7 @@ for more in "" "--mask ones.tif" "--batch const"; do
   succeeds "$scarp" simplify spiked.tif flat.obj -e 5 --script steps.txt $more --overwrite --report s.json
   grep -q 'asked 5, ignored samples left out' "$logs/out" || fail "the summary does not tell of the exception"
   holds "$(json s.json max_error) > 500 && $(json s.json triangles) < 10 && $(json s.json p999) < 5"
-  grep -qE '^Reached the error goal: .* of the bounded samples' "$logs/out" || fail "the last line is about the outlier"
+  grep -qE 'without a bound; max error of the others [0-4]' "$logs/out" || fail "the summary is about the outlier"
   holds "$(json s.json bounded_max_error) <= 5 && $(json s.json bounded_max_error) > 0"
   # The judge agrees, given the same script.
   # shellcheck disable=SC2086

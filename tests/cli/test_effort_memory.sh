@@ -38,6 +38,6 @@ for more in "--vertices samples" "--min-shape 0.2" "--time-limit 0" "--crs EPSG:
   succeeds "$scarp" measure "$dem" more.ply --fail-above 10 $frame
 done
 
-# Without an effort it is fast.
+# Without an effort it is normal.
 succeeds "$scarp" simplify "$dem" auto.glb -e 2% --memory 72.8M --report auto.json
-[ "$(json auto.json strategy effort)" = '"fast"' ] || fail "the default is not fast"
+[ "$(json auto.json strategy effort)" = '"normal"' ] || fail "the default is not normal"

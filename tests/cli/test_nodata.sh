@@ -31,6 +31,19 @@ holds "$(json r.json input min) > 0"
 sed 's/^NODATA_value.*$/NODATA_value -1/' hill.asc > undeclared.asc
 succeeds "$scarp" simplify undeclared.asc a.obj -e 1 --nodata -9999 --report a.json
 [ "$(json a.json input void)" = $voids ] || fail "--nodata is not used"
+[ ! -s "$logs/err" ] || fail "a warning about nodata that --nodata names"
+[ "$(json a.json input undeclared_nodata)" = "[]" ] || fail "nodata that is named is suspected"
+# Without it they are heights, and told, with the option, in memory and streamed.
+warning="$voids samples are exactly -9999, far below all others (1[0-9.]* to [89][0-9.]*): if they mean nodata, give --nodata -9999\$"
+for limit in "" "--memory 72.5M"; do
+  # shellcheck disable=SC2086
+  succeeds "$scarp" simplify undeclared.asc suspect.obj -e 1 $limit --report suspect.json --overwrite
+  grep -q "^scarp: warning: $warning" "$logs/err" || fail "undeclared nodata goes unseen $limit"
+  [ "$(json suspect.json input undeclared_nodata 0 samples)" = $voids ] || fail "the report does not count undeclared nodata"
+done
+succeeds "$scarp" info undeclared.asc --json
+grep -q "^scarp: warning: $warning" "$logs/err" || fail "info does not see undeclared nodata"
+[ "$(json "$logs/out" input undeclared_nodata 0 value)" = -9999.0 ] || fail "the report of info does not tell undeclared nodata"
 grep -v '^#' a.obj > a.txt
 grep -v '^#' hole.obj > hole.txt
 cmp a.txt hole.txt || fail "--nodata and a declared value differ"
@@ -79,4 +92,22 @@ grep -q '^scarp: warning: .*1.*infinit' "$logs/err" || grep -qi '^scarp: warning
 [ "$(json i.json input valid)" = 99 ] || fail "an infinity is a height"
 holds "$(python3 -c "import json; print(len(json.load(open('i.json'))['warnings']))") == 1"
 succeeds "$scarp" simplify inf.bil inf.glb -e 1 -q --overwrite
+
+# Where outlines alone need most of the mesh, the summary says what -t says; a simpler outline needs fewer.
+awk 'BEGIN {
+  print "ncols 80\nnrows 60\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999";
+  for (r = 0; r < 60; ++r) {
+    line = "";
+    for (c = 0; c < 80; ++c) line = line ((c % 8 == 3 && r % 6 > 2) || (c + r) % 16 == 9 && r % 6 == 1 ? "-9999 " : "5 ");
+    print line;
+  }
+}' > ragged.asc
+try "$scarp" simplify ragged.asc x.obj -t 10
+needed=$(sed -n 's/.*alone needs \([0-9]*\);.*/\1/p' "$logs/err")
+succeeds "$scarp" simplify ragged.asc ragged.obj -e 1 --report ragged.json
+[ "$(json ragged.json outline_triangles)" = "$needed" ] || fail "$(json ragged.json outline_triangles) instead of $needed"
+grep -q "outlines  *of nodata and border alone need $(json ragged.json outline_triangles) triangles: --outline-tolerance" "$logs/out" ||
+  fail "the summary does not tell what outlines need"
+succeeds "$scarp" simplify hill.asc hole.obj -e 1 --overwrite
+if grep -q '^  outlines' "$logs/out"; then fail "a small outline is told of"; fi
 [ ! -s "$logs/err" ] || fail "-q warns"

@@ -78,4 +78,10 @@ succeeds "$scarp" simplify hills.asc none.obj -e 2 --report plain.json
 for height in 0 -2 tall; do refuses 1 "--ridges" "$scarp" simplify hills.asc x.glb -e 2 --ridges "$height"; done
 refuses 1 "--keep-ridges needs --ridges" "$scarp" simplify hills.asc x.glb -e 2 --keep-ridges
 refuses 1 "--max-error" "$scarp" simplify hills.asc x.glb --tolerance hills.asc --ridges 10
+
+# None that high: a warning says so.
+succeeds "$scarp" simplify hills.asc none.obj -e 2 --ridges 1000 --overwrite
+grep -q '^scarp: warning: --ridges 1000: no ridge or valley was found' "$logs/err" || fail "no word on ridges that are not there"
+run none.obj
+if grep -q 'was found' "$logs/err"; then fail "a warning about ridges that are there"; fi
 refuses 1 "dominant" "$scarp" simplify hills.asc x.glb -e 2 --order dominant --ridges 10

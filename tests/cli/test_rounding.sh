@@ -34,7 +34,27 @@ PYTHON
 succeeds "$scarp" simplify fine.tif goal.glb -e 5 --report goal.json
 holds "$(json goal.json max_error) + $(json goal.json sample_rounding) <= 5"
 succeeds "$scarp" measure fine.tif goal.glb --fail-above 5 -q
-refuses 3 "rounded" "$scarp" simplify fine.tif none.glb -e 0
+
+# What a refusal of 0 names is kept, and little more than the rounding; decoded tenths, far coordinates and big numbers.
+gdal_translate -q -srcwin 0 0 40 30 -a_scale 0.1 -a_offset 3 "$dem" tenths.tif
+gdal_translate -q -srcwin 0 0 40 30 -ot Int32 -scale 236 1076 1000000001 1000900007 "$dem" whole.tif
+for raster in fine.tif tenths.tif whole.tif; do
+  refuses 3 "rounded" "$scarp" simplify "$raster" none.glb -e 0
+  enough=$(sed -n 's/.*ask for \([^ ]*\) or more.*/\1/p' "$logs/err")
+  for format in glb ply obj; do
+    succeeds "$scarp" simplify "$raster" "asked.$format" -e "$enough" --report asked.json --overwrite
+    holds "$enough <= 1.1 * $(json asked.json sample_rounding)"
+    succeeds "$scarp" measure "$raster" "asked.$format" --fail-above "$enough" -q
+  done
+done
+# Float64, and scaled values, that fit float32 need no room.
+gdal_translate -q -srcwin 0 0 40 30 -ot Float64 "$dem" fits.tif
+gdal_translate -q -srcwin 0 0 40 30 -a_scale 0.125 -a_offset 3 "$dem" eighths.tif
+for raster in fits.tif eighths.tif; do
+  succeeds "$scarp" simplify "$raster" exact.glb -e 0 --report zero.json --overwrite
+  holds "$(json zero.json max_error) == 0"
+  succeeds "$scarp" measure "$raster" exact.glb --fail-above 0 -q
+done
 
 # Where the samples are the values, nothing is said.
 succeeds "$scarp" simplify "$dem" plain.glb -e 0 --report plain.json

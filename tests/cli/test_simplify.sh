@@ -5,8 +5,12 @@ need python3
 
 succeeds "$scarp" simplify "$dem" hills.glb -e 20 --preview hills.png --report hills.json
 [ ! -s "$logs/err" ] || fail "something on stderr"
-tail -n 1 "$logs/out" | grep -Eq '^Reached the error goal: max error [0-9.]+ \(asked 20\), RMSE [0-9.]+, [0-9,]+ triangles \([0-9.]+ % of 275,772\), [0-9.]+ s$' ||
-  fail "the last line is: $(tail -n 1 "$logs/out")"
+# The last line says which goal ended the run, and nothing that stands above it.
+tail -n 1 "$logs/out" | grep -Eq '^Reached the error goal, after [0-9.]+ s$' || fail "the last line is: $(tail -n 1 "$logs/out")"
+for words in 'triangles  *[0-9,]* *, [0-9.]* % of the full grid.s 275,772' 'effort  *normal$' 'order  *dominant$' 'frame  *local metres' \
+  'max error  *[0-9.]* at column [0-9]*, row [0-9]* (asked 20)$' '^  *at longitude -84\.[0-9]*, latitude 36\.[0-9]* in EPSG:4326$'; do
+  grep -q "$words" "$logs/out" || fail "the summary does not tell '$words'"
+done
 [ "$(head -c 4 hills.glb)" = glTF ] || fail "hills.glb is no GLB"
 [ "$(head -c 4 hills.png | tail -c 3)" = PNG ] || fail "hills.png is no PNG"
 
@@ -14,7 +18,8 @@ python3 - hills.json "$(wc -c < hills.glb)" <<'PYTHON'
 import json, sys
 r = json.load(open(sys.argv[1]))
 assert list(r) == ["scarp", "command", "input", "frame", "goal", "strategy", "breaklines", "water", "rivers", "cliffs", "ridges", "shape", "cutline", "stopped_by", "vertices", "triangles",
-                   "full_triangles", "max_error", "max_error_at", "rmse", "mean_error", "mean_abs_error", "p50", "p95", "p99", "p999", "ignored",
+                   "full_triangles", "outline_triangles", "max_error", "max_error_at", "rmse", "mean_error", "mean_abs_error", "p50", "p95", "p99", "p999", "ignored",
+                   "max_error_place",
                    "samples", "uncovered", "stray", "void_cells_covered", "topology", "work", "passes", "seconds", "outputs",
                    "warnings"], list(r)
 assert r["command"].startswith("scarp simplify ") and r["command"].endswith(" hills.glb -e 20 --preview hills.png --report hills.json")

@@ -59,7 +59,7 @@ holds "$(json batch.json work passes) < 0.01 * $(json delaunay.json work passes)
 python3 - data.json <<'PYTHON'
 import json, sys
 assert json.load(open(sys.argv[1]))["strategy"] == {
-    "importance": "global", "one_pass": False, "effort": "fast", "vertices": "samples", "min_shape": 0.0,
+    "importance": "global", "one_pass": False, "effort": "fast", "why_fast": "strategy", "vertices": "samples", "min_shape": 0.0,
     "cut_short": False, "objective": "max", "order": "greedy", "algorithm": "heap", "batch": None, "edges": "data", "edge_score": "sum",
     "shape_threshold": 0.5, "supersample": 0.0, "mask": None, "tolerance": None, "script": None,
     "roi": None, "falloff": None}

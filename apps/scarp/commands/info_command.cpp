@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "inputs/heightmap.h"
+#include "inputs/nodata_warnings.h"
 #include "options/option_table.h"
 #include "reports/info_report.h"
 #include "terminal/progress_display.h"
@@ -57,6 +58,7 @@ Result<void> InfoCommand::run(const std::string& command_line) const {
   Result<OwnedHeightField> field = read_height_field(raster_.path, *read);
   if (!field) return tl::unexpected(field.error());
   if (const auto needle = find_needle(*field, field->info)) field->info.warnings.push_back(*needle);
+  for (std::string& warning : warn_of_undeclared_nodata(field->info)) field->info.warnings.push_back(std::move(warning));
   if (!json_) {
     display.finish();
     if (!quiet_) print_warnings(field->info.warnings);

@@ -9,6 +9,7 @@
 
 #include "commands/level_run.h"
 #include "inputs/heightmap.h"
+#include "inputs/nodata_warnings.h"
 #include "inputs/waters.h"
 #include "options/conflicts.h"
 #include "options/option_table.h"
@@ -129,8 +130,7 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
   Result<Cut> cut = read_cut(plan.cut, outcome.as_read, progress, outcome.field, outcome.companions.warnings);
   if (!cut) return tl::unexpected(std::move(cut.error()));
   outcome.cut = std::move(*cut);
-  const RasterInfo& now = outcome.field.info;
-  if (now.has_range) complete_info({now.valid, now.min, now.max}, outcome.as_read);
+  complete_info(outcome.field.info, outcome.as_read);
   outcome.heights = height_range(outcome.field);
   outcome.seconds_read = seconds_since(start);
   return {};
@@ -346,6 +346,12 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
         "or "
         "the heights span magnitudes beyond exact arithmetic");
   }
+  if (!plan->channels.image) {
+    for (std::string& sentence : warn_of_undeclared_nodata(outcome.as_read))
+      outcome.warnings.push_back(std::move(sentence));
+  }
+  warn_of_missing_walls(given_.cliff, fitted.walls, outcome.warnings);
+  warn_of_missing_ridges(given_.ridges, fitted.ridges, outcome.warnings);
   if (fitted.given_lines() > 0 && outcome.simplified.lines_inserted == 0) {
     outcome.warnings.push_back(
         fmt::format("{}: no line lies on the raster's surface, so they change nothing: is their CRS the right one?",

@@ -141,28 +141,32 @@ std::string timing_lines(const SimplifyRun& run) {
   return text;
 }
 
-std::string describe_end(const SimplifyPlan& plan, const SimplifyRun& run, const EndError& error) {
-  const std::string asked = run.asked ? format_number(*run.asked) : "";
-  const std::string missed = run.asked ? fmt::format(" (asked {}, not reached)", asked) : "";
-  switch (run.simplified.stop) {
-    case StopReason::kMaxError:
-      return fmt::format("Reached the error goal{}: {} (asked {})",
-                         run.simplified.is_cut_short ? fmt::format(", when {} ended the effort", end_of_effort()) : "",
-                         error.text, asked);
-    case StopReason::kMaxTriangles:
-      return fmt::format("Reached the triangle budget of {}: {}{}",
-                         format_count(plan.simplify.goals.max_triangles.value_or(0)), error.text, missed);
-    case StopReason::kMaxVertices:
-      return fmt::format("Reached the point budget of {}: {}{}, {} vertices",
-                         format_count(plan.simplify.goals.max_vertices.value_or(0)), error.text, missed,
-                         format_count(run.vertices));
-    case StopReason::kExact:
-      break;
-  }
-  return fmt::format(
-      "{}: {}{}",
-      error.is_exact ? fmt::format("Reproduced every {}", error.of) : "No vertex more would lower the error",
-      error.text, run.asked ? fmt::format(" (asked {})", asked) : "");
+std::string describe_asked(const SimplifyRun& run, const char* exceptions) {
+  if (!run.asked) return "";
+  const StopReason stop = run.simplified.stop;
+  const bool is_budget = stop == StopReason::kMaxTriangles || stop == StopReason::kMaxVertices;
+  return fmt::format(" (asked {}{}{})", format_number(*run.asked), is_budget ? ", not reached" : "", exceptions);
+}
+
+std::string describe_end(const SimplifyPlan& plan, const SimplifyRun& run, const char* exact) {
+  const auto name_end = [&]() -> std::string {
+    switch (run.simplified.stop) {
+      case StopReason::kMaxError:
+        return run.simplified.is_cut_short
+                   ? fmt::format("Reached the error goal, when {} ended the effort", end_of_effort())
+                   : "Reached the error goal";
+      case StopReason::kMaxTriangles:
+        return fmt::format("Reached the triangle budget of {}",
+                           format_count(plan.simplify.goals.max_triangles.value_or(0)));
+      case StopReason::kMaxVertices:
+        return fmt::format("Reached the point budget of {}",
+                           format_count(plan.simplify.goals.max_vertices.value_or(0)));
+      case StopReason::kExact:
+        break;
+    }
+    return exact != nullptr ? exact : "No vertex more would lower the error";
+  };
+  return fmt::format("{}, after {} s\n", name_end(), format_seconds(run.seconds_total));
 }
 
 }  // namespace scarp::cli

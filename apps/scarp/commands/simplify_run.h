@@ -65,13 +65,10 @@ std::string seconds_line(const SimplifyRun& run);
 /// The lines of --timing: a table of the passes, reading first and writing last.
 std::string timing_lines(const SimplifyRun& run);
 
-/// What the last line of the summary says of the error.
-struct EndError {
-  std::string text;           ///< "max error 0.5"
-  bool is_exact = false;      ///< nothing was lost
-  const char* of = "sample";  ///< what was reproduced if so
-};
-/// Which goal ended the run and what the error then is: "Reached the error goal: max error 0.5 (asked 0.5)".
-std::string describe_end(const SimplifyPlan& plan, const SimplifyRun& run, const EndError& error);
+/// What was asked for, beside the error that was reached: " (asked 0.5)", " (asked 0.5, not reached)"; "" for nothing.
+/// `exceptions`: what it does not hold for.
+std::string describe_asked(const SimplifyRun& run, const char* exceptions = "");
+/// The last line of the summary: which goal ended the run. `exact`: said where nothing was lost; null: something was.
+std::string describe_end(const SimplifyPlan& plan, const SimplifyRun& run, const char* exact);
 
 }  // namespace scarp::cli

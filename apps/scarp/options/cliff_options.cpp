@@ -43,4 +43,12 @@ std::string cliffs_line(const std::optional<Cliffs>& cliffs) {
                                             format_count(cliffs->vertices) + " vertices in all"));
 }
 
+void warn_of_missing_walls(const CliffArguments& given, const std::optional<Cliffs>& cliffs,
+                           std::vector<std::string>& warnings) {
+  if (!cliffs || cliffs->wall_count > 0) return;
+  warnings.push_back(fmt::format(
+      "--cliff {}: no wall was found; give the least height of one, the difference of two neighbouring samples",
+      *given.height));
+}
+
 }  // namespace scarp::cli

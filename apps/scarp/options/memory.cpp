@@ -171,6 +171,16 @@ void complete_info(const HeightRange& judged, RasterInfo& info) {
   info.valid = judged.valid;
   info.min = judged.min;
   info.max = judged.max;
+  info.undeclared_nodata = find_undeclared_nodata(judged);
+}
+
+void complete_info(const RasterInfo& now, RasterInfo& info) {
+  if (info.has_range || !now.has_range) return;
+  info.has_range = true;
+  info.valid = now.valid;
+  info.min = now.min;
+  info.max = now.max;
+  info.undeclared_nodata = now.undeclared_nodata;
 }
 
 }  // namespace scarp::cli

@@ -71,5 +71,7 @@ Error name_memory(const MemoryArguments& given, const OwnedHeightField& field, E
 
 /// Gives a raster that was not read before the range that the judge has found.
 void complete_info(const HeightRange& judged, RasterInfo& info);
+/// The same of the range in `now`, if it has one.
+void complete_info(const RasterInfo& now, RasterInfo& info);
 
 }  // namespace scarp::cli

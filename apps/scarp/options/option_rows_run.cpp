@@ -18,8 +18,7 @@ constexpr OptionRow kRunRows[] = {
      .by_default = "no limit",
      .range = "at least 72M",
      .help =
-         "Memory limit, such as 1G. Larger rasters are streamed: they stay in their file, some options are refused, "
-         "and the effort is fast unless it is given.",
+         "Memory limit, such as 1G. Larger rasters are streamed: they stay in their file, some options are refused.",
      .brief = "Memory limit, such as 1G"},
     {.id = OptionId::kMemory,
      .name = "--memory",

@@ -53,4 +53,13 @@ std::string ridges_line(const std::optional<Ridges>& ridges) {
                                   format_plural(ridges->valleys.size(), "valley"), format_count(ridges->vertices)));
 }
 
+void warn_of_missing_ridges(const RidgeArguments& given, const std::optional<Ridges>& ridges,
+                            std::vector<std::string>& warnings) {
+  if (!ridges || !ridges->ridges.empty() || !ridges->valleys.empty()) return;
+  warnings.push_back(
+      fmt::format("--ridges {}: no ridge or valley was found; give how far the land falls or rises from one on both "
+                  "sides, at least",
+                  *given.height));
+}
+
 }  // namespace scarp::cli

@@ -30,5 +30,8 @@ struct RidgeArguments {
 Json describe_ridges(const RidgeArguments& given, const std::optional<Ridges>& ridges);
 /// Of the summary; empty without --ridges.
 std::string ridges_line(const std::optional<Ridges>& ridges);
+/// Warns where ridges were asked for and none was found.
+void warn_of_missing_ridges(const RidgeArguments& given, const std::optional<Ridges>& ridges,
+                            std::vector<std::string>& warnings);
 
 }  // namespace scarp::cli

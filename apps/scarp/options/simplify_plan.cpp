@@ -107,7 +107,9 @@ Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (!checked) return checked;
   const Result<void> parsed = given.strategy.parse_into(plan.simplify, plan.strategy);
   if (!parsed) return parsed;
-  plan.by_paper = given.strategy.find_strategy() != nullptr;
+  const char* strategy = given.strategy.find_strategy();
+  plan.by_paper = strategy != nullptr;
+  if (plan.by_paper) plan.strategy_option = strategy;
   if (plan.channels.image && plan.strategy.importance.feature != Importance::Feature::kNoFeature) {
     return fail(ErrorKind::kUsage, "--importance measures features of heights, which an --image has not: leave it out");
   }

@@ -60,7 +60,8 @@ struct SimplifyPlan {
   std::optional<ErrorGoal> error_goal;
   SimplifyOptions simplify;  ///< without max_error, which may depend on the relief, and what CompanionArguments name
   Strategy strategy;
-  bool by_paper = false;  ///< by simplify_by_paper(), with the strategy
+  bool by_paper = false;        ///< by simplify_by_paper(), with the strategy
+  std::string strategy_option;  ///< that asks for it
   CompanionArguments companions;
   LineArguments lines;
   CliffArguments cliff;

@@ -19,6 +19,10 @@ constexpr Choice<Importance::Feature> kFeatures[] = {{"local", Importance::Featu
                                                      {"curvature", Importance::Feature::kCurvature}};
 constexpr Choice<Effort> kEfforts[] = {
     {"fast", Effort::kFast}, {"normal", Effort::kNormal}, {"high", Effort::kHigh}, {"max", Effort::kMax}};
+constexpr Choice<WhyFast> kWhyFast[] = {{"order", WhyFast::kOrder},
+                                        {"strategy", WhyFast::kStrategy},
+                                        {"memory", WhyFast::kMemory},
+                                        {"budget", WhyFast::kBudget}};
 constexpr Choice<Vertices> kVertices[] = {{"samples", Vertices::kSamples}, {"free", Vertices::kFree}};
 constexpr Choice<Objective> kObjectives[] = {{"max", Objective::kMax}, {"rms", Objective::kRms}};
 constexpr Choice<Order> kOrders[] = {{"dominant", Order::kDominant}, {"greedy", Order::kGreedy}};
@@ -248,16 +252,21 @@ std::string StrategyArguments::canonical_refinement() const {
          canonical_option("--supersample", supersample);
 }
 
+const char* effort_name(Effort effort) { return name_of(effort, kEfforts); }
+const char* order_name(Order order) { return name_of(order, kOrders); }
+
 Json describe_strategy(const SimplifyOptions& options, const Strategy& strategy, const Simplified& simplified) {
   Json json;
   json["importance"] = importance_name(strategy.importance);
   json["one_pass"] = strategy.importance.one_pass;
-  json["effort"] = name_of(simplified.effort, kEfforts);
+  json["effort"] = effort_name(simplified.effort);
+  json["why_fast"] =
+      simplified.why_fast == WhyFast::kNone ? Json(nullptr) : Json(name_of(simplified.why_fast, kWhyFast));
   json["vertices"] = name_of(simplified.vertices, kVertices);
   json["min_shape"] = options.quality.min_shape.value_or(simplified.vertices == Vertices::kFree ? 0.1 : 0);
   json["cut_short"] = simplified.is_cut_short;
   json["objective"] = name_of(options.goals.objective, kObjectives);
-  json["order"] = name_of(simplified.order, kOrders);
+  json["order"] = order_name(simplified.order);
   json["algorithm"] =
       simplified.order == Order::kGreedy ? Json(name_of(strategy.algorithm, kAlgorithms)) : Json(nullptr);
   switch (strategy.batch.rule) {

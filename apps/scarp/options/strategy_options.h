@@ -36,6 +36,10 @@ Result<Importance> parse_importance(const std::string& text);
 /// What parse_importance() reads as the same importance.
 std::string importance_name(const Importance& importance);
 
+/// As the options name them.
+const char* effort_name(Effort effort);
+const char* order_name(Order order);
+
 /// The "strategy" object of a report, without masks, channels and scripts.
 Json describe_strategy(const SimplifyOptions& options, const Strategy& strategy, const Simplified& simplified);
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "reports/place.h"
 #include "scarp/solid.h"
 #include "scarp/version.h"
 #include "terminal/text.h"
@@ -25,17 +26,10 @@ std::string describe_cell(const OwnedHeightField& field) {
   const auto size = [](double x, double y) {
     return x == y ? format_number(x) : fmt::format("{} x {}", format_number(x), format_number(y));
   };
-  std::string text = size(info.cell_x, info.cell_y) + (info.is_geographic ? " degrees" : " CRS units");
-  if (info.cell_x_m > 0) text += fmt::format(", {:.4g} x {:.4g} m", info.cell_x_m, info.cell_y_m);
+  std::string text = size(info.cell_x, info.cell_y) + " " + unit_words(info.crs_unit);
+  const bool is_metric = !info.is_geographic && info.cell_x_m == info.cell_x && info.cell_y_m == info.cell_y;
+  if (info.cell_x_m > 0 && !is_metric) text += fmt::format(", {:.4g} x {:.4g} m", info.cell_x_m, info.cell_y_m);
   return text;
-}
-
-/// "EPSG:4326", or the name that a WKT begins with.
-std::string describe_crs(const std::string& crs) {
-  if (crs.empty()) return "none";
-  const std::size_t open = crs.find('"');
-  if (open == std::string::npos) return crs;
-  return crs.substr(open + 1, crs.find('"', open + 1) - open - 1);
 }
 
 struct Box {
@@ -93,7 +87,7 @@ std::string raster_facts(const OwnedHeightField& field) {
                                            unit, format_number(info.max - info.min)));
   text += fact_line("missing", fmt::format("{}{}", format_share(missing, static_cast<double>(samples)),
                                            info.nodata ? fmt::format(", nodata {}", format_number(*info.nodata)) : ""));
-  text += fact_line("CRS", describe_crs(info.crs));
+  text += fact_line("CRS", crs_words(info.crs));
   text += fact_line("cell", describe_cell(field));
   text += fact_line("mesh frame", field.frame.description);
   return text;
@@ -144,7 +138,7 @@ std::string points_facts(const PointSet& points) {
   text += range_line("x", box, 0) + range_line("y", box, 1);
   text += fact_line("heights", fmt::format("{} to {}, relief {}", format_number(box.low[2]), format_number(box.high[2]),
                                            format_number(box.high[2] - box.low[2])));
-  text += fact_line("CRS", describe_crs(points.crs));
+  text += fact_line("CRS", crs_words(points.crs));
   return text + fact_line("mesh frame", points.description);
 }
 

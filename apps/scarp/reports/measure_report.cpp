@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/place.h"
 #include "reports/report.h"
 #include "reports/verdict.h"
 #include "scarp/version.h"
@@ -46,6 +47,7 @@ std::string describe_heights(const Judged& judged) {
   std::string text;
   text += line("max error", fmt::format("{}{} at column {}, row {}", format_number(m.max_error), unit,
                                         m.max_error_at[0], m.max_error_at[1]));
+  if (const auto place = find_place(judged.field.info, m.max_error_at)) text += line("", "at " + describe(*place));
   if (judged.field.sample_rounding > 0) {
     text += line(
         "", fmt::format("values rounded to float32 by up to {}{}", format_number(judged.field.sample_rounding), unit));
@@ -134,8 +136,12 @@ Json make_report(const Judged& judged, const std::string& mesh_path, const Cutli
   report["vertices"] = judged.judgement.heights.vertices;
   report["triangles"] = judged.judgement.heights.triangles;
   report["full_triangles"] = full_grid_triangles(judged.field);
-  if (!judged.plan.image) add_errors(report, judged.judgement.heights, judged.field.sample_rounding);
   const bool is_judged = judged.judgement.heights.samples > 0;
+  if (!judged.plan.image) {
+    add_errors(report, judged.judgement.heights, judged.field.sample_rounding);
+    report["max_error_place"] =
+        is_judged ? to_json(find_place(judged.field.info, judged.judgement.heights.max_error_at)) : Json(nullptr);
+  }
   if (judged.judgement.weighted && is_judged) {
     report["weighted_max_error"] = finite_or_word(judged.judgement.weighted->largest.value);
     report["weighted_rmse"] = finite_or_word(judged.judgement.weighted->rmse);

@@ -92,6 +92,7 @@ Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const s
   report["input"]["lattice_step"] = outcome.lattice_step;
   report["frame"] = describe_frame(outcome.points);
   report["goal"] = describe_goal(plan, outcome);
+  report["strategy"] = Json{{"effort", "fast"}, {"why_fast", "points"}};
   report["stopped_by"] = stop_name(outcome.simplified.stop);
   report["vertices"] = outcome.vertices;
   report["triangles"] = outcome.triangles;
@@ -121,17 +122,14 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
                                                format_count(outcome.on_hull)));
   text += summary_line("triangles", format_count(outcome.triangles));
   text += solid_line(plan, outcome);
-  text += summary_line(
-      "max error",
-      fmt::format("{} at {}{}", format_number(measured.max_error), describe_place(outcome.points, measured),
-                  outcome.asked ? fmt::format(" (asked {})", format_number(*outcome.asked)) : ""));
+  text += summary_line("effort", "fast (scattered points are only refined)");
+  text += summary_line("frame", outcome.points.description);
+  text += summary_line("max error", fmt::format("{} at {}{}", format_number(measured.max_error),
+                                                describe_place(outcome.points, measured), describe_asked(outcome)));
   text += summary_line("RMSE", format_number(measured.rmse));
   text += summary_line("judged", format_plural(measured.samples, "point") + ", none uncovered");
-  const EndError error{
-      .text = "max error " + format_number(measured.max_error), .is_exact = measured.max_error == 0, .of = "point"};
   return text + seconds_line(outcome) +
-         fmt::format("{}, RMSE {}, {}, {} s\n", describe_end(plan, outcome, error), format_number(measured.rmse),
-                     format_plural(outcome.triangles, "triangle"), format_seconds(outcome.seconds_total));
+         describe_end(plan, outcome, measured.max_error == 0 ? "Reproduced every point" : nullptr);
 }
 
 Json make_report(const JudgedPoints& judged, const std::string& mesh_path, const std::string& command_line) {

@@ -66,11 +66,15 @@ Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, in
   input["unit"] = as_read.unit;
   input["crs"] = as_read.crs;
   input["geographic"] = as_read.is_geographic;
+  input["crs_unit"] = as_read.crs_unit;
   input["cell_x"] = as_read.cell_x;
   input["cell_y"] = as_read.cell_y;
   input["cell_x_m"] = as_read.cell_x_m > 0 ? Json(as_read.cell_x_m) : Json(nullptr);
   input["cell_y_m"] = as_read.cell_y_m > 0 ? Json(as_read.cell_y_m) : Json(nullptr);
   input["sample_rounding"] = field.sample_rounding;
+  Json& undeclared = input["undeclared_nodata"] = Json::array();
+  for (const UndeclaredNodata& nodata : as_read.undeclared_nodata)
+    undeclared.push_back(Json{{"value", nodata.of.height}, {"samples", nodata.of.samples}});
   return input;
 }
 

@@ -8,6 +8,7 @@
 
 #include "commands/level_run.h"
 #include "inputs/waters.h"
+#include "reports/place.h"
 #include "reports/report.h"
 #include "scarp/version.h"
 #include "terminal/text.h"
@@ -51,14 +52,15 @@ std::string describe_errors(const SimplifyPlan& plan, const Outcome& outcome) {
   const Simplified& simplified = outcome.simplified;
   const Measurement& measured = simplified.measurement;
   const std::string unit = outcome.as_read.unit.empty() ? "" : " " + outcome.as_read.unit;
-  const std::string asked =
-      outcome.asked ? fmt::format(" (asked {}{})", format_number(*outcome.asked), describe_exceptions(outcome)) : "";
+  const std::string asked = describe_asked(outcome, describe_exceptions(outcome));
   const bool bounds_heights = outcome.channels.empty() && outcome.companions.mask.empty();
   std::string text;
   if (!plan.channels.image) {
     text += summary_line("max error",
                          fmt::format("{}{} at column {}, row {}{}", format_number(measured.max_error), unit,
                                      measured.max_error_at[0], measured.max_error_at[1], bounds_heights ? asked : ""));
+    if (const auto place = find_place(outcome.as_read, measured.max_error_at))
+      text += summary_line("", "at " + describe(*place));
     if (outcome.field.sample_rounding > 0) {
       text += summary_line("", fmt::format("values rounded to float32 by up to {}{}",
                                            format_number(outcome.field.sample_rounding), unit));
@@ -100,20 +102,44 @@ std::string describe_errors(const SimplifyPlan& plan, const Outcome& outcome) {
 
 /// The last line of the summary.
 std::string describe_ending(const SimplifyPlan& plan, const Outcome& outcome) {
-  const GoalError goal = find_goal_error(outcome);
-  const std::string numbers = fmt::format(
-      "{}{} ({} of {}), {} s",
-      plan.channels.image ? "" : fmt::format("RMSE {}, ", format_number(outcome.simplified.measurement.rmse)),
-      format_plural(outcome.triangles, "triangle"),
-      format_share(static_cast<double>(outcome.triangles), static_cast<double>(full_grid_triangles(outcome.field))),
-      format_count(full_grid_triangles(outcome.field)), format_seconds(outcome.seconds_total));
-  EndError error{.text = fmt::format("{} {}{}", goal.name, format_number(goal.value),
-                                     outcome.bounded_goal ? " of the bounded samples" : "")};
-  error.is_exact = goal.value == 0 && outcome.simplified.ignored == 0 && outcome.field.sample_rounding == 0;
-  const bool keeps_tolerances = outcome.simplified.stop == StopReason::kMaxError && outcome.companions.has_tolerance();
-  return fmt::format("{}, {}\n",
-                     keeps_tolerances ? "Kept every tolerance: " + error.text : describe_end(plan, outcome, error),
-                     numbers);
+  if (outcome.simplified.stop == StopReason::kMaxError && outcome.companions.has_tolerance() &&
+      !outcome.simplified.is_cut_short)
+    return fmt::format("Kept every tolerance, after {} s\n", format_seconds(outcome.seconds_total));
+  const bool is_exact =
+      find_goal_error(outcome).value == 0 && outcome.simplified.ignored == 0 && outcome.field.sample_rounding == 0;
+  return describe_end(plan, outcome, is_exact ? "Reproduced every sample" : nullptr);
+}
+
+/// Why fast was taken, where nobody asked for it; empty: it was not.
+std::string explain_effort(const SimplifyPlan& plan, const Simplified& simplified) {
+  switch (simplified.why_fast) {
+    case WhyFast::kNone:
+      break;
+    case WhyFast::kOrder:
+      return "because of --order greedy; --effort normal takes fewer triangles";
+    case WhyFast::kStrategy:
+      return fmt::format("because of {}: strategies only insert vertices", plan.strategy_option);
+    case WhyFast::kMemory:
+      return "because of --memory: removing vertices needs more";
+    case WhyFast::kBudget:
+      return "no mesh of normal effort within the budget was better";
+  }
+  return "";
+}
+
+std::string describe_effort(const SimplifyPlan& plan, const Simplified& simplified) {
+  const std::string why = explain_effort(plan, simplified);
+  return fmt::format("{}{}", effort_name(simplified.effort), why.empty() ? "" : " (" + why + ")");
+}
+
+/// Nothing unless outlines take most of the mesh.
+std::string outline_line(const SimplifyPlan& plan, const Outcome& outcome) {
+  constexpr std::uint64_t kFew = 100;
+  const std::uint64_t least = outcome.simplified.outline_triangles;
+  if (least < kFew || 2 * least < outcome.triangles) return "";
+  return summary_line("outlines", fmt::format("of nodata and border alone need {}: --outline-tolerance takes fewer{}",
+                                              format_plural(least, "triangle"),
+                                              plan.memory && outcome.field.source ? ", without --memory" : ""));
 }
 
 }  // namespace
@@ -160,7 +186,10 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["vertices"] = outcome.vertices;
   report["triangles"] = outcome.triangles;
   report["full_triangles"] = full_grid_triangles(outcome.field);
+  report["outline_triangles"] = outcome.simplified.outline_triangles;
   add_all_errors(report, plan, outcome);
+  if (!plan.channels.image)
+    report["max_error_place"] = to_json(find_place(outcome.as_read, outcome.simplified.measurement.max_error_at));
   add_coverage(report, outcome.simplified.measurement);
   add_solid(report, plan, outcome);
   report["levels"] = describe_levels(plan, outcome);
@@ -196,6 +225,10 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
       "triangles",
       fmt::format("{}, {} of the full grid's {}", format_count(outcome.triangles),
                   format_share(static_cast<double>(outcome.triangles), static_cast<double>(full)), format_count(full)));
+  text += outline_line(plan, outcome);
+  text += summary_line("effort", describe_effort(plan, outcome.simplified));
+  text += summary_line("order", order_name(outcome.simplified.order));
+  text += summary_line("frame", outcome.field.frame.description);
   text += waters_lines(outcome.features.lakes, outcome.simplified.features.rivers);
   if (!plan.cut.files.empty()) text += summary_line("cutline", cut_words(outcome.cut, outcome.simplified.cut_off));
   text += lines_line(outcome.simplified.features.given_lines(), outcome.simplified.lines_inserted,

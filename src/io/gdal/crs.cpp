@@ -178,6 +178,18 @@ std::optional<std::string> projection_text(const std::string& crs) {
   return text;
 }
 
+std::optional<std::array<double, 2>> find_degrees(const std::string& crs, double x, double y) {
+  gdal::Session quiet;
+  const gdal::Crs from = gdal::find_crs(crs);
+  if (!from) return {};
+  const gdal::Crs own = gdal::copy_crs(gdal::Crs(OSRCloneGeogCS(from.get())).get());
+  for (const gdal::Crs& to : {gdal::find_crs("EPSG:4326"), gdal::copy_crs(own.get())}) {
+    const auto transform = to ? gdal::build_transform(from, to) : nullptr;
+    if (transform && transform->apply({&x, 1}, {&y, 1}) && std::isfinite(x) && std::isfinite(y)) return {{x, y}};
+  }
+  return {};
+}
+
 bool is_same_crs(const std::string& a, const std::string& b) {
   if (a == b) return true;
   gdal::Session quiet;

@@ -198,6 +198,7 @@ void describe_georeference(const Georeference& geo, RasterInfo& info) {
   info.has_georeference = geo.located;
   info.geotransform = geo.pixels;
   info.crs = crs_name(geo.crs);
+  info.crs_unit = geo.unit_name;
   info.is_geographic = geo.geographic;
   const auto& gt = geo.pixels;
   info.cell_x = std::hypot(gt[1], gt[4]);

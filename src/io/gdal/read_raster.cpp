@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "grid/height_range.h"
 #include "io/gdal/georeference.h"
 #include "io/gdal/open.h"
 #include "io/gdal/read_samples.h"
@@ -165,23 +166,17 @@ class FileSource : public SampleSource {
 Result<void> survey(Session& session, GDALRasterBandH band, WindowReader& reader, const ReadOptions& options,
                     OwnedHeightField& field) {
   RasterInfo& info = field.info;
-  info.min = HUGE_VAL;
-  info.max = -HUGE_VAL;
+  HeightRange range;
   std::vector<float> heights;
   const auto look = [&](const Window& window) {
     heights.resize(static_cast<std::size_t>(window.cols) * static_cast<std::size_t>(window.rows));
     if (!reader.read(window, heights.data(), window.cols)) return false;
-    for (const float z : heights) {
-      if (std::isnan(z)) continue;
-      ++info.valid;
-      info.min = std::min(info.min, double{z});
-      info.max = std::max(info.max, double{z});
-    }
+    range.add(range_of(heights));
     return true;
   };
   const Extent extent{info.path, field.cols, field.rows};
   if (auto done = for_each_window(session, band, extent, options.run.progress, look); !done) return done;
-  info.has_range = true;
+  set_range(range, info);
   field.sample_rounding = reader.findings().rounding;
   return finish_info(field, reader.findings().infinities, options);
 }

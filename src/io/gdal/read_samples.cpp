@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "base/int128.h"
+#include "grid/height_range.h"
 #include "io/gdal/windows.h"
 
 namespace scarp::gdal {
@@ -253,7 +254,7 @@ Result<void> read_codes(Session& session, const BandPlan& plan, const ReadOption
   for (const std::uint16_t code : codes) ++counts[code];
 
   BandReader reader(plan);
-  RasterInfo& info = field.info;
+  HeightRange range;
   std::vector<float> heights(kCodes, kNodataSample);
   for (std::size_t code = 0; code < kCodes; ++code) {
     if (counts[code] == 0) continue;
@@ -263,10 +264,11 @@ Result<void> read_codes(Session& session, const BandPlan& plan, const ReadOption
     infinities += counts[code] * (reader.findings().infinities - infinities_before);
     if (std::isnan(z)) continue;
     heights[code] = z;
-    info.min = info.valid == 0 ? double{z} : std::min(info.min, double{z});
-    info.max = info.valid == 0 ? double{z} : std::max(info.max, double{z});
-    info.valid += counts[code];
+    HeightRange here{counts[code], z, z};
+    here.lowest[0] = here.highest[0] = {z, counts[code]};
+    range.add(here);
   }
+  set_range(range, field.info);
   field.sample_rounding = reader.findings().rounding;
   field.source = make_coded_source(std::move(codes), field.cols, std::move(heights));
   return {};

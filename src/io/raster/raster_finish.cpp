@@ -9,6 +9,8 @@
 
 #include "grid/local_frame.h"
 
+#include "grid/height_range.h"
+
 namespace scarp {
 
 std::string format_memory(double bytes) {
@@ -66,10 +68,7 @@ Result<void> allocate_samples(const std::string& name, OwnedHeightField& field) 
 }
 
 Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities, const ReadOptions& options) {
-  const HeightRange range = height_range(field);
-  field.info.valid = range.valid;
-  field.info.min = range.min;
-  field.info.max = range.max;
+  set_range(height_range(field), field.info);
   return finish_info(field, infinities, options);
 }
 

@@ -1,0 +1,17 @@
+// The range of many samples, and what lies at its ends.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "scarp/height_field.h"
+
+namespace scarp {
+
+/// Of the samples that are finite and not `nodata`.
+HeightRange range_of(std::span<const float> samples, std::optional<float> nodata = std::nullopt);
+
+/// Fills in all that `info` tells of the range.
+void set_range(const HeightRange& range, RasterInfo& info);
+
+}  // namespace scarp
