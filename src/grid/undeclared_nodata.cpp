@@ -49,7 +49,7 @@ std::size_t count_far(const Ends& ends, std::size_t first, double other, std::ui
 std::vector<UndeclaredNodata> find_undeclared_nodata(const HeightRange& range) {
   std::size_t low = 0, high = 0;
   // What is far at one end may hide behind what is far at the other.
-  for (int look = 0; look < 2; ++look) {
+  for (std::size_t look = 0; look < kEnds; ++look) {
     low = count_far(range.lowest, low, range.highest[high].height, range.valid);
     high = count_far(range.highest, high, range.lowest[low].height, range.valid);
   }

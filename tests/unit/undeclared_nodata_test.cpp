@@ -38,15 +38,15 @@ TEST(undeclared_nodata, usual_signs_are_found_at_either_end_and_counted) {
 TEST(undeclared_nodata, several_signs_and_spikes_do_not_hide_each_other) {
   auto samples = land_beside(-9999, 40);
   samples.insert(samples.end(), 30, -32768.0F);
-  samples.push_back(1e6F);
-  samples.push_back(2e6F);
+  samples.push_back(1e7F);
+  samples.push_back(2e7F);
   const auto found = find(samples);
   ASSERT_EQ(found.size(), 4U);
   EXPECT_EQ(found[0].of.height, -32768);
   EXPECT_EQ(found[1].of.height, -9999);
   EXPECT_EQ(found[1].of.samples, 40U);
-  EXPECT_EQ(found[2].of.height, 2e6);
-  EXPECT_EQ(found[3].of.height, 1e6);
+  EXPECT_EQ(found[2].of.height, 2e7);
+  EXPECT_EQ(found[3].of.height, 1e7);
 }
 
 TEST(undeclared_nodata, zeros_below_land_that_begins_far_above_are_found) {
