@@ -50,6 +50,7 @@ enum class Field : std::uint8_t {
   kStrategy,  ///< of simplify_by_paper(), other than its default; never set in options of simplify()
   kLevels,    ///< of simplify_levels(); never set in options of simplify()
   kNorm,
+  kLattice,  ///< positions for compression
   kUvs,
   kNormals,
   kThreads,

@@ -244,6 +244,9 @@ struct Picture {
   std::vector<std::uint8_t> rgb;
 };
 Result<std::vector<std::uint8_t>> encode_png(const Picture& picture);
+enum class ImageFormat { kPng, kJpeg, kWebp };
+/// The file's bytes, by GDAL's drivers; JPEG and WebP at a quality of 90 of 100. Fails with kOutput.
+Result<std::vector<std::uint8_t>> encode_image(const Picture& picture, ImageFormat format);
 
 }  // namespace scarp
 

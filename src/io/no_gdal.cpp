@@ -6,6 +6,7 @@
 #include "io/raster/crs_description.h"
 #include "io/raster/raster_source.h"
 #include "scarp/cutline.h"
+#include "scarp/drape.h"
 #include "scarp/lines.h"
 
 namespace scarp {
@@ -61,8 +62,16 @@ Result<std::vector<Line>> inset_polygons(std::span<const Line>, double, const st
 
 bool opens_as_raster(const std::string&) { return false; }
 
-Result<std::vector<std::uint8_t>> encode_png(const Picture&) {
+Result<std::vector<std::uint8_t>> encode_image(const Picture&, ImageFormat) {
   return fail(ErrorKind::kOutput, "pictures cannot be written: this build of Scarp has no GDAL, which encodes PNG");
+}
+
+Result<std::vector<std::uint8_t>> encode_png(const Picture& picture) {
+  return encode_image(picture, ImageFormat::kPng);
+}
+
+Result<Drape> read_drape(const std::string& path, const RasterInfo&, int, int, int, const Run&) {
+  return fail(ErrorKind::kInput, path + ": this build of Scarp drapes no image: it was built without GDAL");
 }
 
 }  // namespace scarp

@@ -24,6 +24,21 @@ Question either(const Question& first, const Question& second) {
   return [first, second] { return first() || second(); };
 }
 
+/// Of the max error, for the rounding of heights.
+constexpr double kHeightShare = 0x1p-8;
+
+bool rows_run_along_x(const Frame& frame) { return frame.is_affine() && frame.affine[2] == 0 && frame.affine[4] == 0; }
+
+/// Of a power of two; false where that is not known.
+bool samples_are_multiples(const HeightField& field, double step) {
+  if (field.samples == nullptr) return false;
+  const auto count = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
+  return std::all_of(field.samples, field.samples + count, [step](float z) {
+    const double multiple = z / step;
+    return !std::isfinite(z) || multiple == std::floor(multiple);
+  });
+}
+
 }  // namespace
 
 bool has_lines(const SimplifyOptions& options) {
@@ -46,9 +61,23 @@ bool removes_last(const HeightField& field, const SimplifyOptions& options) {
   return options.quality.shape.any() && shape_rule(options.quality.shape, field.frame);
 }
 
+bool rounds_offsets(const HeightField& field, const SimplifyOptions& options) {
+  return options.output.float32_positions && !(options.output.lattice && rows_run_along_x(field.frame));
+}
+
+double height_step(const HeightField& field, const SimplifyOptions& options) {
+  const Tolerances& own = options.tolerances;
+  const bool has_own =
+      !own.values.empty() || own.source != nullptr || !own.weights.empty() || own.weights_source != nullptr;
+  if (!options.output.lattice || !rows_run_along_x(field.frame) || has_own || has_norm(field)) return 0;
+  const double bound = options.goals.max_error.value_or(0) - field.sample_rounding;
+  if (!(bound > 0) || std::isinf(bound)) return 0;
+  return std::ldexp(1.0, std::ilogb(2 * kHeightShare * bound));
+}
+
 bool lattice_is_exact(const HeightField& field, const SimplifyOptions& options, std::int32_t steps) {
   return field.frame.is_affine() &&
-         (!options.output.float32_positions || offsets_are_exact(field.frame, field.cols, field.rows, steps));
+         (!rounds_offsets(field, options) || offsets_are_exact(field.frame, field.cols, field.rows, steps));
 }
 
 std::int32_t choose_lattice_steps(const HeightField& field, const SimplifyOptions& options) {
@@ -59,6 +88,8 @@ std::int32_t choose_lattice_steps(const HeightField& field, const SimplifyOption
 double aim_of(const HeightField& field, const SimplifyOptions& options) {
   constexpr double kRoundingShare = 0x1p-9;
   const std::int32_t steps = choose_lattice_steps(field, options);
+  const double step = height_step(field, options);
+  if (step > 0 && (steps > 1 || !samples_are_multiples(field, step))) return 1 - kHeightShare;
   return steps > 1 && !lattice_is_exact(field, options, steps) ? 1 - kRoundingShare : 1;
 }
 

@@ -43,6 +43,9 @@ Mesh freeze(const SampleHeights& heights, const Triangulation& tin, const Vertex
 Mesh melt_down(const SampleHeights& heights, Triangulation tin, const VertexLattice& lattice, const Frame& frame,
                bool round_to_float32);
 
+/// To multiples of a power of two.
+void round_heights(Mesh& mesh, double step);
+
 /// Lattice points, with `steps` steps from one sample to the next.
 struct LatticePoints {
   std::int32_t steps = 1;
@@ -51,11 +54,6 @@ struct LatticePoints {
 
 /// Those of freeze()'s vertices, in its order.
 LatticePoints frozen_points(const Triangulation& tin, const VertexLattice& lattice);
-
-/// Unit normals of the full-resolution surface, in the frame: at samples central differences, one-sided beside nodata
-/// and borders; between samples the bilinear mean of the valid samples around; 3 values a point, z > 0. Vertical where
-/// no sample around is valid. Streamed samples are read once, from the top. Throws SourceFailure.
-std::vector<float> sample_normals(const HeightField& field, const LatticePoints& at);
 
 /// Positions in the raster's image: pixel centres, (0, 0) the image's top left corner and (1, 1) its bottom right; 2
 /// values a point.

@@ -21,6 +21,7 @@
 #include "pieces/freeze.h"
 #include "pieces/goals.h"
 #include "pieces/locked_border.h"
+#include "pieces/normals.h"
 #include "pieces/passes.h"
 #include "pieces/release.h"
 #include "pieces/source_windows.h"
@@ -420,13 +421,14 @@ class EngineRun {
     const SampleHeights heights = !plan_.is_streamed ? SampleHeights(raster_) : SampleHeights(field_, heights_);
     const bool has_more = options_.output.normals || options_.output.uvs || !field_.channels.empty();
     const LatticePoints at = has_more ? frozen_points(piece_->tin, piece_->lattice) : LatticePoints{};
+    const bool rounds = rounds_offsets(field_, options_);
     if (is_last) {
-      result.mesh =
-          melt_down(heights, std::move(piece_->tin), piece_->lattice, field_.frame, options_.output.float32_positions);
+      result.mesh = melt_down(heights, std::move(piece_->tin), piece_->lattice, field_.frame, rounds);
       piece_.reset();
     } else {
-      result.mesh = freeze(heights, piece_->tin, piece_->lattice, field_.frame, options_.output.float32_positions);
+      result.mesh = freeze(heights, piece_->tin, piece_->lattice, field_.frame, rounds);
     }
+    if (const double step = height_step(field_, options_); step > 0) round_heights(result.mesh, step);
     if (options_.output.normals) result.mesh.normals = sample_normals(clean_field(), at);
     if (options_.output.uvs) result.mesh.uvs = sample_uvs(raster_.cols, raster_.rows, at);
     result.mesh.channel_count = static_cast<int>(field_.channels.size());

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "scarp/glb.h"
 #include "scarp/io.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -32,6 +33,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!bytes && bytes.error().kind != scarp::ErrorKind::kOutput) std::abort();
     if (bytes && !scarp::decode_mesh(*bytes, "fuzz")) std::abort();
   }
+  const auto packed = scarp::encode_glb(*mesh, {.compress = true, .cell = {1, -1}});
+  if (!packed && packed.error().kind != scarp::ErrorKind::kOutput) std::abort();
+  if (packed && !scarp::decode_mesh(*packed, "fuzz")) std::abort();
   for (const auto format : {scarp::MeshFormat::kPly, scarp::MeshFormat::kVtu}) {
     const auto bytes = scarp::encode_mesh(*mesh, format);
     if (!bytes) continue;

@@ -170,6 +170,7 @@ std::vector<Setting> all_settings() {
          s.options.domain.border.is_locked = true;
        }},
       {Field::kNorm, [](Scene& s) { s.options.goals.norm = Norm::kMax; }},
+      {Field::kLattice, [](Scene& s) { s.options.output.lattice = true; }},
       {Field::kUvs, [](Scene& s) { s.options.output.uvs = true; }},
       {Field::kNormals, [](Scene& s) { s.options.output.normals = true; }},
       {Field::kThreads, [](Scene& s) { s.options.run.threads = 2; }},

@@ -10,7 +10,7 @@
 #include "laws/array_bounds.h"
 #include "laws/array_source.h"
 #include "laws/fields.h"
-#include "pieces/freeze.h"
+#include "pieces/normals.h"
 #include "scarp/judge.h"
 #include "scarp/simplify.h"
 

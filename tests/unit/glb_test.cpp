@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "io/mesh/mesh_file.h"
+#include "glb_files.h"
 #include "mesh_samples.h"
 #include "scarp/io.h"
 
@@ -14,28 +16,10 @@ namespace {
 using nlohmann::json;
 using test::sample_mesh;
 
-std::uint32_t load_u32(const std::vector<std::uint8_t>& bytes, std::size_t at) {
-  return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | static_cast<std::uint32_t>(bytes[at + 3]) << 24;
-}
+using test::load_u32;
+using test::with_json;
 
-json json_of(const std::vector<std::uint8_t>& bytes) {
-  return json::parse(bytes.begin() + 20, bytes.begin() + 20 + load_u32(bytes, 12));
-}
-
-/// The same file with another JSON chunk.
-std::vector<std::uint8_t> with_json(const std::vector<std::uint8_t>& bytes, const json& changed) {
-  std::string text = changed.dump();
-  text.resize((text.size() + 3) / 4 * 4, ' ');
-  const std::size_t old_end = 20 + load_u32(bytes, 12);
-  std::vector<std::uint8_t> result(20 + text.size() + bytes.size() - old_end);
-  std::memcpy(result.data(), bytes.data(), 20);
-  std::memcpy(result.data() + 20, text.data(), text.size());
-  std::memcpy(result.data() + 20 + text.size(), bytes.data() + old_end, bytes.size() - old_end);
-  const auto size = static_cast<std::uint32_t>(text.size()), total = static_cast<std::uint32_t>(result.size());
-  std::memcpy(&result[12], &size, 4);
-  std::memcpy(&result[8], &total, 4);
-  return result;
-}
+json json_of(const std::vector<std::uint8_t>& bytes) { return test::glb_json(bytes); }
 
 TEST(Glb, RoundTripKeepsEveryBit) {
   for (const bool normals : {false, true}) {
@@ -66,25 +50,41 @@ TEST(Glb, IsYUpWithExactBoundsAndEmbeddedReport) {
   EXPECT_EQ(j["accessors"][1]["componentType"], 5123);
 }
 
-TEST(Glb, UsesLongIndicesFromTheRestartValueOn) {
-  for (const int cols : {32766, 32767}) {
-    const Mesh mesh = test::grid_mesh(cols, 1, [](int, int) { return true; });
-    const auto bytes = encode_mesh(mesh, MeshFormat::kGlb);
-    ASSERT_TRUE(bytes);
-    ASSERT_EQ(mesh.vertex_count(), cols == 32766 ? 65534u : 65536u);
-    EXPECT_EQ(json_of(*bytes)["accessors"][1]["componentType"], cols == 32766 ? 5123 : 5125);
-    const auto back = decode_mesh(*bytes, "x.glb");
-    ASSERT_TRUE(back);
-    EXPECT_TRUE(test::same_geometry(mesh, *back));
+using Place = std::array<double, 3>;
+using Corners = std::array<Place, 3>;
+
+/// Triangles as places, each from its least corner on, in any order.
+std::vector<Corners> places_of(const Mesh& mesh) {
+  std::vector<Corners> all;
+  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+    Corners corners;
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh.vertex(mesh.triangles[3 * t + k]);
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    all.push_back(corners);
   }
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
-TEST(Glb, KnowsItsSizeBeforeItIsMade) {
-  const Mesh mesh = sample_mesh(true);
-  const auto bytes = encode_mesh(mesh, MeshFormat::kGlb);
-  EXPECT_EQ(glb_binary_size(mesh.vertex_count(), mesh.triangle_count(), 6) + load_u32(*bytes, 12), bytes->size());
-  // 200 million vertices with normals: 4.8 GB of vertices alone.
-  EXPECT_GT(glb_binary_size(200'000'000, 400'000'000, 6), std::numeric_limits<std::uint32_t>::max());
+TEST(Glb, HasIndicesOf16BitsOnlyBySplittingLargeMeshes) {
+  for (const auto [cols, rows, parts] : {std::array{32766, 1, 1}, std::array{32767, 1, 2}, std::array{300, 400, 2}}) {
+    Mesh mesh = test::grid_mesh(cols, rows, [](int, int) { return true; });
+    test::add_attributes(mesh, 1);
+    const auto bytes = encode_mesh(mesh, MeshFormat::kGlb);
+    ASSERT_TRUE(bytes);
+    const json j = json_of(*bytes);
+    const json& primitives = j["meshes"][0]["primitives"];
+    EXPECT_EQ(primitives.size(), static_cast<std::size_t>(parts));
+    for (const json& primitive : primitives) {
+      EXPECT_EQ(j["accessors"][primitive["indices"].get<int>()]["componentType"], 5123);
+      EXPECT_LE(j["accessors"][primitive["attributes"]["POSITION"].get<int>()]["count"], 65535);
+    }
+    const auto back = decode_mesh(*bytes, "x.glb");
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(places_of(*back), places_of(mesh));
+    // Vertices between parts are in both, and no others.
+    EXPECT_LT(back->vertex_count(), mesh.vertex_count() + 450);
+  }
 }
 
 TEST(Glb, HonoursTheNodeTree) {

@@ -22,10 +22,10 @@ namespace {
 
 /// Points have no use for many of the command's options; silence would be a lie.
 Result<void> refuse_raster_options(const CLI::App& command, const std::string& path) {
-  constexpr std::array<std::string_view, 19> kMeant{
-      "--max-error",     "--max-triangles", "--max-points",  "--crs",        "--of",     "--base",  "--up",
-      "--report",        "--overwrite",     "--num-threads", "--quiet",      "--points", "--layer", "--double",
-      "--json-progress", "--duplicates",    "--z-field",     "--fail-above", "--json"};
+  constexpr std::array<std::string_view, 20> kMeant{
+      "--max-error",     "--max-triangles", "--max-points",  "--crs",        "--of",     "--base",    "--up",
+      "--report",        "--overwrite",     "--num-threads", "--quiet",      "--points", "--layer",   "--double",
+      "--json-progress", "--duplicates",    "--z-field",     "--fail-above", "--json",   "--compress"};
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     const bool is_meant = option->get_positional() || std::find(kMeant.begin(), kMeant.end(), name) != kMeant.end();
@@ -78,7 +78,7 @@ Result<ReadyFile> encode(const SimplifyPlan& plan, const PointsArguments& argume
   if (auto finished = finish_mesh(plan, outcome); !finished) return tl::unexpected(std::move(finished.error()));
   add_metadata(plan, arguments, outcome);
   turn_as_planned(plan, outcome.simplified.mesh);
-  auto bytes = encode_as(plan.format, outcome.simplified.mesh, plan.doubles);
+  auto bytes = encode_as(plan.format, outcome.simplified.mesh, {.compress = plan.compress}, plan.doubles);
   if (!bytes) return tl::unexpected(std::move(bytes.error()));
   return ReadyFile{plan.output, plan.format.name(), std::move(*bytes)};
 }

@@ -17,6 +17,7 @@
 #include "reports/simplify_outcome.h"
 #include "reports/simplify_report.h"
 #include "reports/verdict.h"
+#include "scarp/drape.h"
 #include "scarp/edits.h"
 #include "terminal/clock.h"
 #include "terminal/progress_display.h"
@@ -92,6 +93,18 @@ MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome) {
 
 namespace {
 
+Result<void> read_draped_image(const SimplifyPlan& plan, const ProgressCallback& progress, Outcome& outcome) {
+  if (!plan.images.drape) return {};
+  Run run;
+  run.progress = progress;
+  Result<Drape> drape = read_drape(*plan.images.drape, outcome.as_read, outcome.field.cols, outcome.field.rows,
+                                   plan.images.drape_size, run);
+  if (!drape) return tl::unexpected(std::move(drape.error()));
+  outcome.drape = std::move(drape->picture);
+  for (std::string& warning : drape->warnings) outcome.companions.warnings.push_back(std::move(warning));
+  return {};
+}
+
 /// Breaklines, lakes, rivers, walls and ridges.
 Result<void> read_features(const SimplifyPlan& plan, const ProgressCallback& progress, Outcome& outcome) {
   Features& features = outcome.features;
@@ -117,6 +130,7 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
                                                   {progress, plan.memory.value_or(0), plan.simplify.run.threads});
   if (!companions) return tl::unexpected(std::move(companions.error()));
   outcome.companions = std::move(*companions);
+  if (auto draped = read_draped_image(plan, progress, outcome); !draped) return draped;
   if (plan.memory && outcome.companions.inserts_samples()) {
     if (auto in_memory = check_in_memory(outcome.field, "--script", needs_of(plan)); !in_memory) return in_memory;
   }

@@ -166,6 +166,25 @@ Result<std::vector<std::uint8_t>> encode_dem(const SimplifyPlan& plan, const Out
   return encode_raster({*heights, outcome.field.cols, outcome.field.rows, &outcome.as_read}, plan.format.raster);
 }
 
+/// Compression, and the images that the file holds.
+Result<GlbOptions> glb_options(const SimplifyPlan& plan, const Outcome& outcome) {
+  const std::array<double, 6>& affine = outcome.field.frame.affine;
+  GlbOptions glb{.compress = plan.compress, .cell = {affine[1], affine[5]}};
+  if (plan.images.drape) {
+    auto bytes = encode_image(outcome.drape, plan.images.drape_format);
+    if (!bytes) return tl::unexpected(bytes.error());
+    glb.base_color = {std::move(*bytes), mime_type_of(plan.images.drape_format)};
+  }
+  if (plan.images.normal_map) {
+    const auto normals = draw_normal_map(outcome.field, *plan.images.normal_map);
+    if (!normals) return tl::unexpected(normals.error());
+    auto bytes = encode_png(*normals);
+    if (!bytes) return tl::unexpected(bytes.error());
+    glb.normal_map = {std::move(*bytes), "image/png"};
+  }
+  return glb;
+}
+
 /// Fills in OUTPUT.
 Result<void> encode_output(const SimplifyPlan& plan, const Outcome& outcome, ReadyFile& file) {
   const Mesh& mesh = outcome.simplified.mesh;
@@ -178,9 +197,11 @@ Result<void> encode_output(const SimplifyPlan& plan, const Outcome& outcome, Rea
     file.raster = std::move(*raster);
     return {};
   }
+  const auto glb = glb_options(plan, outcome);
+  if (!glb) return tl::unexpected(glb.error());
   Result<std::vector<std::uint8_t>> bytes = outcome.print ? encode_3mf(named_solids(plan, outcome))
                                             : is_dem      ? encode_dem(plan, outcome)
-                                                          : encode_as(plan.format, mesh, plan.doubles);
+                                                          : encode_as(plan.format, mesh, *glb, plan.doubles);
   if (!bytes) return tl::unexpected(std::move(bytes.error()));
   file.bytes = std::move(*bytes);
   return {};

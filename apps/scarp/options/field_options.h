@@ -41,6 +41,7 @@ inline constexpr const char* kFieldOptions[] = {
     "--importance",
     "--lods",
     "--norm",
+    "--compress",
     "--uvs",
     "--normals",
     "--num-threads",

@@ -181,10 +181,11 @@ Result<void> close_with_base(Mesh& mesh, double base) {
               fmt::format("--base {:.10g} is not below the lowest vertex, which is at {:.10g}", base, lowest));
 }
 
-Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh, bool doubles) {
+Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh, const GlbOptions& glb,
+                                            bool doubles) {
   if (format.kind == OutputKind::kSvg) return encode_svg(mesh);
   if (format.kind == OutputKind::kEps) return encode_eps(mesh);
-  return encode_mesh(mesh, format.mesh, doubles);
+  return format.is_glb() ? encode_glb(mesh, glb) : encode_mesh(mesh, format.mesh, doubles);
 }
 
 }  // namespace scarp::cli

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "options/options.h"
+#include "scarp/glb.h"
 #include "scarp/io.h"
 #include "scarp/mesh.h"
 
@@ -29,6 +30,7 @@ struct OutputFormat {
   bool is_float32() const {
     return is_mesh() && (mesh == MeshFormat::kGlb || mesh == MeshFormat::kStl || mesh == MeshFormat::k3mf);
   }
+  bool is_glb() const { return is_mesh() && mesh == MeshFormat::kGlb; }
   bool is_landxml() const { return is_mesh() && mesh == MeshFormat::kLandXml; }
   /// Can be a print: its coordinates are millimetres to those who print it.
   bool holds_prints() const;
@@ -59,6 +61,7 @@ Result<void> check_crs_of(const OutputFormat& format, const std::string& crs, co
 Result<void> close_with_base(Mesh& mesh, double base);
 
 /// The file's bytes. REQUIRES: not a kDem.
-Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh, bool doubles = false);
+Result<std::vector<std::uint8_t>> encode_as(const OutputFormat& format, const Mesh& mesh, const GlbOptions& glb = {},
+                                            bool doubles = false);
 
 }  // namespace scarp::cli

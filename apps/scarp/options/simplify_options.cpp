@@ -29,6 +29,8 @@ void SimplifyArguments::add_to(CLI::App& command) {
   add_flag(command, OptionId::kDouble, doubles);
   add_flag(command, OptionId::kNormals, normals);
   add_flag(command, OptionId::kUvs, uvs);
+  add_flag(command, OptionId::kCompress, compress);
+  images.add_to(command);
   add_option(command, OptionId::kBase, base);
   solid.add_to(command);
   add_option(command, OptionId::kPreview, preview);

@@ -224,12 +224,37 @@ Result<void> plan_solid_format(const SimplifyArguments& given, SimplifyPlan& pla
   return {};
 }
 
+/// What does not go together with images inside the file.
+Result<void> plan_images(const SimplifyArguments& given, SimplifyPlan& plan) {
+  Result<ImagePlan> images = given.images.parse(plan.format);
+  if (!images) return tl::unexpected(std::move(images.error()));
+  plan.images = std::move(*images);
+  if (plan.images.drape && plan.channels.has_channels()) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("--drape cannot be combined with {}: the colours of both would be multiplied",
+                            plan.channels.image ? "--image" : "--texture"));
+  }
+  if (!plan.images.normal_map) return {};
+  const std::pair<const char*, bool> others[] = {
+      {"--normals", given.normals}, {"--image", plan.channels.image}, {"--base", given.base.has_value()}};
+  const char* reasons[] = {"the image has the normals of all samples", "an image is flat, and its normals say nothing",
+                           "a solid's walls have no terrain normal"};
+  for (std::size_t k = 0; k < std::size(others); ++k) {
+    if (others[k].second) {
+      return fail(ErrorKind::kUsage,
+                  fmt::format("--normal-map cannot be combined with {}: {}", others[k].first, reasons[k]));
+    }
+  }
+  return {};
+}
+
 /// What the format has no place for: refused where nothing would be left, else a warning.
 Result<void> plan_attributes(const SimplifyArguments& given, SimplifyPlan& plan) {
   const OutputFormat& format = plan.format;
   const std::string title = format.title();
   plan.simplify.output.normals = given.normals && format.holds_attributes();
-  plan.simplify.output.uvs = (given.uvs || plan.channels.has_channels()) && format.holds_attributes();
+  plan.simplify.output.uvs =
+      (given.uvs || plan.channels.has_channels() || plan.images.any()) && format.holds_attributes();
   const std::string& crs = plan.read.crs;
   const bool is_centred = crs.empty() || crs == "local" || crs == "grid";
   plan.simplify.output.float32_positions = format.is_float32() || (format.is_ply() && is_centred && !given.doubles);
@@ -239,6 +264,10 @@ Result<void> plan_attributes(const SimplifyArguments& given, SimplifyPlan& plan)
   const Result<bool> is_y_up = choose_y_up(given.up, format, plan.solid.has_value());
   if (!is_y_up) return tl::unexpected(is_y_up.error());
   plan.is_y_up = *is_y_up;
+  if (given.compress && !format.is_glb()) {
+    return fail(ErrorKind::kUsage, fmt::format("--compress writes GLB, and OUTPUT is {}: choose .glb", title));
+  }
+  plan.compress = plan.simplify.output.lattice = given.compress;
   const bool shows_image =
       format.holds_attributes() || format.kind == OutputKind::kSvg || format.kind == OutputKind::kEps;
   if (given.channels.image && !shows_image) {
@@ -287,6 +316,7 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
     }
     plan.base = *base;
   }
+  if (auto images = plan_images(given, plan); !images) return images;
   const Result<void> attributes = plan_attributes(given, plan);
   if (!attributes) return attributes;
   if (auto solid = plan_solid_format(given, plan); !solid) return solid;
@@ -319,6 +349,7 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (given.report) outputs.push_back({"--report", *given.report});
   std::vector<std::string> inputs = given.companions.files();
   inputs.insert(inputs.end(), given.channels.textures.begin(), given.channels.textures.end());
+  if (given.images.drape) inputs.push_back(*given.images.drape);
   inputs.push_back(given.raster.path);
   return check_outputs(outputs, inputs, given.overwrite);
 }
@@ -344,6 +375,10 @@ Result<void> plan_memory(const SimplifyArguments& given, SimplifyPlan& plan) {
   if (!plan.memory) return {};
   if (plan.channels.image) {
     return fail(ErrorKind::kUsage, "--memory cannot be combined with --image: images are read as a whole");
+  }
+  if (const char* image = given.images.find_image()) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("--memory cannot be combined with {}: the image is held as a whole", image));
   }
   plan.simplify.run.memory.limit = *plan.memory;
   plan.simplify.run.memory.per_vertex = plan.format.bytes_per_vertex();
@@ -380,7 +415,7 @@ std::string canonical_command(const SimplifyArguments& given) {
              given.strategy.canonical();
   if (given.strategy.asks_for_greedy()) command += " --order greedy";
   return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "") +
-         (given.doubles ? " --double" : "");
+         (given.doubles ? " --double" : "") + (given.compress ? " --compress" : "") + given.images.canonical();
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "inputs/companions.h"
 #include "options/cliff_options.h"
 #include "options/cutline_options.h"
+#include "options/image_options.h"
 #include "options/level_options.h"
 #include "options/line_options.h"
 #include "options/memory.h"
@@ -47,8 +48,9 @@ struct SimplifyArguments {
   ShapeArguments shape;
   MemoryArguments memory;
   SolidArguments solid;
-  bool normals = false, uvs = false, doubles = false, overwrite = false, quiet = false, timing = false,
-       json_progress = false;
+  ImageArguments images;
+  bool normals = false, uvs = false, compress = false, doubles = false;
+  bool overwrite = false, quiet = false, timing = false, json_progress = false;
 
   void add_to(CLI::App& command);
 };
@@ -68,6 +70,7 @@ struct SimplifyPlan {
   RidgeArguments ridges;
   CutlineArguments cut;
   ChannelPlan channels;
+  ImagePlan images;
   NodataPolicy policy = NodataPolicy::kHole;
   double fill_distance = 100;
   float background = 0;
@@ -76,6 +79,7 @@ struct SimplifyPlan {
   std::optional<Levels> levels;
   bool levels_in_one = false;
   std::optional<std::string> preview, render, error_raster, report;
+  bool compress = false;
   bool overwrite = false;
   bool is_y_up = false;                      ///< see choose_y_up()
   bool doubles = false;                      ///< as positions of a PLY

@@ -1,7 +1,9 @@
 // GLB: glTF 2.0 in one file. A JSON chunk describes one binary chunk of arrays by vertex and indices.
 //
 // glTF is y up and right-handed: (x, y, z) of ours becomes (x, z, −y). That is a rotation, so winding stays as it is.
-// Offsets are float32; the origin is the translation of the only node, where JSON keeps every bit of its doubles.
+// Positions are float32 offsets, or numbers of a grid; the origin is the translation of the only node, where JSON keeps
+// every bit of its doubles. Each part of the mesh is a primitive with indices of 16 bits.
+#include "scarp/glb.h"
 
 #include <fmt/format.h>
 
@@ -10,18 +12,23 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <utility>
 
+#include "base/caught.h"
 #include "io/mesh/file_bytes.h"
+#include "io/mesh/glb_attributes.h"
 #include "io/mesh/glb_json.h"
 #include "io/mesh/glb_numbers.h"
 #include "io/mesh/mesh_file.h"
-#include "io/mesh/srgb.h"
+#include "io/mesh/mesh_parts.h"
+#include "io/mesh/meshopt_codec.h"
 
 namespace scarp {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x46546C67;
 constexpr int kArrayBuffer = 34962, kIndexBuffer = 34963;
+constexpr const char* kMeshopt = "EXT_meshopt_compression";
 
 /// A PNG of one white pixel: places in an image mean something only where there is a texture, and this one stands in
 /// for the user's.
@@ -32,206 +39,299 @@ constexpr std::uint8_t kWhitePng[] = {
     0x12, 0x95, 0x14, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
 
 std::uint64_t pad4(std::uint64_t size) { return (size + 3) / 4 * 4; }
-// 65535 itself would restart a primitive.
-std::size_t index_size(std::uint64_t vertices) { return vertices < 65535 ? 2 : 4; }
-
-/// (x, y, z) → (x, z, −y); 0 − y rather than −y, so that 0 stays 0.
-template <class T>
-std::array<T, 3> to_y_up(T x, T y, T z) {
-  return {x, z, T{0} - y};
-}
-
-/// Whether the channels are the colours once more: three as red, green and blue, or one as grey.
-bool colors_say_channels(const Mesh& mesh) {
-  const auto channels = static_cast<std::size_t>(mesh.channel_count);
-  if (mesh.colors.empty() || (channels != 1 && channels != 3)) return false;
-  for (std::size_t i = 0; i < mesh.colors.size(); ++i) {
-    if (mesh.channels[channels == 3 ? i : i / 3] != static_cast<float>(mesh.colors[i])) return false;
-  }
-  return true;
-}
-
-/// One array of float32 by vertex.
-struct Attribute {
-  std::string name;
-  std::size_t width = 0;
-  std::function<float(std::size_t vertex, std::size_t k)> value;
-};
-
-/// What stands for a channel without a value, as declared in the primitive's extras: JSON and glTF have no NaN.
-constexpr float kNoValue = std::numeric_limits<float>::lowest();
 
 bool has_gaps(const Mesh& mesh) {
   return std::any_of(mesh.channels.begin(), mesh.channels.end(), [](float value) { return !std::isfinite(value); });
 }
 
-std::vector<Attribute> list_attributes(const Mesh& mesh) {
-  std::vector<Attribute> list;
-  list.push_back({"POSITION", 3, [&mesh](std::size_t v, std::size_t k) {
-                    const double* p = &mesh.positions[3 * v];
-                    return to_y_up(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]))[k];
-                  }});
-  if (!mesh.normals.empty()) {
-    list.push_back({"NORMAL", 3, [&mesh](std::size_t v, std::size_t k) {
-                      const float* n = &mesh.normals[3 * v];
-                      return to_y_up(n[0], n[1], n[2])[k];
-                    }});
-  }
-  if (!mesh.uvs.empty()) {
-    list.push_back({"TEXCOORD_0", 2, [&mesh](std::size_t v, std::size_t k) { return mesh.uvs[2 * v + k]; }});
-  }
-  if (!mesh.colors.empty()) {
-    list.push_back(
-        {"COLOR_0", 3, [&mesh](std::size_t v, std::size_t k) { return kLinearOfSrgb[mesh.colors[3 * v + k]]; }});
-  }
-  const auto channels = static_cast<std::size_t>(mesh.channel_count);
-  const std::size_t written = colors_say_channels(mesh) ? 0 : channels;
-  for (std::size_t c = 0; c < written; ++c) {
-    list.push_back({fmt::format("_CHANNEL_{}", c + 1), 1, [&mesh, channels, c](std::size_t v, std::size_t) {
-                      const float value = mesh.channels[channels * v + c];
-                      return std::isfinite(value) ? value : kNoValue;
-                    }});
-  }
-  return list;
-}
+/// The binary chunk as it will be: pieces, written once all sizes are known.
+class Binary {
+ public:
+  using Write = std::function<void(std::uint8_t* at)>;
 
-std::uint64_t count_floats(const std::vector<Attribute>& attributes) {
-  std::uint64_t floats = 0;
-  for (const Attribute& attribute : attributes) floats += attribute.width;
-  return floats;
-}
-
-Json describe(const Mesh& mesh, const std::vector<Attribute>& attributes, const std::array<float, 3>& low,
-              const std::array<float, 3>& high) {
-  const std::uint64_t vertices = mesh.vertex_count(), corners = mesh.triangles.size();
-  Json json;
-  const auto generator = mesh.metadata.find("generator");
-  json["asset"] = {{"version", "2.0"}, {"generator", generator == mesh.metadata.end() ? "Scarp" : generator->second}};
-  if (!mesh.metadata.empty()) json["asset"]["extras"] = metadata_to_extras(mesh.metadata);
-  json["scene"] = 0;
-  json["scenes"] = Json::array({{{"nodes", {0}}}});
-  Json node = {{"name", "terrain"}, {"mesh", 0}};
-  if (mesh.origin != std::array<double, 3>{}) {
-    node["translation"] = to_y_up(mesh.origin[0] + 0.0, mesh.origin[1], mesh.origin[2] + 0.0);
+  /// Returns its place, a multiple of 4.
+  std::uint64_t add(std::uint64_t size, Write write) {
+    const std::uint64_t offset = pad4(size_);
+    pieces_.push_back({offset, std::move(write)});
+    size_ = offset + size;
+    return offset;
   }
-  json["nodes"] = Json::array({node});
+  std::uint64_t add(std::vector<std::uint8_t> bytes) {
+    const std::uint64_t size = bytes.size();
+    return add(size, [bytes = std::move(bytes)](std::uint8_t* at) { std::memcpy(at, bytes.data(), bytes.size()); });
+  }
+  std::uint64_t size() const { return size_; }
+  void write(std::uint8_t* begin) const {
+    for (const auto& [offset, write] : pieces_) write(begin + offset);
+  }
 
-  Json accessors = Json::array(), views = Json::array(), named = Json::object();
-  std::uint64_t offset = 0;
-  const auto add = [&](std::uint64_t size, int target, int component, std::uint64_t count, const char* type) -> Json& {
-    views.push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}, {"target", target}});
-    offset += size;
-    accessors.push_back(
-        {{"bufferView", views.size() - 1}, {"componentType", component}, {"count", count}, {"type", type}});
-    return accessors.back();
+ private:
+  struct Piece {
+    std::uint64_t offset;
+    Write write;
   };
-  constexpr const char* kTypes[] = {"", "SCALAR", "VEC2", "VEC3"};
-  for (const Attribute& attribute : attributes) {
-    named[attribute.name] = accessors.size();
-    Json& accessor =
-        add(4 * attribute.width * vertices, kArrayBuffer, kFloatComponent, vertices, kTypes[attribute.width]);
-    if (attribute.name == "POSITION") {
-      accessor["min"] = low;
-      accessor["max"] = high;
-    }
-  }
-  Json primitive = {{"attributes", named}, {"indices", accessors.size()}, {"material", 0}, {"mode", 4}};
-  if (mesh.channel_count > 0) {
-    primitive["extras"]["channels"] = mesh.channel_count;
-    if (has_gaps(mesh)) primitive["extras"]["noValue"] = kNoValue;
-  }
-  const std::uint64_t size = index_size(vertices);
-  add(size * corners, kIndexBuffer, size == 2 ? kUint16Component : kUint32Component, corners, "SCALAR");
-  json["meshes"] = Json::array({{{"name", "terrain"}, {"primitives", Json::array({primitive})}}});
-  if (!mesh.uvs.empty()) {
-    offset = pad4(offset);
-    views.push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", sizeof kWhitePng}});
-    offset += sizeof kWhitePng;
-    json["images"] = Json::array({{{"bufferView", views.size() - 1}, {"mimeType", "image/png"}}});
-    json["textures"] = Json::array({{{"source", 0}}});
-  }
-  // Colours of vertices and textures are multiplied with the material's.
-  const bool is_plain = mesh.colors.empty() && mesh.uvs.empty();
-  const Json base = is_plain ? Json{0.47, 0.42, 0.33, 1.0} : Json{1.0, 1.0, 1.0, 1.0};
-  json["materials"] = Json::array(
-      {{{"name", is_plain ? "earth" : "white"},
-        {"pbrMetallicRoughness", {{"baseColorFactor", base}, {"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}},
-        {"doubleSided", false}}});
-  if (!mesh.uvs.empty()) json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
-  json["accessors"] = std::move(accessors);
-  json["bufferViews"] = std::move(views);
-  json["buffers"] = Json::array({{{"byteLength", offset}}});
-  return json;
+  std::vector<Piece> pieces_;
+  std::uint64_t size_ = 0;
+};
+
+void store_items(const GlbAttribute& attribute, const MeshPart& part, std::uint8_t* at) {
+  for (const std::uint32_t v : part.vertices) attribute.store(v, at);
 }
+
+class GlbWriter {
+ public:
+  GlbWriter(const Mesh& mesh, const GlbOptions& options)
+      : mesh_(mesh),
+        options_(options),
+        grid_(options.compress ? find_grid(mesh, options.cell) : GlbGrid{}),
+        attributes_(list_glb_attributes(mesh, grid_, options)),
+        parts_(split_mesh(mesh)) {}
+
+  Result<std::vector<std::uint8_t>> encode() {
+    if (std::string why = find_obstacle(); !why.empty()) return fail(ErrorKind::kOutput, std::move(why));
+    describe_asset();
+    Json primitives = Json::array();
+    for (const MeshPart& part : parts_) primitives.push_back(add_part(part));
+    json_["meshes"] = Json::array({{{"name", "terrain"}, {"primitives", std::move(primitives)}}});
+    add_material();
+    json_["accessors"] = std::move(accessors_);
+    json_["bufferViews"] = std::move(views_);
+    json_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
+    if (options_.compress) {
+      json_["buffers"].push_back({{"byteLength", unpacked_}, {"extensions", {{kMeshopt, {{"fallback", true}}}}}});
+    }
+    return assemble();
+  }
+
+ private:
+  std::string find_obstacle() const {
+    if (has_gaps(mesh_) && std::count(mesh_.channels.begin(), mesh_.channels.end(), kNoChannelValue) > 0) {
+      return fmt::format(
+          "a channel of the mesh has the value {}, which stands for no value in a "
+          "GLB file; write PLY instead",
+          kNoChannelValue);
+    }
+    if (mesh_.uvs.empty() && !(options_.base_color.bytes.empty() && options_.normal_map.bytes.empty()))
+      return "an image is laid over a mesh by texture coordinates, and the mesh has none";
+    if (!options_.compress) return {};
+    if (!kHasMeshoptCodec) return "this build compresses no GLB: it has no libmeshoptimizer";
+    if (!holds_positions(grid_, mesh_)) {
+      return "the mesh's positions are neither float32 nor on the lattice of the cells, so compression would move "
+             "them; write it uncompressed";
+    }
+    return {};
+  }
+
+  void describe_asset() {
+    const auto generator = mesh_.metadata.find("generator");
+    json_["asset"] = {{"version", "2.0"},
+                      {"generator", generator == mesh_.metadata.end() ? "Scarp" : generator->second}};
+    if (!mesh_.metadata.empty()) json_["asset"]["extras"] = metadata_to_extras(mesh_.metadata);
+    std::vector<std::string> extensions;
+    if (options_.compress) extensions = {"KHR_mesh_quantization", kMeshopt};
+    if (options_.base_color.mime_type == kWebp) extensions.emplace_back(kWebpTexture);
+    if (!extensions.empty()) {
+      json_["extensionsUsed"] = extensions;
+      json_["extensionsRequired"] = extensions;
+    }
+    json_["scene"] = 0;
+    json_["scenes"] = Json::array({{{"nodes", {0}}}});
+    Json node = {{"name", "terrain"}, {"mesh", 0}};
+    const std::array<double, 3> origin = to_y_up(mesh_.origin[0] + 0.0, mesh_.origin[1], mesh_.origin[2] + 0.0);
+    std::array<double, 3> translation{};
+    for (std::size_t k = 0; k < 3; ++k) translation[k] = origin[k] + grid_.shift[k];
+    if (translation != std::array<double, 3>{}) node["translation"] = translation;
+    if (!grid_.is_plain()) node["scale"] = grid_.scale;
+    json_["nodes"] = Json::array({node});
+  }
+
+  Json& add_accessor(std::size_t view, int component, std::uint64_t count, const char* type) {
+    accessors_.push_back({{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}});
+    return accessors_.back();
+  }
+
+  /// A view of items that stand in the binary chunk as they are. Returns its number.
+  std::size_t add_view(std::uint64_t size, int target, std::size_t stride, Binary::Write write) {
+    Json view = {{"buffer", 0}, {"byteOffset", binary_.add(size, std::move(write))}, {"byteLength", size}};
+    if (stride > 0) view["byteStride"] = stride;
+    view["target"] = target;
+    views_.push_back(std::move(view));
+    return views_.size() - 1;
+  }
+
+  /// A view of compressed items: readers that undo it put them into the second buffer, which no file holds.
+  std::size_t add_packed(std::vector<std::uint8_t> stream, int target, std::uint64_t count, std::size_t stride,
+                         const char* mode) {
+    const std::uint64_t size = count * stride;
+    Json packed = {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", stream.size()}};
+    packed["byteOffset"] = binary_.add(std::move(stream));
+    packed["byteStride"] = stride;
+    packed["count"] = count;
+    packed["mode"] = mode;
+    Json view = {{"buffer", 1}, {"byteOffset", unpacked_}, {"byteLength", size}};
+    if (target == kArrayBuffer) view["byteStride"] = stride;
+    view["target"] = target;
+    view["extensions"] = {{kMeshopt, std::move(packed)}};
+    views_.push_back(std::move(view));
+    unpacked_ = pad4(unpacked_ + size);
+    return views_.size() - 1;
+  }
+
+  std::size_t add_items(const GlbAttribute& attribute, const MeshPart& part) {
+    const std::uint64_t count = part.vertices.size(), size = attribute.stride * count;
+    if (!options_.compress) {
+      return add_view(size, kArrayBuffer, 0,
+                      [&attribute, &part](std::uint8_t* at) { store_items(attribute, part, at); });
+    }
+    std::vector<std::uint8_t> items(size);
+    store_items(attribute, part, items.data());
+    return add_packed(encode_meshopt_attributes(items, attribute.stride), kArrayBuffer, count, attribute.stride,
+                      "ATTRIBUTES");
+  }
+
+  Json add_part(const MeshPart& part) {
+    constexpr const char* kTypes[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
+    Json named = Json::object();
+    for (const GlbAttribute& attribute : attributes_) {
+      named[attribute.name] = accessors_.size();
+      Json& accessor =
+          add_accessor(add_items(attribute, part), attribute.component, part.vertices.size(), kTypes[attribute.width]);
+      if (attribute.is_normalized) accessor["normalized"] = true;
+      if (attribute.name == "POSITION") add_bounds(part, accessor);
+    }
+    Json primitive = {{"attributes", named}, {"indices", accessors_.size()}, {"material", 0}, {"mode", 4}};
+    if (mesh_.channel_count > 0) {
+      primitive["extras"]["channels"] = mesh_.channel_count;
+      if (has_gaps(mesh_)) primitive["extras"]["noValue"] = kNoChannelValue;
+    }
+    const std::uint64_t corners = part.corners.size();
+    const std::size_t view = options_.compress
+                                 ? add_packed(encode_meshopt_triangles(part.corners, part.vertices.size()),
+                                              kIndexBuffer, corners, 2, "TRIANGLES")
+                                 : add_view(2 * corners, kIndexBuffer, 0, [&part](std::uint8_t* at) {
+                                     for (const std::uint16_t corner : part.corners) store_number(at, corner);
+                                   });
+    add_accessor(view, kUint16Component, corners, "SCALAR");
+    return primitive;
+  }
+
+  void add_bounds(const MeshPart& part, Json& accessor) const {
+    std::array<float, 3> low, high;
+    low.fill(std::numeric_limits<float>::infinity());
+    high.fill(-std::numeric_limits<float>::infinity());
+    for (const std::uint32_t v : part.vertices) {
+      const std::array<double, 3> number = grid_.number(&mesh_.positions[3 * std::size_t{v}]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const float coordinate = static_cast<float>(number[k]) + 0.0f;
+        low[k] = std::min(low[k], coordinate);
+        high[k] = std::max(high[k], coordinate);
+      }
+    }
+    accessor["min"] = low;
+    accessor["max"] = high;
+  }
+
+  /// Returns the number of a texture that shows it.
+  std::size_t add_texture(const std::uint8_t* bytes, std::size_t size, const std::string& mime_type) {
+    const std::uint64_t offset = binary_.add(size, [bytes, size](std::uint8_t* at) { std::memcpy(at, bytes, size); });
+    views_.push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}});
+    json_["images"].push_back({{"bufferView", views_.size() - 1}, {"mimeType", mime_type}});
+    const std::size_t source = json_["images"].size() - 1;
+    Json texture = Json::object();
+    if (mime_type == kWebp) {
+      texture["extensions"] = {{kWebpTexture, {{"source", source}}}};
+    } else {
+      texture["source"] = source;
+    }
+    if (has_images()) texture["sampler"] = 0;
+    json_["textures"].push_back(std::move(texture));
+    return source;
+  }
+
+  bool has_images() const { return !options_.base_color.bytes.empty() || !options_.normal_map.bytes.empty(); }
+
+  void add_material() {
+    std::size_t base_texture = 0, normal_texture = 0;
+    const bool has_base = !mesh_.uvs.empty() && (!options_.base_color.bytes.empty() || !has_images());
+    if (!mesh_.uvs.empty()) {
+      json_["images"] = Json::array();
+      json_["textures"] = Json::array();
+    }
+    if (has_images()) {
+      // Beyond the border of the image there is nothing: its pixels end at the mesh's.
+      constexpr int kLinear = 9729, kLinearMipmaps = 9987, kClamp = 33071;
+      json_["samplers"] =
+          Json::array({{{"magFilter", kLinear}, {"minFilter", kLinearMipmaps}, {"wrapS", kClamp}, {"wrapT", kClamp}}});
+    }
+    if (has_base) {
+      const GlbImage& image = options_.base_color;
+      base_texture = image.bytes.empty() ? add_texture(kWhitePng, sizeof kWhitePng, "image/png")
+                                         : add_texture(image.bytes.data(), image.bytes.size(), image.mime_type);
+    }
+    if (!options_.normal_map.bytes.empty()) {
+      const GlbImage& image = options_.normal_map;
+      normal_texture = add_texture(image.bytes.data(), image.bytes.size(), image.mime_type);
+    }
+    // Colours of vertices and textures are multiplied with the material's.
+    const bool is_plain = mesh_.colors.empty() && !has_base;
+    const Json base = is_plain ? Json{0.47, 0.42, 0.33, 1.0} : Json{1.0, 1.0, 1.0, 1.0};
+    Json material = {
+        {"name", is_plain ? "earth" : "white"},
+        {"pbrMetallicRoughness", {{"baseColorFactor", base}, {"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}},
+        {"doubleSided", false}};
+    if (has_base) material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", base_texture}};
+    if (!options_.normal_map.bytes.empty()) material["normalTexture"] = {{"index", normal_texture}};
+    json_["materials"] = Json::array({std::move(material)});
+  }
+
+  Result<std::vector<std::uint8_t>> assemble() const {
+    std::string json = print_json(json_);
+    json.resize(pad4(json.size()), ' ');
+    const std::uint64_t binary = pad4(binary_.size());
+    const std::uint64_t total = 28 + json.size() + binary;
+    if (total > std::numeric_limits<std::uint32_t>::max()) {
+      return fail(ErrorKind::kOutput,
+                  fmt::format("a GLB file holds less than 4 GiB, and this mesh needs {:.1f} GiB; write PLY instead",
+                              static_cast<double>(total) / (1 << 30)));
+    }
+    std::vector<std::uint8_t> bytes(total);
+    std::uint8_t* at = bytes.data();
+    for (const std::uint32_t word : {kMagic, std::uint32_t{2}, static_cast<std::uint32_t>(total),
+                                     static_cast<std::uint32_t>(json.size()), kJsonChunk}) {
+      store_number(at, word);
+    }
+    std::memcpy(at, json.data(), json.size());
+    at += json.size();
+    store_number(at, static_cast<std::uint32_t>(binary));
+    store_number(at, kBinaryChunk);
+    binary_.write(at);
+    return bytes;
+  }
+
+  static constexpr const char* kWebp = "image/webp";
+  static constexpr const char* kWebpTexture = "EXT_texture_webp";
+
+  const Mesh& mesh_;
+  const GlbOptions& options_;
+  const GlbGrid grid_;
+  const std::vector<GlbAttribute> attributes_;
+  const std::vector<MeshPart> parts_;
+  Binary binary_;
+  std::uint64_t unpacked_ = 0;  // bytes of the second buffer
+  Json json_ = Json::object(), accessors_ = Json::array(), views_ = Json::array();
+};
 
 }  // namespace
 
-std::uint64_t glb_binary_size(std::uint64_t vertices, std::uint64_t triangles, std::uint64_t floats) {
-  return 12 + 8 + 8 + pad4(4 * floats * vertices + 3 * triangles * index_size(vertices));
-}
+Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh) { return GlbWriter(mesh, {}).encode(); }
 
-Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh) {
-  const std::size_t vertices = mesh.vertex_count();
-  const std::vector<Attribute> attributes = list_attributes(mesh);
-  if (has_gaps(mesh) && std::count(mesh.channels.begin(), mesh.channels.end(), kNoValue) > 0) {
-    return fail(ErrorKind::kOutput,
-                fmt::format("a channel of the mesh has the value {}, which stands for no value in a "
-                            "GLB file; write PLY instead",
-                            kNoValue));
+Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh, const GlbOptions& options) {
+  if (std::string why = find_unwritable(mesh, true); !why.empty()) return fail(ErrorKind::kOutput, std::move(why));
+  try {
+    return GlbWriter(mesh, options).encode();
+  } catch (...) {
+    return caught(ErrorKind::kOutput, "encode the mesh");
   }
-  std::array<float, 3> low, high;
-  low.fill(std::numeric_limits<float>::infinity());
-  high.fill(-std::numeric_limits<float>::infinity());
-  for (std::size_t v = 0; v < vertices; ++v) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const float coordinate = attributes[0].value(v, k) + 0.0f;
-      low[k] = std::min(low[k], coordinate);
-      high[k] = std::max(high[k], coordinate);
-    }
-  }
-  const std::uint64_t binary_part = glb_binary_size(vertices, mesh.triangle_count(), count_floats(attributes)) +
-                                    (mesh.uvs.empty() ? 0 : pad4(sizeof kWhitePng));
-  if (binary_part > std::numeric_limits<std::uint32_t>::max()) {
-    return fail(ErrorKind::kOutput,
-                fmt::format("a GLB file holds less than 4 GiB, and this mesh needs {:.1f} GiB; write PLY instead",
-                            static_cast<double>(binary_part) / (1 << 30)));
-  }
-  std::string json = print_json(describe(mesh, attributes, low, high));
-  json.resize(pad4(json.size()), ' ');
-  const std::uint64_t total = binary_part + json.size();
-  if (total > std::numeric_limits<std::uint32_t>::max()) {
-    return fail(ErrorKind::kOutput,
-                "a GLB file holds less than 4 GiB, and this mesh with its metadata needs more; write "
-                "PLY instead");
-  }
-
-  std::vector<std::uint8_t> bytes(total);
-  std::uint8_t* at = bytes.data();
-  for (const std::uint32_t word : {kMagic, std::uint32_t{2}, static_cast<std::uint32_t>(total),
-                                   static_cast<std::uint32_t>(json.size()), kJsonChunk}) {
-    store_number(at, word);
-  }
-  std::memcpy(at, json.data(), json.size());
-  at += json.size();
-  store_number(at, static_cast<std::uint32_t>(binary_part - 28));
-  store_number(at, kBinaryChunk);
-  for (const Attribute& attribute : attributes) {
-    for (std::size_t v = 0; v < vertices; ++v) {
-      for (std::size_t k = 0; k < attribute.width; ++k) store_number(at, attribute.value(v, k));
-    }
-  }
-  const bool short_indices = index_size(vertices) == 2;
-  for (const std::uint32_t vertex : mesh.triangles) {
-    if (short_indices) {
-      store_number(at, static_cast<std::uint16_t>(vertex));
-    } else {
-      store_number(at, vertex);
-    }
-  }
-  if (!mesh.uvs.empty()) {
-    std::memcpy(bytes.data() + (bytes.size() - pad4(sizeof kWhitePng)), kWhitePng, sizeof kWhitePng);
-  }
-  return bytes;
 }
 
 }  // namespace scarp

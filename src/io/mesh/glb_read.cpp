@@ -1,8 +1,7 @@
 // Reading GLB: the part of glTF 2.0 that can carry a terrain, from any writer.
 //
-// Nothing in the file is believed: every index is checked against the array it names, every accessor against its view,
-// every view against the binary chunk, and the node tree against loops. What we cannot honour (compressed or quantised
-// geometry, sparse accessors, lines, external buffers) is refused by name rather than read wrongly.
+// Nothing in the file is believed (glb_arrays.h): the node tree is checked against loops. What we cannot honour (Draco,
+// sparse accessors, lines, external buffers) is refused by name rather than read wrongly.
 
 #include <fmt/format.h>
 
@@ -11,6 +10,7 @@
 #include <map>
 
 #include "io/mesh/file_bytes.h"
+#include "io/mesh/glb_arrays.h"
 #include "io/mesh/glb_json.h"
 #include "io/mesh/glb_numbers.h"
 #include "io/mesh/glb_transform.h"
@@ -21,19 +21,11 @@
 namespace scarp {
 namespace {
 
-/// A checked accessor: `count` items of `components` numbers, `stride` bytes apart.
-struct Items {
-  const std::uint8_t* data = nullptr;
-  std::uint64_t count = 0, stride = 0;
-  int component_type = 0;
-};
-
-class GlbReader {
+class GlbReader : public GlbArrays {
  public:
   explicit GlbReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
   Mesh mesh;
-  std::string complaint;
 
   bool read() {
     if (!split_chunks() || !check_extensions()) return false;
@@ -46,35 +38,6 @@ class GlbReader {
   }
 
  private:
-  bool refuse(std::string why) {
-    if (complaint.empty()) complaint = std::move(why);
-    return false;
-  }
-
-  static const Json* member(const Json& object, const char* key) {
-    if (!object.is_object()) return nullptr;
-    const auto found = object.find(key);
-    return found == object.end() ? nullptr : &*found;
-  }
-
-  /// The non-negative integer `key` of `object`, or `missing` where there is none.
-  bool read_count(const Json& object, const char* key, std::uint64_t missing, std::uint64_t& value) {
-    const Json* found = member(object, key);
-    value = missing;
-    if (!found) return true;
-    if (!found->is_number_unsigned()) return refuse(fmt::format("a '{}' in its JSON is not a count", key));
-    value = found->get<std::uint64_t>();
-    return true;
-  }
-
-  /// Item `index` of the top-level array `array`.
-  const Json* item(const char* array, std::uint64_t index) {
-    const Json* items = member(json_, array);
-    if (items && items->is_array() && index < items->size()) return &(*items)[index];
-    refuse(fmt::format("its JSON refers to {} {}, which does not exist", array, index));
-    return nullptr;
-  }
-
   bool read_numbers(const Json& object, const char* key, double* values, std::size_t count, bool& present) {
     const Json* found = member(object, key);
     present = found != nullptr;
@@ -124,7 +87,8 @@ class GlbReader {
       if (!name.is_string()) continue;
       const auto& text = name.get_ref<const std::string&>();
       const bool harmless = text.starts_with("KHR_materials_") || text.starts_with("KHR_texture_") ||
-                            text.starts_with("EXT_texture_") || text.starts_with("KHR_lights_");
+                            text.starts_with("EXT_texture_") || text.starts_with("KHR_lights_") ||
+                            text == "KHR_mesh_quantization" || text == "EXT_meshopt_compression";
       if (!harmless) return refuse(fmt::format("it needs the glTF extension {}, which is not supported", text));
     }
     return true;
@@ -251,10 +215,10 @@ class GlbReader {
     const Json* attributes = member(primitive, "attributes");
     if (!attributes || !member(*attributes, "POSITION")) return refuse("a primitive has no positions");
     std::uint64_t accessor = 0;
-    Items positions;
+    GlbItems positions;
     if (!read_count(*attributes, "POSITION", 0, accessor) || !find_items(accessor, "VEC3", positions)) return false;
-    if (positions.component_type != kFloatComponent)
-      return refuse(fmt::format("its accessor {} of positions is not float32", accessor));
+    if (positions.component_type == kUint32Component)
+      return refuse(fmt::format("its accessor {} of positions is neither float32 nor of 8 or 16 bits", accessor));
     const auto known = first_vertices.find(accessor);
     const bool is_new = known == first_vertices.end();
     const std::uint32_t first = is_new ? static_cast<std::uint32_t>(mesh.vertex_count()) : known->second;
@@ -269,7 +233,7 @@ class GlbReader {
     return append_triangles(primitive, positions.count, first, transform.determinant() < 0);
   }
 
-  bool append_positions(const Items& items, const Transform& transform) {
+  bool append_positions(const GlbItems& items, const Transform& transform) {
     // Instances may multiply what a file says; a terrain has none, a bomb has millions.
     const std::uint64_t most = std::max<std::uint64_t>(std::uint64_t{1} << 24, 16 * bytes_.size() / 12);
     if (items.count > most || mesh.vertex_count() + items.count > most)
@@ -279,8 +243,7 @@ class GlbReader {
       mesh.origin = {t[0] + 0.0, 0.0 - t[2], t[1] + 0.0};
     }
     for (std::uint64_t v = 0; v < items.count; ++v) {
-      const std::uint8_t* at = items.data + v * items.stride;
-      const double p[3] = {load_number<float>(at), load_number<float>(at + 4), load_number<float>(at + 8)};
+      const double p[3] = {items.number(v, 0), items.number(v, 1), items.number(v, 2)};
       const auto q = transform.apply_linear(p);
       const double* t = transform.translation;
       mesh.positions.push_back(q[0] + (t[0] - mesh.origin[0]));
@@ -290,19 +253,21 @@ class GlbReader {
     return true;
   }
 
-  /// Normals are kept where no transform but a translation touches them.
   bool append_normals(const Json& attributes, std::uint64_t count, const Transform& transform) {
-    if (!member(attributes, "NORMAL") || !transform.is_translation()) return true;
+    if (!member(attributes, "NORMAL")) return true;
     std::uint64_t accessor = 0;
-    Items normals;
+    GlbItems normals;
     if (!read_count(attributes, "NORMAL", 0, accessor) || !find_items(accessor, "VEC3", normals)) return false;
-    if (normals.component_type != kFloatComponent || normals.count != count)
+    if (normals.component_type == kUint32Component || normals.count != count)
       return refuse(fmt::format("its accessor {} of normals is malformed", accessor));
     for (std::uint64_t v = 0; v < count; ++v) {
-      const std::uint8_t* at = normals.data + v * normals.stride;
-      const float x = load_number<float>(at), y = load_number<float>(at + 4), z = load_number<float>(at + 8);
-      if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
-        return refuse(fmt::format("normal {} is not finite", v));
+      const double given[3] = {normals.number(v, 0), normals.number(v, 1), normals.number(v, 2)};
+      for (const double component : given) {
+        if (!std::isfinite(component)) return refuse(fmt::format("normal {} is not finite", v));
+      }
+      const auto n =
+          transform.is_translation() ? std::array{given[0], given[1], given[2]} : transform.apply_normal(given);
+      const auto x = static_cast<float>(n[0]), y = static_cast<float>(n[1]), z = static_cast<float>(n[2]);
       mesh.normals.insert(mesh.normals.end(), {x, 0.0f - z, y});
     }
     return true;
@@ -310,23 +275,22 @@ class GlbReader {
 
   /// The items of an attribute of numbers: float32, or integers that stand for 0 … 1.
   bool find_attribute(const Json& attributes, const char* name, std::string_view type, std::uint64_t count,
-                      Items& items) {
+                      GlbItems& items) {
     std::uint64_t accessor = 0;
     if (!read_count(attributes, name, 0, accessor) || !find_items(accessor, type, items)) return false;
     if (items.component_type != kUint32Component && items.count == count) return true;
     return refuse(fmt::format("its accessor {} of {} is malformed", accessor, name));
   }
 
-  static double load_component(const Items& items, std::uint64_t v, std::uint64_t k) {
-    const std::uint8_t* at = items.data + v * items.stride;
-    if (items.component_type == kUint8Component) return at[k] / 255.0;
-    if (items.component_type == kUint16Component) return load_number<std::uint16_t>(at + 2 * k) / 65535.0;
-    return load_number<float>(at + 4 * k);
+  /// Integers stand for 0 … 1 in colours and texture coordinates, whether the file says so or not.
+  static double load_component(GlbItems items, std::uint64_t v, std::uint64_t k) {
+    items.is_normalized = true;
+    return items.number(v, k);
   }
 
   bool append_uvs(const Json& attributes, std::uint64_t count) {
     if (!member(attributes, "TEXCOORD_0")) return true;
-    Items uvs;
+    GlbItems uvs;
     if (!find_attribute(attributes, "TEXCOORD_0", "VEC2", count, uvs)) return false;
     for (std::uint64_t i = 0; i < 2 * count; ++i) {
       const double value = load_component(uvs, i / 2, i % 2);
@@ -345,7 +309,7 @@ class GlbReader {
     if (!described) return false;
     const Json* type = member(*described, "type");
     const bool with_alpha = type && type->is_string() && type->get_ref<const std::string&>() == "VEC4";
-    Items colors;
+    GlbItems colors;
     if (!find_attribute(attributes, "COLOR_0", with_alpha ? "VEC4" : "VEC3", count, colors)) return false;
     for (std::uint64_t i = 0; i < 3 * count; ++i) {
       const double value = load_component(colors, i / 3, i % 3);
@@ -357,7 +321,7 @@ class GlbReader {
 
   /// Our own "_CHANNEL_n"; where extras announce channels that are not there, they are the colours.
   bool append_channels(const Json& primitive, const Json& attributes, std::uint64_t count) {
-    std::vector<Items> channels;
+    std::vector<GlbItems> channels;
     while (channels.size() < kMaxChannels) {
       const std::string name = fmt::format("_CHANNEL_{}", channels.size() + 1);
       if (!member(attributes, name.c_str())) break;
@@ -391,7 +355,7 @@ class GlbReader {
   }
 
   bool append_triangles(const Json& primitive, std::uint64_t vertices, std::uint32_t first, bool mirrored) {
-    Items indices;
+    GlbItems indices;
     std::uint64_t accessor = 0, corners = vertices;
     const bool indexed = member(primitive, "indices") != nullptr;
     if (indexed) {
@@ -404,7 +368,7 @@ class GlbReader {
     if (corners > most_corners()) return refuse("it repeats its meshes too often");
     const std::size_t start = mesh.triangles.size();
     for (std::uint64_t i = 0; i < corners; ++i) {
-      const std::uint64_t vertex = indexed ? load_index(indices, i) : i;
+      const std::uint64_t vertex = indexed ? indices.index(i) : i;
       if (vertex >= vertices) {
         return refuse(fmt::format("index {} of accessor {} names vertex {} of {}", i, accessor, vertex, vertices));
       }
@@ -421,59 +385,7 @@ class GlbReader {
     return most_numbers() - std::min<std::uint64_t>(most_numbers(), mesh.triangles.size());
   }
 
-  static std::uint64_t load_index(const Items& items, std::uint64_t i) {
-    const std::uint8_t* at = items.data + i * items.stride;
-    if (items.component_type == kUint8Component) return *at;
-    return items.component_type == kUint16Component ? load_number<std::uint16_t>(at) : load_number<std::uint32_t>(at);
-  }
-
-  bool find_items(std::uint64_t index, std::string_view type, Items& items) {
-    const Json* accessor = item("accessors", index);
-    if (!accessor) return false;
-    const auto broken = [&](std::string_view what) { return refuse(fmt::format("its accessor {} {}", index, what)); };
-    if (member(*accessor, "sparse")) return broken("is sparse, which is not supported");
-    if (!member(*accessor, "bufferView")) return broken("has no buffer view");
-    const Json* given_type = member(*accessor, "type");
-    if (!given_type || !given_type->is_string() || given_type->get_ref<const std::string&>() != type) {
-      return broken(fmt::format("is not of type {}", type));
-    }
-    std::uint64_t component_type = 0, offset = 0, view_index = 0;
-    if (!read_count(*accessor, "componentType", 0, component_type) || !read_count(*accessor, "count", 0, items.count) ||
-        !read_count(*accessor, "byteOffset", 0, offset) || !read_count(*accessor, "bufferView", 0, view_index)) {
-      return false;
-    }
-    std::uint64_t size = 0;
-    if (component_type == kUint8Component) size = 1;
-    if (component_type == kUint16Component) size = 2;
-    if (component_type == kUint32Component || component_type == kFloatComponent) size = 4;
-    if (size == 0) return broken(fmt::format("has component type {}, which is not supported here", component_type));
-    items.component_type = static_cast<int>(component_type);
-    size *= type == "SCALAR" ? 1 : static_cast<std::uint64_t>(type.back() - '0');
-
-    const Json* view = item("bufferViews", view_index);
-    if (!view) return false;
-    std::uint64_t buffer = 0, start = 0, length = 0;
-    if (!read_count(*view, "buffer", 0, buffer) || !read_count(*view, "byteOffset", 0, start) ||
-        !read_count(*view, "byteLength", 0, length) || !read_count(*view, "byteStride", size, items.stride)) {
-      return false;
-    }
-    const Json* buffer_json = item("buffers", buffer);
-    if (!buffer_json) return false;
-    if (buffer != 0 || member(*buffer_json, "uri")) return broken("keeps its data outside of the file's binary chunk");
-    if (start > binary_.size() || length > binary_.size() - start) {
-      return refuse(fmt::format("its buffer view {} reaches beyond the binary chunk", view_index));
-    }
-    if (items.stride < size || items.stride > 252 + size) return broken("has an impossible stride");
-    if (items.count == 0) return broken("is empty");
-    if (offset > length || length - offset < size || items.count - 1 > (length - offset - size) / items.stride) {
-      return broken("reaches beyond its buffer view");
-    }
-    items.data = binary_.data() + start + offset;
-    return true;
-  }
-
-  std::span<const std::uint8_t> bytes_, binary_;
-  Json json_;
+  std::span<const std::uint8_t> bytes_;
   std::vector<bool> seen_;
 };
 

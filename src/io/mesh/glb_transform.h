@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace scarp {
@@ -14,6 +15,20 @@ struct Transform {
   std::array<double, 3> apply_linear(const double p[3]) const {
     std::array<double, 3> q;
     for (std::size_t r = 0; r < 3; ++r) q[r] = linear[0][r] * p[0] + linear[1][r] * p[1] + linear[2][r] * p[2];
+    return q;
+  }
+  /// A unit normal: by the inverse transpose, whose columns are cross products of the columns.
+  std::array<double, 3> apply_normal(const double n[3]) const {
+    std::array<double, 3> q{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double* a = linear[(c + 1) % 3];
+      const double* b = linear[(c + 2) % 3];
+      for (std::size_t r = 0; r < 3; ++r)
+        q[r] += n[c] * (a[(r + 1) % 3] * b[(r + 2) % 3] - a[(r + 2) % 3] * b[(r + 1) % 3]);
+    }
+    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]);
+    if (!(length > 0)) return {0, 1, 0};
+    for (double& component : q) component /= determinant() < 0 ? -length : length;
     return q;
   }
   bool is_translation() const {

@@ -88,9 +88,6 @@ Result<std::vector<std::uint8_t>> encode_one_3mf(const Mesh& mesh);
 /// All objects that the file builds, as one mesh.
 Result<Mesh> decode_3mf(std::span<const std::uint8_t> bytes);
 
-/// Bytes of a GLB file but its JSON text: whether it stays below 4 GiB is known before it is made. `floats`: numbers
-/// per vertex, 3 of them its position.
-std::uint64_t glb_binary_size(std::uint64_t vertices, std::uint64_t triangles, std::uint64_t floats);
 /// Whether the bytes have the length that a binary STL file's own count asks for.
 bool is_binary_stl(std::span<const std::uint8_t> bytes);
 /// Whether the text begins as a DXF file does: with a comment or a section.

@@ -1,0 +1,55 @@
+// What a GLB file holds by vertex: arrays of float32, or of smaller numbers where it is compressed.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "scarp/glb.h"
+#include "scarp/mesh.h"
+
+namespace scarp {
+
+/// One array by vertex.
+struct GlbAttribute {
+  std::string name;
+  int component = 0;      ///< glTF's component type
+  std::size_t width = 0;  ///< components of a vertex
+  bool is_normalized = false;
+  std::size_t stride = 0;                                            ///< bytes of a vertex, a multiple of 4
+  std::function<void(std::size_t vertex, std::uint8_t*& at)> store;  ///< writes `stride` bytes
+};
+
+/// How numbers in the file become positions: origin + shift + scale · number, in glTF's axes.
+struct GlbGrid {
+  std::array<double, 3> scale{1, 1, 1}, shift{0, 0, 0};
+  bool is_short = false;  ///< numbers of 16 bits, else float32
+
+  bool is_plain() const { return scale == std::array{1.0, 1.0, 1.0} && shift == std::array{0.0, 0.0, 0.0}; }
+  std::array<double, 3> number(const double* offsets) const;
+};
+
+/// The coarsest grid of the cell that holds every position. A plain one where there is none.
+GlbGrid find_grid(const Mesh& mesh, const std::array<double, 2>& cell);
+/// Whether numbers of the grid tell x and y exactly.
+bool holds_positions(const GlbGrid& grid, const Mesh& mesh);
+
+/// (x, y, z) → (x, z, −y); 0 − y rather than −y, so that 0 stays 0.
+template <class T>
+std::array<T, 3> to_y_up(T x, T y, T z) {
+  return {x, z, T{0} - y};
+}
+
+/// Whether the channels are the colours once more: three as red, green and blue, or one as grey.
+bool colors_say_channels(const Mesh& mesh);
+/// What stands for a channel without a value, as declared in the primitive's extras: JSON and glTF have no NaN.
+inline constexpr float kNoChannelValue = std::numeric_limits<float>::lowest();
+
+/// POSITION first. The mesh, the grid and the options stay alive.
+std::vector<GlbAttribute> list_glb_attributes(const Mesh& mesh, const GlbGrid& grid, const GlbOptions& options);
+
+}  // namespace scarp

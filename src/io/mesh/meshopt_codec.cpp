@@ -1,0 +1,86 @@
+#include "io/mesh/meshopt_codec.h"
+
+#ifdef SCARP_WITH_MESHOPTIMIZER
+#include <meshoptimizer.h>
+#endif
+
+namespace scarp {
+
+#ifdef SCARP_WITH_MESHOPTIMIZER
+
+namespace {
+
+/// A stream's first byte names codec and version.
+constexpr std::uint8_t kLaterAttributes = 0xA1;
+
+const char* find_impossible(const MeshoptStream& stream) {
+  const bool is_attributes = stream.mode == MeshoptMode::kAttributes;
+  const std::uint64_t stride = stream.stride;
+  if (is_attributes ? stride == 0 || stride % 4 != 0 || stride > 256 : stride != 2 && stride != 4)
+    return "has a stride that its mode does not allow";
+  if (stream.mode == MeshoptMode::kTriangles && stream.count % 3 != 0)
+    return "holds triangles, and its count is no multiple of 3";
+  const bool filter_fits = stream.filter == MeshoptFilter::kNone ||
+                           (is_attributes && (stream.filter == MeshoptFilter::kOctahedral   ? stride == 4 || stride == 8
+                                              : stream.filter == MeshoptFilter::kQuaternion ? stride == 8
+                                                                                            : true));
+  if (!filter_fits) return "has a filter that its mode or stride does not allow";
+  // Sixteen bytes of attributes take two bits or more, an index or a triangle a byte.
+  constexpr std::uint64_t kPerByte = 64, kSlack = 1 << 16;
+  const std::uint64_t most = kPerByte * stream.bytes.size() + kSlack;
+  if (stream.bytes.empty() || stream.count > most || stream.count * stride > most)
+    return "is too short for what it says that it holds";
+  return nullptr;
+}
+
+void undo_filter(const MeshoptStream& stream, std::uint8_t* items) {
+  if (stream.filter == MeshoptFilter::kOctahedral) meshopt_decodeFilterOct(items, stream.count, stream.stride);
+  if (stream.filter == MeshoptFilter::kQuaternion) meshopt_decodeFilterQuat(items, stream.count, stream.stride);
+  if (stream.filter == MeshoptFilter::kExponential) meshopt_decodeFilterExp(items, stream.count, stream.stride);
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_meshopt_attributes(std::span<const std::uint8_t> items, std::size_t stride) {
+  const std::size_t count = items.size() / stride;
+  meshopt_encodeVertexVersion(0);
+  std::vector<std::uint8_t> bytes(meshopt_encodeVertexBufferBound(count, stride));
+  bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), items.data(), count, stride));
+  return bytes;
+}
+
+std::vector<std::uint8_t> encode_meshopt_triangles(std::span<const std::uint16_t> corners, std::size_t vertices) {
+  meshopt_encodeIndexVersion(1);
+  std::vector<std::uint8_t> bytes(meshopt_encodeIndexBufferBound(corners.size(), vertices));
+  bytes.resize(meshopt_encodeIndexBuffer(bytes.data(), bytes.size(), corners.data(), corners.size()));
+  return bytes;
+}
+
+const char* decode_meshopt(const MeshoptStream& stream, std::vector<std::uint8_t>& items) {
+  if (const char* why = find_impossible(stream)) return why;
+  if (stream.mode == MeshoptMode::kAttributes && stream.bytes[0] == kLaterAttributes)
+    return "is of a later version of the codec; compress it with version 0";
+  items.resize(stream.count * stream.stride);
+  void* const to = items.data();
+  const std::size_t count = stream.count, stride = stream.stride, size = stream.bytes.size();
+  const std::uint8_t* const from = stream.bytes.data();
+  const int failed = stream.mode == MeshoptMode::kAttributes ? meshopt_decodeVertexBuffer(to, count, stride, from, size)
+                     : stream.mode == MeshoptMode::kTriangles
+                         ? meshopt_decodeIndexBuffer(to, count, stride, from, size)
+                         : meshopt_decodeIndexSequence(to, count, stride, from, size);
+  if (failed != 0) return "is broken or cut off";
+  undo_filter(stream, items.data());
+  return nullptr;
+}
+
+#else
+
+std::vector<std::uint8_t> encode_meshopt_attributes(std::span<const std::uint8_t>, std::size_t) { return {}; }
+std::vector<std::uint8_t> encode_meshopt_triangles(std::span<const std::uint16_t>, std::size_t) { return {}; }
+const char* decode_meshopt(const MeshoptStream&, std::vector<std::uint8_t>&) {
+  return "is compressed, which this build cannot read: it has no libmeshoptimizer";
+}
+
+#endif
+
+}  // namespace scarp

@@ -1,0 +1,38 @@
+// The streams of EXT_meshopt_compression, by libmeshoptimizer.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace scarp {
+
+#ifdef SCARP_WITH_MESHOPTIMIZER
+inline constexpr bool kHasMeshoptCodec = true;
+#else
+inline constexpr bool kHasMeshoptCodec = false;
+#endif
+
+enum class MeshoptMode { kAttributes, kTriangles, kIndices };
+enum class MeshoptFilter { kNone, kOctahedral, kQuaternion, kExponential };
+
+/// What a stream says that it holds: `count` items of `stride` bytes.
+struct MeshoptStream {
+  std::span<const std::uint8_t> bytes;
+  MeshoptMode mode = MeshoptMode::kAttributes;
+  MeshoptFilter filter = MeshoptFilter::kNone;
+  std::uint64_t count = 0, stride = 0;
+};
+
+/// Items of `stride` bytes, a multiple of 4 up to 256. Version 0 of the codec, which every decoder reads. Empty in a
+/// build without the codec.
+std::vector<std::uint8_t> encode_meshopt_attributes(std::span<const std::uint8_t> items, std::size_t stride);
+/// Corners of triangles, which may be turned: the same winding begins at another corner.
+std::vector<std::uint8_t> encode_meshopt_triangles(std::span<const std::uint16_t> corners, std::size_t vertices);
+
+/// The sentence that refuses the stream, or nothing. `items` then holds count · stride bytes. Believes nothing, and
+/// allocates no more than so many bytes can hold.
+const char* decode_meshopt(const MeshoptStream& stream, std::vector<std::uint8_t>& items);
+
+}  // namespace scarp

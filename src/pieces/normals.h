@@ -1,0 +1,21 @@
+// Normals of the full-resolution surface.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "grid/bands.h"
+#include "pieces/freeze.h"
+#include "scarp/height_field.h"
+
+namespace scarp {
+
+/// Unit normals of the full-resolution surface, in the frame: at samples central differences, one-sided beside nodata
+/// and borders; between samples the bilinear mean of the valid samples around; 3 values a point, z > 0. Vertical where
+/// no sample around is valid. Streamed samples are read once, from the top. Throws SourceFailure.
+std::vector<float> sample_normals(const HeightField& field, const LatticePoints& at);
+
+/// Those of the samples of row y, in [begin, end) of a range that reaches a row beyond; at nodata NaN.
+std::vector<float> row_normals(const RowRange& rows, const HeightField& field, std::int32_t y);
+
+}  // namespace scarp

@@ -1,0 +1,56 @@
+// From lattice points to the mesh's coordinates.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/point.h"
+#include "scarp/frame.h"
+
+namespace scarp {
+
+/// Points mapped at a time.
+inline constexpr std::size_t kChunkVertices = 4096;
+
+/// Offsets of lattice points from the frame's origin, in double; a few thousand at a time, since double arrays of a
+/// whole mesh would be the peak of memory.
+class OffsetMap {
+ public:
+  OffsetMap(std::int32_t cols, std::int32_t rows, const Frame& frame, std::int32_t steps)
+      : frame_(frame), steps_(steps), col0_(cols / 2), row0_(rows / 2), origin_(frame_origin(frame, cols, rows)) {}
+
+  std::array<double, 2> origin() const { return origin_; }
+
+  /// Fills x and y for a chunk of points.
+  void map(std::span<const Point> points, std::vector<double>& x, std::vector<double>& y) const {
+    x.clear();
+    y.clear();
+    for (Point p : points) {
+      // In affine frames from differences of indices, so that offsets that are float32 by construction come out
+      // exactly.
+      const auto& a = frame_.affine;
+      const double col = p.x / steps_, row = p.y / steps_, i = col - col0_, j = row - row0_;
+      const std::array<double, 2> at =
+          frame_.is_affine() ? std::array{a[1] * i + a[2] * j, a[4] * i + a[5] * j} : frame_.apply_affine(col, row);
+      x.push_back(at[0]);
+      y.push_back(at[1]);
+    }
+    if (frame_.is_affine()) return;
+    frame_.transform->apply(x, y);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      x[k] -= origin_[0];
+      y[k] -= origin_[1];
+    }
+  }
+
+ private:
+  const Frame& frame_;
+  double steps_;
+  std::int32_t col0_, row0_;
+  std::array<double, 2> origin_;
+};
+
+}  // namespace scarp
