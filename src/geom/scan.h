@@ -5,6 +5,7 @@
 // Nothing is rounded, no row and no column is skipped: spans that are rounded, as in Scape, lose samples.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
@@ -14,6 +15,8 @@
 namespace scarp {
 
 namespace detail {
+
+constexpr std::int32_t kRowsWorthSkipping = 32;  // division takes the time of so many
 
 /// x of an edge on consecutive rows, as floor(x) and whether the remainder is zero.
 class EdgeWalker {
@@ -30,6 +33,22 @@ class EdgeWalker {
   }
   std::int64_t floor() const { return x_; }
   std::int64_t ceil() const { return x_ + (remainder_ != 0); }
+  /// Rows until it has come to the next whole column, on its right or on its left; more than any raster has if it goes
+  /// the other way. REQUIRES: it stands between two columns.
+  std::int64_t rows_to_reach(bool is_right) const {
+    constexpr std::int64_t kNever = std::int64_t{1} << 40;
+    if (is_right) {
+      if (step_ != 0) return step_ > 0 ? 1 : kNever;
+      return step_remainder_ == 0 ? kNever : (dy_ - remainder_ + step_remainder_ - 1) / step_remainder_;
+    }
+    if (step_ != -1) return step_ < -1 ? 1 : kNever;
+    return (remainder_ + dy_ - step_remainder_ - 1) / (dy_ - step_remainder_);
+  }
+  void skip_rows(std::int64_t rows) {
+    remainder_ += rows * step_remainder_;
+    x_ += rows * step_ + remainder_ / dy_;
+    remainder_ %= dy_;
+  }
   void next_row() {
     x_ += step_;
     remainder_ += step_remainder_;
@@ -46,7 +65,7 @@ class EdgeWalker {
 }  // namespace detail
 
 /// Calls row(y, first, last) for every row of the closed triangle that holds lattice points first … last (inclusive),
-/// in ascending y. REQUIRES: orient(corners) != 0. Cost: O(rows) plus the calls.
+/// in ascending y. REQUIRES: orient(corners) != 0. Cost: O(the smaller one of rows, and columns and calls).
 template <class Row>
 void scan_rows(std::array<Point, 3> corners, Row&& row) {
   if (corners[1].y < corners[0].y) std::swap(corners[0], corners[1]);
@@ -56,13 +75,24 @@ void scan_rows(std::array<Point, 3> corners, Row&& row) {
   const bool long_edge_is_left = orient(top, bottom, middle) < 0;
   const auto half = [&](detail::EdgeWalker& long_edge, detail::EdgeWalker short_edge, std::int32_t y,
                         std::int32_t end) {
-    for (; y < end; ++y) {
+    while (y < end) {
       const detail::EdgeWalker& left = long_edge_is_left ? long_edge : short_edge;
       const detail::EdgeWalker& right = long_edge_is_left ? short_edge : long_edge;
       const std::int64_t first = left.ceil(), last = right.floor();
-      if (first <= last) row(y, static_cast<std::int32_t>(first), static_cast<std::int32_t>(last));
+      if (first <= last) {
+        row(y, static_cast<std::int32_t>(first), static_cast<std::int32_t>(last));
+      } else if (end - y > detail::kRowsWorthSkipping) {
+        // Both edges stand between the same two columns: as slivers do for most of their rows.
+        const std::int64_t rows =
+            std::min({left.rows_to_reach(false), right.rows_to_reach(true), std::int64_t{end} - y});
+        long_edge.skip_rows(rows);
+        short_edge.skip_rows(rows);
+        y += static_cast<std::int32_t>(rows);
+        continue;
+      }
       long_edge.next_row();
       short_edge.next_row();
+      ++y;
     }
   };
   detail::EdgeWalker long_edge(top, bottom);

@@ -40,6 +40,38 @@ RC_GTEST_PROP(scan, visits_exactly_the_closed_triangle, ()) {
   RC_ASSERT(scanned(corners) == expected);
 }
 
+RC_GTEST_PROP(scan, visits_exactly_a_sliver, ()) {
+  const std::int32_t width = *rc::gen::element(1, 2, 5), height = *rc::gen::element(40, 300);
+  const auto point = [&] { return Point{*rc::gen::inRange(0, width + 1), *rc::gen::inRange(0, height)}; };
+  std::array<Point, 3> corners{point(), point(), point()};
+  if (orient(corners[0], corners[1], corners[2]) < 0) std::swap(corners[1], corners[2]);
+  RC_PRE(orient(corners[0], corners[1], corners[2]) > 0);
+  Lattice expected;
+  for (std::int32_t y = 0; y < height; ++y) {
+    for (std::int32_t x = 0; x <= width; ++x) {
+      const Point p{x, y};
+      if (orient(corners[0], corners[1], p) >= 0 && orient(corners[1], corners[2], p) >= 0 &&
+          orient(corners[2], corners[0], p) >= 0)
+        expected.emplace(x, y);
+    }
+  }
+  RC_ASSERT(scanned(corners) == expected);
+}
+
+// A tall raster of few columns is full of these: row by row a thousand of them take minutes.
+TEST(scan, a_sliver_costs_its_samples_not_its_rows) {
+  constexpr std::int32_t kFar = 1'000'000'000;
+  std::int64_t samples = 0;
+  for (std::int32_t k = 0; k < 1000; ++k) {
+    scan_rows({Point{0, k}, Point{0, k + 2}, Point{1, kFar + k}},
+              [&](std::int32_t, std::int32_t first, std::int32_t last) { samples += last - first + 1; });
+    scan_rows({Point{3, k}, Point{0, kFar + k}, Point{3, k + 1}},
+              [&](std::int32_t, std::int32_t first, std::int32_t last) { samples += last - first + 1; });
+  }
+  EXPECT_GE(samples, 1000 * (4 + 3));
+  EXPECT_LE(samples, 1000 * (4 + 5));
+}
+
 // Pick's theorem: 2·area = 2·inside + border − 2, so a wrong count cannot hide at sizes where an oracle is too slow.
 RC_GTEST_PROP(scan, counts_what_pick_says_at_any_size, ()) {
   const std::int32_t side = 60000;

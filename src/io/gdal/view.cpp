@@ -1,0 +1,151 @@
+#include "io/gdal/view.h"
+
+#include <cpl_string.h>
+#include <fmt/format.h>
+#include <gdal_utils.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "io/gdal/mosaic.h"
+
+namespace scarp::gdal {
+namespace {
+
+struct FreeOptions {
+  void operator()(GDALTranslateOptions* options) const { GDALTranslateOptionsFree(options); }
+};
+
+/// A window of whole cells, of which k × k become one.
+struct Part {
+  int col = 0, row = 0, cols = 0, rows = 0;
+  int across = 1, down = 1;
+};
+
+constexpr double kSameCell = 1e-6;  // numbers that are meant to be the border of a cell
+
+Result<void> cut(const std::array<double, 4>& extent, const std::array<double, 6>& gt, const std::string& path,
+                 Part& part) {
+  const auto [xmin, ymin, xmax, ymax] = extent;
+  if (!(xmin < xmax) || !(ymin < ymax)) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("the extent {:.10g} {:.10g} {:.10g} {:.10g} is empty: give xmin ymin xmax ymax", xmin, ymin,
+                            xmax, ymax));
+  }
+  const auto range = [](double low, double high, double origin, double step, int count) {
+    const auto [from, to] = std::minmax({(low - origin) / step, (high - origin) / step});
+    const double first = std::clamp(std::floor(from + kSameCell), 0.0, static_cast<double>(count));
+    const double last = std::clamp(std::ceil(to - kSameCell), 0.0, static_cast<double>(count));
+    return std::pair{static_cast<int>(first), static_cast<int>(last)};
+  };
+  const auto [left, right] = range(xmin, xmax, gt[0], gt[1], part.cols);
+  const auto [top, bottom] = range(ymin, ymax, gt[3], gt[5], part.rows);
+  if (left >= right || top >= bottom) {
+    const auto [x0, x1] = std::minmax({gt[0], gt[0] + gt[1] * part.cols});
+    const auto [y0, y1] = std::minmax({gt[3], gt[3] + gt[5] * part.rows});
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: lies beside the extent {:.10g} {:.10g} {:.10g} {:.10g}: it covers {:.10g} {:.10g} "
+                            "{:.10g} {:.10g}",
+                            path, xmin, ymin, xmax, ymax, x0, y0, x1, y1));
+  }
+  part = {left, top, right - left, bottom - top, 1, 1};
+  return {};
+}
+
+Result<void> coarsen(double resolution, const std::array<double, 6>& gt, const std::string& path, Part& part) {
+  if (!(resolution > 0))
+    return fail(ErrorKind::kUsage, fmt::format("a resolution of {:.10g} is not above 0", resolution));
+  const auto count = [&](double step) {
+    return static_cast<int>(std::clamp(std::floor(resolution / std::abs(step) + kSameCell), 1.0, 1e9));
+  };
+  part.across = count(gt[1]);
+  part.down = count(gt[5]);
+  if (part.cols / part.across >= 2 && part.rows / part.down >= 2) return {};
+  return fail(
+      ErrorKind::kInput,
+      fmt::format("{}: {} x {} samples with cells of {:.10g} x {:.10g} leave less than 2 x 2 at a resolution of "
+                  "{:.10g}: ask for a finer one",
+                  path, part.cols, part.rows, std::abs(gt[1]), std::abs(gt[5]), resolution));
+}
+
+/// Bytes that are heights, and all other whole numbers, have means in between.
+const char* mean_type(GDALDataType type, bool keeps_type) {
+  if (keeps_type && type == GDT_Byte) return "Byte";
+  const bool is_wide = type == GDT_Float64 || type == GDT_Int32 || type == GDT_UInt32;
+  return is_wide ? "Float64" : "Float32";
+}
+
+Result<Dataset> open_part(Session& session, GDALDatasetH whole, const std::string& path, const Part& part,
+                          bool keeps_type) {
+  const bool is_mean = part.across > 1 || part.down > 1;
+  const int cols = part.cols / part.across, rows = part.rows / part.down;
+  CPLStringList words;
+  const auto add = [&](std::initializer_list<std::string> more) {
+    for (const std::string& word : more) words.AddString(word.c_str());
+  };
+  add({"-of", "VRT", "-srcwin", fmt::format("{}", part.col), fmt::format("{}", part.row),
+       fmt::format("{}", cols * part.across), fmt::format("{}", rows * part.down)});
+  if (is_mean) {
+    add({"-outsize", fmt::format("{}", cols), fmt::format("{}", rows), "-r", "average", "-ovr", "NONE", "-ot",
+         mean_type(GDALGetRasterDataType(GDALGetRasterBand(whole, 1)), keeps_type)});
+  }
+  const std::unique_ptr<GDALTranslateOptions, FreeOptions> options(GDALTranslateOptionsNew(words.List(), nullptr));
+  session.clear();
+  int failed = 0;
+  const Dataset made(GDALTranslate("", whole, options.get(), &failed));
+  if (!made || failed != 0) {
+    return fail(ErrorKind::kInput, fmt::format("{}: no part of it can be read: {}", path, session.reason()));
+  }
+  return open_virtual(session, made.get(), path);
+}
+
+std::string describe_part(const Part& part, int cols, int rows, const std::array<double, 6>& gt) {
+  std::string words;
+  if (part.cols != cols || part.rows != rows) {
+    words = fmt::format("columns {} to {} of {} and rows {} to {} of {}", part.col, part.col + part.cols - 1, cols,
+                        part.row, part.row + part.rows - 1, rows);
+  }
+  if (part.across == 1 && part.down == 1) return words;
+  words += fmt::format("{}means of {} x {} cells, {:.10g} x {:.10g} each", words.empty() ? "" : ", ", part.across,
+                       part.down, std::abs(gt[1]) * part.across, std::abs(gt[5]) * part.down);
+  const int right = part.cols % part.across, bottom = part.rows % part.down;
+  if (right > 0 || bottom > 0) words += fmt::format(" (without the last {} columns and {} rows)", right, bottom);
+  return words;
+}
+
+}  // namespace
+
+Result<Dataset> open_view(Session& session, const std::string& path, const RasterView& view, bool keeps_type,
+                          std::string& words) {
+  std::vector<std::string> given{path};
+  given.insert(given.end(), view.more.begin(), view.more.end());
+  const auto paths = expand_folders(session, given);
+  if (!paths) return tl::unexpected(paths.error());
+  const bool is_mosaic = paths->size() > 1;
+  auto whole = is_mosaic ? open_mosaic(session, *paths) : open_raster(session, paths->front());
+  if (!whole) return whole;
+  if (is_mosaic) words = fmt::format("mosaic of {} rasters", paths->size());
+  if (!view.extent && !view.resolution) return whole;
+
+  std::array<double, 6> gt{};
+  if (GDALGetGeoTransform(whole->get(), gt.data()) != CE_None || gt[2] != 0 || gt[4] != 0) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("{}: an extent and a resolution need a georeference without rotation", path));
+  }
+  const int cols = GDALGetRasterXSize(whole->get()), rows = GDALGetRasterYSize(whole->get());
+  Part part{0, 0, cols, rows, 1, 1};
+  if (view.extent) {
+    if (auto has_part = cut(*view.extent, gt, path, part); !has_part) return tl::unexpected(has_part.error());
+  }
+  if (view.resolution) {
+    if (auto has_cells = coarsen(*view.resolution, gt, path, part); !has_cells)
+      return tl::unexpected(has_cells.error());
+  }
+  const std::string of_part = describe_part(part, cols, rows, gt);
+  if (of_part.empty()) return whole;
+  words += (words.empty() ? "" : ", ") + of_part;
+  return open_part(session, whole->get(), path, part, keeps_type);
+}
+
+}  // namespace scarp::gdal

@@ -1,0 +1,84 @@
+#include "io/spool.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <mutex>
+
+#include "io/file_reason.h"
+
+namespace scarp {
+namespace {
+
+constexpr const char* kStandardInput = "-";
+
+bool is_pipe(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 && S_ISFIFO(status.st_mode);
+}
+
+/// A new file without a name; -1 and errno where there is none.
+int open_nameless() {
+  std::string name = (std::filesystem::temp_directory_path() / "scarp-XXXXXX").string();
+  const int fd = ::mkostemp(name.data(), O_CLOEXEC);
+  if (fd >= 0) ::unlink(name.c_str());
+  return fd;
+}
+
+/// 0 or an errno.
+int write_chunk(int fd, const char* bytes, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = ::write(fd, bytes, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    bytes += written;
+    size -= static_cast<std::size_t>(written);
+  }
+  return 0;
+}
+
+Result<std::string> copy(const std::string& path) {
+  const std::string what = path == kStandardInput ? "standard input" : path;
+  const int from = path == kStandardInput ? ::dup(STDIN_FILENO) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (from < 0) return fail(ErrorKind::kInput, fmt::format("cannot read {}: {}", what, reason_of(errno)));
+  const int to = open_nameless();
+  int error = to < 0 ? errno : 0;
+  bool is_ours = true;  // whose fault it is
+  std::array<char, 1 << 16> chunk;
+  for (bool more = error == 0; more;) {
+    const ssize_t got = ::read(from, chunk.data(), chunk.size());
+    if (got < 0 && errno == EINTR) continue;
+    is_ours = got >= 0;
+    error = got < 0 ? errno : write_chunk(to, chunk.data(), static_cast<std::size_t>(got));
+    more = got > 0 && error == 0;
+  }
+  ::close(from);
+  if (error == 0) return fmt::format("/proc/self/fd/{}", to);
+  if (to >= 0) ::close(to);
+  if (!is_ours) return fail(ErrorKind::kInput, fmt::format("cannot read {}: {}", what, reason_of(error)));
+  return fail(ErrorKind::kOutput, fmt::format("cannot keep {} in a file in {}, the folder for temporary files: {}",
+                                              what, std::filesystem::temp_directory_path().string(), reason_of(error)));
+}
+
+}  // namespace
+
+Result<std::string> readable_name(const std::string& path) {
+  if (path != kStandardInput && !is_pipe(path)) return path;
+  static std::mutex mutex;
+  static std::map<std::string, std::string> copies;
+  const std::lock_guard lock(mutex);
+  const auto found = copies.find(path);
+  if (found != copies.end()) return found->second;
+  auto name = copy(path);
+  if (name) copies.emplace(path, *name);
+  return name;
+}
+
+}  // namespace scarp

@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# Several rasters as one, a part of one, and one with coarser cells: the same mesh as of a raster made beforehand.
+source "$(dirname "$0")/lib.sh"
+need gdal_translate gdalwarp python3
+after_header() { tail -c +81 "$1"; }
+same() { cmp <(after_header "$1") <(after_header "$2") || fail "$1 and $2 differ"; }
+gdal_translate -q -a_srs EPSG:32617 -a_ullr 500000 4010320 512090 4000000 "$dem" utm.tif  # cells of 30 m
+
+# Tiles, one of which overlaps its neighbours.
+mkdir tiles
+gdal_translate -q -srcwin 0 0 203 344 utm.tif tiles/a.tif
+gdal_translate -q -srcwin 200 0 203 150 utm.tif tiles/b.tif
+gdal_translate -q -srcwin 203 150 200 194 utm.tif tiles/c.tif
+echo "no raster" > tiles/readme.txt
+succeeds "$scarp" simplify utm.tif whole.stl -e 20
+succeeds "$scarp" simplify tiles/a.tif tiles/b.tif tiles/c.tif tiles.stl -e 20 --report tiles.json
+same whole.stl tiles.stl
+grep -q '^  read as *mosaic of 3 rasters' "$logs/out" || fail "the summary does not tell of the mosaic"
+[ "$(json tiles.json input view)" = '"mosaic of 3 rasters"' ] || fail "the report does not tell of the mosaic"
+succeeds "$scarp" simplify -e 20 tiles folder.stl
+same whole.stl folder.stl
+succeeds "$scarp" measure tiles tiles.stl --crs source --fail-above 20
+succeeds "$scarp" measure tiles/a.tif tiles/b.tif tiles/c.tif tiles.stl --crs source --fail-above 20
+succeeds "$scarp" info tiles/a.tif tiles/b.tif
+grep -q '403 columns x 344 rows' "$logs/out" || fail "info does not see the mosaic"
+
+# Where no tile has a value, samples are missing: there is no value that stands for them.
+succeeds "$scarp" simplify tiles/a.tif tiles/b.tif gap.stl -e 20 --report gap.json
+[ "$(json gap.json input void)" = "$((200 * 194))" ] || fail "the gap is not missing: $(json gap.json input void)"
+holds "$(json gap.json input min) >= 236"
+
+# What makes no mosaic.
+gdalwarp -q -t_srs EPSG:32616 tiles/b.tif zone.tif
+gdal_translate -q -ot Float32 tiles/b.tif float.tif
+gdal_translate -q -a_nodata -9999 tiles/b.tif nodata.tif
+gdal_translate -q -outsize 50% 50% tiles/b.tif coarse.tif
+gdal_translate -q -a_ullr 506015 4010320 512105 4005820 tiles/b.tif shifted.tif
+refuses 2 "zone.tif is in EPSG:32616, and tiles/a.tif in EPSG:32617: bring it there first (gdalwarp -t_srs EPSG:32617" \
+  "$scarp" simplify tiles/a.tif zone.tif o.stl -e 20
+refuses 2 "float.tif holds Float32, and tiles/a.tif Int16" "$scarp" simplify tiles/a.tif float.tif o.stl -e 20
+refuses 2 "nodata.tif has the nodata value -9999, and tiles/a.tif has no nodata value" "$scarp" simplify tiles/a.tif nodata.tif o.stl -e 20
+refuses 2 "coarse.tif has cells of 60.2970297 x 60" "$scarp" info tiles/a.tif coarse.tif
+refuses 2 "shifted.tif lies 0.5 of a cell beside the grid of tiles/a.tif" "$scarp" simplify tiles/a.tif shifted.tif o.stl -e 20
+eval "$(sed -n 's/.*(\(gdalwarp .*\)).*/\1/p' "$logs/err") -q" || fail "the way out is no command"
+succeeds "$scarp" simplify tiles/a.tif new.tif o.stl -e 20
+refuses 2 "no.tif: no such file" "$scarp" simplify tiles/a.tif no.tif p.stl -e 20
+mkdir empty
+refuses 2 "empty: the folder holds no raster" "$scarp" simplify empty p.stl -e 20
+printf '0,0,1\n1,0,2\n0,1,3\n' > points.csv
+refuses 1 "points.csv holds points: only rasters are joined" "$scarp" simplify tiles/a.tif points.csv p.stl -e 20
+refuses 1 "OUTPUT is required" "$scarp" simplify tiles/a.tif
+refuses 1 "tiles/c.tif is" "$scarp" simplify tiles tiles/c.tif -e 20 --overwrite
+refuses 1 "tiles/c.tif is an input file" "$scarp" simplify tiles/a.tif tiles/b.tif tiles/c.tif tiles/c.tif -e 20 --overwrite
+
+# A part: whole cells, outwards.
+gdal_translate -q -srcwin 10 20 101 52 utm.tif part.tif
+succeeds "$scarp" simplify part.tif part.stl -e 10
+succeeds "$scarp" simplify utm.tif te.stl -e 10 --te 500300 4008160 503330 4009720
+same part.stl te.stl
+grep -q 'read as *columns 10 to 110 of 403 and rows 20 to 71 of 344' "$logs/out" || fail "the summary does not tell the part"
+succeeds "$scarp" simplify tiles te.stl -e 10 --te 500310 4008170 503320 4009719 --overwrite
+same part.stl te.stl
+refuses 2 "utm.tif: lies beside the extent" "$scarp" simplify utm.tif o2.stl -e 10 --te 0 0 1 1
+refuses 1 "--te 5 0 1 1 is empty" "$scarp" simplify utm.tif o2.stl -e 10 --te 5 0 1 1
+refuses 1 "--te needs 4 values" "$scarp" simplify utm.tif o2.stl -e 10 --te 5 0
+gdal_translate -q -co PROFILE=BASELINE "$dem" plain.tif
+rm -f plain.tif.aux.xml
+refuses 1 "an extent and a resolution need a georeference" "$scarp" info plain.tif --te 0 0 5 5
+
+# Coarser cells are means, the same in memory and streamed, and never those of an overview.
+python3 - <<'PYTHON'
+rows = [[1, 2, 3, 4, 9], [2, 3, 4, 5, 9], [7, 7, -9, -9, 9], [8, 9, -9, -9, 9]]
+open("few.asc", "w").write("ncols 5\nnrows 4\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9\n" +
+                           "\n".join(" ".join(map(str, row)) for row in rows) + "\n")
+PYTHON
+gdal_translate -q -ot Int16 few.asc few.tif
+succeeds "$scarp" simplify few.tif means.tif -e 0 --resolution 2
+grep -q 'read as *means of 2 x 2 cells, 2 x 2 each (without the last 1 columns and 0 rows)' "$logs/out" || fail "the summary does not tell the means"
+[ "$(gdal_translate -q -of XYZ means.tif /vsistdout/ | cut -d' ' -f3 | head -3 | tr '\n' ' ')" = "2 4 7.75 " ] || fail "wrong means"
+succeeds "$scarp" simplify utm.tif memory.stl -e 10 --resolution 100 --effort fast
+succeeds "$scarp" simplify utm.tif streamed.stl -e 10 --resolution 100 --effort fast --memory 20M
+same memory.stl streamed.stl
+succeeds "$scarp" measure utm.tif memory.stl --crs source --resolution 100 --fail-above 10
+gdaladdo -q -r nearest utm.tif 2 4
+succeeds "$scarp" simplify utm.tif overview.stl -e 10 --resolution 100 --effort fast
+same memory.stl overview.stl
+refuses 1 "--resolution 0 is not above 0" "$scarp" info utm.tif --resolution 0
+refuses 2 "leave less than 2 x 2" "$scarp" info utm.tif --resolution 100000
+refuses 1 "--resolution cannot be combined with --decode" "$scarp" info utm.tif --resolution 100 --decode terrarium
