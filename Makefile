@@ -1,13 +1,13 @@
 # Short names for what one does here; each does what its line in `make help` says and nothing else.
 # BUILD: build folder (the other kinds get BUILD-asan, BUILD-tsan, BUILD-fuzz). JOBS: compilers at once.
-# DATA: folder with the fields of the 1995 paper, for make paper.
+# DATA: folder with the fields of the 1995 paper, for make paper; make soak tries all of its files.
 # CMAKE_FLAGS: more options for configuring, such as -DBUILD_SHARED_LIBS=ON.
 BUILD ?= build
 PREFIX ?= /usr/local
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 CMAKE_FLAGS ?=
 DATA ?= $(or $(SCARP_SHARED),../shared)/data
-export BUILD JOBS
+export BUILD JOBS DATA
 
 .PHONY: build demo check test soak wasm-check bench paper install clean format tidy help
 
@@ -70,7 +70,7 @@ help:
 	@echo 'make demo     build, simplify a bundled DEM into demo/, check the result'
 	@echo 'make check    what to run before every commit: the fast tests'
 	@echo 'make test     everything: tests, sanitizers, a short run of the fuzzers'
-	@echo 'make soak     laws and fuzzers from fresh random seeds, for SOAK_MINUTES (10)'
+	@echo 'make soak     the files in DATA, then laws and fuzzers from fresh random seeds for SOAK_MINUTES (10)'
 	@echo 'make wasm-check  the core compiled with Emscripten, its meshes compared with native ones'
 	@echo 'make bench    the benchmarks; their tables are under version control'
 	@echo 'make paper    the experiments of the 1995 paper on the fields in DATA, written to docs/paper.md'

@@ -1,9 +1,11 @@
 #!/bin/bash
 # Looks for rare faults for a while, from fresh random seeds: the laws with ten times their cases, round after round,
-# and then the fuzzers (where clang is). What fails is printed with the command that repeats it.
+# and then the fuzzers (where clang is); before them every file in DATA goes through info, simplify and measure. What
+# fails is printed with the command that repeats it.
 #
 # Environment: SOAK_MINUTES (10), half for the laws (a round that has begun is finished), half for the fuzzers;
-# BUILD (build), JOBS (cores), SCARP_FUZZ_SEED (fresh). Exit 1 if something failed.
+# BUILD (build), JOBS (cores), DATA (../shared/data, left out where it is not there), SCARP_FUZZ_SEED (fresh). Exit 1 if
+# something failed.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 build=${BUILD:-build}
@@ -19,7 +21,7 @@ laws() {
     grep -o 'RC_GTEST_PROP( *[A-Za-z_0-9]*, *[A-Za-z_0-9]*' | sed 's/.*( *//; s/, */./' | shuf
 }
 
-tools/configure.sh "$build" --preset release && cmake --build "$build" -j "$jobs" --target scarp_tests || exit 1
+tools/configure.sh "$build" --preset release && cmake --build "$build" -j "$jobs" --target scarp_tests scarp_program || exit 1
 fuzz=no
 if command -v clang++ >/dev/null; then
   tools/configure.sh "$build-fuzz" --preset fuzz && cmake --build "$build-fuzz" -j "$jobs" --target fuzzers || exit 1
@@ -39,7 +41,15 @@ try_law() {
 }
 export -f try_law
 
-failed=0 rounds=0 end=$((SECONDS + seconds))
+failed=0
+data=${DATA:-../shared/data}
+if [ -d "$data" ]; then
+  tools/try_files.py "$build/bin/scarp" "$data" --jobs "$jobs" --timeout 600 || failed=1
+else
+  echo "there is no folder $data: its files are skipped"
+fi
+
+rounds=0 end=$((SECONDS + seconds))
 while [ $SECONDS -lt $end ]; do
   seed=$(fresh_seed)
   laws | xargs -P "$jobs" -I{} bash -c 'try_law "$@"' try_law "$build/bin/scarp_tests" {} "$seed" || failed=1
