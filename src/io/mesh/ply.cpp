@@ -242,6 +242,7 @@ class PlyReader {
     for (std::uint64_t item = 0; item < element.count; ++item) {
       for (const Property& property : element.properties) {
         const bool good = property.count_type ? read_list(property) : read_scalar(property);
+        if (!why_no_polygon_.empty()) return why_no_polygon_;
         if (!good) return fmt::format("{} {} (counting from 0) is broken or cut off", element.name, item);
       }
       if (!is_vertex) continue;
@@ -295,11 +296,12 @@ class PlyReader {
         return false;
       corners_.push_back(static_cast<std::uint32_t>(value));
     }
-    if (corners) append_fan(corners_, mesh.triangles);
-    return true;
+    if (corners) why_no_polygon_ = append_fan(corners_, mesh.triangles);
+    return why_no_polygon_.empty();
   }
 
   TextCursor cursor_;
+  std::string why_no_polygon_;
   const std::uint8_t* at_ = nullptr;  // in the body of a binary file
   const std::uint8_t* end_;
   bool is_text_ = false;

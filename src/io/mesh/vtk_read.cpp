@@ -230,7 +230,7 @@ class VtkReader {
       if (!is_face) return fmt::format("cell {} (counting from 0) is of kind {}, which is no polygon", cell, type);
       if (corners.size() < 3) return fmt::format("cell {} (counting from 0) lacks a corner", cell);
       if (type == kPixel && corners.size() == 4) std::swap(corners[2], corners[3]);
-      append_fan(corners, mesh.triangles);
+      if (auto wrong = append_fan(corners, mesh.triangles); !wrong.empty()) return wrong;
     }
     return {};
   }
