@@ -61,6 +61,21 @@ bool removes_last(const HeightField& field, const SimplifyOptions& options) {
   return options.quality.shape.any() && shape_rule(options.quality.shape, field.frame);
 }
 
+namespace {
+
+/// The judge takes a position for a place of the lattice that is as near as rounding may have moved it, but not farther
+/// off than this share of a cell: cells that are tiny beside their coordinates lose their places.
+bool doubles_hold_lattice(const HeightField& field, std::int32_t steps) {
+  const auto& a = field.frame.affine;
+  const double near = steps > 1 ? 0x1p-16 : 0x1p-8;
+  const double cell = std::min(std::hypot(a[1], a[4]), std::hypot(a[2], a[5]));
+  const double x = std::max({std::abs(a[0]), std::abs(a[1]) * field.cols, std::abs(a[2]) * field.rows});
+  const double y = std::max({std::abs(a[3]), std::abs(a[4]) * field.cols, std::abs(a[5]) * field.rows});
+  return 0x1p-50 * std::max(x, y) <= near * cell;
+}
+
+}  // namespace
+
 bool rounds_offsets(const HeightField& field, const SimplifyOptions& options) {
   return options.output.float32_positions && !(options.output.lattice && rows_run_along_x(field.frame));
 }
@@ -76,8 +91,9 @@ double height_step(const HeightField& field, const SimplifyOptions& options) {
 }
 
 bool lattice_is_exact(const HeightField& field, const SimplifyOptions& options, std::int32_t steps) {
-  return field.frame.is_affine() &&
-         (!rounds_offsets(field, options) || offsets_are_exact(field.frame, field.cols, field.rows, steps));
+  if (!field.frame.is_affine()) return false;
+  return rounds_offsets(field, options) ? offsets_are_exact(field.frame, field.cols, field.rows, steps)
+                                        : doubles_hold_lattice(field, steps);
 }
 
 std::int32_t choose_lattice_steps(const HeightField& field, const SimplifyOptions& options) {
