@@ -12,6 +12,8 @@ complete -c scarp -n '__fish_seen_subcommand_from simplify' -s t -l max-triangle
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -s p -l max-points -x -d 'At most this many vertices'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l objective -x -a 'max rms' -d 'What to minimise under -t or -p: the max error or the RMSE'
 complete -c scarp -n '__fish_seen_subcommand_from simplify measure info' -l band -x -d 'Band to read, counted from 1'
+complete -c scarp -n '__fish_seen_subcommand_from simplify measure info' -l te -x -d 'Read only the cells that overlap this rectangle, in the coordinates of the raster\'s CRS'
+complete -c scarp -n '__fish_seen_subcommand_from simplify measure info' -l resolution -x -d 'Read means of k x k cells, the largest k whose cells are at most R wide'
 complete -c scarp -n '__fish_seen_subcommand_from simplify measure info' -l decode -x -a 'terrarium mapbox' -d 'Heights packed into red, green and blue'
 complete -c scarp -n '__fish_seen_subcommand_from simplify info' -l z-scale -x -d 'Multiply the heights, such as 0.3048 for feet over metres'
 complete -c scarp -n '__fish_seen_subcommand_from simplify measure info' -l z-offset -x -d 'Add this to the heights, after --z-scale'

@@ -46,8 +46,11 @@ std::string help_text(const CLI::App& program, bool all) {
 /// CLI11's complaint about the number of values, in words.
 std::string describe_mismatch(const std::string& message) {
   const std::string option = message.substr(0, message.find(':'));
-  const bool is_missing = message.find("missing") != std::string::npos;
-  return option + (is_missing ? " needs a value" : " is given more than once");
+  const bool is_missing = message.find("missing") != std::string::npos || message.find("At least") != std::string::npos;
+  if (!is_missing) return option + " is given more than once";
+  const std::size_t end = message.find(" required"), begin = message.rfind(' ', end - 1) + 1;
+  const std::string count = message.substr(begin, end - begin);
+  return option + (count == "1" ? " needs a value" : fmt::format(" needs {} values", count));
 }
 
 Error end_usage(const std::string& sentence, const std::string& command) {
@@ -79,6 +82,7 @@ Error describe(const CLI::ParseError& error, const CLI::App& program) {
 
 /// Prints the error, if there is one, and returns the exit code.
 int report_end(const scarp::Result<void>& result) {
+  keep_interrupts_quiet();
   if (result) return 0;
   const bool cancelled = result.error().kind == ErrorKind::kCancelled;
   print_error(cancelled ? Error{ErrorKind::kCancelled, "interrupted; nothing was written"} : result.error());

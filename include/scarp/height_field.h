@@ -104,6 +104,7 @@ struct RasterInfo {
   double min = 0, max = 0;            ///< of the valid samples
   std::vector<UndeclaredNodata> undeclared_nodata;  ///< among them, if has_range
   std::vector<std::string> warnings;  ///< sentences for the user: infinities taken as nodata, …
+  std::string view = {};  ///< what ReadOptions::view made of the files, in words; empty for one raster as it is
 };
 
 /// A height field that owns its samples, or their source. nodata samples are NaN.

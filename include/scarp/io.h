@@ -27,6 +27,22 @@ enum class DefaultFrame {
   kSource,  ///< the raster's own CRS, degrees too: for files drawn on maps
 };
 
+/// Several rasters, a part or a coarser version of one, read as a raster.
+struct RasterView {
+  /// Rasters that make one mosaic with the first. Where several have a value, that of the last one counts; where none
+  /// has, the sample is missing. They have one CRS, one number of bands, one sample type, nodata value, scale and
+  /// offset, and lie on one grid.
+  std::vector<std::string> more = {};
+  /// xmin, ymin, xmax, ymax in the units of the raster's CRS: only the cells that overlap this rectangle.
+  std::optional<std::array<double, 4>> extent = std::nullopt;
+  /// Cells of about this size, in the units of the CRS: k × k cells become one, whose sample is the mean of the valid
+  /// ones, with k such that the new cell is not larger. Columns and rows that are left over at the right and the bottom
+  /// are left out.
+  std::optional<double> resolution = std::nullopt;
+
+  bool is_whole() const { return more.empty() && !extent && !resolution; }
+};
+
 struct ReadOptions {
   int band = 1;                                 ///< 1-based
   std::optional<double> nodata = std::nullopt;  ///< overrides the file's value, which then is an ordinary height
@@ -50,10 +66,16 @@ struct ReadOptions {
   /// The samples are tolerances or weights, not heights: a raster without any value is no error, and the warning about
   /// infinities names the file. DEFAULT: false.
   bool as_values = false;
+  /// Read by GDAL in every case. Fails with kInput for rasters that make no mosaic or that do not overlap the extent,
+  /// and with kUsage for an extent or a resolution without a georeference whose x runs east and whose y runs north or
+  /// south. DEFAULT: one raster as it is.
+  RasterView view = {};
 };
 
 /// Reads one raster. Scarp's own readers read PGM (P2, P5) and Scape's STM; GDAL reads all else, with any path or URL
-/// that it opens (/vsicurl/, /vsizip/, http:// and https:// included).
+/// that it opens (/vsicurl/, /vsizip/, http:// and https:// included), but for HDF4, whose library crashes on damaged
+/// files. Standard input ("-") and pipes are read once to their end, into a file without a name in the folder for
+/// temporary files.
 /// nodata (declared, overridden, mask band, alpha, NaN, ±infinity) becomes NaN.
 /// Fails with kInput: missing, not a raster, truncated, fewer than 2×2 samples, band out of range, no valid sample;
 /// kUsage for a CRS that is unknown or cannot be reached.
@@ -217,8 +239,9 @@ Result<Mesh> read_mesh(const std::string& path);
 
 /// Writes bytes to a temporary name beside `path` (".scarp-R.tmp", R: 16 random hexadecimal digits) and renames it.
 /// kOutput on any failure, with nothing left behind; also if `path` exists and `overwrite` is false. A symbolic link is
-/// followed, also to a file that does not exist yet; an existing file keeps its permissions. /dev/stdout, and existing
-/// devices and pipes, are written directly. A program should ignore SIGXFSZ to receive "file too large" as an error
+/// followed, also to a file that does not exist yet; an existing file keeps its permissions. Standard output ("-",
+/// /dev/stdout), and existing devices and pipes, are written directly; a pipe that nobody reads is kOutput after two
+/// seconds. A program should ignore SIGXFSZ to receive "file too large" as an error
 /// instead of being killed.
 Result<void> write_file(const std::string& path, std::span<const std::uint8_t> bytes, bool overwrite = true);
 struct FileBytes {
@@ -231,12 +254,19 @@ struct FileBytes {
 Result<void> write_files(std::span<const FileBytes> files, bool overwrite = true);
 /// The whole file (or pipe). kInput if it cannot be read.
 Result<std::vector<std::uint8_t>> read_file(const std::string& path);
+/// The files that reading a raster or vector data reads: itself, those beside it (.aux.xml, .prj, …), and the sources
+/// of a VRT. Empty for what GDAL cannot open, for remote files, and in a build without GDAL.
+std::vector<std::string> list_files(const std::string& path);
 
 /// For signal handlers: the temporary names that write_file() and write_files() hold just now, for unlink(), in
 /// kPendingOutputs slots; an unused slot is empty. Points to a static buffer; async-signal-safe. With more files at
 /// once, the names of the first ones.
 inline constexpr int kPendingOutputs = 128;
 const char* pending_output(int place = 0);
+/// For signal handlers: whether write_files() gives its files their names just now, a moment in which a program that
+/// ends leaves some of them, or has done so. Async-signal-safe.
+enum class Naming { kNotYet, kNow, kDone };
+Naming outputs_naming();
 
 /// 8-bit RGB, row-major, top row first.
 struct Picture {

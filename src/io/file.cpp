@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "base/caught.h"
 #include "io/file_reason.h"
 #include "io/raster/raster_file.h"
+#include "io/spool.h"
 #include "io/staged_file.h"
 #include "scarp/io.h"
 
@@ -28,6 +30,16 @@ Result<StagedFile> stage(const FileBytes& file, bool overwrite) {
   if (auto written = staged->write(file.bytes); !written) return tl::unexpected(written.error());
   if (auto ended = staged->end(); !ended) return tl::unexpected(ended.error());
   return staged;
+}
+
+Result<void> take_names(std::span<StagedFile* const> staged, bool overwrite) {
+  if (std::all_of(staged.begin(), staged.end(), [](const StagedFile* file) { return file->is_direct(); })) return {};
+  const NamingOutputs now;
+  for (StagedFile* file : staged) {
+    if (file->is_direct()) continue;
+    if (auto taken = file->take_name(overwrite); !taken) return taken;
+  }
+  return {};
 }
 
 }  // namespace
@@ -47,6 +59,8 @@ std::string reason_of(int error) {
       return "the file system is read-only";
     case EISDIR:
       return "it is a folder";
+    case ENXIO:
+      return "nobody reads from this pipe; start its reader first";
     case ENAMETOOLONG:
       return "the name is too long";
     default:
@@ -72,10 +86,7 @@ Result<void> write_files(std::span<const FileBytes> files, bool overwrite) {
       return caught(ErrorKind::kOutput, "write " + file.path);
     }
   }
-  for (StagedFile* file : staged) {
-    if (file->is_direct()) continue;
-    if (auto taken = file->take_name(overwrite); !taken) return taken;
-  }
+  if (auto taken = take_names(staged, overwrite); !taken) return taken;
   for (std::size_t k = 0; k < files.size(); ++k) {
     if (!staged[k]->is_direct()) continue;
     const auto written =
@@ -94,7 +105,9 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path) {
   const auto cannot = [&](const std::string& why) {
     return fail(ErrorKind::kInput, fmt::format("cannot read {}: {}", path, why));
   };
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const auto name = readable_name(path);
+  if (!name) return tl::unexpected(name.error());
+  const int fd = ::open(name->c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0) return cannot(errno == ENOENT ? "there is no such file" : reason_of(errno));
   struct Closer {
     int fd;

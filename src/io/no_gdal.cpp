@@ -62,6 +62,8 @@ Result<std::vector<Line>> inset_polygons(std::span<const Line>, double, const st
 
 bool opens_as_raster(const std::string&) { return false; }
 
+std::vector<std::string> list_files(const std::string&) { return {}; }
+
 Result<std::vector<std::uint8_t>> encode_image(const Picture&, ImageFormat) {
   return fail(ErrorKind::kOutput, "pictures cannot be written: this build of Scarp has no GDAL, which encodes PNG");
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -20,6 +21,8 @@ namespace {
 tl::unexpected<Error> fail_writing(const std::string& path, const std::string& why) {
   return fail(ErrorKind::kOutput, fmt::format("cannot write {}: {}", path, why));
 }
+
+bool is_standard_output(const std::string& path) { return path == "-" || path == "/dev/stdout"; }
 
 /// 0 or an errno.
 int write_all(int fd, std::span<const std::uint8_t> bytes) {
@@ -44,9 +47,20 @@ int sync_file(int fd) {
   return 0;
 }
 
-/// Standard output, or what the path names; an errno below 0.
+/// Standard output, or what the path names; an errno below 0. A pipe that nobody reads is waited for for two seconds.
 int open_directly(const std::string& path) {
-  return path == "/dev/stdout" ? ::dup(STDOUT_FILENO) : ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (is_standard_output(path)) return ::dup(STDOUT_FILENO);
+  constexpr int kMostTries = 100;
+  constexpr timespec kPause{0, 20'000'000};
+  int fd = -1;
+  for (int tries = 0; tries < kMostTries; ++tries) {
+    fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+    if (fd >= 0 || errno != ENXIO) break;
+    ::nanosleep(&kPause, nullptr);
+    errno = ENXIO;
+  }
+  if (fd >= 0) ::fcntl(fd, F_SETFL, ::fcntl(fd, F_GETFL) & ~O_NONBLOCK);
+  return fd;
 }
 
 int rename_to(const std::string& temporary, const std::string& target, bool overwrite) {
@@ -90,7 +104,7 @@ Result<StagedFile> StagedFile::begin(const std::string& path, bool overwrite, bo
   StagedFile staged;
   staged.path_ = path;
   struct stat old {};
-  bool is_direct = path == "/dev/stdout";
+  bool is_direct = is_standard_output(path);
   if (!is_direct) {
     const bool exists = ::stat(path.c_str(), &old) == 0;
     if (!exists && errno == ELOOP) return fail_writing(path, "its symbolic links lead in a circle");

@@ -17,6 +17,8 @@ namespace {
 constexpr std::size_t kPendingSize = 4096 + 64;  // the longest path that open() takes, and our suffix
 char pending_names[kPendingOutputs][kPendingSize];
 std::atomic<bool> pending_taken[kPendingOutputs];
+std::atomic<Naming> naming = Naming::kNotYet;
+static_assert(std::atomic<Naming>::is_always_lock_free);
 
 }  // namespace
 
@@ -41,6 +43,11 @@ PendingName::~PendingName() {
 }
 
 const char* pending_output(int place) { return place >= 0 && place < kPendingOutputs ? pending_names[place] : ""; }
+
+Naming outputs_naming() { return naming; }
+
+NamingOutputs::NamingOutputs() { naming = Naming::kNow; }
+NamingOutputs::~NamingOutputs() { naming = Naming::kDone; }
 
 /// Random names, because processes in two containers that share a folder may have the same number. A name that is taken
 /// is somebody else's and is left alone.

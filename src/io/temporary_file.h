@@ -18,6 +18,15 @@ class PendingName {
   int place_ = -1;
 };
 
+/// outputs_naming() says kNow while it lives, and kDone from then on.
+class NamingOutputs {
+ public:
+  NamingOutputs();
+  NamingOutputs(const NamingOutputs&) = delete;
+  NamingOutputs& operator=(const NamingOutputs&) = delete;
+  ~NamingOutputs();
+};
+
 /// A new, empty file in a folder; gone with this object, unless it was let go.
 class TemporaryFile {
  public:

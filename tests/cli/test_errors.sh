@@ -38,10 +38,10 @@ refuses 1 "option --error=5 is unknown (did you mean --max-error?)" "$scarp" sim
 refuses 1 "gdal_edit.py -a_srs" "$scarp" simplify "$dem" out.glb -e 1 -a_srs EPSG:32611
 refuses 1 "the output is the word behind the input" "$scarp" simplify "$dem" -o out.glb -e 1
 for area in -te --bbox; do
-  refuses 1 "option $area is unknown (" "$scarp" simplify "$dem" out.glb -e 1 $area 1 2 3 4
+  refuses 1 "option $area is unknown (did you mean --te?)" "$scarp" simplify "$dem" out.glb -e 1 $area 1 2 3 4
 done
 refuses 1 "(did you mean --fail-above?)" "$scarp" measure "$dem" out.glb --fail-abov 1
-refuses 1 "argument more.glb is unknown" "$scarp" simplify "$dem" out.glb more.glb -e 1
+refuses 2 "out.glb: no such file" "$scarp" simplify "$dem" out.glb more.glb -e 1
 refuses 1 "--max-error needs a value" "$scarp" simplify "$dem" out.glb -e
 for behind in --overwrite -q --order=greedy --frobnicate --help; do
   for option in --order --max-error --report --memory --nodata --num-threads; do
@@ -129,7 +129,9 @@ echo "this is no raster" > text.tif
 refuses 2 "text.tif" "$scarp" simplify text.tif out.glb -e 1
 : > empty.tif
 refuses 2 "empty.tif" "$scarp" simplify empty.tif out.glb -e 1
-refuses 2 "" "$scarp" simplify . out.glb -e 1
+mkdir empty
+refuses 2 "empty: the folder holds no raster" "$scarp" simplify empty out.glb -e 1
+rmdir empty
 gdal_translate -q -co TILED=YES "$dem" whole.tif
 head -c 100000 whole.tif > cut.tif
 refuses 2 "cut.tif" "$scarp" simplify cut.tif out.glb -e 1
@@ -196,7 +198,7 @@ try bash -c '"$1" info missing.tif 2>&-' - "$scarp"
 try bash -c '"$1" info "$2" >&-' - "$scarp" "$dem"
 [ "$code" = 4 ] || fail "a closed standard output ends with $code instead of 4"
 try bash -c '"$1" simplify "$2" closed.glb -e 100 --json-progress <&- >&- 2>&-' - "$scarp" "$dem"
-[ "$code" = 4 ] || fail "closed streams end with $code instead of 4"
+[ "$code" = 0 ] || fail "closed streams, which nobody reads, end with $code though the mesh is written"
 succeeds "$scarp" measure "$dem" closed.glb --fail-above 100 -q
 # A folder that may not be written (root may write all: then as somebody else).
 mkdir locked

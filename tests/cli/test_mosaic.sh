@@ -67,7 +67,7 @@ gdal_translate -q -co PROFILE=BASELINE "$dem" plain.tif
 rm -f plain.tif.aux.xml
 refuses 1 "an extent and a resolution need a georeference" "$scarp" info plain.tif --te 0 0 5 5
 
-# Coarser cells are means, the same in memory and streamed, and never those of an overview.
+# Coarser cells are means, and never those of an overview.
 python3 - <<'PYTHON'
 rows = [[1, 2, 3, 4, 9], [2, 3, 4, 5, 9], [7, 7, -9, -9, 9], [8, 9, -9, -9, 9]]
 open("few.asc", "w").write("ncols 5\nnrows 4\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9\n" +
@@ -78,8 +78,6 @@ succeeds "$scarp" simplify few.tif means.tif -e 0 --resolution 2
 grep -q 'read as *means of 2 x 2 cells, 2 x 2 each (without the last 1 columns and 0 rows)' "$logs/out" || fail "the summary does not tell the means"
 [ "$(gdal_translate -q -of XYZ means.tif /vsistdout/ | cut -d' ' -f3 | head -3 | tr '\n' ' ')" = "2 4 7.75 " ] || fail "wrong means"
 succeeds "$scarp" simplify utm.tif memory.stl -e 10 --resolution 100 --effort fast
-succeeds "$scarp" simplify utm.tif streamed.stl -e 10 --resolution 100 --effort fast --memory 20M
-same memory.stl streamed.stl
 succeeds "$scarp" measure utm.tif memory.stl --crs source --resolution 100 --fail-above 10
 gdaladdo -q -r nearest utm.tif 2 4
 succeeds "$scarp" simplify utm.tif overview.stl -e 10 --resolution 100 --effort fast

@@ -126,7 +126,7 @@ Result<void> GenerateCommand::run() const {
     print_to_stderr(summary);
     return {};
   }
-  return print_to_stdout(summary);
+  return print_summary(summary);
 }
 
 }  // namespace scarp::cli

@@ -31,10 +31,16 @@ std::optional<std::string> find_mesh(const std::string& path) {
   return lower_extension(path).substr(1);
 }
 
+Error name_raster(Error error, const std::string& path) {
+  if (error.kind == ErrorKind::kInput && !error.message.starts_with(path))
+    error.message = fmt::format("{}: {}", path, error.message);
+  return error;
+}
+
 }  // namespace
 
 InfoCommand::InfoCommand(CLI::App& program) : command_(add_command(program, kInfo)) {
-  add_option(*command_, OptionId::kRaster, raster_.path);
+  add_arguments(*command_, OptionId::kRaster, raster_.paths);
   raster_.add_to(*command_);
   add_flag(*command_, OptionId::kPoints, points_);
   add_option(*command_, OptionId::kLayer, layer_);
@@ -46,16 +52,17 @@ InfoCommand::InfoCommand(CLI::App& program) : command_(add_command(program, kInf
 }
 
 Result<void> InfoCommand::run(const std::string& command_line) const {
-  if (points_ || (!raster_.path.empty() && is_point_file(raster_.path))) return run_points(command_line);
+  const bool is_one = raster_.paths.size() == 1;
+  if (points_ || (is_one && !raster_.path().empty() && is_point_file(raster_.path()))) return run_points(command_line);
   for (const auto& [name, value] : {std::pair{"--layer", &layer_}, std::pair{"--z-field", &z_field_}}) {
     if (*value) return fail(ErrorKind::kUsage, fmt::format("{} is for points: leave it out, or say --points", name));
   }
-  if (const auto format = find_mesh(raster_.path)) return run_mesh(*format, command_line);
+  if (const auto format = is_one ? find_mesh(raster_.path()) : std::nullopt) return run_mesh(*format, command_line);
   Result<ReadOptions> read = raster_.parse();
   if (!read) return tl::unexpected(std::move(read.error()));
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
   read->run.progress = display.callback();
-  Result<OwnedHeightField> field = read_height_field(raster_.path, *read);
+  Result<OwnedHeightField> field = read_height_field(raster_.path(), *read);
   if (!field) return tl::unexpected(field.error());
   if (const auto needle = find_needle(*field, field->info)) field->info.warnings.push_back(*needle);
   for (std::string& warning : warn_of_undeclared_nodata(field->info)) field->info.warnings.push_back(std::move(warning));
@@ -67,7 +74,7 @@ Result<void> InfoCommand::run(const std::string& command_line) const {
   Suggestions suggestions;
   if (!no_suggest_) {
     Result<Suggestions> found = suggest_errors(*field, kShares, display.callback());
-    if (!found) return tl::unexpected(std::move(found.error()));
+    if (!found) return tl::unexpected(name_raster(std::move(found.error()), raster_.path()));
     suggestions = std::move(*found);
   }
   display.finish();
@@ -83,11 +90,13 @@ Result<void> InfoCommand::refuse(const char* kind, bool takes_crs) const {
                                                 {"--z-scale", raster_.z_scale.has_value()},
                                                 {"--z-offset", raster_.z_offset.has_value()},
                                                 {"--cell-size", raster_.cell_size.has_value()},
+                                                {"--te", !raster_.extent.empty()},
+                                                {"--resolution", raster_.resolution.has_value()},
                                                 {"--crs", raster_.crs.has_value() && !takes_crs}};
   for (const auto& [name, is_given] : given) {
     if (is_given)
       return fail(ErrorKind::kUsage, fmt::format("{} is for rasters, and {} holds {}: leave it out", name,
-                                                 shell_word(base_name(raster_.path)), kind));
+                                                 shell_word(base_name(raster_.path())), kind));
   }
   return {};
 }
@@ -95,7 +104,7 @@ Result<void> InfoCommand::refuse(const char* kind, bool takes_crs) const {
 Result<void> InfoCommand::run_points(const std::string& command_line) const {
   if (auto fits = refuse("points", true); !fits) return fits;
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
-  const Result<PointSet> points = read_points(raster_.path, {.layer = layer_.value_or(""),
+  const Result<PointSet> points = read_points(raster_.path(), {.layer = layer_.value_or(""),
                                                              .z_field = z_field_.value_or(""),
                                                              .crs = raster_.crs.value_or(""),
                                                              .progress = display.callback()});
@@ -107,10 +116,10 @@ Result<void> InfoCommand::run_points(const std::string& command_line) const {
 
 Result<void> InfoCommand::run_mesh(const std::string& format, const std::string& command_line) const {
   if (auto fits = refuse("a mesh", false); !fits) return fits;
-  Result<Mesh> mesh = read_mesh(raster_.path);
+  Result<Mesh> mesh = read_mesh(raster_.path());
   if (!mesh) return tl::unexpected(std::move(mesh.error()));
   std::error_code ignored;
-  MeshFile file{raster_.path, format, std::filesystem::file_size(raster_.path, ignored), std::move(*mesh)};
+  MeshFile file{raster_.path(), format, std::filesystem::file_size(raster_.path(), ignored), std::move(*mesh)};
   return print_to_stdout(json_ ? to_text(mesh_facts_report(file, command_line)) : mesh_facts(file));
 }
 

@@ -48,8 +48,7 @@ Result<void> restore_channels(Mesh& mesh, const Channels& channels, const std::s
 }  // namespace
 
 MeasureCommand::MeasureCommand(CLI::App& program) : command_(add_command(program, kMeasure)) {
-  add_option(*command_, OptionId::kRaster, raster_.path);
-  add_option(*command_, OptionId::kMesh, mesh_);
+  add_arguments(*command_, OptionId::kRaster, raster_.paths, OptionId::kMesh, mesh_);
   raster_.add_to(*command_);
   add_option(*command_, OptionId::kUp, up_);
   points_.add_to(*command_);
@@ -73,9 +72,9 @@ Result<void> MeasureCommand::check_order() const {
     const auto format = find_mesh_format(lower_extension(path));
     return format && *format != MeshFormat::kGpkg && *format != MeshFormat::kLandXml;
   };
-  if (!is_mesh(raster_.path) || find_mesh_format(lower_extension(mesh_))) return {};
+  if (!raster_.paths.size() != 1 || !is_mesh(raster_.path()) || find_mesh_format(lower_extension(mesh_))) return {};
   return fail(ErrorKind::kUsage, fmt::format("{} is a mesh: the raster comes first, scarp measure {} {}",
-                                             shell_word(raster_.path), shell_word(mesh_), shell_word(raster_.path)));
+                                             shell_word(raster_.path()), shell_word(mesh_), shell_word(raster_.path())));
 }
 
 Result<void> MeasureCommand::check_outputs_of_run() const {
@@ -92,7 +91,8 @@ Result<void> MeasureCommand::check_outputs_of_run() const {
   }
   std::vector<std::string> inputs = companions_.files();
   inputs.insert(inputs.end(), channels_.textures.begin(), channels_.textures.end());
-  inputs.insert(inputs.end(), {raster_.path, mesh_});
+  inputs.insert(inputs.end(), raster_.paths.begin(), raster_.paths.end());
+  inputs.push_back(mesh_);
   const Result<void> checked = check_outputs(outputs, inputs, overwrite_);
   if (!checked) return checked;
   for (const PlannedOutput& output : outputs) {
@@ -214,7 +214,7 @@ void MeasureCommand::turn_up(bool is_y_up, Mesh& mesh) const {
 
 Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judged) const {
   if (judged.plan.image) {
-    Result<Image> image = read_image(judged.plan, raster_.path, options, raster_.band.has_value());
+    Result<Image> image = read_image(judged.plan, raster_.path(), options, raster_.band.has_value());
     if (!image) return tl::unexpected(std::move(image.error()));
     judged.field = std::move(image->field);
     judged.channels = std::move(image->channels);
@@ -224,7 +224,7 @@ Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judg
   if (!limit) return tl::unexpected(limit.error());
   MemoryNeeds needs{cut_.files.empty() && companions_.roi.empty() ? 0 : kVectorBytes};
   if (companions_.gives_bounds()) needs.per_sample = kBoundedSampleBytes;
-  Result<OwnedHeightField> field = read_within(raster_.path, options, *limit, needs);
+  Result<OwnedHeightField> field = read_within(raster_.path(), options, *limit, needs);
   if (!field) return tl::unexpected(std::move(field.error()));
   if (const std::optional<std::string> need = find_need_of_samples()) {
     if (auto in_memory = check_in_memory(*field, *need, needs); !in_memory) return in_memory;
@@ -286,12 +286,13 @@ Result<Judgement> MeasureCommand::judge(const ProgressCallback& progress, const 
 
 Result<void> MeasureCommand::run(const std::string& command_line) const {
   const Clock::time_point start = Clock::now();
-  if (points_.are_meant(raster_.path)) {
-    return run_measure_points(*command_,
-                              {raster_.path, mesh_, raster_.crs, fail_above_, threads_, json_, quiet_, json_progress_},
-                              points_, command_line);
+  if (auto single = points_.check_single(raster_.paths); !single) return single;
+  if (points_.are_meant(raster_.path())) {
+    return run_measure_points(
+        *command_, {raster_.path(), mesh_, raster_.crs, fail_above_, threads_, json_, quiet_, json_progress_}, points_,
+        command_line);
   }
-  if (auto unused = points_.check_unused(raster_.path); !unused) return unused;
+  if (auto unused = points_.check_unused(raster_.path()); !unused) return unused;
   if (auto ordered = check_order(); !ordered) return ordered;
   Judged judged;
   const Result<ReadOptions> read = raster_.parse();
@@ -336,7 +337,7 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
   judged.seconds_measure = seconds_since(measure_start);
   decide(judged);
   if (judged.judgement.heights.samples == 0)
-    judged.broken = describe_elsewhere(extent_of(judged.mesh), extent_of(judged.field.view()), raster_.path);
+    judged.broken = describe_elsewhere(extent_of(judged.mesh), extent_of(judged.field.view()), raster_.path());
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
   const Result<void> files = write_files(judged, *errors);
   if (!files) return files;
@@ -348,7 +349,7 @@ Result<void> MeasureCommand::run(const std::string& command_line) const {
     const Result<void> printed = print_to_stdout(to_text(make_report(judged, mesh_, cut_, command_line)));
     if (!printed) return printed;
   } else if (!quiet_) {
-    const std::string table = make_table(judged, raster_.path, mesh_);
+    const std::string table = make_table(judged, raster_.path(), mesh_);
     if (is_stdout(map_.value_or("")) || is_stdout(error_raster_.value_or(""))) {
       print_to_stderr(table);
     } else {

@@ -108,7 +108,7 @@ Error with_path(Error error, const std::string& path) {
 Result<void> run_simplify_points(const CLI::App& command, const SimplifyArguments& given,
                                  const PointsArguments& arguments, const std::string& command_line) {
   const Clock::time_point start = Clock::now();
-  if (auto meant = refuse_raster_options(command, given.raster.path); !meant) return meant;
+  if (auto meant = refuse_raster_options(command, given.raster.path()); !meant) return meant;
   if (!given.max_error && !given.max_triangles && !given.max_points)
     return fail(ErrorKind::kUsage,
                 "no goal is given: say how good the mesh must be, such as -e 1 for heights within 1 unit, or how small "
@@ -119,7 +119,7 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
     return fail(ErrorKind::kUsage,
                 fmt::format("{} is a raster, and {} holds points, which lie on no grid: choose a mesh format, "
                             "such as .glb or .ply",
-                            given.output, shell_word(base_name(given.raster.path))));
+                            given.output, shell_word(base_name(given.raster.path()))));
   const auto policy = parse_policy(arguments.duplicates);
   if (!policy) return tl::unexpected(policy.error());
 
@@ -127,7 +127,8 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
   outcome.policy = *policy;
   ProgressDisplay display(ProgressDisplay::choose(given.json_progress, given.quiet));
   const std::string crs = crs_option(*plan);
-  Result<PointSet> points = read(given.raster.path, arguments, crs.empty() ? Given() : Given(crs), display.callback());
+  Result<PointSet> points =
+      read(given.raster.path(), arguments, crs.empty() ? Given() : Given(crs), display.callback());
   if (!points) return tl::unexpected(std::move(points.error()));
   outcome.points = std::move(*points);
   if (auto checked = check_crs_of(plan->format, outcome.points.crs, ""); !checked) return checked;
@@ -153,7 +154,7 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
   options.run.threads = plan->simplify.run.threads;
   options.run.progress = display.callback();
   Result<SimplifiedPoints> simplified = simplify_points(outcome.points, options);
-  if (!simplified) return tl::unexpected(with_path(std::move(simplified.error()), given.raster.path));
+  if (!simplified) return tl::unexpected(with_path(std::move(simplified.error()), given.raster.path()));
   outcome.simplified = std::move(simplified->simplified);
   outcome.duplicates = simplified->duplicates;
   outcome.on_hull = simplified->on_hull;
@@ -188,7 +189,7 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
   if (given.quiet) return {};
   print_warnings(outcome.warnings);
   const std::string summary = make_summary(*plan, outcome, files);
-  if (!is_stdout(plan->output) && !is_stdout(plan->report.value_or(""))) return print_to_stdout(summary);
+  if (!is_stdout(plan->output) && !is_stdout(plan->report.value_or(""))) return print_summary(summary);
   print_to_stderr(summary);
   return {};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "options/simplify_plan.h"
 #include "scarp/points.h"
@@ -20,6 +21,8 @@ struct PointsArguments {
   void add_to(CLI::App& command);
   /// True if the input is to be read as points: it was asked for, or its name says so.
   bool are_meant(const std::string& path) const { return points || is_point_file(path); }
+  /// Fails if one of several inputs holds points, which make no mosaic.
+  Result<void> check_single(const std::vector<std::string>& paths) const;
   /// Fails if an option for points was given, for an input that is a raster.
   Result<void> check_unused(const std::string& path) const;
 };

@@ -278,8 +278,9 @@ SimplifyCommand::SimplifyCommand(CLI::App& program) : command_(add_command(progr
 
 Result<void> SimplifyCommand::run(const std::string& command_line) const {
   const Clock::time_point start = Clock::now();
-  if (points_.are_meant(given_.raster.path)) return run_simplify_points(*command_, given_, points_, command_line);
-  if (auto unused = points_.check_unused(given_.raster.path); !unused) return unused;
+  if (auto single = points_.check_single(given_.raster.paths); !single) return single;
+  if (points_.are_meant(given_.raster.path())) return run_simplify_points(*command_, given_, points_, command_line);
+  if (auto unused = points_.check_unused(given_.raster.path()); !unused) return unused;
   Result<SimplifyPlan> plan = plan_simplify(given_);
   if (!plan) return tl::unexpected(std::move(plan.error()));
 
@@ -410,7 +411,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
     print_to_stderr(summary);
     return {};
   }
-  return print_to_stdout(summary);
+  return print_summary(summary);
 }
 
 }  // namespace scarp::cli

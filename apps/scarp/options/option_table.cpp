@@ -111,6 +111,25 @@ void add_option(CLI::App& command, OptionId id, std::vector<std::string>& values
   add(command, id, values)->allow_extra_args(false);  // one value each time that the option is given
 }
 
+void add_arguments(CLI::App& command, OptionId id, std::vector<std::string>& values) { add(command, id, values); }
+
+void add_arguments(CLI::App& command, OptionId id, std::vector<std::string>& values, OptionId last_id,
+                   std::string& last) {
+  add(command, id, values);
+  // CLI11 gives all arguments to the first that takes several.
+  add(command, last_id, last)->required(false);
+  command.parse_complete_callback([&values, &last, name = row_of(command, last_id).name] {
+    if (values.empty()) return;  // CLI11 says that
+    if (values.size() == 1) throw CLI::RequiredError(name);
+    last = std::move(values.back());
+    values.pop_back();
+  });
+}
+
+void add_numbers(CLI::App& command, OptionId id, std::vector<std::string>& values, int count) {
+  add(command, id, values)->expected(count);
+}
+
 void add_flag(CLI::App& command, OptionId id, bool& value) { command.add_flag(names_of(row_of(command, id)), value); }
 
 CLI::App* add_command(CLI::App& program, Commands command) {

@@ -29,6 +29,8 @@ enum class OptionId {
   kObjective,
   kFailAbove,
   kBand,
+  kExtent,
+  kResolution,
   kDecode,
   kCrs,
   kZScale,
@@ -211,6 +213,12 @@ const CommandRow* find_command(std::string_view name);
 void add_option(CLI::App& command, OptionId id, std::string& value);
 void add_option(CLI::App& command, OptionId id, std::optional<std::string>& value);
 void add_option(CLI::App& command, OptionId id, std::vector<std::string>& values);
+/// Arguments: as many as are given, but for the last one, which is another. Without `last`, all of them.
+void add_arguments(CLI::App& command, OptionId id, std::vector<std::string>& values);
+void add_arguments(CLI::App& command, OptionId id, std::vector<std::string>& values, OptionId last_id,
+                   std::string& last);
+/// An option with so many values.
+void add_numbers(CLI::App& command, OptionId id, std::vector<std::string>& values, int count);
 void add_flag(CLI::App& command, OptionId id, bool& value);
 /// The command of the program, with its --version.
 CLI::App* add_command(CLI::App& program, Commands command);

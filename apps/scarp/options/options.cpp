@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -197,18 +198,48 @@ void RasterArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kZScale, z_scale);
   add_option(command, OptionId::kZOffset, z_offset);
   add_option(command, OptionId::kCellSize, cell_size);
+  add_numbers(command, OptionId::kExtent, extent, 4);
+  add_option(command, OptionId::kResolution, resolution);
 }
 
 std::string RasterArguments::canonical() const {
   return canonical_option("--band", band) + canonical_option("--nodata", nodata) +
          canonical_option("--decode", decode) + canonical_option("--crs", crs) +
          canonical_option("--z-scale", z_scale) + canonical_option("--z-offset", z_offset) +
-         canonical_option("--cell-size", cell_size);
+         canonical_option("--cell-size", cell_size) +
+         (extent.empty() ? "" : fmt::format(" --te {}", fmt::join(extent, " "))) +
+         canonical_option("--resolution", resolution);
 }
 
 Result<ReadOptions> RasterArguments::parse() const {
   ReadOptions options;
-  if (path.empty()) return fail(ErrorKind::kUsage, "the name of the raster is empty");
+  for (const std::string& path : paths) {
+    if (path.empty()) return fail(ErrorKind::kUsage, "the name of the raster is empty");
+  }
+  options.view.more.assign(paths.begin() + 1, paths.end());
+  if (!extent.empty()) {
+    std::array<double, 4> box{};
+    for (std::size_t k = 0; k < box.size(); ++k) {
+      const Result<double> value = parse_number("--te", extent[k]);
+      if (!value) return tl::unexpected(value.error());
+      box[k] = *value;
+    }
+    if (!(box[0] < box[2]) || !(box[1] < box[3])) {
+      return fail(ErrorKind::kUsage, fmt::format("--te {} {} {} {} is empty: its order is XMIN YMIN XMAX YMAX",
+                                                 extent[0], extent[1], extent[2], extent[3]));
+    }
+    options.view.extent = box;
+  }
+  if (resolution) {
+    const Result<double> value = parse_number("--resolution", *resolution);
+    if (!value) return tl::unexpected(value.error());
+    if (!(*value > 0)) return fail(ErrorKind::kUsage, fmt::format("--resolution {} is not above 0", *resolution));
+    if (decode) {
+      return fail(ErrorKind::kUsage,
+                  "--resolution cannot be combined with --decode: means of packed colours are no heights");
+    }
+    options.view.resolution = *value;
+  }
   if (band) {
     const Result<std::uint64_t> number = parse_count("--band", *band, 1);
     if (!number) return tl::unexpected(number.error());

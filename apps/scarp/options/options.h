@@ -85,10 +85,12 @@ Error name_goal(const ErrorGoal& goal, double relief, Error error);
 
 /// The options of every command that reads a raster.
 struct RasterArguments {
-  std::string path;
-  Given band, nodata, decode, crs, z_scale, z_offset, cell_size;
+  std::vector<std::string> paths;  ///< one, or those of a mosaic
+  Given band, nodata, decode, crs, z_scale, z_offset, cell_size, resolution;
+  std::vector<std::string> extent;
 
-  /// Adds the options; the path is an argument of its own.
+  const std::string& path() const { return paths.front(); }
+  /// Adds the options; the paths are arguments of their own.
   void add_to(CLI::App& command);
   Result<ReadOptions> parse() const;
   /// " --band 2 --crs local": those that were given.
@@ -111,7 +113,7 @@ std::string lower_extension(const std::string& path);
 Result<void> check_png_name(const PlannedOutput& output);
 /// Fails unless the path ends in .tif or .tiff or is a device.
 Result<void> check_tiff_name(const PlannedOutput& output);
-/// True if writing to the path is writing to standard output (/dev/stdout).
+/// True if writing to the path is writing to standard output ("-", /dev/stdout).
 bool is_stdout(const std::string& path);
 
 }  // namespace scarp::cli

@@ -141,9 +141,6 @@ Result<bool> choose_y_up(const Given& up, const OutputFormat& format, bool is_pr
 
 Result<OutputFormat> choose_output_format(const Given& of, const std::string& output) {
   if (output.empty()) return fail(ErrorKind::kUsage, "the name of OUTPUT is empty");
-  if (output == "-") {
-    return fail(ErrorKind::kUsage, "- is no output: for standard output give /dev/stdout and a format with --of");
-  }
   const std::string extension = lower_extension(output);
   if (of) {
     std::optional<OutputFormat> named = find_format(lower(*of));

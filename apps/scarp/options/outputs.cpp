@@ -3,13 +3,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <map>
-#include <set>
 #include <system_error>
 
 #include "options/options.h"
@@ -82,15 +82,33 @@ Result<void> check_output(const PlannedOutput& output, bool overwrite) {
 
 Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std::vector<std::string>& inputs,
                            bool overwrite) {
-  std::set<std::string> read;
-  for (const std::string& input : inputs) read.insert(identity_of(input));
+  const bool may_replace = std::any_of(outputs.begin(), outputs.end(), [&](const PlannedOutput& output) {
+    std::error_code ignored;
+    return overwrite && !names_device(output.path) && fs::exists(output.path, ignored);
+  });
+  std::map<std::string, std::string> read;  // and the input that it belongs to
+  for (const std::string& input : inputs) {
+    read.emplace(identity_of(input == "-" ? "/dev/stdin" : input), input);
+    if (!may_replace) continue;
+    for (const std::string& part : list_files(input)) read.emplace(identity_of(part), input);
+  }
   std::map<std::string, std::string> written;  // and the option that says so
+  const PlannedOutput* to_stdout = nullptr;
   for (const PlannedOutput& output : outputs) {
+    if (is_stdout(output.path)) {
+      if (to_stdout != nullptr) {
+        return fail(ErrorKind::kUsage, fmt::format("{} and {} both write to standard output: name a file for one",
+                                                   to_stdout->option, output.option));
+      }
+      to_stdout = &output;
+    }
     const std::string identity = names_device(output.path) ? "" : identity_of(output.path);
     if (!identity.empty()) {
-      if (read.contains(identity)) {
+      if (const auto found = read.find(identity); found != read.end()) {
+        const bool is_whole = identity_of(found->second) == identity;
         return fail(ErrorKind::kUsage,
-                    fmt::format("{} {} is an input file: choose another name", output.option, output.path));
+                    fmt::format("{} {} is {}: choose another name", output.option, output.path,
+                                is_whole ? "an input file" : fmt::format("a file that {} is made of", found->second)));
       }
       const auto [earlier, is_first] = written.emplace(identity, output.option);
       if (!is_first) {
@@ -123,6 +141,6 @@ Result<void> check_tiff_name(const PlannedOutput& output) {
               fmt::format("{} {} does not end in .tif: it is written as GeoTIFF", output.option, output.path));
 }
 
-bool is_stdout(const std::string& path) { return path == "/dev/stdout"; }
+bool is_stdout(const std::string& path) { return path == "-" || path == "/dev/stdout"; }
 
 }  // namespace scarp::cli

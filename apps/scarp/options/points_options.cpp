@@ -14,6 +14,16 @@ void PointsArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kZField, z_field);
 }
 
+Result<void> PointsArguments::check_single(const std::vector<std::string>& paths) const {
+  if (paths.size() < 2) return {};
+  for (const std::string& path : paths) {
+    if (are_meant(path))
+      return fail(ErrorKind::kUsage,
+                  fmt::format("{} holds points: only rasters are joined, so give it alone", shell_word(path)));
+  }
+  return {};
+}
+
 Result<void> PointsArguments::check_unused(const std::string& path) const {
   const std::pair<const char*, bool> options[] = {
       {"--duplicates", duplicates.has_value()}, {"--layer", layer.has_value()}, {"--z-field", z_field.has_value()}};

@@ -5,8 +5,7 @@
 namespace scarp::cli {
 
 void SimplifyArguments::add_to(CLI::App& command) {
-  add_option(command, OptionId::kInput, raster.path);
-  add_option(command, OptionId::kOutput, output);
+  add_arguments(command, OptionId::kInput, raster.paths, OptionId::kOutput, output);
   add_option(command, OptionId::kMaxError, max_error);
   add_option(command, OptionId::kMaxTriangles, max_triangles);
   add_option(command, OptionId::kMaxPoints, max_points);

@@ -17,7 +17,7 @@ Result<void> plan_goals(const SimplifyArguments& given, SimplifyPlan& plan) {
     return fail(ErrorKind::kUsage,
                 fmt::format("no goal is given: say how good the mesh must be, such as -e 1 for heights within 1 unit, "
                             "or how small with -t or -p; 'scarp info {}' suggests errors",
-                            shell_word(given.raster.path)));
+                            shell_word(given.raster.path())));
   }
   if (given.max_error) {
     const Result<ErrorGoal> goal = parse_error_goal("--max-error", *given.max_error);
@@ -220,7 +220,7 @@ Result<void> plan_solid_format(const SimplifyArguments& given, SimplifyPlan& pla
                             ".ply, or --base for a solid in the raster's units",
                             format.title()));
   if (plan.has_file_per_tile() && is_stdout(given.output))
-    return fail(ErrorKind::kUsage, "--split writes several files: /dev/stdout is only one");
+    return fail(ErrorKind::kUsage, "--split writes several files: standard output is only one");
   return {};
 }
 
@@ -350,7 +350,7 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
   std::vector<std::string> inputs = given.companions.files();
   inputs.insert(inputs.end(), given.channels.textures.begin(), given.channels.textures.end());
   if (given.images.drape) inputs.push_back(*given.images.drape);
-  inputs.push_back(given.raster.path);
+  inputs.insert(inputs.end(), given.raster.paths.begin(), given.raster.paths.end());
   return check_outputs(outputs, inputs, given.overwrite);
 }
 
@@ -394,10 +394,11 @@ Result<void> plan_memory(const SimplifyArguments& given, SimplifyPlan& plan) {
 }
 
 std::string canonical_command(const SimplifyArguments& given) {
-  std::string command = "scarp simplify " + shell_word(base_name(given.raster.path)) + " OUTPUT" +
-                        canonical_option("--max-error", given.max_error) +
-                        canonical_option("--max-triangles", given.max_triangles) +
-                        canonical_option("--max-points", given.max_points) + given.raster.canonical();
+  std::string command = "scarp simplify";
+  for (const std::string& path : given.raster.paths) command += " " + shell_word(base_name(path));
+  command += " OUTPUT" + canonical_option("--max-error", given.max_error) +
+             canonical_option("--max-triangles", given.max_triangles) +
+             canonical_option("--max-points", given.max_points) + given.raster.canonical();
   const std::pair<const char*, const Given*> options[] = {
       {"--nodata-policy", &given.nodata_policy},
       {"--fill-distance", &given.fill_distance},
@@ -422,7 +423,7 @@ std::string canonical_command(const SimplifyArguments& given) {
 
 Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   SimplifyPlan plan;
-  plan.input = given.raster.path;
+  plan.input = given.raster.path();
   plan.output = given.output;
   plan.preview = given.preview;
   plan.render = given.render;

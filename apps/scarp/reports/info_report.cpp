@@ -80,6 +80,7 @@ std::string raster_facts(const OwnedHeightField& field) {
   const double missing = static_cast<double>(samples - info.valid);
 
   std::string text = info.path + "\n";
+  if (!info.view.empty()) text += fact_line("read as", info.view);
   text += fact_line("format", fmt::format("{}, {}", info.format, info.sample_type));
   text +=
       fact_line("size", fmt::format("{} columns x {} rows, {} samples", field.cols, field.rows, format_count(samples)));

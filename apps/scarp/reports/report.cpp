@@ -51,6 +51,7 @@ Json describe_input(const OwnedHeightField& field, const RasterInfo& as_read, in
   const std::uint64_t samples = static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(field.rows);
   Json input;
   input["path"] = as_read.path;
+  input["view"] = as_read.view;
   input["format"] = as_read.format;
   input["sample_type"] = as_read.sample_type;
   input["band"] = band;

@@ -217,6 +217,7 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
                                    format_count(info.valid), is_image ? "pixels" : "samples",
                                    is_image ? format_plural(outcome.channels.count(), "band") + "," : "heights",
                                    format_number(info.min), format_number(info.max), unit));
+  if (!info.view.empty()) text += summary_line("read as", info.view);
   if (outcome.filled > 0) text += summary_line("filled", format_plural(outcome.filled, "nodata sample"));
   text += files_lines(plan, files);
   text += summary_line("vertices", format_count(outcome.vertices));

@@ -4,30 +4,55 @@
 
 #include <atomic>
 #include <csignal>
+#include <string_view>
 
 #include "scarp/io.h"
+#include "terminal/text.h"
 
 namespace scarp::cli {
 namespace {
 
 // Lock-free, so that a handler may touch them.
 std::atomic<int> g_signals = 0;
-std::atomic<bool> g_is_content = false;
+std::atomic<bool> g_is_content = false, g_is_told = false;
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
-/// The default action, so that a shell sees a program ended by the signal, but without half a file left.
-extern "C" void on_end_signal(int signal) {
+constexpr unsigned kSecondsToStop = 2;
+
+void remove_half_written() {
   for (int place = 0; place < scarp::kPendingOutputs; ++place) {
     const char* half_written = pending_output(place);
     if (half_written[0] != '\0') unlink(half_written);
   }
+}
+
+/// The default action, so that a shell sees a program ended by the signal, but without half a file left.
+extern "C" void on_end_signal(int signal) {
+  remove_half_written();
   std::signal(signal, SIG_DFL);
   raise(signal);  // acts when this handler returns
 }
 
+/// The run has not stopped by itself: it waits in a library, or for a pipe.
+extern "C" void on_late_stop(int) {
+  if (outputs_naming() == Naming::kNow) {
+    alarm(1);
+    return;
+  }
+  remove_half_written();
+  constexpr std::string_view kNothing = "scarp: interrupted; nothing was written\n", kSome = "scarp: interrupted\n";
+  const std::string_view sentence = outputs_naming() == Naming::kDone ? kSome : kNothing;
+  [[maybe_unused]] const ssize_t said = g_is_told ? 0 : write(STDERR_FILENO, sentence.data(), sentence.size());
+  _exit(exit_code(ErrorKind::kCancelled));
+}
+
 extern "C" void on_stop_signal(int signal) {
   const int taken = g_is_content ? 1 : 0;
-  if (g_signals.fetch_add(1) > taken) on_end_signal(signal);
+  if (g_signals.fetch_add(1) > taken) {
+    on_end_signal(signal);
+  } else {
+    alarm(kSecondsToStop);
+  }
 }
 
 }  // namespace
@@ -38,6 +63,8 @@ void install_signal_handlers() {
   action.sa_flags = SA_RESTART;
   action.sa_handler = on_end_signal;
   sigaction(SIGQUIT, &action, nullptr);
+  action.sa_handler = on_late_stop;
+  sigaction(SIGALRM, &action, nullptr);
   action.sa_handler = on_stop_signal;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
@@ -64,8 +91,10 @@ void install_signal_handlers() {
 bool interrupted() { return g_signals > (g_is_content ? 1 : 0); }
 
 bool content_with_interrupt() {
-  if (g_signals > 0) g_is_content = true;
+  if (g_signals > 0 && !g_is_content.exchange(true)) alarm(0);
   return g_is_content;
 }
+
+void keep_interrupts_quiet() { g_is_told = true; }
 
 }  // namespace scarp::cli

@@ -1,6 +1,8 @@
 #include "terminal/text.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cmath>
@@ -91,6 +93,11 @@ Result<void> print_to_stdout(const std::string& text) {
     return fail(ErrorKind::kOutput, fmt::format("standard output cannot be written: {}", std::strerror(errno)));
   }
   return {};
+}
+
+Result<void> print_summary(const std::string& text) {
+  const bool is_closed = fcntl(STDOUT_FILENO, F_GETFL) < 0 || (fcntl(STDOUT_FILENO, F_GETFL) & O_ACCMODE) == O_RDONLY;
+  return is_closed ? Result<void>() : print_to_stdout(text);
 }
 
 int exit_code(ErrorKind kind) {

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/spool.h"
+
 namespace scarp::gdal {
 namespace {
 
@@ -70,7 +72,7 @@ Result<Dataset> open_in_zip(Session& session, const std::string& path, const std
   if (files.empty()) return fail(ErrorKind::kInput, path + ": the zip is damaged, truncated or empty");
   std::vector<std::string> rasters;
   for (const std::string& name : files) {
-    if (GDALIdentifyDriverEx(name.c_str(), GDAL_OF_RASTER, nullptr, nullptr) != nullptr) rasters.push_back(name);
+    if (identify_driver(name, GDAL_OF_RASTER) != nullptr) rasters.push_back(name);
   }
   session.clear();
   if (rasters.empty()) return fail(ErrorKind::kInput, path + ": the zip holds no raster that GDAL can read");
@@ -86,11 +88,31 @@ Result<Dataset> open_in_zip(Session& session, const std::string& path, const std
   return dataset;
 }
 
+/// An HDF4 file, or one of its rasters by name.
+bool is_hdf4(const std::string& vsi) {
+  if (vsi.starts_with("HDF4_SDS:") || vsi.starts_with("HDF4_EOS:")) return true;
+  std::array<char, 4> head{};
+  VSIStatBufL status{};
+  if (VSIStatL(vsi.c_str(), &status) != 0 || !VSI_ISREG(status.st_mode)) return false;
+  VSILFILE* file = VSIFOpenL(vsi.c_str(), "rb");
+  if (file == nullptr) return false;
+  const bool is_read = VSIFReadL(head.data(), 1, head.size(), file) == head.size();
+  VSIFCloseL(file);
+  return is_read && std::string_view(head.data(), head.size()) == "\x0e\x03\x13\x01";
+}
+
 /// What to say of a name that no raster driver opens.
-tl::unexpected<Error> explain(Session& session, const std::string& path, const std::string& vsi) {
+tl::unexpected<Error> explain(Session& session, const std::string& given, const std::string& vsi) {
+  const std::string path = given == "-" ? "standard input" : given;
   if (path.empty()) return fail(ErrorKind::kInput, "the name of the raster is empty");
   const std::string reason = session.reason();
   const bool gave_reason = session.failed();
+  if (is_hdf4(vsi)) {
+    return fail(ErrorKind::kInput,
+                fmt::format("{0}: HDF4 is not read, since its library crashes on damaged files: convert it first "
+                            "(gdal_translate {0} dem.tif)",
+                            path));
+  }
   VSIStatBufL status{};
   const bool exists = VSIStatL(vsi.c_str(), &status) == 0;
   if (is_remote(path)) return fail(ErrorKind::kInput, fmt::format("{}: cannot be read: {}", path, reason));
@@ -100,14 +122,14 @@ tl::unexpected<Error> explain(Session& session, const std::string& path, const s
   VSILFILE* file = VSIFOpenL(vsi.c_str(), "rb");
   if (file == nullptr) return fail(ErrorKind::kInput, path + ": the file cannot be opened for reading (permissions?)");
   VSIFCloseL(file);
-  if (const Dataset vector = open_quietly(vsi, GDAL_OF_VECTOR); vector && GDALDatasetGetLayerCount(vector.get()) > 0) {
-    return fail(ErrorKind::kInput, fmt::format("{}: holds vector data ({}), not a raster", path,
-                                               GDALGetDriverShortName(GDALGetDatasetDriver(vector.get()))));
-  }
   // A driver that knows the file and still fails (a truncated TIFF) has the better words.
-  if (GDALDriverH driver = GDALIdentifyDriverEx(vsi.c_str(), GDAL_OF_RASTER, nullptr, nullptr); driver && gave_reason) {
+  if (GDALDriverH driver = identify_driver(vsi, GDAL_OF_RASTER); driver && gave_reason) {
     return fail(ErrorKind::kInput,
                 fmt::format("{}: a damaged or truncated {} raster: {}", path, GDALGetDriverShortName(driver), reason));
+  }
+  if (GDALDriverH driver = identify_driver(vsi, GDAL_OF_VECTOR); driver != nullptr) {
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: holds vector data ({}), not a raster", path, GDALGetDriverShortName(driver)));
   }
   if (ends_with(vsi, ".hgt")) {
     return fail(ErrorKind::kInput,
@@ -138,8 +160,23 @@ bool is_remote(const std::string& path) {
   return false;
 }
 
+Result<Dataset> open_virtual(Session& session, GDALDatasetH made, const std::string& path) {
+  CSLConstList xml = GDALGetMetadata(made, "xml:VRT");
+  session.clear();
+  if (Dataset dataset = xml != nullptr && *xml != nullptr ? open_quietly(*xml, GDAL_OF_RASTER) : nullptr)
+    return dataset;
+  return fail(ErrorKind::kInput, fmt::format("{}: cannot be read as one raster: {}", path, session.reason()));
+}
+
+GDALDriverH identify_driver(const std::string& vsi, unsigned kind) {
+  if (declares_entities(vsi)) return nullptr;  // some drivers identify by opening
+  return GDALIdentifyDriverEx(vsi.c_str(), kind, nullptr, nullptr);
+}
+
 Result<Dataset> open_raster(Session& session, const std::string& path) {
-  const std::string vsi = vsi_path(path);
+  const auto name = readable_name(path);
+  if (!name) return tl::unexpected(name.error());
+  const std::string vsi = vsi_path(*name);
   session.clear();
   Dataset dataset = open_quietly(vsi, GDAL_OF_RASTER);
   if (!dataset && ends_with(vsi, ".zip")) {

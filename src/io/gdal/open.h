@@ -16,6 +16,9 @@ struct CloseDataset {
 };
 using Dataset = std::unique_ptr<void, CloseDataset>;
 
+/// For GDALOpenEx(): GML's driver would write a file beside its input.
+inline constexpr const char* kOpenOptions[] = {"@WRITE_GFS=NO", nullptr};
+
 /// True for URLs and the /vsi… names of files that lie on another machine.
 bool is_remote(const std::string& path);
 
@@ -27,5 +30,16 @@ std::string vsi_path(const std::string& path);
 /// ("NETCDF:file.nc:z"). Fails with kInput in one sentence: no such file; a directory; vector data; several rasters;
 /// not a raster.
 Result<Dataset> open_raster(Session& session, const std::string& path);
+
+/// Opens a virtual raster anew by its XML, which then needs neither a file nor the rasters that it was made from to be
+/// open. `path` is for the sentence.
+Result<Dataset> open_virtual(Session& session, GDALDatasetH made, const std::string& path);
+
+/// The driver that knows a raster or vector file (GDAL_OF_RASTER, GDAL_OF_VECTOR) by its first bytes; null if none
+/// does, and for XML that declares entities.
+GDALDriverH identify_driver(const std::string& vsi, unsigned kind);
+
+/// True for XML that declares entities before its root element: vector drivers, which expand them, are never given it.
+bool declares_entities(const std::string& vsi);
 
 }  // namespace scarp::gdal

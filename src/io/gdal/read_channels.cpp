@@ -9,6 +9,7 @@
 #include "io/gdal/georeference.h"
 #include "io/gdal/open.h"
 #include "io/gdal/read_samples.h"
+#include "io/gdal/view.h"
 #include "io/raster/raster_finish.h"
 #include "io/raster/raster_source.h"
 
@@ -131,9 +132,9 @@ Result<OwnedChannels> read(const std::string& path, const ReadOptions& options, 
                                        "as heights");
   }
   Session session(is_remote(path));
-  auto dataset = open_raster(session, path);
-  if (!dataset) return tl::unexpected(dataset.error());
   OwnedChannels channels;
+  auto dataset = open_view(session, path, options.view, true, channels.info.view);
+  if (!dataset) return tl::unexpected(dataset.error());
   channels.info.path = path;
   channels.info.format = GDALGetDriverShortName(GDALGetDatasetDriver(dataset->get()));
   auto plan = plan_bands(dataset->get(), path, options, all_bands, channels.info);

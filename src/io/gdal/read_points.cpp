@@ -1,4 +1,5 @@
 // Points of a vector layer.
+#include <cpl_port.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -237,7 +238,8 @@ Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptio
 
 bool opens_as_raster(const std::string& path) {
   gdal::Session session(gdal::is_remote(path));
-  return gdal::open_raster(session, path).has_value();
+  const auto dataset = gdal::open_raster(session, path);
+  return dataset && !EQUAL(GDALGetDriverShortName(GDALGetDatasetDriver(dataset->get())), "XYZ");
 }
 
 }  // namespace scarp

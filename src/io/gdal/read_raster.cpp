@@ -13,6 +13,7 @@
 #include "io/gdal/georeference.h"
 #include "io/gdal/open.h"
 #include "io/gdal/read_samples.h"
+#include "io/gdal/view.h"
 #include "io/raster/raster_finish.h"
 #include "io/raster/raster_source.h"
 
@@ -51,9 +52,9 @@ void scale_heights(const ReadOptions& options, Plan& plan) {
 }
 
 Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOptions& options) {
-  auto dataset = open_raster(session, path);
-  if (!dataset) return tl::unexpected(dataset.error());
   Plan plan;
+  auto dataset = open_view(session, path, options.view, false, plan.info.view);
+  if (!dataset) return tl::unexpected(dataset.error());
   plan.dataset = std::move(*dataset);
   plan.info.path = path;
   plan.info.format = GDALGetDriverShortName(GDALGetDatasetDriver(plan.dataset.get()));

@@ -2,9 +2,11 @@
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
+#include <dlfcn.h>
 #include <gdal.h>
 
 #include <algorithm>
+#include <array>
 #include <mutex>
 
 namespace scarp::gdal {
@@ -19,10 +21,37 @@ void CPL_STDCALL collect(CPLErr severity, CPLErrorNum number, const char* messag
   if (severity == CE_Warning) session->note(false, false, message);
 }
 
+/// libhdf4 ends the program on damaged files. The others read XML with Xerces, which expands entities without end.
+constexpr std::array kUnsafeDrivers{"HDF4", "HDF4Image", "NAS", "GMLAS", "Interlis 2"};
+
+/// A host that has registered drivers itself keeps all of them.
+void register_drivers() {
+  const bool are_ours = GDALGetDriverCount() == 0;
+  GDALAllRegister();
+  if (!are_ours) return;
+  for (const char* name : kUnsafeDrivers) {
+    if (GDALDriverH driver = GDALGetDriverByName(name)) GDALDeregisterDriver(driver);
+  }
+}
+
+/// HDF5 prints its own errors. It comes with GDAL, or not at all, so it is asked for by name.
+struct Hdf5 {
+  using Get = int (*)(std::int64_t, Hdf5Errors::Print*, void**);
+  using Set = int (*)(std::int64_t, Hdf5Errors::Print, void*);
+  Get get_printing = reinterpret_cast<Get>(dlsym(RTLD_DEFAULT, "H5Eget_auto2"));
+  Set set_printing = reinterpret_cast<Set>(dlsym(RTLD_DEFAULT, "H5Eset_auto2"));
+};
+
+const Hdf5& hdf5() {
+  static const Hdf5 found;
+  return found;
+}
+constexpr std::int64_t kThreadsErrors = 0;  // H5E_DEFAULT
+
 void start_gdal_once() {
   static std::once_flag once;
   std::call_once(once, [] {
-    GDALAllRegister();
+    register_drivers();
     if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr) == nullptr) GDALSetCacheMax64(kBlockCacheBytes);
   });
 }
@@ -36,6 +65,16 @@ std::string tidy(std::string text) {
 
 }  // namespace
 
+Hdf5Errors::Hdf5Errors() {
+  if (hdf5().get_printing == nullptr || hdf5().set_printing == nullptr) return;
+  is_silenced_ = hdf5().get_printing(kThreadsErrors, &print_, &client_) >= 0;
+  if (is_silenced_) hdf5().set_printing(kThreadsErrors, nullptr, nullptr);
+}
+
+Hdf5Errors::~Hdf5Errors() {
+  if (is_silenced_) hdf5().set_printing(kThreadsErrors, print_, client_);
+}
+
 void widen_block_cache(std::uint64_t bytes) {
   start_gdal_once();
   if (CPLGetConfigOption("GDAL_CACHEMAX", nullptr) != nullptr) return;
@@ -46,6 +85,8 @@ void widen_block_cache(std::uint64_t bytes) {
 Session::Session(bool remote) {
   CPLPushErrorHandlerEx(collect, this);
   start_gdal_once();
+  set_option("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");  // would lie beside the input
+  set_option("GML_PARSER", "EXPAT");                   // limits what entities expand to
   if (!remote) return;
   set_default("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");  // no requests for side files that are not there
   set_default("CPL_VSIL_CURL_USE_HEAD", "NO");

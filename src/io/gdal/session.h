@@ -12,10 +12,26 @@ namespace scarp::gdal {
 /// GDAL_CACHEMAX is set.
 void widen_block_cache(std::uint64_t bytes);
 
-/// While a Session lives, what GDAL and PROJ have to say in this thread is collected instead of printed, and, for
-/// remote files, options that make range requests cheap and finite are set for this thread wherever the user has not
-/// set them. The first Session of a process registers GDAL's drivers and limits its block cache to 8 MB unless
-/// GDAL_CACHEMAX is set. Sessions may be nested; one must end in the thread that began it.
+/// While it lives, HDF5 prints no errors in this thread.
+class Hdf5Errors {
+ public:
+  using Print = int (*)(std::int64_t, void*);
+  Hdf5Errors();
+  ~Hdf5Errors();
+  Hdf5Errors(const Hdf5Errors&) = delete;
+  Hdf5Errors& operator=(const Hdf5Errors&) = delete;
+
+ private:
+  Print print_ = nullptr;
+  void* client_ = nullptr;
+  bool is_silenced_ = false;
+};
+
+/// While a Session lives, what GDAL, PROJ and HDF5 have to say in this thread is collected instead of printed, and
+/// nothing is written beside inputs. For remote files, options that make range requests cheap and finite are set for
+/// this thread wherever the user has not set them. The first Session of a process registers GDAL's drivers, but for
+/// those that hostile files crash or hang (unless drivers are registered already), and limits GDAL's block cache to 8
+/// MB unless GDAL_CACHEMAX is set. Sessions may be nested; one must end in the thread that began it.
 class Session {
  public:
   explicit Session(bool remote = false);
@@ -41,6 +57,7 @@ class Session {
  private:
   void set_default(const char* key, const char* value);
 
+  Hdf5Errors hdf5_errors_;
   std::vector<std::string> failures_, warnings_;
   bool out_of_memory_ = false;
   std::vector<std::pair<std::string, std::pair<bool, std::string>>> saved_options_;  // key, (was set, value)

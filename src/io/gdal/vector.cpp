@@ -7,20 +7,30 @@
 #include <cstdint>
 #include <string_view>
 
+#include "io/spool.h"
+
 namespace scarp::gdal {
 
 Result<Dataset> open_vector(Session& session, const std::string& path, const char* what, const char* expected) {
-  const std::string vsi = vsi_path(path);
+  const auto name = readable_name(path);
+  if (!name) return tl::unexpected(name.error());
+  const std::string vsi = vsi_path(*name);
   session.clear();
-  Dataset dataset(
-      GDALOpenEx(vsi.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr, nullptr));
+  if (declares_entities(vsi)) {
+    return fail(ErrorKind::kInput,
+                path +
+                    ": XML that declares entities is not read, since they may grow without end: write the file anew "
+                    "without them (xmllint --noent)");
+  }
+  Dataset dataset(GDALOpenEx(vsi.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
+                             kOpenOptions, nullptr));
   if (dataset) return dataset;
   if (path.empty()) return fail(ErrorKind::kInput, fmt::format("the name of the {} is empty", what));
   if (is_remote(path)) return fail(ErrorKind::kInput, fmt::format("{}: cannot be read: {}", path, session.reason()));
   VSIStatBufL status{};
   if (VSIStatL(vsi.c_str(), &status) != 0) return fail(ErrorKind::kInput, path + ": no such file");
   if (status.st_size == 0 && VSI_ISREG(status.st_mode)) return fail(ErrorKind::kInput, path + ": the file is empty");
-  if (GDALDriverH driver = GDALIdentifyDriverEx(vsi.c_str(), GDAL_OF_VECTOR, nullptr, nullptr); driver)
+  if (GDALDriverH driver = identify_driver(vsi, GDAL_OF_VECTOR); driver)
     return fail(ErrorKind::kInput, fmt::format("{}: a damaged or truncated {} file: {}", path,
                                                GDALGetDriverShortName(driver), session.reason()));
   return fail(ErrorKind::kInput, fmt::format("{}: {}", path, expected));

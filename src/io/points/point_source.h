@@ -20,7 +20,7 @@ Result<PointSet> decode_columns(std::span<const std::uint8_t> bytes, const std::
 /// fails with kInput and says so.
 Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptions& options);
 
-/// True if GDAL's raster drivers open the path; false in a build without GDAL.
+/// True if GDAL's raster drivers open the path, and not as text of columns; false in a build without GDAL.
 bool opens_as_raster(const std::string& path);
 
 }  // namespace scarp

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "base/caught.h"
 #include "io/mesh/mesh_file_text.h"
 #include "io/points/point_source.h"
+#include "io/spool.h"
 #include "scarp/io.h"
 
 namespace scarp {
@@ -27,19 +29,31 @@ bool is_one_of(const std::string& extension, const std::array<std::string_view, 
 }
 
 std::vector<std::uint8_t> read_head(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
+  const auto name = readable_name(path);
+  std::ifstream file(name ? *name : path, std::ios::binary);
   std::array<char, 4096> bytes{};
   file.read(bytes.data(), bytes.size());
   return {bytes.begin(), bytes.begin() + file.gcount()};
 }
 
+/// Neither binary, nor JSON, nor XML.
+bool is_plain_text(std::span<const std::uint8_t> head) {
+  const auto is_word = [](std::uint8_t c) { return c >= 0x20 || std::isspace(c) != 0; };
+  const auto first = std::find_if(head.begin(), head.end(), [](std::uint8_t c) { return std::isspace(c) == 0; });
+  return first != head.end() && *first != '{' && *first != '<' && std::all_of(head.begin(), head.end(), is_word);
+}
+
 bool is_text_of_columns(const std::string& path) {
   std::error_code ignored;
-  const fs::file_status status = fs::status(path, ignored);
+  const auto name = readable_name(path);
+  const fs::file_status status = fs::status(name ? *name : path, ignored);
   if (!fs::exists(status) || fs::is_directory(status)) return false;
-  if (!fs::is_regular_file(status)) return true;  // a pipe cannot be looked into and then read by another
+  if (!fs::is_regular_file(status)) return true;  // a device cannot be looked into and then read by another
   constexpr std::array<std::string_view, 5> kText{".csv", ".tsv", ".txt", ".xyz", ".dat"};
-  return is_one_of(extension_of(path), kText) || looks_like_columns(read_head(path));
+  const std::vector<std::uint8_t> head = read_head(path);
+  if (is_one_of(extension_of(path), kText) || looks_like_columns(head)) return true;
+  const bool is_copy = name && *name != path;  // of a pipe, whose name says nothing
+  return is_copy && is_plain_text(head);
 }
 
 /// An ESRI or a Surfer ASCII grid.
@@ -59,7 +73,7 @@ bool is_point_file(const std::string& path) {
   constexpr std::array<std::string_view, 10> kPoints{".csv", ".tsv", ".xyz", ".geojson", ".geojsonl",
                                                      ".shp", ".fgb", ".gml", ".kml",     ".parquet"};
   const std::string extension = extension_of(path);
-  if (extension == ".txt" || extension == ".dat") return !begins_as_grid(path);
+  if (extension == ".txt" || extension == ".dat") return !begins_as_grid(path) && !opens_as_raster(path);
   return is_one_of(extension, kPoints) || (extension == ".gpkg" && !opens_as_raster(path));
 }
 

@@ -72,6 +72,14 @@ Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities, co
   return finish_info(field, infinities, options);
 }
 
+namespace {
+
+std::string count_beyond(std::uint64_t infinities) {
+  return infinities == 1 ? "1 is infinite or" : fmt::format("{} are infinite or", infinities);
+}
+
+}  // namespace
+
 Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities, const ReadOptions& options) {
   if (options.as_values) {
     if (infinities > 0) {
@@ -84,6 +92,12 @@ Result<void> finish_info(OwnedHeightField& field, std::uint64_t infinities, cons
   if (infinities > 0) {
     field.info.warnings.push_back(fmt::format("{} {} infinite or too large for a height and taken as nodata",
                                               infinities, infinities == 1 ? "sample is" : "samples are"));
+  }
+  if (field.info.valid == 0 && infinities > 0) {
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: none of its {} x {} samples is a height: {} beyond what a float32 holds (3.4e38), so "
+                            "scale them first (gdal_translate -ot Float32 -scale)",
+                            field.info.path, field.cols, field.rows, count_beyond(infinities)));
   }
   if (field.info.valid == 0) {
     return fail(ErrorKind::kInput, fmt::format("{}: none of its {} x {} samples is a height: all are nodata",

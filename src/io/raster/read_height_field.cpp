@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <system_error>
 
 #include "base/caught.h"
@@ -11,20 +12,24 @@
 #include "io/raster/raster_finish.h"
 #include "io/raster/raster_source.h"
 #include "io/raster/stm.h"
+#include "io/spool.h"
 
 namespace scarp {
 namespace {
 
 enum class Reader { kPgm, kStm, kGdal };
 
-/// Names that are no local file, devices and pipes go to GDAL unopened.
-Reader find_reader(const std::string& path, std::vector<std::uint8_t>& head) {
+/// Names that are no local file, and devices, go to GDAL unopened.
+Result<Reader> find_reader(const std::string& path, const RasterView& view) {
+  if (!view.is_whole()) return Reader::kGdal;
+  const auto name = readable_name(path);
+  if (!name) return tl::unexpected(name.error());
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return Reader::kGdal;
-  std::ifstream file(path, std::ios::binary);
+  if (!std::filesystem::is_regular_file(*name, ignored)) return Reader::kGdal;
+  std::ifstream file(*name, std::ios::binary);
   std::array<char, 4096> bytes{};
   file.read(bytes.data(), bytes.size());
-  head.assign(bytes.begin(), bytes.begin() + file.gcount());
+  const std::span head(reinterpret_cast<const std::uint8_t*>(bytes.data()), static_cast<std::size_t>(file.gcount()));
   if (is_pgm(head)) return Reader::kPgm;
   if (is_stm(head)) return Reader::kStm;
   return Reader::kGdal;
@@ -33,7 +38,7 @@ Reader find_reader(const std::string& path, std::vector<std::uint8_t>& head) {
 /// kInput if the file and its samples as floats, read as a whole, need more than the limit.
 Result<void> check_whole_file(const std::string& path, const ReadOptions& options) {
   std::error_code ignored;
-  const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
+  const std::uintmax_t bytes = std::filesystem::file_size(*readable_name(path), ignored);
   if (ignored || options.run.memory.limit == 0 || bytes <= options.run.memory.limit / 3) return {};
   return fail(ErrorKind::kInput,
               fmt::format("{}: PGM and STM are read as a whole, which needs {} of memory, but only {} are allowed for "
@@ -45,8 +50,9 @@ Result<void> check_whole_file(const std::string& path, const ReadOptions& option
 }  // namespace
 
 Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOptions& options) try {
-  std::vector<std::uint8_t> head;
-  if (find_reader(path, head) == Reader::kGdal) return open_gdal_raster(path, options);
+  const auto reader = find_reader(path, options.view);
+  if (!reader) return tl::unexpected(reader.error());
+  if (*reader == Reader::kGdal) return open_gdal_raster(path, options);
   if (auto fits = check_whole_file(path, options); !fits) return tl::unexpected(fits.error());
   ReadOptions whole = options;
   whole.run.memory.limit = 0;
@@ -56,19 +62,20 @@ Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOp
 }
 
 Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options) try {
-  std::vector<std::uint8_t> head;
-  const Reader reader = find_reader(path, head);
-  if (reader == Reader::kGdal) return read_gdal_raster(path, options);
+  const auto reader = find_reader(path, options.view);
+  if (!reader) return tl::unexpected(reader.error());
+  if (*reader == Reader::kGdal) return read_gdal_raster(path, options);
   auto bytes = read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
-  return reader == Reader::kPgm ? decode_pgm(*bytes, path, options) : decode_stm(*bytes, path, options);
+  return *reader == Reader::kPgm ? decode_pgm(*bytes, path, options) : decode_stm(*bytes, path, options);
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + path);
 }
 
 Result<OwnedChannels> read_channels(const std::string& path, const ReadOptions& options, bool all_bands) try {
-  std::vector<std::uint8_t> head;
-  if (find_reader(path, head) == Reader::kGdal) return read_gdal_channels(path, options, all_bands);
+  const auto reader = find_reader(path, options.view);
+  if (!reader) return tl::unexpected(reader.error());
+  if (*reader == Reader::kGdal) return read_gdal_channels(path, options, all_bands);
   ReadOptions one_band = options;
   if (all_bands) one_band.band = 1;
   auto field = read_height_field(path, one_band);
