@@ -20,7 +20,7 @@ TEST(RasterErrors, OneSentenceEach) {
     EXPECT_TRUE(contains(error.message, part)) << error.message;
   };
   expect("missing.tif", "no such file");
-  expect("", "a directory");
+  expect("", "the folder holds no raster");
   testing::write_text(scratch.file("empty.tif"), "");
   expect("empty.tif", "empty");
   testing::write_text(scratch.file("notes.txt"), "not a raster\n");
