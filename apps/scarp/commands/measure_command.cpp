@@ -72,7 +72,7 @@ Result<void> MeasureCommand::check_order() const {
     const auto format = find_mesh_format(lower_extension(path));
     return format && *format != MeshFormat::kGpkg && *format != MeshFormat::kLandXml;
   };
-  if (!raster_.paths.size() != 1 || !is_mesh(raster_.path()) || find_mesh_format(lower_extension(mesh_))) return {};
+  if (raster_.paths.size() != 1 || !is_mesh(raster_.path()) || find_mesh_format(lower_extension(mesh_))) return {};
   return fail(ErrorKind::kUsage, fmt::format("{} is a mesh: the raster comes first, scarp measure {} {}",
                                              shell_word(raster_.path()), shell_word(mesh_), shell_word(raster_.path())));
 }
