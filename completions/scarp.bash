@@ -13,19 +13,21 @@ _scarp() {
 
   case "$command $previous" in
     "simplify -e" | "simplify --max-error" | "simplify -t" | "simplify --max-triangles" | "simplify -p" | \
-      "simplify --max-points" | "simplify --band" | "simplify --z-scale" | "simplify --z-offset" | \
-      "simplify --cell-size" | "simplify --min-shape" | "simplify --time-limit" | "simplify --nodata" | \
-      "simplify --fill-distance" | "simplify --background" | "simplify --outline-tolerance" | "simplify --falloff" | \
-      "simplify --breakline-z" | "simplify --inset" | "simplify --cliff" | "simplify --ridges" | \
-      "simplify --water-percentile" | "simplify --detect-flats" | "simplify --min-angle" | "simplify --max-edge" | \
-      "simplify --grade" | "simplify --base" | "simplify --split" | "simplify --memory" | "simplify -j" | \
-      "simplify --num-threads" | "simplify --texture-weight" | "simplify --channel-weights" | "simplify --layer" | \
-      "simplify --z-field" | "simplify --shape-threshold" | "simplify --supersample" | "measure --fail-above" | \
-      "measure --band" | "measure --z-scale" | "measure --z-offset" | "measure --cell-size" | "measure --nodata" | \
-      "measure --falloff" | "measure --inset" | "measure --memory" | "measure -j" | "measure --num-threads" | \
-      "measure --texture-weight" | "measure --channel-weights" | "measure --layer" | "measure --z-field" | \
-      "info --band" | "info --z-scale" | "info --z-offset" | "info --cell-size" | "info --nodata" | "info --layer" | \
-      "info --z-field" | "generate --seed" | "generate --range" | "generate --size")
+      "simplify --max-points" | "simplify --band" | "simplify --te" | "simplify --resolution" | \
+      "simplify --z-scale" | "simplify --z-offset" | "simplify --cell-size" | "simplify --drape-size" | \
+      "simplify --normal-map" | "simplify --min-shape" | "simplify --time-limit" | "simplify --lods" | \
+      "simplify --nodata" | "simplify --fill-distance" | "simplify --background" | "simplify --outline-tolerance" | \
+      "simplify --falloff" | "simplify --breakline-z" | "simplify --inset" | "simplify --cliff" | \
+      "simplify --ridges" | "simplify --water-percentile" | "simplify --detect-flats" | "simplify --min-angle" | \
+      "simplify --max-edge" | "simplify --grade" | "simplify --base" | "simplify --split" | "simplify --memory" | \
+      "simplify -j" | "simplify --num-threads" | "simplify --texture-weight" | "simplify --channel-weights" | \
+      "simplify --layer" | "simplify --z-field" | "simplify --shape-threshold" | "simplify --supersample" | \
+      "measure --fail-above" | "measure --band" | "measure --te" | "measure --resolution" | "measure --z-scale" | \
+      "measure --z-offset" | "measure --cell-size" | "measure --nodata" | "measure --falloff" | "measure --inset" | \
+      "measure --memory" | "measure -j" | "measure --num-threads" | "measure --texture-weight" | \
+      "measure --channel-weights" | "measure --layer" | "measure --z-field" | "info --band" | "info --te" | \
+      "info --resolution" | "info --z-scale" | "info --z-offset" | "info --cell-size" | "info --nodata" | \
+      "info --layer" | "info --z-field" | "generate --seed" | "generate --range" | "generate --size")
       return
       ;;
     "simplify --objective")
@@ -48,12 +50,16 @@ _scarp() {
       COMPREPLY=($(compgen -W 'glb obj ply stl tin 2dm vtu vtp landxml dxf gpkg 3mf svg eps dem' -- "$current"))
       return
       ;;
-    "simplify --preview" | "simplify --render" | "simplify --error-raster" | "simplify --report" | \
-      "simplify --mask" | "simplify --tolerance" | "simplify --roi" | "simplify --script" | "simplify --breaklines" | \
-      "simplify --cutline" | "simplify --water" | "simplify --rivers" | "simplify --texture" | "measure --map" | \
-      "measure --error-raster" | "measure --mask" | "measure --tolerance" | "measure --roi" | "measure --script" | \
-      "measure --cutline" | "measure --texture")
+    "simplify --drape" | "simplify --preview" | "simplify --render" | "simplify --error-raster" | \
+      "simplify --report" | "simplify --mask" | "simplify --tolerance" | "simplify --roi" | "simplify --script" | \
+      "simplify --breaklines" | "simplify --cutline" | "simplify --water" | "simplify --rivers" | \
+      "simplify --texture" | "measure --map" | "measure --error-raster" | "measure --mask" | "measure --tolerance" | \
+      "measure --roi" | "measure --script" | "measure --cutline" | "measure --texture")
       COMPREPLY=($(compgen -f -- "$current"))
+      return
+      ;;
+    "simplify --drape-format")
+      COMPREPLY=($(compgen -W 'jpeg png webp' -- "$current"))
       return
       ;;
     "simplify --effort")
@@ -121,28 +127,30 @@ _scarp() {
   if [[ $current == -* ]]; then
     case $command in
       simplify)
-        options+=' --max-error --max-triangles --max-points --objective --band --decode --z-scale --z-offset'
-        options+=' --cell-size --crs --up --double --of --normals --uvs --preview'
-        options+=' --render --error-raster --report --overwrite --effort --vertices --min-shape --time-limit'
-        options+=' --nodata --nodata-policy --fill-distance --background --outline-tolerance --mask --tolerance --roi'
-        options+=' --falloff --script --breaklines --breakline-z --soft-breaklines --line-conflict --cutline --inset'
-        options+=' --mask-outside --cliff --ridges --keep-ridges --water --water-percentile --detect-flats --rivers'
-        options+=' --min-angle --max-edge --grade --base --solid --split --memory --num-threads'
-        options+=' --quiet --timing --json-progress --help --help-all --version --texture --texture-weight'
-        options+=' --image --norm --channel-weights --points --duplicates --layer --z-field --order'
-        options+=' --importance --one-pass --algorithm --batch --edges --edge-score --shape-threshold --supersample'
+        options+=' --max-error --max-triangles --max-points --objective --band --te --resolution --decode'
+        options+=' --z-scale --z-offset --cell-size --crs --up --double --of --normals'
+        options+=' --uvs --compress --drape --drape-size --drape-format --normal-map --preview --render'
+        options+=' --error-raster --report --overwrite --effort --vertices --min-shape --time-limit --lods'
+        options+=' --lods-in-one --lock-border --nodata --nodata-policy --fill-distance --background --outline-tolerance --mask'
+        options+=' --tolerance --roi --falloff --script --breaklines --breakline-z --soft-breaklines --line-conflict'
+        options+=' --cutline --inset --mask-outside --cliff --ridges --keep-ridges --water --water-percentile'
+        options+=' --detect-flats --rivers --min-angle --max-edge --grade --base --solid --split'
+        options+=' --memory --num-threads --quiet --timing --json-progress --help --help-all --version'
+        options+=' --texture --texture-weight --image --norm --channel-weights --points --duplicates --layer'
+        options+=' --z-field --order --importance --one-pass --algorithm --batch --edges --edge-score'
+        options+=' --shape-threshold --supersample'
         ;;
       measure)
-        options+=' --fail-above --band --decode --z-scale --z-offset --cell-size --crs --up'
-        options+=' --json --map --error-raster --overwrite --nodata --mask --tolerance --roi'
-        options+=' --falloff --script --cutline --inset --mask-outside --memory --num-threads --quiet'
-        options+=' --json-progress --help --help-all --version --texture --texture-weight --image --norm'
-        options+=' --channel-weights --points --duplicates --layer --z-field'
+        options+=' --fail-above --band --te --resolution --decode --z-scale --z-offset --cell-size'
+        options+=' --crs --up --json --map --error-raster --overwrite --nodata --mask'
+        options+=' --tolerance --roi --falloff --script --cutline --inset --mask-outside --memory'
+        options+=' --num-threads --quiet --json-progress --help --help-all --version --texture --texture-weight'
+        options+=' --image --norm --channel-weights --points --duplicates --layer --z-field'
         ;;
       info)
-        options+=' --band --decode --z-scale --z-offset --cell-size --crs --no-suggest --json'
-        options+=' --nodata --quiet --json-progress --help --help-all --version --points --layer'
-        options+=' --z-field'
+        options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --crs'
+        options+=' --no-suggest --json --nodata --quiet --json-progress --help --help-all --version'
+        options+=' --points --layer --z-field'
         ;;
       generate)
         options+=' --seed --range --size --of --overwrite --quiet --help --help-all'
