@@ -22,10 +22,10 @@ PYTHON
 
 small=76M # the samples alone are 3 MB, so they stay in their file, and strips are low
 cut=(--cutline star.geojson)
-succeeds "$scarp" simplify hills.tif held.obj -e 12 --effort fast "${cut[@]}" --report held.json
+succeeds "$scarp" simplify hills.tif held.obj -e 12 --up z --effort fast "${cut[@]}" --report held.json
 for effort in fast normal high max; do
   for threads in 1 5; do
-    succeeds "$scarp" simplify hills.tif "cut$threads.obj" -e 12 --effort "$effort" "${cut[@]}" --memory "$small" -j "$threads" \
+    succeeds "$scarp" simplify hills.tif "cut$threads.obj" -e 12 --up z --effort "$effort" "${cut[@]}" --memory "$small" -j "$threads" \
       --report r.json --overwrite
   done
   cmp cut1.obj cut5.obj || fail "-j 5 makes another mesh with $effort effort"
@@ -61,19 +61,19 @@ for key in max_error rmse samples "cutline samples_outside"; do
 done
 
 # Beside breaklines, moved inwards, with flats and goals for angles, and nothing at all.
-succeeds "$scarp" simplify hills.tif lines.obj -e 12 "${cut[@]}" --breaklines line.geojson --inset 3 --memory "$small" --report lines.json
+succeeds "$scarp" simplify hills.tif lines.obj -e 12 --up z "${cut[@]}" --breaklines line.geojson --inset 3 --memory "$small" --report lines.json
 succeeds "$scarp" measure hills.tif lines.obj "${cut[@]}" --inset 3 --fail-above 12 --memory "$small"
 holds "$(json lines.json cutline samples_outside) > $(json held.json cutline samples_outside)"
-succeeds "$scarp" simplify hills.tif shape.obj -e 12 "${cut[@]}" --min-angle 20 --memory 80M
+succeeds "$scarp" simplify hills.tif shape.obj -e 12 --up z "${cut[@]}" --min-angle 20 --memory 80M
 succeeds "$scarp" measure hills.tif shape.obj "${cut[@]}" --fail-above 12 --memory "$small"
-succeeds "$scarp" simplify hills.tif flats.obj -e 12 "${cut[@]}" --detect-flats 20 --memory 80M
+succeeds "$scarp" simplify hills.tif flats.obj -e 12 --up z "${cut[@]}" --detect-flats 20 --memory 80M
 succeeds "$scarp" measure hills.tif flats.obj "${cut[@]}" --fail-above 12.5 --memory "$small"
-refuses 2 "beside the raster" "$scarp" simplify hills.tif x.obj -e 12 --memory "$small" \
+refuses 2 "beside the raster" "$scarp" simplify hills.tif x.obj -e 12 --up z --memory "$small" \
   --cutline away.geojson
 
 # Along cells of the grid: what is nodata in memory is nodata here.
-succeeds "$scarp" simplify hills.tif mask1.obj -e 12 --effort fast "${cut[@]}" --mask-outside --memory "$small" --report mask1.json
-succeeds "$scarp" simplify hills.tif mask2.obj -e 12 --effort fast "${cut[@]}" --mask-outside --report mask2.json
+succeeds "$scarp" simplify hills.tif mask1.obj -e 12 --up z --effort fast "${cut[@]}" --mask-outside --memory "$small" --report mask1.json
+succeeds "$scarp" simplify hills.tif mask2.obj -e 12 --up z --effort fast "${cut[@]}" --mask-outside --report mask2.json
 for key in "cutline samples_outside" samples "input valid" "input min" "input max"; do
   # shellcheck disable=SC2086
   [ "$(json mask1.json $key)" = "$(json mask2.json $key)" ] || fail "--mask-outside leaves another $key in little memory"

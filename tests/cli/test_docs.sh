@@ -111,6 +111,7 @@ END
       "measure --duplicates") continue ;; # asked after the mesh is read
       "simplify --norm") try "$scarp" simplify "$dem" out.obj -e 1 --image "$option" nonsense ;;
       "simplify --edge-score") try "$scarp" simplify "$dem" out.obj -e 1 --edges data "$option" nonsense ;;
+      "simplify --drape-format") try "$scarp" simplify "$dem" out.glb -e 1 --drape "$dem" "$option" nonsense ;;
       "simplify --line-conflict") try "$scarp" simplify "$dem" out.obj -e 1 --breaklines lines "$option" nonsense ;;
       "measure --norm") try "$scarp" measure "$dem" out.obj --image "$option" nonsense ;;
       simplify*) try "$scarp" simplify "$dem" out.obj -e 1 "$option" nonsense ;;

@@ -41,7 +41,7 @@ gzip -k grid.asc
 gdal_translate -q -of PNG -scale 200 1100 0 65535 -ot UInt16 "$dem" picture.png
 rm -f ./*.aux.xml
 before=$(ls)
-refuses 2 "area.gml: holds vector data (GML)" "$scarp" info area.gml
+refuses 2 "area.gml: holds no layer of points" "$scarp" info area.gml
 try "$scarp" simplify "$dem" "$logs/o.glb" -e 50 --cutline area.gml --mask-outside --overwrite
 [ "$code" != 70 ] || fail "exit code 70 with a cutline in GML"
 for file in grid.asc /vsigzip/grid.asc.gz picture.png; do
@@ -74,7 +74,8 @@ refuses 2 "HDF4 is not read" "$scarp" simplify HDF4_SDS:UNKNOWN:old.hdf:0 o.glb 
 
 # Every sentence names its file.
 printf 'ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9\n-9 1\n2 -9\n' > diagonal.asc
-refuses 2 "diagonal.asc: the raster has no grid cell" "$scarp" info diagonal.asc
+try "$scarp" info diagonal.asc
+[ "$code" = 2 ] && grep -q '^scarp: diagonal.asc: the raster has no grid cell' "$logs/err" || fail "info does not name its file"
 python3 -c 'import struct; open("huge.dat", "wb").write(struct.pack("<4d", 1e300, 2e300, 3e300, 4e300))'
 printf 'ENVI\nsamples = 2\nlines = 2\nbands = 1\ndata type = 5\nbyte order = 0\ninterleave = bsq\n' > huge.hdr
 refuses 2 "huge.dat: none of its 2 x 2 samples is a height: 4 are infinite or beyond what a float32 holds (3.4e38), so scale them first" \

@@ -22,7 +22,7 @@ small=76M # the samples alone are 5 MB, so they stay in their file, and strips a
 for lines in soft hard; do
   for effort in fast normal high; do
     for threads in 1 2; do
-      succeeds "$scarp" simplify hills.tif "$lines$threads.obj" -e 12 --effort "$effort" --breaklines "$lines.geojson" \
+      succeeds "$scarp" simplify hills.tif "$lines$threads.obj" -e 12 --up z --effort "$effort" --breaklines "$lines.geojson" \
         --memory "$small" -j "$threads" --report r.json --overwrite
     done
     cmp "${lines}1.obj" "${lines}2.obj" || fail "-j 2 makes another mesh with $lines lines and $effort effort"
@@ -36,7 +36,7 @@ for lines in soft hard; do
     fi
   done
 done
-succeeds "$scarp" simplify hills.tif rivers.obj -e 12 --rivers rivers.geojson --memory "$small" --report r.json --overwrite
+succeeds "$scarp" simplify hills.tif rivers.obj -e 12 --up z --rivers rivers.geojson --memory "$small" --report r.json --overwrite
 holds "$(json r.json rivers 0 source) > $(json r.json rivers 0 mouth)"
 holds "$(json r.json max_error) <= 12"
 
@@ -44,4 +44,4 @@ holds "$(json r.json max_error) <= 12"
 python3 -c "
 import json
 json.dump({'type': 'LineString', 'coordinates': [[i % 1300, i // 1300] for i in range(90000)]}, open('long.geojson', 'w'))"
-refuses 1 "--memory $small is too little" "$scarp" simplify hills.tif x.obj -e 12 --memory "$small" --breaklines long.geojson
+refuses 1 "--memory $small is too little" "$scarp" simplify hills.tif x.obj -e 12 --up z --memory "$small" --breaklines long.geojson

@@ -16,7 +16,7 @@ python3 - good.json <<'PYTHON'
 import json, sys
 r = json.load(open(sys.argv[1]))
 assert list(r) == ["scarp", "command", "input", "frame", "mesh", "vertices", "triangles", "full_triangles", "max_error",
-                   "max_error_at", "rmse", "mean_error", "mean_abs_error", "p50", "p95", "p99", "p999", "cutline", "samples", "uncovered",
+                   "max_error_at", "rmse", "mean_error", "mean_abs_error", "p50", "p95", "p99", "p999", "max_error_place", "cutline", "samples", "uncovered",
                    "stray", "void_cells_covered", "topology", "fail_above", "passed", "seconds", "warnings"], list(r)
 assert r["fail_above"] is None and r["passed"] is None
 assert list(r["seconds"]) == ["read", "measure", "total"]

@@ -19,8 +19,8 @@ grep -q '^  read as *mosaic of 3 rasters' "$logs/out" || fail "the summary does 
 [ "$(json tiles.json input view)" = '"mosaic of 3 rasters"' ] || fail "the report does not tell of the mosaic"
 succeeds "$scarp" simplify -e 20 tiles folder.stl
 same whole.stl folder.stl
-succeeds "$scarp" measure tiles tiles.stl --crs source --fail-above 20
-succeeds "$scarp" measure tiles/a.tif tiles/b.tif tiles/c.tif tiles.stl --crs source --fail-above 20
+succeeds "$scarp" measure tiles tiles.stl --fail-above 20
+succeeds "$scarp" measure tiles/a.tif tiles/b.tif tiles/c.tif tiles.stl --fail-above 20
 succeeds "$scarp" info tiles/a.tif tiles/b.tif
 grep -q '403 columns x 344 rows' "$logs/out" || fail "info does not see the mosaic"
 
@@ -78,7 +78,7 @@ succeeds "$scarp" simplify few.tif means.tif -e 0 --resolution 2
 grep -q 'read as *means of 2 x 2 cells, 2 x 2 each (without the last 1 columns and 0 rows)' "$logs/out" || fail "the summary does not tell the means"
 [ "$(gdal_translate -q -of XYZ means.tif /vsistdout/ | cut -d' ' -f3 | head -3 | tr '\n' ' ')" = "2 4 7.75 " ] || fail "wrong means"
 succeeds "$scarp" simplify utm.tif memory.stl -e 10 --resolution 100 --effort fast
-succeeds "$scarp" measure utm.tif memory.stl --crs source --resolution 100 --fail-above 10
+succeeds "$scarp" measure utm.tif memory.stl --resolution 100 --fail-above 10
 gdaladdo -q -r nearest utm.tif 2 4
 succeeds "$scarp" simplify utm.tif overview.stl -e 10 --resolution 100 --effort fast
 same memory.stl overview.stl

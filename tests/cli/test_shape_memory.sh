@@ -28,20 +28,20 @@ echo '{"type": "FeatureCollection", "features": [{"type": "Feature", "properties
  {"type": "LineString", "coordinates": [[5.3, 7.1], [990.7, 733.2]]}}, {"type": "Feature", "properties": {}, "geometry":
  {"type": "LineString", "coordinates": [[-50, 512], [1100, 512]]}}]}' >lines.geojson
 for effort in fast high; do
-  within "$limit" "$scarp" simplify hills.tif lines.obj -e 12 --min-angle 20 --max-edge 60 --breaklines lines.geojson \
+  within "$limit" "$scarp" simplify hills.tif lines.obj --up z -e 12 --min-angle 20 --max-edge 60 --breaklines lines.geojson \
     --effort "$effort" --memory "${limit}M" --report r.json --overwrite
   read -r count smallest shortest longest < <(python3 "$shape_of" lines.obj)
   holds "$longest <= 60"
   [ "$(json r.json shape below)" = "$(json r.json shape forced)" ] || fail "angles are small where no lines meet"
   [ "$(json r.json topology sound)" = true ] || fail "$effort effort makes an unsound mesh"
   python3 "$SCARP_SOURCE/tests/cli/walk_lines.py" lines.obj lines.geojson 1000 800 40 || fail "lines are lost with $effort effort"
-  succeeds "$scarp" measure hills.tif lines.obj --fail-above 12
+  succeeds "$scarp" measure hills.tif lines.obj --up z --fail-above 12
 done
 
-within "$limit" "$scarp" simplify hills.tif graded.obj -e 12 --grade 0.3 --max-edge 80 --effort normal --memory "${limit}M"
+within "$limit" "$scarp" simplify hills.tif graded.obj --up z -e 12 --grade 0.3 --max-edge 80 --effort normal --memory "${limit}M"
 read -r count smallest shortest longest < <(python3 "$shape_of" graded.obj)
 holds "$longest <= 80"
-succeeds "$scarp" measure hills.tif graded.obj --fail-above 12
+succeeds "$scarp" measure hills.tif graded.obj --up z --fail-above 12
 
 # What is refused stays within the limit until then, and what could never be had is refused at once.
 refuses_within() {

@@ -20,7 +20,7 @@ r = json.load(open(sys.argv[1]))
 assert list(r) == ["scarp", "command", "input", "frame", "goal", "strategy", "breaklines", "water", "rivers", "cliffs", "ridges", "shape", "cutline", "stopped_by", "vertices", "triangles",
                    "full_triangles", "outline_triangles", "max_error", "max_error_at", "rmse", "mean_error", "mean_abs_error", "p50", "p95", "p99", "p999", "ignored",
                    "max_error_place",
-                   "samples", "uncovered", "stray", "void_cells_covered", "topology", "work", "passes", "seconds", "outputs",
+                   "samples", "uncovered", "stray", "void_cells_covered", "topology", "levels", "work", "passes", "seconds", "outputs",
                    "warnings"], list(r)
 assert r["command"].startswith("scarp simplify ") and r["command"].endswith(" hills.glb -e 20 --preview hills.png --report hills.json")
 i = r["input"]

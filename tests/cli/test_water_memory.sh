@@ -23,9 +23,9 @@ small=76M # the samples stay in their file, and strips are low
 check() { # check NAME RASTER EFFORT OPTION...: runs with --memory, their report against that of one without
   local name=$1 raster=$2 effort=$3 threads
   shift 3
-  [ -e "$name.held" ] || succeeds "$scarp" simplify "$raster" held.obj -e 6 --effort fast "$@" --report "$name.held" --overwrite
+  [ -e "$name.held" ] || succeeds "$scarp" simplify "$raster" held.obj -e 6 --up z --effort fast "$@" --report "$name.held" --overwrite
   for threads in 1 5; do
-    succeeds "$scarp" simplify "$raster" "$name$threads.obj" -e 6 --effort "$effort" "$@" --memory "$small" -j "$threads" \
+    succeeds "$scarp" simplify "$raster" "$name$threads.obj" -e 6 --up z --effort "$effort" "$@" --memory "$small" -j "$threads" \
       --report "$name.json" --overwrite
   done
   cmp "${name}1.obj" "${name}5.obj" || fail "-j 5 makes another mesh with $* and $effort effort"
@@ -66,6 +66,6 @@ python3 -c "
 import json
 ring = [[i % 1000 + i / 90000, i // 1000 * 5 + 3.5 * (i % 2)] for i in range(90000)]
 json.dump({'type': 'Polygon', 'coordinates': [ring + ring[:1]]}, open('long.geojson', 'w'))"
-refuses 1 "--memory $small is too little: " "$scarp" simplify smooth.tif x.obj -e 6 --memory "$small" --water long.geojson
-refuses 1 "--memory $small is too little: flat areas and their shores take" "$scarp" simplify sea.tif x.obj -e 6 \
+refuses 1 "--memory $small is too little: " "$scarp" simplify smooth.tif x.obj -e 6 --up z --memory "$small" --water long.geojson
+refuses 1 "--memory $small is too little: flat areas and their shores take" "$scarp" simplify sea.tif x.obj -e 6 --up z \
   --memory "$small" --detect-flats 3
