@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "options/level_options.h"
+#include "reports/report.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
