@@ -7,7 +7,7 @@ gdal_translate -q -of GTiff -co TILED=YES -co BLOCKXSIZE=64 -co BLOCKYSIZE=64 "$
 
 # A server that answers the first requests and then falls silent, or drips a byte now and then.
 cat > "$logs/server.py" <<'PYTHON'
-import http.server, re, socketserver, sys, time
+import http.server, os, re, socketserver, sys, time
 path, port_file, mode = sys.argv[1:]
 data = open(path, "rb").read()
 served = 0
@@ -45,7 +45,7 @@ class Server(socketserver.ThreadingMixIn, http.server.HTTPServer):
         pass  # the run has gone, as it should
 
 server = Server(("127.0.0.1", 0), Handler)
-open(port_file, "w").write(f"{server.server_port}\n")
+open(port_file, "w").write(f"{server.server_port} {os.getpid()}\n")
 server.serve_forever()
 PYTHON
 
@@ -76,10 +76,11 @@ trap 'kill $servers 2> /dev/null || true; rm -rf "$root"' EXIT
 trap "exit 1" TERM INT
 for mode in silent later drip; do
   rm -f "$logs/port"
-  python3 "$logs/server.py" "$logs/tiled.tif" "$logs/port" $mode &
-  servers="$servers $!"
+  python3 "$logs/server.py" "$logs/tiled.tif" "$logs/port" $mode > "$logs/server" 2>&1 &
   until [ -s "$logs/port" ]; do sleep 0.02; done
-  ends_soon "a server that is $mode" TERM "$scarp" simplify "http://127.0.0.1:$(cat "$logs/port")/tiled.tif" out.glb -e 5
+  read -r port server < "$logs/port"
+  servers="$servers $server"
+  ends_soon "a server that is $mode" TERM "$scarp" simplify "http://127.0.0.1:$port/tiled.tif" out.glb -e 5
 done
 
 # Pipes that nobody writes, and that nobody reads.
