@@ -30,7 +30,10 @@ void register_drivers() {
   GDALAllRegister();
   if (!are_ours) return;
   for (const char* name : kUnsafeDrivers) {
-    if (GDALDriverH driver = GDALGetDriverByName(name)) GDALDeregisterDriver(driver);
+    if (GDALDriverH driver = GDALGetDriverByName(name)) {
+      GDALDeregisterDriver(driver);
+      GDALDestroyDriver(driver);
+    }
   }
 }
 
