@@ -45,7 +45,7 @@ RC_GTEST_PROP(scan, visits_exactly_a_sliver, ()) {
   const auto point = [&] { return Point{*rc::gen::inRange(0, width + 1), *rc::gen::inRange(0, height)}; };
   std::array<Point, 3> corners{point(), point(), point()};
   if (orient(corners[0], corners[1], corners[2]) < 0) std::swap(corners[1], corners[2]);
-  RC_PRE(orient(corners[0], corners[1], corners[2]) > 0);
+  if (orient(corners[0], corners[1], corners[2]) == 0) corners = {Point{0, 0}, Point{width, height - 2}, Point{0, 1}};
   Lattice expected;
   for (std::int32_t y = 0; y < height; ++y) {
     for (std::int32_t x = 0; x <= width; ++x) {
