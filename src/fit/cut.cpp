@@ -209,9 +209,14 @@ bool PatchCutter::is_on_free_side(const LatticePoint& p, const LatticePoint& q) 
   return p.y == 0 ? free_sides_.top : free_sides_.bottom;
 }
 
-Triangulation PatchCutter::join(std::vector<Patch> patches, const std::vector<std::vector<Vertex>>& vertices,
+Triangulation PatchCutter::join(std::vector<Patch> patches, std::vector<std::vector<Vertex>> vertices,
                                 std::vector<Vertex>& numbers, VertexLattice& joined) const {
   Parts parts;
+  auto names = static_cast<Vertex>(tin_.vertex_count());
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    while (vertices[i].size() < patches[i].node_count()) vertices[i].push_back(names++);
+  }
+  parts.numbers.assign(names, 0);
   number_vertices(patches, vertices, parts);
   place_vertices(patches, vertices, parts, joined);
   parts.begins.assign(1, 0);
@@ -266,15 +271,14 @@ HalfEdge PatchCutter::name_now(HalfEdge before, const Parts& parts) const {
 
 void PatchCutter::number_vertices(const std::vector<Patch>& patches, const std::vector<std::vector<Vertex>>& vertices,
                                   Parts& parts) const {
-  parts.numbers.assign(tin_.vertex_count(), 0);
   for (std::size_t i = 0; i < patches.size(); ++i) {
     for (Patch::Id v = 0; v < patches[i].node_count(); ++v) {
       if (patches[i].is_removed(v)) parts.numbers[vertices[i][v]] = kNone;
     }
   }
   Vertex count = 0;
-  for (Vertex v = 0; v < tin_.vertex_count(); ++v) {
-    if (parts.numbers[v] != kNone) parts.numbers[v] = count++;
+  for (Vertex& number : parts.numbers) {
+    if (number != kNone) number = count++;
   }
   parts.arrays.points.resize(count);
 }

@@ -44,8 +44,9 @@ class PatchCutter {
   /// The triangulation with the patches in the place of their triangles, patch by patch, then those outside; vertices
   /// that are removed in a patch are left out, those that were moved are where they are now. `numbers`: by old vertex
   /// its new number, or kNone. `joined`: of the new vertices, by the steps that it is given with. REQUIRES: patches are
-  /// packed; steps as in the cutter's lattice, or 1 there and kLatticeSteps in `joined`. Fixed vertices stay fixed.
-  Triangulation join(std::vector<Patch> patches, const std::vector<std::vector<Vertex>>& vertices,
+  /// packed; steps as in the cutter's lattice, or 1 there and kLatticeSteps in `joined`. Fixed vertices stay fixed. Nodes
+  /// beyond those that a patch was cut with are new vertices, whose numbers follow.
+  Triangulation join(std::vector<Patch> patches, std::vector<std::vector<Vertex>> vertices,
                      std::vector<Vertex>& numbers, VertexLattice& joined) const;
 
  private:

@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -36,15 +37,23 @@ namespace scarp {
 struct FitDepth {
   int rounds = 0;  ///< over all vertices, of removal with repair (schedule.h)
   RepairDepth repair = {};
-  int polishes = 0;  ///< sweeps over free vertices in the end, that lower the mean error by some 2 to 4 %
+  int polishes = 0;  ///< sweeps in the end that lower the squared error
 };
 
 /// With free vertices, over the 19 cases of repair.h: 0.291 of greedy's triangles (0.303 with shapes of at least a
 /// tenth, in 5 to 30 times its time), with an RMSE 1.10 times as large.
-inline constexpr FitDepth kHighDepth{2, {4, 1.5, false}, 3};
+inline constexpr FitDepth kHighDepth{2, {4, 1.5, false}, 9};
 /// With shapes of at least a tenth, over the 42 cases of bench/quality/efforts.csv: 0.295 of greedy's triangles, with
 /// an RMSE 1.20 times as large, in 8 to 128 times its time.
-inline constexpr FitDepth kMaxDepth{3, {6, 2.5, true, true, true}, 3};
+inline constexpr FitDepth kMaxDepth{3, {6, 2.5, true, true, true}, 9};
+
+inline constexpr std::uint64_t kNoBudget = std::numeric_limits<std::uint64_t>::max();
+
+/// A budget, within which the squared error is to become small (square_rounds.h).
+struct SquareGoal {
+  std::uint64_t most_triangles = kNoBudget, most_vertices = kNoBudget;
+  int exchanges = 6;
+};
 
 struct FitOptions {
   double threshold = 0;
@@ -62,6 +71,9 @@ struct FitOptions {
   /// Floor of the shapes of triangles, 2·area over the longest edge squared (rules.h); 0: none. A tenth costs 2 to 6 %
   /// of the triangles and saves time. Triangles of the mesh that is given may lie below; no move makes the worst worse.
   double min_shape = 0;
+  /// The floor does not bind removal, which comes first, nor repair of patches where more than kThinShare of what
+  /// removal leaves lies below it: there long thin triangles are what the heights want.
+  bool floor_yields = false;
   double aspect = 1;  ///< of a sample: its height over its width, which shapes are reckoned with
   /// Replaces these two: angles, lengths of edges. DEFAULT: none.
   std::optional<ShapeRule> shape = std::nullopt;
@@ -82,7 +94,13 @@ struct FitOptions {
   /// Until the time is up rounds go on beyond those of the depth, if that has any, each after all vertices have been
   /// shaken, until two in a row gain less than a thousandth.
   bool goes_on = false;
+  /// In place of removal and rounds. DEFAULT: none.
+  std::optional<SquareGoal> squares = std::nullopt;
 };
+
+/// Of the triangles of a patch. Removal leaves 0.03 to 0.11 of them below a floor of a tenth on natural land, 0.04 to
+/// 0.15 on trees, 0.27 to 0.51 on buildings.
+inline constexpr double kThinShare = 0.15;
 
 /// A patch of so many triangles and what belongs to it fits the caches of one core.
 inline constexpr std::int64_t kPatchTriangles = 8192;

@@ -1,6 +1,7 @@
 #include "fit/flips.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace scarp {
 
@@ -46,10 +47,31 @@ bool Flips::improve(const TriangleError& error, Patch::Id face, unsigned edge) {
     refused = trial;
     return false;
   }
+  flip(q, near, far);
+  return true;
+}
+
+bool Flips::heal(const TriangleError& error, Patch::Id face, unsigned edge) {
+  constexpr double kWorthFlip = 1.01;
+  if (!shape_.is_on() || Patch::is_border(patch_.face(face).links[edge])) return false;
+  const Patch::Quad q = patch_.quad(face, edge);
+  const FitCorner &a = patch_.at(q.a), &b = patch_.at(q.b), &c = patch_.at(q.c), &d = patch_.at(q.d);
+  const double before = std::min(shape_.shape(a, b, c), shape_.shape(b, a, d));
+  if (before >= shape_.floor || area2(c, a, d) <= 0 || area2(d, b, c) <= 0) return false;
+  if (std::min(shape_.shape(c, a, d), shape_.shape(d, b, c)) < kWorthFlip * before) return false;
+  constexpr float kAnyEnergy = std::numeric_limits<float>::infinity();
+  const auto near = error.assess(c, a, d, kAnyEnergy);
+  if (near.kind != TriangleError::Verdict::Kind::kKeeps) return false;
+  const auto far = error.assess(d, b, c, kAnyEnergy);
+  if (far.kind != TriangleError::Verdict::Kind::kKeeps) return false;
+  flip(q, near, far);
+  return true;
+}
+
+void Flips::flip(const Patch::Quad& q, const TriangleError::Verdict& near, const TriangleError::Verdict& far) {
   patch_.flip(q);
   patch_.set_measure(q.face, near.worst, near.energy);
   patch_.set_measure(q.beyond, far.worst, far.energy);
-  return true;
 }
 
 }  // namespace scarp

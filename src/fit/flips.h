@@ -28,6 +28,10 @@ class Flips {
   /// two scans, none where the same was refused lately.
   bool improve(const TriangleError& error, Patch::Id face, unsigned edge);
 
+  /// Flips the edge if the worse of the two triangles has a shape below the floor, and a better one afterwards,
+  /// whatever the energies become; whether it did. REQUIRES as improve(). Cost: two scans at most, mostly none.
+  bool heal(const TriangleError& error, Patch::Id face, unsigned edge);
+
  private:
   /// A flip and what must be gained, whichever of the two triangles it is seen from.
   struct Trial {
@@ -41,6 +45,7 @@ class Flips {
   bool has_shape(const Patch::Quad& q) const;
   Trial trial_of(const Patch::Quad& q, float limit) const;
   Trial& place_of(const Patch::Quad& q);
+  void flip(const Patch::Quad& q, const TriangleError::Verdict& near, const TriangleError::Verdict& far);
 
   Patch& patch_;
   ShapeRule shape_;

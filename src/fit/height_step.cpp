@@ -41,6 +41,12 @@ HeightStep best_height(const TriangleError::Moments& moments, double lowest, dou
   return best.energy < level.energy ? best : level;
 }
 
+HeightStep best_even_height(const TriangleError::Moments& moments, double lowest, double highest) {
+  if (!(moments[2] > 0)) return {0, moments[0]};
+  const double rise = std::clamp(-moments[1] / moments[2], lowest, highest);
+  return {rise, std::max(moments[0] + rise * (2 * moments[1] + rise * moments[2]), 0.0)};
+}
+
 double energy_after(const TriangleError::Moments& moments, double rise) {
   double sum = 0;
   for (std::size_t k = moments.size(); k-- > 0;) sum = sum * rise + kBinomials[k] * moments[k];

@@ -24,6 +24,9 @@ struct HeightStep {
 /// a polynomial, which leave it within 2⁻¹⁶ · scale of where it is, or 2⁻¹⁶ of its own rise.
 HeightStep best_height(const TriangleError::Moments& moments, double lowest, double highest, double scale = 1);
 
+/// The same for the energy Σ t², which is a parabola.
+HeightStep best_even_height(const TriangleError::Moments& moments, double lowest, double highest);
+
 /// The energy after a rise.
 double energy_after(const TriangleError::Moments& moments, double rise);
 

@@ -50,7 +50,7 @@ class NormError {
   /// What the samples want of the first corner, a Pull for each field. The energy's derivatives for the sum of squares
   /// and the largest error, of which the eighth powers are summed up; the other's are reckoned as if it were the first.
   /// REQUIRES, cost: as assess().
-  void pull(const Corners& corners, std::vector<Pull>& pulls) const;
+  void pull(const Corners& corners, ErrorRule::Power power, std::vector<Pull>& pulls) const;
 
   const Raster& heights() const { return samples_.heights; }
   Point first() const { return samples_.first; }

@@ -21,14 +21,15 @@ Floats sixth_power(Floats values) {
 }
 
 /// The weight of all fields' errors at four samples; of the largest error's field each has its own.
-template <Norm kNorm>
+template <Norm kNorm, ErrorRule::Power kPower>
 Floats weight_of(Floats norm, Floats error) {
+  if constexpr (kPower == ErrorRule::Power::kTwo) return all(1);
   if constexpr (kNorm == Norm::kMax) return sixth_power(error);
   if constexpr (kNorm == Norm::kSum) return sixth_power(norm);
   return norm * norm * norm;
 }
 
-template <Norm kNorm>
+template <Norm kNorm, ErrorRule::Power kPower>
 void sum_up(const NormScan& scan, const NormPlanes& planes, std::array<FieldSums, kMostFitFields>& sums) {
   const auto& [a, b, c] = planes.task.corners;
   constexpr double kStep = 1.0 / kLatticeSteps;
@@ -54,8 +55,8 @@ void sum_up(const NormScan& scan, const NormPlanes& planes, std::array<FieldSums
       }
       const FieldErrors share = in_bounds(row + slope * places.left, row + slope * places.right);
       for (std::size_t k = 0; k < count; ++k) {
-        const Floats low = weight_of<kNorm>(norms.low, errors[k].low) * share.low;
-        const Floats high = weight_of<kNorm>(norms.high, errors[k].high) * share.high;
+        const Floats low = weight_of<kNorm, kPower>(norms.low, errors[k].low) * share.low;
+        const Floats high = weight_of<kNorm, kPower>(norms.high, errors[k].high) * share.high;
         sums[k].stiffness += low * share.low + high * share.high;
         sums[k].push += low * errors[k].low + high * errors[k].high;
       }
@@ -64,21 +65,30 @@ void sum_up(const NormScan& scan, const NormPlanes& planes, std::array<FieldSums
   });
 }
 
+template <ErrorRule::Power kPower>
+void sum_up(const NormScan& scan, const NormPlanes& planes, Norm norm, std::array<FieldSums, kMostFitFields>& sums) {
+  if (norm == Norm::kMax) {
+    sum_up<Norm::kMax, kPower>(scan, planes, sums);
+  } else if (norm == Norm::kSum) {
+    sum_up<Norm::kSum, kPower>(scan, planes, sums);
+  } else {
+    sum_up<Norm::kSquares, kPower>(scan, planes, sums);
+  }
+}
+
 }  // namespace
 
-void NormError::pull(const Corners& corners, std::vector<Pull>& pulls) const {
+void NormError::pull(const Corners& corners, ErrorRule::Power power, std::vector<Pull>& pulls) const {
   pulls.assign(field_count(), {});
   const NormScan scan = this->scan();
   const NormPlanes planes(scan, corners);
   if (!planes.are_finite) return;
   std::array<FieldSums, kMostFitFields> sums;
   std::fill_n(sums.begin(), field_count(), FieldSums{});
-  if (norm() == Norm::kMax) {
-    sum_up<Norm::kMax>(scan, planes, sums);
-  } else if (norm() == Norm::kSum) {
-    sum_up<Norm::kSum>(scan, planes, sums);
+  if (power == ErrorRule::Power::kTwo) {
+    sum_up<ErrorRule::Power::kTwo>(scan, planes, norm(), sums);
   } else {
-    sum_up<Norm::kSquares>(scan, planes, sums);
+    sum_up<ErrorRule::Power::kEight>(scan, planes, norm(), sums);
   }
   for (std::size_t k = 0; k < field_count(); ++k) {
     const FieldPlane& plane = planes.fields[k];

@@ -85,6 +85,49 @@ void Patch::remove(Id v, const Star& star, std::span<const RingTriangle> triangl
   name_face(v, kNone);
 }
 
+Patch::Id Patch::insert(const FitCorner& at, Id f) {
+  const Face face = faces_[f];
+  const std::array<Rim, 3> rim{
+      {{face.corners[0], face.links[0]}, {face.corners[1], face.links[1]}, {face.corners[2], face.links[2]}}};
+  return fan(at, rim, {f}, 1);
+}
+
+Patch::Id Patch::insert(const FitCorner& at, Id f, unsigned edge) {
+  const Face near = faces_[f];
+  const Id beyond = triangle_of(near.links[edge]);
+  const unsigned back = edge_of(near.links[edge]);
+  const Face far = faces_[beyond];
+  const unsigned bc = next(edge), ca = previous(edge), ad = next(back), db = previous(back);
+  const std::array<Rim, 4> rim{{{near.corners[bc], near.links[bc]},
+                                {near.corners[ca], near.links[ca]},
+                                {far.corners[ad], far.links[ad]},
+                                {far.corners[db], far.links[db]}}};
+  return fan(at, rim, {f, beyond}, 2);
+}
+
+/// The new vertex' triangles over the edges of a rim, in the place of the faces that are reused and in new ones.
+Patch::Id Patch::fan(const FitCorner& at, std::span<const Rim> rim, std::array<Id, 4> faces, std::size_t reused) {
+  const auto v = static_cast<Id>(nodes_.size());
+  nodes_.push_back({at, faces[0]});
+  locked_.push_back(0);
+  for (std::size_t i = reused; i < rim.size(); ++i) {
+    faces[i] = static_cast<Id>(faces_.size());
+    faces_.push_back({});
+  }
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    const std::size_t after = i + 1 == rim.size() ? 0 : i + 1;
+    Face& face = faces_[faces[i]];
+    face.corners = {v, rim[i].from, rim[after].from};
+    face.worst = face.energy = -1;
+    nodes_[rim[i].from].face = faces[i];
+  }
+  for (std::size_t i = 0; i < rim.size(); ++i) {
+    attach(faces[i], 1, rim[i].beyond);
+    attach(faces[i], 2, link_to(faces[i + 1 == rim.size() ? 0 : i + 1], 0));
+  }
+  return v;
+}
+
 Patch::Quad Patch::quad(Id f, unsigned edge) const {
   const Face& face = faces_[f];
   const Link link = face.links[edge];

@@ -94,6 +94,12 @@ class Patch {
   /// all positive, in order.
   void remove(Id v, const Star& star, std::span<const RingTriangle> triangles);
 
+  /// A new vertex within the face, or, where an edge is given, on that edge between its two faces: three, or four,
+  /// triangles around it take their place. Returns the vertex; the triangles are its star, their errors not known.
+  /// REQUIRES: they are positive; the edge is no border; no transaction is open.
+  Id insert(const FitCorner& at, Id f);
+  Id insert(const FitCorner& at, Id f, unsigned edge);
+
   /// The triangles (c, a, d) and (d, b, c) that would take the place of (a, b, c) and, beyond its edge a b, (b, a, d).
   struct Quad {
     Id face = kNone, beyond = kNone;
@@ -125,7 +131,12 @@ class Patch {
   friend class PatchCutter;
 
   /// The star from a triangle on, whose corner it belongs to; false where it ends at a border.
+  struct Rim {
+    Id from;
+    Link beyond;  // of the edge to the next
+  };
   bool walk(Id f, unsigned corner, Star& star) const;
+  Id fan(const FitCorner& at, std::span<const Rim> rim, std::array<Id, 4> faces, std::size_t reused);
   void attach(Id f, unsigned edge, Link beyond);
   Face& change(Id f) {
     face_journal_.touch(faces_, f);

@@ -47,6 +47,20 @@ bool Repair::merge(Patch::Id v, const Patch::Star& star, std::span<const Patch::
   return finish();
 }
 
+Patch::Id Repair::insert(const FitCorner& place, Patch::Id face, std::optional<unsigned> edge) {
+  const Patch::Id v = edge ? patch_.insert(place, face, *edge) : patch_.insert(place, face);
+  patch_.find_star(v, star_);
+  for (const Patch::Id f : star_.faces) measure(patch_, loose_, f);
+  ring_ = star_.ring;
+  ring_.push_back(v);
+  moved_.assign(1, v);
+  patch_.begin();
+  mend_all();
+  list_changed();
+  patch_.commit();
+  return v;
+}
+
 /// Mends what a removal broke, or takes all of it back.
 bool Repair::finish() {
   if (!mend()) {
@@ -58,7 +72,18 @@ bool Repair::finish() {
   return true;
 }
 
+void Repair::mend_all() {
+  for (const Patch::Id v : ring_) {
+    if (step_.improve(loose_, v)) moved_.push_back(v);
+  }
+  for (const Patch::Id v : ring_) flip_around(v, 0);
+}
+
 bool Repair::mend() {
+  if (depth_.mends_all) {
+    mend_all();
+    return !excess().any;
+  }
   Excess left = excess();
   for (int round = 0; left.any; ++round) {
     if (round == depth_.rounds) return false;
@@ -66,7 +91,7 @@ bool Repair::mend() {
     for (const Patch::Id v : ring_) {
       if (is_strained(v, kWorthChange) && step_.improve(loose_, v)) moved_.push_back(v);
     }
-    for (const Patch::Id v : ring_) flip_around(v);
+    for (const Patch::Id v : ring_) flip_around(v, kWorthChange);
     if (depth_.probes && round % 2 == 1) look_around(round);
     left = excess();
     if (!left.any) return true;
@@ -104,11 +129,12 @@ Repair::Excess Repair::excess() const {
   return excess;
 }
 
-void Repair::flip_around(Patch::Id v) {
+/// Edges of triangles around v that have more than this share of the threshold.
+void Repair::flip_around(Patch::Id v, double share) {
   patch_.find_star(v, star_);
   for (const Patch::Id f : star_.faces) {
     for (unsigned edge = 0; edge < 3; ++edge) {
-      if (patch_.face(f).worst > kWorthChange * loose_.threshold()) flips_.improve(loose_, f, edge);
+      if (patch_.face(f).worst > share * loose_.threshold()) flips_.improve(loose_, f, edge);
     }
   }
 }

@@ -21,6 +21,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct RepairDepth {
   bool probes = false;     ///< every second round, vertices of the ring look around themselves too (VertexStep::probe)
   bool rooms = false;      ///< heights of free vertices seek the room that the bound leaves (height_room.h)
   bool collapses = false;  ///< where vertices are free, after each round a pass of collapses (collapse.h)
+  bool mends_all = false;  ///< one round over all of the ring, whether it is near the bound or not
 };
 
 class Repair {
@@ -55,7 +57,11 @@ class Repair {
   bool merge(Patch::Id v, const Patch::Star& star, std::span<const Patch::RingTriangle> fan, Patch::Id u,
              const FitCorner& place);
 
-  /// Corners of the triangles that the last removal changed, each once.
+  /// A new vertex at the place within the face, or on one of its edges (0 … 2), where its neighbours then take their
+  /// steps. REQUIRES: its triangles are positive and keep the threshold; mends_all; the edge is no border.
+  Patch::Id insert(const FitCorner& place, Patch::Id face, std::optional<unsigned> edge);
+
+  /// Corners of the triangles that the last of these changed, each once.
   std::span<const Patch::Id> changed() const { return changed_; }
 
  private:
@@ -66,9 +72,10 @@ class Repair {
   bool finish();
   bool mend();
   bool is_strained(Patch::Id v, double share);
+  void mend_all();
   void look_around(int round);
   Excess excess() const;
-  void flip_around(Patch::Id v);
+  void flip_around(Patch::Id v, double share);
   bool has_changed(const Journal<Patch::Face>::Copy& copy) const;
   void list_changed();
 

@@ -10,12 +10,16 @@
 // after one round than after two; a third takes 1 to 2 % more away.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
+#include "fit/lazy_queue.h"
 #include "fit/patch.h"
 #include "fit/repair.h"
+#include "fit/ring_search.h"
 #include "fit/rules.h"
 #include "fit/triangle_error.h"
 
@@ -25,7 +29,7 @@ struct RepairOptions {
   RepairDepth depth = {};
   MoveRules rules = {};
   std::uint32_t shake = 0;  ///< other than 0: vertices are shaken first, by dice that this is the seed of
-  int polishes = 0;         ///< sweeps that level the heights of free vertices at the end
+  int polishes = 0;         ///< sweeps that lower the squared error at the end, over all vertices
   std::span<const std::uint8_t> wanted = {};  ///< by node, 1 for those to look at first; EMPTY: all
   std::function<bool()> is_time_up = {};      ///< asked before each vertex; true ends the rest but for polishing
 };
@@ -38,5 +42,53 @@ struct RepairCounts {
 /// Removes vertices of the patch.
 /// REQUIRES: every triangle of the patch keeps the threshold of `error`, which has energies.
 RepairCounts repair_vertices(Patch& patch, const TriangleError& error, const RepairOptions& options);
+
+/// The steps of it, by an energy of either power. Patch, errors and options stay alive; nodes are neither added nor
+/// deleted by others meanwhile.
+class Schedule {
+ public:
+  Schedule(Patch& patch, const TriangleError& error, ErrorRule::Power power, const RepairOptions& options);
+
+  /// Errors and energies of all triangles by the power. REQUIRED before the others.
+  void measure_all();
+  /// One look at each edge, and one step of each vertex, under the bound itself.
+  void sweep();
+  void shake();
+  /// The cheapest vertex first, until no more than `most` triangles are left, or none can go.
+  void remove_all(std::size_t most = 0);
+  /// REQUIRES: vertices are free.
+  void collapse();
+
+  const RepairCounts& counts() const { return counts_; }
+
+ private:
+  struct Note {
+    std::uint64_t code = 0;  // the triangles that would take the vertex' place
+    Point witness;           // against its removal
+  };
+
+  bool is_wanted(Patch::Id v) const { return options_.wanted.empty() || options_.wanted[v] != 0; }
+  bool is_time_up() const { return options_.is_time_up && options_.is_time_up(); }
+  bool look_at(Patch::Id v, float& price);
+  void offer(Patch::Id v);
+  void take();
+  void remove(Patch::Id v);
+
+  Patch& patch_;
+  TriangleError strict_, loose_;
+  RingSearch search_;
+  const RepairOptions& options_;
+  Repair repair_;
+  std::vector<Note> notes_;
+  LazyQueue queue_;
+  Patch::Star star_;
+  std::vector<FitCorner> ring_;
+  std::vector<Patch::RingTriangle> triangles_;
+  std::size_t left_ = 0;  // triangles
+  RepairCounts counts_;
+};
+
+/// Triangles of the patch.
+std::size_t count_faces(const Patch& patch);
 
 }  // namespace scarp

@@ -97,11 +97,8 @@ class TriangleError {
   /// The same for each field; of heights alone one. Fields are reckoned by their scales.
   void pull(const FitCorner& a, const FitCorner& b, const FitCorner& c, std::vector<Pull>& pulls) const;
 
-  /// The same with every t alike: stiffness Σ λ², push Σ t λ.
-  Pull even_pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const;
-
-  /// What the energy Σ t⁸ becomes when corner a rises by d units: Σ over k of C(8, k)·moments[k]·dᵏ,
-  /// moments[k] = Σ t⁸⁻ᵏ λᵏ.
+  /// What the energy Σ tᵖ becomes when corner a rises by d units: Σ over k of C(p, k)·moments[k]·dᵏ,
+  /// moments[k] = Σ tᵖ⁻ᵏ λᵏ, k <= p.
   using Moments = std::array<double, 9>;
   /// Adds a triangle's. REQUIRES, cost: as pull().
   void add_moments(const FitCorner& a, const FitCorner& b, const FitCorner& c, Moments& moments) const;
@@ -119,6 +116,7 @@ class TriangleError {
   double threshold() const { return threshold_; }  ///< of Verdict::worst; 1 with bounds
   double unit() const { return unit_; }            ///< of rises: the threshold, or that of the bounds
   bool has_bounds() const { return bounds_.samples != nullptr; }
+  ErrorRule::Power power() const { return power_; }
   bool has_energy() const { return per_threshold_ > 0; }
   /// slack × threshold, or the bound, of a sample counted from the first of the window.
   double limit_at(Point sample) const {

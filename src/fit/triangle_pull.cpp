@@ -70,37 +70,42 @@ void TriangleError::each_residual(const TriangleTask& task, const std::array<Fit
 TriangleError::Pull TriangleError::pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
   const TriangleTask task = task_of(a, b, c);
   Floats stiffness{}, push{};
-  each_residual(task, {a, b, c}, [&](Floats t, Floats share) {
-    const Floats t2 = t * t, t6_share = t2 * t2 * t2 * share;
-    stiffness += t6_share * share;
-    push += t6_share * t;
-  });
+  const auto add = [&](Floats weighed, Floats t, Floats share) {
+    stiffness += weighed * share;
+    push += weighed * t;
+  };
+  if (power_ == ErrorRule::Power::kTwo) {
+    each_residual(task, {a, b, c}, [&](Floats t, Floats share) { add(share, t, share); });
+  } else {
+    each_residual(task, {a, b, c}, [&](Floats t, Floats share) {
+      const Floats t2 = t * t;
+      add(t2 * t2 * t2 * share, t, share);
+    });
+  }
   return {exact_sum_of(stiffness), exact_sum_of(push), double{task.plane.slope_x} / unit_,
           double{task.plane.slope_y} / unit_};
 }
 
 void TriangleError::pull(const FitCorner& a, const FitCorner& b, const FitCorner& c, std::vector<Pull>& pulls) const {
   if (norm_ != nullptr) {
-    norm_->pull({a, b, c}, pulls);
+    norm_->pull({a, b, c}, power_, pulls);
   } else {
     pulls.assign(1, pull(a, b, c));
   }
 }
 
-TriangleError::Pull TriangleError::even_pull(const FitCorner& a, const FitCorner& b, const FitCorner& c) const {
-  const TriangleTask task = task_of(a, b, c);
-  Floats stiffness{}, push{};
-  each_residual(task, {a, b, c}, [&](Floats t, Floats share) {
-    stiffness += share * share;
-    push += share * t;
-  });
-  return {exact_sum_of(stiffness), exact_sum_of(push), double{task.plane.slope_x} / unit_,
-          double{task.plane.slope_y} / unit_};
-}
-
 void TriangleError::add_moments(const FitCorner& a, const FitCorner& b, const FitCorner& c, Moments& moments) const {
   const TriangleTask task = task_of(a, b, c);
   std::array<Floats, 9> sums{};
+  if (power_ == ErrorRule::Power::kTwo) {
+    each_residual(task, {a, b, c}, [&](Floats t, Floats share) {
+      sums[0] += t * t;
+      sums[1] += t * share;
+      sums[2] += share * share;
+    });
+    for (std::size_t k = 0; k < 3; ++k) moments[k] += exact_sum_of(sums[k]);
+    return;
+  }
   each_residual(task, {a, b, c}, [&](Floats t, Floats share) {
     const Floats t2 = t * t, t4 = t2 * t2, share2 = share * share, share4 = share2 * share2, both = t * share;
     sums[0] += t4 * t4;

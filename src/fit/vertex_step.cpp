@@ -24,8 +24,6 @@ constexpr std::array<Point, 8> kStepWays{Point{1, 0}, {-1, 0}, {0, 1}, {0, -1}, 
 constexpr float kShakeCost = 3;
 constexpr double kShakeReach = 0.05;
 
-constexpr int kLevelTries = 4;
-
 Point sample_at(const FitCorner& corner) { return {corner.x / kLatticeSteps, corner.y / kLatticeSteps}; }
 
 /// Between samples, by bilinear interpolation; NaN beside nodata.
@@ -163,26 +161,6 @@ bool VertexStep::shake(const TriangleError& error, Patch::Id v, std::uint32_t di
   return take(error, v, offer_at(error, from, place, limit), limit);
 }
 
-bool VertexStep::level(const TriangleError& error, Patch::Id v) {
-  if (!is_free() || !take_up(error, v)) return false;
-  const FitCorner from = patch_.at(v);
-  double stiffness = 0, push = 0;
-  for (std::size_t i = 0; i < star_.faces.size(); ++i) {
-    const auto pull = error.even_pull(from, ring(i), ring(i + 1));
-    stiffness += pull.stiffness;
-    push += pull.push;
-  }
-  if (!(stiffness > 0)) return false;
-  double rise = -push / stiffness * error.unit();
-  for (int i = 0; i < kLevelTries; ++i, rise /= 2) {
-    FitCorner place = from;
-    place.z = std::clamp(static_cast<float>(double{from.z} + rise), rules_.lowest, rules_.highest);
-    if (place.z == from.z || !(std::abs(place.z) <= kMaxScanHeight)) return false;
-    if (take(error, v, {place, 0}, std::numeric_limits<float>::infinity())) return true;
-  }
-  return false;
-}
-
 FitCorner VertexStep::beside(const FitCorner& from, Point by) const {
   return {from.x + by.x * unit(), from.y + by.y * unit(), 0};
 }
@@ -219,7 +197,8 @@ VertexStep::Offer VertexStep::offer_at(const TriangleError& error, const FitCorn
   const auto rise_to = [&](float height) { return (double{height} - double{place.z}) / error.unit(); };
   const double lowest = rise_to(rules_.lowest), highest = rise_to(rules_.highest);
   const double scale = error.has_bounds() ? scale_of_rises(moments) : 1;
-  HeightStep best = best_height(moments, lowest, highest, scale);
+  HeightStep best = error.power() == ErrorRule::Power::kTwo ? best_even_height(moments, lowest, highest)
+                                                            : best_height(moments, lowest, highest, scale);
   bool mends = false;
   if (seeks_room_ && (is_over_ || best.energy < limit)) {
     TriangleError::Room room{static_cast<float>(lowest), static_cast<float>(highest)};

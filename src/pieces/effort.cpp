@@ -135,8 +135,12 @@ FitOptions fit_options(const HeightField& field, const SimplifyOptions& options,
   if (options.quality.effort == Effort::kHigh) fit.depth = kHighDepth;
   if (options.quality.effort == Effort::kMax) fit.depth = kMaxDepth;
   fit.min_shape = options.quality.min_shape.value_or(fit.vertices_are_free ? kUsualShape : 0);
+  fit.floor_yields = !options.quality.min_shape;
   fit.aspect = std::hypot(a[2], a[5]) / std::hypot(a[1], a[4]);
-  if (options.quality.shape.any()) fit.shape = shape_rule(options.quality.shape, field.frame);
+  if (options.quality.shape.any()) {
+    fit.shape = shape_rule(options.quality.shape, field.frame);
+    fit.floor_yields = false;
+  }
   if (!has_budget(options)) fit.is_time_up = either(options.run.is_time_up, options.run.is_enough);
   fit.goes_on = options.quality.effort == Effort::kMax && options.run.is_time_up;
   return fit;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "base/memory_budget.h"
+#include "fit/fit.h"
 #include "metric/request.h"
 #include "scarp/height_field.h"
 
@@ -13,6 +15,8 @@ namespace scarp {
 struct Scale {
   double factor = 1;      ///< of all tolerances
   double line_error = 0;  ///< what lines follow the raster by, where there is no max error
+  double start = 1;       ///< the share of all bounds that refinement goes to; fitting works towards the bounds
+  std::optional<SquareGoal> squares = std::nullopt;  ///< what fitting works for. DEFAULT: for few triangles
 };
 
 /// A run towards its goals. The field and the options stay alive.
@@ -35,7 +39,7 @@ struct Plan {
   bool finishes_strips;        ///< some pass works on a strip while its samples are in memory
   std::int32_t lattice_steps;  ///< lattice points between two samples that vertices may take, and one of these
   bool is_exact;               ///< the mesh holds each of these points exactly
-  double aim;                  ///< the share of every bound at which the engine aims
+  double aim;                  ///< the share of every bound at which the engine aims; of it refinement takes scale.start
   Scale scale;
   MemoryBudget memory;
 };

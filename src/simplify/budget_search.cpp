@@ -51,6 +51,22 @@ SimplifyOptions without_effort(SimplifyOptions options) {
   return options;
 }
 
+}  // namespace
+
+BudgetNumber::BudgetNumber(const SimplifyOptions& options) : options_(options), is_factor_(has_tolerances(options)) {}
+
+SimplifyOptions BudgetNumber::towards(double number) const {
+  SimplifyOptions options = options_;
+  std::optional<double>& max_error = options.goals.max_error;
+  options.goals.max_triangles = options.goals.max_vertices = std::nullopt;
+  if (!is_factor_) max_error = number;
+  if (is_factor_ && max_error) max_error = std::min(number * *max_error, std::numeric_limits<double>::max());
+  options.goals.objective = Objective::kMax;  // of the search, not of a run
+  return options;
+}
+
+namespace {
+
 class BudgetSearch {
  public:
   BudgetSearch(const SimplifyOptions& options, const BudgetTask& task)
@@ -59,7 +75,8 @@ class BudgetSearch {
         budget_(options),
         progress_(options.run.progress),
         has_effort_(options.quality.effort != Effort::kFast),
-        is_factor_(has_tolerances(options)),
+        number_(options),
+        is_factor_(number_.is_factor()),
         floor_(is_factor_ ? 1 : options.goals.max_error.value_or(0)),
         pace_(has_effort_ ? kFromInsertion : kFromLeastMesh),
         power_(pace_.power) {}
@@ -112,7 +129,7 @@ class BudgetSearch {
 
   Result<void> begin_with_least_mesh() {
     const double most = std::max(task_.most(), floor_);
-    auto least = run(towards(most), factor_of(most), 0.1);
+    auto least = run(number_.towards(most), number_.factor_of(most), 0.1);
     if (!least) return tl::unexpected(least.error());
     const MeshSize size{least->mesh.vertex_count(), least->mesh.triangle_count()};
     if (auto fits = budget_.check(size, task_.least, ""); !fits) return fits;
@@ -178,9 +195,9 @@ class BudgetSearch {
   }
 
   Result<double> expect_by_refinement(double number) {
-    SimplifyOptions refine = without_effort(towards(number));
+    SimplifyOptions refine = without_effort(number_.towards(number));
     refine.output.normals = refine.output.uvs = false;
-    const auto made = run(std::move(refine), factor_of(number), 0.05);
+    const auto made = run(std::move(refine), number_.factor_of(number), 0.05);
     if (!made && made.error().kind == ErrorKind::kPromise) return std::log(kAim);
     if (!made) return tl::unexpected(made.error());
     add_work(*made, others_);
@@ -237,7 +254,7 @@ class BudgetSearch {
   /// A run with the whole effort. Keeps the better mesh.
   Result<void> look(double number) {
     ++runs_;
-    auto made = run(towards(number), factor_of(number), 0.35);
+    auto made = run(number_.towards(number), number_.factor_of(number), 0.35);
     if (!made && made.error().kind != ErrorKind::kPromise) return tl::unexpected(made.error());
     const double used = made ? used_by(*made) : std::numeric_limits<double>::infinity();
     if (made && used > 1) add_work(*made, others_);
@@ -299,7 +316,7 @@ class BudgetSearch {
     options.run.progress = progress_.of_run(options.quality.effort != Effort::kFast);
     constexpr std::uint64_t kBytesPerVertex = 48;
     options.run.memory.taken += kBytesPerVertex * best_.mesh.vertex_count();
-    auto made = task_.run(options, factor);
+    auto made = task_.run(options, {factor});
     if (!made && has_mesh_ && !task_.insertion_stops) excuse(made.error());
     has_mesh_ = has_mesh_ || made.has_value();
     return made;
@@ -316,17 +333,6 @@ class BudgetSearch {
     }
   }
 
-  SimplifyOptions towards(double number) const {
-    SimplifyOptions options = options_;
-    options.goals.max_triangles = options.goals.max_vertices = std::nullopt;
-    if (!is_factor_) options.goals.max_error = number;
-    if (is_factor_ && options.goals.max_error)
-      options.goals.max_error = std::min(number * *options.goals.max_error, std::numeric_limits<double>::max());
-    options.goals.objective = Objective::kMax;  // of the search, not of a run
-    return options;
-  }
-  double factor_of(double number) const { return is_factor_ ? number : 1; }
-
   double used_by(const Simplified& made) const {
     return budget_.used({made.mesh.vertex_count(), made.mesh.triangle_count()});
   }
@@ -338,7 +344,8 @@ class BudgetSearch {
   Budget budget_;
   SearchProgress progress_;
   bool has_effort_;
-  bool is_factor_;  // the number is a factor of all bounds; else the max error
+  BudgetNumber number_;
+  bool is_factor_;
   double floor_;    // the least number that is of use
   Pace pace_;
   double power_;

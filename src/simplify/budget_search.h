@@ -13,14 +13,31 @@
 #include <functional>
 #include <string>
 
+#include "pieces/plan.h"
 #include "scarp/result.h"
 #include "scarp/simplify.h"
 
 namespace scarp {
 
-/// simplify() without a search: towards the bounds of `options`, all tolerances multiplied by `factor`; or, if
+/// simplify() without a search: towards the bounds of `options`, by the scale, whose line error is known; or, if
 /// BudgetTask::insertion_stops, towards budgets with fast effort.
-using RunOnce = std::function<Result<Simplified>(const SimplifyOptions& options, double factor)>;
+using RunOnce = std::function<Result<Simplified>(const SimplifyOptions& options, const Scale& scale)>;
+
+/// The number that is searched for.
+class BudgetNumber {
+ public:
+  /// The options stay alive.
+  explicit BudgetNumber(const SimplifyOptions& options);
+
+  /// The options of a run towards it, without budgets.
+  SimplifyOptions towards(double number) const;
+  double factor_of(double number) const { return is_factor_ ? number : 1; }
+  bool is_factor() const { return is_factor_; }  ///< of all bounds; else the max error
+
+ private:
+  const SimplifyOptions& options_;
+  bool is_factor_;
+};
 
 struct BudgetTask {
   RunOnce run;

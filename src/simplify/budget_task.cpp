@@ -104,8 +104,10 @@ BudgetTask make_budget_task(const HeightField& field, const SimplifyOptions& opt
   const ToleranceRange tolerances = range_of(options.tolerances.values, options.tolerances.source, field);
   const double reach = has_lines(options) ? tolerances.largest : 0;
   BudgetTask task;
-  task.run = [&field, reach](const SimplifyOptions& once, double factor) {
-    return simplify_once(field, once, {factor, factor * reach});
+  task.run = [&field, reach](const SimplifyOptions& once, const Scale& scale) {
+    Scale with_lines = scale;
+    with_lines.line_error = scale.factor * reach;
+    return simplify_once(field, once, with_lines);
   };
   task.insertion_stops = insertion_stops(field, options);
   task.most = [&field, &options, tolerances] { return largest_number(field, options, tolerances); };

@@ -91,7 +91,7 @@ Result<Simplified> run_by_tiles(const Plan& plan, LineWork* lines) {
     if (!cleaned) return tl::unexpected(cleaned.error());
     raster = samples.emplace(std::move(*cleaned)).raster();
   }
-  const auto criterion = Criterion::make(field, plan.options, raster, plan.aim, plan.scale.factor);
+  const auto criterion = Criterion::make(field, plan.options, raster, plan.aim * plan.scale.start, plan.scale.factor);
   if (!criterion) return tl::unexpected(criterion.error());
   if (!plan.is_streamed && std::isinf(criterion->largest_aim())) return run_greedily(plan, lines);
   const std::uint64_t bytes = proof_bytes(field, plan.options);
@@ -128,7 +128,7 @@ Result<Simplified> run_greedily(const Plan& plan, LineWork* lines) {
   auto samples = Samples::of(plan.field);
   if (!samples) return tl::unexpected(samples.error());
   const auto make_criterion = [&](const Raster& raster) {
-    return Criterion::make(plan.field, plan.options, raster, plan.aim, plan.scale.factor);
+    return Criterion::make(plan.field, plan.options, raster, plan.aim * plan.scale.start, plan.scale.factor);
   };
   auto criterion = make_criterion(samples->raster());
   if (!criterion) return tl::unexpected(criterion.error());

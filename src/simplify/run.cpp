@@ -332,9 +332,18 @@ class EngineRun {
     const auto start = Clock::now();
     refinement_.reset();
     fix_points();
-    FitOptions options = fit_options(field_, options_, criterion_.aim());
-    piece_->aims = criterion_.aims();
-    const auto norm = fit_norm(options_, raster_, criterion_);
+    std::optional<Criterion> whole;
+    if (plan_.scale.start < 1) {
+      auto made = Criterion::make(field_, options_, raster_, plan_.aim, plan_.scale.factor);
+      if (!made) return tl::unexpected(made.error());
+      whole.emplace(std::move(*made));
+    }
+    const Criterion& criterion = whole ? *whole : criterion_;
+    FitOptions options = fit_options(field_, options_, criterion.aim());
+    options.squares = plan_.scale.squares;
+    if (options.squares && options.squares->most_vertices != kNoBudget) options.squares->most_vertices += unused_;
+    piece_->aims = criterion.aims();
+    const auto norm = fit_norm(options_, raster_, criterion);
     if (norm) options.norm = &*norm;
     if (plan_.is_streamed) read_windows(field_, plan_.memory, options, criterion_.source_bounds());
     options.threads = fit_threads(window_bytes(options));

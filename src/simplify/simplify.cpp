@@ -17,6 +17,7 @@
 #include "simplify/budget_task.h"
 #include "simplify/checks.h"
 #include "simplify/once.h"
+#include "simplify/squares_search.h"
 
 namespace scarp {
 
@@ -26,7 +27,8 @@ Result<Simplified> simplify_within_budget(const HeightField& field, SimplifyOpti
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
   if (options.quality.effort == Effort::kFast && insertion_stops(field, options)) return simplify_once(field, options);
   if (has_norm(field)) options.quality.vertices = Vertices::kSamples;
-  return search_budget(options, make_budget_task(field, options));
+  const BudgetTask task = make_budget_task(field, options);
+  return lowers_squares(field, options) ? search_squares(options, task) : search_budget(options, task);
 }
 
 /// REQUIRES: a chosen effort.

@@ -150,7 +150,7 @@ RC_GTEST_PROP(bounds, pull_as_the_samples_do, ()) {
                       {corners[0].z, corners[1].z, corners[2].z});
   RC_PRE(oracle.worst < 10);
   const double unit = 4;
-  const TriangleError error(field.raster(), {0, 0}, SampleBounds{bounds.data(), unit});
+  const TriangleError error(field.raster(), {0, 0}, SampleBounds{bounds.data(), unit}, {1, ErrorRule::Power::kEight});
   const auto pull = error.pull(corners[0], corners[1], corners[2]);
   const double stiffness = oracle.stiffness * unit * unit, push = oracle.push * unit;
   RC_ASSERT(std::abs(pull.stiffness - stiffness) <= 1e-2 * (1 + stiffness));

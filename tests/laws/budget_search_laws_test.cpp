@@ -47,7 +47,11 @@ RC_GTEST_PROP(budget_search, budgets_are_kept_and_greedy_insertion_is_never_bett
   check_budget(seen, *made, options);
   if (greedy->stop == StopReason::kMaxError || greedy->stop == StopReason::kExact) {
     RC_ASSERT(made->stop == greedy->stop);
-    RC_ASSERT(made->mesh.triangle_count() <= greedy->mesh.triangle_count());
+    // For the squared error the max error is a cap, and the whole budget of use.
+    const bool is_no_worse = options.goals.objective == Objective::kMax
+                                 ? made->mesh.triangle_count() <= greedy->mesh.triangle_count()
+                                 : seen.rmse <= greedy->measurement.rmse;
+    RC_ASSERT(is_no_worse);
   } else if (made->stop != StopReason::kMaxError && options.goals.objective == Objective::kMax) {
     RC_ASSERT(seen.max_error <= greedy->measurement.max_error);
   } else if (made->stop != StopReason::kMaxError) {
@@ -58,7 +62,8 @@ RC_GTEST_PROP(budget_search, budgets_are_kept_and_greedy_insertion_is_never_bett
 RC_GTEST_PROP(budget_search, threads_change_nothing, ()) {
   const Field field = any_field(40);
   SimplifyOptions options = any_budget();
-  options.quality.effort = Effort::kHigh;
+  options.quality.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh);
+  options.goals.objective = *rc::gen::element(Objective::kMax, Objective::kRms);
   options.run.threads = 1;
   const auto first = simplify(field.view(), options);
   RC_PRE(first.has_value());
@@ -91,7 +96,8 @@ TEST(budget_search, uses_the_budget_and_lowers_the_error_of_greedy_insertion) {
   }
 }
 
-TEST(budget_search, a_much_larger_budget_never_has_a_larger_error) {
+/// Noise that lies within a bound as a whole, or not at all, makes triangles jump there, and errors scatter a little.
+TEST(budget_search, a_much_larger_budget_never_has_a_larger_error_but_for_jumps) {
   for (const Relief relief : testing::kReliefs) {
     const Field field = testing::random_field(3, 50, 40, relief);
     double last = std::numeric_limits<double>::infinity();
@@ -99,7 +105,7 @@ TEST(budget_search, a_much_larger_budget_never_has_a_larger_error) {
       const auto made =
           simplify(field.view(), {.goals = {.max_vertices = budget}, .quality = {.effort = Effort::kHigh}});
       ASSERT_TRUE(made) << made.error().message;
-      EXPECT_LE(made->measurement.max_error, last) << budget;
+      EXPECT_LE(made->measurement.max_error, (relief == Relief::kTies ? 1.02 : 1.0) * last) << budget;
       last = made->measurement.max_error;
     }
   }
@@ -175,7 +181,7 @@ struct MadeUp {
   double least = 0;  // bounds below it cannot be kept
   int runs = 0;      // with effort
 
-  Result<Simplified> operator()(const SimplifyOptions& options, double) {
+  Result<Simplified> operator()(const SimplifyOptions& options, const Scale&) {
     const bool has_effort = options.quality.effort != Effort::kFast;
     runs += has_effort ? 1 : 0;
     double error = options.goals.max_error.value_or(0);

@@ -256,7 +256,7 @@ RC_GTEST_PROP(triangle_error, pulls_as_the_samples_do, ()) {
   const double threshold = *rc::gen::element(2.0, 7.3, 30.0);
   std::array<FitCorner, 3> corners{any_corner(field), any_corner(field), any_corner(field)};
   RC_PRE(area_of(corners[0], corners[1], corners[2]) > 0);
-  const TriangleError error(field.raster(), {0, 0}, threshold);
+  const TriangleError error(field.raster(), {0, 0}, threshold, {1, ErrorRule::Power::kEight});
   const Oracle oracle(field.raster(), corners, threshold);
   RC_PRE(oracle.worst < 10);
   const auto pull = error.pull(corners[0], corners[1], corners[2]);
@@ -267,6 +267,21 @@ RC_GTEST_PROP(triangle_error, pulls_as_the_samples_do, ()) {
   RC_ASSERT(std::abs(moments[0] - oracle.eighth) <= 1e-2 * (1 + oracle.eighth));
   RC_ASSERT(std::abs(moments[1] - oracle.push) <= 1e-2 * (1 + oracle.eighth));
   RC_ASSERT(std::abs(moments[2] - oracle.stiffness) <= 1e-2 * (1 + oracle.stiffness));
+  double square = 0, share = 0, both = 0;
+  for (const auto& [t, weight] : oracle.residuals) {
+    square += t * t;
+    share += weight * weight;
+    both += t * weight;
+  }
+  const TriangleError even = error.with({1, ErrorRule::Power::kTwo});
+  const auto even_pull = even.pull(corners[0], corners[1], corners[2]);
+  RC_ASSERT(std::abs(even_pull.stiffness - share) <= 1e-2 * (1 + share));
+  RC_ASSERT(std::abs(even_pull.push - both) <= 1e-2 * (1 + square));
+  moments = {};
+  even.add_moments(corners[0], corners[1], corners[2], moments);
+  RC_ASSERT(std::abs(moments[0] - square) <= 1e-2 * (1 + square));
+  RC_ASSERT(std::abs(moments[1] - both) <= 1e-2 * (1 + square));
+  RC_ASSERT(std::abs(moments[2] - share) <= 1e-2 * (1 + share));
 }
 
 RC_GTEST_PROP(height_room, holds_the_rises_that_keep_the_threshold_and_no_others, ()) {

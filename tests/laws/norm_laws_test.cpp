@@ -217,7 +217,7 @@ RC_GTEST_PROP(norms, pull_as_the_samples_do, ()) {
   const FitNorm norm = stack.fit_norm(metric);
   std::vector<TriangleError::Pull> pulls;
   stack.errors(norm, unit)
-      .pull({at_sample(stack, (*corners)[0]), at_sample(stack, (*corners)[1]), at_sample(stack, (*corners)[2])}, pulls);
+      .pull({at_sample(stack, (*corners)[0]), at_sample(stack, (*corners)[1]), at_sample(stack, (*corners)[2])}, ErrorRule::Power::kEight, pulls);
   RC_ASSERT(pulls.size() == stack.judged.size());
   for (std::size_t k = 0; k < pulls.size(); ++k) {
     RC_ASSERT(std::abs(pulls[k].stiffness - oracle.stiffness[k]) <= 1e-2 * (1 + oracle.stiffness[k]));

@@ -208,14 +208,14 @@ TEST(repair, goes_on_beyond_its_rounds_while_there_is_time_and_gain) {
   EXPECT_EQ(never.counts.removed, 0u);
 }
 
-RC_GTEST_PROP(repair, polishing_lowers_the_mean_error_and_leaves_the_triangles, ()) {
+RC_GTEST_PROP(repair, polishing_lowers_the_squared_error_and_leaves_as_many_triangles, ()) {
   const auto seed = *rc::gen::arbitrary<std::uint32_t>();
   const Field field = testing::random_field(seed, 30, 25, Relief::kRidges);
   FitOptions options{.threshold = 4, .threads = 1, .depth = {.rounds = 1}, .vertices_are_free = true};
   const auto rough = *fit(field.raster(), *refined(field, 4), options);
   options.depth.polishes = 3;
   const auto polished = *fit(field.raster(), *refined(field, 4), options);
-  RC_ASSERT(is_same(rough.tin, polished.tin));
+  RC_ASSERT(rough.tin.triangle_count() == polished.tin.triangle_count());
   RC_ASSERT(testing::sum_of_squares(field.raster(), polished) < testing::sum_of_squares(field.raster(), rough));
 }
 
@@ -508,7 +508,7 @@ RC_GTEST_PROP(vertex_step, that_seeks_room_lets_the_energy_rise_only_where_the_s
   RC_ASSERT(verify(patch) == "");
 }
 
-RC_GTEST_PROP(vertex_step, shakes_and_levels_within_the_bound_and_the_range, ()) {
+RC_GTEST_PROP(vertex_step, shakes_within_the_bound_and_the_range, ()) {
   Bench bench;
   RC_PRE(bench.cut());
   Patch& patch = bench.patch;
@@ -521,7 +521,6 @@ RC_GTEST_PROP(vertex_step, shakes_and_levels_within_the_bound_and_the_range, ())
     const bool moved = step.shake(error, v, *rc::gen::arbitrary<std::uint32_t>());
     RC_ASSERT(moved || Picture(patch) == before);
     RC_ASSERT(keeps_shape(patch, before, {0.125, 1}));
-    step.level(error, v);
     const bool is_right =
         patch.is_locked(v) ? Picture(patch) == before : lowest <= patch.at(v).z && patch.at(v).z <= highest;
     RC_ASSERT(is_right);

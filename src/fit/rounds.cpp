@@ -1,0 +1,234 @@
+#include "fit/rounds.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "base/parallel.h"
+#include "fit/removal.h"
+
+namespace scarp {
+
+namespace {
+
+/// How far from the borders of patches the last round of repair begins, in edges.
+constexpr int kBorderWidth = 2;
+
+/// Marks the neighbours of marked nodes too.
+void spread(const Patch& patch, std::vector<std::uint8_t>& marks) {
+  const std::vector<std::uint8_t> before = marks;
+  for (Patch::Id f = 0; f < patch.face_count(); ++f) {
+    const auto& [a, b, c] = patch.face(f).corners;
+    if ((before[a] | before[b] | before[c]) != 0) marks[a] = marks[b] = marks[c] = 1;
+  }
+}
+
+Freedom freedom_of(const Raster& raster, const FitOptions& options) {
+  const bool has_room = std::max(raster.cols, raster.rows) <= kMaxCoordinate / kLatticeSteps;
+  return options.vertices_are_free && options.norm == nullptr && has_room ? Freedom::kLattice : Freedom::kSamples;
+}
+
+/// Lets vertices be as low and as high as samples are.
+void set_range(const Raster& raster, const ReadWindow& read, MoveRules& rules) {
+  rules.lowest = std::numeric_limits<float>::max();
+  rules.highest = std::numeric_limits<float>::lowest();
+  std::vector<float> buffer(read ? static_cast<std::size_t>(raster.cols) : 0);
+  for (std::int32_t y = 0; y < raster.rows; ++y) {
+    if (read) read({{0, y}, raster.cols, 1}, buffer.data(), raster.cols);
+    const float* const row = read ? buffer.data() : raster.row(y);
+    for (std::int32_t x = 0; x < raster.cols; ++x) {
+      // False where the sample is nodata.
+      if (row[x] < rules.lowest) rules.lowest = row[x];
+      if (row[x] > rules.highest) rules.highest = row[x];
+    }
+  }
+}
+
+double thin_share(const Patch& patch, const ShapeRule& rule) {
+  std::size_t all = 0, thin = 0;
+  for (Patch::Id f = 0; f < patch.face_count(); ++f) {
+    const auto& [a, b, c] = patch.face(f).corners;
+    if (a == kNone) continue;
+    ++all;
+    if (rule.shape(patch.at(a), patch.at(b), patch.at(c)) < rule.floor) ++thin;
+  }
+  return all == 0 ? 0 : static_cast<double>(thin) / static_cast<double>(all);
+}
+
+}  // namespace
+
+Rounds::Rounds(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options)
+    : raster_(raster),
+      options_(options),
+      rules_{freedom_of(raster, options), options.shape.value_or(ShapeRule{options.min_shape, options.aspect})},
+      fitted_{std::move(tin), {}, std::move(lattice)},
+      vertices_(fitted_.tin.vertex_count()),
+      settled_(fitted_.tin.vertex_count(), 0),
+      held_(fitted_.tin.vertex_count(), 0),
+      scratch_(static_cast<std::size_t>(thread_count(options.threads))),
+      windows_(scratch_.size()) {
+  if (rules_.freedom == Freedom::kLattice) set_range(raster, options.read, rules_);
+}
+
+bool Rounds::run(const PatchGrid& grid, double end) {
+  return work_on(grid, end, fitted_.lattice.steps,
+                 [this](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
+                   return remove(patch, vertices, error);
+                 });
+}
+
+bool Rounds::repair(const PatchGrid& grid, double end, const RepairOptions& options, bool only_held) {
+  return work_on(grid, end, steps_of_moves(),
+                 [&](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
+                   // One bound alone, and that beyond energies.
+                   if (!error.has_energy()) return FitCounts{};
+                   const std::vector<std::uint8_t> wanted =
+                       only_held ? near_held(patch, vertices) : std::vector<std::uint8_t>();
+                   RepairOptions here = options;
+                   here.wanted = wanted;
+                   here.rules = rules_of(patch);
+                   const RepairCounts counts = repair_vertices(patch, error, here);
+                   return FitCounts{counts.removed, 0, counts.removed, counts.tried};
+                 });
+}
+
+bool Rounds::work_twice(const PatchGrid& grid, double end, const Prepare& prepare, const Between& between,
+                        const Job& job) {
+  const PatchCutter cutter(raster_, fitted_.tin, fitted_.lattice, grid, options_.free_sides, options_.threads);
+  std::vector<Patch> patches(cutter.count());
+  std::vector<std::vector<Vertex>> vertices(cutter.count());
+  const double begin = done_;
+  if (!each_patch(cutter.count(), begin, (3 * begin + end) / 4, [&](std::size_t i, std::size_t worker) {
+        patches[i] = cutter.cut(i, scratch_[worker], vertices[i]);
+        prepare(patches[i], errors_of(patches[i], windows_[worker]));
+      }))
+    return false;
+  between(patches);
+  if (!each_patch(cutter.count(), done_, end, [&](std::size_t i, std::size_t worker) {
+        if (is_worked_on(patches[i])) job(i, patches[i], errors_of(patches[i], windows_[worker]));
+        patches[i].pack();
+      }))
+    return false;
+  join(cutter, std::move(patches), std::move(vertices), steps_of_moves());
+  fitted_.counts.removed = vertices_ - std::min<std::uint64_t>(vertices_, fitted_.tin.vertex_count());
+  return true;
+}
+
+MoveRules Rounds::rules_of(const Patch& patch) const {
+  MoveRules rules = rules_;
+  if (options_.floor_yields && thin_share(patch, rules.shape) > kThinShare) rules.shape.floor = 0;
+  return rules;
+}
+
+Fitted Rounds::finish() {
+  fitted_.is_cut_short = is_time_up();
+  return std::move(fitted_);
+}
+
+/// Cuts, lets work(patch, vertices, error) count what it does to each patch, and joins, to a lattice of so many steps.
+bool Rounds::work_on(const PatchGrid& grid, double end, std::int32_t steps, const Work& work) {
+  const PatchCutter cutter(raster_, fitted_.tin, fitted_.lattice, grid, options_.free_sides, options_.threads);
+  std::vector<Patch> patches(cutter.count());
+  std::vector<std::vector<Vertex>> vertices(cutter.count());
+  counts_.assign(cutter.count(), {});
+  if (!each_patch(cutter.count(), done_, end, [&](std::size_t i, std::size_t worker) {
+        patches[i] = cutter.cut(i, scratch_[worker], vertices[i]);
+        if (!is_time_up() && is_worked_on(patches[i]))
+          counts_[i] = work(patches[i], vertices[i], errors_of(patches[i], windows_[worker]));
+        patches[i].pack();
+      }))
+    return false;
+  hold_borders(vertices);
+  join(cutter, std::move(patches), std::move(vertices), steps);
+  return true;
+}
+
+/// In parallel, and tells of the progress; counts_ of a patch are added when it is done.
+bool Rounds::each_patch(std::size_t count, double begin, double end,
+                        const std::function<void(std::size_t i, std::size_t worker)>& one) {
+  bool goes_on = true;
+  parallel_in_order(count, options_.threads, one, [&](std::size_t i) {
+    if (i < counts_.size()) add(std::exchange(counts_[i], {}));
+    goes_on = tell(begin + static_cast<double>(i + 1) / static_cast<double>(count) * (end - begin));
+    return goes_on;
+  });
+  if (goes_on) done_ = end;
+  return goes_on;
+}
+
+void Rounds::join(const PatchCutter& cutter, std::vector<Patch> patches, std::vector<std::vector<Vertex>> vertices,
+                  std::int32_t steps) {
+  std::vector<Vertex> numbers;
+  VertexLattice lattice{steps, {}, {}};
+  Triangulation joined = cutter.join(std::move(patches), std::move(vertices), numbers, lattice);
+  renumber(numbers, joined.vertex_count());
+  fitted_.tin = std::move(joined);
+  fitted_.lattice = std::move(lattice);
+}
+
+std::int32_t Rounds::steps_of_moves() const {
+  return rules_.freedom == Freedom::kLattice ? kLatticeSteps : fitted_.lattice.steps;
+}
+
+bool Rounds::is_worked_on(const Patch& patch) const {
+  const Patch::Window& window = patch.window();
+  return options_.most_window == 0 || std::int64_t{window.cols} * window.rows <= options_.most_window;
+}
+
+TriangleError Rounds::errors_of(const Patch& patch, SampleWindow& window) const {
+  if (options_.read) return window.errors(options_.read, options_.read_bounds, patch, options_.threshold);
+  return window.errors(raster_, options_.bounds, options_.norm, patch, options_.threshold);
+}
+
+void Rounds::add(const FitCounts& counts) {
+  fitted_.counts.removed += counts.removed;
+  fitted_.counts.searches += counts.searches;
+  fitted_.counts.repaired += counts.repaired;
+  fitted_.counts.tried += counts.tried;
+}
+
+/// A vertex that is free in one patch is in no other, so patches write to elements of their own.
+FitCounts Rounds::remove(Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
+  std::vector<std::uint8_t> settled;
+  settled.reserve(vertices.size());
+  for (const Vertex v : vertices) settled.push_back(settled_[v]);
+  ShapeRule shape = rules_.shape;
+  if (options_.floor_yields) shape.floor = 0;
+  const RemovalCounts counts = remove_vertices(patch, error, shape, options_.is_time_up, settled);
+  for (Patch::Id v = 0; v < vertices.size(); ++v) {
+    if (!patch.is_locked(v)) settled_[vertices[v]] = settled[v];
+  }
+  return {counts.removed, counts.searches, 0, 0};
+}
+
+/// Vertices of more than one patch were on a border.
+void Rounds::hold_borders(const std::vector<std::vector<Vertex>>& vertices) {
+  std::vector<bool> is_seen(held_.size(), false);
+  for (const std::vector<Vertex>& of_patch : vertices) {
+    for (const Vertex v : of_patch) {
+      if (is_seen[v]) held_[v] = 1;
+      is_seen[v] = true;
+    }
+  }
+}
+
+std::vector<std::uint8_t> Rounds::near_held(const Patch& patch, const std::vector<Vertex>& vertices) const {
+  std::vector<std::uint8_t> marks;
+  marks.reserve(vertices.size());
+  for (const Vertex v : vertices) marks.push_back(held_[v]);
+  for (int i = 0; i < kBorderWidth; ++i) spread(patch, marks);
+  return marks;
+}
+
+/// What is new among the vertices is neither settled nor held.
+void Rounds::renumber(const std::vector<Vertex>& numbers, std::size_t count) {
+  for (std::vector<std::uint8_t>* of_vertices : {&settled_, &held_}) {
+    std::vector<std::uint8_t> now(count, 0);
+    for (Vertex v = 0; v < of_vertices->size(); ++v) {
+      if (numbers[v] != kNone) now[numbers[v]] = (*of_vertices)[v];
+    }
+    *of_vertices = std::move(now);
+  }
+}
+
+}  // namespace scarp

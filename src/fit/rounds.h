@@ -1,0 +1,79 @@
+// One round of fitting after the other, on squares that are shifted against each other.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "fit/cut.h"
+#include "fit/fit.h"
+#include "fit/schedule.h"
+
+namespace scarp {
+
+class Rounds {
+ public:
+  /// Raster and options stay alive.
+  Rounds(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options);
+
+  /// Of removal. `end`: the share of the whole that is then done. False if it was told to stop, as those below.
+  bool run(const PatchGrid& grid, double end);
+
+  /// Of removal with repair; `only_held`: it begins with the vertices that repair has had on borders so far.
+  bool repair(const PatchGrid& grid, double end, const RepairOptions& options, bool only_held = false);
+
+  /// What a round of repair is to do; `shake` as there.
+  RepairOptions repair_options(int polishes, std::uint32_t shake) const {
+    return {options_.depth.repair, rules_, shake, polishes, {}, options_.is_time_up};
+  }
+
+  /// Of squared errors: prepares each patch, hands all of them to `between`, then lets `job` work on each.
+  using Prepare = std::function<void(Patch& patch, const TriangleError& error)>;
+  using Between = std::function<void(std::span<const Patch> patches)>;
+  using Job = std::function<void(std::size_t i, Patch& patch, const TriangleError& error)>;
+  bool work_twice(const PatchGrid& grid, double end, const Prepare& prepare, const Between& between, const Job& job);
+
+  /// What removal has had on borders it takes up itself.
+  void forget_held() { held_.assign(held_.size(), 0); }
+
+  const Triangulation& tin() const { return fitted_.tin; }
+  /// Of moves other than removal: without the floor where that yields.
+  MoveRules rules_of(const Patch& patch) const;
+
+  bool is_time_up() const { return options_.is_time_up && options_.is_time_up(); }
+  std::uint64_t vertices() const { return vertices_ - fitted_.counts.removed; }
+
+  Fitted finish();
+
+ private:
+  using Work = std::function<FitCounts(Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error)>;
+  bool work_on(const PatchGrid& grid, double end, std::int32_t steps, const Work& work);
+  bool is_worked_on(const Patch& patch) const;
+  TriangleError errors_of(const Patch& patch, SampleWindow& window) const;
+  std::int32_t steps_of_moves() const;
+  bool each_patch(std::size_t count, double begin, double end,
+                  const std::function<void(std::size_t i, std::size_t worker)>& one);
+  void join(const PatchCutter& cutter, std::vector<Patch> patches, std::vector<std::vector<Vertex>> vertices,
+            std::int32_t steps);
+  void add(const FitCounts& counts);
+  bool tell(double share) const { return !options_.progress || options_.progress(share, vertices()); }
+  FitCounts remove(Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error);
+  void hold_borders(const std::vector<std::vector<Vertex>>& vertices);
+  std::vector<std::uint8_t> near_held(const Patch& patch, const std::vector<Vertex>& vertices) const;
+  void renumber(const std::vector<Vertex>& numbers, std::size_t count);
+
+  const Raster& raster_;
+  const FitOptions& options_;
+  MoveRules rules_;
+  Fitted fitted_;
+  std::uint64_t vertices_;                     // of the mesh that was given
+  double done_ = 0;                            // share of the whole
+  std::vector<std::uint8_t> settled_;          // by vertex
+  std::vector<std::uint8_t> held_;             // by vertex: it has been on a border between patches
+  std::vector<PatchCutter::Scratch> scratch_;  // by thread
+  std::vector<SampleWindow> windows_;
+  std::vector<FitCounts> counts_;
+};
+
+}  // namespace scarp

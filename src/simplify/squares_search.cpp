@@ -1,0 +1,125 @@
+#include "simplify/squares_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "fit/square_rounds.h"
+#include "pieces/effort.h"
+#include "pieces/goals.h"
+#include "simplify/search_progress.h"
+
+namespace scarp {
+
+namespace {
+
+/// Triangles ~ number^-kUsualPower, and how far from what is wanted a start may be, as a ratio.
+constexpr double kUsualPower = 1.3, kNearStart = 1.5;
+
+int exchanges_of(Effort effort) { return effort == Effort::kMax ? 60 : effort == Effort::kHigh ? 6 : 2; }
+
+class SquaresSearch {
+ public:
+  SquaresSearch(const SimplifyOptions& options, const BudgetTask& task)
+      : options_(options), task_(task), number_(options), budget_(options), progress_(options.run.progress) {}
+
+  Result<Simplified> execute() {
+    const auto start = Clock::now();
+    auto fast = refine();
+    if (!fast) return fast;
+    const double reached = fast->judged_max_error;
+    const double asked = number_.is_factor() ? 1 : options_.goals.max_error.value_or(reached);
+    if (!(reached > 0) || std::isinf(reached) || fast->stop == StopReason::kExact) return search_budget(options_, task_);
+    const auto first = find_start(reached, static_cast<double>(fast->mesh.triangle_count()));
+    if (!first) return tl::unexpected(first.error());
+    std::optional<Simplified> best;
+    for (const double bound : {asked, std::max(asked, reached)}) {
+      if (best) break;
+      auto made = run(bound, std::min(1.0, *first / bound));
+      if (!made && made.error().kind != ErrorKind::kPromise) return made;
+      if (made && used_by(*made) <= 1) best = std::move(*made);
+    }
+    if (!best) return search_budget(options_, task_);
+    if (rank(*fast) < rank(*best)) std::swap(*best, *fast);
+    best->stop = stop_of(*best);
+    Pass search{"search"};
+    search.seconds = seconds_since(start) - best->seconds_refine - best->seconds_measure;
+    best->seconds_refine += search.seconds;
+    best->passes.insert(best->passes.begin(), search);
+    return std::move(*best);
+  }
+
+ private:
+  Result<Simplified> run_once(SimplifyOptions options, const Scale& scale, double share) {
+    if (!progress_.begin(share)) return fail(ErrorKind::kCancelled, "cancelled while searching for a start");
+    options.run.progress = progress_.of_run(options.quality.effort != Effort::kFast);
+    return task_.run(options, scale);
+  }
+
+  SimplifyOptions without_effort(SimplifyOptions options) const {
+    options.quality.effort = Effort::kFast;
+    options.goals.objective = Objective::kMax;
+    options.output.normals = options.output.uvs = false;
+    return options;
+  }
+
+  Result<Simplified> refine() {
+    SimplifyOptions fast = without_effort(options_);
+    fast.output = options_.output;
+    return task_.insertion_stops ? run_once(fast, {}, 0.1) : search_budget(fast, task_);
+  }
+
+  /// A number that refinement alone gives kSquareStart times the triangles for, nearly.
+  Result<double> find_start(double reached, double triangles) {
+    const double number = reached * std::pow(kSquareStart, -1 / kUsualPower);
+    const auto made = run_once(without_effort(number_.towards(number)), {number_.factor_of(number)}, 0.1);
+    if (!made && made.error().kind != ErrorKind::kPromise) return tl::unexpected(made.error());
+    if (!made) return number;
+    const double grown = static_cast<double>(made->mesh.triangle_count()) / triangles;
+    if (grown > kSquareStart / kNearStart && grown < kSquareStart * kNearStart) return number;
+    const double power = std::clamp(std::log(grown) / std::log(reached / number), 0.3, 4.0);
+    return reached * std::pow(kSquareStart, -1 / power);
+  }
+
+  Result<Simplified> run(double bound, double start) {
+    Scale scale{number_.factor_of(bound)};
+    scale.start = start;
+    scale.squares = SquareGoal{options_.goals.max_triangles.value_or(kNoBudget),
+                               options_.goals.max_vertices.value_or(kNoBudget), exchanges_of(options_.quality.effort)};
+    return run_once(number_.towards(bound), scale, 0.7);
+  }
+
+  double used_by(const Simplified& made) const {
+    return budget_.used({made.mesh.vertex_count(), made.mesh.triangle_count()});
+  }
+  static std::tuple<double, double> rank(const Simplified& made) { return {made.judged_rmse, made.judged_max_error}; }
+
+  StopReason stop_of(const Simplified& made) const {
+    if (made.judged_max_error <= (number_.is_factor() ? 1 : options_.goals.max_error.value_or(-1)))
+      return StopReason::kMaxError;
+    const double by_vertices = budget_.used({made.mesh.vertex_count(), 0});
+    return by_vertices > budget_.used({0, made.mesh.triangle_count()}) ? StopReason::kMaxVertices
+                                                                       : StopReason::kMaxTriangles;
+  }
+
+  const SimplifyOptions& options_;
+  const BudgetTask& task_;
+  BudgetNumber number_;
+  Budget budget_;
+  SearchProgress progress_;
+};
+
+}  // namespace
+
+bool lowers_squares(const HeightField& field, const SimplifyOptions& options) {
+  return options.goals.objective == Objective::kRms && options.quality.effort != Effort::kFast &&
+         field.samples != nullptr && !options.quality.shape.any();
+}
+
+Result<Simplified> search_squares(const SimplifyOptions& options, const BudgetTask& task) {
+  return SquaresSearch(options, task).execute();
+}
+
+}  // namespace scarp

@@ -1,0 +1,23 @@
+// The mesh of a budget with a small squared error.
+//
+// No search for an error leads there (fit/square_rounds.h), so there is none: the mesh of fast effort tells what max
+// error the budget reaches, which becomes the bound; a mesh of several times the triangles is where fitting begins.
+#pragma once
+
+#include "scarp/height_field.h"
+#include "scarp/simplify.h"
+#include "simplify/budget_search.h"
+
+namespace scarp {
+
+/// Whether a budget's mesh is made so: for Objective::kRms with more than fast effort, of samples in memory, without
+/// goals for shapes.
+bool lowers_squares(const HeightField& field, const SimplifyOptions& options);
+
+/// The mesh with the least Simplified::judged_rmse of those seen, within the budgets; its judged_max_error is at most
+/// options.max_error if that can be kept, else not larger than in the mesh of fast effort. Where rounding or the bound
+/// forbid such a mesh, that of search_budget(). Progress, failures and REQUIRES as there. Memory: the mesh of fast
+/// effort beside a run of some four times its triangles.
+Result<Simplified> search_squares(const SimplifyOptions& options, const BudgetTask& task);
+
+}  // namespace scarp
