@@ -115,7 +115,7 @@ class SquaresSearch {
 
 bool lowers_squares(const HeightField& field, const SimplifyOptions& options) {
   return options.goals.objective == Objective::kRms && options.quality.effort != Effort::kFast &&
-         field.samples != nullptr && !options.quality.shape.any();
+         field.samples != nullptr && !options.quality.shape.any() && !options.domain.border.is_locked;
 }
 
 Result<Simplified> search_squares(const SimplifyOptions& options, const BudgetTask& task) {

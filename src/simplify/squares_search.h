@@ -11,7 +11,7 @@
 namespace scarp {
 
 /// Whether a budget's mesh is made so: for Objective::kRms with more than fast effort, of samples in memory, without
-/// goals for shapes.
+/// goals for shapes and a locked border, which has an error of its own.
 bool lowers_squares(const HeightField& field, const SimplifyOptions& options);
 
 /// The mesh with the least Simplified::judged_rmse of those seen, within the budgets; its judged_max_error is at most
