@@ -11,8 +11,9 @@ namespace scarp {
 /// What a budget minimises.
 enum class Objective {
   kMax,  ///< the max error
-  kRms,  ///< the root of the mean square error (with channels: of the norm, as the max error is). With a budget and
-         ///< more than fast effort only; see simplify().
+  kRms,  ///< the root of the mean square error (with channels: of the norm, as the max error is), while the max error
+         ///< stays within max_error or, without one, within what fast effort reaches. With a budget and more than fast
+         ///< effort only; see simplify().
 };
 
 /// How a sample's errors in heights and channels are combined into one.

@@ -47,7 +47,8 @@ struct Quality {
   Vertices vertices = Vertices::kAuto;
   /// Floor of the shapes of triangles, height over longest edge, 0 … 0.5, 0 for none: no vertex is removed or moved, no
   /// edge flipped if that leaves a triangle below it, unless it takes away one that is as bad. Triangles of refinement,
-  /// and those that the outline of nodata forces, may lie below.
+  /// and those that the outline of nodata forces, may lie below. The default yields: what kNormal removes is removed
+  /// first, whatever the shapes, and where more than 15 % of the triangles lie below by then it binds nothing.
   /// DEFAULT: 0.1 where vertices are free, else 0.
   std::optional<double> min_shape = std::nullopt;
   /// Angles, edge lengths and their growth, for simulations: vertices are added until they hold, then removed as far as

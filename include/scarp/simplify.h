@@ -160,6 +160,12 @@ struct Simplified {
 /// for the same budgets. A max_error that fits is a goal of its own, and so is 0 where all samples fit (kExact). With
 /// lines or shapes, in the dominant order, and where the field has a source, so does fast effort.
 ///
+/// Objective::kRms has no search: a refined mesh of four times the triangles is reduced to the budget by the rise of the
+/// squared error, its vertices move, go and come while that falls (Lindstrom and Turk's aim, on the height field's own
+/// vertical error), and no sample leaves the cap: max_error if the budget leaves room for it, else what fast effort
+/// reaches with the budget. All of the budget is used, even where less would keep max_error. Where the field has a
+/// source, with goals for shapes and with a locked border it is the search above, that keeps the least RMSE it has seen.
+///
 /// Tolerances beside a budget: if they fit, with max_error if that is given, they are the goal that ends the run
 /// (StopReason::kMaxError). Else one factor above 1 is searched for that multiplies them all, and max_error; a
 /// tolerance of 0 stays 0. What is made small is the largest |error| / tolerance, or with Objective::kRms its RMS over

@@ -50,7 +50,8 @@ constexpr OptionRow kGoalRows[] = {
      .type = kChoice,
      .choices = "max rms",
      .by_default = "max",
-     .help = "What to minimise under -t or -p: the max error or the RMSE. Needs --effort normal or more."},
+     .help = "What to minimise under -t or -p: the max error or the RMSE. With rms no sample is off by more than -e, "
+             "or than what --effort fast reaches. Needs --effort normal or more."},
 
     {.id = kFailAbove,
      .name = "--fail-above",
