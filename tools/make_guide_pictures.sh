@@ -83,6 +83,12 @@ for level in "0 15" "1 60" "2 240"; do
   view "lod$number.ply" "games_lod$number.png" "${place[@]}" --edges --line-width 0.6
 done
 
+# An image and a normal map in the GLB, which is y-up.
+printf '240 92 130 84\n450 168 170 110\n700 190 150 105\n1076 245 240 235\n' > ramp.txt
+gdaldem color-relief -q dem.tif ramp.txt relief.tif
+simplify tall.vrt draped.glb -e 60 --drape relief.tif --normal-map 403
+view draped.glb games_draped.png +Y 0,16000,30000 0,1500,2000 --color 1,1,1
+
 simplify dem.tif hills.stl -e 0.1mm --solid size=120mm,exaggerate=3,thickness=3mm
 view hills.stl printing_solid.png +Z -40,-90,110 57,60,0
 simplify dem.tif big.stl -e 0.1mm --solid size=360mm,exaggerate=3 --split 2x2,joint=dovetail,gap=0.2mm

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
 # Every command of the README and of the guides runs as it stands, in the folder of examples, and does what it says.
 source "$(dirname "$0")/lib.sh"
-need python3
+need python3 gdaldem
 readme=$SCARP_SOURCE/README.md
 [ "$(wc -l < "$readme")" -le 120 ] || fail "the README has more than 120 lines: $(wc -l < "$readme")"
 PATH=$(dirname "$scarp"):$PATH
 
-# commands FILE: those of the cookbook's rows, and of indented code, without comments. A line that ends in \ goes on.
+# commands FILE: those of the cookbook's rows, and of indented code (with what makes their input), without comments. A line that ends in \ goes on.
 commands() {
   python3 - "$1" <<'PYTHON'
 import re, sys
 text = open(sys.argv[1], encoding="utf-8").read().replace("\\\n", " ")
 for line in text.split("\n"):
-    for command in re.findall(r"^\|.*\| `(scarp [^`]*)`", line) or re.findall(r"^    (scarp .*)", line):
+    for command in re.findall(r"^\|.*\| `(scarp [^`]*)`", line) or re.findall(r"^    ((?:scarp|gdaldem|printf) .*)", line):
         print(re.sub(r"\s+", " ", re.sub(r" +#.*", "", command)))
 PYTHON
 }
