@@ -18,9 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Result<void> (*kExperiments[])(paper::Study&) = {
-    paper::add_memory,         paper::add_selectors,    paper::add_algorithms,       paper::add_effort,
-    paper::add_batches,        paper::add_edge_rules,   paper::add_edge_sweep,       paper::add_synthetic,
-    paper::add_reference_rows, paper::add_error_curves, paper::add_textured_terrain, paper::add_images};
+    paper::add_illustration,   paper::add_memory,           paper::add_selectors,    paper::add_algorithms,
+    paper::add_effort,         paper::add_batches,          paper::add_edge_rules,   paper::add_edge_sweep,
+    paper::add_supersampling,  paper::add_settling,         paper::add_surfaces,     paper::add_synthetic,
+    paper::add_reference_rows, paper::add_cross_checks,     paper::add_error_curves, paper::add_edge_curves,
+    paper::add_seconds,        paper::add_textured_terrain, paper::add_images};
 
 void add_header(paper::Study& study) {
   study.page.heading(1, "The experiments of the 1995 paper");
@@ -35,13 +37,18 @@ void add_header(paper::Study& study) {
         "difference from it. The figures are listed in `apps/scarp/paper/figures.h`. The fields are the paper's five: "
         "Crater Lake, Ashby Gap, Ozark, the National Training Center (ntc) and the western US. Errors are vertical, in "
         "metres, over all samples.");
+    study.page.paragraph(
+        "Sections, pages and figures in brackets are the paper's. Of its text only the first pages, with its contents, "
+        "and the sources of its programs were at hand: other numbers of its figures are not known, and what it is said "
+        "to claim beyond these pages is marked as not verified.");
   } else {
-    study.page.paragraph("The folder holds none of the paper's fields, so there are no figures to compare with.");
+    study.page.paragraph(
+        "The folder holds none of the paper's fields, so there are no figures to compare with but for the synthetic "
+        "fields. Sections, pages and figures in brackets are the paper's.");
   }
   study.page.paragraph(
       study.timing
-          ? "Ratios of times and memory are marked as measured once; all other numbers are the same on every run "
-            "and machine."
+          ? "Times and memory are marked as measured once; all other numbers are the same on every run and machine."
           : "All numbers are the same on every run and machine.");
   std::vector<std::vector<std::string>> rows;
   for (const paper::Field& field : study.fields.all) {

@@ -1,4 +1,4 @@
-// 2.3 to 2.5: Algorithms I, II and III make the same meshes and differ in what they look at.
+// Section 4: Algorithms I, II and III make the same meshes and differ in what they look at.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -88,7 +88,7 @@ Result<void> add_algorithms(Study& study) {
     }
     rows.push_back(std::move(row));
   }
-  study.page.heading(2, "Algorithms I, II and III");
+  study.page.heading(2, "Algorithms I, II and III (section 4, pages 8, 11 and 13)");
   std::vector<std::string> header{"field",    "m",       "million samples scanned, I",   "II",
                                   "III",      "I / III", "triangles looked through, II", "entries moved, III",
                                   "same mesh"};

@@ -1,4 +1,4 @@
-// 2.6: several insertions a pass.
+// Section 4, parallel insertion: several insertions a pass.
 #include <fmt/format.h>
 
 #include "paper/study.h"
@@ -69,7 +69,7 @@ Result<void> add_batches(Study& study) {
     }
     cells.push_back(std::move(line));
   }
-  study.page.heading(2, "Insertion in batches");
+  study.page.heading(2, "Insertion in batches (section 4, parallel insertion)");
   study.page.paragraph(
       "Vertices and passes until the max error is below the bound. Fraction α: a pass inserts all candidates of at "
       "least α "

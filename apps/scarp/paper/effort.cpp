@@ -1,4 +1,4 @@
-// 2.5: how much work Algorithm III does: samples scanned and entries moved in the queue, against n log m.
+// Section 4: how much work Algorithm III does: samples scanned and entries moved in the queue, against n log m.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -122,7 +122,7 @@ Result<void> add_effort(Study& study) {
     }
     all.push_back(std::move(*series));
   }
-  study.page.heading(2, "The cost of Algorithm III");
+  study.page.heading(2, "The cost of Algorithm III (section 4, page 13)");
   study.page.paragraph("Expected: O((n + m) log m) for n samples and m vertices.");
   study.page.table(
       {"field", "m", "million samples scanned", "without corners", "triangles scanned / m", "queue entries moved / m"},

@@ -1,4 +1,4 @@
-// 2.7: memory for each vertex, as the system counts it.
+// Memory for each vertex, as the system counts it.
 #include <fmt/format.h>
 #include <malloc.h>
 
@@ -36,6 +36,9 @@ bool restart_peak() {
   return file && std::fputs("5", file.get()) >= 0 && std::fflush(file.get()) == 0;
 }
 
+/// With fewer what a run takes once, whatever its size, would seem to be the vertices'.
+constexpr std::uint64_t kLeastVertices = 50'000;
+
 }  // namespace
 
 Result<void> add_memory(Study& study) {
@@ -44,6 +47,7 @@ Result<void> add_memory(Study& study) {
   for (const Field& candidate : study.fields.all) {
     if (field == nullptr || candidate.samples() > field->samples()) field = &candidate;
   }
+  if (field->share(10) < kLeastVertices) return {};
   std::vector<std::vector<std::string>> rows;
   for (const double share : {10.0, 50.0}) {
     study.note(fmt::format("memory: {}, {} vertices", field->key, field->share(share)));
@@ -62,6 +66,7 @@ Result<void> add_memory(Study& study) {
       "*Measured once, on the machine that wrote this page:* the peak of resident memory during `simplify()`, judging "
       "included, above what was there with the samples (4 bytes each) before.");
   study.page.table({"field", "m", "MB", "bytes a vertex"}, rows);
+  if (!study.fields.are_of_paper) return {};
   study.page.paragraph(fmt::format(
       "Scape in a 64-bit build: about {:g} bytes a vertex, samples included; counted from its structures with 4-byte "
       "pointers: {:g}; named for the paper: about {:g}.",

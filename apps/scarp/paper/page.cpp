@@ -98,6 +98,7 @@ void Differences::add(const std::string& what, double ours, std::optional<double
   least_ = count_ == 0 ? change : std::min(least_, change);
   most_ = count_ == 0 ? change : std::max(most_, change);
   ++count_;
+  all_.emplace_back(what, change);
 }
 
 double Differences::largest() const { return std::max(std::abs(least_), std::abs(most_)); }
@@ -105,6 +106,15 @@ double Differences::largest() const { return std::max(std::abs(least_), std::abs
 std::string Differences::sentence(const std::string& noun) const {
   return fmt::format("{} {} differ from Scape's by {} % to {} %; the farthest is {}.", count_, noun,
                      with_sign(least_, 1), with_sign(most_, 1), farthest_);
+}
+
+std::string Differences::list_far(double percent) const {
+  std::string list;
+  for (const auto& [what, change] : all_) {
+    if (std::abs(change) < percent) continue;
+    list += fmt::format("{}{} ({} %)", list.empty() ? "" : ", ", what, with_sign(change, 0));
+  }
+  return list;
 }
 
 }  // namespace scarp::paper

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace scarp::paper {
@@ -44,11 +45,14 @@ class Differences {
   double largest() const;
   /// "12 figures differ from Scape's by −0.5 % to +2.1 %; the farthest is …". REQUIRES: not empty.
   std::string sentence(const std::string& noun) const;
+  /// Those that lie so many percent or more from the other: "random on westUS (+86 %), …". Empty if none does.
+  std::string list_far(double percent) const;
 
  private:
   std::size_t count_ = 0;
   double least_ = 0, most_ = 0;
   std::string farthest_;
+  std::vector<std::pair<std::string, double>> all_;  ///< what, change in percent
 };
 
 }  // namespace scarp::paper

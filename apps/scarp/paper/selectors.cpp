@@ -1,4 +1,4 @@
-// 1.2: what is worth inserting. One mesh maker, different choices of samples, 1 % of them.
+// Section 3: what is worth inserting. One mesh maker, different choices of samples, 1 % of them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -82,9 +82,9 @@ struct Row {
   std::vector<Trial> trials;  ///< one a field
 };
 
-/// How much chance there is in random points: RMS of further draws.
+/// How much chance there is in random points: errors of further draws.
 Result<std::string> try_other_draws(const Study& study, const Field& field) {
-  double least = 0, most = 0;
+  double least = 0, most = 0, least_max = 0, most_max = 0;
   for (std::uint64_t draw = 1; draw <= kOtherDraws; ++draw) {
     PaperOptions options;
     options.points = random_points(field.heights, std::max<std::uint64_t>(field.share(1), 4), kSeed + draw);
@@ -92,8 +92,11 @@ Result<std::string> try_other_draws(const Study& study, const Field& field) {
     if (!trial) return tl::unexpected(trial.error());
     least = draw == 1 ? trial->rmse : std::min(least, trial->rmse);
     most = std::max(most, trial->rmse);
+    least_max = draw == 1 ? trial->max_error : std::min(least_max, trial->max_error);
+    most_max = std::max(most_max, trial->max_error);
   }
-  return fmt::format("{} {} to {}", field.key, number(least), number(most));
+  return fmt::format("{} {} to {} (max {} to {})", field.key, number(least), number(most), number(least_max),
+                     number(most_max));
 }
 
 /// What the table says, put into words.
@@ -126,7 +129,7 @@ Result<void> add_selectors(Study& study) {
   const std::vector<Selector> selectors = list_selectors();
   std::vector<Row> rows;
   std::vector<std::vector<std::string>> cells;
-  Differences greedy, drawn, ranked;
+  Differences greedy, drawn, ranked, drawn_max, ranked_max;
   for (const Selector& selector : selectors) {
     study.note(fmt::format("selectors: {}", selector.name));
     Row row{&selector, {}};
@@ -136,10 +139,12 @@ Result<void> add_selectors(Study& study) {
       if (!trial) return tl::unexpected(trial.error());
       const auto rmse = figure_of(study, kThreeFields, selector.figures->rmse, *field);
       line.push_back(beside(trial->rmse, rmse));
-      line.push_back(beside(trial->max_error, figure_of(study, kThreeFields, selector.figures->max_error, *field)));
+      const auto max_error = figure_of(study, kThreeFields, selector.figures->max_error, *field);
+      line.push_back(beside(trial->max_error, max_error));
       const std::string what = fmt::format("{} on {}", selector.name, field->key);
       const bool is_draw = selector.choice != Selector::Choice::kImportance;
       (is_draw ? drawn : selector.importance == Importance{} ? greedy : ranked).add(what, trial->rmse, rmse);
+      (is_draw ? drawn_max : ranked_max).add(what, trial->max_error, max_error);
       row.trials.push_back(*trial);
     }
     rows.push_back(std::move(row));
@@ -150,7 +155,7 @@ Result<void> add_selectors(Study& study) {
     header.push_back(field->key + " RMS");
     header.push_back("max");
   }
-  study.page.heading(2, "What is worth inserting");
+  study.page.heading(2, "What is worth inserting (section 3: importance measures)");
   study.page.paragraph(
       "The same Delaunay triangulation of 1 % of the samples; only their choice differs. Uniform: a sub-grid of about "
       "as "
@@ -164,7 +169,7 @@ Result<void> add_selectors(Study& study) {
     if (!range) return tl::unexpected(range.error());
     draws += (draws.empty() ? "" : ", ") + *range;
   }
-  remarks.push_back(fmt::format("RMS of random points in {} other draws: {}.", kOtherDraws, draws));
+  remarks.push_back(fmt::format("Random points in {} other draws, RMS: {}.", kOtherDraws, draws));
   if (!greedy.empty()) {
     remarks.push_back(greedy.sentence("RMS errors of plain global error"));
     remarks.push_back(drawn.sentence("RMS errors of uniform and random points") +
@@ -179,6 +184,18 @@ Result<void> add_selectors(Study& study) {
                                               "neighbours), and where the mean is "
                                               "that of the neighbours that exist (8 neighbours)."
                                             : ""));
+  }
+  if (const std::string far = drawn_max.list_far(kFarPercent); !far.empty()) {
+    remarks.push_back(fmt::format(
+        "**Max error of {}:** no failure. The max error of points drawn at random is that of one peak or gorge, which "
+        "the points hit or miss: see how far it goes in the other draws.",
+        far));
+  }
+  if (const std::string far = ranked_max.list_far(kFarPercent); !far.empty()) {
+    remarks.push_back(fmt::format(
+        "**Max error of {}:** no failure. Where whole regions get no vertex, one sample more or less, here from the "
+        "treatment of the border, decides how far the worst of them is.",
+        far));
   }
   study.page.list(remarks);
   return {};

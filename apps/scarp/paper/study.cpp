@@ -1,10 +1,12 @@
 #include "paper/study.h"
 
 #include <fmt/format.h>
+#include <time.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "scarp/measure.h"
 #include "terminal/signals.h"
 #include "terminal/text.h"
 
@@ -39,8 +41,14 @@ Trial summarize(const Simplified& run) {
   for (std::size_t t = 0; t < run.mesh.triangle_count(); ++t) thin += is_thin(run.mesh, t) ? 1 : 0;
   trial.thin_share = 100 * static_cast<double>(thin) / static_cast<double>(std::max<std::uint64_t>(trial.triangles, 1));
   trial.work = run.work;
-  trial.seconds = run.seconds_refine;
   return trial;
+}
+
+/// Of the whole process, so far.
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 }  // namespace
@@ -75,6 +83,21 @@ Result<Trial> Study::reach(const Field& field, PaperOptions options) const {
 
 Result<Trial> Study::refine(const Field& field, std::uint64_t vertices, PaperOptions options) const {
   return reach(field, exactly(vertices, std::move(options)));
+}
+
+Result<double> Study::time(const Field& field, std::uint64_t vertices, const EdgeRule& edges) const {
+  PaperOptions options = exactly(vertices, with_edges(edges));
+  options.run.threads = 1;
+  const double start = cpu_seconds();
+  const Result<Simplified> result = run(field.heights, field.file, std::move(options));
+  if (!result) return tl::unexpected(result.error());
+  const double judging = cpu_seconds();
+  MeasureOptions heights_only;
+  heights_only.topology = false;
+  heights_only.run.threads = 1;
+  const auto judged = measure(field.heights, result->mesh, heights_only);
+  if (!judged) return tl::unexpected(judged.error());
+  return std::max(judging - start - (cpu_seconds() - judging), 1e-6);
 }
 
 Result<Trial> Study::delaunay(const Field& field, std::uint64_t vertices) {

@@ -23,7 +23,6 @@ struct Trial {
   double max_error = 0, rmse = 0;
   double thin_share = 0;  ///< percent of triangles with an angle below 5 degrees, seen from above
   Work work;
-  double seconds = 0;  ///< outline, refinement and freezing
 };
 
 class Study {
@@ -55,6 +54,8 @@ class Study {
   Result<Trial> refine(const Field& field, std::uint64_t vertices, PaperOptions options = {}) const;
   /// The same towards the goals in `options`.
   Result<Trial> reach(const Field& field, PaperOptions options) const;
+  /// CPU seconds of greedy insertion up to that many vertices on one thread, without reading and judging.
+  Result<double> time(const Field& field, std::uint64_t vertices, const EdgeRule& edges) const;
   /// refine() with Delaunay edges and nothing else chosen; runs once for each field and number.
   Result<Trial> delaunay(const Field& field, std::uint64_t vertices);
 
@@ -98,7 +99,11 @@ std::optional<double> figure_of(const Study& study, const std::array<const char*
   return static_cast<double>(figures[static_cast<std::size_t>(at)]);
 }
 
+/// Where a figure is so many percent from Scape's, a sentence beside the table says why.
+inline constexpr double kFarPercent = 45;
+
 // The experiments, each a section of the page.
+Result<void> add_illustration(Study& study);
 Result<void> add_memory(Study& study);
 Result<void> add_selectors(Study& study);
 Result<void> add_effort(Study& study);
@@ -106,9 +111,15 @@ Result<void> add_algorithms(Study& study);
 Result<void> add_batches(Study& study);
 Result<void> add_edge_rules(Study& study);
 Result<void> add_edge_sweep(Study& study);
+Result<void> add_supersampling(Study& study);
+Result<void> add_settling(Study& study);
+Result<void> add_surfaces(Study& study);
 Result<void> add_synthetic(Study& study);
 Result<void> add_reference_rows(Study& study);
+Result<void> add_cross_checks(Study& study);
 Result<void> add_error_curves(Study& study);
+Result<void> add_edge_curves(Study& study);
+Result<void> add_seconds(Study& study);
 Result<void> add_textured_terrain(Study& study);
 Result<void> add_images(Study& study);
 

@@ -1,4 +1,4 @@
-// 3.7, last table: fields that are curved in one direction, where data-dependent edges are decisive.
+// Section 4.4: fields that are curved in one direction, where data-dependent edges are decisive.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -82,7 +82,15 @@ Result<void> add_synthetic(Study& study) {
                   "reproduce every sample.",
                   kBudget));
   study.page.table(header, rows);
-  study.page.list(
+  std::vector<std::string> remarks;
+  if (const std::string far = differences.list_far(kFarPercent); !far.empty()) {
+    remarks.push_back(fmt::format(
+        "**Max error of {}:** less is better, and here the error is that of a judge of its own that looks at every "
+        "sample of the finished mesh; Scape's is known to lose samples at q 0 (below).",
+        far));
+  }
+  remarks.insert(
+      remarks.end(),
       {differences.sentence("max errors"),
        "These fields are full of ties, whole heights in straight rows, and a max error at one number of "
        "vertices is set by how ties are decided (here by raster order): figures for the same field may lie "
@@ -91,6 +99,7 @@ Result<void> add_synthetic(Study& study) {
        "slivers, and have kept errors that it did not see.",
        "The cliff has a jump of 1000 between two columns: no edge rule helps as long as fewer vertices than "
        "rows are allowed."});
+  study.page.list(remarks);
   return {};
 }
 

@@ -1,6 +1,7 @@
-// 4: terrain with its aerial photograph: one run that serves shape and colour.
+// Terrain with its aerial photograph: one run that serves shape and colour.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "paper/colors.h"
@@ -20,6 +21,44 @@ constexpr std::array<Emphasis, 5> kEmphases{{{"heights alone", 0},
                                              {"both, emphasis 0.1", 0.1},
                                              {"both, emphasis 0.5", 0.5},
                                              {"colours alone", 1}}};
+/// The other table: the emphasis, and what is added to all heights, in reliefs.
+constexpr double kMovedEmphasis = 0.1, kMovedReliefs = 10;
+
+/// What the two definitions of the colours' weight make of the same land, counted from elsewhere.
+Result<void> add_moved_heights(Study& study, const OwnedHeightField& heights, const OwnedChannels& photo,
+                               std::uint64_t vertices) {
+  const double relief = heights.info.max - heights.info.min;
+  OwnedHeightField moved = heights;
+  for (float& sample : moved.samples) sample += static_cast<float>(kMovedReliefs * relief);
+  const auto highest = [](const OwnedHeightField& of) {
+    return double{*std::max_element(of.samples.begin(), of.samples.end())};
+  };
+  std::vector<std::vector<std::string>> rows;
+  const auto add = [&](const std::string& name, const OwnedHeightField& field, double size) -> Result<void> {
+    study.note(fmt::format("textured terrain: {}", name));
+    const Result<Painted> result =
+        paint(study, with_colors(field.view(), photo, 1 - kMovedEmphasis, kMovedEmphasis * size / 3 / 255), kHeights,
+              photo, exactly(vertices));
+    if (!result) return tl::unexpected(result.error());
+    const Measurement& m = result->run.measurement;
+    rows.push_back({name, number(size), number(m.rmse), number(m.max_error), format_psnr(result->psnr)});
+    return {};
+  };
+  const std::string up = fmt::format(", all heights {} higher", number(kMovedReliefs * relief));
+  Result<void> added = add("Scape's: the highest height", heights, highest(heights));
+  if (added) added = add("Scape's" + up, moved, highest(moved));
+  if (added) added = add("Scarp's: highest minus lowest", heights, relief);
+  if (added) added = add("Scarp's" + up, moved, relief);
+  if (!added) return added;
+  study.page.paragraph(fmt::format("What that does: emphasis {:g}, the heights as they are and counted from elsewhere.",
+                                   kMovedEmphasis));
+  study.page.table({"size of the heights", "is", "RMS of heights", "max", "PSNR of colours"}, rows);
+  study.page.list(
+      {"By Scape's definition land that lies higher gets other vertices, as if the emphasis were greater. By "
+       "Scarp's it does not matter how high it lies (but for the last bits of 32-bit heights)."});
+  return {};
+}
+
 /// Rows of the table, after the uniform grid.
 constexpr std::size_t kHeightsAlone = 1, kBoth = 2;
 
@@ -96,7 +135,7 @@ Result<void> add_textured_terrain(Study& study) {
       both.psnr > alone.psnr ? " Its vertices lie on edges of colour that heights alone would not find; the "
                                "emphasis says what that may cost in shape."
                              : "")});
-  return {};
+  return add_moved_heights(study, *heights, *photo, vertices);
 }
 
 }  // namespace scarp::paper
