@@ -1,6 +1,7 @@
 #!/bin/bash
 # Makes the pictures of docs/guide and of the README. Views in three dimensions need f3d, and xvfb-run where there is no
-# display (Debian: f3d, xvfb); pngquant and GDAL make them small (pngquant, gdal-bin).
+# display (Debian: f3d, xvfb); the mesh layer needs QGIS (python3-qgis, qgis-providers); pngquant and GDAL make them small
+# (pngquant, gdal-bin).
 #
 # usage: tools/make_guide_pictures.sh PROGRAM
 set -euo pipefail
@@ -59,6 +60,40 @@ shrink "$out/gis_parcel.png" 900
 simplify dem.tif tin.2dm -e 20 --crs EPSG:32616
 "$scarp" measure dem.tif tin.2dm --map "$out/gis_errors.png" --quiet --overwrite
 shrink "$out/gis_errors.png" 700
+# The interpreter of Debian's packages, which others on the path do not replace.
+QT_QPA_PLATFORM=offscreen /usr/bin/python3 - "$out/gis_qgis.png" << 'PYTHON'
+import sys
+from qgis.core import (QgsApplication, QgsCoordinateReferenceSystem, QgsMapRendererParallelJob, QgsMapSettings, QgsMeshLayer,
+                       QgsRectangle)
+from qgis.PyQt.QtCore import QSize
+from qgis.PyQt.QtGui import QColor
+program = QgsApplication([], False)
+program.initQgis()
+crs = QgsCoordinateReferenceSystem("EPSG:32616")
+mesh = QgsMeshLayer("tin.2dm", "tin", "mdal")
+assert mesh.isValid() and mesh.meshFaceCount() > 10000
+mesh.setCrs(crs)
+style = mesh.rendererSettings()
+lines = style.nativeMeshSettings()
+lines.setEnabled(True)
+lines.setLineWidth(0.2)
+lines.setColor(QColor(20, 40, 90))
+style.setNativeMeshSettings(lines)
+style.setActiveScalarDatasetGroup(0)
+mesh.setRendererSettings(style)
+middle, half = mesh.extent().center(), 0.3 * mesh.extent().width()
+view = QgsMapSettings()
+view.setLayers([mesh])
+view.setDestinationCrs(crs)
+view.setExtent(QgsRectangle(middle.x() - half, middle.y() - 0.6 * half, middle.x() + half, middle.y() + 0.6 * half))
+view.setOutputSize(QSize(900, 540))
+job = QgsMapRendererParallelJob(view)
+job.start()
+job.waitForFinished()
+job.renderedImage().save(sys.argv[1])
+program.exitQgis()
+PYTHON
+shrink "$out/gis_qgis.png" 900
 
 simplify dem.tif flow.2dm -e 20 --crs local --breaklines dikes.geojson --min-angle 25 --max-edge 1500 --grade 0.3 \
   --preview "$out/simulation_lines.png"
