@@ -95,7 +95,7 @@ _scarp() {
       return
       ;;
     "simplify --importance")
-      COMPREPLY=($(compgen -W 'global local local8 curvature global*local global*local8 global*curvature' -- "$current"))
+      COMPREPLY=($(compgen -W 'global local local8 curvature distance global*local global*local8 global*curvature global*distance' -- "$current"))
       return
       ;;
     "simplify --algorithm")

@@ -89,7 +89,7 @@ complete -c scarp -n '__fish_seen_subcommand_from simplify measure' -l duplicate
 complete -c scarp -n '__fish_seen_subcommand_from simplify measure info' -l layer -x -d 'Layer to read'
 complete -c scarp -n '__fish_seen_subcommand_from simplify measure info' -l z-field -x -d 'Column or attribute with the heights'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l order -x -a 'dominant greedy' -d 'Which sample is inserted next'
-complete -c scarp -n '__fish_seen_subcommand_from simplify' -l importance -x -a 'global local local8 curvature global*local global*local8 global*curvature' -d 'What the worst sample is: the one with the largest global (error of the mesh), local or local8 (difference from the mean of its 4 or 8 neighbours) or curvature'
+complete -c scarp -n '__fish_seen_subcommand_from simplify' -l importance -x -a 'global local local8 curvature distance global*local global*local8 global*curvature global*distance' -d 'What the worst sample is: the one with the largest global (error of the mesh), local or local8 (difference from the mean of its 4 or 8 neighbours) or curvature'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l one-pass -d 'Rank all samples once, by --importance local, local8 or curvature, and insert the best'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l algorithm -x -a 'brute local heap' -d 'How the greedy order finds the next sample: the paper\'s algorithms I, II and III'
 complete -c scarp -n '__fish_seen_subcommand_from simplify' -l batch -x -a 'const frac: independent' -d 'Insert several samples per pass'

@@ -32,7 +32,7 @@ struct PaperOptions {
 /// fast effort in the greedy order; with the default strategy so is every byte of the mesh.
 ///
 /// Fails as simplify() does; with kUsage for a field without samples in memory, for Objective::kRms, and for a strategy
-/// out of range: an importance of nothing, one pass beside batches or without a feature, a fraction of a batch not in
+/// out of range: an importance of nothing, one pass beside batches or without a feature of the raster, a fraction of a batch not in
 /// (0, 1], a shape threshold above 1, supersampling below 0. Cost: as simplify() in the greedy order; Algorithms I and
 /// II as strategy.h says; data-dependent edges some ten times as long.
 Result<Simplified> simplify_by_paper(const HeightField& field, const PaperOptions& options);

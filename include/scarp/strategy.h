@@ -15,13 +15,14 @@ namespace scarp {
 /// largest importance is inserted. The promised and reported errors are always the true ones.
 ///
 /// importance = |error| (if `global`) · feature (if any, damped). Features are measured on the raster and do not depend
-/// on the mesh:
+/// on the mesh, but for the last:
 ///   kLocal4, kLocal8   |z − mean of the 4 or 8 neighbours|
 ///   kCurvature         √(z_xx² + 2 z_xy² + z_yy²) by central differences
+///   kDistance          from the nearest corner of the sample's triangle, in samples: attenuates errors near vertices
 /// Opposite neighbours count in pairs. An incomplete pair (nodata, beyond the border) is left out, so a plane has no
 /// feature on its border either.
 struct Importance {
-  enum class Feature { kNoFeature, kLocal4, kLocal8, kCurvature };
+  enum class Feature { kNoFeature, kLocal4, kLocal8, kCurvature, kDistance };
   enum class Damping {
     kUndamped,     ///< f
     kPlusOne,      ///< f + 1
@@ -31,7 +32,7 @@ struct Importance {
   Feature feature = Feature::kNoFeature;
   Damping damping = Damping::kUndamped;
   /// One pass: rank all samples by the feature, insert the best in that order until a goal is reached, never look back.
-  /// REQUIRES: a feature, and global = false.
+  /// REQUIRES: a feature of the raster, and global = false.
   bool one_pass = false;
 
   friend bool operator==(const Importance&, const Importance&) = default;

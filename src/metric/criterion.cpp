@@ -67,8 +67,8 @@ Result<Criterion> Criterion::make(const HeightField& field, const Request& optio
   const Importance& importance = options.strategy.importance;
   criterion.importance_is_error_ = importance.global && importance.feature == Importance::Feature::kNoFeature;
   const double bound = criterion.aim();
-  const bool plain =
-      field.channels.empty() && field.height_scale == 1 && criterion.bounds_.empty() && criterion.factors_.empty();
+  const bool plain = field.channels.empty() && field.height_scale == 1 && criterion.bounds_.empty() &&
+                     criterion.factors_.empty() && importance.feature != Importance::Feature::kDistance;
   if (plain) {
     if (field.samples != nullptr) {
       criterion.metric_ = std::make_unique<HeightMetric>(raster, bound);
@@ -81,6 +81,7 @@ Result<Criterion> Criterion::make(const HeightField& field, const Request& optio
     if (!criterion.factors_.empty()) settings.factors = criterion.factors_.data();
     settings.per_bound = !options.tolerances.values.empty() && criterion.factors_.empty();
     settings.by_error = importance.global;
+    if (importance.feature == Importance::Feature::kDistance) settings.distance = importance.damping;
     if (criterion.importance_is_error_) settings.goal = options.tolerances.values.empty() ? bound : 1;
     criterion.metric_ = std::make_unique<SampleMetric>(std::move(settings));
   }
@@ -133,7 +134,7 @@ Result<void> Criterion::check_strategy() const {
   const Importance& importance = options_->strategy.importance;
   const bool has_feature = importance.feature != Importance::Feature::kNoFeature;
   if (!importance.global && !has_feature) return usage("an importance needs the global error or a feature");
-  if (importance.one_pass && (importance.global || !has_feature))
+  if (importance.one_pass && (importance.global || !has_raster_feature(importance)))
     return usage("one pass ranks samples by a feature alone: local error or curvature");
   const Batch& batch = options_->strategy.batch;
   if (importance.one_pass && batch.rule != Batch::Rule::kSequential)
@@ -203,7 +204,7 @@ Result<void> Criterion::set_bounds() {
 }
 
 void Criterion::set_factors() {
-  const bool has_feature = options_->strategy.importance.feature != Importance::Feature::kNoFeature;
+  const bool has_feature = has_raster_feature(options_->strategy.importance);
   if (has_feature) factors_ = measure_feature(raster_, options_->strategy.importance);
   const bool has_tolerance = !options_->tolerances.values.empty();
   if (options_->tolerances.weights.empty() && !(has_tolerance && has_feature)) return;

@@ -52,12 +52,16 @@ double curvature(const Neighbourhood& near, Point p) {
   return std::sqrt(xx * xx + 2 * xy * xy + yy * yy);
 }
 
+}  // namespace
+
+bool has_raster_feature(const Importance& importance) {
+  return importance.feature != Importance::Feature::kNoFeature && importance.feature != Importance::Feature::kDistance;
+}
+
 double damped(double feature, Importance::Damping damping) {
   if (damping == Importance::Damping::kUndamped) return feature;
   return damping == Importance::Damping::kPlusOne ? feature + 1 : std::sqrt(feature + 1);
 }
-
-}  // namespace
 
 std::vector<float> measure_feature(const Raster& raster, const Importance& importance) {
   const Neighbourhood near(raster);

@@ -1,4 +1,4 @@
-// Importance measures that do not depend on the mesh (Garland & Heckbert 1995, section 3).
+// Importance measures (Garland & Heckbert 1995, section 3); those that do not depend on the mesh.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,12 @@
 
 namespace scarp {
 
-/// The damped feature at every sample, row-major; 0 at nodata samples. REQUIRES: a feature.
+/// Is there a feature that does not depend on the mesh?
+bool has_raster_feature(const Importance& importance);
+
+double damped(double feature, Importance::Damping damping);
+
+/// The damped feature at every sample, row-major; 0 at nodata samples. REQUIRES: has_raster_feature().
 std::vector<float> measure_feature(const Raster& raster, const Importance& importance);
 
 /// Samples in order of their value, largest first, ties in raster order; nodata samples are left out.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "geom/scan.h"
 #include "metric/between.h"
 #include "metric/fine_lattice.h"
+#include "metric/importance.h"
 #include "scarp/height_field.h"
 
 namespace scarp {
@@ -34,6 +36,15 @@ void add_to_norm(Norm norm, double error, double& total) {
   } else {
     total = std::max(total, error);
   }
+}
+
+double distance_from_corner(const std::array<Point, 3>& corners, Point p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Point& corner : corners) {
+    const double dx = double{1} * p.x - corner.x, dy = double{1} * p.y - corner.y;
+    nearest = std::min(nearest, dx * dx + dy * dy);
+  }
+  return std::sqrt(nearest);
 }
 
 }  // namespace
@@ -116,8 +127,10 @@ double SampleMetric::weighted(double error, std::size_t index) const {
   return settings_.factors != nullptr && settings_.by_error ? error * double{settings_.factors[index]} : error;
 }
 
-double SampleMetric::importance(double error, std::size_t index) const {
-  const double value = settings_.by_error ? weighted(error, index) : double{settings_.factors[index]};
+double SampleMetric::importance(double error, std::size_t index, const std::array<Point, 3>& corners, Point p) const {
+  double value = weighted(error, index);
+  if (!settings_.by_error) value = settings_.factors != nullptr ? double{settings_.factors[index]} : 1;
+  if (settings_.distance) value *= damped(distance_from_corner(corners, p), *settings_.distance);
   return value > 0 ? value : error * kUnimportant;
 }
 
@@ -140,12 +153,13 @@ Fit SampleMetric::fit(const std::array<Point, 3>& corners, const FitQuestion& qu
         const double score = weighted(error, index + i);
         fit.max_error = std::max(fit.max_error, score);
         fit.sum_squares += score * score;
-        const double value = importance(error, index + i);
+        const Point p{begin + static_cast<std::int32_t>(i), y};
+        const double value = importance(error, index + i, corners, p);
         if (value <= fit.worst.error) continue;  // no candidate, whatever its bound
         const double bound = bound_at(index + i), margin = surface.guard + kNormRounding * error;
         if (error < bound - margin) continue;
         if (error > bound + margin) {
-          fit.worst = {value, {begin + static_cast<std::int32_t>(i), y}};
+          fit.worst = {value, p};
         } else {
           doubtful = std::max(doubtful, value);
         }
@@ -208,7 +222,7 @@ std::optional<Candidate> SampleMetric::find_candidate(const std::array<Point, 3>
       const double error = combine(surface, p), bound = bound_at(index);
       const double margin = surface.guard + kNormRounding * error;
       if (!(std::abs(error - bound) <= margin)) continue;
-      const Candidate candidate{importance(error, index), p};
+      const Candidate candidate{importance(error, index, corners, p), p};
       if ((!worst || is_worse(candidate, *worst)) && exceeds(corners, p, index)) worst = candidate;
     }
   });

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "grid/raster.h"
 #include "metric/error_metric.h"
 #include "scarp/goals.h"
+#include "scarp/strategy.h"
 
 namespace scarp {
 
@@ -34,7 +36,9 @@ struct MetricSettings {
   const float* factors = nullptr;  ///< importance = error · factor; null: the error
   bool per_bound = false;          ///< importance = error · per_bound(bound); without `factors`
   bool by_error = true;            ///< false: importance = factor
-  double goal = 0;                 ///< see ErrorMetric::goal()
+  /// Importance is also multiplied by the damped distance from the nearest corner. DEFAULT: it is not.
+  std::optional<Importance::Damping> distance = {};
+  double goal = 0;  ///< see ErrorMetric::goal()
 };
 
 /// Of heights alone, each with a bound of its own, ranked by the error over it.
@@ -61,7 +65,7 @@ class SampleMetric final : public ErrorMetric {
   double bound_at(std::size_t index) const {
     return settings_.bounds != nullptr ? double{settings_.bounds[index]} : settings_.threshold;
   }
-  double importance(double error, std::size_t index) const;
+  double importance(double error, std::size_t index, const std::array<Point, 3>& corners, Point p) const;
   double weighted(double error, std::size_t index) const;
   bool exceeds(const std::array<Point, 3>& corners, Point p, std::size_t index) const;
   std::array<float, 3> values_at(const MetricField& field, const std::array<Point, 3>& corners) const;

@@ -49,6 +49,8 @@ grep -qE '^\*Measured once, on the machine that wrote this page \([0-9]{4}-[0-9]
   fail "seconds without a machine and a date"
 grep -qE '^\| hills \| 90 \| [0-9]+\.[0-9]{3} \|' timed/paper.md || fail "no seconds for hills"
 
+grep -q '^- Attenuated against plain global error: RMS ' out/paper.md || fail "the attenuated error is not compared"
+
 # Both ways to look at the same insertion: settled swaps never raise the RMS, and a cell far from Scape's is explained.
 awk -F'|' '/^### Swaps over/ { on = 1 } /^### Meshes/ { on = 0 }
   on && $3 + 0 > 0 { rows++; if ($4 + 0 > $3 + 0 || $6 + 0 > $5 + 0) bad = 1 } END { exit !(rows >= 5 && !bad) }' out/paper.md ||

@@ -12,6 +12,7 @@ while read -r options; do
 done <<'LIST'
 --importance local
 --importance global*local8
+--importance global*distance
 --importance global*(curvature+1)
 --importance global*sqrt(local+1)
 --importance sqrt(curvature+1)

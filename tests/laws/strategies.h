@@ -25,8 +25,9 @@ inline EdgeRule any_edge_rule() {
 
 inline Importance any_importance() {
   Importance importance;
-  importance.feature = *rc::gen::element(Importance::Feature::kNoFeature, Importance::Feature::kLocal4,
-                                         Importance::Feature::kLocal8, Importance::Feature::kCurvature);
+  importance.feature =
+      *rc::gen::element(Importance::Feature::kNoFeature, Importance::Feature::kLocal4, Importance::Feature::kLocal8,
+                        Importance::Feature::kCurvature, Importance::Feature::kDistance);
   importance.damping = *rc::gen::element(Importance::Damping::kUndamped, Importance::Damping::kPlusOne,
                                          Importance::Damping::kSqrtPlusOne);
   if (importance.feature != Importance::Feature::kNoFeature) importance.global = *rc::gen::arbitrary<bool>();
@@ -40,7 +41,9 @@ inline PaperOptions any_strategy() {
   options.strategy.algorithm =
       *rc::gen::element(Algorithm::kHeap, Algorithm::kHeap, Algorithm::kLocal, Algorithm::kBruteForce);
   options.strategy.importance = any_importance();
-  const bool one_pass = !options.strategy.importance.global && *rc::gen::arbitrary<bool>();
+  const bool one_pass = !options.strategy.importance.global &&
+                        options.strategy.importance.feature != Importance::Feature::kDistance &&
+                        *rc::gen::arbitrary<bool>();
   options.strategy.importance.one_pass = one_pass;
   if (!one_pass) {
     options.strategy.batch.rule = *rc::gen::element(Batch::Rule::kSequential, Batch::Rule::kConstant,

@@ -377,6 +377,33 @@ TEST(features, vanish_on_a_plane_and_know_a_quadratic) {
                   1.5f);
 }
 
+/// A spike beside a corner, and a lower bump far from all corners: by the error the spike comes first, by the error
+/// times the distance the bump. One pass cannot rank by what depends on the mesh.
+TEST(features, distance_attenuates_errors_near_vertices) {
+  Field field{33, 33, std::vector<float>(33 * 33, 0.0f)};
+  field.samples[1 * 33 + 2] = 10;
+  field.samples[9 * 33 + 24] = 6;
+  const auto first = [&](const Importance& importance) {
+    PaperOptions options{.goals = {.max_vertices = 5}};
+    options.strategy.importance = importance;
+    const auto run = simplify_by_paper(field.view(), options);
+    if (!run || run->mesh.vertex_count() != 5) return 0.0;
+    double highest = 0;
+    for (std::size_t v = 0; v < 5; ++v) highest = std::max(highest, run->mesh.vertex(v)[2]);
+    return highest;
+  };
+  using Feature = Importance::Feature;
+  using Damping = Importance::Damping;
+  EXPECT_EQ(first({}), 10);
+  EXPECT_EQ(first({.feature = Feature::kDistance}), 6);
+  EXPECT_EQ(first({.feature = Feature::kDistance, .damping = Damping::kSqrtPlusOne}), 6);
+  PaperOptions ranked{.goals = {.max_vertices = 5}};
+  ranked.strategy.importance = {false, Feature::kDistance, Damping::kUndamped, true};
+  const auto refused = simplify_by_paper(field.view(), ranked);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::kUsage);
+}
+
 TEST(batches, independent_ones_cost_few_vertices_and_few_passes) {
   const Field field = testing::random_field(21, 200, 160, Relief::kRidges);
   PaperOptions options{.goals = {.max_error = 4.0}};

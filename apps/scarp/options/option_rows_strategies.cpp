@@ -23,11 +23,12 @@ constexpr OptionRow kStrategyRows[] = {
      .group = OptionGroup::kStrategies,
      .type = kText,
      .value = "FORMULA",
-     .choices = "global local local8 curvature global*local global*local8 global*curvature",
+     .choices = "global local local8 curvature distance global*local global*local8 global*curvature global*distance",
      .by_default = "global",
      .help = "What the worst sample is: the one with the largest global (error of the mesh), local or local8 "
              "(difference from the mean of its 4 or 8 neighbours) or curvature. Or a product: global*local, "
-             "'global*(local+1)', 'global*sqrt(curvature+1)'."},
+             "'global*(local+1)', 'global*sqrt(curvature+1)'. Distance, from the nearest corner of its triangle, "
+             "attenuates errors near vertices: 'global*sqrt(distance+1)'."},
     {.id = kOnePass,
      .name = "--one-pass",
      .commands = kSimplify,

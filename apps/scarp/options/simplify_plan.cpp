@@ -110,7 +110,9 @@ Result<void> plan_strategy(const SimplifyArguments& given, SimplifyPlan& plan) {
   const char* strategy = given.strategy.find_strategy();
   plan.by_paper = strategy != nullptr;
   if (plan.by_paper) plan.strategy_option = strategy;
-  if (plan.channels.image && plan.strategy.importance.feature != Importance::Feature::kNoFeature) {
+  const Importance::Feature feature = plan.strategy.importance.feature;
+  const bool is_of_heights = feature != Importance::Feature::kNoFeature && feature != Importance::Feature::kDistance;
+  if (plan.channels.image && is_of_heights) {
     return fail(ErrorKind::kUsage, "--importance measures features of heights, which an --image has not: leave it out");
   }
   return {};

@@ -16,7 +16,8 @@ namespace {
 
 constexpr Choice<Importance::Feature> kFeatures[] = {{"local", Importance::Feature::kLocal4},
                                                      {"local8", Importance::Feature::kLocal8},
-                                                     {"curvature", Importance::Feature::kCurvature}};
+                                                     {"curvature", Importance::Feature::kCurvature},
+                                                     {"distance", Importance::Feature::kDistance}};
 constexpr Choice<Effort> kEfforts[] = {
     {"fast", Effort::kFast}, {"normal", Effort::kNormal}, {"high", Effort::kHigh}, {"max", Effort::kMax}};
 constexpr Choice<WhyFast> kWhyFast[] = {{"order", WhyFast::kOrder},
@@ -128,10 +129,11 @@ Result<Importance> parse_importance(const std::string& text) {
     importance.feature = choice.value;
     return importance;
   }
-  return fail(ErrorKind::kUsage,
-              fmt::format("--importance {} is unknown: choose global, or local, local8 or curvature, alone or as in "
-                          "global*local, global*(local+1), global*sqrt(curvature+1)",
-                          shell_word(text)));
+  return fail(
+      ErrorKind::kUsage,
+      fmt::format("--importance {} is unknown: choose global, or local, local8, curvature or distance, alone or as in "
+                  "global*local, global*(local+1), global*sqrt(curvature+1)",
+                  shell_word(text)));
 }
 
 std::string importance_name(const Importance& importance) {
@@ -208,7 +210,9 @@ Result<void> StrategyArguments::parse_into(SimplifyOptions& options, Strategy& s
     if (!parsed) return tl::unexpected(parsed.error());
     strategy.importance = *parsed;
   }
-  if (one_pass && (strategy.importance.feature == Importance::Feature::kNoFeature || strategy.importance.global)) {
+  const Importance::Feature feature = strategy.importance.feature;
+  const bool by_raster = feature != Importance::Feature::kNoFeature && feature != Importance::Feature::kDistance;
+  if (one_pass && (!by_raster || strategy.importance.global)) {
     return fail(ErrorKind::kUsage,
                 "--one-pass ranks by a feature of the raster, without the mesh: give it "
                 "--importance local, local8 or curvature");

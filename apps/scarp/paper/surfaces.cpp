@@ -84,6 +84,8 @@ Result<void> add_surfaces(Study& study) {
   View view;
   view.width = 300;
   view.turn = {0.6, -0.8};
+  view.up = {0.6, 0.8};
+  view.relief = 0.25;
   return add_views(study, "surfaces",
                    fmt::format("{}: all {} samples, {} of them with Delaunay edges, and with data-dependent ones",
                                field.key, field.samples(), vertices),
