@@ -1,6 +1,7 @@
 // Section 4: Algorithms I, II and III make the same meshes and differ in what they look at.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "paper/study.h"
@@ -14,7 +15,6 @@ constexpr std::array kNames{"I", "II", "III"};
 
 struct Runs {
   std::array<Work, 3> works;
-  std::array<double, 3> seconds{};
   bool same = true;  ///< meshes, to the last bit
 };
 
@@ -27,11 +27,25 @@ Result<Runs> run(const Study& study, const Field& field, std::uint64_t vertices)
     const Result<Simplified> result = study.run(field.heights, field.file, exactly(vertices, options));
     if (!result) return tl::unexpected(result.error());
     runs.works[k] = result->work;
-    runs.seconds[k] = result->seconds_refine;
     if (k == 0) first = result->mesh;
     runs.same = runs.same && result->mesh.positions == first.positions && result->mesh.triangles == first.triangles;
   }
   return runs;
+}
+
+/// CPU seconds, the least of three runs each.
+Result<std::array<double, 3>> time_all(const Study& study, const Field& field, std::uint64_t vertices) {
+  std::array<double, 3> least{};
+  for (int round = 0; round < 3; ++round) {
+    for (std::size_t k = 0; k < kAlgorithms.size(); ++k) {
+      PaperOptions options;
+      options.strategy.algorithm = kAlgorithms[k];
+      const Result<double> seconds = study.time(field, vertices, options);
+      if (!seconds) return tl::unexpected(seconds.error());
+      least[k] = round == 0 ? *seconds : std::min(least[k], *seconds);
+    }
+  }
+  return least;
 }
 
 double millions(std::uint64_t count) { return static_cast<double>(count) / 1e6; }
@@ -83,8 +97,10 @@ Result<void> add_algorithms(Study& study) {
                                  fmt::format("{}", three.queue_moves),
                                  runs->same ? "yes" : "no"};
     if (study.timing) {
-      row.push_back(number(runs->seconds[0] / runs->seconds[2]));
-      row.push_back(number(runs->seconds[1] / runs->seconds[2]));
+      const auto seconds = time_all(study, *field, vertices);
+      if (!seconds) return tl::unexpected(seconds.error());
+      row.push_back(number((*seconds)[0] / (*seconds)[2]));
+      row.push_back(number((*seconds)[1] / (*seconds)[2]));
     }
     rows.push_back(std::move(row));
   }
@@ -93,8 +109,8 @@ Result<void> add_algorithms(Study& study) {
                                   "III",      "I / III", "triangles looked through, II", "entries moved, III",
                                   "same mesh"};
   if (study.timing) {
-    header.push_back("time I / III (measured once)");
-    header.push_back("time II / III (measured once)");
+    header.push_back("CPU time I / III (measured once)");
+    header.push_back("CPU time II / III (measured once)");
   }
   study.page.table(header, rows);
   const Result<Plot> plot = make_plot(study, *fields.front());

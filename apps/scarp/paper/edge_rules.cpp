@@ -205,10 +205,10 @@ Result<void> add_times(Study& study) {
     study.note(fmt::format("edge rules: times on {}", field.key));
     std::array<std::array<double, 3>, kTimedRules.size()> ratios{};
     for (std::size_t run = 0; run < 3; ++run) {
-      const Result<double> delaunay = study.time(field, field.share(1), {});
+      const Result<double> delaunay = study.time(field, field.share(1));
       if (!delaunay) return tl::unexpected(delaunay.error());
       for (std::size_t k = 0; k < kTimedRules.size(); ++k) {
-        const Result<double> seconds = study.time(field, field.share(1), kTimedRules[k].edges);
+        const Result<double> seconds = study.time(field, field.share(1), with_edges(kTimedRules[k].edges));
         if (!seconds) return tl::unexpected(seconds.error());
         ratios[k][run] = *seconds / *delaunay;
       }

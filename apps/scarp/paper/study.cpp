@@ -85,8 +85,8 @@ Result<Trial> Study::refine(const Field& field, std::uint64_t vertices, PaperOpt
   return reach(field, exactly(vertices, std::move(options)));
 }
 
-Result<double> Study::time(const Field& field, std::uint64_t vertices, const EdgeRule& edges) const {
-  PaperOptions options = exactly(vertices, with_edges(edges));
+Result<double> Study::time(const Field& field, std::uint64_t vertices, PaperOptions options) const {
+  options = exactly(vertices, std::move(options));
   options.run.threads = 1;
   const double start = cpu_seconds();
   const Result<Simplified> result = run(field.heights, field.file, std::move(options));

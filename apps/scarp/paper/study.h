@@ -55,7 +55,7 @@ class Study {
   /// The same towards the goals in `options`.
   Result<Trial> reach(const Field& field, PaperOptions options) const;
   /// CPU seconds of greedy insertion up to that many vertices on one thread, without reading and judging.
-  Result<double> time(const Field& field, std::uint64_t vertices, const EdgeRule& edges) const;
+  Result<double> time(const Field& field, std::uint64_t vertices, PaperOptions options = {}) const;
   /// refine() with Delaunay edges and nothing else chosen; runs once for each field and number.
   Result<Trial> delaunay(const Field& field, std::uint64_t vertices);
 

@@ -78,7 +78,7 @@ Result<void> add_seconds(Study& study) {
   for (const Row& row : list_rows(study)) {
     study.note(fmt::format("seconds: {}, {} vertices", row.field->key, row.vertices));
     const auto refine = [&](const EdgeRule& edges) {
-      return least([&]() -> Result<double> { return study.time(*row.field, row.vertices, edges); });
+      return least([&]() -> Result<double> { return study.time(*row.field, row.vertices, with_edges(edges)); });
     };
     const Result<double> delaunay = refine({});
     if (!delaunay) return tl::unexpected(delaunay.error());
