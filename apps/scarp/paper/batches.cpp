@@ -72,9 +72,8 @@ Result<void> add_batches(Study& study) {
   study.page.heading(2, "Insertion in batches (section 4, parallel insertion)");
   study.page.paragraph(
       "Vertices and passes until the max error is below the bound. Fraction α: a pass inserts all candidates of at "
-      "least α "
-      "times the largest error; constant: all that break the bound; independent (Scarp's own): all whose triangle the "
-      "pass has not changed yet, worst first.");
+      "least α times the largest error; constant: all that break the bound; independent (Scarp's own): all whose "
+      "triangle the pass has not changed yet, worst first.");
   study.page.table(header, cells);
   bool sequential_best = true, independent_better = true;
   for (std::size_t f = 0; f < fields.size(); ++f) {
@@ -90,8 +89,7 @@ Result<void> add_batches(Study& study) {
   if (independent_better) {
     remarks.push_back(
         "Independent candidates need fewer vertices than any threshold on every field: none of them is stale when it "
-        "is "
-        "inserted.");
+        "is inserted.");
   }
   if (!vertices.empty()) {
     remarks.push_back(vertices.sentence("counts of vertices"));

@@ -67,18 +67,16 @@ void add_mode_table(Study& study, const ModeTrials& trials) {
   }
   study.page.paragraph(
       "RMS error at 1 % of the samples. q is the threshold of shape: 0 asks the score alone, 1 the shape alone. "
-      "Settled (Scarp's "
-      "own, and its default): after the last insertion edges are flipped as long as that lowers the squared error.");
+      "Settled (Scarp's own, and its default): after the last insertion edges are flipped as long as that lowers the "
+      "squared error.");
   study.page.table(header, rows);
   std::vector<std::string> remarks;
   if (!scored.empty()) {
     remarks.push_back(scored.sentence("figures for q 0.5 and q 1"));
-    remarks.push_back(
-        plain.sentence("figures for q 0") +
-        (plain.largest() > 3
-             ? " Scape's scan loses samples on the edges of slivers there, so that it is blind to some of "
-               "its own errors; here triangles are closed and lose none."
-             : ""));
+    remarks.push_back(plain.sentence("figures for q 0") +
+                      (plain.largest() > 3 ? " Scape's scan loses samples on the edges of slivers there, so that it is "
+                                             "blind to some of its own errors; here triangles are closed and lose none."
+                                           : ""));
   }
   std::size_t better = 0, best = 0;
   for (std::size_t f = 0; f < trials[0].size(); ++f) {
@@ -89,8 +87,7 @@ void add_mode_table(Study& study, const ModeTrials& trials) {
   }
   remarks.push_back(
       fmt::format("The sum at q 0.5 has a smaller RMS than Delaunay on {0} of {2} fields; the tight rule, settled, has "
-                  "the smallest of "
-                  "all on {1} of {2}.",
+                  "the smallest of all on {1} of {2}.",
                   better, best, trials[0].size()));
   study.page.list(remarks);
 }
@@ -146,9 +143,8 @@ Result<void> add_gain_table(Study& study, const ModeTrials& trials) {
   }
   study.page.paragraph(
       "What the sum at q 0.5 gains, not settled: RMS at 5 % of the samples, vertices saved at the RMS that Delaunay "
-      "has at 1 % (and what the tight rule saves). "
-      "What it "
-      "costs: triangles with an angle below 5° (at 1 %), samples scanned.");
+      "has at 1 % (and what the tight rule saves). What it costs: triangles with an angle below 5° (at 1 %), samples "
+      "scanned.");
   study.page.table({"field", "RMS at 5 %", "fewer vertices", "fewer, tight", "thin, Delaunay", "thin, q 0.5",
                     "thin, q 0", "samples scanned against Delaunay"},
                    rows);
@@ -216,13 +212,12 @@ Result<void> add_times(Study& study) {
     rows.push_back({field.key});
     for (const auto& of_rule : ratios) rows.back().push_back(number(middle(of_rule)));
   }
-  study.page.paragraph(fmt::format(
-      "*Measured once, on the machine that wrote this page:* CPU time against Delaunay at 1 %, median of three "
-      "rounds of runs "
-      "in turn{}.",
-      study.fields.are_of_paper
-          ? fmt::format(" (Scape, sum: {:g} to {:g})", kDataDependentTimeLeast, kDataDependentTimeMost)
-          : ""));
+  study.page.paragraph(
+      fmt::format("*Measured once, on the machine that wrote this page:* CPU time against Delaunay at 1 %, median of "
+                  "three rounds of runs in turn{}.",
+                  study.fields.are_of_paper
+                      ? fmt::format(" (Scape, sum: {:g} to {:g})", kDataDependentTimeLeast, kDataDependentTimeMost)
+                      : ""));
   std::vector<std::string> header{"field"};
   for (const TimedRule& rule : kTimedRules) header.emplace_back(rule.name);
   study.page.table(header, rows);

@@ -52,11 +52,10 @@ Result<void> add_reference_rows(Study& study) {
   study.page.paragraph("Delaunay, exactly this many vertices, corners included. Errors over all samples.");
   study.page.table({"field", "m", "triangles", "max error", "RMS", "max / relief", "RMS / relief"}, rows);
   if (!rmse.empty()) {
-    study.page.list(
-        {rmse.sentence("RMS errors"), triangles.sentence("counts of triangles"),
-         max_error.sentence("max errors") +
-             " Ties and the first diagonal decide which of many equal candidates is taken, and the max error "
-             "at one m depends on it; it is not monotone in m, as below."});
+    study.page.list({rmse.sentence("RMS errors"), triangles.sentence("counts of triangles"),
+                     max_error.sentence("max errors") +
+                         " Ties and the first diagonal decide which of many equal candidates is taken, and the max "
+                         "error at one m depends on it; it is not monotone in m, as below."});
   }
   return {};
 }
@@ -83,8 +82,8 @@ Result<void> add_cross_checks(Study& study) {
   study.page.paragraph("The same greedy insertion, Delaunay, by other programs. Terra is the paper's second program.");
   study.page.table({"field", "m", "program", "max error", "RMS"}, rows);
   study.page.list(
-      {fmt::format("The RMS errors lie within {:.1f} % of Scarp's. The max errors need not: ties, the order of "
-                   "the rows and the first diagonal decide them.",
+      {fmt::format("The RMS errors lie within {:.1f} % of Scarp's. The max errors need not: ties, the order of the "
+                   "rows and the first diagonal decide them.",
                    farthest)});
   return {};
 }
@@ -151,8 +150,8 @@ Result<void> add_spikes(Study& study) {
   study.page.table({"m", "max error"}, rows);
   if (const std::string far = differences.list_far(kFarPercent); !far.empty()) {
     study.page.list(
-        {fmt::format("**Max error at {}:** less is better. Scape's run stops on a spike there; Scarp's has "
-                     "its spikes at other numbers of vertices, as the curves show.",
+        {fmt::format("**Max error at {}:** less is better. Scape's run stops on a spike there; Scarp's has its spikes "
+                     "at other numbers of vertices, as the curves show.",
                      far)});
   }
   return {};

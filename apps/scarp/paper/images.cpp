@@ -159,37 +159,35 @@ Result<void> add_images(Study& study) {
   }
   if (rows.empty()) return {};
   study.page.heading(2, "Colour images");
-  study.page.paragraph(
-      fmt::format("The paper shows the mandrill, which is not free, at 200 × 200 pixels with 400 vertices against a "
-                  "uniform grid (20 × 20). Here: other images whose shorter side is reduced to {} pixels, red, green "
-                  "and blue as channels over a flat field, the error their sum, Gouraud shading. PSNR over all pixels "
-                  "and colours.",
-                  kShorterSide));
+  study.page.paragraph(fmt::format(
+      "The paper shows the mandrill, which is not free, at 200 × 200 pixels with 400 vertices against a uniform grid "
+      "(20 × 20). Here: other images whose shorter side is reduced to {} pixels, red, green and blue as channels over "
+      "a flat field, the error their sum, Gouraud shading. PSNR over all pixels and colours.",
+      kShorterSide));
   study.page.table({"image", "mesh", "vertices", "PSNR", "against uniform"}, rows);
   for (auto& [image, png] : pictures) {
     const std::string name = image->file;
-    const Result<void> added = study.add_picture(
-        "image_" + name.substr(0, name.find('.')),
-        fmt::format("The middle of the image, the uniform grid, greedy insertion with Delaunay and with data-dependent "
-                    "edges ({})",
-                    image->source),
-        std::move(png));
+    const Result<void> added =
+        study.add_picture("image_" + name.substr(0, name.find('.')),
+                          fmt::format("The middle of the image, the uniform grid, greedy insertion with Delaunay and "
+                                      "with data-dependent edges ({})",
+                                      image->source),
+                          std::move(png));
     if (!added) return added;
   }
   const Result<void> drawn = study.add_plot("image_psnr", plot);
   if (!drawn) return drawn;
   remarks.insert(
       remarks.begin(),
-      better ? "Greedy insertion is better than the uniform grid on every image: its vertices go to the edges of "
-               "things."
-             : "Greedy insertion is not better than the uniform grid in every row. It follows the largest error, "
-               "not the mean one that PSNR is made of: vertices go to the edges of things and to their highlights, "
-               "whose colours then spread over large triangles. What a person would recognise is drawn sharply; "
-               "what is smooth pays for it.");
+      better
+          ? "Greedy insertion is better than the uniform grid on every image: its vertices go to the edges of things."
+          : "Greedy insertion is not better than the uniform grid in every row. It follows the largest error, not the "
+            "mean one that PSNR is made of: vertices go to the edges of things and to their highlights, whose colours "
+            "then spread over large triangles. What a person would recognise is drawn sharply; what is smooth pays for "
+            "it.");
   remarks.push_back(
       "Angles of normals: Scape's ABN for colours, the sum of the angles of red, green and blue. It asks how smooth "
-      "the "
-      "picture is across an edge, not how near it is.");
+      "the picture is across an edge, not how near it is.");
   study.page.list(remarks);
   return {};
 }

@@ -134,10 +134,9 @@ std::vector<std::string> find_remarks(const std::vector<Row>& rows, const std::v
     }
   }
   std::vector<std::string> remarks;
-  remarks.push_back(beaten == 0
-                        ? "Plain global error has a smaller RMS than every choice but the attenuated ones, on every "
-                          "field: no product with local error or curvature is worth its cost."
-                        : fmt::format("Plain global error is beaten in {} of the runs.", beaten));
+  remarks.push_back(beaten == 0 ? "Plain global error has a smaller RMS than every choice but the attenuated ones, on "
+                                  "every field: no product with local error or curvature is worth its cost."
+                                : fmt::format("Plain global error is beaten in {} of the runs.", beaten));
   remarks.push_back(describe_attenuated(rows));
   remarks.push_back(one_pass_worse == one_pass_trials
                         ? "Every one-pass selector is worse than random points: it spends its vertices on noise and on "
@@ -186,11 +185,9 @@ Result<void> add_selectors(Study& study) {
   study.page.heading(2, "What is worth inserting (section 3: importance measures)");
   study.page.paragraph(
       "The same Delaunay triangulation of 1 % of the samples; only their choice differs. Uniform: a sub-grid of about "
-      "as "
-      "many vertices as there would be, borders included. Attenuated: the error counts for less near vertices that are "
-      "chosen already. The paper's formula for that is not known; here it is the distance from the nearest corner of "
-      "the "
-      "sample's triangle, in samples.");
+      "as many vertices as there would be, borders included. Attenuated: the error counts for less near vertices that "
+      "are chosen already. The paper's formula for that is not known; here it is the distance from the nearest corner "
+      "of the sample's triangle, in samples.");
   study.page.table(header, cells);
   std::vector<std::string> remarks = find_remarks(rows, fields);
   study.note("selectors: other random points");
@@ -203,30 +200,29 @@ Result<void> add_selectors(Study& study) {
   remarks.push_back(fmt::format("Random points in {} other draws, RMS: {}.", kOtherDraws, draws));
   if (!greedy.empty()) {
     remarks.push_back(greedy.sentence("RMS errors of plain global error"));
-    remarks.push_back(drawn.sentence("RMS errors of uniform and random points") +
-                      " Where they differ the points do: other random numbers, another rounding of the sub-grid's "
-                      "rows and columns.");
-    remarks.push_back(ranked.sentence("RMS errors of one pass and of products") +
-                      (ranked.largest() > 5 ? " What differs is the border. Here a pair of opposite neighbours of "
-                                              "which one is missing is left out, so that "
-                                              "a plane has no local error at its border either. Tried with scripts on "
-                                              "crater and ashby, Scape's figures "
-                                              "for one pass come out within about 1 % where such a pair counts as 0 (4 "
-                                              "neighbours), and where the mean is "
-                                              "that of the neighbours that exist (8 neighbours)."
-                                            : ""));
+    remarks.push_back(
+        drawn.sentence("RMS errors of uniform and random points") +
+        " Where they differ the points do: other random numbers, another rounding of the sub-grid's rows and columns.");
+    remarks.push_back(
+        ranked.sentence("RMS errors of one pass and of products") +
+        (ranked.largest() > 5
+             ? " What differs is the border. Here a pair of opposite neighbours of which one is missing is left out, "
+               "so that a plane has no local error at its border either. Tried with scripts on crater and ashby, "
+               "Scape's figures for one pass come out within about 1 % where such a pair counts as 0 (4 neighbours), "
+               "and where the mean is that of the neighbours that exist (8 neighbours)."
+             : ""));
   }
   if (const std::string far = drawn_max.list_far(kFarPercent); !far.empty()) {
-    remarks.push_back(fmt::format(
-        "**Max error of {}:** no failure. The max error of points drawn at random is that of one peak or gorge, which "
-        "the points hit or miss: see how far it goes in the other draws.",
-        far));
+    remarks.push_back(
+        fmt::format("**Max error of {}:** no failure. The max error of points drawn at random is that of one peak or "
+                    "gorge, which the points hit or miss: see how far it goes in the other draws.",
+                    far));
   }
   if (const std::string far = ranked_max.list_far(kFarPercent); !far.empty()) {
-    remarks.push_back(fmt::format(
-        "**Max error of {}:** no failure. Where whole regions get no vertex, one sample more or less, here from the "
-        "treatment of the border, decides how far the worst of them is.",
-        far));
+    remarks.push_back(
+        fmt::format("**Max error of {}:** no failure. Where whole regions get no vertex, one sample more or less, here "
+                    "from the treatment of the border, decides how far the worst of them is.",
+                    far));
   }
   study.page.list(remarks);
   return {};

@@ -39,11 +39,11 @@ Result<void> add_illustration(Study& study) {
   const Result<Simplified> run = study.run(field.heights, field.file, exactly(kFigureVertices));
   if (!run) return tl::unexpected(run.error());
   study.page.heading(2, "A field and its TIN (figures 1 and 2)");
-  study.page.paragraph(fmt::format(
-      "The paper's are {0} × {0} samples, and a TIN of {1} of them. Here: `scarp generate fractal {0} {0} --seed {2}`, "
-      "with {3} triangles between its samples, and {1} of them, with {4}.",
-      kFigureSide, kFigureVertices, kFigureSeed, 2 * (kFigureSide - 1) * (kFigureSide - 1),
-      run->mesh.triangle_count()));
+  study.page.paragraph(
+      fmt::format("The paper's are {0} × {0} samples, and a TIN of {1} of them. Here: `scarp generate fractal {0} {0} "
+                  "--seed {2}`, with {3} triangles between its samples, and {1} of them, with {4}.",
+                  kFigureSide, kFigureVertices, kFigureSeed, 2 * (kFigureSide - 1) * (kFigureSide - 1),
+                  run->mesh.triangle_count()));
   View view;
   view.up = {0.6, 0.8};
   view.line_width = 0.7;

@@ -100,23 +100,21 @@ Result<void> add_seconds(Study& study) {
   study.page.heading(3, "Seconds");
   study.page.paragraph(fmt::format(
       "*Measured once, on the machine that wrote this page ({}):* CPU time of triangulation without reading and "
-      "judging, "
-      "on one thread, the worst sample of all first, as the paper does it; the least of {} to {} runs.{}",
+      "judging, on one thread, the worst sample of all first, as the paper does it; the least of {} to {} runs.{}",
       machine, kLeastRounds, kMostRounds,
-      study.fields.are_of_paper ? " Scape's seconds are another machine's: one core of a cloud Xeon, g++ 12 -O2, the "
-                                  "same part of the work."
-                                : ""));
+      study.fields.are_of_paper
+          ? " Scape's seconds are another machine's: one core of a cloud Xeon, g++ 12 -O2, the same part of the work."
+          : ""));
   study.page.table(header, cells);
   if (study.fields.are_of_paper && million > 0) {
     study.page.list({
         fmt::format("The paper's abstract: a field of a million samples \"quite accurately\" in under a minute, on a "
                     "workstation of 1995. Here 1 % of such a field takes {:.2f} s.",
                     million),
-        fmt::format(
-            "Not verified, for the text is not at hand: 21 s for a field of 1024 × 1024 and 1 % of its samples, "
-            "on an SGI Indigo2 (R4400, 150 MHz), that is {:.0f} times as long; data-dependent edges three to "
-            "four times as long as Delaunay's (Scape, measured: {:g} to {:g}).",
-            kReportSeconds / million, kDataDependentTimeLeast, kDataDependentTimeMost),
+        fmt::format("Not verified, for the text is not at hand: 21 s for a field of 1024 × 1024 and 1 % of its "
+                    "samples, on an SGI Indigo2 (R4400, 150 MHz), that is {:.0f} times as long; data-dependent edges "
+                    "three to four times as long as Delaunay's (Scape, measured: {:g} to {:g}).",
+                    kReportSeconds / million, kDataDependentTimeLeast, kDataDependentTimeMost),
         "`scarp simplify` with its defaults is faster: it inserts in the dominant order, on all cores "
         "([performance](performance.md)).",
     });
