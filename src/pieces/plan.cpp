@@ -17,7 +17,7 @@ Plan::Plan(const HeightField& on, const Request& asked, const Scale& by)
       releases_starts(asked.quality.effort == Effort::kNormal || frees_vertices),
       fits(asked.quality.effort != Effort::kFast),
       // Shape goals need strips without the redundant vertices of tile borders, whatever the effort.
-      fits_pieces(fits || asked.quality.shape.any()),
+      fits_pieces((fits && !by.squares) || asked.quality.shape.any()),
       removes_last(scarp::removes_last(on, asked)),
       fits_strips(is_streamed && fits_pieces),
       finishes_strips(fits_strips || (is_streamed && (has_lines || has_source_bounds))),

@@ -118,6 +118,9 @@ class EngineRun {
       piece_->lattice = {tiled.steps, tiled.steps > 1 ? std::move(heights_) : std::vector<float>(),
                          std::move(tiled.fixed)};
       note_vertices(result);
+    } else if (plan_.is_streamed && plan_.scale.squares) {
+      piece_->tin.scale(kLatticeSteps);
+      piece_->lattice = {kLatticeSteps, std::move(heights_), {}};
     } else if (!plan_.is_streamed || field_.source->is_in_memory()) {
       const HeightMetric of_tiles(raster_, criterion_.largest_aim());
       const ErrorMetric& metric = criterion_.bounds().empty() ? criterion_.metric() : of_tiles;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fit/square_rounds.h"
+#include "metric/source_bounds.h"
 #include "pieces/effort.h"
 #include "pieces/goals.h"
 #include "simplify/search_progress.h"
@@ -38,7 +39,7 @@ class SquaresSearch {
     for (const double bound : {asked, std::max(asked, reached)}) {
       if (best) break;
       auto made = run(bound, std::min(1.0, *first / bound));
-      if (!made && made.error().kind != ErrorKind::kPromise) return made;
+      if (!made && made.error().kind == ErrorKind::kCancelled) return made;
       if (made && used_by(*made) <= 1) best = std::move(*made);
     }
     if (!best) return search_budget(options_, task_);
@@ -75,7 +76,7 @@ class SquaresSearch {
   Result<double> find_start(double reached, double triangles) {
     const double number = reached * std::pow(kSquareStart, -1 / kUsualPower);
     const auto made = run_once(without_effort(number_.towards(number)), {number_.factor_of(number)}, 0.1);
-    if (!made && made.error().kind != ErrorKind::kPromise) return tl::unexpected(made.error());
+    if (!made && made.error().kind == ErrorKind::kCancelled) return tl::unexpected(made.error());
     if (!made) return number;
     const double grown = static_cast<double>(made->mesh.triangle_count()) / triangles;
     if (grown > kSquareStart / kNearStart && grown < kSquareStart * kNearStart) return number;
@@ -114,8 +115,9 @@ class SquaresSearch {
 }  // namespace
 
 bool lowers_squares(const HeightField& field, const SimplifyOptions& options) {
-  return options.goals.objective == Objective::kRms && options.quality.effort != Effort::kFast &&
-         field.samples != nullptr && !options.quality.shape.any() && !options.domain.border.is_locked;
+  const bool works_by_strips = field.samples == nullptr && (has_lines(options) || has_source_bounds(field, options));
+  return options.goals.objective == Objective::kRms && options.quality.effort != Effort::kFast && !works_by_strips &&
+         !options.quality.shape.any() && !options.domain.border.is_locked;
 }
 
 Result<Simplified> search_squares(const SimplifyOptions& options, const BudgetTask& task) {

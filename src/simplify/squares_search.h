@@ -10,13 +10,13 @@
 
 namespace scarp {
 
-/// Whether a budget's mesh is made so: for Objective::kRms with more than fast effort, of samples in memory, without
-/// goals for shapes and a locked border, which has an error of its own.
+/// Whether a budget's mesh is made so: for Objective::kRms with more than fast effort, without goals for shapes
+/// and a locked border, which has an error of its own; of samples in a source without lines and tolerances.
 bool lowers_squares(const HeightField& field, const SimplifyOptions& options);
 
 /// The mesh with the least Simplified::judged_rmse of those seen, within the budgets; its judged_max_error is at most
-/// options.max_error if that can be kept, else not larger than in the mesh of fast effort. Where rounding or the bound
-/// forbid such a mesh, that of search_budget(). Progress, failures and REQUIRES as there. Memory: the mesh of fast
+/// options.max_error if that can be kept, else not larger than in the mesh of fast effort. Where rounding, the bound or
+/// the memory forbid such a mesh, that of search_budget(). Progress, failures and REQUIRES as there. Memory: the mesh of fast
 /// effort beside a run of some four times its triangles.
 Result<Simplified> search_squares(const SimplifyOptions& options, const BudgetTask& task);
 

@@ -120,6 +120,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::uint8_t steps_and_effort = bytes.next();
   const int steps = steps_and_effort % 32;
   options.quality.effort = static_cast<scarp::Effort>(steps_and_effort / 32 % 5);
+  if (steps_and_effort >= 160) options.goals.objective = scarp::Objective::kRms;
   if (steps_and_effort % 2 == 1) options.quality.vertices = scarp::Vertices::kSamples;
   scarp::PaperOptions paper;
   if (goals & 64) choose_strategy(bytes, paper);
