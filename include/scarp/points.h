@@ -17,9 +17,16 @@
 
 namespace scarp {
 
+/// A line through points of a set: a contour, a ridge, the foot of a dam.
+struct PointLine {
+  std::vector<std::uint32_t> points;  ///< indices; at least two, successive ones differ; a ring ends with its first
+  std::string name;                   ///< for messages: "contours.gpkg feature 12"
+};
+
 /// Samples anywhere: z over (x, y), in one plane coordinate system. x east, y north.
 struct PointSet {
   std::vector<double> x, y, z;  ///< of equal size; all finite
+  std::vector<PointLine> lines; ///< that no triangle crosses. EMPTY: the points are scattered
   std::string path;             ///< where they come from, for messages
   std::string format;           ///< "CSV", "GPKG", …
   std::string crs;              ///< of x and y: "EPSG:32611", WKT, or empty
@@ -33,7 +40,7 @@ struct PointSet {
 enum class DuplicatePolicy { kFirst, kLast, kHighest, kLowest, kMean };
 
 struct ReadPointsOptions {
-  std::string layer = {};  ///< of a vector file. DEFAULT: the first one with points.
+  std::string layer = {};  ///< of a vector file. DEFAULT: the first one with points, else with lines.
   std::string z_field =
       {};  ///< column or attribute with the height. DEFAULT: the third coordinate; else z, height, elevation, elev, h.
   std::string crs =
@@ -43,8 +50,10 @@ struct ReadPointsOptions {
 
 /// Reads points: text of columns (CSV, XYZ: separated by commas, semicolons, tabs or blanks; a header line names them,
 /// else the first three are x, y, z; lines that begin with # are comments), by a reader of our own; all else
-/// (GeoPackage, GeoJSON, Shapefile, …) by GDAL. Fails with kInput: missing, empty, a line without three numbers, a
-/// value that is not finite (names the line or feature), no points in the layer.
+/// (GeoPackage, GeoJSON, Shapefile, …) by GDAL. The vertices of lines are points, too, and PointSet::lines has their
+/// order: contours with the height as an attribute or as third coordinate. Curves become chords of 4 degrees at most.
+/// Fails with kInput: missing, empty, a line without three numbers, a value that is not finite, a feature without a
+/// height (names the line or feature), polygons, neither points nor lines in the layer.
 Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options = {});
 
 /// True if `path` names points rather than a raster: by its end (.csv .tsv .xyz .geojson .geojsonl .shp .fgb .gml .kml
@@ -57,6 +66,8 @@ struct SimplifiedPoints {
   std::uint64_t duplicates = 0;  ///< of them not alone at their place (equal x and y) and given up for another
   std::uint64_t on_hull = 0;     ///< vertices of the convex hull
   double lattice_step = 0;       ///< of the integer lattice, in units of x and y
+  std::uint64_t flat = 0;        ///< triangles whose corners lie on lines at one height
+  std::uint64_t loose = 0;       ///< pieces of lines that are no edges, since they cross others of their height
 };
 
 /// What to reach. At least one of the goals; the first that is reached ends the run.
@@ -81,10 +92,16 @@ struct PointOptions {
 /// equal error the one in the northernmost, then westernmost place is inserted. Points on a grid give the vertices that
 /// simplify() gives for the raster, but for ties.
 ///
+/// A line becomes a chain of edges through some of its points, among them its ends, of a ring at least three. Chains do
+/// not cross, so no triangle crosses one; what the line has between two points of its chain is within max_error of the
+/// mesh. Triangles between points of equal height on lines, as in the bend of a contour, are given up by flips of edges
+/// where the other points allow it; the rest is counted (`flat`). Points of lines that the lattice cannot keep apart
+/// share a vertex, and count all the same.
+///
 /// Guarantees that |mesh − z| <= max_error at every point that is not given up as a duplicate, at its coordinates as
 /// given, for the positions as they are in the mesh. Vertices are points.
-/// Fails with kUsage (no goal, a max_error out of range, a budget below what the hull needs), with kInput (fewer than 3
-/// places, all on one line, a value that is not finite or beyond 1e100, an extent below 1e-100, two points nearer to
+/// Fails with kUsage (no goal, a max_error out of range, a budget below what the hull needs, a budget with lines), with
+/// kInput (lines that meet with unlike heights, which are named, fewer than 3 places, all on one line, a value that is not finite or beyond 1e100, an extent below 1e-100, two points nearer to
 /// each other than about 2^-30 of the extent, which are named, as is the far point that makes the extent so large),
 /// with kPromise where float32 positions cannot keep the bound, kCancelled. Cost: expected O(n log m) for n points;
 /// about 50 bytes a point beside the points themselves.

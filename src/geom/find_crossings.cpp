@@ -129,16 +129,21 @@ void visit_overlaps(const BoxTree& tree, const Visit& visit) {
 
 }  // namespace
 
+void visit_neighbours(std::span<const Segment> segments,
+                      const std::function<void(std::uint32_t, std::uint32_t)>& visit) {
+  const BoxedPieces pieces = cut(segments);
+  const BoxTree tree(pieces.boxes);
+  visit_overlaps(tree, [&](std::size_t a, std::size_t b) {
+    const std::uint32_t one = pieces.owners[tree.order()[a]], other = pieces.owners[tree.order()[b]];
+    if (one != other) visit(one, other);
+  });
+}
+
 Crossings find_crossings(std::span<const Segment> lines, std::span<const Segment> rigid) {
   std::vector<Segment> segments(lines.begin(), lines.end());
   segments.insert(segments.end(), rigid.begin(), rigid.end());
-  const BoxedPieces pieces = cut(segments);
-  const BoxTree tree(pieces.boxes);
   Finder finder(segments, lines.size());
-  visit_overlaps(tree, [&](std::size_t a, std::size_t b) {
-    const std::uint32_t one = pieces.owners[tree.order()[a]], other = pieces.owners[tree.order()[b]];
-    if (one != other) finder.assess(one, other);
-  });
+  visit_neighbours(segments, [&](std::uint32_t a, std::uint32_t b) { finder.assess(a, b); });
   return finder.take();
 }
 

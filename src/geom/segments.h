@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,11 @@ bool clip_segment(const Segment& segment, std::int32_t width, std::int32_t heigh
 
 /// True if the segment runs so that x + y stays the same.
 inline bool is_antidiagonal(const Segment& s) { return s.to.x - s.from.x == s.from.y - s.to.y; }
+
+/// Calls visit(a, b) for each two segments that may have a point in common, more than once for some. REQUIRES: no
+/// segment is a point; coordinates in [0, kMaxCoordinate]. Cost: as find_crossings().
+void visit_neighbours(std::span<const Segment> segments,
+                      const std::function<void(std::uint32_t, std::uint32_t)>& visit);
 
 struct Crossings {
   std::vector<Point> points;  ///< in raster order, each once

@@ -85,9 +85,9 @@ std::optional<Snapped> snap_to_decimals(const PointSet& points, const Extent& x,
   return snapped;
 }
 
-Snapped snap_to_power_of_two(const PointSet& points, const Extent& x, const Extent& y) {
+Snapped snap_to_power_of_two(const PointSet& points, const Extent& x, const Extent& y, PointSteps steps) {
   const double size = std::max(x.size(), y.size());
-  int exponent = size > 0 ? std::ilogb(size) - 30 : 0;
+  int exponent = size > 0 ? std::ilogb(size) - (steps == PointSteps::kFloat32 ? 23 : 30) : 0;
   while (std::ldexp(size, -exponent) > kMaxCoordinate) ++exponent;
   const auto whole = [exponent](double length) {
     return static_cast<std::int32_t>(std::nearbyint(std::ldexp(length, -exponent)));
@@ -133,11 +133,13 @@ std::pair<std::uint32_t, double> choose(const PointSet& points, DuplicatePolicy 
   return {chosen->point, height(*chosen)};
 }
 
+bool are_at_one_place(const PointSet& points, std::uint32_t a, std::uint32_t b) {
+  return points.x[a] == points.x[b] && points.y[a] == points.y[b];
+}
+
 /// The first of [first, last) that lies elsewhere than *first does in the coordinates as given; `last` if none does.
 const Keyed* find_stranger(const PointSet& points, const Keyed* first, const Keyed* last) {
-  return std::find_if(first, last, [&](const Keyed& k) {
-    return points.x[k.point] != points.x[first->point] || points.y[k.point] != points.y[first->point];
-  });
+  return std::find_if(first, last, [&](const Keyed& k) { return !are_at_one_place(points, k.point, first->point); });
 }
 
 tl::unexpected<Error> refuse_to_merge(const PointSet& points, std::uint32_t a, std::uint32_t b, double extent) {
@@ -162,12 +164,16 @@ Result<void> check(const PointSet& points) {
     if (!std::isfinite(points.x[i]) || !std::isfinite(points.y[i]) || !std::isfinite(points.z[i]))
       return fail(ErrorKind::kInput, fmt::format("point {} (counted from 0) has a coordinate that is not finite", i));
   }
+  for (const PointLine& line : points.lines) {
+    if (std::any_of(line.points.begin(), line.points.end(), [&](std::uint32_t p) { return p >= points.size(); }))
+      return fail(ErrorKind::kUsage, line.name + " has a point that the set has not");
+  }
   return {};
 }
 
 }  // namespace
 
-Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy) {
+Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy, PointSteps steps) {
   if (auto checked = check(points); !checked) return tl::unexpected(checked.error());
   Extent x, y, z;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -186,12 +192,10 @@ Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy
                             extent));
   SnappedPoints result;
   Snapped snapped;
-  if (auto decimal = snap_to_decimals(points, x, y)) {
-    snapped = std::move(*decimal);
-    result.is_exact = true;
-  } else {
-    snapped = snap_to_power_of_two(points, x, y);
-  }
+  std::optional<Snapped> decimal;
+  if (steps == PointSteps::kFinest) decimal = snap_to_decimals(points, x, y);
+  result.is_exact = decimal.has_value();
+  snapped = decimal ? std::move(*decimal) : snap_to_power_of_two(points, x, y, steps);
 
   std::vector<Keyed> keys;
   keys.reserve(points.size());
@@ -201,16 +205,25 @@ Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy
   std::sort(keys.begin(), keys.end(),
             [](const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.point < b.point; });
   result.lattice = snapped.lattice;
+  result.lattice.west = x.least;
+  result.lattice.north = y.most;
+  const bool has_lines = !points.lines.empty();
+  if (has_lines) result.place.resize(points.size());
   for (std::size_t i = 0, end = 0; i < keys.size(); i = end) {
     while (end < keys.size() && keys[end].key == keys[i].key) ++end;
-    if (const Keyed* stranger = find_stranger(points, &keys[i], &keys[i] + (end - i)); stranger != &keys[i] + (end - i))
-      return refuse_to_merge(points, keys[i].point, stranger->point, extent);
-    const auto [point, height] = choose(points, policy, &keys[i], &keys[i] + (end - i));
+    const Keyed *first = &keys[i], *last = first + (end - i);
+    if (const Keyed* stranger = find_stranger(points, first, last); stranger != last && !has_lines)
+      return refuse_to_merge(points, first->point, stranger->point, extent);
+    const auto [point, height] = choose(points, policy, first, last);
+    for (const Keyed* k = first; k != last && has_lines; ++k) {
+      result.place[k->point] = static_cast<std::uint32_t>(result.size());
+      if (!are_at_one_place(points, k->point, point)) result.echoes.push_back(k->point);
+    }
     result.at.push_back(snapped.at[point]);
     result.source.push_back(point);
     result.z.push_back(height);
   }
-  result.duplicates = points.size() - result.size();
+  result.duplicates = points.size() - result.size() - result.echoes.size();
   return result;
 }
 

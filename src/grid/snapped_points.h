@@ -14,6 +14,13 @@ namespace scarp {
 struct PointLattice {
   double step = 0;  ///< one column and one row, in units of x and y
   std::int32_t cols = 0, rows = 0;
+  double west = 0, north = 0;  ///< where column 0 and row 0 lie
+};
+
+/// How fine a lattice for points with lines may be.
+enum class PointSteps {
+  kFinest,
+  kFloat32,  ///< so coarse that float32 holds its points as offsets from the middle; all vertices then lie on it
 };
 
 /// The points, each at a lattice point of its own. Arrays of equal size, in Morton order of the lattice points: what is
@@ -25,16 +32,22 @@ struct SnappedPoints {
   std::vector<std::uint32_t> source;  ///< the point of the set that stands for the lattice point
   std::vector<double> z;              ///< its height, or the mean
   std::uint64_t duplicates = 0;       ///< points that no lattice point stands for
+  /// In a set with lines, points that share the lattice point of another, without being at its place: they have no
+  /// lattice point of their own, but errors.
+  std::vector<std::uint32_t> echoes;
+  std::vector<std::uint32_t> place;  ///< by point of the set: whose lattice point it shares; EMPTY: no lines
 
   std::size_t size() const { return at.size(); }
 };
 
 /// Snaps the points to a lattice and gives up duplicates. The lattice: the coarsest on which all coordinates lie
 /// exactly as decimals, if they have few enough of them; else the finest with a power of two as its step, where points
-/// move by up to half a step, at most extent / 2^30. Duplicates are points with equal coordinates; points that only the
-/// lattice cannot tell apart are refused. With kMean the first point stands for the lattice point. Fails with kInput: a
-/// coordinate or height that is not finite or beyond 1e100, an extent below 1e-100, points too near for their extent,
-/// no points, more than 2^31 − 1.
-Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy);
+/// move by up to half a step, at most extent / 2^30 (2^23 with kFloat32). Duplicates are points with equal coordinates;
+/// points that only the lattice cannot tell apart are refused, but become echoes in a set with lines, whose vertices
+/// are often crowded. With kMean the first point stands for the lattice point. Fails with kInput: a coordinate or height
+/// that is not finite or beyond 1e100, an extent below 1e-100, points too near for their extent, no points, more than
+/// 2^31 − 1.
+Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy,
+                                  PointSteps steps = PointSteps::kFinest);
 
 }  // namespace scarp

@@ -54,10 +54,16 @@ class Judge {
     });
   }
 
+  /// Lattice points first, then what shares them.
+  std::size_t size() const { return snapped_.size() + snapped_.echoes.size(); }
+  std::uint32_t source_of(std::size_t point) const {
+    return point < snapped_.size() ? snapped_.source[point] : snapped_.echoes[point - snapped_.size()];
+  }
+
   Verdict judge(std::size_t point) const {
-    const std::size_t source = snapped_.source[point];
+    const std::size_t source = source_of(point);
     const double x = points_.x[source] - mesh_.origin[0], y = points_.y[source] - mesh_.origin[1];
-    const double z = snapped_.z[point];
+    const double z = point < snapped_.size() ? snapped_.z[point] : points_.z[source];
     Verdict verdict;
     Facet facet;
     for (const std::uint32_t t : grid_.bucket(grid_.col_of(x), grid_.row_of(y))) {
@@ -195,24 +201,24 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
   const Judge judge(points, snapped, mesh, judged, box, tolerance);
 
   std::vector<double> errors(points.size(), kNone);
-  std::vector<std::uint32_t> triangles(options.collect_above ? snapped.size() : 0);
+  std::vector<std::uint32_t> triangles(options.collect_above ? judge.size() : 0);
   constexpr std::size_t kChunk = 1 << 14;
-  const std::size_t chunks = (snapped.size() + kChunk - 1) / kChunk;
+  const std::size_t chunks = (judge.size() + kChunk - 1) / kChunk;
   const std::size_t window = 4 * static_cast<std::size_t>(std::min(thread_count(options.run.threads), 1024));
   for (std::size_t first = 0; first < chunks; first += window) {
     if (!gate.go_on("measure", static_cast<double>(first) / static_cast<double>(chunks))) return cancelled();
     parallel_for(std::min(window, chunks - first), options.run.threads, [&](std::size_t i) {
-      const std::size_t begin = (first + i) * kChunk, end = std::min(snapped.size(), begin + kChunk);
+      const std::size_t begin = (first + i) * kChunk, end = std::min(judge.size(), begin + kChunk);
       for (std::size_t point = begin; point < end; ++point) {
         const Verdict verdict = judge.judge(point);
-        errors[snapped.source[point]] = verdict.error;
+        errors[judge.source_of(point)] = verdict.error;
         if (options.collect_above) triangles[point] = verdict.triangle;
       }
     });
   }
   Offenders offenders;
-  for (std::size_t point = 0; point < snapped.size(); ++point) {
-    const std::uint32_t source = snapped.source[point];
+  for (std::size_t point = 0; point < judge.size(); ++point) {
+    const std::uint32_t source = judge.source_of(point);
     const double error = errors[source];
     result.uncovered += std::isnan(error);
     if (!options.collect_above) continue;

@@ -97,14 +97,18 @@ ScatteredRefinement::ScatteredRefinement(const SnappedPoints& points, std::span<
 }
 
 ScatteredRefinement::Wedge ScatteredRefinement::wedge_of(Triangle t, Vertex apex) const {
-  Wedge wedge;
-  wedge.triangle = t;
   HalfEdge h = 3 * t;
   while (domain_.tin.origin(h) != apex) h = Triangulation::next(h);
-  for (std::size_t k = 0; k < 3; ++k, h = Triangulation::next(h)) {
-    const Vertex v = domain_.tin.origin(h);
-    wedge.corners[k] = domain_.tin.point(v);
-    wedge.heights[k] = heights_[domain_.point_of[v]];
+  return wedge_of(
+      t, {apex, domain_.tin.origin(Triangulation::next(h)), domain_.tin.origin(Triangulation::previous(h))});
+}
+
+ScatteredRefinement::Wedge ScatteredRefinement::wedge_of(Triangle t, const std::array<Vertex, 3>& corners) const {
+  Wedge wedge;
+  wedge.triangle = t;
+  for (std::size_t k = 0; k < 3; ++k) {
+    wedge.corners[k] = domain_.tin.point(corners[k]);
+    wedge.heights[k] = heights_[domain_.point_of[corners[k]]];
   }
   wedge.plane = Plane::through_double(wedge.corners, wedge.heights);
   return wedge;

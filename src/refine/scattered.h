@@ -62,11 +62,18 @@ class ScatteredRefinement {
   /// REQUIRES: gain_at(point) > 0.
   void insert(std::uint32_t point);
 
+  /// Flips edges so that fewer triangles are flat: all corners among the marked points, at one height. Every point
+  /// stays within the threshold, constraints stay. Returns how many are left. REQUIRES: done(). The next insertion may
+  /// flip edges back.
+  std::uint64_t flip_flats(const std::vector<bool>& is_marked);
+
   std::uint64_t triangle_count() const { return inside_; }
   std::uint64_t points_scanned() const { return scanned_; }
   std::uint64_t lists_dealt() const { return dealt_; }
 
  private:
+  class FlatRule;
+
   /// A triangle of the domain with its plane and, while points are dealt out, the worst of them. As part of a star it
   /// has its apex as first corner.
   struct Wedge {
@@ -93,6 +100,7 @@ class ScatteredRefinement {
   void settle(const Wedge& wedge);
   bool exceeds(const Wedge& wedge, std::uint32_t point) const;
   Wedge wedge_of(Triangle t, Vertex apex) const;
+  Wedge wedge_of(Triangle t, const std::array<Vertex, 3>& corners) const;
   void insert_at(std::uint32_t point, const Triangulation::Location& location);
   std::uint32_t gain(const Triangulation::Location& location) const;
 

@@ -18,6 +18,7 @@
 #include "measure/point_judge.h"
 #include "mesh/thin_triangles.h"
 #include "pieces/goals.h"
+#include "refine/point_lines.h"
 #include "refine/scattered.h"
 #include "scarp/points.h"
 
@@ -29,6 +30,14 @@ Result<void> check_options(const PointOptions& options) {
   if (!options.max_error && !options.max_triangles && !options.max_vertices)
     return fail(ErrorKind::kUsage, "no goal given: set max_error, max_triangles or max_vertices");
   return check_max_error(options.max_error);
+}
+
+Result<void> check_lines(const PointSet& points, const PointOptions& options) {
+  if (points.lines.empty() || (!options.max_triangles && !options.max_vertices)) return {};
+  return fail(ErrorKind::kUsage,
+              fmt::format("{} cannot be combined with lines such as contours, which need vertices of their own beyond "
+                          "any budget: ask for a max error",
+                          options.max_triangles ? "max_triangles" : "max_vertices"));
 }
 
 /// Heights that vertices have in a mesh of float32 positions.
@@ -67,13 +76,15 @@ double middle(std::span<const double> values) {
 class PointRun {
  public:
   PointRun(const PointSet& points, const SnappedPoints& snapped, std::span<const double> heights,
-           const PointOptions& options, ScatteredDomain domain)
+           const PointOptions& options, ScatteredDomain domain, const PointLines& lines)
       : points_(points),
         snapped_(snapped),
         heights_(heights),
         options_(options),
+        lines_(lines),
         budget_(options.max_triangles, options.max_vertices),
         bound_(options.max_error.value_or(0)),
+        is_on_lattice_(options.float32_positions && !points.lines.empty()),
         domain_(std::move(domain)),
         seeds_(domain_.point_of.size()),
         refinement_(std::in_place, snapped, heights, domain_, bound_),
@@ -86,12 +97,16 @@ class PointRun {
       return tl::unexpected(fits.error());
     Simplified result;
     if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
+    if (auto settled = settle_lines(result.stop); !settled) return tl::unexpected(settled.error());
     take_best_prefix();
     freeze_into(result);
     result.seconds_refine = seconds_since(start);
     if (auto proven = prove(result); !proven) return tl::unexpected(proven.error());
     return result;
   }
+
+  std::uint64_t flat() const { return flat_; }
+  std::uint64_t loose() const { return loose_; }
 
  private:
   MeshSize size() const { return {domain_.vertex_count(), refinement_->triangle_count()}; }
@@ -126,6 +141,32 @@ class PointRun {
     return std::max(budget_.used(size()), error_progress(first_error, refinement_->worst_error(), goal));
   }
 
+  /// Makes chains of edges of the lines, and gives up flat triangles. Each step may cost the other its end: chains
+  /// change triangles, and vertices change chains; but vertices only become more.
+  Result<void> settle_lines(StopReason& stop) {
+    if (lines_.empty()) return {};
+    for (;;) {
+      const auto splits = lines_.find_splits(find_vertices(domain_, snapped_.size()));
+      if (splits.empty()) {
+        loose_ = lines_.hold(domain_);
+        scanned_ += refinement_->points_scanned();
+        dealt_ += refinement_->lists_dealt();
+        refinement_.emplace(snapped_, heights_, domain_, bound_);
+        if (refinement_->done()) break;
+      }
+      for (const std::uint32_t point : splits) insert(point);
+      if (auto refined = refine(stop); !refined) return refined;
+    }
+    flat_ = refinement_->flip_flats(lines_.on_lines());
+    return {};
+  }
+
+  void insert(std::uint32_t point) {
+    if (refinement_->gain_at(point) == 0) return;
+    refinement_->insert(point);
+    ++insertions_;
+  }
+
   /// Where the best prefix is looked for.
   bool in_last_stretch() const { return options_.best_of_budget && budget_.in_last_stretch(size()); }
 
@@ -147,14 +188,24 @@ class PointRun {
     const Triangulation& tin = domain_.tin;
     Mesh& mesh = result.mesh;
     mesh = {};
-    mesh.origin = {middle(points_.x), middle(points_.y), 0};
+    const PointLattice& lattice = snapped_.lattice;
+    const Point centre{lattice.cols / 2, lattice.rows / 2};
+    if (is_on_lattice_) {
+      mesh.origin = {lattice.west + lattice.step * centre.x, lattice.north - lattice.step * centre.y, 0};
+    } else {
+      mesh.origin = {middle(points_.x), middle(points_.y), 0};
+    }
     std::vector<std::uint32_t> ids(tin.vertex_count(), kNone);
     for (Vertex v = 0; v < tin.vertex_count(); ++v) {
       const std::uint32_t point = domain_.point_of[v];
       if (point == kNone) continue;
       ids[v] = static_cast<std::uint32_t>(mesh.vertex_count());
       const std::uint32_t source = snapped_.source[point];
-      for (const double offset : {points_.x[source] - mesh.origin[0], points_.y[source] - mesh.origin[1]})
+      const Point p = snapped_.at[point];
+      const std::array<double, 2> offsets =
+          is_on_lattice_ ? std::array{lattice.step * (p.x - centre.x), lattice.step * (centre.y - p.y)}
+                         : std::array{points_.x[source] - mesh.origin[0], points_.y[source] - mesh.origin[1]};
+      for (const double offset : offsets)
         mesh.positions.push_back(options_.float32_positions ? double{static_cast<float>(offset)} : offset);
       mesh.positions.push_back(heights_[point]);
     }
@@ -166,14 +217,15 @@ class PointRun {
     remove_thin_triangles(mesh, 4 * position_rounding(mesh), thinnest_border_);
     optimize_order(mesh);
     if (refinement_) {
-      result.work.samples_scanned = refinement_->points_scanned();
-      result.work.triangles_scanned = refinement_->lists_dealt();
+      result.work.samples_scanned = scanned_ + refinement_->points_scanned();
+      result.work.triangles_scanned = dealt_ + refinement_->lists_dealt();
     }
     result.work.passes = insertions_;
   }
 
   /// How far vertices may lie from their lattice points, along x or y.
   double position_rounding(const Mesh& mesh) const {
+    if (is_on_lattice_) return 0;
     double reach = 0;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       if (i % 3 != 2) reach = std::max(reach, std::abs(mesh.positions[i]));
@@ -183,6 +235,7 @@ class PointRun {
   }
 
   std::uint32_t point_of_source(std::int32_t source) {
+    if (!lines_.empty()) return snapped_.place[static_cast<std::size_t>(source)];
     if (points_by_source_.empty()) {
       points_by_source_.resize(points_.size(), kNone);
       for (std::uint32_t point = 0; point < snapped_.size(); ++point) points_by_source_[snapped_.source[point]] = point;
@@ -203,10 +256,10 @@ class PointRun {
         result.stop = *budget;
         return true;
       }
-      refinement_->insert(point);
-      ++insertions_;
+      insert(point);
     }
     if (auto refined = refine(result.stop); !refined) return tl::unexpected(refined.error());
+    if (auto settled = settle_lines(result.stop); !settled) return tl::unexpected(settled.error());
     take_best_prefix();
     return true;
   }
@@ -215,7 +268,7 @@ class PointRun {
   /// metres, so that the rounding of its corners breaks the bound. False once they are as thick as what the judge takes
   /// for covered.
   bool trim_border(const Mesh& mesh) {
-    const double thinnest = std::max(8 * thinnest_border_, 32 * position_rounding(mesh));
+    const double thinnest = std::max({8 * thinnest_border_, 32 * position_rounding(mesh), snapped_.lattice.step});
     const double area = snapped_.lattice.step * snapped_.lattice.step * static_cast<double>(snapped_.lattice.cols) *
                         static_cast<double>(snapped_.lattice.rows);
     if (thinnest > std::sqrt(area / static_cast<double>(snapped_.size())) / 64) return false;
@@ -275,14 +328,16 @@ class PointRun {
   const SnappedPoints& snapped_;
   std::span<const double> heights_;
   const PointOptions& options_;
+  const PointLines& lines_;
   Budget budget_;
   double bound_;
+  bool is_on_lattice_;  ///< vertices lie on the lattice, which float32 holds
   double largest_height_ = 0, thinnest_border_ = 0;
   ScatteredDomain domain_;
   std::size_t seeds_;
   std::optional<ScatteredRefinement> refinement_;
   std::vector<std::uint32_t> points_by_source_;
-  std::uint64_t insertions_ = 0;
+  std::uint64_t insertions_ = 0, scanned_ = 0, dealt_ = 0, flat_ = 0, loose_ = 0;
   Reporter reporter_;
   Prefix best_{0, std::numeric_limits<double>::infinity()};
 };
@@ -292,10 +347,19 @@ class PointRun {
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options) try {
   const auto start = Clock::now();
   if (auto checked = check_options(options); !checked) return tl::unexpected(checked.error());
-  const auto snapped = snap_points(points, options.duplicates);
+  if (auto checked = check_lines(points, options); !checked) return tl::unexpected(checked.error());
+  const bool is_on_lattice = options.float32_positions && !points.lines.empty();
+  const auto snapped =
+      snap_points(points, options.duplicates, is_on_lattice ? PointSteps::kFloat32 : PointSteps::kFinest);
   if (!snapped) return tl::unexpected(snapped.error());
   auto domain = build_domain(*snapped);
   if (!domain) return tl::unexpected(domain.error());
+  const auto lines = PointLines::build(points, *snapped);
+  if (!lines) return tl::unexpected(lines.error());
+  for (const std::uint32_t point : lines->ends()) {
+    const Point p = snapped->at[point];
+    domain->insert(point, p, domain->tin.locate(p, domain->tin.last_touched()));
+  }
   std::vector<double> rounded;
   if (options.float32_positions) {
     auto heights = round_heights(points, *snapped);
@@ -308,10 +372,12 @@ Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOpti
   result.on_hull = domain->on_hull;
   result.lattice_step = snapped->lattice.step;
   PointRun run(points, *snapped, options.float32_positions ? std::span<const double>(rounded) : snapped->z, options,
-               std::move(*domain));
+               std::move(*domain), *lines);
   auto simplified = run.execute(start);
   if (!simplified) return tl::unexpected(simplified.error());
   result.simplified = std::move(*simplified);
+  result.flat = run.flat();
+  result.loose = run.loose();
   return result;
 } catch (const std::bad_alloc&) {
   return fail(ErrorKind::kInput,

@@ -145,7 +145,8 @@ TEST_F(PointFiles, vector_layers_without_heights_or_points_are_refused) {
   EXPECT_TRUE(contains(refuse("p.geojson", geojson(point), {.z_field = "bed"}), "no attribute 'bed'"));
   EXPECT_TRUE(contains(refuse("p.geojson", geojson(point), {.layer = "roads"}), "no layer 'roads'"));
   EXPECT_TRUE(
-      contains(refuse("p.geojson", geojson(point + "," + feature("LineString", "[[1,2,3],[4,5,6]]"))), "not a point"));
+      contains(refuse("p.geojson", geojson(point + "," + feature("Polygon", "[[[1,2,3],[4,5,6],[4,2,1],[1,2,3]]]"))),
+               "not a point"));
   EXPECT_TRUE(contains(refuse("p.geojson", geojson(feature("Point", "[1,4]", R"("z":1)") + "," +
                                                    feature("Point", "[1,5]", R"("z":null)"))),
                        "no height"));

@@ -131,6 +131,12 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
       read(given.raster.path(), arguments, crs.empty() ? Given() : Given(crs), display.callback());
   if (!points) return tl::unexpected(std::move(points.error()));
   outcome.points = std::move(*points);
+  if (!outcome.points.lines.empty() && (given.max_triangles || given.max_points))
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} cannot be combined with lines, and {} holds them: they need vertices of their own, "
+                            "beyond any budget; ask for an error with -e",
+                            given.max_triangles ? "--max-triangles" : "--max-points",
+                            shell_word(base_name(given.raster.path()))));
   if (auto checked = check_crs_of(plan->format, outcome.points.crs, ""); !checked) return checked;
   auto projections = plan_projection_files(*plan, outcome.points.crs);
   if (!projections) return tl::unexpected(std::move(projections.error()));
@@ -159,6 +165,12 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
   outcome.duplicates = simplified->duplicates;
   outcome.on_hull = simplified->on_hull;
   outcome.lattice_step = simplified->lattice_step;
+  outcome.flat = simplified->flat;
+  outcome.loose = simplified->loose;
+  if (outcome.loose > 0)
+    outcome.warnings.push_back(fmt::format("{} of lines are no edges of the mesh, since other lines of their height "
+                                           "cross them",
+                                           format_plural(outcome.loose, "piece")));
   // The engine proves its own result; a mesh whose proof does not hold is never written.
   const bool has_bound = outcome.simplified.stop == StopReason::kMaxError;
   const auto broken = find_broken(outcome.points, outcome.simplified.measurement,

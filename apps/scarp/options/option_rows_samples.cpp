@@ -179,7 +179,7 @@ constexpr OptionRow kSampleRows[] = {
      .commands = kSimplify | kMeasure | kInfo,
      .group = OptionGroup::kPoints,
      .type = kFlag,
-     .help = "The input is points, whatever its name ends in."},
+     .help = "The input is points or lines, whatever its name ends in."},
     {.id = kDuplicates,
      .name = "--duplicates",
      .commands = kSimplify,
@@ -204,7 +204,7 @@ constexpr OptionRow kSampleRows[] = {
      .group = OptionGroup::kPoints,
      .type = kText,
      .value = "NAME",
-     .by_default = "the first one with points",
+     .by_default = "the first one with points, else with lines",
      .help = "Layer to read."},
     {.id = kZField,
      .name = "--z-field",
@@ -213,7 +213,7 @@ constexpr OptionRow kSampleRows[] = {
      .type = kText,
      .value = "NAME",
      .by_default = "the third coordinate, else z, height, elevation, elev or h",
-     .help = "Column or attribute with the heights."},
+     .help = "Column or attribute with the heights: of points, or of lines such as contours (ELEV)."},
 };
 
 }  // namespace

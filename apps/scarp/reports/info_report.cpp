@@ -136,6 +136,7 @@ std::string points_facts(const PointSet& points) {
   std::string text = points.path + "\n";
   text += fact_line("format", points.format);
   text += fact_line("points", format_count(points.size()));
+  if (!points.lines.empty()) text += fact_line("lines", format_count(points.lines.size()));
   text += range_line("x", box, 0) + range_line("y", box, 1);
   text += fact_line("heights", fmt::format("{} to {}, relief {}", format_number(box.low[2]), format_number(box.high[2]),
                                            format_number(box.high[2] - box.low[2])));

@@ -30,6 +30,7 @@ Json describe_points(const PointSet& points, DuplicatePolicy policy, std::uint64
   return Json{{"path", points.path},
               {"format", points.format},
               {"points", points.size()},
+              {"lines", points.lines.size()},
               {"duplicates", duplicates},
               {"duplicate_policy", policy_name(policy)},
               {"min", heights.min},
@@ -96,6 +97,10 @@ Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const s
   report["stopped_by"] = stop_name(outcome.simplified.stop);
   report["vertices"] = outcome.vertices;
   report["triangles"] = outcome.triangles;
+  if (!outcome.points.lines.empty()) {
+    report["flat_triangles"] = outcome.flat;
+    report["loose_pieces"] = outcome.loose;
+  }
   add_point_measurement(report, outcome.points, outcome.simplified.measurement);
   add_solid(report, plan, outcome);
   report["seconds"] = describe_seconds(outcome);
@@ -110,6 +115,8 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
   std::string text = fmt::format("{} -> {}\n", base_name(plan.input), plan.output);
   text += summary_line("points", fmt::format("{}, heights {} to {}", format_count(outcome.points.size()),
                                              format_number(heights.min), format_number(heights.max)));
+  if (!outcome.points.lines.empty())
+    text += summary_line("lines", format_count(outcome.points.lines.size()) + ", each a chain of edges");
   text += summary_line("duplicates", outcome.duplicates == 0
                                          ? "none"
                                          : fmt::format("{}, the {} of each place counts",
@@ -120,7 +127,8 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
                                                format_share(static_cast<double>(outcome.vertices),
                                                             static_cast<double>(outcome.points.size())),
                                                format_count(outcome.on_hull)));
-  text += summary_line("triangles", format_count(outcome.triangles));
+  const std::string flats = fmt::format(", {} flat between points of equal height", format_count(outcome.flat));
+  text += summary_line("triangles", format_count(outcome.triangles) + (outcome.points.lines.empty() ? "" : flats));
   text += solid_line(plan, outcome);
   text += summary_line("effort", "fast (scattered points are only refined)");
   text += summary_line("frame", outcome.points.description);

@@ -25,7 +25,7 @@ std::optional<std::string> find_broken(const PointSet& points, const Measurement
 struct PointsOutcome : SimplifyRun {
   PointSet points;
   DuplicatePolicy policy = DuplicatePolicy::kFirst;
-  std::uint64_t duplicates = 0, on_hull = 0;
+  std::uint64_t duplicates = 0, on_hull = 0, flat = 0, loose = 0;
   double lattice_step = 0;
 };
 

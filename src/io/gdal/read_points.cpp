@@ -1,4 +1,5 @@
-// Points of a vector layer.
+// Points of a vector layer, and lines through them.
+#include <cpl_conv.h>
 #include <cpl_port.h>
 #include <fmt/format.h>
 
@@ -20,12 +21,22 @@ bool may_hold_points(OGRLayerH layer) {
   return type == wkbPoint || type == wkbMultiPoint || type == wkbUnknown || type == wkbGeometryCollection;
 }
 
+bool may_hold_lines(OGRLayerH layer) {
+  const OGRwkbGeometryType type = wkbFlatten(OGR_L_GetGeomType(layer));
+  return OGR_GT_IsSubClassOf(type, wkbCurve) != 0 || OGR_GT_IsSubClassOf(type, wkbMultiCurve) != 0;
+}
+
 Result<OGRLayerH> find_layer(GDALDatasetH dataset, const std::string& path, const std::string& wanted) {
+  OGRLayerH first_of_lines = nullptr;
   for (int i = 0; i < GDALDatasetGetLayerCount(dataset); ++i) {
     OGRLayerH layer = GDALDatasetGetLayer(dataset, i);
     if (wanted.empty() ? may_hold_points(layer) : wanted == OGR_L_GetName(layer)) return layer;
+    if (first_of_lines == nullptr && may_hold_lines(layer)) first_of_lines = layer;
   }
-  if (wanted.empty()) return fail(ErrorKind::kInput, path + ": holds no layer of points");
+  if (wanted.empty() && first_of_lines != nullptr) return first_of_lines;
+  if (wanted.empty())
+    return fail(ErrorKind::kInput, fmt::format("{}: holds no layer of points or lines, only {}", path,
+                                               layer_names(dataset)));
   return fail(ErrorKind::kInput, fmt::format("{}: holds no layer '{}', only {}", path, wanted, layer_names(dataset)));
 }
 
@@ -50,7 +61,7 @@ Result<std::optional<int>> find_height_field(OGRLayerH layer, const std::string&
     if (index >= 0) return index;
   }
   return fail(ErrorKind::kInput,
-              fmt::format("{}: the points of the layer {} have no third coordinate, and no attribute z, height, "
+              fmt::format("{}: the features of the layer {} have no third coordinate, and no attribute z, height, "
                           "elevation, elev or h: name the one that holds heights with --z-field",
                           path, OGR_L_GetName(layer)));
 }
@@ -71,13 +82,28 @@ class PointCollector {
     std::optional<double> height;
     if (height_field_) {
       if (OGR_F_IsFieldSetAndNotNull(feature, *height_field_) == 0)
-        return fail(ErrorKind::kInput, fmt::format("{}: feature {} has no height: its attribute {} is empty", path_,
-                                                   id_, field_name(feature)));
+        return fail(ErrorKind::kInput, fmt::format("{}: feature {} has no height: its attribute {} is empty; fill it "
+                                                   "in, leave the feature out, or name another with --z-field",
+                                                   path_, id_, field_name(feature)));
+      const char* text = OGR_F_GetFieldAsString(feature, *height_field_);
+      char* end = nullptr;
+      CPLStrtod(text, &end);
+      if (end == text || *end != '\0')
+        return fail(ErrorKind::kInput, fmt::format("{}: feature {} has no number as its height: its attribute {} is "
+                                                   "'{}'; correct it, or name another with --z-field",
+                                                   path_, id_, field_name(feature), text));
       height = OGR_F_GetFieldAsDouble(feature, *height_field_);
     }
-    return add_geometry(geometry, height);
+    if (OGR_GT_IsNonLinear(OGR_G_GetGeometryType(geometry)) == 0 && OGR_G_HasCurveGeometry(geometry, 0) == 0)
+      return add_geometry(geometry, height);
+    const Geometry linear(OGR_G_GetLinearGeometry(geometry, 0, nullptr));
+    if (!linear)
+      return fail(ErrorKind::kInput,
+                  fmt::format("{}: feature {} has curves that GDAL cannot make lines of", path_, id_));
+    return add_geometry(linear.get(), height);
   }
   std::uint64_t without_geometry() const { return without_geometry_; }
+  std::uint64_t without_extent() const { return without_extent_; }
 
  private:
   const char* field_name(OGRFeatureH feature) const {
@@ -86,24 +112,64 @@ class PointCollector {
 
   Result<void> add_geometry(OGRGeometryH geometry, std::optional<double> height) {
     const OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(geometry));
-    if (type == wkbMultiPoint) {
+    if (type == wkbMultiPoint || type == wkbMultiLineString || type == wkbGeometryCollection) {
       for (int i = 0; i < OGR_G_GetGeometryCount(geometry); ++i) {
         const auto added = add_geometry(OGR_G_GetGeometryRef(geometry, i), height);
         if (!added) return added;
       }
       return {};
     }
-    if (type != wkbPoint)
-      return fail(ErrorKind::kInput, fmt::format("{}: feature {} is a {}, not a point", path_, id_,
-                                                 OGRGeometryTypeToName(OGR_G_GetGeometryType(geometry))));
+    if (type != wkbPoint && type != wkbLineString)
+      return fail(ErrorKind::kInput,
+                  fmt::format("{}: feature {} is a {}, not a point or a line{}", path_, id_,
+                              OGRGeometryTypeToName(OGR_G_GetGeometryType(geometry)),
+                              type == wkbPolygon || type == wkbMultiPolygon
+                                  ? ": give its contours as lines (gdal_contour without -p, ogr2ogr -nlt LINESTRING)"
+                                  : ""));
     if (OGR_G_IsEmpty(geometry) != 0) {
       ++without_geometry_;
       return {};
     }
     if (!height && OGR_G_Is3D(geometry) == 0)
-      return fail(ErrorKind::kInput, fmt::format("{}: feature {} has no third coordinate, as others have", path_, id_));
-    const double x = OGR_G_GetX(geometry, 0), y = OGR_G_GetY(geometry, 0);
-    const double z = height ? *height : OGR_G_GetZ(geometry, 0);
+      return fail(ErrorKind::kInput, fmt::format("{}: feature {} has no third coordinate, as others have: give it one, "
+                                                 "or name an attribute with --z-field",
+                                                 path_, id_));
+    if (type == wkbPoint) return add_point(geometry, 0, height);
+    return add_line(geometry, height);
+  }
+
+  /// The vertices of a line, each place once in a row; a ring ends with its first point.
+  Result<void> add_line(OGRGeometryH geometry, std::optional<double> height) {
+    PointLine line;
+    const auto first = static_cast<std::uint32_t>(points_.size());
+    for (int i = 0; i < OGR_G_GetPointCount(geometry); ++i) {
+      const auto here = static_cast<std::uint32_t>(points_.size());
+      if (auto added = add_point(geometry, i, height); !added) return added;
+      const bool is_repeated = !line.points.empty() && is_same(here, line.points.back()),
+                 is_closed = !is_repeated && here > first && is_same(here, first);
+      if (is_repeated || is_closed) remove_last();
+      if (!is_repeated) line.points.push_back(is_closed ? first : here);
+    }
+    if (line.points.size() < 2) {
+      ++without_extent_;
+      return {};
+    }
+    line.name = fmt::format("{} feature {}", path_, id_);
+    points_.lines.push_back(std::move(line));
+    return {};
+  }
+  bool is_same(std::uint32_t a, std::uint32_t b) const {
+    return points_.x[a] == points_.x[b] && points_.y[a] == points_.y[b] && points_.z[a] == points_.z[b];
+  }
+  void remove_last() {
+    points_.x.pop_back();
+    points_.y.pop_back();
+    points_.z.pop_back();
+  }
+
+  Result<void> add_point(OGRGeometryH geometry, int i, std::optional<double> height) {
+    const double x = OGR_G_GetX(geometry, i), y = OGR_G_GetY(geometry, i);
+    const double z = height ? *height : OGR_G_GetZ(geometry, i);
     if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
       return fail(ErrorKind::kInput,
                   fmt::format("{}: feature {} has x {}, y {}, height {}, which are not all finite: remove that point",
@@ -118,7 +184,7 @@ class PointCollector {
   std::optional<int> height_field_;
   PointSet& points_;
   GIntBig id_ = 0;
-  std::uint64_t without_geometry_ = 0;
+  std::uint64_t without_geometry_ = 0, without_extent_ = 0;
 };
 
 double centre_of(const std::vector<double>& values) {
@@ -217,10 +283,13 @@ Result<PointSet> read(const std::string& path, const ReadPointsOptions& options)
                                       [&](OGRFeatureH feature) { return collector.add(feature); });
   if (!collected) return tl::unexpected(collected.error());
   if (points.size() == 0)
-    return fail(ErrorKind::kInput, fmt::format("{}: the layer {} holds no points", path, OGR_L_GetName(*layer)));
+    return fail(ErrorKind::kInput, fmt::format("{}: the layer {} holds no points or lines", path, OGR_L_GetName(*layer)));
   if (collector.without_geometry() > 0)
     points.warnings.push_back(
         fmt::format("{} features of {} have no point and were left out", collector.without_geometry(), path));
+  if (collector.without_extent() > 0)
+    points.warnings.push_back(fmt::format("{} lines of {} are a single point each, and count as points",
+                                          collector.without_extent(), path));
   const Crs crs = layer_crs(*layer);
   if (auto placed = place(crs, options.crs, points); !placed) return tl::unexpected(placed.error());
   for (const std::string& warning : session.warnings()) points.warnings.push_back("GDAL: " + warning);

@@ -19,6 +19,11 @@ struct DestroyFeature {
 };
 using Feature = std::unique_ptr<std::remove_pointer_t<OGRFeatureH>, DestroyFeature>;
 
+struct DestroyGeometry {
+  void operator()(OGRGeometryH geometry) const { OGR_G_DestroyGeometry(geometry); }
+};
+using Geometry = std::unique_ptr<std::remove_pointer_t<OGRGeometryH>, DestroyGeometry>;
+
 /// Opens `path` for reading: a file, a URL, a /vsi… name. Fails with kInput in one sentence. `what` is looked for
 /// there ("points"), `expected` is what a file may be at all ("vector data that GDAL can read").
 Result<Dataset> open_vector(Session& session, const std::string& path, const char* what, const char* expected);

@@ -1,0 +1,61 @@
+// Lines through scattered points, as chains of edges.
+//
+// A chain passes those points of its line that are vertices; its edges are the chords between successive ones. So it
+// needs no vertex that the surface does not need, but for its ends and for those that keep two chains apart: chords that
+// meet get the farthest point of their line between them, until none meet. That ends, since whole lines meet only
+// where they have the same height.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geom/segments.h"
+#include "grid/snapped_points.h"
+#include "refine/scattered.h"
+#include "scarp/points.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+class PointLines {
+ public:
+  /// Fails with kInput where two lines meet with unlike heights, which it names. Both stay alive.
+  static Result<PointLines> build(const PointSet& points, const SnappedPoints& snapped);
+
+  bool empty() const { return lines_.empty(); }
+  /// By point: whether a line passes.
+  const std::vector<bool>& on_lines() const { return is_on_line_; }
+  /// Points that must be vertices: the ends of lines, three of a ring.
+  std::vector<std::uint32_t> ends() const;
+  /// Points whose insertion parts chords that meet; empty once no chords do that can be parted. `is_vertex`: by point.
+  std::vector<std::uint32_t> find_splits(const std::vector<bool>& is_vertex) const;
+  /// Constrains the chords and nothing else but the hull. Returns how many cannot be, since they cross others.
+  std::uint64_t hold(ScatteredDomain& domain) const;
+
+ private:
+  /// Points [begin, end] of a line, the ends vertices and no other.
+  struct Chord {
+    std::uint32_t line, begin, end;
+  };
+
+  PointLines(const PointSet& points, const SnappedPoints& snapped) : points_(&points), snapped_(&snapped) {}
+  Result<void> check_meetings() const;
+  std::vector<Chord> find_chords(const std::vector<bool>& is_vertex) const;
+  std::uint32_t farthest(const Chord& chord) const;
+  Point at(std::uint32_t line, std::uint32_t k) const { return snapped_->at[lines_[line][k]]; }
+  Segment segment_of(const Chord& chord) const { return {at(chord.line, chord.begin), at(chord.line, chord.end)}; }
+
+  const PointSet* points_;
+  const SnappedPoints* snapped_;
+  std::vector<std::vector<std::uint32_t>> lines_;   ///< lattice points, successive ones differ
+  std::vector<std::vector<std::uint32_t>> sources_;  ///< of each: the point of the set
+  std::vector<std::uint32_t> given_;                 ///< of each: the line of the set
+  std::vector<bool> is_on_line_;
+};
+
+/// By point: whether the domain has it as a vertex.
+std::vector<bool> find_vertices(const ScatteredDomain& domain, std::size_t points);
+
+}  // namespace scarp

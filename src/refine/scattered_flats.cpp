@@ -1,0 +1,100 @@
+// Flat triangles: in the bend of a contour three of its points make a triangle without slope, a terrace that the land
+// does not have. Where the quadrilateral with the next triangle is convex, the other diagonal leads to the next contour
+// instead.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "refine/scattered.h"
+
+namespace scarp {
+
+namespace {
+
+/// Not so thin that a vertex, moved by the rounding of a file, comes to lie beyond the triangle.
+bool is_thick(Point a, Point b, Point c) {
+  constexpr double kThinnest = 1.0 / 64;  // height over longest side
+  const auto square = [](Point p, Point q) {
+    const double x = double(q.x) - p.x, y = double(q.y) - p.y;
+    return x * x + y * y;
+  };
+  return static_cast<double>(orient(a, b, c)) >= kThinnest * std::max({square(a, b), square(b, c), square(c, a)});
+}
+
+}  // namespace
+
+class ScatteredRefinement::FlatRule final : public FlipRule {
+ public:
+  FlatRule(ScatteredRefinement& refinement, const std::vector<bool>& is_marked)
+      : own_(refinement), is_marked_(is_marked) {}
+
+  bool is_flat(const std::array<Vertex, 3>& corners) const {
+    const auto point = [&](std::size_t k) { return own_.domain_.point_of[corners[k]]; };
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!is_marked_[point(k)] || own_.heights_[point(k)] != own_.heights_[point(0)]) return false;
+    }
+    return true;
+  }
+  bool is_flat(Triangle t) const {
+    const Triangulation& tin = own_.domain_.tin;
+    return is_flat({tin.origin(3 * t), tin.origin(3 * t + 1), tin.origin(3 * t + 2)});
+  }
+
+  bool should_flip(const Triangulation& tin, HalfEdge h) override {
+    const HalfEdge g = tin.twin(h);
+    const Triangle t = h / 3, u = g / 3;
+    if (tin.is_outside(t) || tin.is_outside(u)) return false;
+    const int before = is_flat(t) + is_flat(u);
+    if (before == 0) return false;
+    const Vertex a = tin.origin(h), b = tin.origin(g), c = tin.origin(Triangulation::previous(h)),
+                 d = tin.origin(Triangulation::previous(g));
+    const std::array<Vertex, 3> one{c, d, b}, other{d, c, a};
+    if (is_flat(one) + is_flat(other) >= before) return false;
+    const Point pc = tin.point(c), pd = tin.point(d);
+    if (!is_thick(pc, pd, tin.point(b)) || !is_thick(pd, pc, tin.point(a))) return false;
+    const Wedge wedges[] = {own_.wedge_of(t, one), own_.wedge_of(u, other)};
+    std::array<std::vector<std::uint32_t>, 2> lists;
+    for (const Triangle triangle : {t, u}) {
+      for (std::uint32_t point = own_.first_[triangle]; point != kNone; point = own_.next_[point]) {
+        const std::size_t side = orient(pc, pd, own_.points_.at[point]) >= 0 ? 0 : 1;
+        if (breaks(wedges[side], point)) return false;
+        lists[side].push_back(point);
+      }
+    }
+    own_.first_[t] = own_.first_[u] = kNone;
+    for (std::size_t side = 0; side < 2; ++side) {
+      std::uint32_t& first = own_.first_[wedges[side].triangle];
+      for (const std::uint32_t point : lists[side]) {
+        own_.next_[point] = first;
+        first = point;
+      }
+    }
+    return true;
+  }
+
+ private:
+  bool breaks(const Wedge& wedge, std::uint32_t point) const {
+    const double error = std::abs(wedge.plane.height_at(own_.points_.at[point]) - own_.points_.z[point]);
+    if (error < own_.threshold_ - wedge.plane.guard) return false;
+    return error > own_.threshold_ + wedge.plane.guard || own_.exceeds(wedge, point);
+  }
+
+  ScatteredRefinement& own_;
+  const std::vector<bool>& is_marked_;
+};
+
+std::uint64_t ScatteredRefinement::flip_flats(const std::vector<bool>& is_marked) {
+  FlatRule rule(*this, is_marked);
+  Triangulation& tin = domain_.tin;
+  std::vector<HalfEdge> edges;
+  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    if (tin.twin(h) != kNone && h < tin.twin(h)) edges.push_back(h);
+  }
+  tin.improve(edges, rule, std::numeric_limits<std::size_t>::max());
+  std::uint64_t flats = 0;
+  for (Triangle t = 0; t < tin.triangle_count(); ++t) flats += !tin.is_outside(t) && rule.is_flat(t);
+  return flats;
+}
+
+}  // namespace scarp
