@@ -18,16 +18,17 @@ _scarp() {
       "simplify --normal-map" | "simplify --min-shape" | "simplify --time-limit" | "simplify --lods" | \
       "simplify --nodata" | "simplify --fill-distance" | "simplify --background" | "simplify --outline-tolerance" | \
       "simplify --falloff" | "simplify --breakline-z" | "simplify --inset" | "simplify --cliff" | \
-      "simplify --ridges" | "simplify --water-percentile" | "simplify --detect-flats" | "simplify --min-angle" | \
-      "simplify --max-edge" | "simplify --grade" | "simplify --base" | "simplify --split" | "simplify --memory" | \
-      "simplify -j" | "simplify --num-threads" | "simplify --texture-weight" | "simplify --channel-weights" | \
-      "simplify --layer" | "simplify --z-field" | "simplify --shape-threshold" | "simplify --supersample" | \
-      "measure --fail-above" | "measure --band" | "measure --te" | "measure --resolution" | "measure --z-scale" | \
-      "measure --z-offset" | "measure --cell-size" | "measure --nodata" | "measure --falloff" | "measure --inset" | \
-      "measure --memory" | "measure -j" | "measure --num-threads" | "measure --texture-weight" | \
-      "measure --channel-weights" | "measure --layer" | "measure --z-field" | "info --band" | "info --te" | \
-      "info --resolution" | "info --z-scale" | "info --z-offset" | "info --cell-size" | "info --nodata" | \
-      "info --layer" | "info --z-field" | "generate --seed" | "generate --range" | "generate --size")
+      "simplify --ridges" | "simplify --material-field" | "simplify --water-percentile" | "simplify --detect-flats" | \
+      "simplify --min-angle" | "simplify --max-edge" | "simplify --min-edge" | "simplify --grade" | \
+      "simplify --base" | "simplify --split" | "simplify --memory" | "simplify -j" | "simplify --num-threads" | \
+      "simplify --texture-weight" | "simplify --channel-weights" | "simplify --layer" | "simplify --z-field" | \
+      "simplify --shape-threshold" | "simplify --supersample" | "measure --fail-above" | "measure --band" | \
+      "measure --te" | "measure --resolution" | "measure --z-scale" | "measure --z-offset" | "measure --cell-size" | \
+      "measure --nodata" | "measure --falloff" | "measure --inset" | "measure --memory" | "measure -j" | \
+      "measure --num-threads" | "measure --texture-weight" | "measure --channel-weights" | "measure --layer" | \
+      "measure --z-field" | "info --band" | "info --te" | "info --resolution" | "info --z-scale" | \
+      "info --z-offset" | "info --cell-size" | "info --nodata" | "info --layer" | "info --z-field" | \
+      "generate --seed" | "generate --range" | "generate --size")
       return
       ;;
     "simplify --objective")
@@ -52,9 +53,10 @@ _scarp() {
       ;;
     "simplify --drape" | "simplify --preview" | "simplify --render" | "simplify --error-raster" | \
       "simplify --report" | "simplify --mask" | "simplify --tolerance" | "simplify --roi" | "simplify --script" | \
-      "simplify --breaklines" | "simplify --cutline" | "simplify --water" | "simplify --rivers" | \
-      "simplify --texture" | "measure --map" | "measure --error-raster" | "measure --mask" | "measure --tolerance" | \
-      "measure --roi" | "measure --script" | "measure --cutline" | "measure --texture")
+      "simplify --breaklines" | "simplify --cutline" | "simplify --materials" | "simplify --node-strings" | \
+      "simplify --water" | "simplify --rivers" | "simplify --texture" | "measure --map" | "measure --error-raster" | \
+      "measure --mask" | "measure --tolerance" | "measure --roi" | "measure --script" | "measure --cutline" | \
+      "measure --texture")
       COMPREPLY=($(compgen -f -- "$current"))
       return
       ;;
@@ -133,12 +135,12 @@ _scarp() {
         options+=' --error-raster --report --overwrite --effort --vertices --min-shape --time-limit --lods'
         options+=' --lods-in-one --lock-border --nodata --nodata-policy --fill-distance --background --outline-tolerance --mask'
         options+=' --tolerance --roi --falloff --script --breaklines --breakline-z --soft-breaklines --line-conflict'
-        options+=' --cutline --inset --mask-outside --cliff --ridges --keep-ridges --water --water-percentile'
-        options+=' --detect-flats --rivers --min-angle --max-edge --grade --base --solid --split'
-        options+=' --memory --num-threads --quiet --timing --json-progress --help --help-all --version'
-        options+=' --texture --texture-weight --image --norm --channel-weights --points --duplicates --layer'
-        options+=' --z-field --order --importance --one-pass --algorithm --batch --edges --edge-score'
-        options+=' --shape-threshold --supersample'
+        options+=' --cutline --inset --mask-outside --cliff --ridges --keep-ridges --materials --material-field'
+        options+=' --node-strings --water --water-percentile --detect-flats --rivers --min-angle --max-edge --min-edge'
+        options+=' --grade --base --solid --split --memory --num-threads --quiet --timing'
+        options+=' --json-progress --help --help-all --version --texture --texture-weight --image --norm'
+        options+=' --channel-weights --points --duplicates --layer --z-field --order --importance --one-pass'
+        options+=' --algorithm --batch --edges --edge-score --shape-threshold --supersample'
         ;;
       measure)
         options+=' --fail-above --band --te --resolution --decode --z-scale --z-offset --cell-size'

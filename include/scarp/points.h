@@ -25,12 +25,12 @@ struct PointLine {
 
 /// Samples anywhere: z over (x, y), in one plane coordinate system. x east, y north.
 struct PointSet {
-  std::vector<double> x, y, z;  ///< of equal size; all finite
-  std::vector<PointLine> lines; ///< that no triangle crosses. EMPTY: the points are scattered
-  std::string path;             ///< where they come from, for messages
-  std::string format;           ///< "CSV", "GPKG", …
-  std::string crs;              ///< of x and y: "EPSG:32611", WKT, or empty
-  std::string description;      ///< one line for reports: what x and y are, and in which unit
+  std::vector<double> x, y, z;   ///< of equal size; all finite
+  std::vector<PointLine> lines;  ///< that no triangle crosses. EMPTY: the points are scattered
+  std::string path;              ///< where they come from, for messages
+  std::string format;            ///< "CSV", "GPKG", …
+  std::string crs;               ///< of x and y: "EPSG:32611", WKT, or empty
+  std::string description;       ///< one line for reports: what x and y are, and in which unit
   std::vector<std::string> warnings;
 
   std::size_t size() const { return x.size(); }
@@ -101,10 +101,11 @@ struct PointOptions {
 /// Guarantees that |mesh − z| <= max_error at every point that is not given up as a duplicate, at its coordinates as
 /// given, for the positions as they are in the mesh. Vertices are points.
 /// Fails with kUsage (no goal, a max_error out of range, a budget below what the hull needs, a budget with lines), with
-/// kInput (lines that meet with unlike heights, which are named, fewer than 3 places, all on one line, a value that is not finite or beyond 1e100, an extent below 1e-100, two points nearer to
-/// each other than about 2^-30 of the extent, which are named, as is the far point that makes the extent so large),
-/// with kPromise where float32 positions cannot keep the bound, kCancelled. Cost: expected O(n log m) for n points;
-/// about 50 bytes a point beside the points themselves.
+/// kInput (lines that meet with unlike heights, which are named, fewer than 3 places, all on one line, a value that is
+/// not finite or beyond 1e100, an extent below 1e-100, two points nearer to each other than about 2^-30 of the extent,
+/// which are named, as is the far point that makes the extent so large), with kPromise where float32 positions cannot
+/// keep the bound, kCancelled. Cost: expected O(n log m) for n points; about 50 bytes a point beside the points
+/// themselves.
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options);
 
 /// Judges a mesh against points by brute force, without knowing how it was made: Measurement::samples counts points,

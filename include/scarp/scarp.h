@@ -38,3 +38,4 @@
 #include "scarp/tolerances.h"
 #include "scarp/version.h"
 #include "scarp/water.h"
+#include "scarp/zones.h"

@@ -15,9 +15,9 @@ namespace scarp {
 ///
 /// New vertices lie on samples where triangles are large compared with them, else on halves, quarters, … 256ths of a
 /// sample, at the height of the raster, which is bilinear between samples. No two share a lattice point. Vertices added
-/// for angles keep 1/32 of a sample (a quarter of max_edge, if that is less) from all others. So refinement always
-/// ends. Outlines are split exactly; lines and cuts are split within a 256th of a sample, at their own heights. Efforts
-/// above fast then remove and move the vertices that angles, lengths and the bound do not need.
+/// for angles keep 1/32 of a sample (a quarter of max_edge, if that is less; min_edge, if given) from all others. So
+/// refinement always ends. Outlines are split exactly; lines and cuts are split within a 256th of a sample, at their
+/// own heights. Efforts above fast then remove and move the vertices that angles, lengths and the bound do not need.
 ///
 /// Guarantees, up to the rounding of positions: (1) no edge is longer than max_edge; (2) grade holds, as below; (3)
 /// each triangle with an angle below min_angle is counted in ShapeReport::below. Up to 20 degrees, and without corners
@@ -30,10 +30,16 @@ struct ShapeGoals {
   std::optional<double> max_edge = std::nullopt;
   /// Growth rate of edge lengths, above 0. No edge is longer than 2·(s + grade·d): s is the length of the shortest edge
   /// at any vertex, d the distance from that vertex, along edges, to the far end of the edge. An s below half a sample
-  /// (of its longer side) counts as half a sample. DEFAULT: none.
+  /// (of its longer side), or below min_edge, counts as that. DEFAULT: none.
   std::optional<double> grade = std::nullopt;
+  /// Shortest edge, in the units of the mesh's x and y, above 0, at most half of max_edge: the time step of a flow
+  /// solver follows the shortest edge. The error bound, outlines and lines come first: edges that they need stay
+  /// shorter, and are counted in ShapeReport::shorter. Vertices added for other goals of shape make no edge shorter
+  /// than this but where they halve one that is too long. Efforts above fast remove vertices at shorter edges first,
+  /// and make no edge shorter than one that they take away, or this. DEFAULT: none.
+  std::optional<double> min_edge = std::nullopt;
 
-  bool any() const { return min_angle > 0 || max_edge || grade; }
+  bool any() const { return min_angle > 0 || max_edge || grade || min_edge; }
 };
 
 /// Shapes of a mesh, seen from above.
@@ -42,6 +48,7 @@ struct ShapeReport {
   double shortest_edge = 0, longest_edge = 0;  ///< in the units of x and y
   std::uint64_t below = 0;                     ///< triangles with an angle below min_angle
   std::uint64_t forced = 0;                    ///< of these, those at corners between lines or outline
+  std::uint64_t shorter = 0;                   ///< edges shorter than min_edge
   std::array<std::uint64_t, 12> histogram{};   ///< triangles by their smallest angle: 0 … 5 degrees, …, 55 … 60
 };
 

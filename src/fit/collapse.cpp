@@ -114,7 +114,7 @@ bool Collapse::search(Patch::Id v, Patch::Id u, Offer& offer) const {
     }
   }
   if (!(least < energy_ + kMostRise)) return false;
-  offer = {least - energy_, v, u, best};
+  offer = {least - energy_ - (rules_.shape.is_short(a, b) ? kShortEdgeFirst : 0), v, u, best};
   return true;
 }
 

@@ -42,7 +42,7 @@ class Collapse {
 
  private:
   struct Offer {
-    float rise = 0;  // of the energy
+    float rise = 0;  // of the energy; edges that are too short come first
     Patch::Id v = 0, u = 0;
     FitCorner place;
   };

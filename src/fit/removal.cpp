@@ -19,6 +19,7 @@ class Removal {
         error_(error),
         is_time_up_(is_time_up),
         settled_(settled),
+        shape_(shape),
         search_(error, shape),
         notes_(patch.node_count()),
         queue_(patch.node_count()) {
@@ -71,6 +72,7 @@ class Removal {
     float now = 0;
     for (const Id f : star_.faces) now += energy_of(f);
     price = search_.energy() - now;
+    if (has_short_edge(shape_, patch_.at(v), ring_)) price -= kShortEdgeFirst;
     return true;
   }
 
@@ -110,6 +112,7 @@ class Removal {
   const TriangleError& error_;
   const std::function<bool()>& is_time_up_;
   std::vector<std::uint8_t>& settled_;
+  const ShapeRule& shape_;
   RingSearch search_;
   std::vector<Note> notes_;
   LazyQueue queue_;

@@ -99,6 +99,7 @@ bool Schedule::look_at(Id v, float& price) {
   float now = 0;
   for (const Id f : star_.faces) now += patch_.face(f).energy;
   price = search_.energy() - now;
+  if (has_short_edge(options_.rules.shape, patch_.at(v), ring_)) price -= kShortEdgeFirst;
   return true;
 }
 

@@ -44,9 +44,9 @@ struct SnappedPoints {
 /// exactly as decimals, if they have few enough of them; else the finest with a power of two as its step, where points
 /// move by up to half a step, at most extent / 2^30 (2^23 with kFloat32). Duplicates are points with equal coordinates;
 /// points that only the lattice cannot tell apart are refused, but become echoes in a set with lines, whose vertices
-/// are often crowded. With kMean the first point stands for the lattice point. Fails with kInput: a coordinate or height
-/// that is not finite or beyond 1e100, an extent below 1e-100, points too near for their extent, no points, more than
-/// 2^31 − 1.
+/// are often crowded. With kMean the first point stands for the lattice point. Fails with kInput: a coordinate or
+/// height that is not finite or beyond 1e100, an extent below 1e-100, points too near for their extent, no points, more
+/// than 2^31 − 1.
 Result<SnappedPoints> snap_points(const PointSet& points, DuplicatePolicy policy,
                                   PointSteps steps = PointSteps::kFinest);
 

@@ -134,6 +134,8 @@ FitOptions fit_options(const HeightField& field, const SimplifyOptions& options,
   fit.vertices_are_free = vertices_are_free(field, options);
   if (options.quality.effort == Effort::kHigh) fit.depth = kHighDepth;
   if (options.quality.effort == Effort::kMax) fit.depth = kMaxDepth;
+  // Two neighbours that are too near to each other are mostly both needed, but one between them may do.
+  if (options.quality.shape.min_edge) fit.depth.repair.collapses = moves_vertices(options.quality.effort);
   fit.min_shape = options.quality.min_shape.value_or(fit.vertices_are_free ? kUsualShape : 0);
   fit.floor_yields = !options.quality.min_shape;
   fit.aspect = std::hypot(a[2], a[5]) / std::hypot(a[1], a[4]);

@@ -17,8 +17,8 @@ namespace {
 /// p on the segment, but at no end of it.
 bool is_within(const Segment& s, Point p) {
   if (p == s.from || p == s.to || orient(s.from, s.to, p) != 0) return false;
-  return std::min(s.from.x, s.to.x) <= p.x && p.x <= std::max(s.from.x, s.to.x) &&
-         std::min(s.from.y, s.to.y) <= p.y && p.y <= std::max(s.from.y, s.to.y);
+  return std::min(s.from.x, s.to.x) <= p.x && p.x <= std::max(s.from.x, s.to.x) && std::min(s.from.y, s.to.y) <= p.y &&
+         p.y <= std::max(s.from.y, s.to.y);
 }
 
 bool cross(const Segment& s, const Segment& t) {
@@ -109,11 +109,11 @@ Result<void> PointLines::check_meetings() const {
       std::swap(za, zb);
     }
     const std::string &one = points_->lines[given_[a]].name, &other = points_->lines[given_[b]].name;
-    error = Error{ErrorKind::kInput,
-                  fmt::format("{} at ({:.12g}, {:.12g}) with the heights {:.12g} and {:.12g}: correct one of the two, "
-                              "or leave it out",
-                              a == b ? one + " crosses itself" : fmt::format("{} and {} meet", one, other), x, y, za,
-                              zb)};
+    error =
+        Error{ErrorKind::kInput,
+              fmt::format("{} at ({:.12g}, {:.12g}) with the heights {:.12g} and {:.12g}: correct one of the two, "
+                          "or leave it out",
+                          a == b ? one + " crosses itself" : fmt::format("{} and {} meet", one, other), x, y, za, zb)};
   };
   // Vertices in common first.
   std::vector<std::uint32_t> first(snapped_->size(), kNone);

@@ -1,8 +1,8 @@
 // Lines through scattered points, as chains of edges.
 //
 // A chain passes those points of its line that are vertices; its edges are the chords between successive ones. So it
-// needs no vertex that the surface does not need, but for its ends and for those that keep two chains apart: chords that
-// meet get the farthest point of their line between them, until none meet. That ends, since whole lines meet only
+// needs no vertex that the surface does not need, but for its ends and for those that keep two chains apart: chords
+// that meet get the farthest point of their line between them, until none meet. That ends, since whole lines meet only
 // where they have the same height.
 #pragma once
 
@@ -49,7 +49,7 @@ class PointLines {
 
   const PointSet* points_;
   const SnappedPoints* snapped_;
-  std::vector<std::vector<std::uint32_t>> lines_;   ///< lattice points, successive ones differ
+  std::vector<std::vector<std::uint32_t>> lines_;    ///< lattice points, successive ones differ
   std::vector<std::vector<std::uint32_t>> sources_;  ///< of each: the point of the set
   std::vector<std::uint32_t> given_;                 ///< of each: the line of the set
   std::vector<bool> is_on_line_;

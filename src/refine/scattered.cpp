@@ -99,8 +99,8 @@ ScatteredRefinement::ScatteredRefinement(const SnappedPoints& points, std::span<
 ScatteredRefinement::Wedge ScatteredRefinement::wedge_of(Triangle t, Vertex apex) const {
   HalfEdge h = 3 * t;
   while (domain_.tin.origin(h) != apex) h = Triangulation::next(h);
-  return wedge_of(
-      t, {apex, domain_.tin.origin(Triangulation::next(h)), domain_.tin.origin(Triangulation::previous(h))});
+  return wedge_of(t,
+                  {apex, domain_.tin.origin(Triangulation::next(h)), domain_.tin.origin(Triangulation::previous(h))});
 }
 
 ScatteredRefinement::Wedge ScatteredRefinement::wedge_of(Triangle t, const std::array<Vertex, 3>& corners) const {

@@ -68,6 +68,7 @@ class ShapeRefiner {
       longest2_ = *longest * *longest * (1 - kShapeSlack);
       least_ = std::min(least_, *longest / 4);
     }
+    if (task.goals.min_edge) least_ = *task.goals.min_edge;
     const SquaredAngle half = squares_of((task.goals.min_angle + kShapeSlack) / 2);
     off_centre_ = 0.475 * std::sqrt(half.cosine / half.sine);
     if (lattice.are_samples()) tin_.scale(kLatticeSteps);
@@ -85,7 +86,8 @@ class ShapeRefiner {
   Result<ShapeWork> run() {
     note_all();
     if (task_.goals.grade) {
-      sizes_.emplace(tin_, metric_, *task_.goals.grade, kFinestSize * metric_.longer_side());
+      const double finest = std::max(kFinestSize * metric_.longer_side(), task_.goals.min_edge.value_or(0));
+      sizes_.emplace(tin_, metric_, *task_.goals.grade, finest);
       sizes_->measure_all(out_);
     }
     if (const double least = least_triangles(tin_, metric_, task_.goals, sizes_ ? &*sizes_ : nullptr); task_.foresee) {
@@ -568,8 +570,14 @@ std::optional<ShapeRule> shape_rule(const ShapeGoals& goals, const Frame& frame)
   ShapeRule rule;
   rule.by_angle = true;
   rule.aspect = height / width;
-  // Without a smallest angle whatever has an area will do.
-  rule.floor = std::max(squares_of(goals.min_angle + kShapeSlack).sine, std::numeric_limits<double>::min());
+  // Without a smallest angle whatever has an area will do, but for simulation, which asks for a shortest edge.
+  constexpr double kUsualAngle = 5;
+  const double angle = goals.min_edge && goals.min_angle == 0 ? kUsualAngle : goals.min_angle;
+  rule.floor = std::max(squares_of(angle + kShapeSlack).sine, std::numeric_limits<double>::min());
+  if (goals.min_edge) {
+    const double shortest = *goals.min_edge / width * kLatticeSteps;
+    rule.shortest_square = shortest * shortest * (1 + kShapeSlack);
+  }
   if (!goals.max_edge) return rule;
   const double longest = *goals.max_edge / width * kLatticeSteps;
   rule.longest_square = longest * longest * (1 - kShapeSlack);

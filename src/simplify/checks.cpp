@@ -60,6 +60,13 @@ Result<void> check_shape(const HeightField& field, const ShapeGoals& shape) {
   if (shape.max_edge && !(*shape.max_edge >= kLeastEdge * side))
     return usage(fmt::format("the max edge must be at least {} of a sample, that is {}, not {}", kLeastEdge,
                              kLeastEdge * side, *shape.max_edge));
+  if (shape.min_edge && !(*shape.min_edge > 0 && std::isfinite(*shape.min_edge)))
+    return usage(fmt::format("the min edge must be a finite number above 0, not {}", *shape.min_edge));
+  if (shape.min_edge && shape.max_edge && !(*shape.min_edge <= *shape.max_edge / 2))
+    return usage(
+        fmt::format("the min edge must be at most half of the max edge, that is {}, not {}: longer edges are "
+                    "halved",
+                    *shape.max_edge / 2, *shape.min_edge));
   return {};
 }
 

@@ -88,11 +88,21 @@ succeeds "$scarp" simplify flat.tif long.obj -e 10 --up z --max-edge 60 --water 
 read -r count smallest shortest longest < <(python3 "$shape_of" long.obj)
 holds "$longest <= 60"
 
+# Edges that are shorter than asked are counted, and told.
+succeeds "$scarp" simplify hills.tif short.obj -e 10 --up z --min-edge 3 --max-edge 20 --report r.json --overwrite
+[ "$(json r.json shape asked_min_edge)" = 3.0 ] || fail "the report does not tell the shortest edge that was asked for"
+holds "$(json r.json shape shorter) > 0 && $(json r.json shape longest_edge) <= 20"
+grep -q 'shape .* shorter than 3 (for the error bound, outlines or lines)' "$logs/out" || fail "short edges are not told"
+succeeds "$scarp" measure hills.tif short.obj --fail-above 10
+
 # What cannot be is refused, by name.
 refuses 1 "--min-angle" "$scarp" simplify hills.tif x.obj -e 10 --min-angle 40
 refuses 1 "--min-angle" "$scarp" simplify hills.tif x.obj -e 10 --min-angle some
 refuses 1 "--max-edge" "$scarp" simplify hills.tif x.obj -e 10 --max-edge 0
 refuses 1 "max edge" "$scarp" simplify hills.tif x.obj -e 10 --max-edge 0.01
+refuses 1 "--min-edge 2 is more than half of --max-edge 3" "$scarp" simplify hills.tif x.obj -e 10 --max-edge 3 --min-edge 2
+refuses 1 "--min-edge 0 is not above 0" "$scarp" simplify hills.tif x.obj -e 10 --min-edge 0
+refuses 1 "--cliff cannot be combined with --min-edge" "$scarp" simplify hills.tif x.obj -e 10 --min-edge 2 --cliff 5
 refuses 1 "--grade" "$scarp" simplify hills.tif x.obj -e 10 --grade -1
 refuses 1 "the angles and edges alone need" "$scarp" simplify hills.tif x.obj -t 1 --min-angle 20
 refuses 1 "--edges" "$scarp" simplify hills.tif x.obj -e 10 --edges data --min-angle 20

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
+#include <utility>
 
 #include "laws/any_field.h"
 #include "laws/array_source.h"
@@ -242,6 +244,8 @@ TEST(shape, goals_out_of_range_are_refused_in_a_sentence) {
   refuses({.min_angle = std::nan("")}, "0 … 33");
   refuses({.max_edge = 0.1}, "at least 0.125");
   refuses({.grade = 0}, "above 0");
+  refuses({.min_edge = 0}, "above 0");
+  refuses({.max_edge = 3, .min_edge = 2}, "at most half of the max edge, that is 1.5");
   SimplifyOptions options;
   options.goals.max_triangles = 1;
   options.quality.shape.min_angle = 20;
@@ -249,6 +253,57 @@ TEST(shape, goals_out_of_range_are_refused_in_a_sentence) {
   ASSERT_FALSE(result.has_value());
   EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
   EXPECT_NE(result.error().message.find("the angles and edges alone need"), std::string::npos);
+}
+
+/// Edges below this, each once.
+std::uint64_t count_shorter(const Mesh& mesh, double least) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  visit_edges(mesh, [&](std::uint32_t v, std::uint32_t w) {
+    if (length(mesh, v, w) < least) edges.insert({std::min(v, w), std::max(v, w)});
+  });
+  return edges.size();
+}
+
+RC_GTEST_PROP(shape, edges_that_are_too_short_are_counted_and_cost_no_promise, ()) {
+  const Field field = testing::any_field(30);
+  auto options = any_run();
+  options.quality.shape.min_edge = *rc::gen::element(0.5, 2.0, 4.0);
+  if (*rc::gen::arbitrary<bool>()) options.quality.shape.min_angle = 20;
+  if (*rc::gen::arbitrary<bool>()) options.quality.shape.max_edge = 9.0;
+  const Simplified result = simplified(field.view(), options);
+  RC_ASSERT(result.shape->shorter == count_shorter(result.mesh, *options.quality.shape.min_edge));
+}
+
+TEST(shape, vertices_for_angles_and_lengths_make_no_short_edge) {
+  // A plane with a peak: the bound needs its foot and its top, four samples apart; angles would go on from there.
+  Field field = testing::random_field(1, 81, 81, testing::Relief::kRidges);
+  std::fill(field.samples.begin(), field.samples.end(), 0.0f);
+  field.samples[40 * 81 + 40] = 10;
+  SimplifyOptions options;
+  options.goals.max_error = 4;
+  options.quality.shape = {.min_angle = 20, .max_edge = 30.0};
+  for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
+    options.quality.effort = effort;
+    options.quality.shape.min_edge = std::nullopt;
+    const auto free = *simplify(field.view(), options);
+    options.quality.shape.min_edge = 4.0;
+    const auto held = *simplify(field.view(), options);
+    EXPECT_LE(held.measurement.max_error, 4);
+    EXPECT_LE(held.shape->shorter, count_shorter(free.mesh, 4.0));
+    EXPECT_LE(held.shape->longest_edge, 30.0);
+  }
+}
+
+TEST(shape, high_effort_gives_up_short_edges) {
+  const Field field = testing::random_field(7, 150, 130, testing::Relief::kRidges);
+  SimplifyOptions options;
+  options.goals.max_error = 4;
+  options.quality.effort = Effort::kHigh;
+  const auto free = *simplify(field.view(), options);
+  options.quality.shape.min_edge = 3.0;
+  const auto held = *simplify(field.view(), options);
+  EXPECT_GT(held.shape->shorter, 0u);
+  EXPECT_LT(held.shape->shorter, 0.8 * static_cast<double>(count_shorter(free.mesh, 3.0)));
 }
 
 TEST(shape, budgets_are_met_with_all_angles) {

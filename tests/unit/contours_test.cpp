@@ -35,7 +35,8 @@ PointSet hill() {
   for (int level = 0; level < 12; ++level) {
     std::vector<std::array<double, 3>> ring;
     for (int k = 0; k < 300; ++k) {
-      const double angle = 2 * std::numbers::pi * k / 300, radius = (1200 - 90 * level) * (1 + 0.2 * std::sin(7 * angle));
+      const double angle = 2 * std::numbers::pi * k / 300,
+                   radius = (1200 - 90 * level) * (1 + 0.2 * std::sin(7 * angle));
       ring.push_back({500000 + radius * std::cos(angle), 4e6 + radius * std::sin(angle), 10.0 * level});
     }
     add_line(points, "ring " + std::to_string(level), ring, true);

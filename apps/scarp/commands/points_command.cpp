@@ -168,9 +168,10 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
   outcome.flat = simplified->flat;
   outcome.loose = simplified->loose;
   if (outcome.loose > 0)
-    outcome.warnings.push_back(fmt::format("{} of lines are no edges of the mesh, since other lines of their height "
-                                           "cross them",
-                                           format_plural(outcome.loose, "piece")));
+    outcome.warnings.push_back(
+        fmt::format("{} of lines are no edges of the mesh, since other lines of their height "
+                    "cross them",
+                    format_plural(outcome.loose, "piece")));
   // The engine proves its own result; a mesh whose proof does not hold is never written.
   const bool has_bound = outcome.simplified.stop == StopReason::kMaxError;
   const auto broken = find_broken(outcome.points, outcome.simplified.measurement,

@@ -32,7 +32,7 @@ constexpr const char* kBroken = "the mesh does not keep its promise and was not 
 /// Of files beside the raster's.
 std::uint64_t vector_bytes(const SimplifyPlan& plan) {
   const bool has_none = plan.lines.breaklines.empty() && plan.lines.water.empty() && plan.lines.rivers.empty() &&
-                        plan.cut.files.empty() && plan.companions.roi.empty();
+                        plan.zones.find_lines() == nullptr && plan.cut.files.empty() && plan.companions.roi.empty();
   return has_none ? 0 : kVectorBytes;
 }
 
@@ -112,6 +112,10 @@ Result<void> read_features(const SimplifyPlan& plan, const ProgressCallback& pro
   Result<LineConstraints> lines = plan.lines.read(outcome.as_read, outcome.field.rows, progress, warnings);
   if (!lines) return tl::unexpected(std::move(lines.error()));
   features.breaklines = std::move(*lines);
+  Result<ZonePlan> zones =
+      plan.zones.read(outcome.as_read, outcome.field.rows, progress, features.breaklines, warnings);
+  if (!zones) return tl::unexpected(std::move(zones.error()));
+  outcome.zone_plan = std::move(*zones);
   const auto waters = read_waters(plan.lines, progress, memory_of(plan, outcome), outcome.field, features, warnings);
   if (!waters) return waters;
   features.walls = plan.cliff.goals();
@@ -302,7 +306,8 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
         "LandXML has no degrees: the surface is in metres around the raster's centre; a projected CRS (--crs) puts it "
         "in its place");
   }
-  if (auto checked = check_frame_of_lines(plan->lines, frame, plan->read.crs, plan->input); !checked) return checked;
+  if (auto checked = check_frame_of_lines(plan->find_lines(), frame, plan->read.crs, plan->input); !checked)
+    return checked;
   SimplifyOptions options = plan->simplify;
   options.goals.max_error = outcome.asked;
   options.tolerances = outcome.companions.bounds();
@@ -370,7 +375,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   if (fitted.given_lines() > 0 && outcome.simplified.lines_inserted == 0) {
     outcome.warnings.push_back(
         fmt::format("{}: no line lies on the raster's surface, so they change nothing: is their CRS the right one?",
-                    plan->lines.find_lines()));
+                    plan->find_lines()));
   }
   if (outcome.companions.has_tolerance() && std::isinf(outcome.simplified.tolerance_factor)) {
     outcome.warnings.push_back(

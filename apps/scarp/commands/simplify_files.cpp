@@ -199,8 +199,10 @@ Result<void> encode_output(const SimplifyPlan& plan, const Outcome& outcome, Rea
   }
   const auto glb = glb_options(plan, outcome);
   if (!glb) return tl::unexpected(glb.error());
+  const bool has_zones = plan.zones.find_lines() != nullptr;
   Result<std::vector<std::uint8_t>> bytes = outcome.print ? encode_3mf(named_solids(plan, outcome))
                                             : is_dem      ? encode_dem(plan, outcome)
+                                            : has_zones   ? encode_2dm(mesh, outcome.zones)
                                                           : encode_as(plan.format, mesh, *glb, plan.doubles);
   if (!bytes) return tl::unexpected(std::move(bytes.error()));
   file.bytes = std::move(*bytes);
@@ -253,6 +255,7 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
       return tl::unexpected(std::move(encoded.error()));
     return files;
   }
+  if (plan.zones.find_lines() != nullptr) outcome.zones = find_zones(outcome.zone_plan, outcome.field.frame, mesh);
   turn_as_planned(plan, mesh);
   if (auto encoded = encode_output(plan, outcome, files.front()); !encoded) return tl::unexpected(encoded.error());
   if (plan.levels) {

@@ -16,8 +16,7 @@ Fields fields_given(const SimplifyArguments& given, const SimplifyPlan& plan) {
       {Field::kMaxError, given.max_error.has_value()},
       {Field::kMask, given.companions.mask.has_value()},
       {Field::kTolerance, given.companions.find_tolerance() != nullptr},
-      {Field::kBreaklines,
-       given.lines.find_lines() != nullptr || given.cliff.height || given.ridges.height || is_split},
+      {Field::kBreaklines, plan.find_lines() != nullptr || given.cliff.height || given.ridges.height || is_split},
       {Field::kWalls, given.cliff.height.has_value()},
       {Field::kRidges, given.ridges.height.has_value()},
       {Field::kCutline, given.cut.find_cut() != nullptr},
@@ -36,6 +35,7 @@ std::string option_of(Field field, const SimplifyArguments& given) {
   if (field == Field::kTolerance || field == Field::kToleranceSource) option = given.companions.find_tolerance();
   if (field == Field::kBreaklines) {
     option = given.lines.find_lines();
+    if (option == nullptr) option = given.zones.find_lines();
     if (option == nullptr) option = given.cliff.height ? "--cliff" : given.ridges.height ? "--ridges" : "--split";
   }
   if (field == Field::kBorder && given.levels.lods) option = "--lods";

@@ -95,9 +95,8 @@ Result<void> LineArguments::check() const {
   return rule ? Result<void>() : tl::unexpected(rule.error());
 }
 
-Result<void> check_frame_of_lines(const LineArguments& given, const Frame& frame, const std::string& crs_option,
+Result<void> check_frame_of_lines(const char* lines, const Frame& frame, const std::string& crs_option,
                                   const std::string& input) {
-  const char* lines = given.find_lines();
   if (lines == nullptr || frame.is_affine()) return {};
   const std::string crs = shell_word(crs_option);
   return fail(

@@ -40,7 +40,8 @@ Result<std::vector<Line>> read_files(const std::vector<std::string>& files, cons
                                      std::vector<std::string>& warnings);
 
 /// Refuses lines where the CRS that --crs names bends the grid of the raster.
-Result<void> check_frame_of_lines(const LineArguments& given, const Frame& frame, const std::string& crs_option,
+/// `lines`: the option that asks for them; null: there are none.
+Result<void> check_frame_of_lines(const char* lines, const Frame& frame, const std::string& crs_option,
                                   const std::string& input);
 
 /// The "breaklines" object of a report; null without lines.

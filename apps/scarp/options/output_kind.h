@@ -31,6 +31,7 @@ struct OutputFormat {
     return is_mesh() && (mesh == MeshFormat::kGlb || mesh == MeshFormat::kStl || mesh == MeshFormat::k3mf);
   }
   bool is_glb() const { return is_mesh() && mesh == MeshFormat::kGlb; }
+  bool is_2dm() const { return is_mesh() && mesh == MeshFormat::k2dm; }
   bool is_landxml() const { return is_mesh() && mesh == MeshFormat::kLandXml; }
   /// Can be a print: its coordinates are millimetres to those who print it.
   bool holds_prints() const;

@@ -27,6 +27,7 @@ void ShapeArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kMinAngle, min_angle);
   add_option(command, OptionId::kMaxEdge, max_edge);
   add_option(command, OptionId::kGrade, grade);
+  add_option(command, OptionId::kMinEdge, min_edge);
 }
 
 Result<ShapeGoals> ShapeArguments::parse() const {
@@ -44,23 +45,30 @@ Result<ShapeGoals> ShapeArguments::parse() const {
     goals.min_angle = *angle;
   }
   for (const auto& [option, given, goal] :
-       {std::tuple{"--max-edge", &max_edge, &goals.max_edge}, std::tuple{"--grade", &grade, &goals.grade}}) {
+       {std::tuple{"--max-edge", &max_edge, &goals.max_edge}, std::tuple{"--grade", &grade, &goals.grade},
+        std::tuple{"--min-edge", &min_edge, &goals.min_edge}}) {
     const auto value = parse_above_zero(option, *given);
     if (!value) return tl::unexpected(value.error());
     *goal = *value;
   }
+  if (goals.min_edge && goals.max_edge && *goals.min_edge > *goals.max_edge / 2)
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("--min-edge {} is more than half of --max-edge {}: longer edges are halved, so give at most {}",
+                    shell_word(*min_edge), shell_word(*max_edge), format_number(*goals.max_edge / 2)));
   return goals;
 }
 
 const char* ShapeArguments::find_goal() const {
   if (min_angle) return "--min-angle";
   if (max_edge) return "--max-edge";
-  return grade ? "--grade" : nullptr;
+  if (grade) return "--grade";
+  return min_edge ? "--min-edge" : nullptr;
 }
 
 std::string ShapeArguments::canonical() const {
   return canonical_option("--min-angle", min_angle) + canonical_option("--max-edge", max_edge) +
-         canonical_option("--grade", grade);
+         canonical_option("--grade", grade) + canonical_option("--min-edge", min_edge);
 }
 
 Json describe_shape(const ShapeGoals& goals, const Simplified& simplified) {
@@ -69,9 +77,11 @@ Json describe_shape(const ShapeGoals& goals, const Simplified& simplified) {
   return Json{{"asked_angle", goals.min_angle},
               {"asked_edge", or_null(goals.max_edge)},
               {"asked_grade", or_null(goals.grade)},
+              {"asked_min_edge", or_null(goals.min_edge)},
               {"min_angle", shape.min_angle},
               {"below", shape.below},
               {"forced", shape.forced},
+              {"shorter", shape.shorter},
               {"shortest_edge", shape.shortest_edge},
               {"longest_edge", shape.longest_edge},
               {"histogram", shape.histogram}};
@@ -86,8 +96,11 @@ std::string shape_line(const ShapeGoals& goals, const Simplified& simplified) {
     text += fmt::format(", {} below ({} forced by sharp corners, {} where no vertex could be added)",
                         format_plural(shape.below, "triangle"), format_count(shape.forced),
                         format_count(shape.below - shape.forced));
-  return summary_line("shape", fmt::format("{}; edges {} to {}", text, format_number(shape.shortest_edge),
-                                           format_number(shape.longest_edge)));
+  text += fmt::format("; edges {} to {}", format_number(shape.shortest_edge), format_number(shape.longest_edge));
+  if (shape.shorter > 0)
+    text += fmt::format(", {} shorter than {} (for the error bound, outlines or lines)", format_count(shape.shorter),
+                        format_number(*goals.min_edge));
+  return summary_line("shape", text);
 }
 
 }  // namespace scarp::cli

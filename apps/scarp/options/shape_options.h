@@ -15,7 +15,7 @@ class App;
 namespace scarp::cli {
 
 struct ShapeArguments {
-  Given min_angle, max_edge, grade;
+  Given min_angle, max_edge, grade, min_edge;
 
   void add_to(CLI::App& command);
   Result<ShapeGoals> parse() const;

@@ -20,6 +20,7 @@ void SimplifyArguments::add_to(CLI::App& command) {
   cliff.add_to(command);
   ridges.add_to(command);
   cut.add_to(command);
+  zones.add_to(command);
   channels.add_to(command);
   shape.add_to(command);
   strategy.add_to(command);

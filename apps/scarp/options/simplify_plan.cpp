@@ -136,6 +136,7 @@ Result<void> plan_lines(const SimplifyArguments& given, SimplifyPlan& plan) {
   plan.cliff = given.cliff;
   plan.ridges = given.ridges;
   plan.cut = given.cut;
+  plan.zones = given.zones;
   if (auto checked = given.lines.check(); !checked) return checked;
   if (auto checked = given.cliff.check(given.max_error || find_budget(given) != nullptr); !checked) return checked;
   if (auto checked = given.ridges.check(given.max_error || find_budget(given) != nullptr); !checked) return checked;
@@ -224,6 +225,13 @@ Result<void> plan_solid_format(const SimplifyArguments& given, SimplifyPlan& pla
   if (plan.has_file_per_tile() && is_stdout(given.output))
     return fail(ErrorKind::kUsage, "--split writes several files: standard output is only one");
   return {};
+}
+
+Result<void> plan_zones(const SimplifyArguments& given, SimplifyPlan& plan) {
+  if (const char* zones = given.zones.find_lines(); zones != nullptr && given.base)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} cannot be combined with --base: a flow model has no underside", zones));
+  return given.zones.check(plan.format);
 }
 
 /// What does not go together with images inside the file.
@@ -414,8 +422,8 @@ std::string canonical_command(const SimplifyArguments& given) {
   }
   command += given.solid.canonical() + given.levels.canonical();
   command += given.companions.canonical() + given.lines.canonical() + given.cliff.canonical() +
-             given.ridges.canonical() + given.cut.canonical() + given.shape.canonical() + given.channels.canonical() +
-             given.strategy.canonical();
+             given.ridges.canonical() + given.cut.canonical() + given.zones.canonical() + given.shape.canonical() +
+             given.channels.canonical() + given.strategy.canonical();
   if (given.strategy.asks_for_greedy()) command += " --order greedy";
   return command + (given.normals ? " --normals" : "") + (given.uvs ? " --uvs" : "") +
          (given.doubles ? " --double" : "") + (given.compress ? " --compress" : "") + given.images.canonical();
@@ -441,7 +449,7 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   if (!threads) return tl::unexpected(threads.error());
   plan.simplify.run.threads = *threads;
   for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_solid, plan_lines, plan_shape,
-                          plan_levels, plan_objective, plan_conflicts, plan_outputs, plan_memory}) {
+                          plan_levels, plan_objective, plan_conflicts, plan_outputs, plan_zones, plan_memory}) {
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());
   }

@@ -20,6 +20,7 @@
 #include "options/shape_options.h"
 #include "options/solid_options.h"
 #include "options/strategy_options.h"
+#include "options/zone_options.h"
 #include "scarp/simplify.h"
 
 namespace CLI {
@@ -45,6 +46,7 @@ struct SimplifyArguments {
   CliffArguments cliff;
   RidgeArguments ridges;
   CutlineArguments cut;
+  ZoneArguments zones;
   ShapeArguments shape;
   MemoryArguments memory;
   SolidArguments solid;
@@ -69,6 +71,7 @@ struct SimplifyPlan {
   CliffArguments cliff;
   RidgeArguments ridges;
   CutlineArguments cut;
+  ZoneArguments zones;
   ChannelPlan channels;
   ImagePlan images;
   NodataPolicy policy = NodataPolicy::kHole;
@@ -92,6 +95,8 @@ struct SimplifyPlan {
 
   /// Of a print in print tiles; else OUTPUT holds them all.
   bool has_file_per_level() const { return levels && !levels_in_one; }
+  /// The option that puts lines of a file into the mesh; null if there is none.
+  const char* find_lines() const { return lines.find_lines() != nullptr ? lines.find_lines() : zones.find_lines(); }
   bool has_file_per_tile() const { return solid && solid->is_split() && format.mesh != MeshFormat::k3mf; }
 };
 

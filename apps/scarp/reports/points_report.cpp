@@ -27,15 +27,9 @@ std::string describe_place(const PointSet& points, const Measurement& measured) 
 
 Json describe_points(const PointSet& points, DuplicatePolicy policy, std::uint64_t duplicates) {
   const HeightRange heights = height_range(points);
-  return Json{{"path", points.path},
-              {"format", points.format},
-              {"points", points.size()},
-              {"lines", points.lines.size()},
-              {"duplicates", duplicates},
-              {"duplicate_policy", policy_name(policy)},
-              {"min", heights.min},
-              {"max", heights.max},
-              {"crs", points.crs}};
+  return Json{{"path", points.path},          {"format", points.format},  {"points", points.size()},
+              {"lines", points.lines.size()}, {"duplicates", duplicates}, {"duplicate_policy", policy_name(policy)},
+              {"min", heights.min},           {"max", heights.max},       {"crs", points.crs}};
 }
 
 Json describe_frame(const PointSet& points) { return Json{{"crs", points.crs}, {"description", points.description}}; }

@@ -31,7 +31,9 @@ struct Outcome : SimplifyRun {
   Companions companions;
   Features features;
   Cut cut;
-  Picture drape;  ///< empty where no image is draped
+  ZonePlan zone_plan;
+  MeshZones zones;  ///< found in the mesh
+  Picture drape;    ///< empty where no image is draped
   std::uint64_t filled = 0;
   std::vector<Level> coarser;
   std::optional<LargestError> bounded;  ///< where samples are ignored: of the others; images: norms

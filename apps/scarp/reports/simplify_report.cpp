@@ -182,6 +182,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["ridges"] = describe_ridges(plan.ridges, outcome.simplified.features.ridges);
   report["shape"] = describe_shape(plan.simplify.quality.shape, outcome.simplified);
   report["cutline"] = describe_cut(plan.cut, outcome.cut, outcome.simplified.cut_off);
+  add_zones(report, plan.zones, outcome.zones);
   report["stopped_by"] = stop_name(outcome.simplified.stop);
   report["vertices"] = outcome.vertices;
   report["triangles"] = outcome.triangles;
@@ -234,6 +235,7 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
   if (!plan.cut.files.empty()) text += summary_line("cutline", cut_words(outcome.cut, outcome.simplified.cut_off));
   text += lines_line(outcome.simplified.features.given_lines(), outcome.simplified.lines_inserted,
                      outcome.simplified.edits);
+  text += zones_lines(plan.zones, outcome.zones);
   text += cliffs_line(outcome.simplified.features.walls);
   text += ridges_line(outcome.simplified.features.ridges);
   text += shape_line(plan.simplify.quality.shape, outcome.simplified);

@@ -35,8 +35,8 @@ Result<OGRLayerH> find_layer(GDALDatasetH dataset, const std::string& path, cons
   }
   if (wanted.empty() && first_of_lines != nullptr) return first_of_lines;
   if (wanted.empty())
-    return fail(ErrorKind::kInput, fmt::format("{}: holds no layer of points or lines, only {}", path,
-                                               layer_names(dataset)));
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: holds no layer of points or lines, only {}", path, layer_names(dataset)));
   return fail(ErrorKind::kInput, fmt::format("{}: holds no layer '{}', only {}", path, wanted, layer_names(dataset)));
 }
 
@@ -283,13 +283,14 @@ Result<PointSet> read(const std::string& path, const ReadPointsOptions& options)
                                       [&](OGRFeatureH feature) { return collector.add(feature); });
   if (!collected) return tl::unexpected(collected.error());
   if (points.size() == 0)
-    return fail(ErrorKind::kInput, fmt::format("{}: the layer {} holds no points or lines", path, OGR_L_GetName(*layer)));
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: the layer {} holds no points or lines", path, OGR_L_GetName(*layer)));
   if (collector.without_geometry() > 0)
     points.warnings.push_back(
         fmt::format("{} features of {} have no point and were left out", collector.without_geometry(), path));
   if (collector.without_extent() > 0)
-    points.warnings.push_back(fmt::format("{} lines of {} are a single point each, and count as points",
-                                          collector.without_extent(), path));
+    points.warnings.push_back(
+        fmt::format("{} lines of {} are a single point each, and count as points", collector.without_extent(), path));
   const Crs crs = layer_crs(*layer);
   if (auto placed = place(crs, options.crs, points); !placed) return tl::unexpected(placed.error());
   for (const std::string& warning : session.warnings()) points.warnings.push_back("GDAL: " + warning);

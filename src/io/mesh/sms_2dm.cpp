@@ -1,5 +1,6 @@
-// 2DM, the mesh of SMS and of hydraulic models: text, a card a line. "E3T" is a triangle of numbered nodes, "ND" a
-// node. Triangles come first, as SMS writes them, so the reader looks their corners up at the end.
+// 2DM, the mesh of SMS and of hydraulic models: text, a card a line. "E3T" is a triangle of numbered nodes and its
+// material, "ND" a node, "NS" a string of nodes. Triangles come first, as SMS writes them, so the reader looks their
+// corners up at the end.
 //
 // The format has neither metadata nor an end mark. Both stand in lines that begin with '#', which its readers pass
 // over; where the file announces its counts, the reader insists on them and on the mark.
@@ -14,6 +15,7 @@
 #include "io/mesh/mesh_file.h"
 #include "io/mesh/mesh_file_text.h"
 #include "io/mesh/text_comments.h"
+#include "scarp/zones.h"
 
 namespace scarp {
 namespace {
@@ -94,7 +96,12 @@ struct Sms2dmReader {
 
 }  // namespace
 
-Result<std::vector<std::uint8_t>> encode_2dm(const Mesh& mesh) {
+Result<std::vector<std::uint8_t>> encode_2dm(const Mesh& mesh) { return encode_2dm(mesh, MeshZones()); }
+
+Result<std::vector<std::uint8_t>> encode_2dm(const Mesh& mesh, const MeshZones& zones) {
+  if (!zones.materials.empty() && zones.materials.size() != mesh.triangle_count())
+    return fail(ErrorKind::kUsage,
+                fmt::format("there are {} materials for {} triangles", zones.materials.size(), mesh.triangle_count()));
   if (std::string why = find_beyond_int32(mesh, "a 2DM file"); !why.empty()) return fail(ErrorKind::kOutput, why);
   std::vector<std::uint8_t> bytes;
   bytes.reserve(mesh.positions.size() * 16 + mesh.triangles.size() * 11);
@@ -104,11 +111,23 @@ Result<std::vector<std::uint8_t>> encode_2dm(const Mesh& mesh) {
   TextComments::write(mesh, bytes);
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const std::uint32_t* corners = &mesh.triangles[3 * t];
-    fmt::format_to(out, "E3T {} {} {} {} 1\n", t + 1, corners[0] + 1, corners[1] + 1, corners[2] + 1);
+    fmt::format_to(out, "E3T {} {} {} {} {}\n", t + 1, corners[0] + 1, corners[1] + 1, corners[2] + 1,
+                   zones.materials.empty() ? 1 : zones.materials[t]);
   }
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     const auto p = mesh.vertex(v);
     fmt::format_to(out, "ND {} {} {} {}\n", v + 1, p[0], p[1], p[2]);
+  }
+  for (std::size_t s = 0; s < zones.node_strings.size(); ++s) {
+    const std::vector<std::uint32_t>& nodes = zones.node_strings[s].nodes;
+    constexpr std::size_t kNodesPerCard = 10;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (k % kNodesPerCard == 0) fmt::format_to(out, "NS");
+      const bool is_last = k + 1 == nodes.size();
+      fmt::format_to(out, " {}{}", is_last ? "-" : "", nodes[k] + 1);
+      if (is_last) fmt::format_to(out, " {}", s + 1);
+      if (is_last || (k + 1) % kNodesPerCard == 0) fmt::format_to(out, "\n");
+    }
   }
   TextComments::write_end(bytes);
   return bytes;

@@ -1,0 +1,53 @@
+// What hydraulic models want to know of a mesh beside its triangles: materials by polygon, and strings of nodes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scarp/lines.h"
+#include "scarp/mesh.h"
+#include "scarp/result.h"
+
+#pragma GCC visibility push(default)
+
+namespace scarp {
+
+/// A polygon and the number of its material: a roughness, a soil.
+struct Zone {
+  std::vector<Line> rings;  ///< in map coordinates, the outer one first, then its holes
+  std::uint32_t material = 1;
+};
+
+/// A chain of edges: where water flows in, a cross-section, the crest of a dam.
+struct NodeString {
+  std::string name;                  ///< of the line
+  std::vector<std::uint32_t> nodes;  ///< vertices, neighbours joined by edges; a closed one ends with its first
+};
+
+struct MeshZones {
+  std::vector<std::uint32_t> materials;  ///< one for each triangle. EMPTY: all are 1
+  std::vector<NodeString> node_strings;  ///< EMPTY: none
+};
+
+/// The material of each triangle: that of the first zone that holds its centre, else `elsewhere`. Where the rings are
+/// breaklines of the mesh, no triangle lies on both sides of one. `to_map`: from the mesh's x and y to the coordinates
+/// of the rings, as Frame::affine. Cost: O((triangles + those that zones' boxes hold × vertices of their rings)).
+std::vector<std::uint32_t> find_materials(const Mesh& mesh, const std::vector<Zone>& zones,
+                                          const std::array<double, 6>& to_map, std::uint32_t elsewhere = 1);
+
+/// The vertices along each line, joined by edges of the mesh, in the order of the line. Where the lines are breaklines
+/// of the mesh that is all of the line within the surface; a line with parts beyond gives a string for each part.
+/// `reach`: how far vertices may lie from the line, in its units: a hundredth of a sample. Cost: O(n log n).
+std::vector<NodeString> find_node_strings(const Mesh& mesh, const std::vector<Line>& lines,
+                                          const std::array<double, 6>& to_map, double reach);
+
+/// A 2DM file with materials (in E3T cards) and node strings (NS cards of ten nodes at most, the last one negative and
+/// followed by the string's number, counted from 1). Fails with kOutput for more vertices or triangles than int32
+/// counts, with kUsage for materials of another count than triangles.
+Result<std::vector<std::uint8_t>> encode_2dm(const Mesh& mesh, const MeshZones& zones);
+
+}  // namespace scarp
+
+#pragma GCC visibility pop
