@@ -31,7 +31,7 @@ struct CliffOptions {
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of lines: map_affine()
   std::span<const Line> avoid = {};                ///< lines that no wall may cross or touch
   /// For a field with a source: bytes that the process may use, and bytes in use, as in SimplifyOptions. Walls
-  /// that do not fit are refused with kUsage, before memory runs out. DEFAULT: no limit.
+  /// that do not fit are refused with kMemory, before memory runs out. DEFAULT: no limit.
   Run run = {};
 };
 

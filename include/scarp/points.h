@@ -1,6 +1,7 @@
 // Scattered samples: the same job where the heights do not lie on a grid.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -31,6 +32,7 @@ struct PointSet {
   std::string format;            ///< "CSV", "GPKG", …
   std::string crs;               ///< of x and y: "EPSG:32611", WKT, or empty
   std::string description;       ///< one line for reports: what x and y are, and in which unit
+  bool is_local = false;        ///< x and y are metres around the middle of the points
   std::vector<std::string> warnings;
 
   std::size_t size() const { return x.size(); }
@@ -59,6 +61,10 @@ Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& o
 /// True if `path` names points rather than a raster: by its end (.csv .tsv .xyz .geojson .geojsonl .shp .fgb .gml .kml
 /// .parquet; .txt and .dat unless they begin as an ASCII grid does; .gpkg unless it holds a raster), in any case.
 bool is_point_file(const std::string& path);
+
+/// The middle of the points' extent, rounded so coarsely that offsets from it are exact: the origin of a local frame.
+/// REQUIRES: some points, finite.
+std::array<double, 2> local_origin(const PointSet& points);
 
 struct SimplifiedPoints {
   Simplified simplified;         ///< measurement: errors at the points as given; `samples` counts points

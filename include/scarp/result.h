@@ -11,6 +11,7 @@ namespace scarp {
 /// What went wrong, in the terms a caller can act on. The command line maps each kind to an exit code.
 enum class ErrorKind {
   kUsage,      ///< options that cannot be combined or lie outside their range (exit 1)
+  kMemory,     ///< Run::memory is too little for the mesh (exit 1)
   kInput,      ///< a raster or mesh that cannot be read or holds nothing usable (exit 2)
   kPromise,    ///< the error bound asked for cannot be met (exit 3)
   kOutput,     ///< a file that cannot be written (exit 4)

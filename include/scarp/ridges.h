@@ -38,7 +38,7 @@ struct RidgeOptions {
   std::span<const Line> avoid = {};                ///< no ridge is searched for near these lines
   bool are_kept = false;                           ///< the final mesh holds all lines, whatever the effort
   /// For a field with a source: bytes that the process may use, and bytes in use, as in SimplifyOptions.
-  /// Ridges that do not fit are refused with kUsage, before memory runs out. DEFAULT: no limit.
+  /// Ridges that do not fit are refused with kMemory, before memory runs out. DEFAULT: no limit.
   Run run = {};
 };
 

@@ -186,8 +186,8 @@ struct Simplified {
 /// Strategies (strategy.h) change which samples become vertices, never what is promised.
 ///
 /// Fails with kUsage (no goal, an ignored sample or a point outside the raster, settings with a conflict (conflicts.h),
-/// a mask, tolerance or channel out of range, a goal out of range, a budget below what the outline needs, a memory
-/// limit that cannot be kept), kInput (fewer than 2×2 samples, no valid cell), kPromise (a bound that float32 positions
+/// a mask, tolerance or channel out of range, a goal out of range, a budget below what the outline needs),
+/// kMemory (a memory limit that cannot be kept), kInput (fewer than 2×2 samples, no valid cell), kPromise (a bound that float32 positions
 /// or samples cannot keep, a mesh that rounding or a projection folds over), kCancelled.
 Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& options);
 /// The same towards goals alone: `simplify(field, {.max_error = 1.5})`.

@@ -18,17 +18,14 @@ struct MemoryBudget {
   /// At least one thread, at most `threads`, as many as a quarter of the rest holds at `bytes` each.
   int threads_within(std::uint64_t bytes, int threads) const;
 
-  /// Fails with kUsage if what a run takes whatever its mesh does not leave room for a small mesh.
+  /// Fails with kMemory if what a run takes whatever its mesh does not leave room for a small mesh.
   Result<void> check_start(std::uint64_t work) const;
-  /// Fails with kUsage if `work` and so many vertices do not fit. `share`: of the run that is done, for what would be
+  /// Fails with kMemory if `work` and so many vertices do not fit. `share`: of the run that is done, for what would be
   /// needed.
   Result<void> check_mesh(std::uint64_t work, std::uint64_t vertices, double share) const;
-  /// Fails with kUsage if what has been found so far, in that share of the raster, does not fit. `what` it is, and what
+  /// Fails with kMemory if what has been found so far, in that share of the raster, does not fit. `what` it is, and what
   /// else to do.
   Result<void> check_part(std::uint64_t bytes, double share, const char* what, const char* advice) const;
 };
-
-/// Whether this is what a MemoryBudget fails with.
-bool is_memory_refusal(const Error& error);
 
 }  // namespace scarp

@@ -327,7 +327,7 @@ class BudgetSearch {
     // Slivers of a cutline may vanish at one number and not at another.
     if (error.kind == ErrorKind::kInput) error.kind = ErrorKind::kPromise;
     // A mesh that takes too much memory may be one that exceeds the budget, too.
-    if (error.kind == ErrorKind::kUsage) {
+    if (error.kind == ErrorKind::kUsage || error.kind == ErrorKind::kMemory) {
       no_room_ = error;
       error.kind = ErrorKind::kPromise;
     }

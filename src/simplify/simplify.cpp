@@ -42,7 +42,7 @@ Result<Simplified> simplify_by_default(const HeightField& field, SimplifyOptions
   const bool is_fast = options.quality.effort == Effort::kFast;
   WhyFast why = is_fast ? WhyFast::kOrder : WhyFast::kBudget;
   auto made = make_mesh(field, options);
-  const auto lacks_memory = [&] { return !made && is_memory_refusal(made.error()) && !is_fast; };
+  const auto lacks_memory = [&] { return !made && made.error().kind == ErrorKind::kMemory && !is_fast; };
   if (lacks_memory() && options.run.threads != 1) {
     SimplifyOptions alone = options;
     alone.run.threads = 1;

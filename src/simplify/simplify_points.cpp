@@ -193,7 +193,8 @@ class PointRun {
     if (is_on_lattice_) {
       mesh.origin = {lattice.west + lattice.step * centre.x, lattice.north - lattice.step * centre.y, 0};
     } else {
-      mesh.origin = {middle(points_.x), middle(points_.y), 0};
+      const auto [x, y] = local_origin(points_);
+      mesh.origin = {x, y, 0};
     }
     std::vector<std::uint32_t> ids(tin.vertex_count(), kNone);
     for (Vertex v = 0; v < tin.vertex_count(); ++v) {
@@ -343,6 +344,8 @@ class PointRun {
 };
 
 }  // namespace
+
+std::array<double, 2> local_origin(const PointSet& points) { return {middle(points.x), middle(points.y)}; }
 
 Result<SimplifiedPoints> simplify_points(const PointSet& points, const PointOptions& options) try {
   const auto start = Clock::now();

@@ -67,6 +67,17 @@ grep -q 'covers 49.6 % of the raster: the rest is white' "$logs/err" || fail "no
 printf 'P6 4 3 255\n%s' "$(head -c 36 /dev/zero | tr '\0' 'a')" > flat.ppm
 succeeds "$scarp" simplify flat.pgm e.glb -e 500 --drape flat.ppm -q
 
+# An image without a place over a raster that has one, of equal size: as if it lay there.
+gdal_translate -q -of PNG chess.tif twin.png
+rm -f twin.png.aux.xml
+succeeds "$scarp" simplify "$dem" twin.glb -e 20 --drape twin.png --drape-format png
+grep -q 'twin.png has no place, and as many pixels as the raster has samples' "$logs/err" || fail "no word about the place"
+succeeds "$scarp" simplify "$dem" chess.glb -e 20 --drape chess.tif --drape-format png -q
+pixels twin.glb 0
+mv raw twin.raw
+pixels chess.glb 0
+cmp raw twin.raw || fail "an image of equal size is not laid pixel by pixel"
+
 usage() { refuses 1 "$1" "$scarp" simplify "$dem" "${@:2}"; }
 usage '--drape puts an image into a GLB, and OUTPUT is OBJ' x.obj -e 20 --drape chess.tif
 usage '--drape-size needs an image' x.glb -e 20 --drape-size 100
@@ -78,7 +89,7 @@ usage '--normal-map 0 is' x.glb -e 20 --normal-map 0
 input() { refuses 2 "$1" "$scarp" simplify "$dem" x.glb -e 20 --drape "${@:2}"; }
 input 'none.tif: no such file' none.tif
 input 'band 1 holds Int16' "$dem"
-input 'has no place' flat.ppm
+input 'has no place, and the raster has one: give it a georeference first (gdal_translate -a_ullr -a_srs), or an image of 403 x 344 pixels' flat.ppm
 gdal_translate -q -a_ullr 10 10 11 9 chess.tif away.tif
 input 'away.tif: does not lie on the raster' away.tif
 

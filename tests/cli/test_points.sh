@@ -25,6 +25,24 @@ succeeds "$scarp" measure survey.csv hills.glb --fail-above 0.5 --json
 python3 -c 'import json,sys; r=json.load(sys.stdin); assert r["passed"] and r["samples"] == 3001' <"$logs/out" || fail "measure --json"
 refuses 3 "exceeds 0.001" "$scarp" measure survey.csv hills.glb --fail-above 0.001 -q
 
+# The mesh lies around the middle of the points, says so, and is put back by the judge.
+for name in near.obj near.ply near.glb near.stl; do
+  succeeds "$scarp" simplify survey.csv "$name" -e 1 --report near.json --overwrite -q
+  succeeds "$scarp" measure survey.csv "$name" --fail-above 1 -q
+done
+python3 - <<'PY' || fail "the local frame of points"
+import json
+x, y = json.load(open("near.json"))["frame"]["origin"]
+assert 500400 < x < 500600 and 4649300 < y < 4649500, (x, y)
+corners = [list(map(float, row.split()[1:4])) for row in open("near.obj") if row.startswith("v ")]
+assert max(max(abs(c[0]), abs(c[2])) for c in corners) < 600
+PY
+succeeds "$scarp" simplify survey.csv there.obj -e 1 --crs source -q
+grep -Eq '^v 50[01][0-9.]* ' there.obj || fail "--crs source moves the points"
+succeeds "$scarp" measure survey.csv there.obj --fail-above 1 -q
+succeeds "$scarp" simplify survey.csv there.2dm -e 1 -q
+grep -Eq '^ND 1 50[01]' there.2dm || fail "a 2DM does not lie where the points do"
+
 # Every vertex budget, percent goals, solids, exact reproduction.
 succeeds "$scarp" simplify survey.csv few.ply -p 200 -q
 succeeds "$scarp" simplify survey.csv part.obj -e 2% -q

@@ -340,7 +340,7 @@ TEST(shape, meshes_that_nobody_could_hold_are_refused_before_they_are_begun) {
   options.run.memory.limit = 1'000'000'000;
   const auto large = simplify(field, options);
   ASSERT_FALSE(large.has_value());
-  EXPECT_EQ(large.error().kind, ErrorKind::kUsage);
+  EXPECT_EQ(large.error().kind, ErrorKind::kMemory);
   EXPECT_NE(large.error().message.find("at least 591 million triangles"), std::string::npos) << large.error().message;
 }
 

@@ -86,7 +86,7 @@ RC_GTEST_PROP(streamed_weights, and_ignored_samples_are_kept_by_the_mesh, ()) {
   const auto made = simplify(scene.streamed, options);
   if (!made) {
     RC_ASSERT(made.error().kind == ErrorKind::kInput ||
-              (made.error().kind == ErrorKind::kUsage && options.run.memory.limit > 0));
+              (made.error().kind == ErrorKind::kMemory && options.run.memory.limit > 0));
     RC_DISCARD("no surface, or no room");
   }
   const std::vector<float> promised = scene.promised(*options.goals.max_error);

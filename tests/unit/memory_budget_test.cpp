@@ -26,7 +26,7 @@ TEST(a_memory_budget, lets_a_mesh_grow_up_to_what_is_left) {
   EXPECT_TRUE(kBudget.check_mesh(10'000'000, 300'000, 0.5));
   const auto refused = kBudget.check_mesh(10'000'000, 300'001, 0.5);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().kind, ErrorKind::kUsage);
+  EXPECT_EQ(refused.error().kind, ErrorKind::kMemory);
   EXPECT_NE(refused.error().message.find("300001 vertices when 50 %"), std::string::npos) << refused.error().message;
   EXPECT_NE(refused.error().message.find("about 146M"), std::string::npos) << refused.error().message;
 }
@@ -58,7 +58,7 @@ TEST(simplify_within_memory, refuses_a_mesh_beyond_it_in_both_orders) {
     options.quality.order = order;
     const auto refused = simplify(field, options);
     ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().kind, ErrorKind::kUsage);
+    EXPECT_EQ(refused.error().kind, ErrorKind::kMemory);
     EXPECT_TRUE(refused.error().message.starts_with("the memory limit is too little: the mesh has"))
         << refused.error().message;
   }

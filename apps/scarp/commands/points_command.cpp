@@ -61,10 +61,42 @@ std::string canonical_command(const SimplifyPlan& plan, const PointsArguments& a
          canonical_option("--z-field", arguments.z_field);
 }
 
+void move(double sign, const std::array<double, 2>& way, Mesh& mesh) {
+  for (std::size_t k = 0; k < 2; ++k) mesh.origin[k] += sign * way[k];
+}
+
+/// How far a mesh was moved from the source's coordinates, if it says so, and that nothing else was done to it.
+std::optional<std::array<double, 2>> way_to_source(const Mesh& mesh) {
+  const auto said = mesh.metadata.find("to_source");
+  if (said == mesh.metadata.end()) return std::nullopt;
+  const Json affine = Json::parse(said->second, nullptr, false);
+  if (!affine.is_array() || affine.size() != 6 || !affine[0].is_number() || !affine[3].is_number()) return std::nullopt;
+  if (affine[1] != 1 || affine[2] != 0 || affine[4] != 0 || affine[5] != 1) return std::nullopt;
+  return std::array{affine[0].get<double>(), affine[3].get<double>()};
+}
+
+/// Puts a mesh in a local frame back to where the points lie: by what it says of itself, or, where a format has no
+/// place for that, where they do not meet otherwise.
+void put_back(const PointSet& points, Mesh& mesh) {
+  if (const auto way = way_to_source(mesh)) return move(1, *way, mesh);
+  if (points.is_local || mesh.metadata.contains("frame")) return;
+  Mesh moved = mesh;
+  move(1, local_origin(points), moved);
+  const Extent extent = extent_of(points);
+  if (extent.overlap(extent_of(moved)) > extent.overlap(extent_of(mesh))) mesh.origin = moved.origin;
+}
+
 void add_metadata(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
   Mesh& mesh = outcome.simplified.mesh;
-  add_origin(canonical_command(plan, arguments), outcome.points.description, outcome.points.crs, crs_option(plan),
-             mesh);
+  // The judge puts the mesh back and reads the points in their own coordinates.
+  add_origin(canonical_command(plan, arguments), outcome.frame(), outcome.centre ? "" : outcome.points.crs,
+             outcome.centre ? "source" : crs_option(plan), mesh);
+  if (outcome.centre) {
+    const auto [x, y] = *outcome.centre;
+    mesh.metadata["origin"] = Json(*outcome.centre).dump();
+    if (!outcome.points.crs.empty()) mesh.metadata["origin_crs"] = outcome.points.crs;
+    mesh.metadata["to_source"] = Json(std::array<double, 6>{x, 1, 0, y, 0, 1}).dump();
+  }
   mesh.metadata["duplicates"] = policy_name(outcome.policy);
   const Measurement& measured = outcome.simplified.measurement;
   const Json error{{"asked", or_null(outcome.asked)},
@@ -76,6 +108,7 @@ void add_metadata(const SimplifyPlan& plan, const PointsArguments& arguments, Po
 
 Result<ReadyFile> encode(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
   if (auto finished = finish_mesh(plan, outcome); !finished) return tl::unexpected(std::move(finished.error()));
+  if (outcome.centre) move(-1, *outcome.centre, outcome.simplified.mesh);
   add_metadata(plan, arguments, outcome);
   turn_as_planned(plan, outcome.simplified.mesh);
   auto bytes = encode_as(plan.format, outcome.simplified.mesh, {.compress = plan.compress}, plan.doubles);
@@ -138,6 +171,8 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
                             given.max_triangles ? "--max-triangles" : "--max-points",
                             shell_word(base_name(given.raster.path()))));
   if (auto checked = check_crs_of(plan->format, outcome.points.crs, ""); !checked) return checked;
+  if (plan->read.crs.empty() && plan->read.default_frame == DefaultFrame::kLocal && !outcome.points.is_local)
+    outcome.centre = local_origin(outcome.points);
   auto projections = plan_projection_files(*plan, outcome.points.crs);
   if (!projections) return tl::unexpected(std::move(projections.error()));
   outcome.projections = std::move(*projections);
@@ -233,12 +268,14 @@ Result<void> run_measure_points(const CLI::App& command, const MeasurePointsArgu
   const auto policy = parse_policy(remembered(arguments.duplicates, "duplicates"));
   if (!policy) return tl::unexpected(policy.error());
   judged.policy = *policy;
-  const Given crs = remembered(given.crs, "crs_option");
+  Given crs = remembered(given.crs, "crs_option");
+  if (!given.crs && crs == Given("local") && way_to_source(judged.mesh)) crs = "source";
   Result<PointSet> points = read(given.path, arguments, crs, display.callback());
   if (!points && !given.crs && crs)
     return tl::unexpected(explain_frame(std::move(points.error()), *crs, given.mesh, given.path));
   if (!points) return tl::unexpected(std::move(points.error()));
   judged.points = std::move(*points);
+  if (!given.crs) put_back(judged.points, judged.mesh);
   if (goal) {
     if (auto fits = check_unit("--fail-above", *goal, "", judged.points.warnings); !fits) return fits;
     const HeightRange heights = height_range(judged.points);

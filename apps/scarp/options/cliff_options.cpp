@@ -39,8 +39,9 @@ Json describe_cliffs(const CliffArguments& given, const std::optional<Cliffs>& c
 
 std::string cliffs_line(const std::optional<Cliffs>& cliffs) {
   if (!cliffs) return "";
-  return summary_line("cliffs", fmt::format("{} between two lines each, {}", format_plural(cliffs->wall_count, "wall"),
-                                            format_count(cliffs->vertices) + " vertices in all"));
+  return summary_line("cliffs",
+                      fmt::format("{} ({})", format_plural(cliffs->wall_count, "wall"),
+                                  cliffs->vertices == 1 ? "1 vertex" : format_count(cliffs->vertices) + " vertices"));
 }
 
 void warn_of_missing_walls(const CliffArguments& given, const std::optional<Cliffs>& cliffs,

@@ -77,6 +77,11 @@ std::optional<std::string> find_broken(const PointSet& points, const Measurement
   return std::nullopt;
 }
 
+std::string PointsOutcome::frame() const {
+  if (!centre) return points.description;
+  return fmt::format("local: offsets from {:.12g}, {:.12g} of {}", (*centre)[0], (*centre)[1], points.description);
+}
+
 Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const std::vector<ReadyFile>& files,
                  const std::string& command_line) {
   Json report;
@@ -86,6 +91,12 @@ Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const s
   report["input"]["on_hull"] = outcome.on_hull;
   report["input"]["lattice_step"] = outcome.lattice_step;
   report["frame"] = describe_frame(outcome.points);
+  if (outcome.centre) {
+    report["frame"] = Json{{"crs", ""},
+                           {"description", outcome.frame()},
+                           {"origin", *outcome.centre},
+                           {"origin_crs", or_null(outcome.points.crs.empty() ? Given() : Given(outcome.points.crs))}};
+  }
   report["goal"] = describe_goal(plan, outcome);
   report["strategy"] = Json{{"effort", "fast"}, {"why_fast", "points"}};
   report["stopped_by"] = stop_name(outcome.simplified.stop);
@@ -125,7 +136,7 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
   text += summary_line("triangles", format_count(outcome.triangles) + (outcome.points.lines.empty() ? "" : flats));
   text += solid_line(plan, outcome);
   text += summary_line("effort", "fast (scattered points are only refined)");
-  text += summary_line("frame", outcome.points.description);
+  text += summary_line("frame", outcome.frame());
   text += summary_line("max error", fmt::format("{} at {}{}", format_number(measured.max_error),
                                                 describe_place(outcome.points, measured), describe_asked(outcome)));
   text += summary_line("RMSE", format_number(measured.rmse));

@@ -27,6 +27,10 @@ struct PointsOutcome : SimplifyRun {
   DuplicatePolicy policy = DuplicatePolicy::kFirst;
   std::uint64_t duplicates = 0, on_hull = 0, flat = 0, loose = 0;
   double lattice_step = 0;
+  std::optional<std::array<double, 2>> centre;  ///< of the local frame, where the mesh has one and the points have not
+
+  /// What x and y of the mesh are.
+  std::string frame() const;
 };
 
 Json make_report(const SimplifyPlan& plan, const PointsOutcome& outcome, const std::vector<ReadyFile>& files,

@@ -103,6 +103,7 @@ Result<void> print_summary(const std::string& text) {
 int exit_code(ErrorKind kind) {
   switch (kind) {
     case ErrorKind::kUsage:
+    case ErrorKind::kMemory:
       return 1;
     case ErrorKind::kInput:
       return 2;

@@ -183,14 +183,22 @@ Result<Drape> read(const std::string& path, const RasterInfo& raster, int cols, 
   if (!image) return tl::unexpected(image.error());
   const auto geo = read_georeference(image->get(), path);
   if (!geo) return tl::unexpected(geo.error());
-  if (geo->located != raster.has_georeference) {
+  // An image with as many pixels as the raster has samples is most likely made from it, and has lost its place.
+  const bool is_twin = !geo->located && geo->cols == cols && geo->rows == rows;
+  if (geo->located != raster.has_georeference && !is_twin) {
     return fail(ErrorKind::kInput,
                 fmt::format("{} has {}, and the raster has {}: give {} a georeference first (gdal_translate -a_ullr "
-                            "-a_srs)",
+                            "-a_srs){}",
                             path, geo->located ? "a place" : "no place", geo->located ? "none" : "one",
-                            geo->located ? "the raster" : "it"));
+                            geo->located ? "the raster" : "it",
+                            geo->located ? "" : fmt::format(", or an image of {} x {} pixels", cols, rows)));
   }
   Drape drape;
+  if (is_twin && raster.has_georeference)
+    drape.warnings.push_back(
+        fmt::format("{} has no place, and as many pixels as the raster has samples: each is laid "
+                    "on its sample",
+                    path));
   auto arranged = arrange_bands(session, image->get(), path, geo->located);
   if (!arranged) return tl::unexpected(arranged.error());
   Transform6 place{0, kNowhere, 0, 0, 0, kNowhere};

@@ -223,6 +223,7 @@ Result<void> make_local(const Crs& crs, PointSet& points) {
   for (double& value : points.y) value = (value - y) * metres.north;
   points.description = fmt::format("local metres east and north of {:.9g}, {:.9g} ({})", x, y, short_name(crs));
   points.crs.clear();
+  points.is_local = true;
   return {};
 }
 
