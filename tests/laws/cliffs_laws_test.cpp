@@ -202,7 +202,7 @@ TEST(Cliffs, TellWhatTheSourceSaysAndWhatMemoryTheyNeed) {
   options.run.memory.taken = 950'000;
   const auto refused = detect_cliffs(testing::with_source(field.view(), source), options);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().kind, ErrorKind::kUsage);
+  EXPECT_EQ(refused.error().kind, ErrorKind::kMemory);
   EXPECT_NE(refused.error().message.find("the memory limit is too little: walls take 1M"), std::string::npos);
   options.run.memory.taken = 0;
   EXPECT_TRUE(detect_cliffs(testing::with_source(field.view(), source), options));

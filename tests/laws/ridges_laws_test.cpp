@@ -195,7 +195,7 @@ TEST(Ridges, TellWhatTheSourceSaysAndWhatMemoryTheyNeed) {
   options.run.memory.taken = 900'000;
   const auto refused = detect_ridges(testing::with_source(field.view(), source), options);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().kind, ErrorKind::kUsage);
+  EXPECT_EQ(refused.error().kind, ErrorKind::kMemory);
   EXPECT_NE(refused.error().message.find("the memory limit is too little: ridges and valleys take"), std::string::npos);
   options.run.memory.taken = 0;
   options.run.memory.limit = 4'000'000;

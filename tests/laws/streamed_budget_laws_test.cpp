@@ -83,7 +83,7 @@ TEST(streamed_budgets, that_memory_has_no_room_for_are_refused_for_that) {
   options.run.memory.limit = 2'500'000;
   const auto made = simplify(with_source(field.view(), source), options);
   ASSERT_FALSE(made);
-  EXPECT_EQ(made.error().kind, ErrorKind::kUsage);
+  EXPECT_EQ(made.error().kind, ErrorKind::kMemory);
   EXPECT_EQ(made.error().message.rfind("the memory limit is too little", 0), 0u) << made.error().message;
 }
 

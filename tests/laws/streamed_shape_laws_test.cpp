@@ -240,7 +240,7 @@ TEST(streamed_shapes, what_outgrows_the_memory_is_refused_with_what_would_do) {
     options.quality.shape.max_edge = max_edge;
     const auto result = simplify(with_source(field.view(), source), options);
     ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().kind, ErrorKind::kUsage);
+    EXPECT_EQ(result.error().kind, ErrorKind::kMemory);
     EXPECT_NE(result.error().message.find(words), std::string::npos) << result.error().message;
   };
   refuses(2, "the memory limit is too little: edges so short need at least 51547 triangles");

@@ -347,7 +347,7 @@ TEST(water, and_flats_say_what_memory_they_need) {
   flats.run.memory.limit = 11'000;
   const auto none = find_flats(streamed, flats);
   ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().kind, ErrorKind::kUsage);
+  EXPECT_EQ(none.error().kind, ErrorKind::kMemory);
   EXPECT_TRUE(none.error().message.starts_with("the memory limit is too little: flat areas")) << none.error().message;
   flats.run.memory.limit = 1'000'000;
   EXPECT_TRUE(find_flats(streamed, flats));
