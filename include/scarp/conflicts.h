@@ -57,6 +57,7 @@ enum class Field : std::uint8_t {
   kMemoryLimit,
   kChannels,     ///< of the field, or a height_scale other than 1
   kCurvedFrame,  ///< of the field: not affine
+  kSpaceFrame,   ///< of the field: in space, where z is not the height; a curved one, too
   kSource,       ///< of the field: samples that are not in memory as a whole
 };
 inline constexpr int kFieldCount = static_cast<int>(Field::kSource) + 1;

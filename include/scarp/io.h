@@ -49,6 +49,7 @@ struct ReadOptions {
   Decode decode = Decode::kNone;  ///< heights packed into red, green, blue (8 bit each); alpha 0 is nodata
   /// Frame of the mesh. Empty (DEFAULT): `default_frame`, the grid frame without georeference. "source": the raster's
   /// own coordinates. "local": around the raster's centre, in metres, or in the CRS's feet. "grid": columns and rows.
+  /// "enu", or a geocentric CRS ("EPSG:4978"): a frame in space, where the earth is round (Frame::space).
   /// Anything else is a CRS for GDAL ("EPSG:32611", "32611", WKT, PROJ string).
   std::string crs = {};
   DefaultFrame default_frame = DefaultFrame::kLocal;
@@ -92,6 +93,9 @@ struct PlaceInSource {
 };
 /// Nothing for frames that are not affine. Without georeference the source's coordinates are those of the grid frame.
 std::optional<PlaceInSource> place_in_source(const Frame& frame, const RasterInfo& info, int rows);
+
+/// Whether ReadOptions::crs asks for a frame in space, by "enu" or by a geocentric CRS. False in a build without GDAL.
+bool is_in_space(const std::string& crs);
 
 /// The CRS as the text of a .prj file (ESRI's WKT, one line); nothing if it is unknown, and in a build without GDAL.
 std::optional<std::string> projection_text(const std::string& crs);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/parallel.h"
+
 namespace scarp {
 
 Result<void> check_size(const HeightField& field) {
@@ -40,6 +42,34 @@ Result<Samples> Samples::of(const HeightField& field) {
     }
     samples.raster_.samples = samples.cleaned_.data();
   }
+  return samples;
+}
+
+Result<Samples> Samples::to_refine(const HeightField& field, int threads) {
+  auto samples = of(field);
+  if (!samples || !field.frame.space) return samples;
+  const Raster clean = samples->raster_;
+  const auto cols = static_cast<std::size_t>(field.cols);
+  std::vector<float> above(cols * static_cast<std::size_t>(field.rows));
+  const auto [ux, uy, uz] = field.frame.space->up();
+  const auto [ox, oy, oz] = field.frame.space->origin();
+  parallel_for(static_cast<std::size_t>(field.rows), threads, [&](std::size_t row) {
+    std::vector<double> x(cols), y(cols), z(cols);
+    const float* heights = clean.row(static_cast<std::int32_t>(row));
+    for (std::size_t col = 0; col < cols; ++col) {
+      const auto at = field.frame.apply_affine(static_cast<double>(col), static_cast<double>(row));
+      x[col] = at[0];
+      y[col] = at[1];
+      z[col] = std::isnan(heights[col]) ? 0 : heights[col];
+    }
+    field.frame.space->to_space(x, y, z);
+    for (std::size_t col = 0; col < cols; ++col) {
+      const double height = ux * (x[col] - ox) + uy * (y[col] - oy) + uz * (z[col] - oz);
+      above[row * cols + col] = std::isnan(heights[col]) ? heights[col] : static_cast<float>(height);
+    }
+  });
+  samples->cleaned_ = std::move(above);
+  samples->raster_.samples = samples->cleaned_.data();
   return samples;
 }
 

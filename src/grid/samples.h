@@ -18,6 +18,9 @@ class Samples {
  public:
   /// Fails as check_size(). REQUIRES: the field has its samples in memory.
   static Result<Samples> of(const HeightField& field);
+  /// Those that the engine refines: in a frame in space the heights above the tangent plane at the raster's centre,
+  /// where what is straight in space is straight, to second order; else as of().
+  static Result<Samples> to_refine(const HeightField& field, int threads);
   Raster raster() const { return raster_; }
 
  private:

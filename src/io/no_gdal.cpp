@@ -44,6 +44,8 @@ Result<std::vector<std::uint8_t>> encode_gpkg(const Mesh&) {
 
 std::optional<std::string> projection_text(const std::string&) { return {}; }
 
+bool is_in_space(const std::string&) { return false; }
+
 bool is_same_crs(const std::string& a, const std::string& b) { return a == b; }
 
 Result<PointSet> read_gdal_points(const std::string& path, const ReadPointsOptions&) {

@@ -5,20 +5,24 @@
 // that a vertex on a sample is judged there and the sums below are exact for it. Each triangle is cut into rows; for a
 // row the samples between its left and right side are visited. Samples on a side belong to both triangles. A sample's
 // error is the barycentric mean of (corner height − sample): all weights are positive, so nothing cancels that was not
-// equal before.
+// equal before. Of a mesh in space this finds the samples near each triangle, and what is left uncovered;
+// space_judge.h says the errors.
 #include <cmath>
+#include <optional>
 
 #include "measure/facet_error.h"
 #include "measure/grid_map.h"
 #include "measure/scanner.h"
+#include "measure/space_judge.h"
 
 namespace scarp::judge {
 namespace {
 
 class GridScanner : public Scanner {
  public:
-  GridScanner(const HeightField& field, const Mesh& mesh, std::vector<std::uint32_t> ids, double tolerance)
-      : rows_per_band_(Band::rows_per_band(field.cols)), rows_(field.rows), tolerance_(tolerance) {
+  GridScanner(const HeightField& field, const Mesh& mesh, std::vector<std::uint32_t> ids, double tolerance,
+              const SpaceJudge* space)
+      : rows_per_band_(Band::rows_per_band(field.cols)), rows_(field.rows), tolerance_(tolerance), space_(space) {
     facets_.mesh = &mesh;
     facets_.ids = std::move(ids);
     map_to_grid(field, mesh);
@@ -33,9 +37,19 @@ class GridScanner : public Scanner {
         if (facets_.get(entries_[i], facet)) visit(facet, entries_[i]);
       }
     };
-    each_facet([&](const Facet& facet, std::uint32_t id) { judge_inside(facet, id, band); });
+    std::optional<Verticals> verticals;
+    if (space_ != nullptr) verticals.emplace(space_->verticals(band));
+    each_facet([&](const Facet& facet, std::uint32_t id) {
+      if (space_ == nullptr) return judge_inside(facet, id, band);
+      space_->judge_met(facet, id, *verticals, band);
+    });
     if (band.find_missing()) {
-      each_facet([&](const Facet& facet, std::uint32_t id) { judge_beside(facet, id, band); });
+      each_facet([&](const Facet& facet, std::uint32_t id) {
+        judge_beside(facet, id, band, [&](int col, int row) {
+          return space_ == nullptr ? error_beside(facet, col, row, band.heights(row)[col], tolerance_)
+                                   : space_->error_beside(facet, id, col, row, tolerance_, *verticals);
+        });
+      });
     }
     if (band.has_nodata_cells()) {
       each_facet([&](const Facet& facet, std::uint32_t) { find_covered_nodata(facet, band); });
@@ -55,10 +69,11 @@ class GridScanner : public Scanner {
   }
 
   /// Rows [first, second] of the field that the facet, grown by the tolerance, touches; first > second if none.
-  std::pair<int, int> touched_rows(const Facet& facet) const {
+  std::pair<int, int> touched_rows(const Facet& facet, std::uint32_t id) const {
     const Interval along = facet.plan.y_extent();
-    return {static_cast<int>(std::clamp(std::floor(along.lo - tolerance_), 0.0, double(rows_))),
-            static_cast<int>(std::clamp(std::floor(along.hi + tolerance_), -1.0, double(rows_ - 1)))};
+    const double reach = tolerance_ + (space_ != nullptr ? space_->bend(id) : 0);
+    return {static_cast<int>(std::clamp(std::floor(along.lo - reach), 0.0, double(rows_))),
+            static_cast<int>(std::clamp(std::floor(along.hi + reach), -1.0, double(rows_ - 1)))};
   }
 
   void sort_into_bands() {
@@ -67,7 +82,7 @@ class GridScanner : public Scanner {
       for (const std::uint32_t id : facets_.ids) {
         Facet facet;
         if (!facets_.get(id, facet)) continue;
-        const auto [first, last] = touched_rows(facet);
+        const auto [first, last] = touched_rows(facet, id);
         for (int b = first / rows_per_band_; first <= last && b <= last / rows_per_band_; ++b)
           visit(id, std::size_t(b));
       }
@@ -138,7 +153,9 @@ class GridScanner : public Scanner {
     if (worst.error != 0) band.add_offender(id, worst);
   }
 
-  void judge_beside(const Facet& facet, std::uint32_t id, Band& band) const {
+  /// `error_of`: of a sample, on the facet.
+  template <class ErrorOf>
+  void judge_beside(const Facet& facet, std::uint32_t id, Band& band, const ErrorOf& error_of) const {
     const Interval along = facet.plan.y_extent();
     const auto [first, last] =
         whole_between(along.lo - tolerance_, along.hi + tolerance_, band.first(), band.end() - 1);
@@ -150,7 +167,7 @@ class GridScanner : public Scanner {
         if (!band.is_missing(col, row)) continue;
         const double distance = facet.plan.distance(col, row);
         if (distance > tolerance_) continue;
-        band.offer_nearest(col, row, distance, id, error_beside(facet, col, row, band.heights(row)[col], tolerance_));
+        band.offer_nearest(col, row, distance, id, error_of(col, row));
       }
     }
   }
@@ -172,6 +189,7 @@ class GridScanner : public Scanner {
 
   int rows_per_band_, rows_;
   double tolerance_;
+  const SpaceJudge* space_;  // null on the map
   Facets facets_;
   std::vector<std::size_t> starts_;     // by band
   std::vector<std::uint32_t> entries_;  // triangles of each band, ascending
@@ -180,8 +198,8 @@ class GridScanner : public Scanner {
 }  // namespace
 
 std::unique_ptr<Scanner> make_grid_scanner(const HeightField& field, const Mesh& mesh, std::vector<std::uint32_t> ids,
-                                           double tolerance) {
-  return std::make_unique<GridScanner>(field, mesh, std::move(ids), tolerance);
+                                           double tolerance, const SpaceJudge* space) {
+  return std::make_unique<GridScanner>(field, mesh, std::move(ids), tolerance, space);
 }
 
 }  // namespace scarp::judge

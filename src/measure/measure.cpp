@@ -19,6 +19,7 @@
 #include "measure/grid_map.h"
 #include "measure/progress_gate.h"
 #include "measure/scanner.h"
+#include "measure/space_judge.h"
 #include "measure/topology.h"
 
 namespace scarp {
@@ -233,16 +234,59 @@ Surface find_surface(const Mesh& mesh, bool with_edges) {
   return surface;
 }
 
-std::unique_ptr<judge::Scanner> make_scanner(const HeightField& field, const Mesh& mesh,
-                                             const std::vector<std::uint32_t>& judged, double tolerance) {
-  return field.frame.is_affine() ? judge::make_grid_scanner(field, mesh, judged, tolerance)
-                                 : judge::make_frame_scanner(field, mesh, judged, tolerance);
-}
+/// What is judged on the map: a mesh in space is brought there, and its heights are judged in space.
+class Judged {
+ public:
+  /// `field` and `mesh` outlive this. Fails as measure().
+  static Result<Judged> of(const HeightField& field, const Mesh& mesh, const MeasureOptions& options) {
+    Judged judged(field, mesh);
+    if (!field.frame.space) {
+      if (auto checked = check_input(field, mesh, options); !checked) return tl::unexpected(checked.error());
+      return judged;
+    }
+    if (auto sound = judge::check_mesh(mesh); !sound) return tl::unexpected(sound.error());
+    auto flat = judge::bring_to_map(field, mesh);
+    if (!flat) return tl::unexpected(flat.error());
+    judged.flat_mesh_ = std::move(*flat);
+    judged.flat_field_ = judge::on_map(field);
+    if (auto checked = check_input(judged.field(), judged.mesh(), options); !checked)
+      return tl::unexpected(checked.error());
+    return judged;
+  }
+
+  const HeightField& field() const { return flat_field_ ? *flat_field_ : field_; }
+  const Mesh& mesh() const { return flat_mesh_ ? *flat_mesh_ : mesh_; }
+
+  /// Of the triangles `ids`. Borrows this.
+  std::unique_ptr<judge::Scanner> make_scanner(const std::vector<std::uint32_t>& ids, double tolerance) {
+    if (field_.frame.transform) return judge::make_frame_scanner(field_, mesh_, ids, tolerance);
+    if (flat_mesh_) space_ = std::make_unique<judge::SpaceJudge>(field_, mesh_, *flat_mesh_, ids);
+    return judge::make_grid_scanner(field(), mesh(), ids, tolerance, space_.get());
+  }
+
+  void measure_shape(const std::vector<std::uint32_t>& ids, Measurement& result) const {
+    judge::count_faults(mesh(), result);
+    if (!flat_mesh_) return judge::measure_angles(mesh_, ids, result);
+    judge::measure_angles(judge::seen_from_above(field_, mesh_), ids, result);
+  }
+
+ private:
+  Judged(const HeightField& field, const Mesh& mesh) : field_(field), mesh_(mesh) {}
+
+  const HeightField& field_;
+  const Mesh& mesh_;
+  std::optional<HeightField> flat_field_;
+  std::optional<Mesh> flat_mesh_;
+  std::unique_ptr<judge::SpaceJudge> space_;
+};
 
 }  // namespace
 
-Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const MeasureOptions& options) try {
-  if (auto checked = check_input(field, mesh, options); !checked) return tl::unexpected<Error>(checked.error());
+Result<Measurement> measure(const HeightField& asked, const Mesh& given, const MeasureOptions& options) try {
+  auto judged_mesh = Judged::of(asked, given, options);
+  if (!judged_mesh) return tl::unexpected(judged_mesh.error());
+  const HeightField& field = judged_mesh->field();
+  const Mesh& mesh = judged_mesh->mesh();
   ProgressGate gate(options.run.progress);
 
   Measurement result;
@@ -253,7 +297,7 @@ Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const Me
   result.closed = closed;
 
   const double tolerance = options.coverage_tolerance;
-  const auto scanner = make_scanner(field, mesh, judged, tolerance);
+  const auto scanner = judged_mesh->make_scanner(judged, tolerance);
   std::optional<judge::CutRegion> cut;
   if (options.cutline != nullptr) cut.emplace(*options.cutline, field.cols, field.rows);
   const judge::CutRegion* region = cut ? &*cut : nullptr;
@@ -268,7 +312,7 @@ Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const Me
     result.misoriented_edges = edges.misoriented;
     result.non_manifold_edges = edges.non_manifold;
     result.border_loops = edges.loops;
-    judge::measure_shape(mesh, judged, result);
+    judged_mesh->measure_shape(judged, result);
     result.t_junctions = judge::count_t_junctions(mesh, welded, edges.open);
     const Result<std::uint64_t> gaps = judge::count_gaps(field, mesh, welded, edges.open, tolerance, region);
     if (!gaps) return tl::unexpected(gaps.error());
@@ -285,14 +329,17 @@ Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const Me
   return caught(ErrorKind::kInput, "measure the mesh");
 }
 
-Result<void> resample_rows(const HeightField& field, const Mesh& mesh,
+Result<void> resample_rows(const HeightField& asked, const Mesh& given,
                            const std::function<void(int row, std::span<const float> heights)>& on_row,
                            int threads) try {
   MeasureOptions options;
   options.run.threads = threads;
   options.on_row = on_row;
-  if (auto checked = check_input(field, mesh, options); !checked) return checked;
-  const auto scanner = make_scanner(field, mesh, find_surface(mesh, false).judged, options.coverage_tolerance);
+  auto judged = Judged::of(asked, given, options);
+  if (!judged) return tl::unexpected(judged.error());
+  const HeightField& field = judged->field();
+  const Mesh& mesh = judged->mesh();
+  const auto scanner = judged->make_scanner(find_surface(mesh, false).judged, options.coverage_tolerance);
   ProgressGate gate(options.run.progress);
   Measurement ignored;
   return judge_heights(field, mesh, *scanner, nullptr, options, judge::Keep::kHeights, gate, ignored);

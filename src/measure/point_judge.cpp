@@ -241,7 +241,8 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
     result.misoriented_edges = edges.misoriented;
     result.non_manifold_edges = edges.non_manifold;
     result.border_loops = edges.loops;
-    measure_shape(mesh, judged, result);
+    count_faults(mesh, result);
+    measure_angles(mesh, judged, result);
     result.t_junctions = count_t_junctions(mesh, welded, edges.open);
     result.gaps = count_hull_gaps(points, snapped, mesh, edges.open, tolerance);
     bool is_stopped = false;

@@ -38,9 +38,12 @@ class Scanner {
   virtual void scan(Band& band) const = 0;
 };
 
-/// For affine frames: vertices are mapped back to the grid, triangles are scanned row by row.
+class SpaceJudge;
+
+/// For affine frames: vertices are mapped back to the grid, triangles are scanned row by row. `space`: who says the
+/// errors of a mesh in space, which `field` and `mesh` then are on the map; null: there is none.
 std::unique_ptr<Scanner> make_grid_scanner(const HeightField& field, const Mesh& mesh, std::vector<std::uint32_t> ids,
-                                           double tolerance);
+                                           double tolerance, const SpaceJudge* space = nullptr);
 /// For any frame: samples are mapped to the mesh, where a grid of buckets knows the triangles. About ten times slower.
 std::unique_ptr<Scanner> make_frame_scanner(const HeightField& field, const Mesh& mesh, std::vector<std::uint32_t> ids,
                                             double tolerance);

@@ -127,11 +127,14 @@ std::uint64_t count_t_junctions(const Mesh& mesh, std::span<const std::uint32_t>
   return count;
 }
 
-void measure_shape(const Mesh& mesh, std::span<const std::uint32_t> judged, Measurement& result) {
+void count_faults(const Mesh& mesh, Measurement& result) {
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     result.down_facing += plan_of(mesh, t).double_area() < 0;
     result.degenerate += is_degenerate(mesh, t);
   }
+}
+
+void measure_angles(const Mesh& mesh, std::span<const std::uint32_t> judged, Measurement& result) {
   std::vector<double> angles;
   angles.reserve(judged.size());
   for (const std::uint32_t t : judged) angles.push_back(smallest_angle(plan_of(mesh, t)));

@@ -52,7 +52,9 @@ std::uint64_t count_overlaps(const Mesh& mesh, std::span<const std::uint32_t> id
 /// if all positions are float32 values.
 double position_noise(const Mesh& mesh);
 
-/// Fills angles (of `judged` triangles), down_facing and degenerate.
-void measure_shape(const Mesh& mesh, std::span<const std::uint32_t> judged, Measurement& result);
+/// Fills down_facing and degenerate.
+void count_faults(const Mesh& mesh, Measurement& result);
+/// Fills the angles, of `judged` triangles seen along z.
+void measure_angles(const Mesh& mesh, std::span<const std::uint32_t> judged, Measurement& result);
 
 }  // namespace scarp::judge

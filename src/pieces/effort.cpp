@@ -130,7 +130,7 @@ FitOptions fit_options(const HeightField& field, const SimplifyOptions& options,
   const auto& a = field.frame.affine;
   FitOptions fit;
   fit.threshold = threshold;
-  if (!field.frame.is_affine() || options.domain.border.is_locked) fit.free_sides = {false, false, false, false};
+  if (field.frame.transform || options.domain.border.is_locked) fit.free_sides = {false, false, false, false};
   fit.vertices_are_free = vertices_are_free(field, options);
   if (options.quality.effort == Effort::kHigh) fit.depth = kHighDepth;
   if (options.quality.effort == Effort::kMax) fit.depth = kMaxDepth;

@@ -38,13 +38,17 @@ class VertexNumbers {
   std::vector<std::uint32_t> ids_;  // empty: every vertex is used
 };
 
-double twice_area(const Mesh& mesh) {
+/// Seen along `up`.
+double twice_area(const Mesh& mesh, const std::array<double, 3>& up) {
   double sum = 0;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
     const double* a = &mesh.positions[3 * mesh.triangles[3 * t]];
     const double* b = &mesh.positions[3 * mesh.triangles[3 * t + 1]];
     const double* c = &mesh.positions[3 * mesh.triangles[3 * t + 2]];
-    sum += (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+      if (up[k] != 0) sum += up[k] * ((b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]));
+    }
   }
   return sum;
 }
@@ -65,29 +69,31 @@ void add_positions(const SampleHeights& heights, const Triangulation& tin, const
   const OffsetMap offsets(heights.cols(), heights.rows(), frame, lattice.steps);
   std::vector<Vertex> vertices;
   std::vector<Point> chunk;
-  std::vector<double> x, y;
+  std::vector<double> x, y, z;
   for (Vertex v = 0; v < tin.vertex_count(); ++v) {
     if (numbers.of(v) != kNone) {
       vertices.push_back(v);
       chunk.push_back(tin.point(v));
     }
     if (chunk.size() < kChunkVertices && v + 1 < tin.vertex_count()) continue;
-    offsets.map(chunk, x, y);
+    z.clear();
+    for (std::size_t k = 0; k < chunk.size(); ++k)
+      z.push_back(lattice.are_samples() ? heights.at_vertex(vertices[k], chunk[k]) : lattice.heights[vertices[k]]);
+    offsets.map(chunk, x, y, z);
     for (std::size_t k = 0; k < chunk.size(); ++k) {
-      for (double offset : {x[k], y[k]})
+      for (double offset : {x[k], y[k], z[k]})
         mesh.positions.push_back(round_to_float32 ? static_cast<float>(offset) : offset);
-      mesh.positions.push_back(lattice.are_samples() ? heights.at_vertex(vertices[k], chunk[k])
-                                                     : lattice.heights[vertices[k]]);
     }
     vertices.clear();
     chunk.clear();
   }
-  mesh.origin = {offsets.origin()[0], offsets.origin()[1], 0};
+  mesh.origin = offsets.origin();
 }
 
 /// Triangles are positive on the lattice; where the frame turns them over they are turned back.
 void face_up(const Frame& frame, Mesh& mesh) {
-  if (frame.is_affine() ? frame.determinant() > 0 : twice_area(mesh) >= 0) return;
+  const std::array<double, 3> up = frame.space ? frame.space->up() : std::array<double, 3>{0, 0, 1};
+  if (frame.is_affine() ? frame.determinant() > 0 : twice_area(mesh, up) >= 0) return;
   for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
     std::swap(mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]);
 }

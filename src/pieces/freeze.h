@@ -33,8 +33,8 @@ class SampleHeights {
   std::span<const float> known_;
 };
 
-/// The triangles that are not outside, with the vertices they use, in the frame: offsets from frame_origin(), rounded
-/// to float32 if asked, heights as they are. Counter-clockwise from above whatever way the frame turns. Ids follow the
+/// The triangles that are not outside, with the vertices they use, in the frame: offsets from frame_origin(), or from
+/// that of a frame in space, rounded to float32 if asked; heights as they are, but in space. Counter-clockwise from above whatever way the frame turns. Ids follow the
 /// order of insertion. `lattice`: of the vertices; their heights come before those of samples.
 Mesh freeze(const SampleHeights& heights, const Triangulation& tin, const VertexLattice& lattice, const Frame& frame,
             bool round_to_float32);

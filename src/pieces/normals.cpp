@@ -23,31 +23,50 @@ struct Surroundings {
   bool is_usable(Point p) const { return p.x >= 0 && p.y >= 0 && p.x < cols() && p.y < rows && !std::isnan(at(p)); }
 };
 
+/// 1 if a step along a row and one along a column turn left, seen from above at the raster's centre, −1 if right.
+double turn_in_space(const Surroundings& heights, const OffsetMap& offsets, const std::array<double, 3>& up) {
+  const Point centre{heights.cols() / 2, heights.rows / 2};
+  std::vector<double> x, y, z{0, 0, 0};
+  offsets.map(std::array{centre, Point{centre.x - 1, centre.y}, Point{centre.x, centre.y - 1}}, x, y, z);
+  double turn = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::array<const std::vector<double>*, 3> at{&x, &y, &z};
+    const std::vector<double>&p = *at[(k + 1) % 3], &q = *at[(k + 2) % 3];
+    turn += up[k] * ((p[0] - p[1]) * (q[0] - q[2]) - (q[0] - q[1]) * (p[0] - p[2]));
+  }
+  return turn < 0 ? -1 : 1;
+}
+
 /// At samples.
 std::vector<float> normals_at_samples(const Surroundings& heights, const Frame& frame, std::span<const Point> samples) {
   const OffsetMap offsets(heights.cols(), heights.rows, frame, 1);
+  const std::array<double, 3> up = frame.space ? frame.space->up() : std::array<double, 3>{0, 0, 1};
+  const double turn = frame.space ? turn_in_space(heights, offsets, up) : 0;
   std::vector<float> normals;
   normals.reserve(3 * samples.size());
   std::vector<Point> neighbours;  // west, east, north, south of each vertex; a missing one is the vertex itself
-  std::vector<double> x, y;
+  std::vector<double> x, y, z;
   for (std::size_t begin = 0; begin < samples.size(); begin += kChunkVertices) {
     neighbours.clear();
     for (Point p : samples.subspan(begin, std::min(kChunkVertices, samples.size() - begin))) {
       for (Point q : {Point{p.x - 1, p.y}, Point{p.x + 1, p.y}, Point{p.x, p.y - 1}, Point{p.x, p.y + 1}})
         neighbours.push_back(heights.is_usable(q) ? q : p);
     }
-    offsets.map(neighbours, x, y);
+    z.clear();
+    for (Point p : neighbours) z.push_back(heights.at(p));
+    offsets.map(neighbours, x, y, z);
     for (std::size_t k = 0; k < neighbours.size(); k += 4) {
       const auto difference = [&](std::size_t i, std::size_t j) {
-        return std::array{x[j] - x[i], y[j] - y[i],
-                          double{heights.at(neighbours[j])} - double{heights.at(neighbours[i])}};
+        return std::array{x[j] - x[i], y[j] - y[i], z[j] - z[i]};
       };
       const auto u = difference(k, k + 1), v = difference(k + 2, k + 3);
       std::array normal{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
       // A vertex without neighbours along its row or its column has no slope to speak of.
-      if (normal[2] == 0) normal = {0, 0, 1};
+      const bool has_slope = frame.space ? normal != std::array<double, 3>{} : normal[2] != 0;
+      if (!has_slope) normal = up;
       const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-      const double scale = (normal[2] < 0 ? -1 : 1) / length;
+      const double side = frame.space && has_slope ? turn : normal[2];
+      const double scale = (side < 0 ? -1 : 1) / length;
       for (double component : normal) normals.push_back(static_cast<float>(component * scale));
     }
   }

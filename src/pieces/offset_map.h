@@ -20,12 +20,13 @@ inline constexpr std::size_t kChunkVertices = 4096;
 class OffsetMap {
  public:
   OffsetMap(std::int32_t cols, std::int32_t rows, const Frame& frame, std::int32_t steps)
-      : frame_(frame), steps_(steps), col0_(cols / 2), row0_(rows / 2), origin_(frame_origin(frame, cols, rows)) {}
+      : frame_(frame), steps_(steps), col0_(cols / 2), row0_(rows / 2), origin_(origin_of(frame, cols, rows)) {}
 
-  std::array<double, 2> origin() const { return origin_; }
+  std::array<double, 3> origin() const { return origin_; }
 
-  /// Fills x and y for a chunk of points.
-  void map(std::span<const Point> points, std::vector<double>& x, std::vector<double>& y) const {
+  /// Fills x and y for a chunk of points. `z`: their heights, which only a frame in space moves.
+  void map(std::span<const Point> points, std::vector<double>& x, std::vector<double>& y,
+           std::vector<double>& z) const {
     x.clear();
     y.clear();
     for (Point p : points) {
@@ -39,18 +40,29 @@ class OffsetMap {
       y.push_back(at[1]);
     }
     if (frame_.is_affine()) return;
-    frame_.transform->apply(x, y);
+    if (frame_.space) {
+      frame_.space->to_space(x, y, z);
+    } else {
+      frame_.transform->apply(x, y);
+    }
     for (std::size_t k = 0; k < points.size(); ++k) {
       x[k] -= origin_[0];
       y[k] -= origin_[1];
+      z[k] -= origin_[2];
     }
   }
 
  private:
+  static std::array<double, 3> origin_of(const Frame& frame, std::int32_t cols, std::int32_t rows) {
+    if (frame.space) return frame.space->origin();
+    const auto [x, y] = frame_origin(frame, cols, rows);
+    return {x, y, 0};
+  }
+
   const Frame& frame_;
   double steps_;
   std::int32_t col0_, row0_;
-  std::array<double, 2> origin_;
+  std::array<double, 3> origin_;
 };
 
 }  // namespace scarp

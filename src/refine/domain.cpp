@@ -122,7 +122,7 @@ Result<DomainMesh> build_domain(const Raster& raster, double outline_tolerance, 
     }
     mark_outside(raster, domain.tin);
   }
-  if (!frame.is_affine()) follow_curved_border(raster, domain.tin, frame);
+  if (frame.transform) follow_curved_border(raster, domain.tin, frame);
   domain.unused = count_unused_corners(domain.tin);
   return domain;
 }

@@ -133,6 +133,11 @@ constexpr ConflictRule kRules[] = {
      {},
      Where::kAlways,
      "free vertices need a frame in which the grid is regular"},
+    {Fields(Field::kSpaceFrame),
+     Fields(Field::kChannels),
+     {},
+     Where::kAlways,
+     "an error in space is of heights alone"},
     {Fields(Field::kTimeLimit), kBudgets, Fields(Field::kEffortMax), Where::kAlways,
      "max effort takes all of the time for one mesh, and a budget is met by several"},
     {Fields(Field::kSource),
@@ -160,6 +165,11 @@ constexpr ConflictRule kRules[] = {
      {},
      Where::kStreamed,
      "an outline is simplified as a whole"},
+    {Fields(Field::kSource),
+     Fields(Field::kSpaceFrame),
+     {},
+     Where::kStreamed,
+     "a mesh in space is proven and mended with all samples in memory"},
     {Fields(Field::kSource), Fields(Field::kBorder), {}, Where::kStreamed, "strips would put vertices on the border"},
     {Fields(Field::kSource), Fields(Field::kChannels), {}, Where::kStreamed, "channels are held in memory"},
 };
@@ -204,6 +214,7 @@ constexpr std::string_view kNames[] = {
     "memory_limit",
     "channels of the field",
     "a curved frame of the field",
+    "a frame of the field in space",
     "a field with a source",
 };
 static_assert(std::size(kNames) == kFieldCount);
@@ -269,6 +280,7 @@ Fields fields_of(const HeightField& field, const SimplifyOptions& options) {
       {Field::kMemoryLimit, options.run.memory.limit > 0},
       {Field::kChannels, has_norm(field)},
       {Field::kCurvedFrame, !field.frame.is_affine()},
+      {Field::kSpaceFrame, field.frame.space != nullptr},
       {Field::kSource, field.samples == nullptr && field.source != nullptr},
   };
   static_assert(std::size(all) == kFieldCount);

@@ -23,8 +23,9 @@ namespace {
 
 const ConstraintGraph* graph_of(const LineWork* lines) { return lines != nullptr ? &lines->graph() : nullptr; }
 
-Result<std::optional<Tiled>> refine_tiles(const Plan& plan, const Criterion& criterion, const ConstraintGraph* lines,
-                                          StripTotals& strips) {
+/// `raster`: what is refined of samples in memory.
+Result<std::optional<Tiled>> refine_tiles(const Plan& plan, const Raster& raster, const Criterion& criterion,
+                                          const ConstraintGraph* lines, StripTotals& strips) {
   const HeightField& field = plan.field;
   const SimplifyOptions& options = plan.options;
   TiledOptions tiles;
@@ -42,22 +43,23 @@ Result<std::optional<Tiled>> refine_tiles(const Plan& plan, const Criterion& cri
   }
   const double threshold = criterion.bound() ? criterion.aim() : plan.aim * plan.scale.line_error;
   if (plan.finishes_strips) work_by_strips(plan, lines, criterion.source_bounds(), threshold, strips, tiles);
-  if (!plan.is_streamed || lines == nullptr || !lines->cut) return refine_tiled(field, tiles);
-  const CutSource near(*field.source, lines->cut->rows);
   HeightField seen = field;
+  if (field.frame.space) seen.samples = raster.samples;
+  if (!plan.is_streamed || lines == nullptr || !lines->cut) return refine_tiled(seen, tiles);
+  const CutSource near(*field.source, lines->cut->rows);
   seen.source = &near;
   return refine_tiled(seen, tiles);
 }
 
 /// And prepares lines that have waited for this.
-Result<std::optional<Tiled>> refine_beside_lines(const Plan& plan, const Criterion& criterion, LineWork* lines,
-                                                 StripTotals& strips) {
-  if (lines == nullptr || lines->is_prepared()) return refine_tiles(plan, criterion, graph_of(lines), strips);
+Result<std::optional<Tiled>> refine_beside_lines(const Plan& plan, const Raster& raster, const Criterion& criterion,
+                                                 LineWork* lines, StripTotals& strips) {
+  if (lines == nullptr || lines->is_prepared()) return refine_tiles(plan, raster, criterion, graph_of(lines), strips);
   Result<void> prepared;
   Result<std::optional<Tiled>> tiled;
   run_beside(
       plan.options.run.threads, [&] { prepared = lines->prepare(); },
-      [&] { tiled = refine_tiles(plan, criterion, nullptr, strips); });
+      [&] { tiled = refine_tiles(plan, raster, criterion, nullptr, strips); });
   if (!prepared) return tl::unexpected(prepared.error());
   return tiled;
 }
@@ -87,7 +89,7 @@ Result<Simplified> run_by_tiles(const Plan& plan, LineWork* lines) {
   const bool looks_beyond = plan.options.output.normals || !field.frame.is_affine() || plan.fits || lines != nullptr ||
                             has_own_bounds(field, plan.options);
   if (!plan.is_streamed && looks_beyond) {
-    auto cleaned = Samples::of(field);
+    auto cleaned = Samples::to_refine(field, plan.options.run.threads);
     if (!cleaned) return tl::unexpected(cleaned.error());
     raster = samples.emplace(std::move(*cleaned)).raster();
   }
@@ -98,7 +100,7 @@ Result<Simplified> run_by_tiles(const Plan& plan, LineWork* lines) {
   if (auto fits = plan.memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
   const auto start = Clock::now();
   StripTotals strips;
-  auto tiled = refine_beside_lines(plan, *criterion, lines, strips);
+  auto tiled = refine_beside_lines(plan, raster, *criterion, lines, strips);
   if (!tiled) return tl::unexpected(tiled.error());
   if (!*tiled) {
     if (plan.is_streamed)
@@ -125,7 +127,7 @@ Result<Simplified> run_greedily(const Plan& plan, LineWork* lines) {
   if (lines != nullptr) {
     if (auto prepared = lines->prepare(); !prepared) return tl::unexpected(prepared.error());
   }
-  auto samples = Samples::of(plan.field);
+  auto samples = Samples::to_refine(plan.field, plan.options.run.threads);
   if (!samples) return tl::unexpected(samples.error());
   const auto make_criterion = [&](const Raster& raster) {
     return Criterion::make(plan.field, plan.options, raster, plan.aim * plan.scale.start, plan.scale.factor);

@@ -86,9 +86,10 @@ Result<void> measure_channels(const HeightField& field, const SimplifyOptions& o
   return {};
 }
 
-/// Samples are no farther from 0 than this and the bound.
-double largest_height(const Mesh& mesh) {
+/// Samples are no farther from 0 than this and the bound. In space they are no positions' z.
+double largest_height(const HeightField& field, const Mesh& mesh, const HeightRange& range) {
   double largest = 0;
+  if (field.frame.space) return std::max(std::abs(range.min), std::abs(range.max));
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
     largest = std::max(largest, std::abs(mesh.origin[2] + mesh.positions[3 * v + 2]));
   return largest;
@@ -127,10 +128,12 @@ struct ShareOfBound {
 class SampleVerdict {
  public:
   /// `fields`: whose errors are in the norms.
-  SampleVerdict(const Criterion& criterion, bool exact, std::size_t fields, Simplified& result, Proof& proof)
+  /// `largest`: see largest_height().
+  SampleVerdict(const Criterion& criterion, bool exact, std::size_t fields, double largest, Simplified& result,
+                Proof& proof)
       : bound_(criterion.bound()),
         doubt_((exact ? 1 : -1) * 0x1p-24 * (3 + static_cast<double>(fields))),
-        arithmetic_(exact ? kArithmetic * largest_height(result.mesh) : 0),
+        arithmetic_(exact ? kArithmetic * largest : 0),
         share_{criterion.most() / criterion.factor(), criterion.reserve(), arithmetic_},
         result_(result),
         proof_(proof) {
@@ -323,7 +326,7 @@ Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, co
   std::optional<WindowedVerdict> rows;
   if (is_tallied) judge.on_row = tally.emplace(field, options.goals.norm).adder(field.height_scale);
   if (windowed != nullptr) {
-    rows.emplace(field, *windowed, SampleVerdict(criterion, exact, 1, result, proof));
+    rows.emplace(field, *windowed, SampleVerdict(criterion, exact, 1, largest_height(field, result.mesh, {}), result, proof));
     judge.on_row = [&rows](int row, std::span<const float> errors) { rows->add(row, errors); };
   }
   auto measured = measure(field, result.mesh, judge);
@@ -334,7 +337,8 @@ Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, co
   proof.offenders.insert(proof.offenders.begin(), m.offenders.begin(), m.offenders.end());
   if (is_tallied) {
     if (auto done = measure_channels(field, options, *tally, result); !done) return tl::unexpected(done.error());
-    SampleVerdict verdict(criterion, exact, 1 + result.channel_measurements.size(), result, proof);
+    SampleVerdict verdict(criterion, exact, 1 + result.channel_measurements.size(),
+                          largest_height(field, result.mesh, m.heights), result, proof);
     judge_samples(options, criterion, field, *tally, verdict);
   }
   if (rows) {
@@ -349,7 +353,7 @@ Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, co
     result.judged_rmse = m.rmse;
     // The judge's own double arithmetic rounds: the exact proof is the engine's, this is the independent check of it.
     const bool is_promised = result.stop == StopReason::kMaxError;
-    const double rounding = kArithmetic * (criterion.bound().value_or(0) + largest_height(result.mesh));
+    const double rounding = kArithmetic * (criterion.bound().value_or(0) + largest_height(field, result.mesh, m.heights));
     if (is_promised && (!(m.max_error <= *criterion.bound() + rounding) || m.uncovered > 0))
       proof.broken = describe_breach(m, options);
   }

@@ -34,6 +34,8 @@ Refiner::~Refiner() = default;
 Result<Refiner> Refiner::create(const HeightField& field, double outline_tolerance) try {
   if (field.samples == nullptr && field.source != nullptr)
     return fail(ErrorKind::kUsage, "a refiner needs the samples as one array of floats: read the raster as a whole");
+  if (field.frame.space)
+    return fail(ErrorKind::kUsage, "a refiner knows errors on a map: ask simplify() for a mesh in space");
   auto samples = Samples::of(field);
   if (!samples) return tl::unexpected(samples.error());
   auto domain = build_domain(samples->raster(), outline_tolerance, field.frame);

@@ -129,9 +129,9 @@ class EngineRun {
       result.work.triangles_scanned += work.triangles_scanned;
       record(result, "seams", start, work);
     }
-    if (field_.frame.is_affine() && criterion_.bounds().empty()) return {};
+    if (!field_.frame.transform && criterion_.bounds().empty()) return {};
     const auto again = Clock::now();
-    if (!field_.frame.is_affine()) follow_curved_border(raster_, piece_->tin, field_.frame);
+    if (field_.frame.transform) follow_curved_border(raster_, piece_->tin, field_.frame);
     refinement_.emplace(criterion_.metric(), piece_->tin);
     auto refined = refine(result.stop);
     record(result, "refine", again, refinement_->work());
@@ -413,10 +413,10 @@ class EngineRun {
     return static_cast<int>(std::clamp<std::uint64_t>(most, 1, static_cast<std::uint64_t>(threads)));
   }
 
-  /// The field as refinement sees it.
+  /// The field as refinement sees it; in space, where that is another, as it was given.
   HeightField clean_field() const {
     HeightField clean = field_;
-    if (!plan_.is_streamed) clean.samples = raster_.samples;
+    if (!plan_.is_streamed && !field_.frame.space) clean.samples = raster_.samples;
     return clean;
   }
 
@@ -430,7 +430,8 @@ class EngineRun {
   void freeze_into(Simplified& result, bool is_last) {
     const auto start = Clock::now();
     if (!is_whole_ && !plan_.has_lines) result.outline_triangles = count_border_triangles(piece_->tin);
-    const SampleHeights heights = !plan_.is_streamed ? SampleHeights(raster_) : SampleHeights(field_, heights_);
+    const Raster given{clean_field().samples, raster_.cols, raster_.rows};
+    const SampleHeights heights = !plan_.is_streamed ? SampleHeights(given) : SampleHeights(field_, heights_);
     const bool has_more = options_.output.normals || options_.output.uvs || !field_.channels.empty();
     const LatticePoints at = has_more ? frozen_points(piece_->tin, piece_->lattice) : LatticePoints{};
     const bool rounds = rounds_offsets(field_, options_);

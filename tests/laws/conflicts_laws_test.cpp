@@ -10,6 +10,7 @@
 
 #include "laws/array_bounds.h"
 #include "laws/array_source.h"
+#include "laws/ball.h"
 #include "laws/fields.h"
 #include "scarp/cliffs.h"
 #include "scarp/conflicts.h"
@@ -181,9 +182,11 @@ std::vector<Setting> all_settings() {
        }},
       {Field::kCurvedFrame,
        [](Scene& s) {
+         s.field.frame = grid_frame(30);
          s.field.frame.kind = Frame::Kind::kProjected;
          s.field.frame.transform = std::make_shared<Bend>();
        }},
+      {Field::kSpaceFrame, [](Scene& s) { s.field.frame = testing::ball_frame(10, 50, 0.01, 40, 30); }},
       {Field::kSource, kWithout},
   };
 }
@@ -243,7 +246,8 @@ void expect_kept(const Scene& scene, const Simplified& made, double tolerance = 
 /// Settings of which one brings the other along.
 bool brings(Field one, Field other) {
   return ((one == Field::kWalls || one == Field::kRidges) && other == Field::kBreaklines) ||
-         (one == Field::kLevels && other == Field::kBorder);
+         (one == Field::kLevels && other == Field::kBorder) ||
+         (one == Field::kSpaceFrame && other == Field::kCurvedFrame);
 }
 
 bool names(const Conflict& conflict, Field one, Field other) {

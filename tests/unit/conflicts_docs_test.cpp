@@ -38,6 +38,8 @@ std::string word_of(Field field) {
       return "`--texture`, `--image`";
     case Field::kCurvedFrame:
       return "`--crs` (of another projection)";
+    case Field::kSpaceFrame:
+      return "`--crs enu`, `--crs EPSG:4978`";
     case Field::kSource:
       return "`--memory` (where samples are streamed)";
     default:

@@ -53,6 +53,8 @@ Extent extent_of(const HeightField& field) {
     }
   }
   if (field.frame.transform) field.frame.transform->apply(x, y);
+  std::vector<double> z(x.size());
+  if (field.frame.space) field.frame.space->to_space(x, y, z);
   Extent extent;
   for (std::size_t k = 0; k < x.size(); ++k) extent.add(x[k], y[k]);
   return extent;

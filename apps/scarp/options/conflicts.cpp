@@ -22,6 +22,7 @@ Fields fields_given(const SimplifyArguments& given, const SimplifyPlan& plan) {
       {Field::kCutline, given.cut.find_cut() != nullptr},
       {Field::kStrategy, plan.by_paper},
       {Field::kLevels, given.levels.lods.has_value()},
+      {Field::kSpaceFrame, is_in_space(plan.read.crs)},
       {Field::kChannels, plan.channels.has_channels()}};
   for (const auto& [field, is_given] : others) {
     if (is_given) fields.add(field);
@@ -42,7 +43,8 @@ std::string option_of(Field field, const SimplifyArguments& given) {
   if (field == Field::kStrategy) option = given.strategy.find_strategy();
   if (field == Field::kChannels && given.channels.image) option = "--image";
   if (field == Field::kShape) option = given.shape.find_goal();
-  if (field == Field::kCurvedFrame && given.raster.crs) return "--crs " + shell_word(*given.raster.crs);
+  if ((field == Field::kCurvedFrame || field == Field::kSpaceFrame) && given.raster.crs)
+    return "--crs " + shell_word(*given.raster.crs);
   if (option == nullptr) option = cli::option_of(field);
   return option != nullptr ? option : std::string(name_of(field));
 }

@@ -48,6 +48,7 @@ inline constexpr const char* kFieldOptions[] = {
     "--memory",
     "--texture",
     "--crs",
+    "--crs enu",
     "--memory",
 };
 static_assert(std::size(kFieldOptions) == kFieldCount);

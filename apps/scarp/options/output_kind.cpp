@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <optional>
 
 #include "scarp/picture.h"
@@ -109,6 +110,13 @@ bool OutputFormat::holds_attributes() const { return is_mesh() && row_of(mesh).h
 bool OutputFormat::holds_prints() const {
   return is_mesh() &&
          (mesh == MeshFormat::kStl || mesh == MeshFormat::k3mf || mesh == MeshFormat::kObj || mesh == MeshFormat::kPly);
+}
+
+bool OutputFormat::holds_space() const {
+  if (!is_mesh()) return kind == OutputKind::kDem;
+  constexpr MeshFormat kOthers[] = {MeshFormat::k2dm, MeshFormat::kLandXml, MeshFormat::kDxf, MeshFormat::kGpkg,
+                                    MeshFormat::k3mf};
+  return std::find(std::begin(kOthers), std::end(kOthers), mesh) == std::end(kOthers);
 }
 
 DefaultFrame OutputFormat::default_frame() const { return is_mesh() ? row_of(mesh).frame : DefaultFrame::kMetric; }

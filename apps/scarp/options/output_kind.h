@@ -39,6 +39,8 @@ struct OutputFormat {
   bool holds_attributes() const;
   /// Where x and y are unless a CRS was asked for.
   DefaultFrame default_frame() const;
+  /// What it shows does not rely on z being the height.
+  bool holds_space() const;
   bool is_ply() const { return is_mesh() && mesh == MeshFormat::kPly; }
   /// Has a CRS, and no place for it that all who read the format look at: a .prj file tells it.
   bool has_projection_beside() const;

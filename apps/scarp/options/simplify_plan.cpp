@@ -266,14 +266,15 @@ Result<void> plan_attributes(const SimplifyArguments& given, SimplifyPlan& plan)
   plan.simplify.output.uvs =
       (given.uvs || plan.channels.has_channels() || plan.images.any()) && format.holds_attributes();
   const std::string& crs = plan.read.crs;
-  const bool is_centred = crs.empty() || crs == "local" || crs == "grid";
+  const bool is_centred = crs.empty() || crs == "local" || crs == "grid" || crs == "enu";
   plan.simplify.output.float32_positions = format.is_float32() || (format.is_ply() && is_centred && !given.doubles);
   plan.doubles = given.doubles;
   if (given.doubles && !format.is_ply())
     return fail(ErrorKind::kUsage, fmt::format("--double is for PLY: the positions of {} are what they are", title));
   const Result<bool> is_y_up = choose_y_up(given.up, format, plan.solid.has_value());
   if (!is_y_up) return tl::unexpected(is_y_up.error());
-  plan.is_y_up = *is_y_up;
+  // Who reads earth-centred coordinates expects them as they are.
+  plan.is_y_up = *is_y_up && (given.up || crs == "enu" || !is_in_space(crs));
   if (given.compress && !format.is_glb()) {
     return fail(ErrorKind::kUsage, fmt::format("--compress writes GLB, and OUTPUT is {}: choose .glb", title));
   }
@@ -364,6 +365,25 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
   return check_outputs(outputs, inputs, given.overwrite);
 }
 
+/// What a mesh does not go with in a frame in space, where z is not the height.
+Result<void> plan_space(const SimplifyArguments& given, SimplifyPlan& plan) {
+  if (!is_in_space(plan.read.crs)) return {};
+  const std::string output = plan.format.title() + " as OUTPUT";
+  const std::tuple<const char*, bool, const char*> others[] = {
+      {output.c_str(), !plan.format.holds_space(), "it holds heights over a map; choose .glb, .obj, .ply or .stl"},
+      {"--base", given.base.has_value(), "a base lies below heights over a map"},
+      {"--solid", plan.solid.has_value(), "a print stands on a flat base"},
+      {"--preview", given.preview.has_value(), "pictures show maps"},
+      {"--render", given.render.has_value(), "pictures show maps"},
+      {"--normal-map", plan.images.normal_map.has_value(), "its normals are those of a map"}};
+  for (const auto& [name, is_given, reason] : others) {
+    if (is_given)
+      return fail(ErrorKind::kUsage,
+                  fmt::format("--crs {} cannot be combined with {}: {}", shell_word(plan.read.crs), name, reason));
+  }
+  return {};
+}
+
 /// The first option that was given and cannot do with a few samples at a time; nothing if there is none.
 std::optional<std::string> find_need_of_samples(const SimplifyArguments& given, const SimplifyPlan& plan) {
   if (const auto unstreamed = find_unstreamed(given, plan)) return unstreamed;
@@ -449,7 +469,8 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
   if (!threads) return tl::unexpected(threads.error());
   plan.simplify.run.threads = *threads;
   for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_solid, plan_lines, plan_shape,
-                          plan_levels, plan_objective, plan_conflicts, plan_outputs, plan_zones, plan_memory}) {
+                          plan_levels, plan_objective, plan_conflicts, plan_outputs, plan_zones, plan_space,
+                          plan_memory}) {
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());
   }

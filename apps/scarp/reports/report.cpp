@@ -19,6 +19,10 @@ const char* kind_name(Frame::Kind kind) {
       return "source";
     case Frame::Kind::kLocal:
       return "local";
+    case Frame::Kind::kGeocentric:
+      return "geocentric";
+    case Frame::Kind::kTangent:
+      return "enu";
     case Frame::Kind::kProjected:
       break;
   }
@@ -83,6 +87,7 @@ Json describe_frame(const OwnedHeightField& field) {
   const Frame& frame = field.frame;
   Json json{{"kind", kind_name(frame.kind)}, {"crs", frame.crs}, {"description", frame.description}};
   add_place(json, place_in_source(frame, field.info, field.rows));
+  json["to_earth"] = frame.space ? Json(frame.space->to_earth()) : Json(nullptr);
   return json;
 }
 

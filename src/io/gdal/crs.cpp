@@ -2,11 +2,7 @@
 
 #include <cpl_conv.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <mutex>
-#include <vector>
 
 #include "io/gdal/session.h"
 #include "io/raster/crs_description.h"
@@ -23,72 +19,14 @@ Crs flattened(OGRSpatialReferenceH crs) {
   return Crs(crs);
 }
 
-struct DestroyTransformation {
-  void operator()(OGRCoordinateTransformationH handle) const { OCTDestroyCoordinateTransformation(handle); }
-};
-using Handle = std::unique_ptr<std::remove_pointer_t<OGRCoordinateTransformationH>, DestroyTransformation>;
-
-/// A handle serves one call at a time; idle ones wait in a pool, and a new one is made when all are out.
-class ProjTransform final : public PointTransform {
+class MapTransform final : public PointTransform {
  public:
-  ProjTransform(const Crs& from, const Crs& to) : from_(OSRClone(from.get())), to_(OSRClone(to.get())) {}
-
-  /// False if PROJ knows no way.
-  bool usable() const {
-    Handle handle = take();
-    if (!handle) return false;
-    give_back(std::move(handle));
-    return true;
-  }
-
-  bool apply(std::span<double> x, std::span<double> y) const override {
-    if (x.empty()) return true;
-    Session quiet;
-    Handle handle = take();
-    bool all = handle != nullptr;
-    constexpr std::size_t kBatch = 4096;
-    std::vector<int> success(std::min(x.size(), kBatch));
-    for (std::size_t at = 0; handle && at < x.size(); at += kBatch) {
-      const std::size_t count = std::min(kBatch, x.size() - at);
-      OCTTransformEx(handle.get(), static_cast<int>(count), x.data() + at, y.data() + at, nullptr, success.data());
-      for (std::size_t k = 0; k < count; ++k) {
-        if (success[k] != 0 && std::isfinite(x[at + k]) && std::isfinite(y[at + k])) continue;
-        x[at + k] = y[at + k] = std::numeric_limits<double>::quiet_NaN();
-        all = false;
-      }
-    }
-    if (handle) {
-      give_back(std::move(handle));
-    } else {
-      std::fill(x.begin(), x.end(), std::numeric_limits<double>::quiet_NaN());
-      std::fill(y.begin(), y.end(), std::numeric_limits<double>::quiet_NaN());
-    }
-    return all;
-  }
+  MapTransform(const Crs& from, const Crs& to) : passage_(from, to) {}
+  bool usable() const { return passage_.usable(); }
+  bool apply(std::span<double> x, std::span<double> y) const override { return passage_.apply(x, y, {}); }
 
  private:
-  Handle take() const {
-    const std::lock_guard lock(mutex_);
-    if (!idle_.empty()) {
-      Handle handle = std::move(idle_.back());
-      idle_.pop_back();
-      return handle;
-    }
-    // Left to itself GDAL chooses among PROJ's operations by the mean of the points of a call; PROJ does so point by
-    // point.
-    Session session;
-    session.set_option("OGR_CT_OP_SELECTION", "PROJ");
-    return Handle(OCTNewCoordinateTransformation(from_.get(), to_.get()));
-  }
-
-  void give_back(Handle handle) const {
-    const std::lock_guard lock(mutex_);
-    idle_.push_back(std::move(handle));
-  }
-
-  Crs from_, to_;
-  mutable std::mutex mutex_;
-  mutable std::vector<Handle> idle_;
+  Passage passage_;
 };
 
 }  // namespace
@@ -137,7 +75,7 @@ bool same_crs(const Crs& a, const Crs& b) {
 }
 
 std::shared_ptr<const PointTransform> build_transform(const Crs& from, const Crs& to) {
-  auto transform = std::make_shared<ProjTransform>(from, to);
+  auto transform = std::make_shared<MapTransform>(from, to);
   if (!transform->usable()) return nullptr;
   return transform;
 }

@@ -5,8 +5,11 @@
 #include <ogr_srs_api.h>
 
 #include <memory>
+#include <mutex>
+#include <span>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "scarp/frame.h"
 #include "scarp/result.h"
@@ -33,6 +36,33 @@ std::string crs_name(const Crs& crs);
 std::string short_name(const Crs& crs);
 
 bool same_crs(const Crs& a, const Crs& b);
+
+/// The way from one CRS to another, through PROJ. A handle of GDAL's serves one call at a time; idle ones wait in a pool,
+/// and a new one is made when all are out.
+class Passage {
+ public:
+  /// `is_strict`: only by a way that PROJ knows to be right, with the grids of it on this machine.
+  Passage(const Crs& from, const Crs& to, bool is_strict = false);
+
+  /// False if PROJ knows no way.
+  bool usable() const;
+  /// Maps the points in place; `z` is empty for points of a map. Returns false if any point has no image (it is then
+  /// NaN).
+  bool apply(std::span<double> x, std::span<double> y, std::span<double> z) const;
+
+ private:
+  struct Destroy {
+    void operator()(OGRCoordinateTransformationH handle) const;
+  };
+  using Handle = std::unique_ptr<std::remove_pointer_t<OGRCoordinateTransformationH>, Destroy>;
+  Handle take() const;
+  void give_back(Handle handle) const;
+
+  Crs from_, to_;
+  bool is_strict_;
+  mutable std::mutex mutex_;
+  mutable std::vector<Handle> idle_;
+};
 
 /// From one CRS to another, through PROJ. The point's image depends on nothing but the point: not on the thread, not on
 /// the other points of a call. Null if PROJ knows no way.

@@ -18,16 +18,6 @@ std::array<double, 6> at_centres(const std::array<double, 6>& gt) {
   return {gt[0] + gt[1] / 2 + gt[2] / 2, gt[1], gt[2], gt[3] + gt[4] / 2 + gt[5] / 2, gt[4], gt[5]};
 }
 
-struct Position {
-  double x = 0, y = 0;
-};
-
-Position centre_of(const Georeference& geo) {
-  const double col = geo.cols / 2, row = geo.rows / 2;
-  const auto& a = geo.samples;
-  return {a[0] + a[1] * col + a[2] * row, a[3] + a[4] * col + a[5] * row};
-}
-
 Geodetic geodetic_of(const Georeference& geo) {
   OGRErr error = OGRERR_NONE;
   return {OSRGetSemiMajor(geo.crs.get(), &error), OSRGetInvFlattening(geo.crs.get(), &error), geo.unit_in_metres};
@@ -37,7 +27,7 @@ Geodetic geodetic_of(const Georeference& geo) {
 MetresPerUnit metres_per_unit(const Georeference& geo) {
   if (!geo.crs) return {};
   if (!geo.geographic) return {geo.unit_in_metres, geo.unit_in_metres};
-  const auto [east, north] = metres_of_unit(centre_of(geo).y, geodetic_of(geo));
+  const auto [east, north] = metres_of_unit(geo.centre()[1], geodetic_of(geo));
   return {east, north};
 }
 
@@ -59,7 +49,7 @@ void warn_of_degrees(RasterInfo& info) {
 
 /// East–west lengths in the local frame are true on the centre's parallel only.
 void warn_of_distortion(const Georeference& geo, RasterInfo& info) {
-  const double centre = std::cos(centre_of(geo).y * geo.unit_in_metres);
+  const double centre = std::cos(geo.centre()[1] * geo.unit_in_metres);
   double worst = 0;
   for (const double col : {0.0, geo.cols - 1.0}) {
     for (const double row : {0.0, geo.rows - 1.0}) {
@@ -134,12 +124,12 @@ Result<Frame> projected_frame(const Georeference& geo, const std::string& wanted
   if (!target) {
     return fail(ErrorKind::kUsage,
                 fmt::format("'{}' is no coordinate reference system that GDAL knows; give 'source', 'local', "
-                            "'grid', a code such as EPSG:32633, WKT or a PROJ string",
+                            "'enu', 'grid', a code such as EPSG:32633, WKT or a PROJ string",
                             wanted));
   }
   if (!OSRIsGeographic(target.get()) && !OSRIsProjected(target.get()) && !OSRIsLocal(target.get())) {
     return fail(ErrorKind::kUsage,
-                fmt::format("{} is not a CRS of positions on a map (vertical and geocentric ones are not); choose a "
+                fmt::format("{} is not a CRS of positions on a map (vertical ones are not); choose a "
                             "projected or geographic CRS",
                             short_name(target)));
   }
@@ -169,6 +159,12 @@ bool looks_like_degrees(const Georeference& geo) {
 
 }  // namespace
 
+std::array<double, 2> Georeference::centre() const {
+  const double col = cols / 2, row = rows / 2;
+  const auto& a = samples;
+  return {a[0] + a[1] * col + a[2] * row, a[3] + a[4] * col + a[5] * row};
+}
+
 bool Georeference::is_in_feet() const { return !geographic && is_foot(unit_name); }
 
 Result<Georeference> read_georeference(GDALDatasetH dataset, const std::string& path) {
@@ -184,6 +180,7 @@ Result<Georeference> read_georeference(GDALDatasetH dataset, const std::string& 
                                        "gdal_edit -a_ullr");
   }
   geo.crs = crs_of(dataset);
+  geo.in_space = space_crs_of(dataset);
   if (geo.crs) {
     char* name = nullptr;  // owned by the CRS
     geo.geographic = OSRIsGeographic(geo.crs.get()) != 0;
@@ -245,7 +242,7 @@ Result<Frame> choose_frame(const Georeference& geo, const ReadOptions& options, 
                             "'grid', or give it its CRS first (gdal_edit -a_srs)",
                             info.path, wanted));
   }
-  return projected_frame(geo, wanted, info);
+  return is_in_space(wanted) ? earth_frame(geo, wanted, info) : projected_frame(geo, wanted, info);
 }
 
 }  // namespace scarp::gdal

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "io/gdal/crs.h"
+#include "io/gdal/earth_frame.h"
 #include "scarp/height_field.h"
 #include "scarp/io.h"
 
@@ -16,10 +17,13 @@ struct Georeference {
   std::array<double, 6> pixels{0, 1, 0, 0, 0, 1};   ///< GDAL's geotransform, of pixel corners
   std::array<double, 6> samples{0, 1, 0, 0, 0, 1};  ///< the same in a Frame's terms: integer (col, row) are centres
   Crs crs;                                          ///< null if unknown
+  SpaceCrs in_space;                                ///< the same with heights; null if unknown
   bool geographic = false;
   double unit_in_metres = 1;  ///< of x and y; in radians if geographic
   std::string unit_name;      ///< "metre", "degree", …; empty if there is no CRS
 
+  /// Of the sample (cols / 2, rows / 2).
+  std::array<double, 2> centre() const;
   /// A projected CRS in feet, whose heights mostly are in feet too.
   bool is_in_feet() const;
 };

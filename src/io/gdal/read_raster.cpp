@@ -31,9 +31,17 @@ struct Plan {
 
 constexpr double kMetresPerFoot = 0.3048;
 
+/// In space there is one unit for all.
+Result<void> check_unit(const Frame& frame, const RasterInfo& info) {
+  if (!frame.space || !is_foot(info.unit)) return {};
+  return fail(ErrorKind::kUsage,
+              fmt::format("{}: z is in {}, and a frame in space is in metres: give --z-scale {:.6g}", info.path,
+                          info.unit, kMetresPerFoot));
+}
+
 /// x and y in one unit, z in another: the promise holds, the shape does not.
 void warn_of_units(const Frame& frame, const Georeference& geo, RasterInfo& info) {
-  if (!geo.located || frame.kind == Frame::Kind::kGrid || info.unit.empty()) return;
+  if (!geo.located || frame.kind == Frame::Kind::kGrid || frame.space || info.unit.empty()) return;
   const bool feet_up = is_foot(info.unit);
   const bool feet_across = frame.kind != Frame::Kind::kProjected && geo.is_in_feet();
   if (feet_up == feet_across) return;
@@ -107,6 +115,7 @@ Result<OpenedRaster> open(Session& session, const std::string& path, const ReadO
   auto frame = choose_frame(geo, options, plan->info);
   if (!frame) return tl::unexpected(frame.error());
   scale_heights(options, *plan);
+  if (auto checked = check_unit(*frame, plan->info); !checked) return tl::unexpected(checked.error());
   warn_of_units(*frame, geo, plan->info);
   OpenedRaster opened;
   opened.field.cols = geo.cols;

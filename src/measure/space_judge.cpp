@@ -1,0 +1,255 @@
+#include "measure/space_judge.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scarp::judge {
+namespace {
+
+using Vector = Verticals::Vector;
+
+Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+struct Points {
+  std::vector<double> x, y, z;
+
+  void add(const Vector& p) {
+    x.push_back(p[0]);
+    y.push_back(p[1]);
+    z.push_back(p[2]);
+  }
+};
+
+Vector vertex(const Mesh& mesh, std::size_t v) {
+  return {mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.positions[3 * v + 2]};
+}
+
+/// Half a unit in the last place of the positions, times four.
+double noise_of(const Mesh& mesh) {
+  double largest = 0, farthest = 0;
+  bool is_float = true;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    const double value = mesh.positions[i];
+    largest = std::max(largest, std::abs(value));
+    farthest = std::max(farthest, std::abs(mesh.origin[i % 3] + value));
+    is_float = is_float && static_cast<double>(static_cast<float>(value)) == value;
+  }
+  return std::max(is_float ? largest * 0x1p-22 : 0, farthest * 0x1p-48);
+}
+
+/// Samples of the grid for one metre, at most, near the raster's centre.
+double samples_per_metre(const HeightField& field) {
+  const double col = field.cols / 2, row = field.rows / 2;
+  Points at;
+  for (const auto& [i, j] : {std::pair{0, 0}, {1, 0}, {0, 1}}) {
+    const auto [x, y] = field.frame.apply_affine(col - i, row - j);
+    at.add({x, y, 0});
+  }
+  field.frame.space->to_space(at.x, at.y, at.z);
+  const auto length = [&](std::size_t k) {
+    const Vector way{at.x[k] - at.x[0], at.y[k] - at.y[0], at.z[k] - at.z[0]};
+    return std::sqrt(dot(way, way));
+  };
+  return 1 / std::min(length(1), length(2));
+}
+
+/// Columns and rows.
+struct Inverse {
+  std::array<double, 6> a;
+  double determinant;
+
+  explicit Inverse(const Frame& frame) : a(frame.affine), determinant(frame.determinant()) {}
+  std::array<double, 2> operator()(double x, double y) const {
+    const double dx = x - a[0], dy = y - a[3];
+    return {(a[5] * dx - a[2] * dy) / determinant, (a[1] * dy - a[4] * dx) / determinant};
+  }
+};
+
+double snapped(double value, double noise) {
+  constexpr double kSteps = 256;
+  const double place = std::round(value * kSteps) / kSteps;
+  return std::abs(value - place) <= std::min(noise, 0.25 / kSteps) ? place : value;
+}
+
+constexpr double kRise = 1000;  // metres, long beside the rounding of coordinates
+
+}  // namespace
+
+HeightField on_map(const HeightField& field) {
+  HeightField flat = field;
+  flat.frame.kind = Frame::Kind::kSource;
+  flat.frame.space = nullptr;
+  return flat;
+}
+
+Result<Mesh> bring_to_map(const HeightField& field, const Mesh& mesh) {
+  Points at;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) at.add(mesh.vertex(v));
+  field.frame.space->from_space(at.x, at.y, at.z);
+  const Inverse to_grid(field.frame);
+  const double noise = noise_of(mesh) * samples_per_metre(field);
+  Mesh flat;
+  flat.triangles = mesh.triangles;
+  flat.positions.reserve(mesh.positions.size());
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const auto [col, row] = to_grid(at.x[v], at.y[v]);
+    if (!std::isfinite(col) || !std::isfinite(row) || !std::isfinite(at.z[v]))
+      return fail(ErrorKind::kInput,
+                  fmt::format("vertex {} of the mesh has no place in the raster's coordinates", v));
+    const auto [x, y] = field.frame.apply_affine(snapped(col, noise), snapped(row, noise));
+    flat.positions.insert(flat.positions.end(), {x, y, at.z[v]});
+  }
+  return flat;
+}
+
+Mesh seen_from_above(const HeightField& field, const Mesh& mesh) {
+  const Vector up = field.frame.space->up();
+  const Vector side = std::abs(up[2]) < 0.9 ? cross({0, 0, 1}, up) : cross({1, 0, 0}, up);
+  const double length = std::sqrt(dot(side, side));
+  const Vector east{side[0] / length, side[1] / length, side[2] / length}, north = cross(up, east);
+  Mesh seen;
+  seen.triangles = mesh.triangles;
+  seen.positions.reserve(mesh.positions.size());
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const Vector p = vertex(mesh, v);
+    seen.positions.insert(seen.positions.end(), {dot(p, east), dot(p, north), dot(p, up)});
+  }
+  return seen;
+}
+
+Verticals::Verticals(const Frame& frame, const Vector& origin, const Band& band)
+    : first_(band.first()), cols_(static_cast<std::size_t>(band.cols())) {
+  Points feet, tops;
+  for (int row = band.first(); row < band.end(); ++row) {
+    for (int col = 0; col < band.cols(); ++col) {
+      const auto [x, y] = frame.apply_affine(col, row);
+      feet.add({x, y, 0});
+      tops.add({x, y, kRise});
+    }
+  }
+  frame.space->to_space(feet.x, feet.y, feet.z);
+  frame.space->to_space(tops.x, tops.y, tops.z);
+  lines_.resize(feet.x.size());
+  for (std::size_t k = 0; k < lines_.size(); ++k) {
+    const auto row = band.first() + static_cast<int>(k / cols_);
+    const double height = band.heights(row)[k % cols_];
+    Line& line = lines_[k];
+    line.up = {(tops.x[k] - feet.x[k]) / kRise, (tops.y[k] - feet.y[k]) / kRise, (tops.z[k] - feet.z[k]) / kRise};
+    line.sample = {(feet.x[k] - origin[0]) + height * line.up[0], (feet.y[k] - origin[1]) + height * line.up[1],
+                   (feet.z[k] - origin[2]) + height * line.up[2]};
+  }
+}
+
+SpaceJudge::SpaceJudge(const HeightField& field, const Mesh& mesh, const Mesh& on_map,
+                       std::span<const std::uint32_t> ids)
+    : frame_(field.frame), mesh_(mesh), bends_(mesh.triangle_count(), 0) {
+  constexpr std::size_t kAtOnce = 4096;
+  const Inverse to_grid(field.frame);
+  for (std::size_t begin = 0; begin < ids.size(); begin += kAtOnce) {
+    const auto part = ids.subspan(begin, std::min(kAtOnce, ids.size() - begin));
+    Points middles;
+    const auto each_edge = [&](const auto& visit) {
+      for (const std::uint32_t id : part) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          visit(id, mesh.triangles[3 * std::size_t{id} + k], mesh.triangles[3 * std::size_t{id} + (k + 1) % 3]);
+        }
+      }
+    };
+    each_edge([&](std::uint32_t, std::uint32_t a, std::uint32_t b) {
+      const Vector p = mesh.vertex(a), q = mesh.vertex(b);
+      middles.add({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
+    });
+    frame_.space->from_space(middles.x, middles.y, middles.z);
+    std::size_t edge = 0;
+    each_edge([&](std::uint32_t id, std::uint32_t a, std::uint32_t b) {
+      const Vector p = vertex(on_map, a), q = vertex(on_map, b);
+      const auto straight = to_grid((p[0] + q[0]) / 2, (p[1] + q[1]) / 2);
+      const auto bent = to_grid(middles.x[edge], middles.y[edge]);
+      ++edge;
+      // The bend is largest near the middle: twice that much is never reached.
+      const double off = 2 * std::hypot(bent[0] - straight[0], bent[1] - straight[1]);
+      bends_[id] = std::max(bends_[id], static_cast<float>(std::isfinite(off) ? off : 0));
+    });
+  }
+}
+
+SpaceJudge::Corners SpaceJudge::corners(std::uint32_t id) const {
+  Corners corners;
+  for (std::size_t k = 0; k < 3; ++k) corners.at[k] = vertex(mesh_, mesh_.triangles[3 * std::size_t{id} + k]);
+  return corners;
+}
+
+void SpaceJudge::judge_met(const Facet& facet, std::uint32_t id, const Verticals& verticals, Band& band) const {
+  const Corners corners = this->corners(id);
+  const double reach = bend(id) + 1e-6;
+  const Interval along = facet.plan.y_extent();
+  const auto whole = [](double value, double least, double most) {
+    return static_cast<int>(std::clamp(value, least, most));
+  };
+  const int first = whole(std::ceil(along.lo - reach), band.first(), band.end()),
+            last = whole(std::floor(along.hi + reach), band.first() - 1, band.end() - 1);
+  Offender worst;
+  for (int row = first; row <= last; ++row) {
+    const Interval across = facet.plan.x_range(row - reach, row + reach);
+    const int begin = whole(std::ceil(across.lo - reach), 0, band.cols()),
+              end = whole(std::floor(across.hi + reach), -1, band.cols() - 1);
+    const float* heights = band.heights(row);
+    for (int col = begin; col <= end; ++col) {
+      if (std::isnan(heights[col])) continue;
+      // Corners relative to the sample: their heights along its vertical, and areas seen along it.
+      const Verticals::Line& line = verticals.at(col, row);
+      std::array<Vector, 3> away{};
+      for (std::size_t k = 0; k < 3; ++k) away[k] = minus(corners.at[k], line.sample);
+      std::array<double, 3> weight{};
+      double sum = 0, size = 0, rise = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vector &p = away[(k + 1) % 3], &q = away[(k + 2) % 3];
+        weight[k] = dot(cross(p, q), line.up);
+        sum += weight[k];
+        size = std::max(size, dot(p, p));
+        rise += weight[k] * dot(away[k], line.up);
+      }
+      const double side = sum < 0 ? -1 : 1, slack = -1e-12 * size;
+      if (sum == 0 || side * weight[0] < slack || side * weight[1] < slack || side * weight[2] < slack) continue;
+      const double error = rise / sum;
+      band.offer(band.errors(row)[col], error);
+      if (band.is_offender(col, row, error) && std::abs(error) > std::abs(worst.error)) worst = {col, row, error};
+    }
+  }
+  if (worst.error != 0) band.add_offender(id, worst);
+}
+
+double SpaceJudge::error_beside(const Facet& facet, std::uint32_t id, int col, int row, double tolerance,
+                                const Verticals& verticals) const {
+  const Corners corners = this->corners(id);
+  const Verticals::Line& line = verticals.at(col, row);
+  const PlanTriangle& plan = facet.plan;
+  const double longest = std::max({plan.side(0), plan.side(1), plan.side(2)});
+  std::array<Vector, 3> away{};
+  for (std::size_t k = 0; k < 3; ++k) away[k] = minus(corners.at[k], line.sample);
+  const Vector normal = cross(minus(corners.at[1], corners.at[0]), minus(corners.at[2], corners.at[0]));
+  const double facing = dot(normal, line.up);
+  if (plan.double_area() >= tolerance * longest && facing != 0) return dot(normal, away[0]) / facing;
+  // Its plane means nothing: the nearest point on one of its edges, seen along the vertical.
+  double least = INFINITY, error = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector &p = away[k], edge = minus(away[(k + 1) % 3], p);
+    const double edge_up = dot(edge, line.up), p_up = dot(p, line.up);
+    const double length = dot(edge, edge) - edge_up * edge_up;
+    const double t = length > 0 ? std::clamp(-(dot(p, edge) - p_up * edge_up) / length, 0.0, 1.0) : 0;
+    const Vector nearest{p[0] + t * edge[0], p[1] + t * edge[1], p[2] + t * edge[2]};
+    const double height = dot(nearest, line.up), off = dot(nearest, nearest) - height * height;
+    if (off >= least) continue;
+    least = off;
+    error = height;
+  }
+  return error;
+}
+
+}  // namespace scarp::judge
