@@ -47,7 +47,7 @@ class GridScanner : public Scanner {
       each_facet([&](const Facet& facet, std::uint32_t id) {
         judge_beside(facet, id, band, [&](int col, int row) {
           return space_ == nullptr ? error_beside(facet, col, row, band.heights(row)[col], tolerance_)
-                                   : space_->error_beside(facet, id, col, row, tolerance_, *verticals);
+                                   : space_->error_beside(id, col, row, *verticals);
         });
       });
     }

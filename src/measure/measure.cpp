@@ -264,8 +264,13 @@ class Judged {
     return judge::make_grid_scanner(field(), mesh(), ids, tolerance, space_.get());
   }
 
+  /// Samples that may mend what is no error of heights; beside the offenders.
+  std::vector<Offender> unfolding() const { return space_ ? space_->unfolding() : std::vector<Offender>(); }
+
+  /// REQUIRES: make_scanner() was called.
   void measure_shape(const std::vector<std::uint32_t>& ids, Measurement& result) const {
     judge::count_faults(mesh(), result);
+    if (space_) result.down_facing += space_->folds();
     if (!flat_mesh_) return judge::measure_angles(mesh_, ids, result);
     judge::measure_angles(judge::seen_from_above(field_, mesh_), ids, result);
   }
@@ -304,6 +309,11 @@ Result<Measurement> measure(const HeightField& asked, const Mesh& given, const M
   if (auto judged_heights = judge_heights(field, mesh, *scanner, region, options, judge::Keep::kErrors, gate, result);
       !judged_heights) {
     return tl::unexpected(std::move(judged_heights.error()));
+  }
+
+  if (options.collect_above) {
+    const std::vector<Offender> more = judged_mesh->unfolding();
+    result.offenders.insert(result.offenders.end(), more.begin(), more.end());
   }
 
   if (options.topology) {

@@ -77,7 +77,8 @@ double snapped(double value, double noise) {
   return std::abs(value - place) <= std::min(noise, 0.25 / kSteps) ? place : value;
 }
 
-constexpr double kRise = 1000;  // metres, long beside the rounding of coordinates
+/// Along a vertical, in metres; long beside the rounding of coordinates.
+constexpr double kRise = 1000;
 
 }  // namespace
 
@@ -148,35 +149,82 @@ Verticals::Verticals(const Frame& frame, const Vector& origin, const Band& band)
 
 SpaceJudge::SpaceJudge(const HeightField& field, const Mesh& mesh, const Mesh& on_map,
                        std::span<const std::uint32_t> ids)
-    : frame_(field.frame), mesh_(mesh), bends_(mesh.triangle_count(), 0) {
+    : field_(field), frame_(field.frame), mesh_(mesh), on_map_(on_map), bends_(mesh.triangle_count(), 0) {
   constexpr std::size_t kAtOnce = 4096;
-  const Inverse to_grid(field.frame);
   for (std::size_t begin = 0; begin < ids.size(); begin += kAtOnce) {
     const auto part = ids.subspan(begin, std::min(kAtOnce, ids.size() - begin));
-    Points middles;
-    const auto each_edge = [&](const auto& visit) {
-      for (const std::uint32_t id : part) {
-        for (std::size_t k = 0; k < 3; ++k) {
-          visit(id, mesh.triangles[3 * std::size_t{id} + k], mesh.triangles[3 * std::size_t{id} + (k + 1) % 3]);
-        }
-      }
-    };
-    each_edge([&](std::uint32_t, std::uint32_t a, std::uint32_t b) {
-      const Vector p = mesh.vertex(a), q = mesh.vertex(b);
-      middles.add({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
-    });
-    frame_.space->from_space(middles.x, middles.y, middles.z);
-    std::size_t edge = 0;
-    each_edge([&](std::uint32_t id, std::uint32_t a, std::uint32_t b) {
-      const Vector p = vertex(on_map, a), q = vertex(on_map, b);
-      const auto straight = to_grid((p[0] + q[0]) / 2, (p[1] + q[1]) / 2);
-      const auto bent = to_grid(middles.x[edge], middles.y[edge]);
-      ++edge;
-      // The bend is largest near the middle: twice that much is never reached.
-      const double off = 2 * std::hypot(bent[0] - straight[0], bent[1] - straight[1]);
-      bends_[id] = std::max(bends_[id], static_cast<float>(std::isfinite(off) ? off : 0));
-    });
+    find_bends(part);
+    find_folds(part);
   }
+}
+
+void SpaceJudge::find_bends(std::span<const std::uint32_t> ids) {
+  const Inverse to_grid(frame_);
+  Points middles;
+  const auto each_edge = [&](const auto& visit) {
+    for (const std::uint32_t id : ids) {
+      const std::uint32_t* corner = &mesh_.triangles[3 * std::size_t{id}];
+      for (std::size_t k = 0; k < 3; ++k) visit(id, corner[k], corner[(k + 1) % 3]);
+    }
+  };
+  each_edge([&](std::uint32_t, std::uint32_t a, std::uint32_t b) {
+    const Vector p = mesh_.vertex(a), q = mesh_.vertex(b);
+    middles.add({(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2});
+  });
+  frame_.space->from_space(middles.x, middles.y, middles.z);
+  std::size_t edge = 0;
+  each_edge([&](std::uint32_t id, std::uint32_t a, std::uint32_t b) {
+    const Vector p = vertex(on_map_, a), q = vertex(on_map_, b);
+    const auto straight = to_grid((p[0] + q[0]) / 2, (p[1] + q[1]) / 2);
+    const auto bent = to_grid(middles.x[edge], middles.y[edge]);
+    ++edge;
+    // The bend is largest near the middle: twice that much is never reached.
+    const double off = 2 * std::hypot(bent[0] - straight[0], bent[1] - straight[1]);
+    bends_[id] = std::max(bends_[id], static_cast<float>(std::isfinite(off) ? off : 0));
+  });
+}
+
+void SpaceJudge::find_folds(std::span<const std::uint32_t> ids) {
+  Points tops;
+  for (const std::uint32_t id : ids) {
+    const Vector foot = vertex(on_map_, mesh_.triangles[3 * std::size_t{id}]);
+    tops.add({foot[0], foot[1], foot[2] + kRise});
+  }
+  frame_.space->to_space(tops.x, tops.y, tops.z);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const std::uint32_t* corner = &mesh_.triangles[3 * std::size_t{ids[i]}];
+    const Vector at = mesh_.vertex(corner[0]), up = minus({tops.x[i], tops.y[i], tops.z[i]}, at);
+    const auto [p, q, r] = corners(ids[i]).at;
+    const Vector a = vertex(on_map_, corner[0]), b = vertex(on_map_, corner[1]), c = vertex(on_map_, corner[2]);
+    const double on_map = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    const double in_space = dot(cross(minus(q, p), minus(r, p)), up);
+    if (on_map != 0 && !(on_map * in_space > 0)) folded_.push_back(ids[i]);
+  }
+}
+
+std::vector<Offender> SpaceJudge::unfolding() const {
+  const Inverse to_grid(frame_);
+  std::vector<Offender> samples;
+  for (const std::uint32_t id : folded_) {
+    std::array<std::array<double, 2>, 3> at{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector p = vertex(on_map_, mesh_.triangles[3 * std::size_t{id} + k]);
+      at[k] = to_grid(p[0], p[1]);
+    }
+    double longest = 0;
+    Offender middle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto &p = at[k], &q = at[(k + 1) % 3];
+      const double length = std::hypot(q[0] - p[0], q[1] - p[1]);
+      if (length <= longest) continue;
+      longest = length;
+      middle = {static_cast<std::int32_t>(std::lround((p[0] + q[0]) / 2)),
+                static_cast<std::int32_t>(std::lround((p[1] + q[1]) / 2)), HUGE_VAL};
+    }
+    const bool is_inside = middle.col >= 0 && middle.row >= 0 && middle.col < field_.cols && middle.row < field_.rows;
+    if (longest >= 2 && is_inside) samples.push_back(middle);
+  }
+  return samples;
 }
 
 SpaceJudge::Corners SpaceJudge::corners(std::uint32_t id) const {
@@ -225,21 +273,12 @@ void SpaceJudge::judge_met(const Facet& facet, std::uint32_t id, const Verticals
   if (worst.error != 0) band.add_offender(id, worst);
 }
 
-double SpaceJudge::error_beside(const Facet& facet, std::uint32_t id, int col, int row, double tolerance,
-                                const Verticals& verticals) const {
+double SpaceJudge::error_beside(std::uint32_t id, int col, int row, const Verticals& verticals) const {
   const Corners corners = this->corners(id);
   const Verticals::Line& line = verticals.at(col, row);
-  const PlanTriangle& plan = facet.plan;
-  const double longest = std::max({plan.side(0), plan.side(1), plan.side(2)});
-  std::array<Vector, 3> away{};
-  for (std::size_t k = 0; k < 3; ++k) away[k] = minus(corners.at[k], line.sample);
-  const Vector normal = cross(minus(corners.at[1], corners.at[0]), minus(corners.at[2], corners.at[0]));
-  const double facing = dot(normal, line.up);
-  if (plan.double_area() >= tolerance * longest && facing != 0) return dot(normal, away[0]) / facing;
-  // Its plane means nothing: the nearest point on one of its edges, seen along the vertical.
   double least = INFINITY, error = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vector &p = away[k], edge = minus(away[(k + 1) % 3], p);
+    const Vector p = minus(corners.at[k], line.sample), edge = minus(corners.at[(k + 1) % 3], corners.at[k]);
     const double edge_up = dot(edge, line.up), p_up = dot(p, line.up);
     const double length = dot(edge, edge) - edge_up * edge_up;
     const double t = length > 0 ? std::clamp(-(dot(p, edge) - p_up * edge_up) / length, 0.0, 1.0) : 0;

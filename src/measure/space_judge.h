@@ -1,9 +1,9 @@
 // Judging in space: which triangle a sample's vertical meets, and where.
 //
 // The mesh is brought back to the map, where everything but heights is judged. An error is the way along the vertical
-// of a sample, the straight line of all heights there, from the sample to the plane of a triangle. The triangle is the
-// one that the vertical meets; where it meets none, because the mesh's border is a chord of a curved line of samples,
-// the one that covers the sample on the map.
+// of a sample, the straight line of all heights there, from the sample to the triangle that it meets. The border of a
+// mesh is a chord of a curved line of samples, so some verticals there meet no triangle: then the nearest point of the
+// triangle that covers the sample on the map says how high the mesh is.
 //
 // Edges are straight in space and slightly bent on the map, so a triangle may be met by samples that lie beside it
 // there. How far is told by the middle of its edges.
@@ -58,14 +58,18 @@ class SpaceJudge {
   SpaceJudge(const HeightField& field, const Mesh& mesh, const Mesh& on_map, std::span<const std::uint32_t> ids);
 
   Verticals verticals(const Band& band) const { return {frame_, mesh_.origin, band}; }
+  /// Triangles that look down in space though not on the map, or the other way round: an edge bends on the map by more
+  /// than the third corner is away from it.
+  std::uint64_t folds() const { return folded_.size(); }
+  /// A sample near the middle of the longest edge of each, where that is no corner: as a vertex it may unfold it.
+  std::vector<Offender> unfolding() const;
   /// By how many samples a triangle's edges bend on the map, at most.
   double bend(std::uint32_t id) const { return bends_[id]; }
   /// Offers the errors of the samples whose verticals meet the triangle, which `facet` is on the map.
   void judge_met(const Facet& facet, std::uint32_t id, const Verticals& verticals, Band& band) const;
-  /// mesh − sample, on the triangle's plane; along a triangle thinner than `tolerance` on the map at the nearest point
-  /// of it.
-  double error_beside(const Facet& facet, std::uint32_t id, int col, int row, double tolerance,
-                      const Verticals& verticals) const;
+  /// mesh − sample of a sample whose vertical meets no triangle: at the point of the triangle's border that is nearest,
+  /// seen along the vertical.
+  double error_beside(std::uint32_t id, int col, int row, const Verticals& verticals) const;
 
  private:
   using Vector = Verticals::Vector;
@@ -73,10 +77,15 @@ class SpaceJudge {
     std::array<Vector, 3> at;
   };
   Corners corners(std::uint32_t id) const;
+  void find_bends(std::span<const std::uint32_t> ids);
+  void find_folds(std::span<const std::uint32_t> ids);
 
+  const HeightField& field_;
   const Frame& frame_;
   const Mesh& mesh_;
+  const Mesh& on_map_;
   std::vector<float> bends_;  // by triangle
+  std::vector<std::uint32_t> folded_;
 };
 
 }  // namespace scarp::judge

@@ -34,9 +34,7 @@ Refiner::~Refiner() = default;
 Result<Refiner> Refiner::create(const HeightField& field, double outline_tolerance) try {
   if (field.samples == nullptr && field.source != nullptr)
     return fail(ErrorKind::kUsage, "a refiner needs the samples as one array of floats: read the raster as a whole");
-  if (field.frame.space)
-    return fail(ErrorKind::kUsage, "a refiner knows errors on a map: ask simplify() for a mesh in space");
-  auto samples = Samples::of(field);
+  auto samples = Samples::to_refine(field, 1);
   if (!samples) return tl::unexpected(samples.error());
   auto domain = build_domain(samples->raster(), outline_tolerance, field.frame);
   if (!domain) return tl::unexpected(domain.error());
@@ -55,7 +53,9 @@ double Refiner::max_error() const { return impl_->refinement.worst_error(); }
 std::uint64_t Refiner::vertex_count() const { return impl_->domain.tin.vertex_count() - impl_->domain.unused; }
 std::uint64_t Refiner::triangle_count() const { return impl_->refinement.triangle_count(); }
 Mesh Refiner::mesh() const {
-  return freeze(SampleHeights(impl_->raster), impl_->domain.tin, {}, impl_->field.frame, true);
+  const HeightField& field = impl_->field;
+  const Raster given{field.frame.space ? field.samples : impl_->raster.samples, field.cols, field.rows};
+  return freeze(SampleHeights(given), impl_->domain.tin, {}, field.frame, true);
 }
 
 }  // namespace scarp

@@ -456,9 +456,15 @@ class EngineRun {
 
   /// Inserts the samples that break the bound in the judge's eyes, as far as the budgets allow, and refines on. Returns
   /// false if that cannot help.
-  Result<bool> mend(const std::vector<Offender>& offenders, Simplified& result) {
+  Result<bool> mend(std::vector<Offender> offenders, Simplified& result) {
     // A vertex among them: its own rounding breaks the bound, and no other vertex can mend that.
     const auto is_vertex = [this](const Offender& o) { return refinement_->gain_at({o.col, o.row}) == 0; };
+    // Where a fold is to go, any sample may be named.
+    const auto is_useless = [&](const Offender& o) {
+      return std::isinf(o.error) && (!raster_.is_valid({o.col, o.row}) || is_vertex(o));
+    };
+    if (field_.frame.space)
+      offenders.erase(std::remove_if(offenders.begin(), offenders.end(), is_useless), offenders.end());
     const auto is_locked = [this](const Offender& o) {
       return !border_.empty() && (o.col == 0 || o.row == 0 || o.col == raster_.cols - 1 || o.row == raster_.rows - 1);
     };
@@ -481,8 +487,8 @@ class EngineRun {
     return true;
   }
 
-  /// Judges the mesh as it will be written. Where float32 positions or the frame's curvature cost the bound, the
-  /// samples that break it are inserted and refinement goes on.
+  /// Judges the mesh as it will be written. Where float32 positions or the frame's curvature cost the bound, or fold the
+  /// mesh in space, the samples that break it are inserted and refinement goes on.
   Result<void> prove_and_mend(Simplified& result) {
     for (;;) {
       const auto start = Clock::now();
@@ -490,11 +496,14 @@ class EngineRun {
       if (!proof) return tl::unexpected(proof.error());
       result.seconds_measure += seconds_since(start);
       record(result, "prove", start);
-      if (!exact_ && !result.measurement.is_sound())
+      const bool is_sound = exact_ || result.measurement.is_sound();
+      // In space a fold goes where its longest edge is split.
+      const bool may_unfold = field_.frame.space && result.measurement.down_facing > 0 && !proof->offenders.empty();
+      if (!is_sound && !may_unfold)
         return fail(ErrorKind::kPromise,
                     "the mesh folds over itself: in this frame positions are rounded to float32, or edges are straight "
                     "where the grid's are curved; ask for a smaller error, or write in the local or grid frame");
-      if (proof->kept) return {};
+      if (proof->kept && is_sound) return {};
       if (!piece_) return fail(exact_ ? ErrorKind::kInternal : ErrorKind::kPromise, proof->broken);
       if (!refinement_)
         refinement_.emplace(criterion_.metric(), piece_->tin, options_.strategy.algorithm, options_.strategy.edges,
@@ -504,10 +513,13 @@ class EngineRun {
       if (!mended) return tl::unexpected(mended.error());
       if (!*mended)
         return fail(ErrorKind::kPromise,
-                    proof->broken +
-                        ": positions in the mesh are rounded to float32, which alone costs that much; ask for a larger "
-                        "error, or "
-                        "write OBJ or PLY, whose positions are double, or use the local or grid frame");
+                    (proof->kept ? "the mesh folds over itself" : proof->broken) +
+                        (rounds_offsets(field_, options_)
+                             ? ": positions in the mesh are rounded to float32, which alone costs that much; ask for a "
+                               "larger error, or write OBJ or PLY, whose positions are double, or use the local or "
+                               "grid frame"
+                             : ": positions in the mesh are rounded to double, which alone costs that much; ask for a "
+                               "larger error, or use the local or grid frame"));
       record(result, "refine", again);
       freeze_into(result, false);
       order(result);

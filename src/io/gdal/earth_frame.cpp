@@ -153,7 +153,7 @@ Axes axes_of(const EarthTransform& way, const Georeference& geo) {
 }
 
 /// kUsage unless a net of points over the raster, its edges included, lies within 60 degrees of its centre, keeps one
-/// orientation, and comes back to where it was.
+/// orientation, comes back to where it was, and has less than half of all longitudes where these are its x.
 Result<void> verify(const EarthTransform& way, const Axes& axes, const Georeference& geo, const std::string& path) {
   constexpr int kNet = 32;
   constexpr double kLeastCosine = 0.5, kBack = 1.0 / 1024;
@@ -201,10 +201,12 @@ Result<void> verify(const EarthTransform& way, const Axes& axes, const Georefere
               std::abs(back.y[k] - map.y[k]) <= kBack * cell_y;
   }
   const int all = 2 * across * down;
-  if ((positive == all || negative == all) && is_back) return {};
+  const bool is_wide =
+      geo.geographic && (std::abs(a[1]) * geo.cols + std::abs(a[2]) * geo.rows) * geo.unit_in_metres > std::numbers::pi;
+  if ((positive == all || negative == all) && is_back && !is_wide) return {};
   return fail(ErrorKind::kUsage,
-              fmt::format("{}: the raster holds a pole or goes all the way around the earth, where places have no one "
-                          "column and row; cut that off with --te",
+              fmt::format("{}: the raster holds a pole or goes more than half around the earth, where places have no "
+                          "one column and row; cut that off with --te",
                           path));
 }
 
@@ -212,10 +214,10 @@ void warn_of_heights(const SpaceCrs& crs, bool is_applied, RasterInfo& info) {
   if (crs.is_ellipsoidal || is_applied) return;
   info.warnings.push_back(
       crs.vertical.empty()
-          ? "heights are taken as heights above the ellipsoid; those above sea level lie up to 107 m beside it: name "
-            "their CRS first, as with gdal_edit -a_srs EPSG:4326+5773"
+          ? "heights are taken as heights above the ellipsoid of the raster's CRS; if they are above sea level, which "
+            "lies up to 107 m beside it, name their CRS first, as with gdal_edit -a_srs EPSG:4326+5773"
           : fmt::format("heights are above {}, for which PROJ has no grid on this machine: they are taken as heights "
-                        "above the ellipsoid",
+                        "above the ellipsoid of the raster's CRS",
                         crs.vertical));
 }
 

@@ -32,8 +32,14 @@ struct Plan {
 constexpr double kMetresPerFoot = 0.3048;
 
 /// In space there is one unit for all.
-Result<void> check_unit(const Frame& frame, const RasterInfo& info) {
-  if (!frame.space || !is_foot(info.unit)) return {};
+Result<void> check_unit(const Frame& frame, const Georeference& geo, RasterInfo& info) {
+  if (!frame.space) return {};
+  if (info.unit.empty() && geo.is_in_feet()) {
+    info.warnings.push_back(fmt::format(
+        "z is taken for metres though x and y are in {}: if it is not, --z-scale {:.6g} makes metres of it",
+        geo.unit_name, kMetresPerFoot));
+  }
+  if (!is_foot(info.unit)) return {};
   return fail(ErrorKind::kUsage,
               fmt::format("{}: z is in {}, and a frame in space is in metres: give --z-scale {:.6g}", info.path,
                           info.unit, kMetresPerFoot));
@@ -115,7 +121,7 @@ Result<OpenedRaster> open(Session& session, const std::string& path, const ReadO
   auto frame = choose_frame(geo, options, plan->info);
   if (!frame) return tl::unexpected(frame.error());
   scale_heights(options, *plan);
-  if (auto checked = check_unit(*frame, plan->info); !checked) return tl::unexpected(checked.error());
+  if (auto checked = check_unit(*frame, geo, plan->info); !checked) return tl::unexpected(checked.error());
   warn_of_units(*frame, geo, plan->info);
   OpenedRaster opened;
   opened.field.cols = geo.cols;
