@@ -40,7 +40,7 @@ _scarp() {
       return
       ;;
     "simplify --crs" | "measure --crs" | "info --crs")
-      COMPREPLY=($(compgen -W 'source local grid EPSG:' -- "$current"))
+      COMPREPLY=($(compgen -W 'source local enu grid EPSG:' -- "$current"))
       return
       ;;
     "simplify --up" | "measure --up")

@@ -20,8 +20,8 @@ class PointTransform {
   virtual bool apply(std::span<double> x, std::span<double> y) const = 0;
 };
 
-/// A map from the raster's x, y and heights into space, where the earth is round. Along a vertical, x and y fixed, it is
-/// linear in the height: verticals are straight lines. Implementations are immutable and may be called from several
+/// A map from the raster's x, y and heights into space, where the earth is round. Along a vertical, x and y fixed, it
+/// is linear in the height: verticals are straight lines. Implementations are immutable and may be called from several
 /// threads at once.
 class SpaceTransform {
  public:
@@ -49,10 +49,10 @@ class SpaceTransform {
 /// DEFAULT: the grid frame of a raster without georeference, see grid_frame().
 struct Frame {
   enum class Kind {
-    kGrid,       ///< x = col, y = rows − 1 − row, cell size 1
-    kSource,     ///< the raster's own CRS
-    kLocal,      ///< metres east and north of the raster's centre, or feet, or cells; affine in the grid
-    kProjected,  ///< another CRS, reached through `transform`
+    kGrid,        ///< x = col, y = rows − 1 − row, cell size 1
+    kSource,      ///< the raster's own CRS
+    kLocal,       ///< metres east and north of the raster's centre, or feet, or cells; affine in the grid
+    kProjected,   ///< another CRS, reached through `transform`
     kGeocentric,  ///< earth-centred, earth-fixed metres, reached through `space`
     kTangent,     ///< metres east, north and up of the raster's centre on the ellipsoid, reached through `space`
   };

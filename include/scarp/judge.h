@@ -85,9 +85,10 @@ struct Judgement {
 /// a source, and sources of weights and tolerances, are read in bands of rows; where some errors are above their bound,
 /// twice. Fails with kUsage for weights or tolerances of another size than the field, both at once, a max_error below
 /// 0, another number of channels than the mesh has, channels or an array of weights or tolerances beside a field with a
-/// source, and an ignored sample outside the raster; and as measure() and the sources do. Memory: as measure(); beside
-/// weights, an array of tolerances, channels or keep_errors 4 bytes a sample, 8 more with channels, 4 more where
-/// samples in memory are ignored. Cost: as measure(), once for the heights and once a channel.
+/// source, channels beside a frame in space, and an ignored sample outside the raster; and as measure() and the sources
+/// do. Memory: as measure(); beside weights, an array of tolerances, channels or keep_errors 4 bytes a sample, 8 more
+/// with channels, 4 more where samples in memory are ignored. Cost: as measure(), once for the heights and once a
+/// channel.
 Result<Judgement> judge_mesh(const HeightField& field, const Mesh& mesh, const JudgeOptions& options = {});
 
 /// The errors that take_error_raster() returns.

@@ -52,7 +52,8 @@ struct Offender {
 };
 
 /// Each sample is counted once; a sample on a shared edge takes the larger error of its triangles.
-/// Errors are vertical, mesh − sample, in z units.
+/// Errors are vertical, mesh − sample, in z units. In a frame in space they are ways along a sample's vertical to the
+/// triangle that it meets; where it meets none, to the nearest point of the triangle that covers the sample on the map.
 struct Measurement {
   std::uint64_t vertices = 0, triangles = 0;
 
@@ -73,15 +74,15 @@ struct Measurement {
   double p50 = 0, p95 = 0, p99 = 0, p999 = 0;
 
   // Topology and shape; zero where MeasureOptions::topology is off.
-  double min_angle = 0;                       ///< degrees, smallest angle of any triangle seen from above
+  double min_angle = 0;                       ///< degrees, smallest angle of any triangle seen from above (the centre)
   std::array<double, 3> angle_percentiles{};  ///< P1, P5, P50 of the triangles' smallest angles, degrees
-  std::uint64_t down_facing = 0;              ///< triangles clockwise from above (in an open mesh: flipped)
-  std::uint64_t degenerate = 0;               ///< triangles without area in 3-D
-  std::uint64_t misoriented_edges = 0;        ///< edges whose two triangles run along them in the same direction
-  std::uint64_t non_manifold_edges = 0;       ///< edges with more than two triangles
-  std::uint64_t open_edges = 0;               ///< edges with one triangle
-  std::uint64_t border_loops = 0;             ///< closed loops that the open edges form
-  std::uint64_t t_junctions = 0;              ///< vertices inside an open edge of another triangle
+  std::uint64_t down_facing = 0;  ///< triangles clockwise from above (in an open mesh: flipped), on the map or in space
+  std::uint64_t degenerate = 0;   ///< triangles without area in 3-D
+  std::uint64_t misoriented_edges = 0;   ///< edges whose two triangles run along them in the same direction
+  std::uint64_t non_manifold_edges = 0;  ///< edges with more than two triangles
+  std::uint64_t open_edges = 0;          ///< edges with one triangle
+  std::uint64_t border_loops = 0;        ///< closed loops that the open edges form
+  std::uint64_t t_junctions = 0;         ///< vertices inside an open edge of another triangle
   /// Open edges of an open mesh that border on surface of the domain: the mesh has a hole there. Lattice lines cut each
   /// edge into pieces; the test point lies beside the middle of each piece, 1/64 sample outside the edge (4
   /// coverage_tolerance if that is more). In a frame with a transform, edges at vertices without an inverse are left

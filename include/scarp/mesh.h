@@ -14,9 +14,9 @@ namespace scarp {
 
 /// A triangle mesh. Vertex v lies at origin + (positions[3v], positions[3v+1], positions[3v+2]); x east, y north, z up.
 ///
-/// Meshes made by simplify() have an origin with z = 0, so z is the sample itself. Their x and y are exactly float32
-/// values unless the options ask for double. Meshes read from files keep the file's precision, so that measuring them
-/// rounds nothing.
+/// Meshes made by simplify() have an origin with z = 0, so z is the sample itself, but for frames in space, where "up"
+/// is away from the earth. Their x and y are exactly float32 values unless the options ask for double. Meshes read from
+/// files keep the file's precision, so that measuring them rounds nothing.
 struct Mesh {
   std::array<double, 3> origin{0, 0, 0};
   std::vector<double> positions;         ///< 3 per vertex: x, y, z offsets from origin

@@ -34,8 +34,8 @@ struct PreviewOptions {
 /// Hillshade of the field with the mesh's edges and the marks over it, in the shape that it has on the ground. Edges of
 /// triangles fade as these come down to a few pixels. Nodata samples are white. Tints tell heights; below 0 they are
 /// blue, but in fields without a georeference. A picture of 300 pixels and more has a legend below. Streamed samples
-/// are read once, from the top; memory: 112 bytes a pixel. Fails with kInput for fewer than 2×2 samples, and as the
-/// field's source does.
+/// are read once, from the top; memory: 112 bytes a pixel. Fails with kInput for fewer than 2×2 samples, with
+/// kUsage for a frame in space, and as the field's source does.
 Result<Picture> draw_preview(const HeightField& field, const Mesh& mesh, const PreviewOptions& options = {});
 
 struct ErrorMapOptions {
@@ -67,11 +67,12 @@ class ErrorMap {
 /// Unit normals of the field's surface, in its frame, as a tangent-space normal map (GlbOptions::normal_map): red x,
 /// green y, blue z, each (n + 1) / 2 of 255. Covers the raster's image, `side` pixels on its longer side, at most one a
 /// sample; a pixel is the mean of the normals of the samples below it. Nodata is (0, 0, 1). Streamed samples are read
-/// once, from the top. Fails as the field's source does, and with kUsage for a side below 1.
+/// once, from the top. Fails as the field's source does, and with kUsage for a side below 1 and a frame in space.
 Result<Picture> draw_normal_map(const HeightField& field, int side);
 
 /// The approximation as an image of one pixel a sample, Gouraud-shaded: the mesh's colours, interpolated in each
 /// triangle; without colours its hillshade. White outside the mesh. The mesh lies in the field's frame.
+/// REQUIRES: that is no frame in space.
 Picture draw_gouraud(const HeightField& field, const Mesh& mesh);
 
 /// Channels as a picture: three as red, green, blue, else the first as grey; 8-bit values as they are, others stretched

@@ -25,7 +25,7 @@ struct PrintOptions {
   std::optional<double> thickness = std::nullopt, printed_thickness = std::nullopt;
   /// The longest side in millimetres, above 0. DEFAULT: none, the coordinates are those of the frame.
   std::optional<double> size = std::nullopt;
-  double exaggerate = 1;      ///< factor of heights, above 0
+  double exaggerate = 1;  ///< factor of heights, above 0
   /// The max error on the print, in print units, above 0; beside Goals::max_error, the stricter one counts. DEFAULT:
   /// none.
   std::optional<double> max_error = std::nullopt;
@@ -47,13 +47,13 @@ struct PrintTile {
 
 /// A print, and facts about it.
 struct Print {
-  double base = 0;              ///< height of the underside, in z units
-  Placement placement;          ///< of all print tiles; used where PrintOptions::is_placed()
+  double base = 0;               ///< height of the underside, in z units
+  Placement placement;           ///< of all print tiles; used where PrintOptions::is_placed()
   std::vector<PrintTile> tiles;  ///< row by row; tiles without a triangle are left out
   int empty_tiles = 0;           ///< number of tiles left out
-  double max_error = 0;         ///< of the tops as they are to be written, against the samples, in z units
-  std::uint64_t uncovered = 0;  ///< valid samples in gaps
-  HeightRange heights;          ///< of the samples
+  double max_error = 0;          ///< of the tops as they are to be written, against the samples, in z units
+  std::uint64_t uncovered = 0;   ///< valid samples in gaps
+  HeightRange heights;           ///< of the samples
 
   std::uint64_t vertices() const;   ///< of all print tiles
   std::uint64_t triangles() const;  ///< of all print tiles
@@ -78,9 +78,9 @@ Result<double> estimate_print_scale(const HeightField& field, const PrintOptions
 ///
 /// Fails with kUsage for options out of range or that cannot be combined (the sentence begins with the option's name,
 /// such as "base=300 is not …"; with "print tiles: " if the print cannot be cut so), and for several tiles in a frame
-/// that is not affine; with kPromise if samples have no top above them and no gap accounts for it, and if float32
-/// cannot hold the error; as simplify(), build_solid() and measure() do. Cost: up to four runs of simplify(), one or
-/// two as a rule, each with a measure() of the print.
+/// that is not affine, and for a frame in space; with kPromise if samples have no top above them and no gap accounts
+/// for it, and if float32 cannot hold the error; as simplify(), build_solid() and measure() do. Cost: up to four runs
+/// of simplify(), one or two as a rule, each with a measure() of the print.
 Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOptions& print, SimplifyOptions options);
 
 }  // namespace scarp

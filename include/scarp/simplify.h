@@ -193,7 +193,8 @@ Result<Simplified> simplify(const HeightField& field, const SimplifyOptions& opt
 /// The same towards goals alone: `simplify(field, {.max_error = 1.5})`.
 Result<Simplified> simplify(const HeightField& field, const Goals& goals);
 
-/// The same engine, one vertex at a time, by heights alone: channels are not looked at. Works on a copy of nothing:
+/// The same engine, one vertex at a time, by heights alone: channels are not looked at, and of a frame in space the
+/// heights above the tangent plane at its centre. Works on a copy of nothing:
 /// the samples must stay alive.
 class Refiner {
  public:

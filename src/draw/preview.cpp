@@ -183,6 +183,7 @@ std::vector<draw::Name> draw_marks(const std::vector<Mark>& marks, const MapPlac
 
 Result<Picture> draw_preview(const HeightField& field, const Mesh& mesh, const PreviewOptions& options) {
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
+  if (field.frame.space) return fail(ErrorKind::kUsage, "a preview shows a map: the field's frame is in space");
   const int side = std::max(options.max_side, 1);
   draw::Ground ground = draw::ground_of(field.frame, field.cols, field.rows);
   const bool has_metres =

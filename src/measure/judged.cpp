@@ -288,6 +288,8 @@ Result<void> check_request(const HeightField& field, const Mesh& mesh, const Jud
         ErrorKind::kUsage,
         "channels and arrays of weights or tolerances go with samples in memory: read the raster as a whole, or "
         "give weights and tolerances a source");
+  if (!field.channels.empty() && field.frame.space)
+    return fail(ErrorKind::kUsage, "channels beside a frame in space: an error in space is of heights alone");
   if (!field.channels.empty() && field.channels.size() != static_cast<std::size_t>(mesh.channel_count))
     return fail(ErrorKind::kUsage,
                 fmt::format("the mesh has {} channels, the field {}", mesh.channel_count, field.channels.size()));

@@ -101,8 +101,7 @@ Result<Mesh> bring_to_map(const HeightField& field, const Mesh& mesh) {
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     const auto [col, row] = to_grid(at.x[v], at.y[v]);
     if (!std::isfinite(col) || !std::isfinite(row) || !std::isfinite(at.z[v]))
-      return fail(ErrorKind::kInput,
-                  fmt::format("vertex {} of the mesh has no place in the raster's coordinates", v));
+      return fail(ErrorKind::kInput, fmt::format("vertex {} of the mesh has no place in the raster's coordinates", v));
     const auto [x, y] = field.frame.apply_affine(snapped(col, noise), snapped(row, noise));
     flat.positions.insert(flat.positions.end(), {x, y, at.z[v]});
   }

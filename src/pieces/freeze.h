@@ -34,8 +34,9 @@ class SampleHeights {
 };
 
 /// The triangles that are not outside, with the vertices they use, in the frame: offsets from frame_origin(), or from
-/// that of a frame in space, rounded to float32 if asked; heights as they are, but in space. Counter-clockwise from above whatever way the frame turns. Ids follow the
-/// order of insertion. `lattice`: of the vertices; their heights come before those of samples.
+/// that of a frame in space, rounded to float32 if asked; heights as they are, but in space. Counter-clockwise from
+/// above whatever way the frame turns. Ids follow the order of insertion. `lattice`: of the vertices; their heights
+/// come before those of samples.
 Mesh freeze(const SampleHeights& heights, const Triangulation& tin, const VertexLattice& lattice, const Frame& frame,
             bool round_to_float32);
 

@@ -89,6 +89,7 @@ class NormalMap {
 }  // namespace
 
 Result<Picture> draw_normal_map(const HeightField& field, int side) try {
+  if (field.frame.space) return fail(ErrorKind::kUsage, "a normal map is of a map: the field's frame is in space");
   if (side < 1) return fail(ErrorKind::kUsage, "a normal map has at least one pixel on its longer side");
   const int longer = std::max(field.cols, field.rows), most = std::min(side, longer);
   const auto pixels = [&](int samples) {

@@ -254,6 +254,7 @@ Result<double> estimate_print_scale(const HeightField& field, const PrintOptions
 
 Result<PrintedTerrain> simplify_for_print(OwnedHeightField& field, const PrintOptions& print, SimplifyOptions options) {
   if (auto sound = check_print(print); !sound) return tl::unexpected(sound.error());
+  if (field.frame.space) return fail(ErrorKind::kUsage, "a print stands on a flat base: choose a frame on the map");
   // The mesh may come out smaller than the samples, within a cutline; then the scale is larger and the run repeated.
   std::optional<double> asked = options.goals.max_error;
   const auto tighten = [&](double scale) {

@@ -326,7 +326,8 @@ Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, co
   std::optional<WindowedVerdict> rows;
   if (is_tallied) judge.on_row = tally.emplace(field, options.goals.norm).adder(field.height_scale);
   if (windowed != nullptr) {
-    rows.emplace(field, *windowed, SampleVerdict(criterion, exact, 1, largest_height(field, result.mesh, {}), result, proof));
+    rows.emplace(field, *windowed,
+                 SampleVerdict(criterion, exact, 1, largest_height(field, result.mesh, {}), result, proof));
     judge.on_row = [&rows](int row, std::span<const float> errors) { rows->add(row, errors); };
   }
   auto measured = measure(field, result.mesh, judge);
@@ -353,7 +354,8 @@ Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, co
     result.judged_rmse = m.rmse;
     // The judge's own double arithmetic rounds: the exact proof is the engine's, this is the independent check of it.
     const bool is_promised = result.stop == StopReason::kMaxError;
-    const double rounding = kArithmetic * (criterion.bound().value_or(0) + largest_height(field, result.mesh, m.heights));
+    const double rounding =
+        kArithmetic * (criterion.bound().value_or(0) + largest_height(field, result.mesh, m.heights));
     if (is_promised && (!(m.max_error <= *criterion.bound() + rounding) || m.uncovered > 0))
       proof.broken = describe_breach(m, options);
   }

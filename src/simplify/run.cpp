@@ -487,8 +487,8 @@ class EngineRun {
     return true;
   }
 
-  /// Judges the mesh as it will be written. Where float32 positions or the frame's curvature cost the bound, or fold the
-  /// mesh in space, the samples that break it are inserted and refinement goes on.
+  /// Judges the mesh as it will be written. Where float32 positions or the frame's curvature cost the bound, or fold
+  /// the mesh in space, the samples that break it are inserted and refinement goes on.
   Result<void> prove_and_mend(Simplified& result) {
     for (;;) {
       const auto start = Clock::now();

@@ -18,7 +18,8 @@ constexpr double kDegree = std::numbers::pi / 180;
 /// The four corners of a field of one height, as two triangles in space.
 Mesh corners_of(const HeightField& field, double height) {
   std::vector<double> x, y, z(4, height);
-  for (const auto& [col, row] : {std::pair{0, 0}, {field.cols - 1, 0}, {0, field.rows - 1}, {field.cols - 1, field.rows - 1}}) {
+  for (const auto& [col, row] :
+       {std::pair{0, 0}, {field.cols - 1, 0}, {0, field.rows - 1}, {field.cols - 1, field.rows - 1}}) {
     const auto at = field.frame.apply_affine(col, row);
     x.push_back(at[0]);
     y.push_back(at[1]);
@@ -102,6 +103,59 @@ TEST(space, simplify_keeps_its_promise_on_a_round_earth) {
   }
 }
 
+TEST(space, folds_are_told_and_mended) {
+  // On a parallel at 60 degrees a chord of a degree runs some 100 m north of its middle, beyond the row above it.
+  Field field = level(401, 401, 0);
+  const double cell = 0.0025 / 4;
+  field.samples[399 * 401 + 200] = 200;
+  HeightField view = on_ball(field, 10, 60, cell);
+  view.frame = testing::ball_frame(10, 60, 4 * cell, 401, 401);
+  view.frame.affine[5] = -cell / 2;
+  std::vector<double> x, y, z;
+  const std::array<std::array<int, 2>, 5> at{{{0, 0}, {400, 0}, {0, 400}, {400, 400}, {200, 399}}};
+  for (const auto& [col, row] : at) {
+    const auto place = view.frame.apply_affine(col, row);
+    x.push_back(place[0]);
+    y.push_back(place[1]);
+    z.push_back(field.samples[static_cast<std::size_t>(row * 401 + col)]);
+  }
+  view.frame.space->to_space(x, y, z);
+  Mesh mesh;
+  for (std::size_t k = 0; k < at.size(); ++k) mesh.positions.insert(mesh.positions.end(), {x[k], y[k], z[k]});
+  mesh.triangles = {4, 2, 3, 4, 3, 1, 4, 1, 0, 4, 0, 2};
+  const auto folded = measure(view, mesh);
+  ASSERT_TRUE(folded) << folded.error().message;
+  EXPECT_EQ(folded->down_facing, 1u);
+  EXPECT_FALSE(folded->is_sound());
+  const auto made = simplify(view, {.goals = {.max_error = 150.0}});
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_TRUE(made->measurement.is_sound());
+  EXPECT_LE(made->measurement.max_error, 150);
+}
+
+TEST(space, verticals_that_meet_no_triangle_are_judged_at_the_border) {
+  const Field field = level(101, 101, 0);
+  const HeightField view = on_ball(field, 10, 60, 0.005);
+  const auto judged = measure(view, corners_of(view, 0));
+  ASSERT_TRUE(judged);
+  EXPECT_EQ(judged->samples, 101u * 101u) << "the southern parallel's chord runs north of its samples";
+  EXPECT_EQ(judged->uncovered, 0u);
+}
+
+TEST(space, a_refiner_sees_the_sag) {
+  const Field field = level(101, 101, 0);
+  const HeightField view = on_ball(field, 0, 0.5, 0.01);
+  auto refiner = Refiner::create(view);
+  ASSERT_TRUE(refiner);
+  const double half = 0.5 * kDegree;
+  EXPECT_NEAR(refiner->max_error(), testing::kBallRadius * (1 - std::cos(half) * std::cos(half)), 1);
+  const Mesh mesh = refiner->mesh();
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    const auto at = mesh.vertex(v);
+    EXPECT_NEAR(std::hypot(at[0], at[1], at[2]), testing::kBallRadius, 0.01);
+  }
+}
+
 TEST(space, a_smooth_earth_takes_triangles_for_its_own_curve) {
   // 4 degrees of a level sphere: on a map two triangles would do, at any bound.
   const Field field = level(401, 401, 0);
@@ -109,7 +163,8 @@ TEST(space, a_smooth_earth_takes_triangles_for_its_own_curve) {
   const auto made = simplify(view, {.goals = {.max_error = 20.0}});
   ASSERT_TRUE(made) << made.error().message;
   EXPECT_LE(made->measurement.max_error, 20);
-  // An edge of s metres sags s² / 8R: a right triangle's longest may have 32 km, that is 775 triangles of half its height.
+  // An edge of s metres sags s² / 8R: a right triangle's longest may have 32 km, that is 775 triangles of half its
+  // height.
   EXPECT_GT(made->mesh.triangle_count(), 500u);
   EXPECT_LT(made->mesh.triangle_count(), 1500u);
 }
@@ -123,8 +178,7 @@ TEST(space, normals_point_away_from_the_earth) {
   ASSERT_TRUE(made) << made.error().message;
   for (std::size_t v = 0; v < made->mesh.vertex_count(); ++v) {
     const auto at = made->mesh.vertex(v);
-    for (std::size_t k = 0; k < 3; ++k)
-      EXPECT_NEAR(made->mesh.normals[3 * v + k], at[k] / testing::kBallRadius, 2e-4);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(made->mesh.normals[3 * v + k], at[k] / testing::kBallRadius, 2e-4);
   }
 }
 

@@ -253,6 +253,75 @@ TEST_F(RasterFrames, AnotherCrsThroughProj) {
   EXPECT_NEAR(origin[0], 578854.71, 0.01) << "as gdaltransform has it";
 }
 
+TEST_F(RasterFrames, EarthCentredThroughProj) {
+  const std::string path = placed("EPSG:4326", "9.98, 0.001, 0, 45.0155, 0, -0.001");
+  const auto read = read_height_field(path, in("EPSG:4978"));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->frame.kind, Frame::Kind::kGeocentric);
+  EXPECT_EQ(read->frame.crs, "EPSG:4978");
+  EXPECT_FALSE(read->frame.is_affine());
+  EXPECT_TRUE(warns(read->info, "ellipsoid"));
+  ASSERT_NE(read->frame.space, nullptr);
+  std::vector<double> x{0, 90, 0, 30}, y{0, 0, 90, 45}, z{0, 100, 0, 1000};
+  ASSERT_TRUE(read->frame.space->to_space(x, y, z));
+  EXPECT_NEAR(x[0], 6378137, 1e-6);
+  EXPECT_NEAR(y[1], 6378237, 1e-6);
+  EXPECT_NEAR(z[2], 6356752.3142, 1e-4);
+  EXPECT_NEAR(std::hypot(x[3], y[3]), 4518297.9857, 1e-3) << "(N + h) cos 45";
+  ASSERT_TRUE(read->frame.space->from_space(x, y, z));
+  EXPECT_NEAR(x[3], 30, 1e-11);
+  EXPECT_NEAR(y[3], 45, 1e-11);
+  EXPECT_NEAR(z[3], 1000, 1e-6);
+  for (const double coordinate : read->frame.space->origin()) EXPECT_EQ(coordinate, std::floor(coordinate));
+  EXPECT_FALSE(place_in_source(read->frame, read->info, read->rows));
+}
+
+TEST_F(RasterFrames, EastNorthUpOfTheCentre) {
+  const std::string path = placed("EPSG:4326", "9.98, 0.001, 0, 45.0155, 0, -0.001");
+  const auto read = read_height_field(path, in("enu"));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->frame.kind, Frame::Kind::kTangent);
+  EXPECT_EQ(read->frame.crs, "");
+  const auto [lon, lat] = read->frame.apply_affine(kCols / 2, kRows / 2);
+  std::vector<double> x{lon, lon, lon + 0.001, lon}, y{lat, lat, lat, lat + 0.001}, z{0, 250, 0, 0};
+  ASSERT_TRUE(read->frame.space->to_space(x, y, z));
+  EXPECT_NEAR(std::hypot(x[0], y[0], z[0]), 0, 1e-8);
+  EXPECT_NEAR(z[1], 250, 1e-8);
+  EXPECT_NEAR(x[2], 78.85, 0.05) << "east";
+  EXPECT_NEAR(y[3], 111.13, 0.05) << "north";
+  EXPECT_NEAR(z[3], -111.13 * 111.13 / 2 / 6371000, 1e-5) << "below the tangent plane";
+  const auto m = read->frame.space->to_earth();
+  std::vector<double> u{lon}, v{lat}, h{250};
+  const auto earth = read_height_field(path, in("EPSG:4978"));
+  ASSERT_TRUE(earth->frame.space->to_space(u, v, h));
+  EXPECT_NEAR(m[0] * x[1] + m[1] * y[1] + m[2] * z[1] + m[3], u[0], 1e-6);
+  EXPECT_NEAR(m[4] * x[1] + m[5] * y[1] + m[6] * z[1] + m[7], v[0], 1e-6);
+  EXPECT_NEAR(m[8] * x[1] + m[9] * y[1] + m[10] * z[1] + m[11], h[0], 1e-6);
+}
+
+TEST_F(RasterFrames, LongitudesComeBackAsTheRasterHasThem) {
+  // Across the 180th meridian, and from 0 to 360.
+  for (const std::string west : {"179.985", "269.985"}) {
+    const auto read = read_height_field(placed("EPSG:4326", west + ", 0.001, 0, -16, 0, -0.001"), in("EPSG:4978"));
+    ASSERT_TRUE(read) << read.error().message;
+    const auto at = read->frame.apply_affine(kCols - 1, 0);
+    std::vector<double> x{at[0]}, y{at[1]}, z{5};
+    ASSERT_TRUE(read->frame.space->to_space(x, y, z));
+    ASSERT_TRUE(read->frame.space->from_space(x, y, z));
+    EXPECT_NEAR(x[0], at[0], 1e-9);
+  }
+}
+
+TEST_F(RasterFrames, WhatIsTooLargeForSpaceIsRefused) {
+  for (const auto& [place, words] : {std::pair{"-180, 9, 0, 90, 0, -6", "60 degrees"},
+                                     std::pair{"-180, 9, 0, 90, 0, -0.1", "more than half around the earth"}}) {
+    const auto read = read_height_field(placed("EPSG:4326", place), in("enu"));
+    ASSERT_FALSE(read) << place;
+    EXPECT_EQ(read.error().kind, ErrorKind::kUsage);
+    EXPECT_NE(read.error().message.find(words), std::string::npos) << read.error().message;
+  }
+}
+
 TEST_F(RasterFrames, TransformsAgreeAcrossThreads) {
   const auto read = read_height_field(placed("EPSG:4326", "9.98, 0.001, 0, 45.0155, 0, -0.001"), in("EPSG:3035"));
   ASSERT_TRUE(read) << read.error().message;

@@ -50,7 +50,8 @@ constexpr OptionRow kFileRows[] = {
      .type = kFile,
      .is_repeatable = true,
      .is_required = true,
-     .help = "Raster of heights, or several, as for simplify; scattered points; or a mesh (.glb, .obj, .ply, .stl ...).",
+     .help =
+         "Raster of heights, or several, as for simplify; scattered points; or a mesh (.glb, .obj, .ply, .stl ...).",
      .brief = "Raster of heights, scattered points, or a mesh"},
     {.id = kMesh,
      .name = "MESH",
@@ -228,9 +229,9 @@ constexpr OptionRow kFileRows[] = {
      .group = OptionGroup::kInput,
      .type = kText,
      .value = "CRS",
-     .choices = "source local grid EPSG:",
+     .choices = "source local enu grid EPSG:",
      .by_default = "what the mesh file says of itself, else what simplify does by default",
-     .help = "Coordinates of the mesh: source, local, grid or a CRS such as EPSG:32611.",
+     .help = "Coordinates of the mesh: source, local, enu, grid or a CRS such as EPSG:32611.",
      .brief = "Coordinates of the mesh, if its file does not tell"},
     {.id = kCrs,
      .name = "--crs",
@@ -238,9 +239,9 @@ constexpr OptionRow kFileRows[] = {
      .group = OptionGroup::kInput,
      .type = kText,
      .value = "CRS",
-     .choices = "source local grid EPSG:",
+     .choices = "source local enu grid EPSG:",
      .by_default = "what simplify does by default",
-     .help = "Coordinates that a mesh would have: source, local, grid or a CRS such as EPSG:32611."},
+     .help = "Coordinates that a mesh would have: source, local, enu, grid or a CRS such as EPSG:32611."},
     {.id = kData,
      .name = "--data",
      .commands = kPaper,
@@ -257,11 +258,13 @@ constexpr OptionRow kFileRows[] = {
      .group = OptionGroup::kOutput,
      .type = kText,
      .value = "CRS",
-     .choices = "source local grid EPSG:",
+     .choices = "source local enu grid EPSG:",
      .by_default = "local for .glb, .obj, .ply, .stl and .3mf; source for .2dm, .dxf and .gpkg, and for the others "
                    "unless the raster is in degrees; grid without georeference",
-     .help = "Coordinates of the mesh. local: metres around the raster's centre. source: the raster's own CRS. grid: "
-             "columns and rows. Or any CRS, such as EPSG:32611, at the price of judging in it.",
+     .help =
+         "Coordinates of the mesh. local: metres around the raster's centre. source: the raster's own CRS. grid: "
+         "columns and rows. Or any CRS, such as EPSG:32611, at the price of judging in it. EPSG:4978: earth-centred. "
+         "enu: metres east, north and up of the centre, with the earth's curve.",
      .brief = "Coordinates: source, local, grid or a CRS such as EPSG:32611"},
     {.id = kUp,
      .name = "--up",

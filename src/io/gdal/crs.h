@@ -37,8 +37,8 @@ std::string short_name(const Crs& crs);
 
 bool same_crs(const Crs& a, const Crs& b);
 
-/// The way from one CRS to another, through PROJ. A handle of GDAL's serves one call at a time; idle ones wait in a pool,
-/// and a new one is made when all are out.
+/// The way from one CRS to another, through PROJ. A handle of GDAL's serves one call at a time; idle ones wait in a
+/// pool, and a new one is made when all are out.
 class Passage {
  public:
   /// `is_strict`: only by a way that PROJ knows to be right, with the grids of it on this machine.

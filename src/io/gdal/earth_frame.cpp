@@ -3,8 +3,8 @@
 // Heights are those above the ellipsoid. PROJ applies a geoid where the raster's CRS names one and its grid is on this
 // machine; else heights are taken as they are, and a warning says so.
 //
-// The tangent frame is a rotation of the earth-centred one about the raster's centre on the ellipsoid: what is proven in
-// one holds in the other.
+// The tangent frame is a rotation of the earth-centred one about the raster's centre on the ellipsoid: what is proven
+// in one holds in the other.
 #include "io/gdal/earth_frame.h"
 
 #include <fmt/format.h>
@@ -186,8 +186,8 @@ Result<void> verify(const EarthTransform& way, const Axes& axes, const Georefere
     for (std::size_t i = 0; i < static_cast<std::size_t>(across); ++i) {
       const std::size_t p = j * stride + i;
       for (const auto& [q, r, s] : {std::array{p, p + 1, p + stride}, std::array{p + 1, p + stride + 1, p + stride}}) {
-        const double side = dot(cross(minus(foot.at(r), foot.at(q)), minus(foot.at(s), foot.at(q))),
-                                minus(top.at(q), foot.at(q)));
+        const double side =
+            dot(cross(minus(foot.at(r), foot.at(q)), minus(foot.at(s), foot.at(q))), minus(top.at(q), foot.at(q)));
         positive += side > 0 ? 1 : 0;
         negative += side < 0 ? 1 : 0;
       }
@@ -197,8 +197,8 @@ Result<void> verify(const EarthTransform& way, const Axes& axes, const Georefere
   bool is_back = way.from_space(back.x, back.y, back.z);
   const double cell_x = std::hypot(a[1], a[2]), cell_y = std::hypot(a[4], a[5]);
   for (std::size_t k = 0; k < count; ++k) {
-    is_back = is_back && std::abs(back.x[k] - map.x[k]) <= kBack * cell_x &&
-              std::abs(back.y[k] - map.y[k]) <= kBack * cell_y;
+    is_back =
+        is_back && std::abs(back.x[k] - map.x[k]) <= kBack * cell_x && std::abs(back.y[k] - map.y[k]) <= kBack * cell_y;
   }
   const int all = 2 * across * down;
   const bool is_wide =
@@ -269,9 +269,10 @@ Result<Frame> earth_frame(const Georeference& geo, const std::string& wanted, Ra
   frame.affine = geo.samples;
   if (!is_tangent) frame.crs = crs_name(earth);
   frame.description =
-      is_tangent ? fmt::format("metres east, north and up of {:.9g}, {:.9g} ({}) on the ellipsoid, which lies at "
-                               "{:.3f}, {:.3f}, {:.3f} in {}",
-                               x, y, short_name(geo.crs), o[0], o[1], o[2], short_name(earth))
+      is_tangent ? fmt::format(
+                       "metres east, north and up of {:.9g}, {:.9g} ({}) on the ellipsoid, which lies at "
+                       "{:.3f}, {:.3f}, {:.3f} in {}",
+                       x, y, short_name(geo.crs), o[0], o[1], o[2], short_name(earth))
                  : fmt::format("earth-centred metres in {}, x to longitude 0, z to the north pole", short_name(earth));
   frame.space = std::move(way);
   return frame;

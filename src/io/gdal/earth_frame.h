@@ -12,8 +12,8 @@ struct Georeference;
 
 /// A CRS of three dimensions, x (east, longitude) before y (north, latitude) before heights in metres.
 struct SpaceCrs {
-  Crs crs;               ///< null if there is none
-  std::string vertical;  ///< what its heights are above, such as "EGM96 height"; empty: nobody says
+  Crs crs;                      ///< null if there is none
+  std::string vertical;         ///< what its heights are above, such as "EGM96 height"; empty: nobody says
   bool is_ellipsoidal = false;  ///< they are above the ellipsoid
 };
 SpaceCrs space_crs_of(GDALDatasetH dataset);

@@ -35,14 +35,13 @@ constexpr double kMetresPerFoot = 0.3048;
 Result<void> check_unit(const Frame& frame, const Georeference& geo, RasterInfo& info) {
   if (!frame.space) return {};
   if (info.unit.empty() && geo.is_in_feet()) {
-    info.warnings.push_back(fmt::format(
-        "z is taken for metres though x and y are in {}: if it is not, --z-scale {:.6g} makes metres of it",
-        geo.unit_name, kMetresPerFoot));
+    info.warnings.push_back(
+        fmt::format("z is taken for metres though x and y are in {}: if it is not, --z-scale {:.6g} makes metres of it",
+                    geo.unit_name, kMetresPerFoot));
   }
   if (!is_foot(info.unit)) return {};
-  return fail(ErrorKind::kUsage,
-              fmt::format("{}: z is in {}, and a frame in space is in metres: give --z-scale {:.6g}", info.path,
-                          info.unit, kMetresPerFoot));
+  return fail(ErrorKind::kUsage, fmt::format("{}: z is in {}, and a frame in space is in metres: give --z-scale {:.6g}",
+                                             info.path, info.unit, kMetresPerFoot));
 }
 
 /// x and y in one unit, z in another: the promise holds, the shape does not.
