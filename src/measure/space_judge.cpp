@@ -179,7 +179,7 @@ void SpaceJudge::find_bends(std::span<const std::uint32_t> ids) {
     ++edge;
     // The bend is largest near the middle: twice that much is never reached.
     const double off = 2 * std::hypot(bent[0] - straight[0], bent[1] - straight[1]);
-    bends_[id] = std::max(bends_[id], static_cast<float>(std::isfinite(off) ? off : 0));
+    bends_[id] = std::max(bends_[id], std::isfinite(off) ? static_cast<float>(off) : HUGE_VALF);
   });
 }
 
