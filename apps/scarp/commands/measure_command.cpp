@@ -89,11 +89,7 @@ Result<void> MeasureCommand::check_outputs_of_run() const {
     const Result<void> named = check_tiff_name(outputs.back());
     if (!named) return named;
   }
-  std::vector<std::string> inputs = companions_.files();
-  inputs.insert(inputs.end(), channels_.textures.begin(), channels_.textures.end());
-  inputs.insert(inputs.end(), raster_.paths.begin(), raster_.paths.end());
-  inputs.push_back(mesh_);
-  const Result<void> checked = check_outputs(outputs, inputs, overwrite_);
+  const Result<void> checked = check_outputs(outputs, files_read(*command_), overwrite_);
   if (!checked) return checked;
   for (const PlannedOutput& output : outputs) {
     if (json_ && is_stdout(output.path)) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "inputs/mesh_place.h"
+#include "options/option_table.h"
 #include "reports/points_report.h"
 #include "reports/report.h"
 #include "terminal/clock.h"
@@ -146,7 +147,7 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
     return fail(ErrorKind::kUsage,
                 "no goal is given: say how good the mesh must be, such as -e 1 for heights within 1 unit, or how small "
                 "with -t or -p");
-  Result<SimplifyPlan> plan = plan_simplify(given);
+  Result<SimplifyPlan> plan = plan_simplify(given, files_read(command));
   if (!plan) return tl::unexpected(std::move(plan.error()));
   if (plan->format.kind == OutputKind::kDem)
     return fail(ErrorKind::kUsage,

@@ -285,7 +285,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   if (auto single = points_.check_single(given_.raster.paths); !single) return single;
   if (points_.are_meant(given_.raster.path())) return run_simplify_points(*command_, given_, points_, command_line);
   if (auto unused = points_.check_unused(given_.raster.path()); !unused) return unused;
-  Result<SimplifyPlan> plan = plan_simplify(given_);
+  Result<SimplifyPlan> plan = plan_simplify(given_, files_read(*command_));
   if (!plan) return tl::unexpected(std::move(plan.error()));
 
   Outcome outcome;

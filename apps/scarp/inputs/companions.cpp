@@ -217,17 +217,6 @@ Result<void> CompanionArguments::check(const char* bound_option, bool has_bound)
   return {};
 }
 
-std::vector<std::string> CompanionArguments::files() const {
-  std::vector<std::string> files;
-  for (const Given* file : {&mask, &tolerance, &script}) {
-    if (*file) files.push_back(**file);
-  }
-  for (const std::string& text : roi) {
-    if (const auto region = parse_region(text)) files.push_back(region->path);
-  }
-  return files;
-}
-
 std::string CompanionArguments::canonical() const {
   std::string command;
   const std::pair<const char*, const Given*> options[] = {

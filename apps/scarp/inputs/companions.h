@@ -30,8 +30,6 @@ struct CompanionArguments {
   const char* find_tolerance() const;
   /// Whether samples are given weights or bounds of their own.
   bool gives_bounds() const { return mask || script || find_tolerance() != nullptr; }
-  /// The files that were named.
-  std::vector<std::string> files() const;
   std::string canonical() const;
 };
 

@@ -106,7 +106,8 @@ const char* type_name(OptionType type) {
       return "text";
     case OptionType::kChoice:
       return "choice";
-    case OptionType::kFile:
+    case OptionType::kInputFile:
+    case OptionType::kOutputFile:
       return "file";
     case OptionType::kFolder:
       break;

@@ -62,7 +62,7 @@ constexpr OptionRow kSampleRows[] = {
      .name = "--mask",
      .commands = kSimplify | kMeasure,
      .group = OptionGroup::kWhereItMatters,
-     .type = kFile,
+     .type = kInputFile,
      .value = "FILE",
      .help = "Raster of weights of the errors, from 0 (no bound) to 1. If the largest is above 1, all are divided by "
              "it."},
@@ -70,7 +70,7 @@ constexpr OptionRow kSampleRows[] = {
      .name = "--tolerance",
      .commands = kSimplify,
      .group = OptionGroup::kWhereItMatters,
-     .type = kFile,
+     .type = kInputFile,
      .value = "FILE",
      .help = "Raster of tolerances, one for each sample, in the units of the heights. No value means no bound. Can be "
              "used without -e."},
@@ -78,7 +78,7 @@ constexpr OptionRow kSampleRows[] = {
      .name = "--tolerance",
      .commands = kMeasure,
      .group = OptionGroup::kWhereItMatters,
-     .type = kFile,
+     .type = kInputFile,
      .value = "FILE",
      .help = "Raster of tolerances, one for each sample, in the units of the heights. End with exit code 3 if an error "
              "is above its tolerance.",
@@ -87,7 +87,7 @@ constexpr OptionRow kSampleRows[] = {
      .name = "--roi",
      .commands = kSimplify,
      .group = OptionGroup::kWhereItMatters,
-     .type = kFile,
+     .type = kInputFile,
      .value = "FILE[:LAYER]=M",
      .is_repeatable = true,
      .help = "Region of interest: errors are at most M in the polygons, and on the lines, of a vector file. Can be "
@@ -97,7 +97,7 @@ constexpr OptionRow kSampleRows[] = {
      .name = "--roi",
      .commands = kMeasure,
      .group = OptionGroup::kWhereItMatters,
-     .type = kFile,
+     .type = kInputFile,
      .value = "FILE[:LAYER]=M",
      .is_repeatable = true,
      .help =
@@ -118,7 +118,7 @@ constexpr OptionRow kSampleRows[] = {
      .name = "--script",
      .commands = kSimplify,
      .group = OptionGroup::kWhereItMatters,
-     .type = kFile,
+     .type = kInputFile,
      .value = "FILE",
      .help = "Text file on single samples. A line 's COL ROW' forces a vertex; 'i COL ROW' or 'u COL ROW' ignores a "
              "sample."},
@@ -126,7 +126,7 @@ constexpr OptionRow kSampleRows[] = {
      .name = "--script",
      .commands = kMeasure,
      .group = OptionGroup::kWhereItMatters,
-     .type = kFile,
+     .type = kInputFile,
      .value = "FILE",
      .help = "Script of simplify. Samples of its lines 'i COL ROW' and 'u COL ROW' have no bound."},
 
@@ -134,7 +134,7 @@ constexpr OptionRow kSampleRows[] = {
      .name = "--texture",
      .commands = kSimplify | kMeasure,
      .group = OptionGroup::kTextures,
-     .type = kFile,
+     .type = kInputFile,
      .value = "FILE",
      .is_repeatable = true,
      .help = "Image on the grid of the heights, whose bands count as errors too."},

@@ -132,6 +132,30 @@ void add_numbers(CLI::App& command, OptionId id, std::vector<std::string>& value
 
 void add_flag(CLI::App& command, OptionId id, bool& value) { command.add_flag(names_of(row_of(command, id)), value); }
 
+std::vector<std::string> files_read(const CLI::App& command) {
+  std::vector<std::string> files;
+  const CommandRow* const owner = find_command(command.get_name());
+  if (owner == nullptr) return files;
+  const std::vector<const OptionRow*> rows = rows_of(owner->command);
+  const auto is_output = [](const OptionRow* row) {
+    return row->is_argument() && row->type == OptionType::kOutputFile;
+  };
+  const bool ends_in_output = std::any_of(rows.begin(), rows.end(), is_output);
+  for (const OptionRow* row : rows) {
+    if (row->type != OptionType::kInputFile) continue;
+    const CLI::Option* const option = command.get_option_no_throw(row->name);
+    if (option == nullptr) continue;
+    std::vector<std::string> values = option->results();
+    // CLI11 gives all arguments to the first that takes several: see add_arguments().
+    if (row->is_argument() && row->is_repeatable && ends_in_output && !values.empty()) values.pop_back();
+    for (std::string& value : values) {
+      if (std::string_view(row->value).ends_with("=M")) value.resize(std::min(value.rfind('='), value.size()));
+      files.push_back(std::move(value));
+    }
+  }
+  return files;
+}
+
 CLI::App* add_command(CLI::App& program, Commands command) {
   for (const CommandRow& row : command_rows()) {
     if (row.command != command) continue;

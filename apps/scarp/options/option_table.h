@@ -154,12 +154,13 @@ enum class OptionGroup {
 };
 
 enum class OptionType {
-  kFlag,    ///< takes no value
-  kNumber,  ///< a number, perhaps with a unit behind it
-  kCount,   ///< a whole number
-  kText,    ///< any text; `choices` are proposals
-  kChoice,  ///< one of `choices`
-  kFile,    ///< `choices` are the endings of its name, if not any will do
+  kFlag,        ///< takes no value
+  kNumber,      ///< a number, perhaps with a unit behind it
+  kCount,       ///< a whole number
+  kText,        ///< any text; `choices` are proposals
+  kChoice,      ///< one of `choices`
+  kInputFile,   ///< the run reads it; `choices` are the endings of its name, if not any will do
+  kOutputFile,  ///< the run writes it
   kFolder,
 };
 
@@ -224,6 +225,9 @@ void add_arguments(CLI::App& command, OptionId id, std::vector<std::string>& val
 /// An option with so many values.
 void add_numbers(CLI::App& command, OptionId id, std::vector<std::string>& values, int count);
 void add_flag(CLI::App& command, OptionId id, bool& value);
+/// Every file that the command line names to be read, in the order of the table: the values of all rows of
+/// OptionType::kInputFile, a layer behind a name included ("FILE:LAYER"), the number of a region ("=M") left out.
+std::vector<std::string> files_read(const CLI::App& command);
 /// The command of the program, with its --version.
 CLI::App* add_command(CLI::App& program, Commands command);
 

@@ -29,13 +29,33 @@ bool names_device(const std::string& path) {
   return is_stdout(path) || is_device(fs::status(path, error));
 }
 
+/// The name behind links, also behind those that lead to no file yet.
+fs::path follow_links(fs::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  for (int k = 0; k < kMostLinks && fs::is_symlink(path, error); ++k) {
+    const fs::path target = fs::read_symlink(path, error);
+    if (error) break;
+    path = path.parent_path() / target;  // an absolute target takes the place of all
+  }
+  return path;
+}
+
 /// Equal for two names of one file, whether it is there or not; empty where that cannot be told.
 std::string identity_of(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0) return fmt::format("{} {}", status.st_dev, status.st_ino);
   std::error_code error;
-  const fs::path full = fs::weakly_canonical(fs::absolute(path, error), error);
+  const fs::path full = fs::weakly_canonical(fs::absolute(follow_links(path), error), error);
   return error ? std::string() : full.string();
+}
+
+/// Of what an output replaces: a file, also one that standard output was opened on; empty for devices and pipes.
+std::string identity_of_output(const std::string& path) {
+  if (!is_stdout(path)) return names_device(path) ? "" : identity_of(path);
+  struct stat status {};
+  const bool is_file = fstat(STDOUT_FILENO, &status) == 0 && S_ISREG(status.st_mode);
+  return is_file ? fmt::format("{} {}", status.st_dev, status.st_ino) : "";
 }
 
 /// Why no file can be made in the folder, which exists; empty if one can. Permissions do not tell, to root and in
@@ -84,6 +104,7 @@ Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std:
                            bool overwrite) {
   const bool may_replace = std::any_of(outputs.begin(), outputs.end(), [&](const PlannedOutput& output) {
     std::error_code ignored;
+    if (is_stdout(output.path)) return !identity_of_output(output.path).empty();
     return overwrite && !names_device(output.path) && fs::exists(output.path, ignored);
   });
   std::map<std::string, std::string> read;  // and the input that it belongs to
@@ -102,7 +123,7 @@ Result<void> check_outputs(const std::vector<PlannedOutput>& outputs, const std:
       }
       to_stdout = &output;
     }
-    const std::string identity = names_device(output.path) ? "" : identity_of(output.path);
+    const std::string identity = identity_of_output(output.path);
     if (!identity.empty()) {
       if (const auto found = read.find(identity); found != read.end()) {
         const bool is_whole = identity_of(found->second) == identity;

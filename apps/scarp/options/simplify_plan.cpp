@@ -358,11 +358,7 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
     if (!named) return named;
   }
   if (given.report) outputs.push_back({"--report", *given.report});
-  std::vector<std::string> inputs = given.companions.files();
-  inputs.insert(inputs.end(), given.channels.textures.begin(), given.channels.textures.end());
-  if (given.images.drape) inputs.push_back(*given.images.drape);
-  inputs.insert(inputs.end(), given.raster.paths.begin(), given.raster.paths.end());
-  return check_outputs(outputs, inputs, given.overwrite);
+  return check_outputs(outputs, plan.files_read, given.overwrite);
 }
 
 /// What a mesh does not go with in a frame in space, where z is not the height.
@@ -451,8 +447,9 @@ std::string canonical_command(const SimplifyArguments& given) {
 
 }  // namespace
 
-Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given) {
+Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given, std::vector<std::string> files_read) {
   SimplifyPlan plan;
+  plan.files_read = std::move(files_read);
   plan.input = given.raster.path();
   plan.output = given.output;
   plan.preview = given.preview;

@@ -59,6 +59,7 @@ struct SimplifyArguments {
 
 struct SimplifyPlan {
   std::string input, output;
+  std::vector<std::string> files_read;  ///< by any option
   OutputFormat format;
   ReadOptions read;
   std::optional<ErrorGoal> error_goal;
@@ -100,6 +101,6 @@ struct SimplifyPlan {
   bool has_file_per_tile() const { return solid && solid->is_split() && format.mesh != MeshFormat::k3mf; }
 };
 
-Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given);
+Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given, std::vector<std::string> files_read);
 
 }  // namespace scarp::cli

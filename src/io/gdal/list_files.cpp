@@ -10,9 +10,33 @@
 namespace scarp::gdal {
 namespace {
 
+bool is_there(const std::string& vsi) {
+  VSIStatBufL status{};
+  return VSIStatL(vsi.c_str(), &status) == 0;
+}
+
+/// The file on the disk that a name like /vsizip/tiles.zip/a.tif, /vsitar/{a b.tar}/a.tif or /vsisubfile/0_99,a.tif
+/// looks into: whatever the file system and its syntax, the name of that file ends where a part of the name does.
+void add_container(const std::string& name, std::set<std::string>& seen) {
+  if (name.rfind("/vsi", 0) != 0 || is_remote(name)) return;
+  constexpr const char* kBeginnings = "/{,=";
+  constexpr const char* kEnds = "/}?&";
+  for (std::size_t begin = name.find_first_of(kBeginnings, 1); begin != std::string::npos;
+       begin = name.find_first_of(kBeginnings, begin + 1)) {
+    for (std::size_t end = begin + 1; end != std::string::npos && end < name.size();) {
+      end = name.find_first_of(kEnds, end + 1);
+      const std::string file = name.substr(begin + 1, end == std::string::npos ? end : end - begin - 1);
+      VSIStatBufL status{};
+      const bool is_on_disk = !file.empty() && file.rfind("/vsi", 0) != 0;
+      if (is_on_disk && VSIStatL(file.c_str(), &status) == 0 && VSI_ISREG(status.st_mode)) seen.insert(file);
+    }
+  }
+}
+
 void add_files(const std::string& path, std::set<std::string>& seen) {
   const std::string vsi = vsi_path(path);
   if (is_remote(path) || path == "-" || declares_entities(vsi)) return;
+  add_container(vsi, seen);
   VSIStatBufL status{};
   const bool exists = VSIStatL(vsi.c_str(), &status) == 0;
   if (exists && VSI_ISDIR(status.st_mode)) {
@@ -20,13 +44,17 @@ void add_files(const std::string& path, std::set<std::string>& seen) {
     for (int k = 0; k < entries.size(); ++k) seen.insert(CPLFormFilename(vsi.c_str(), entries[k], nullptr));
   } else if (exists && !VSI_ISREG(status.st_mode)) {
     return;
+  } else if (const std::size_t colon = vsi.rfind(':'); !exists && colon != std::string::npos && colon > 0) {
+    if (const std::string file = vsi.substr(0, colon); is_there(file)) return add_files(file, seen);  // FILE:LAYER
   }
+  if (exists) seen.insert(vsi);  // also where no driver opens it, such as a script
   const Dataset dataset(
       GDALOpenEx(vsi.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR | GDAL_OF_READONLY, nullptr, kOpenOptions, nullptr));
   if (!dataset) return;
   char** files = GDALGetFileList(dataset.get());
   for (char** file = files; file != nullptr && *file != nullptr; ++file) {
     // GDAL names the sources of a VRT, but not the sources of these.
+    add_container(*file, seen);
     if (seen.insert(*file).second && EQUAL(CPLGetExtension(*file), "vrt")) add_files(*file, seen);
   }
   CSLDestroy(files);
