@@ -113,3 +113,30 @@ try "$scarp" measure "$dem" percent.glb --fail-above 0.9%
 refuses 1 "--fail-above 1mm is an error on a print" "$scarp" measure "$dem" percent.glb --fail-above 1mm
 # The mesh before the raster.
 refuses 1 "percent.glb is a mesh: the raster comes first, scarp measure" "$scarp" measure percent.glb "$dem"
+
+# A mesh lies where its file says, not around the centre of any raster: a raster elsewhere, a window of a larger one, and
+# the window itself in another type.
+need gdal_translate
+gdal_translate -q -srcwin 20 30 201 180 "$dem" window.tif
+gdal_translate -q -of AAIGrid window.tif window.asc
+gdal_translate -q -a_ullr 20 45 20.2 44.82 window.tif moved.tif
+for name in window.glb window.obj window.ply; do
+  for options in "" "--crs local" "--crs grid"; do
+    succeeds "$scarp" simplify window.tif $name -e 20 $options --overwrite
+    succeeds "$scarp" measure window.tif $name --fail-above 20
+    succeeds "$scarp" measure window.asc $name --fail-above 20
+    try "$scarp" measure moved.tif $name --fail-above 20 --json
+    [ "$code" = 3 ] || fail "$name $options of another place ends with $code"
+    [ "$(json "$logs/out" max_error)" = null ] || fail "$name $options of another place has an error"
+    grep -q "covers no sample of moved.tif" "$logs/err" || fail "no word that $name $options lies elsewhere"
+    try "$scarp" measure "$dem" $name --fail-above 20 --json
+    [ "$code" = 3 ] || fail "$name $options passes for a larger raster"
+    holds "$(json "$logs/out" max_error) <= 20.0000001 && $(json "$logs/out" samples) == 201 * 180"
+    holds "$(json "$logs/out" uncovered) == 403 * 344 - 201 * 180"
+    grep -q "covered by no triangle" "$logs/err" || fail "no word that samples are uncovered"
+  done
+done
+# --crs overrides what the file says; a raster without georeference has no place that could differ.
+succeeds "$scarp" simplify window.tif window.glb -e 20 --overwrite
+try "$scarp" measure moved.tif window.glb --crs local --fail-above 60 --json
+holds "$(json "$logs/out" samples) > 20000"

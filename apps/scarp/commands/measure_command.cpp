@@ -157,6 +157,7 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
     return has_field;
   }
   if (!asked.crs) fit_frame(judged.mesh, judged.field);
+  if (!raster_.crs) judged.warnings = place_frame(judged.mesh, judged.field);
   if (!judged.channels.empty()) {
     const Result<void> restored = restore_channels(judged.mesh, judged.channels, mesh_);
     if (!restored) return restored;
@@ -183,7 +184,8 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
   Result<Cut> cut = read_cut(cut_, judged.field.info, progress, judged.field, judged.companions.warnings);
   if (!cut) return tl::unexpected(std::move(cut.error()));
   judged.cut = std::move(*cut);
-  judged.warnings = judged.field.info.warnings;
+  const std::vector<std::string>& of_raster = judged.field.info.warnings;
+  judged.warnings.insert(judged.warnings.begin(), of_raster.begin(), of_raster.end());
   judged.warnings.insert(judged.warnings.end(), judged.companions.warnings.begin(), judged.companions.warnings.end());
   return {};
 }

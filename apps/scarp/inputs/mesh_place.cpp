@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "scarp/io.h"
@@ -11,6 +13,56 @@
 #include "terminal/text.h"
 
 namespace scarp::cli {
+namespace {
+
+/// The six numbers; nothing if the file does not tell them, or not as it should.
+std::optional<std::array<double, 6>> read_to_source(const Mesh& mesh) {
+  const auto entry = mesh.metadata.find("to_source");
+  if (entry == mesh.metadata.end()) return std::nullopt;
+  const auto json = nlohmann::json::parse(entry->second, nullptr, false);
+  if (!json.is_array() || json.size() != 6) return std::nullopt;
+  std::array<double, 6> numbers{};
+  for (std::size_t k = 0; k < 6; ++k) {
+    if (!json[k].is_number()) return std::nullopt;
+    numbers[k] = json[k].get<double>();
+  }
+  const double determinant = numbers[1] * numbers[5] - numbers[2] * numbers[4];
+  if (!std::isfinite(determinant) || determinant == 0) return std::nullopt;
+  return numbers;
+}
+
+/// The frame whose x and y `to_source` takes to the source's coordinates, as `samples` does columns and rows.
+std::array<double, 6> frame_before(const std::array<double, 6>& to_source, const std::array<double, 6>& samples) {
+  const auto& t = to_source;
+  const double determinant = t[1] * t[5] - t[2] * t[4];
+  std::array<double, 6> affine{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = samples[k] - (k == 0 ? t[0] : 0), y = samples[k + 3] - (k == 0 ? t[3] : 0);
+    affine[k] = (t[5] * x - t[2] * y) / determinant;
+    affine[k + 3] = (t[1] * y - t[4] * x) / determinant;
+  }
+  return affine;
+}
+
+/// Of a cell: less than that apart, two frames are one that was written with other roundings.
+constexpr double kSamePlace = 1e-3;
+
+/// The largest distance of any corner of the raster in the two frames, in cells.
+double distance_in_cells(const std::array<double, 6>& a, const std::array<double, 6>& b, int cols, int rows) {
+  const double cell = std::sqrt(std::abs(a[1] * a[5] - a[2] * a[4]));
+  double farthest = 0;
+  for (const double col : {0.0, cols - 1.0}) {
+    for (const double row : {0.0, rows - 1.0}) {
+      for (const std::size_t k : {std::size_t{0}, std::size_t{3}}) {
+        const double apart = a[k] - b[k] + (a[k + 1] - b[k + 1]) * col + (a[k + 2] - b[k + 2]) * row;
+        farthest = std::max(farthest, std::abs(apart) / cell);
+      }
+    }
+  }
+  return farthest;
+}
+
+}  // namespace
 
 void Extent::add(double x, double y) {
   if (!std::isfinite(x) || !std::isfinite(y)) return;
@@ -75,6 +127,23 @@ void fit_frame(const Mesh& mesh, OwnedHeightField& field) {
   source.frame.description = "the raster's own coordinates, where the mesh lies";
   const Extent of_mesh = extent_of(mesh);
   if (of_mesh.overlap(extent_of(source)) > of_mesh.overlap(extent_of(field.view()))) field.frame = source.frame;
+}
+
+std::vector<std::string> place_frame(const Mesh& mesh, OwnedHeightField& field) {
+  const auto to_source = read_to_source(mesh);
+  if (!to_source || !field.info.has_georeference || !field.frame.is_affine()) return {};
+  const std::array<double, 6> affine = frame_before(*to_source, map_affine(field.info, field.rows));
+  if (distance_in_cells(field.frame.affine, affine, field.cols, field.rows) > kSamePlace) {
+    field.frame.affine = affine;
+    if (const auto words = mesh.metadata.find("frame"); words != mesh.metadata.end())
+      field.frame.description = words->second;
+  }
+  const auto crs = mesh.metadata.find("origin_crs");
+  const auto is_code = [](const std::string& of) { return of.rfind("EPSG:", 0) == 0; };
+  if (crs == mesh.metadata.end() || crs->second == field.info.crs) return {};
+  if (!is_code(crs->second) || !is_code(field.info.crs)) return {};
+  return {fmt::format("the mesh says that it was made from a raster in {}, and this one is in {}", crs->second,
+                      field.info.crs)};
 }
 
 std::string describe_elsewhere(const Extent& mesh, const Extent& reference, const std::string& what) {

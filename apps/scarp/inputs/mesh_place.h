@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
@@ -29,6 +30,11 @@ Extent extent_of(const PointSet& points);
 /// For a mesh that says nothing of its frame: the raster's own coordinates, if it fits the raster there better than in
 /// the frame that was read.
 void fit_frame(const Mesh& mesh, OwnedHeightField& field);
+
+/// For a mesh whose metadata tell in numbers where it lies (`to_source`): the frame in which they hold for the samples,
+/// in place of one around the raster's own centre, which may not be the mesh's. Returns warnings. Does nothing to
+/// rasters without georeference, and where both frames are the same.
+std::vector<std::string> place_frame(const Mesh& mesh, OwnedHeightField& field);
 
 /// Why nothing can be judged: "no sample of RASTER is covered: …".
 std::string describe_elsewhere(const Extent& mesh, const Extent& reference, const std::string& what);
