@@ -40,8 +40,9 @@ struct Output {
   bool float32_positions = true;
   /// Positions that glb.h compresses without moving them, where rows run along x (elsewhere this changes nothing): x
   /// and y are double, whatever float32_positions says, and heights are rounded to multiples of a power of two, at most
-  /// 1/128 of max_error. The engine aims 1/256 below max_error for it, unless the samples are such multiples. Heights
-  /// stay as they are without a max_error, or where tolerances, weights or channels bound errors. DEFAULT: false.
+  /// 1/128 of max_error and of a locked border's. The engine aims 1/256 below max_error for it, unless the samples are
+  /// such multiples. Heights stay as they are without a max_error, or where tolerances, weights or channels bound
+  /// errors. DEFAULT: false.
   bool lattice = false;
   bool normals = false;  ///< fill Mesh::normals from the full-resolution samples. DEFAULT: false.
   bool uvs = false;      ///< fill Mesh::uvs. DEFAULT: false.

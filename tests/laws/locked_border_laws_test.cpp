@@ -336,6 +336,21 @@ RC_GTEST_PROP(levels, keep_their_own_max_errors_on_one_outline, ()) {
   }
 }
 
+TEST(levels, share_an_outline_whose_heights_are_rounded) {
+  Field field = testing::random_field(5, 60, 50, Relief::kRidges);
+  for (float& height : field.samples) height *= 1.1f;  // no multiples of a power of two
+  SimplifyOptions options;
+  options.goals.max_error = 3;
+  options.output.lattice = true;
+  const auto levels = simplify_levels(field.view(), options, {3, 2});
+  ASSERT_TRUE(levels);
+  for (const Edge& edge : edges_of(field)) {
+    const auto finest = vertices_on(levels->front().mesh, field, edge);
+    EXPECT_GT(finest.size(), 2u);
+    for (std::size_t k = 1; k < 3; ++k) EXPECT_EQ(vertices_on((*levels)[k].mesh, field, edge), finest);
+  }
+}
+
 TEST(levels, say_what_they_need) {
   const Field field = testing::random_field(5, 20, 20, Relief::kRidges);
   SimplifyOptions options;
