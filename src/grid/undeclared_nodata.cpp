@@ -25,6 +25,7 @@ bool is_far(const HeightCount& here, double gap, double range, std::uint64_t val
   constexpr double kOfSigns = 0.2, kOfZero = 0.05, kLeastOfZero = 10, kOfAny = 50;
   constexpr std::uint64_t kShareOfZero = 1000, kShareOfAny = 100;
   if (is_usual_sign(here.height) && gap >= kOfSigns * range) return true;
+  if (range == 0) return false;  // two heights, of which neither is odd
   if (here.height == 0 && gap >= kLeastOfZero && gap >= kOfZero * range && here.samples >= valid / kShareOfZero)
     return true;
   return gap >= kOfAny * range && here.samples <= valid / kShareOfAny;
@@ -37,7 +38,8 @@ std::size_t count_far(const Ends& ends, std::size_t first, double other, std::ui
     const auto far = [&](const HeightCount& here) {
       return is_far(here, std::abs(ends[next].height - here.height), range, valid);
     };
-    if (range > 0 && std::all_of(ends.begin() + static_cast<std::ptrdiff_t>(first),
+    const bool may_tell = range > 0 || !is_usual_sign(ends[next].height);  // all others may be one height
+    if (may_tell && std::all_of(ends.begin() + static_cast<std::ptrdiff_t>(first),
                                  ends.begin() + static_cast<std::ptrdiff_t>(next), far))
       return next;
   }

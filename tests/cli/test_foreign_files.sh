@@ -65,6 +65,14 @@ refuses 1 "--error-raster a.tif is a file that inner.vrt is made of" \
 succeeds "$scarp" simplify inner.vrt b.tif -e 50 --overwrite
 rm ./*
 
+# A JPEG that was cut off has no grey rows in place of what it lacks.
+gdal_translate -q -of JPEG -ot Byte -scale "$dem" whole.jpg
+head -c 9000 whole.jpg > cut.jpg
+refuses 2 "cut.jpg: rows" "$scarp" simplify cut.jpg cut.glb -e 5
+cp "$dem" land.tif
+refuses 2 "cut.jpg" "$scarp" simplify land.tif cut.glb -e 5 --texture cut.jpg
+rm ./*
+
 # Libraries that print, and libraries that crash.
 printf '\211HDF\r\n\032\ngarbage' > broken.h5
 refuses 2 "broken.h5: " "$scarp" info broken.h5

@@ -77,6 +77,19 @@ gdal_translate -q -ot Int16 few.asc few.tif
 succeeds "$scarp" simplify few.tif means.tif -e 0 --resolution 2
 grep -q 'read as *means of 2 x 2 cells, 2 x 2 each (without the last 1 columns and 0 rows)' "$logs/out" || fail "the summary does not tell the means"
 [ "$(gdal_translate -q -of XYZ means.tif /vsistdout/ | cut -d' ' -f3 | head -3 | tr '\n' ' ')" = "2 4 7.75 " ] || fail "wrong means"
+# What GDAL rounds in a mean counts: the bound holds for the exact ones.
+python3 - > thirds.asc <<'PYTHON'
+print("ncols 60\nnrows 60\nxllcorner 0\nyllcorner 0\ncellsize 1")
+for row in range(60):
+    print(*(20000 + (row * row * 7 + col * row * 3 + col * 11) % 9000 for col in range(60)))
+PYTHON
+gdal_translate -q -ot Int16 thirds.asc thirds.tif
+refuses 3 "a max error of 0 cannot be kept: the raster's values do not fit float32" \
+  "$scarp" simplify thirds.tif zero.glb -e 0 --resolution 3
+succeeds "$scarp" simplify thirds.tif thirds.ply -e 1000 --resolution 3 --report thirds.json
+holds "$(json thirds.json sample_rounding) >= 0.00065 && $(json thirds.json sample_rounding) < 0.001"
+succeeds "$scarp" measure thirds.tif thirds.ply --resolution 3 --fail-above 1000
+succeeds "$scarp" simplify thirds.tif quarters.ply -e 0 --resolution 2
 succeeds "$scarp" simplify utm.tif memory.stl -e 10 --resolution 100 --effort fast
 succeeds "$scarp" measure utm.tif memory.stl --resolution 100 --fail-above 10
 gdaladdo -q -r nearest utm.tif 2 4

@@ -111,3 +111,18 @@ grep -q "outlines  *of nodata and border alone need $(json ragged.json outline_t
 succeeds "$scarp" simplify hill.asc hole.obj -e 1 --overwrite
 if grep -q '^  outlines' "$logs/out"; then fail "a small outline is told of"; fi
 [ ! -s "$logs/err" ] || fail "-q warns"
+
+# A frame of -9999 around land of one height is told, and two heights of which neither is odd are not.
+make_raster frame.tif "-9999 if min(row, col, 343 - row, 402 - col) < 5 else 7"
+try "$scarp" info frame.tif --no-suggest
+grep -q "samples are exactly -9999, far below all others (7 to 7)" "$logs/out" "$logs/err" || fail "no word of -9999 around a flat raster"
+make_raster steps.tif "0 if col < 5 else 7"
+try "$scarp" info steps.tif --no-suggest
+if grep -q "far below\|far above" "$logs/out" "$logs/err"; then fail "a step is taken for nodata"; fi
+
+# Finite values that a float32 does not hold are no nodata.
+make_raster ramp.tif "col"
+gdal_translate -q -ot Float64 -scale 0 402 0 4.02e39 ramp.tif over.tif
+refuses 2 "over.tif: the value 3.5e+38 at column 35, row 0 is beyond what a float32 holds (3.4e38)" \
+  "$scarp" simplify over.tif over.glb -e 1e37
+refuses 2 "the value 3.5e+38 at column 35, row 0" "$scarp" simplify over.tif over.glb -e 1e37 --memory 200M

@@ -175,7 +175,7 @@ std::string make_table(const Judged& judged, const std::string& raster_path, con
   text += line("samples uncovered", format_count(m.uncovered));
   if (judged.cut.polygons > 0) text += line("cutline", cut_words(judged.cut, m.cut_off));
   if (m.stray > 0) text += line("samples stray", format_count(m.stray) + ", outside every cell of the domain");
-  text += line("nodata cells covered", format_count(m.nodata_cells_covered));
+  text += line("nodata covered", format_count(m.nodata_cells_covered));
   text += line("vertices", format_count(m.vertices));
   const std::uint64_t full = full_grid_triangles(judged.field);
   text += line("triangles", fmt::format("{}, {} of the full grid's {}", format_count(m.triangles),

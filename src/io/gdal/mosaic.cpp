@@ -66,6 +66,12 @@ Result<Tile> look_at(Session& session, const std::string& path) {
 std::string find_difference(const Tile& first, const Tile& tile) {
   if (!first.crs != !tile.crs || (tile.crs && !same_crs(first.crs, tile.crs))) {
     const auto name = [](const Tile& of) { return of.crs ? short_name(of.crs) : std::string("no CRS"); };
+    if (!tile.crs || !first.crs) {
+      const Tile& without = tile.crs ? first : tile;
+      return fmt::format("is in {}, and {} in {}: if {} is in the same, say so first (gdal_edit.py -a_srs {} {})",
+                         name(tile), first.path, name(first), without.path, name(tile.crs ? tile : first),
+                         without.path);
+    }
     return fmt::format("is in {}, and {} in {}: bring it there first {}", name(tile), first.path, name(first),
                        gdalwarp(fmt::format("-t_srs {} -r bilinear", name(first)), tile));
   }

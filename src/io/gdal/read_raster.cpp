@@ -66,7 +66,8 @@ void scale_heights(const ReadOptions& options, Plan& plan) {
 
 Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOptions& options) {
   Plan plan;
-  auto dataset = open_view(session, path, options.view, false, plan.info.view);
+  Means means;
+  auto dataset = open_view(session, path, options.view, false, plan.info.view, &means);
   if (!dataset) return tl::unexpected(dataset.error());
   plan.dataset = std::move(*dataset);
   plan.info.path = path;
@@ -75,6 +76,7 @@ Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOp
     auto band = plan_band(plan.dataset.get(), path, options, plan.info);
     if (!band) return tl::unexpected(band.error());
     plan.band = *band;
+    plan.band.means = means;
     warn_of_colours(plan.dataset.get(), plan.band, plan.info);
   } else {
     if (auto packed = verify_packed(plan.dataset.get(), path); !packed) return tl::unexpected(packed.error());
@@ -131,6 +133,15 @@ Result<OpenedRaster> open(Session& session, const std::string& path, const ReadO
   return opened;
 }
 
+/// Heights that a float32 does not hold are no missing ones.
+Result<void> refuse_beyond(const Findings& findings, const std::string& path, const ReadOptions& options) {
+  if (!findings.beyond || options.as_values) return {};
+  return fail(ErrorKind::kInput,
+              fmt::format("{}: the value {:.6g} at column {}, row {} is beyond what a float32 holds (3.4e38): if it means "
+                          "nodata, give it as such, else scale the values first (gdal_translate -ot Float32 -scale)",
+                          path, findings.beyond->value, findings.beyond->col, findings.beyond->row));
+}
+
 Result<OwnedHeightField> read_samples(Session& session, OpenedRaster opened, const ReadOptions& options) {
   OwnedHeightField& field = opened.field;
   const std::string& path = field.info.path;
@@ -141,6 +152,7 @@ Result<OwnedHeightField> read_samples(Session& session, OpenedRaster opened, con
   if (!samples) return tl::unexpected(samples.error());
   add_gdal_warnings(session, field.info);
   if (auto finished = finish_raster(field, infinities, options); !finished) return tl::unexpected(finished.error());
+  if (auto held = refuse_beyond(reader->findings(), path, options); !held) return tl::unexpected(held.error());
   return std::move(field);
 }
 
@@ -193,7 +205,8 @@ Result<void> survey(Session& session, GDALRasterBandH band, WindowReader& reader
   if (auto done = for_each_window(session, band, extent, options.run.progress, look); !done) return done;
   set_range(range, info);
   field.sample_rounding = reader.findings().rounding;
-  return finish_info(field, reader.findings().infinities, options);
+  if (auto finished = finish_info(field, reader.findings().infinities, options); !finished) return finished;
+  return refuse_beyond(reader.findings(), info.path, options);
 }
 
 /// Leaves the samples in their file.
@@ -206,7 +219,7 @@ Result<OwnedHeightField> keep_in_file(Session& session, OpenedRaster opened, con
   auto reader = opened.make_reader(options);
   const bool may_round = options.decode == Decode::kNone ? !is_float32(opened.plan.band)
                                                          : options.decode == Decode::kMapbox || scales_heights(options);
-  if (options.with_range || may_round) {
+  if (options.with_range || may_round || opened.plan.band.means.cells > 1) {
     auto seen = survey(session, opened.first_band(options), *reader, options, field);
     if (!seen) return tl::unexpected(seen.error());
   }

@@ -63,6 +63,17 @@ double distance(Integer raw, float rounded) {
   return static_cast<double>(difference < 0 ? -difference : difference);
 }
 
+/// How far GDAL's mean may lie from the exact one: it adds float32 values and keeps a float32, whatever type is asked
+/// for. Of whole cells the sum is exact. There, if mean · cells is whole, then so is mean · cells · counted; that differs
+/// from sum · cells by less than 1, so it is that, and the mean is exact.
+double rounding_of_mean(double mean, const Means& means) {
+  if (means.cells == 1 || !std::isfinite(mean) || mean == 0) return 0;
+  const double half_step = std::ldexp(1.0, std::ilogb(mean) - 24), cells = means.cells;
+  if (!means.are_whole) return 4 * half_step;  // of the cells, of their sum, of the mean
+  const bool is_exact = cells * cells * half_step < 1 && std::floor(mean * cells) == mean * cells;
+  return is_exact ? 0 : half_step;
+}
+
 bool is_scaled(const BandPlan& plan) { return plan.scale != 1 || plan.offset != 0; }
 
 class BandReader : public WindowReader {
@@ -107,6 +118,8 @@ class BandReader : public WindowReader {
         } else if (std::isinf(z[col])) {
           z[col] = kNodataSample;
           ++findings_.infinities;
+        } else {
+          findings_.rounding = std::max(findings_.rounding, rounding_of_mean(z[col], plan_.means));
         }
       }
     }
@@ -137,7 +150,11 @@ class BandReader : public WindowReader {
     for (int row = 0; row < window.rows; ++row) {
       float* z = row_of(row);
       for (int col = 0; col < window.cols; ++col, ++raw) {
+        const std::uint64_t before = findings_.infinities;
         z[col] = convert(*raw, is_nodata);
+        if (findings_.infinities == before || findings_.beyond) continue;
+        const double value = static_cast<double>(*raw);
+        if (std::isfinite(value)) findings_.beyond = {value, window.col + col, window.row + row};
       }
     }
     return true;
@@ -155,8 +172,9 @@ class BandReader : public WindowReader {
       ++findings_.infinities;
       return kNodataSample;
     }
+    const double mean = rounding_of_mean(static_cast<double>(raw), plan_.means) * std::abs(plan_.scale);
     const double moved = is_scaled(plan_) || std::is_floating_point_v<Raw> ? distance(value, z) : distance(raw, z);
-    findings_.rounding = std::max(findings_.rounding, moved);
+    findings_.rounding = std::max(findings_.rounding, moved + mean);
     return z;
   }
 

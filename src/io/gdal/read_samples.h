@@ -11,6 +11,7 @@
 #include <string>
 
 #include "io/gdal/session.h"
+#include "io/gdal/view.h"
 #include "io/gdal/windows.h"
 #include "scarp/io.h"
 
@@ -26,6 +27,7 @@ struct BandPlan {
   std::optional<std::int64_t> nodata_int64;  ///< exact, for bands of 64-bit integers
   std::optional<std::uint64_t> nodata_uint64;
   double scale = 1, offset = 0;  ///< height = scale·raw + offset
+  Means means;
 };
 
 /// kInput if the band does not exist, or is complex.
@@ -38,6 +40,11 @@ void warn_of_colours(GDALDatasetH dataset, const BandPlan& plan, RasterInfo& inf
 struct Findings {
   std::uint64_t infinities = 0;  ///< infinities and values beyond float32, which became nodata
   double rounding = 0;           ///< largest |value − float32 sample|
+  struct Beyond {
+    double value = 0;
+    int col = 0, row = 0;
+  };
+  std::optional<Beyond> beyond;  ///< the first value that is finite, and beyond float32
 };
 
 /// Reads windows of heights, nodata as NaN. Not for several threads at once.

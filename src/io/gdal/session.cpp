@@ -90,6 +90,7 @@ Session::Session(bool remote) {
   start_gdal_once();
   set_option("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");  // would lie beside the input
   set_option("GML_PARSER", "EXPAT");                   // limits what entities expand to
+  set_default("GDAL_ERROR_ON_LIBJPEG_WARNING", "YES");  // else what a truncated JPEG lacks is grey
   if (!remote) return;
   set_default("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");  // no requests for side files that are not there
   set_default("CPL_VSIL_CURL_USE_HEAD", "NO");

@@ -117,7 +117,7 @@ std::string describe_part(const Part& part, int cols, int rows, const std::array
 }  // namespace
 
 Result<Dataset> open_view(Session& session, const std::string& path, const RasterView& view, bool keeps_type,
-                          std::string& words) {
+                          std::string& words, Means* means) {
   std::vector<std::string> given{path};
   given.insert(given.end(), view.more.begin(), view.more.end());
   const auto paths = expand_folders(session, given);
@@ -145,6 +145,11 @@ Result<Dataset> open_view(Session& session, const std::string& path, const Raste
   const std::string of_part = describe_part(part, cols, rows, gt);
   if (of_part.empty()) return whole;
   words += (words.empty() ? "" : ", ") + of_part;
+  if (means != nullptr) {
+    const GDALDataType type = GDALGetRasterDataType(GDALGetRasterBand(whole->get(), 1));
+    means->cells = static_cast<int>(std::min<std::int64_t>(std::int64_t{part.across} * part.down, 1 << 30));
+    means->are_whole = type == GDT_Byte || type == GDT_Int16 || type == GDT_UInt16;
+  }
   return open_part(session, whole->get(), path, part, keeps_type);
 }
 

@@ -8,10 +8,16 @@
 
 namespace scarp::gdal {
 
+/// What a sample is the mean of.
+struct Means {
+  int cells = 1;          ///< at most: nodata does not count
+  bool are_whole = false;  ///< the cells hold whole numbers of 16 bits
+};
+
 /// Opens what `view` makes of `path`, a virtual raster in memory where that is more than the one raster as it is. A
 /// folder is a mosaic of its rasters. `words` tells what was made, as RasterInfo::view does. `keeps_type`: bytes stay
 /// bytes where samples are averaged, as colours are. Fails as open_raster() and as ReadOptions::view tells.
 Result<Dataset> open_view(Session& session, const std::string& path, const RasterView& view, bool keeps_type,
-                          std::string& words);
+                          std::string& words, Means* means = nullptr);
 
 }  // namespace scarp::gdal
