@@ -169,3 +169,23 @@ for memory in 115M 95M; do  # as 16-bit codes, and from the file: the same heigh
   done
 done
 echo "frames, axes, .prj files and scales are right"
+
+# STL beyond the local frame: the report's numbers take those of the file to the raster.
+for crs in source grid; do
+  succeeds "$scarp" simplify "$dem" place.stl -e 50 --crs $crs --report place.json --overwrite
+  grep -q "the file holds offsets from" "$logs/out" || fail "no word of offsets with --crs $crs"
+  python3 - $(gdalinfo "$dem" | awk '/^Upper Left|^Lower Right/ { gsub(/[(),]/, " "); print $3, $4 }') <<'PYTHON'
+import json, struct, sys
+west, north, east, south = map(float, sys.argv[1:5])
+frame = json.load(open("place.json"))["frame"]
+t = frame["to_source"]
+data = open("place.stl", "rb").read()
+corners = [struct.unpack_from("<3f", data, 84 + 50 * k + 12 + 12 * c) for k in range((len(data) - 84) // 50) for c in range(3)]
+xs = [t[0] + t[1] * x + t[2] * y for x, y, z in corners]
+ys = [t[3] + t[4] * x + t[5] * y for x, y, z in corners]
+cell = (east - west) / 403
+for value, want in ((min(xs), west), (max(xs), east), (min(ys), south), (max(ys), north)):
+    assert abs(value - want) < 0.6 * cell, (value, want)
+assert frame["origin"] == [t[0], t[3]]
+PYTHON
+done

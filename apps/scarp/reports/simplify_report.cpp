@@ -157,6 +157,29 @@ GoalError find_goal_error(const Outcome& outcome) {
   return goal(simplified.measurement.max_error, "max error", false);
 }
 
+namespace {
+
+/// STL holds offsets from an origin that only Scarp reads in its header.
+std::string offset_words(const SimplifyPlan& plan, const Mesh& mesh) {
+  const std::array<double, 3>& o = mesh.origin;
+  if (!plan.format.is_mesh() || plan.format.mesh != MeshFormat::kStl || plan.solid || (o[0] == 0 && o[1] == 0)) return "";
+  return fmt::format("; the file holds offsets from {:.10g}, {:.10g}", o[0], o[1]);
+}
+
+/// So that the numbers hold for those of the file.
+void add_offset(const SimplifyPlan& plan, const Mesh& mesh, Json& frame) {
+  const std::string words = offset_words(plan, mesh);
+  if (words.empty()) return;
+  frame["description"] = frame["description"].get<std::string>() + words;
+  Json& t = frame["to_source"];
+  if (!t.is_array()) return;
+  for (const std::size_t k : {std::size_t{0}, std::size_t{3}})
+    t[k] = t[k].get<double>() + t[k + 1].get<double>() * mesh.origin[0] + t[k + 2].get<double>() * mesh.origin[1];
+  frame["origin"] = Json{t[0], t[3]};
+}
+
+}  // namespace
+
 Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::vector<ReadyFile>& files,
                  const std::string& command_line) {
   Json report;
@@ -165,6 +188,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["input"] = describe_input(outcome.field, outcome.as_read, plan.read.band);
   report["input"]["filled"] = outcome.filled;
   report["frame"] = describe_frame(outcome.field);
+  add_offset(plan, outcome.simplified.mesh, report["frame"]);
   report["goal"] = describe_goal(plan, outcome);
   report["strategy"] = describe_strategy(plan.simplify, plan.strategy, outcome.simplified);
   for (const auto& [key, file] : {std::pair{"mask", &plan.companions.mask},
@@ -230,7 +254,7 @@ std::string make_summary(const SimplifyPlan& plan, const Outcome& outcome, const
   text += outline_line(plan, outcome);
   text += summary_line("effort", describe_effort(plan, outcome.simplified));
   text += summary_line("order", order_name(outcome.simplified.order));
-  text += summary_line("frame", outcome.field.frame.description);
+  text += summary_line("frame", outcome.field.frame.description + offset_words(plan, outcome.simplified.mesh));
   text += waters_lines(outcome.features.lakes, outcome.simplified.features.rivers);
   if (!plan.cut.files.empty()) text += summary_line("cutline", cut_words(outcome.cut, outcome.simplified.cut_off));
   text += lines_line(outcome.simplified.features.given_lines(), outcome.simplified.lines_inserted,
