@@ -4,7 +4,7 @@ source "$(dirname "$0")/lib.sh"
 need ogr2ogr gdal_translate gzip tar python3
 
 cp -L "$data"/examples/* .
-for name in water rivers breaklines cutline roi; do cp lakes.geojson "$name.geojson"; done
+for name in water rivers breaklines cutline roi materials node-strings; do cp lakes.geojson "$name.geojson"; done
 cp dem.tif mask.tif
 cp dem.tif tolerance.tif
 cp tile.png texture.png
@@ -17,16 +17,19 @@ import json, sys
 rows = json.load(sys.stdin)["options"]
 read = [r for r in rows if r["type"] == "file" and r["group"] not in ("Arguments", "Output") or r["name"] == "--drape"]
 print(*sorted(r["name"] for r in read))')
-[ "$options" = "--breaklines --cutline --drape --mask --rivers --roi --script --texture --tolerance --water" ] ||
+expected="--breaklines --cutline --drape --mask --materials --node-strings --rivers --roi --script --texture --tolerance --water"
+[ "$options" = "$expected" ] ||
   fail "options that read files: $options"
 for option in $options; do
   file=$(ls "${option#--}".*)
   value=$file
   if [ "$option" = --roi ]; then value=$file=5; fi
-  refuses 1 "OUTPUT $file is an input file" "$scarp" simplify dem.tif "$file" --of glb -e 20 "$option" "$value" --overwrite
+  format=glb
+  case $option in --materials | --node-strings) format=2dm ;; esac
+  refuses 1 "OUTPUT $file is an input file" "$scarp" simplify dem.tif "$file" --of $format -e 20 "$option" "$value" --overwrite
   cp "$file" report.json
   ln -sf "$file" p.png
-  refuses 1 "--preview p.png is " "$scarp" simplify dem.tif o.glb -e 20 "$option" "$value" --preview p.png --overwrite
+  refuses 1 "--preview p.png is " "$scarp" simplify dem.tif o.$format -e 20 "$option" "$value" --preview p.png --overwrite
   rm report.json p.png
 done
 

@@ -108,7 +108,7 @@ constexpr OptionRow kLineRows[] = {
      .name = "--materials",
      .commands = kSimplify,
      .group = OptionGroup::kLines,
-     .type = kFile,
+     .type = kInputFile,
      .value = "FILE[:LAYER]",
      .help =
          "Polygons of materials, for .2dm: their borders become edges of the mesh, and each triangle has the number "
@@ -125,7 +125,7 @@ constexpr OptionRow kLineRows[] = {
      .name = "--node-strings",
      .commands = kSimplify,
      .group = OptionGroup::kLines,
-     .type = kFile,
+     .type = kInputFile,
      .value = "FILE[:LAYER]",
      .is_repeatable = true,
      .help = "Lines that become edges of the mesh and node strings of a .2dm, such as inflows and cross-sections."},
