@@ -69,7 +69,7 @@ class Case:
         self.name, self.bin, self.scratch = name, options.bin, Path(scratch)
         self.raw, self.cols, self.rows = to_raw(source, window, self.scratch / f"{name}.f32")
         self.mesh = self.scratch / "mesh"
-        flat = self.judge("surface", self.run("peer_scarp", 1e30, "greedy"))
+        flat = self.judge("surface", self.run("peer_scarp", "-e", 1e30, "greedy"))
         self.relief = flat["max_height"] - flat["min_height"]
 
     def run(self, program, *arguments):
@@ -248,7 +248,7 @@ def compare(case, options):
     greedy, made = {}, []
     for goal, percent in goals.items():
         for variant in VARIANTS:
-            verdict = case.judge("surface", case.run("peer_scarp", f"{goal:.17g}", variant))
+            verdict = case.judge("surface", case.run("peer_scarp", "-e", f"{goal:.17g}", variant))
             if verdict["max_error"] > goal or verdict["uncovered"] > 0:
                 raise SystemExit(f"{case.name}: Scarp, {variant}, breaks {goal:g}")
             greedy.setdefault(goal, verdict["triangles"])

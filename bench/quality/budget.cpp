@@ -1,85 +1,103 @@
-// What effort makes of a budget: max error and RMSE for as many triangles as greedy insertion takes at 1 % of the
-// relief, as ratios to the greedy mesh, and the share of the budget that is used.
+// What effort and objective make of a budget: as many triangles as greedy insertion takes at 1 % of the relief, and at
+// 0.3 % where these are fewer than 100,000 → max error and RMSE, as measure() judges them. Times go to a table of their
+// own: this one is the same on every machine.
 //
-//   scarp_budget PROJECT [RASTER]...
+//   scarp_budget PROJECT BUDGETS.csv SECONDS.csv [NAME...]
+//
+// All of PROJECT/bench/quality/budgets.txt, or the named ones, whose rows then are put in place of the old ones. Ends
+// with 3 as soon as a mesh has more triangles than the budget, leaves a sample uncovered or is not sound; and, when all
+// is done, if `high` had a larger max error than `normal` anywhere.
 
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <ctime>
-#include <optional>
-#include <string>
-#include <vector>
+#include <limits>
 
 #include "files.h"
+#include "judge.h"
 #include "scarp/scarp.h"
+#include "variants.h"
 
 namespace {
 
-constexpr double kErrorOfRelief = 0.01;
-constexpr const char* kRasters[] = {"fuji.tif", "bigtujunga30m.tif", "crater.tif", "jacksboro_fault.tif"};
+constexpr double kPercentsOfRelief[] = {1, 0.3};
+constexpr std::uint64_t kMostOfMore = 100'000;  ///< a second budget that is larger is left out
 
-struct Level {
-  const char* name;
-  scarp::Effort effort;
-  scarp::Objective objective;
+constexpr const char* kHeader =
+    "raster,cols,rows,valid,percent_of_relief,budget,variant,triangles,max_error,rmse,angle_p1,thin_percent\n";
+constexpr const char* kSecondsHeader = "raster,percent_of_relief,variant,cpu_seconds\n";
+
+struct Tables {
+  std::string budgets = kHeader, seconds = kSecondsHeader;
 };
-constexpr Level kLevels[] = {{"normal", scarp::Effort::kNormal, scarp::Objective::kMax},
-                             {"high", scarp::Effort::kHigh, scarp::Objective::kMax},
-                             {"high, rms", scarp::Effort::kHigh, scarp::Objective::kRms}};
 
-/// Of this process: other programs on the machine count less.
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+void add_rows(const std::string& name, const scarp::OwnedHeightField& field, double percent, std::uint64_t budget,
+              std::string_view variant, const bench::Made& made, Tables& tables) {
+  const scarp::Measurement& judged = made.judged;
+  tables.budgets += fmt::format("{},{},{},{},{:g},{},{},{},{:.7g},{:.7g},{:.3f},{:.2f}\n", name, field.cols, field.rows,
+                                field.info.valid, percent, budget, variant, judged.triangles, judged.max_error,
+                                judged.rmse, judged.angle_percentiles[0], made.thin_percent);
+  tables.seconds += fmt::format("{},{:g},{},{:.3f}\n", name, percent, variant, made.seconds);
+  fmt::print("{:28}{:4g} %{:9}  {:11}{:9}{:11.5g}{:11.5g}{:9.3f} s\n", name, percent, budget, variant, judged.triangles,
+             judged.max_error, judged.rmse, made.seconds);
+  std::fflush(stdout);
+}
 
-bool measure(const std::string& name, const scarp::OwnedHeightField& field) {
-  scarp::SimplifyOptions options;
-  options.goals.max_error = kErrorOfRelief * (field.info.max - field.info.min);
-  options.quality.order = scarp::Order::kGreedy;
-  options.run.threads = 1;
-  const double start = cpu_seconds();
-  const auto greedy = scarp::simplify(field, options);
-  if (!greedy) return false;
-  const double greedy_seconds = cpu_seconds() - start;
-  options.quality.order = scarp::Order::kAuto;
-  options.goals.max_error = std::nullopt;
-  options.goals.max_triangles = greedy->mesh.triangle_count();
-  for (const Level& level : kLevels) {
-    options.quality.effort = level.effort;
-    options.goals.objective = level.objective;
-    const double begin = cpu_seconds();
-    const auto made = scarp::simplify(field, options);
-    if (!made) return false;
-    const scarp::Measurement &before = greedy->measurement, &after = made->measurement;
-    fmt::print("{:20}{:>9}  {:10}{:9.4f}{:12.3f}{:8.3f}{:8.1f}\n", name, *options.goals.max_triangles, level.name,
-               static_cast<double>(made->mesh.triangle_count()) / static_cast<double>(*options.goals.max_triangles),
-               after.max_error / before.max_error, after.rmse / before.rmse, (cpu_seconds() - begin) / greedy_seconds);
-    std::fflush(stdout);
+int complain(const std::string& name, double percent, std::string_view variant, const std::string& fault) {
+  fmt::print(stderr, "{}, {:g} % of the relief, {}: {}\n", name, percent, variant, fault);
+  return 3;
+}
+
+/// Both budgets of one raster; the program's exit code. `worse` counts where high had a larger max error than normal.
+int run(const std::string& name, const scarp::OwnedHeightField& field, Tables& tables, int& worse) {
+  const double relief = field.info.max - field.info.min;
+  for (const double percent : kPercentsOfRelief) {
+    const double error = percent / 100 * relief;
+    const auto greedy = bench::make(field, bench::options_of(bench::kVariants[0], error));
+    if (!greedy) return complain(name, percent, "greedy", greedy.error().message);
+    const std::uint64_t budget = greedy->judged.triangles;
+    if (percent < kPercentsOfRelief[0] && budget >= kMostOfMore) continue;
+    add_rows(name, field, percent, budget, "greedy", *greedy, tables);
+    double normal_error = 0;
+    for (const bench::BudgetVariant& variant : bench::kBudgetVariants) {
+      if (static_cast<double>(budget) > variant.most_budget) continue;
+      const auto made = bench::make(field, bench::options_of(variant, budget));
+      if (!made) return complain(name, percent, variant.name, made.error().message);
+      std::string fault = bench::find_fault(made->judged, std::numeric_limits<double>::infinity());
+      if (made->judged.triangles > budget) fault = fmt::format("it has {} triangles", made->judged.triangles);
+      if (!fault.empty()) return complain(name, percent, variant.name, fault);
+      add_rows(name, field, percent, budget, variant.name, *made, tables);
+      if (variant.name == "normal") normal_error = made->judged.max_error;
+      if (variant.name == "high" && made->judged.max_error > normal_error) {
+        complain(name, percent, variant.name,
+                 fmt::format("its max error is {:.7g}, that of normal {:.7g}", made->judged.max_error, normal_error));
+        ++worse;
+      }
+    }
   }
-  return true;
+  return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    fmt::print(stderr, "usage: scarp_budget PROJECT [RASTER]...\n");
+  if (argc < 4) {
+    fmt::print(stderr, "usage: scarp_budget PROJECT BUDGETS.csv SECONDS.csv [NAME...]\n");
     return 1;
   }
-  std::vector<std::string> names(argv + 2, argv + argc);
-  if (names.empty()) names.assign(std::begin(kRasters), std::end(kRasters));
-  fmt::print("{:20}{:>9}  {:10}{:>9}{:>12}{:>8}{:>8}\n", "raster", "budget", "effort", "used", "max error", "RMSE",
-             "time");
+  const std::filesystem::path project = argv[1];
+  const std::vector<std::string> all = bench::read_names(project / "bench/quality/budgets.txt");
+  std::vector<std::string> names(argv + 4, argv + argc);
+  if (names.empty()) names = all;
+  int worse = 0;
   for (const std::string& name : names) {
-    const auto path = bench::find_raster(argv[1], name);
-    if (!path) {
-      fmt::print(stderr, "{} is not there\n", name);
-      return 2;
-    }
-    const auto field = scarp::read_height_field(*path);
-    if (!field || !measure(name, *field)) {
-      fmt::print(stderr, "{} cannot be read or simplified\n", name);
-      return 2;
+    const auto field = bench::read_field(project, name);
+    if (!field) return bench::fail_with(field.error().message);
+    Tables tables;
+    if (const int code = run(name, *field, tables, worse)) return code;
+    for (const auto& [path, table] : {std::pair{argv[2], &tables.budgets}, {argv[3], &tables.seconds}}) {
+      if (const int code = bench::write_table(path, bench::replace_rows(path, *table, name, all))) return code;
     }
   }
-  return 0;
+  return worse == 0 ? 0 : 3;
 }

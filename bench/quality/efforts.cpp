@@ -8,19 +8,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <ctime>
 
 #include "files.h"
+#include "judge.h"
 #include "scarp/scarp.h"
 #include "variants.h"
 
 namespace {
 
 constexpr double kPercentsOfRelief[] = {5, 2, 1, 0.5, 0.2};
-constexpr int kGeneratedSide = 768;
 
 constexpr const char* kHeader =
     "raster,cols,rows,valid,percent_of_relief,max_error_asked,effort,vertices,triangles,ratio,percent_of_full,max_"
@@ -32,45 +29,8 @@ struct Tables {
   std::string efforts = kHeader, seconds = kSecondsHeader;
 };
 
-/// Of this process, all its threads: other programs on the machine count less.
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
-scarp::Result<scarp::OwnedHeightField> read_field(const std::filesystem::path& project, const std::string& name) {
-  if (const auto style = scarp::find_field_style(name))
-    return scarp::generate_field(*style, kGeneratedSide, kGeneratedSide);
-  const auto path = bench::find_raster(project, name);
-  if (!path) return tl::unexpected(scarp::Error{scarp::ErrorKind::kInput, name + " is not there"});
-  return scarp::read_height_field(*path);
-}
-
-/// What is wrong with a mesh that promised max_error; nothing if nothing is.
-std::string find_fault(const scarp::Measurement& judged, double max_error) {
-  // Planes through vertices between samples are no numbers of double.
-  constexpr double kRounding = 1 + 1e-12;
-  if (judged.max_error > kRounding * max_error) return fmt::format("its max error is {:.9g}", judged.max_error);
-  if (judged.uncovered > 0) return fmt::format("{} samples are uncovered", judged.uncovered);
-  return judged.is_sound() ? "" : "it folds, gapes or degenerates";
-}
-
-struct Made {
-  scarp::Measurement judged;
-  double seconds = 0;
-};
-
-scarp::Result<Made> make(const scarp::OwnedHeightField& field, const bench::Variant& variant, double max_error) {
-  const double start = cpu_seconds();
-  const auto simplified = scarp::simplify(field, bench::options_of(variant, max_error));
-  Made made;
-  made.seconds = cpu_seconds() - start;
-  if (!simplified) return tl::unexpected(simplified.error());
-  auto judged = scarp::measure(field, simplified->mesh);
-  if (!judged) return tl::unexpected(judged.error());
-  made.judged = *std::move(judged);
-  return made;
-}
-
 void add_rows(const std::string& name, const scarp::OwnedHeightField& field, double percent, double max_error,
-              const bench::Variant& variant, const Made& made, double greedy_triangles, Tables& tables) {
+              const bench::Variant& variant, const bench::Made& made, double greedy_triangles, Tables& tables) {
   const scarp::Measurement& judged = made.judged;
   const auto triangles = static_cast<double>(judged.triangles);
   tables.efforts += fmt::format(
@@ -89,8 +49,8 @@ int run(const std::string& name, const scarp::OwnedHeightField& field, Tables& t
     double greedy_triangles = 0;
     for (const bench::Variant& variant : bench::kVariants) {
       if (greedy_triangles > variant.most_greedy_triangles) continue;
-      const auto made = make(field, variant, max_error);
-      const std::string fault = made ? find_fault(made->judged, max_error) : made.error().message;
+      const auto made = bench::make(field, bench::options_of(variant, max_error));
+      const std::string fault = made ? bench::find_fault(made->judged, max_error) : made.error().message;
       if (!fault.empty()) {
         fmt::print(stderr, "{}, {:g} % of the relief, {}: {}\n", name, percent, variant.name, fault);
         return 3;
@@ -117,7 +77,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> names(argv + 4, argv + argc);
   if (names.empty()) names = all;
   for (const std::string& name : names) {
-    const auto field = read_field(project, name);
+    const auto field = bench::read_field(project, name);
     if (!field) {
       fmt::print(stderr, "{}\n", field.error().message);
       return 2;

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the tables of docs/quality.md from efforts.csv, peers.csv, their times, and pictures.csv.
+"""Writes the tables of docs/quality.md from efforts.csv, budgets.csv, peers.csv, their times, high_normal.csv,
+squares.csv and pictures.csv.
 
   report.py            writes them
   report.py --check    fails if the document would change
@@ -156,15 +157,149 @@ def peer_cell(row):
     return f"{float(row['ratio']):.3f}{marks}"
 
 
-def picture_table(scene, rows):
-    """The pictures of a scene side by side, how many triangles each shows below."""
-    words = {"greedy": "greedy insertion"}
+class Budgets:
+    """budgets.csv with the times in it."""
+
+    def __init__(self):
+        rows = read_table(HERE / "budgets.csv")
+        seconds = {tuple(row.values())[:-1]: float(row["cpu_seconds"])
+                   for row in read_table(HERE / "budgets_seconds.csv")}
+        for row in rows:
+            row["seconds"] = seconds.get((row["raster"], row["percent_of_relief"], row["variant"]))
+        self.rows, self.cases = rows, by_case(rows, "variant")
+        self.variants = [variant for variant in values(rows, "variant") if variant != "greedy"]
+
+    def ratios(self, variant, column, to, of_walls=False):
+        return [float(case[variant][column]) / float(case[to][column]) for (raster, _), case in self.cases.items()
+                if variant in case and (raster in STEEP) == of_walls]
+
+    def summary(self):
+        lines = []
+        for variant in self.variants:
+            used = [float(row["triangles"]) / float(row["budget"]) for row in self.rows
+                    if row["variant"] == variant and row["raster"] not in STEEP]
+            lines.append([f"`{variant}`", len(used), spread(self.ratios(variant, "max_error", "greedy")),
+                          spread(self.ratios(variant, "rmse", "greedy")), spread(self.ratios(variant, "rmse", "high")),
+                          f"{100 * min(used):.1f} %", spread(self.ratios(variant, "seconds", "greedy"), 0),
+                          spread(self.ratios(variant, "rmse", "high", of_walls=True))])
+        return markdown(["geometric mean (least to most)", "cases", "max error ÷ greedy's", "RMSE ÷ greedy's",
+                         "RMSE ÷ that of `high`", "least used of the budget", "CPU time ÷ greedy's",
+                         "on walls (athens_dsm_1m): RMSE ÷ that of `high`"], lines)
+
+    def errors(self):
+        lines = []
+        for (raster, percent), case in self.cases.items():
+            cells = [f"{float(row['max_error']) / float(case['greedy']['max_error']):.3f}, "
+                     f"{float(row['rmse']) / float(case['greedy']['rmse']):.3f}" if row else "–"
+                     for row in map(case.get, self.variants)]
+            share = float(case["high rms"]["rmse"]) / float(case["high"]["rmse"])
+            lines.append([title(raster), f"{int(case['greedy']['budget']):,}", *cells, f"{share:.3f}"])
+        return markdown(["raster", "budget", *(f"`{variant}`" for variant in self.variants),
+                         "RMSE of `high rms` ÷ `high`"], lines)
+
+
+class Squares:
+    """squares.csv."""
+
+    def __init__(self):
+        self.rows, self.cases = read_table(HERE / "squares.csv"), {}
+        for row in self.rows:
+            self.cases.setdefault(row["raster"], {})[row["program"]] = row
+        self.programs = [program for program in values(self.rows, "program")
+                         if program not in ("Scarp greedy", "Scarp high rms")]
+
+    def best(self, case):
+        """Of the other programs, the least RMSE in that of Scarp."""
+        return min(float(row["ratio"]) for program, row in case.items() if not program.startswith("Scarp"))
+
+    def table(self):
+        lines = []
+        for raster, case in self.cases.items():
+            scarp = case["Scarp high rms"]
+            cells = [square_cell(row, scarp) if row else "–" for row in map(case.get, self.programs)]
+            lines.append([raster, f"{int(scarp['triangles']):,}", f"{float(scarp['rmse']):.4g}",
+                          f"{float(scarp['max_error']):.4g}", *cells, f"{100 - 100 / self.best(case):.0f} %"])
+        means = [f"{geometric_mean([float(case[program]['ratio']) for case in self.cases.values() if program in case]):.2f}"
+                 for program in self.programs]
+        mean = geometric_mean([self.best(case) for case in self.cases.values()])
+        lines.append(["geometric mean", "", "", "", *means, f"{100 - 100 / mean:.0f} %"])
+        return markdown(["raster", "triangles", "`high rms`: RMSE", "max error",
+                         *(f"{program.removeprefix('Scarp ')}" if not program.startswith("Scarp")
+                           else f"`{program.removeprefix('Scarp ')}`" for program in self.programs),
+                         "`high rms` below the best program"], lines)
+
+
+def square_cell(row, scarp):
+    marks = ("†" if row["uncovered"] != "0" else "") + ("‡" if row["folded"] != "0" else "")
+    return f"{float(row['ratio']):.2f}, {float(row['max_error']) / float(scarp['max_error']):.2f}{marks}"
+
+
+WORST = 12  # rows of the table
+
+
+class HighNormal:
+    """high_normal.csv."""
+
+    def __init__(self):
+        self.rows = read_table(HERE / "high_normal.csv")
+        self.cases = by_case(self.rows, "variant")
+
+    def worst(self):
+        """Where high saves least."""
+        def ratio(case):
+            return int(case["high"]["triangles"]) / int(case["normal"]["triangles"])
+
+        lines = []
+        for (raster, percent), case in sorted(self.cases.items(), key=lambda one: -ratio(one[1]))[:WORST]:
+            hard = f"{int(case['hard']['triangles']):,}" if "hard" in case else "–"
+            lines.append([title(raster), f"{percent} %", f"{int(case['normal']['triangles']):,}",
+                          f"{int(case['high']['triangles']):,}", f"{ratio(case):.3f}", hard])
+        more = sum(ratio(case) > 1 for case in self.cases.values())
+        lines.append([f"all {len(self.cases)}", "", "", "", spread([ratio(case) for case in self.cases.values()], 3),
+                      f"`high` has more in {more}"])
+        return markdown(["raster", "max error", "`normal`", "`high`", "ratio", "`high --min-shape 0.1`"], lines)
+
+    def angles(self):
+        """Of terrain, and of the rest: what the floor yields."""
+        kinds = [("relief of land, sea floor and Mars", [case for (raster, _), case in self.cases.items()
+                                                        if "hard" in case and is_terrain(raster)]),
+                 ("houses, steps and walls", [case for (raster, _), case in self.cases.items()
+                                              if "hard" in case and raster in STEEP])]
+        lines = []
+        for words, cases in kinds:
+            for variant, name in (("normal", "`normal`"), ("hard", "`high --min-shape 0.1`"), ("high", "`high`")):
+                found = [case[variant] for case in cases]
+                triangles = geometric_mean([int(case[variant]["triangles"]) / int(case["hard"]["triangles"])
+                                            for case in cases])
+                lines.append([f"{words}, {len(cases)} cases" if variant == "normal" else "", name, f"{triangles:.3f}",
+                              f"{statistics.median(float(row['angle_p1']) for row in found):.1f}°",
+                              f"{statistics.median(float(row['thin_percent']) for row in found):.2f} %"])
+        return markdown(["", "", "triangles ÷ `high --min-shape 0.1`'s", "first percentile of the smallest angles",
+                         "triangles with an angle below 5°"], lines)
+
+
+STEEP = ("athens_dsm_1m.tif", "cliff", "step", "sharp-step", "diagonal-step", "sharp-diagonal-step", "blocks", "stairs",
+         "heaps")
+
+
+def is_terrain(raster):
+    return raster.endswith((".tif", ".asc", ".stm", ".hgt", ".zip")) and raster not in STEEP
+
+
+def picture_table(rows):
+    """The pictures of a scene side by side, and below what each shows: of one bound the triangles, of one budget the
+    errors too."""
+    words = {"greedy": "greedy insertion", "max": "`--objective max`", "rms": "`--objective rms`"}
     header = [words.get(row["effort"], f"`{row['effort']}`") for row in rows]
     pictures = [f"![{title(row['raster'])}, {row['effort']}](images/{row['picture']})" for row in rows]
-    greedy = int(rows[0]["triangles"])
-    counts = [f"{int(row['triangles']):,} triangles" + (f", {int(row['triangles']) / greedy:.2f}" if row is not rows[0]
-                                                        else "") for row in rows]
-    return markdown(header, [pictures, counts])
+    captions = []
+    for row in rows:
+        captions.append(f"{int(row['triangles']):,} triangles")
+        if row["goal"].endswith("triangles"):
+            captions[-1] += f", max error {float(row['max_error']):.1f}, RMSE {float(row['rmse']):.2f}"
+        elif row is not rows[0]:
+            captions[-1] += f", {int(row['triangles']) / int(rows[0]['triangles']):.2f}"
+    return markdown(header, [pictures, captions])
 
 
 def tables():
@@ -176,7 +311,14 @@ def tables():
         found.update(peers=peers.summary(), peer_triangles=peers.triangles())
     pictures = read_table(HERE / "pictures.csv")
     for scene in values(pictures, "scene"):
-        found[f"pictures_{scene}"] = picture_table(scene, [row for row in pictures if row["scene"] == scene])
+        found[f"pictures_{scene}"] = picture_table([row for row in pictures if row["scene"] == scene])
+    budgets, squares, floors = Budgets(), Squares(), HighNormal()
+    if budgets.rows:
+        found.update(budget_summary=budgets.summary(), budgets=budgets.errors())
+    if squares.rows:
+        found.update(squares=squares.table())
+    if floors.rows:
+        found.update(high_normal=floors.worst(), floor_angles=floors.angles())
     return found
 
 

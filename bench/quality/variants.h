@@ -1,6 +1,7 @@
 // What the tables of effort compare: greedy insertion, and the ways in which simplify() makes less of it.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <string_view>
 
@@ -26,6 +27,22 @@ inline constexpr Variant kVariants[] = {
     {"max", scarp::Order::kAuto, scarp::Effort::kMax, "free", 100'000},
 };
 
+/// What a budget is given to.
+struct BudgetVariant {
+  std::string_view name;  ///< of the row; no two the same
+  scarp::Effort effort;
+  scarp::Objective objective;
+  double most_budget = std::numeric_limits<double>::infinity();  ///< not run where more triangles are allowed
+};
+
+inline constexpr BudgetVariant kBudgetVariants[] = {
+    {"normal", scarp::Effort::kNormal, scarp::Objective::kMax},
+    {"normal rms", scarp::Effort::kNormal, scarp::Objective::kRms},
+    {"high", scarp::Effort::kHigh, scarp::Objective::kMax},
+    {"high rms", scarp::Effort::kHigh, scarp::Objective::kRms},
+    {"max rms", scarp::Effort::kMax, scarp::Objective::kRms, 30'000},
+};
+
 /// Nothing if there is none of that name.
 inline const Variant* find_variant(std::string_view name) {
   for (const Variant& variant : kVariants) {
@@ -41,6 +58,23 @@ inline scarp::SimplifyOptions options_of(const Variant& variant, double max_erro
   options.quality.order = variant.order;
   options.quality.effort = variant.effort;
   options.quality.vertices = variant.vertices == "free" ? scarp::Vertices::kFree : scarp::Vertices::kSamples;
+  options.run.threads = 1;
+  return options;
+}
+
+/// Nothing if there is none of that name.
+inline const BudgetVariant* find_budget_variant(std::string_view name) {
+  for (const BudgetVariant& variant : kBudgetVariants) {
+    if (variant.name == name) return &variant;
+  }
+  return nullptr;
+}
+
+inline scarp::SimplifyOptions options_of(const BudgetVariant& variant, std::uint64_t max_triangles) {
+  scarp::SimplifyOptions options;
+  options.goals.max_triangles = max_triangles;
+  options.goals.objective = variant.objective;
+  options.quality.effort = variant.effort;
   options.run.threads = 1;
   return options;
 }

@@ -1,5 +1,5 @@
 #!/bin/bash
-# The ratios that --help, README.md and docs/cli.md claim for efforts are those of the tables of docs/quality.md.
+# The ratios that --help, README.md and docs/cli.md claim for efforts and budgets are those of the tables of docs/quality.md.
 set -euo pipefail
 source_tree=${SCARP_SOURCE:?}
 scarp=${SCARP_BUILD:?}/bin/scarp
@@ -9,7 +9,8 @@ import os, re, sys
 root = sys.argv[1]
 read = lambda name: open(f"{root}/{name}", encoding="utf-8").read()
 joined = lambda text: re.sub(r"[\s`*]+", " ", text)
-texts = {"--help": joined(os.environ["help"]), "README.md": joined(read("README.md")), "docs/cli.md": joined(read("docs/cli.md"))}
+texts = {"--help": joined(os.environ["help"]), "README.md": joined(read("README.md")), "docs/cli.md": joined(read("docs/cli.md")),
+         "docs/quality.md": joined(read("docs/quality.md"))}
 
 # triangles and CPU time of each effort, in greedy insertion's
 quality = read("docs/quality.md")
@@ -20,6 +21,11 @@ for name, sparse, _, _, time in re.findall(r"^\| `([a-z ]+)` \|([^|]*)\|([^|]*)\
 assert set(table) == {"fast", "normal", "high on samples", "high", "max"}, table
 triangles = {name: row[0] for name, row in table.items()}
 seconds = {name: row[1] for name, row in table.items()}
+budgets = re.search(r"<!-- table: budget_summary -->(.*?)<!-- end -->", quality, re.S).group(1)
+budget = {}  # max error and RMSE in greedy insertion's, RMSE in that of `high`
+for name, error, rmse, of_high in re.findall(r"^\| `([a-z ]+)` \| [0-9]+ \|([^|]*)\|([^|]*)\|([^|]*)\|", budgets, re.M):
+    budget[name] = tuple(float(cell.split()[0]) for cell in (error, rmse, of_high))
+assert set(budget) == {"normal", "normal rms", "high", "high rms", "max rms"}, budget
 N = r"([0-9.]+[0-9])"
 
 def near(claim, true, digits):
@@ -41,6 +47,13 @@ claims = [
 for level in "fast", "normal", "high", "max":
     claims.append(("docs/cli.md", rf"\| {level} \| [^|]* \| {N} \| ([0-9.]+) \|",
                    [(triangles[level], 2), (seconds[level], 0 if level == "max" else 1)]))
+claims += [
+    ("docs/cli.md", rf"the max error is about {N} \( ?normal ?\) or {N} \( ?high ?\) of that of greedy insertion",
+     [(budget["normal"][0], 2), (budget["high"][0], 2)]),
+    ("docs/cli.md", rf"With high the RMSE is about {N} of that of max , and the max error {N} times",
+     [(budget["high rms"][2], 2), (budget["high rms"][0] / budget["high"][0], 1)]),
+    ("docs/quality.md", rf"For as many triangles high rms leaves {N} of the RMSE of high", [(budget["high rms"][2], 2)]),
+]
 told = {"--help": [], "README.md": []}
 for where, words, truths in claims:
     found = re.search(words, texts[where])
