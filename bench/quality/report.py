@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes the tables of docs/quality.md from efforts.csv, budgets.csv, peers.csv, their times, high_normal.csv,
-squares.csv and pictures.csv.
+squares.csv, cliffs.csv, ridges.csv and pictures.csv.
 
   report.py            writes them
   report.py --check    fails if the document would change
@@ -286,6 +286,40 @@ def is_terrain(raster):
     return raster.endswith((".tif", ".asc", ".stm", ".hgt", ".zip")) and raster not in STEEP
 
 
+def cliff_table(rows):
+    """Triangles without walls → with walls."""
+    efforts = values(rows, "effort")
+    lines = []
+    for raster, error in dict.fromkeys((row["raster"], row["error"]) for row in rows):
+        case = {row["effort"]: row for row in rows if (row["raster"], row["error"]) == (raster, error)}
+        lines.append([title(raster), error, f"{int(case[efforts[0]]['walls']):,}",
+                      *(f"{int(row['plain']):,} → {int(row['cliffs']):,}, {float(row['share']):.2f}"
+                        for row in map(case.get, efforts))])
+    return markdown(["raster", "max error", "walls", *(f"`{effort}`" for effort in efforts)], lines)
+
+
+def ridge_table(rows):
+    """Triangles and RMSE on streams as shares of those without lines, percentage points of streams kept."""
+    shown = (("fast", "preferred"), ("normal", "preferred"), ("normal", "kept"), ("high", "preferred"),
+             ("high", "kept"))
+    lines, names = [], values(rows, "raster")
+    for raster, error in sorted({(row["raster"], row["error"]) for row in rows},
+                                key=lambda one: (names.index(one[0]), float(one[1]))):
+        case = {(row["effort"], row["lines"]): row for row in rows if (row["raster"], row["error"]) == (raster, error)}
+        first = case["fast", "none"]
+        cells = []
+        for effort, kind in shown:
+            row, plain = case[effort, kind], case[effort, "none"]
+            points = 100 * (float(row["streams_kept"]) - float(plain["streams_kept"]))
+            cells.append(f"{int(row['triangles']) / int(plain['triangles']):.2f}, "
+                         f"{float(row['stream_rmse']) / float(plain['stream_rmse']):.2f}, "
+                         f"{points:+.1f}".replace("-", "−"))
+        lines.append([title(raster), error, f"{first['ridges']}, {first['valleys']}", *cells])
+    return markdown(["raster", "max error", "ridges, valleys",
+                     *(f"`{effort}`" if kind == "preferred" else f"`{effort} --keep-ridges`" for effort, kind in shown)],
+                    lines)
+
+
 def picture_table(rows):
     """The pictures of a scene side by side, and below what each shows: of one bound the triangles, of one budget the
     errors too."""
@@ -312,6 +346,9 @@ def tables():
     pictures = read_table(HERE / "pictures.csv")
     for scene in values(pictures, "scene"):
         found[f"pictures_{scene}"] = picture_table([row for row in pictures if row["scene"] == scene])
+    for name, table in (("cliffs", cliff_table), ("ridges", ridge_table)):
+        if rows := read_table(HERE / f"{name}.csv"):
+            found[name] = table(rows)
     budgets, squares, floors = Budgets(), Squares(), HighNormal()
     if budgets.rows:
         found.update(budget_summary=budgets.summary(), budgets=budgets.errors())
