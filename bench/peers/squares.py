@@ -28,7 +28,7 @@ RASTERS.update({
     "gabilan_384": ("gabilan_lidar_1m.tif", (268, 238, 384, 384)),
     "azores_384": ("azores_bathymetry_1min.tif", (108, 33, 384, 384)),
     "mars_gale": ("mars_gale_hirise_1m.tif", None),
-    "sainte_helens": ("sainte_helens.tif", None),
+    "cuyuna_384": ("cuyuna_pits_lidar_1m.tif", (8, 8, 384, 384)),
     "athens_384": ("athens_dsm_1m.tif", (8, 8, 384, 384)),
 })
 

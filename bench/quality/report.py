@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Writes the tables of docs/quality.md from efforts.csv, budgets.csv, peers.csv, their times, high_normal.csv,
-squares.csv, cliffs.csv, ridges.csv and pictures.csv.
+squares.csv, cliffs.csv, ridges.csv, images.csv and pictures.csv.
 
   report.py            writes them
   report.py --check    fails if the document would change
@@ -320,6 +320,17 @@ def ridge_table(rows):
                     lines)
 
 
+def image_table(rows):
+    """Max error and PSNR of each image by variant."""
+    variants = values(rows, "variant")
+    lines = []
+    for image in values(rows, "image"):
+        case = {row["variant"]: row for row in rows if row["image"] == image}
+        lines.append([f"`{title(image)}`", *(f"{row['max_error']}, {float(row['psnr']):.1f} dB"
+                                             for row in map(case.get, variants))])
+    return markdown(["image", *(variant if variant == "uniform grid" else f"`{variant}`" for variant in variants)], lines)
+
+
 def picture_table(rows):
     """The pictures of a scene side by side, and below what each shows: of one bound the triangles, of one budget the
     errors too."""
@@ -346,7 +357,7 @@ def tables():
     pictures = read_table(HERE / "pictures.csv")
     for scene in values(pictures, "scene"):
         found[f"pictures_{scene}"] = picture_table([row for row in pictures if row["scene"] == scene])
-    for name, table in (("cliffs", cliff_table), ("ridges", ridge_table)):
+    for name, table in (("cliffs", cliff_table), ("ridges", ridge_table), ("images", image_table)):
         if rows := read_table(HERE / f"{name}.csv"):
             found[name] = table(rows)
     budgets, squares, floors = Budgets(), Squares(), HighNormal()
