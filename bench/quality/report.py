@@ -218,15 +218,15 @@ class Squares:
             scarp = case["Scarp high rms"]
             cells = [square_cell(row, scarp) if row else "–" for row in map(case.get, self.programs)]
             lines.append([raster, f"{int(scarp['triangles']):,}", f"{float(scarp['rmse']):.4g}",
-                          f"{float(scarp['max_error']):.4g}", *cells, f"{100 - 100 / self.best(case):.0f} %"])
-        means = [f"{geometric_mean([float(case[program]['ratio']) for case in self.cases.values() if program in case]):.2f}"
+                          f"{float(scarp['max_error']):.4g}", *cells, f"{1 / self.best(case):.2f}"])
+        cases = list(self.cases.values())
+        means = [f"{geometric_mean([float(case[program]['ratio']) for case in cases if program in case]):.2f}"
                  for program in self.programs]
-        mean = geometric_mean([self.best(case) for case in self.cases.values()])
-        lines.append(["geometric mean", "", "", "", *means, f"{100 - 100 / mean:.0f} %"])
+        lines.append(["geometric mean", "", "", "", *means, f"{1 / geometric_mean([self.best(case) for case in cases]):.2f}"])
         return markdown(["raster", "triangles", "`high rms`: RMSE", "max error",
                          *(f"{program.removeprefix('Scarp ')}" if not program.startswith("Scarp")
                            else f"`{program.removeprefix('Scarp ')}`" for program in self.programs),
-                         "`high rms` below the best program"], lines)
+                         "`high rms` ÷ the best program"], lines)
 
 
 def square_cell(row, scarp):
