@@ -44,6 +44,11 @@ class SquaresSearch {
     }
     if (!best) return search_budget(options_, task_);
     if (rank(*fast) < rank(*best)) std::swap(*best, *fast);
+    if (is_saturated_) {
+      auto searched = search_budget(options_, task_);
+      if (!searched && searched.error().kind == ErrorKind::kCancelled) return searched;
+      if (searched && rank(*searched) < rank(*best)) return searched;
+    }
     best->stop = stop_of(*best);
     Pass search{"search"};
     search.seconds = seconds_since(start) - best->seconds_refine - best->seconds_measure;
@@ -79,7 +84,8 @@ class SquaresSearch {
     if (!made && made.error().kind == ErrorKind::kCancelled) return tl::unexpected(made.error());
     if (!made) return number;
     const double grown = static_cast<double>(made->mesh.triangle_count()) / triangles;
-    if (grown > kSquareStart / kNearStart && grown < kSquareStart * kNearStart) return number;
+    is_saturated_ = grown <= kSquareStart / kNearStart;
+    if (!is_saturated_ && grown < kSquareStart * kNearStart) return number;
     const double power = std::clamp(std::log(grown) / std::log(reached / number), 0.3, 4.0);
     return reached * std::pow(kSquareStart, -1 / power);
   }
@@ -110,6 +116,7 @@ class SquaresSearch {
   BudgetNumber number_;
   Budget budget_;
   SearchProgress progress_;
+  bool is_saturated_ = false;  // smaller errors take few triangles more: the budget is near to following every sample
 };
 
 }  // namespace
