@@ -19,6 +19,9 @@ namespace {
 /// Triangles ~ number^-kUsualPower, and how far from what is wanted a start may be, as a ratio.
 constexpr double kUsualPower = 1.3, kNearStart = 1.5;
 
+/// With fewer, chance decides which way ends with the smaller error.
+constexpr std::size_t kFewTriangles = 500;
+
 int exchanges_of(Effort effort) { return effort == Effort::kMax ? 60 : effort == Effort::kHigh ? 6 : 2; }
 
 class SquaresSearch {
@@ -44,7 +47,7 @@ class SquaresSearch {
     }
     if (!best) return search_budget(options_, task_);
     if (rank(*fast) < rank(*best)) std::swap(*best, *fast);
-    if (is_saturated_) {
+    if (is_saturated_ || fast->mesh.triangle_count() < kFewTriangles) {
       auto searched = search_budget(options_, task_);
       if (!searched && searched.error().kind == ErrorKind::kCancelled) return searched;
       if (searched && rank(*searched) < rank(*best)) return searched;

@@ -3,7 +3,7 @@
 // No search for an error leads there (fit/square_rounds.h), so there is none: the mesh of fast effort tells what max
 // error the budget reaches, which becomes the bound; a mesh of several times the triangles is where fitting begins.
 // Where there is no such mesh, since few triangles more follow every sample, a search for an error may do better, as on
-// level roofs: it is made too.
+// level roofs: it is made too. So it is for a few hundred triangles.
 #pragma once
 
 #include "scarp/height_field.h"

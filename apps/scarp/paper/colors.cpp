@@ -14,15 +14,30 @@ HeightField with_colors(HeightField heights, const OwnedChannels& image, double 
   return heights;
 }
 
-Result<Painted> paint(const Study& study, const HeightField& field, const std::string& name, const OwnedChannels& image,
-                      PaperOptions options) {
-  Result<Simplified> run = study.run(field, name, std::move(options));
+namespace {
+
+Result<Painted> paint_mesh(Result<Simplified> run, const HeightField& field, const OwnedChannels& image) {
   if (!run) return tl::unexpected(std::move(run.error()));
   Painted painted{std::move(*run), {}, 0};
   color_by_channels(painted.run.mesh, image);
   painted.picture = draw_gouraud(field, painted.run.mesh);
   painted.psnr = find_psnr(draw_channels(image), painted.picture);
   return painted;
+}
+
+}  // namespace
+
+Result<Painted> paint(const Study& study, const HeightField& field, const std::string& name, const OwnedChannels& image,
+                      PaperOptions options) {
+  return paint_mesh(study.run(field, name, std::move(options)), field, image);
+}
+
+Result<Painted> paint_by_squares(const Study& study, const HeightField& field, const std::string& name,
+                                 const OwnedChannels& image, std::uint64_t vertices, Effort effort) {
+  SimplifyOptions options;
+  options.goals = {.max_vertices = vertices, .objective = Objective::kRms};
+  options.quality.effort = effort;
+  return paint_mesh(study.run_by_effort(field, name, options), field, image);
 }
 
 namespace {

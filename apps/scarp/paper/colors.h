@@ -1,6 +1,7 @@
 // What the experiments with colours share.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct Painted {
 };
 Result<Painted> paint(const Study& study, const HeightField& field, const std::string& name, const OwnedChannels& image,
                       PaperOptions options);
+
+/// The same with Objective::kRms and `effort`: at most `vertices`, where the squared error of all bands is small.
+Result<Painted> paint_by_squares(const Study& study, const HeightField& field, const std::string& name,
+                                 const OwnedChannels& image, std::uint64_t vertices, Effort effort);
 
 /// The image at another size, each new pixel the mean of what it covers, in whole numbers.
 OwnedChannels resize(const OwnedChannels& image, int cols, int rows);

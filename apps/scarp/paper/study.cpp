@@ -67,12 +67,27 @@ const Field* Study::find(const std::string& key) const {
   return nullptr;
 }
 
-Result<Simplified> Study::run(const HeightField& field, const std::string& name, PaperOptions options) const {
-  options.run.progress = [](const Progress&) { return !cli::interrupted(); };
-  Result<Simplified> result = simplify_by_paper(field, options);
+namespace {
+
+bool goes_on(const Progress&) { return !cli::interrupted(); }
+
+Result<Simplified> name_complaints(Result<Simplified> result, const std::string& name) {
   if (cli::interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
   if (!result) return fail(result.error().kind, fmt::format("{}: {}", name, result.error().message));
   return result;
+}
+
+}  // namespace
+
+Result<Simplified> Study::run(const HeightField& field, const std::string& name, PaperOptions options) const {
+  options.run.progress = goes_on;
+  return name_complaints(simplify_by_paper(field, options), name);
+}
+
+Result<Simplified> Study::run_by_effort(const HeightField& field, const std::string& name,
+                                        SimplifyOptions options) const {
+  options.run.progress = goes_on;
+  return name_complaints(simplify(field, options), name);
 }
 
 Result<Trial> Study::reach(const Field& field, PaperOptions options) const {

@@ -48,8 +48,10 @@ class Study {
     return chosen;
   }
 
-  /// simplify(), which Ctrl-C ends; its complaints begin with `name`.
+  /// simplify_by_paper(), which Ctrl-C ends; its complaints begin with `name`.
   Result<Simplified> run(const HeightField& field, const std::string& name, PaperOptions options) const;
+  /// The same of simplify(), for what the paper has not.
+  Result<Simplified> run_by_effort(const HeightField& field, const std::string& name, SimplifyOptions options) const;
   /// Greedy insertion up to exactly `vertices` vertices.
   Result<Trial> refine(const Field& field, std::uint64_t vertices, PaperOptions options = {}) const;
   /// The same towards the goals in `options`.
