@@ -125,8 +125,9 @@ class SquaresSearch {
 }  // namespace
 
 bool lowers_squares(const HeightField& field, const SimplifyOptions& options) {
-  const bool works_by_strips = field.samples == nullptr && (has_lines(options) || has_source_bounds(field, options));
-  return options.goals.objective == Objective::kRms && options.quality.effort != Effort::kFast && !works_by_strips &&
+  const bool needs_strips = has_lines(options) || has_source_bounds(field, options) || !field.frame.is_affine();
+  return options.goals.objective == Objective::kRms && options.quality.effort != Effort::kFast &&
+         (field.samples != nullptr || !needs_strips) &&
          !options.quality.shape.any() && !options.domain.border.is_locked;
 }
 

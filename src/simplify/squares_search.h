@@ -13,7 +13,8 @@
 namespace scarp {
 
 /// Whether a budget's mesh is made so: for Objective::kRms with more than fast effort, without goals for shapes
-/// and a locked border, which has an error of its own; of samples in a source without lines and tolerances.
+/// and a locked border, which has an error of its own; of samples in a source without lines, tolerances and
+/// curved frames: what refines a fine start there reads triangle by triangle.
 bool lowers_squares(const HeightField& field, const SimplifyOptions& options);
 
 /// The mesh with the least Simplified::judged_rmse of those seen, within the budgets; its judged_max_error is at most
