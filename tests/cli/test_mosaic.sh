@@ -77,6 +77,15 @@ gdal_translate -q -ot Int16 few.asc few.tif
 succeeds "$scarp" simplify few.tif means.tif -e 0 --resolution 2
 grep -q 'read as *means of 2 x 2 cells, 2 x 2 each (without the last 1 columns and 0 rows)' "$logs/out" || fail "the summary does not tell the means"
 [ "$(gdal_translate -q -of XYZ means.tif /vsistdout/ | cut -d' ' -f3 | head -3 | tr '\n' ' ')" = "2 4 7.75 " ] || fail "wrong means"
+# Of the valid samples: declared nodata has no part in a mean, nor what --nodata names.
+sed 's/-9 -9 9$/5 6 9/; s/^2 3 4 5/2 3 4 -9/' few.asc > mixed.asc
+gdal_translate -q -ot Int16 mixed.asc mixed.tif
+gdal_translate -q -a_nodata none mixed.tif plain.tif
+for input in "mixed.tif" "plain.tif --nodata -9"; do
+  succeeds "$scarp" simplify $input mixed.csv.tif -e 0.001 --resolution 2 --overwrite
+  means=$(gdal_translate -q -of XYZ mixed.csv.tif /vsistdout/ | cut -d' ' -f3 | tr '\n' ' ')
+  [[ "$means" = "2 3.66"*" 7.75 5.5 " ]] || fail "means of $input: $means"
+done
 # What GDAL rounds in a mean counts: the bound holds for the exact ones.
 python3 - > thirds.asc <<'PYTHON'
 print("ncols 60\nnrows 60\nxllcorner 0\nyllcorner 0\ncellsize 1")

@@ -67,7 +67,7 @@ void scale_heights(const ReadOptions& options, Plan& plan) {
 Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOptions& options) {
   Plan plan;
   Means means;
-  auto dataset = open_view(session, path, options.view, false, plan.info.view, &means);
+  auto dataset = open_view(session, path, options.view, false, plan.info.view, &means, options.nodata);
   if (!dataset) return tl::unexpected(dataset.error());
   plan.dataset = std::move(*dataset);
   plan.info.path = path;

@@ -15,6 +15,7 @@ namespace {
 
 struct FreeOptions {
   void operator()(GDALTranslateOptions* options) const { GDALTranslateOptionsFree(options); }
+  void operator()(GDALWarpAppOptions* options) const { GDALWarpAppOptionsFree(options); }
 };
 
 /// A window of whole cells, of which k × k become one.
@@ -76,9 +77,58 @@ const char* mean_type(GDALDataType type, bool keeps_type) {
   return is_wide ? "Float64" : "Float32";
 }
 
+/// What a cell must hold to have no part in a mean: the value that was asked for, or declared; empty: all cells count.
+Result<std::string> find_nodata(GDALDatasetH whole, const std::string& path, std::optional<double> asked) {
+  if (asked) return fmt::format("{:.17g}", *asked);
+  const GDALRasterBandH band = GDALGetRasterBand(whole, 1);
+  int has_nodata = 0;
+  const double declared = GDALGetRasterNoDataValue(band, &has_nodata);
+  if (has_nodata != 0) return fmt::format("{:.17g}", declared);
+  if (GDALGetMaskFlags(band) == GMF_ALL_VALID) return std::string();
+  return fail(ErrorKind::kInput, fmt::format("{}: a mask tells where it has no heights, which means do not heed: give it a "
+                                             "nodata value first (gdalwarp -dstnodata -9999 {} new.tif)",
+                                             path, path));
+}
+
+/// Means of the cells that hold a height: resampling of a virtual raster averages nodata too, warping does not.
+Result<Dataset> open_means(Session& session, GDALDatasetH whole, const std::string& path, const Part& part,
+                           const std::string& nodata, const std::string& type) {
+  std::array<double, 6> gt{};
+  GDALGetGeoTransform(whole, gt.data());
+  if (gt[1] < 0 || gt[5] > 0) {
+    return fail(ErrorKind::kInput, fmt::format("{}: is not north up, and has nodata: make it so before it is coarsened "
+                                               "(gdalwarp {} new.tif)",
+                                               path, path));
+  }
+  const int cols = part.cols / part.across, rows = part.rows / part.down;
+  const auto x = [&](int col) { return fmt::format("{:.17g}", gt[0] + gt[1] * col); };
+  const auto y = [&](int row) { return fmt::format("{:.17g}", gt[3] + gt[5] * row); };
+  CPLStringList words;
+  for (const std::string& word :
+       {std::string("-of"), std::string("VRT"), std::string("-r"), std::string("average"), std::string("-ovr"),
+        std::string("NONE"), std::string("-et"), std::string("0"), std::string("-te"), x(part.col),
+        y(part.row + rows * part.down), x(part.col + cols * part.across), y(part.row), std::string("-ts"),
+        fmt::format("{}", cols), fmt::format("{}", rows), std::string("-srcnodata"), nodata,
+        std::string("-dstnodata"), nodata, std::string("-ot"), type})
+    words.AddString(word.c_str());
+  const std::unique_ptr<GDALWarpAppOptions, FreeOptions> options(GDALWarpAppOptionsNew(words.List(), nullptr));
+  session.clear();
+  int failed = 0;
+  const Dataset made(GDALWarp("", nullptr, 1, &whole, options.get(), &failed));
+  if (!made || failed != 0)
+    return fail(ErrorKind::kInput, fmt::format("{}: no part of it can be read: {}", path, session.reason()));
+  return open_virtual(session, made.get(), path);
+}
+
 Result<Dataset> open_part(Session& session, GDALDatasetH whole, const std::string& path, const Part& part,
-                          bool keeps_type) {
+                          bool keeps_type, std::optional<double> nodata) {
   const bool is_mean = part.across > 1 || part.down > 1;
+  if (is_mean && !keeps_type) {
+    const auto value = find_nodata(whole, path, nodata);
+    if (!value) return tl::unexpected(value.error());
+    const GDALDataType type = GDALGetRasterDataType(GDALGetRasterBand(whole, 1));
+    if (!value->empty()) return open_means(session, whole, path, part, *value, mean_type(type, false));
+  }
   const int cols = part.cols / part.across, rows = part.rows / part.down;
   CPLStringList words;
   const auto add = [&](std::initializer_list<std::string> more) {
@@ -117,7 +167,7 @@ std::string describe_part(const Part& part, int cols, int rows, const std::array
 }  // namespace
 
 Result<Dataset> open_view(Session& session, const std::string& path, const RasterView& view, bool keeps_type,
-                          std::string& words, Means* means) {
+                          std::string& words, Means* means, std::optional<double> nodata) {
   std::vector<std::string> given{path};
   given.insert(given.end(), view.more.begin(), view.more.end());
   const auto paths = expand_folders(session, given);
@@ -150,7 +200,7 @@ Result<Dataset> open_view(Session& session, const std::string& path, const Raste
     means->cells = static_cast<int>(std::min<std::int64_t>(std::int64_t{part.across} * part.down, 1 << 30));
     means->are_whole = type == GDT_Byte || type == GDT_Int16 || type == GDT_UInt16;
   }
-  return open_part(session, whole->get(), path, part, keeps_type);
+  return open_part(session, whole->get(), path, part, keeps_type, nodata);
 }
 
 }  // namespace scarp::gdal

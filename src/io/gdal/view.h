@@ -1,6 +1,7 @@
 // Several rasters, a part or a coarser version of one, as one raster.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "io/gdal/open.h"
@@ -16,8 +17,10 @@ struct Means {
 
 /// Opens what `view` makes of `path`, a virtual raster in memory where that is more than the one raster as it is. A
 /// folder is a mosaic of its rasters. `words` tells what was made, as RasterInfo::view does. `keeps_type`: bytes stay
-/// bytes where samples are averaged, as colours are. Fails as open_raster() and as ReadOptions::view tells.
+/// bytes where samples are averaged, as colours are. `nodata`: holds instead of the value that is declared; neither has
+/// a part in means. Fails as open_raster() and as ReadOptions::view tells.
 Result<Dataset> open_view(Session& session, const std::string& path, const RasterView& view, bool keeps_type,
-                          std::string& words, Means* means = nullptr);
+                          std::string& words, Means* means = nullptr,
+                          std::optional<double> nodata = std::nullopt);
 
 }  // namespace scarp::gdal
