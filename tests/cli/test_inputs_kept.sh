@@ -48,6 +48,12 @@ refuses 1 "OUTPUT v.gpkg is a file that v.gpkg:lakes is made of" \
   "$scarp" simplify dem.tif v.gpkg -e 20 --roi v.gpkg:lakes=5 --overwrite
 refuses 1 "--report sh.dbf is a file that sh.shp is made of" \
   "$scarp" simplify dem.tif o.glb -e 20 --roi sh.shp=5 --report sh.dbf --overwrite
+# A driver's name before the file.
+for name in GPKG:v.gpkg GPKG:v.gpkg:lakes GeoJSON:lakes.geojson; do
+  file=${name#*:}
+  refuses 1 "--report ${file%:lakes} is a file that $name is made of" \
+    "$scarp" simplify dem.tif o.glb -e 20 --water "$name" --report "${file%:lakes}" --overwrite
+done
 succeeds "$scarp" simplify dem.tif o.glb -e 20
 refuses 1 "--error-raster mask.tif is an input file" \
   "$scarp" measure dem.tif o.glb --mask mask.tif --error-raster mask.tif --overwrite

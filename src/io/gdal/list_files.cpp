@@ -33,6 +33,21 @@ void add_container(const std::string& name, std::set<std::string>& seen) {
   }
 }
 
+void add_files(const std::string& path, std::set<std::string>& seen);
+
+/// Of names like FILE:LAYER, DRIVER:FILE and DRIVER:FILE:LAYER.
+void add_between_colons(const std::string& name, std::set<std::string>& seen) {
+  for (std::size_t begin = 0; begin != std::string::npos && begin < name.size();) {
+    for (std::size_t end = begin; end != std::string::npos;) {
+      end = name.find(':', end + 1);
+      const std::string file = name.substr(begin, end == std::string::npos ? end : end - begin);
+      if (file.size() < name.size() && !file.empty() && is_there(file)) add_files(file, seen);
+    }
+    const std::size_t colon = name.find(':', begin);
+    begin = colon == std::string::npos ? colon : colon + 1;
+  }
+}
+
 void add_files(const std::string& path, std::set<std::string>& seen) {
   const std::string vsi = vsi_path(path);
   if (is_remote(path) || path == "-" || declares_entities(vsi)) return;
@@ -44,8 +59,8 @@ void add_files(const std::string& path, std::set<std::string>& seen) {
     for (int k = 0; k < entries.size(); ++k) seen.insert(CPLFormFilename(vsi.c_str(), entries[k], nullptr));
   } else if (exists && !VSI_ISREG(status.st_mode)) {
     return;
-  } else if (const std::size_t colon = vsi.rfind(':'); !exists && colon != std::string::npos && colon > 0) {
-    if (const std::string file = vsi.substr(0, colon); is_there(file)) return add_files(file, seen);  // FILE:LAYER
+  } else if (!exists) {
+    add_between_colons(vsi, seen);
   }
   if (exists) seen.insert(vsi);  // also where no driver opens it, such as a script
   const Dataset dataset(
