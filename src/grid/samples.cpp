@@ -51,8 +51,8 @@ Result<Samples> Samples::to_refine(const HeightField& field, int threads) {
   const Raster clean = samples->raster_;
   const auto cols = static_cast<std::size_t>(field.cols);
   std::vector<float> above(cols * static_cast<std::size_t>(field.rows));
-  const auto [ux, uy, uz] = field.frame.space->up();
-  const auto [ox, oy, oz] = field.frame.space->origin();
+  const auto up = field.frame.space->up();
+  const auto origin = field.frame.space->origin();
   parallel_for(static_cast<std::size_t>(field.rows), threads, [&](std::size_t row) {
     std::vector<double> x(cols), y(cols), z(cols);
     const float* heights = clean.row(static_cast<std::int32_t>(row));
@@ -64,7 +64,7 @@ Result<Samples> Samples::to_refine(const HeightField& field, int threads) {
     }
     field.frame.space->to_space(x, y, z);
     for (std::size_t col = 0; col < cols; ++col) {
-      const double height = ux * (x[col] - ox) + uy * (y[col] - oy) + uz * (z[col] - oz);
+      const double height = up[0] * (x[col] - origin[0]) + up[1] * (y[col] - origin[1]) + up[2] * (z[col] - origin[2]);
       above[row * cols + col] = std::isnan(heights[col]) ? heights[col] : static_cast<float>(height);
     }
   });

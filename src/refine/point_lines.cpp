@@ -135,8 +135,8 @@ Result<void> PointLines::check_meetings() const {
   visit_neighbours(segments, [&](std::uint32_t i, std::uint32_t j) {
     if (error || !meet(segments[i], segments[j])) return;
     for (auto [s, t] : {std::pair{i, j}, std::pair{j, i}}) {
-      const auto [a, k] = owners[s];
-      const auto [b, m] = owners[t];
+      const std::uint32_t a = owners[s].first, k = owners[s].second;
+      const std::uint32_t b = owners[t].first, m = owners[t].second;
       const double from = z_at(a, k), to = z_at(a, k + 1), climb = std::abs(to - from) / length_of(segments[s]),
                    other_climb = std::abs(z_at(b, m + 1) - z_at(b, m)) / length_of(segments[t]);
       const auto test = [&](double share, double z, double x, double y) {
