@@ -22,6 +22,9 @@ constexpr double kClosed = 0.002;     // logarithm of the ratio of two numbers o
 constexpr double kNearFloor = 0.02;   // logarithm: so near a goal it is tried itself
 constexpr double kLeast = std::numeric_limits<double>::min();
 
+/// Of so few triangles a mesh of a smaller budget may be the better one, where triangles jump.
+constexpr std::size_t kFewTriangles = 500;
+
 /// How a search goes on from where it begins.
 struct Pace {
   double power;      ///< triangles ~ number^-power, where nothing is known yet
@@ -67,6 +70,27 @@ SimplifyOptions BudgetNumber::towards(double number) const {
 
 namespace {
 
+/// The smaller, the better.
+std::tuple<double, double, std::size_t> rank(const SimplifyOptions& options, const Simplified& of) {
+  const double largest = of.judged_max_error, rmse = of.judged_rmse;
+  return options.goals.objective == Objective::kMax ? std::tuple(largest, rmse, of.mesh.triangle_count())
+                                                    : std::tuple(rmse, largest, of.mesh.triangle_count());
+}
+
+/// Half of the budgets; its progress is that of a run that is nearly done.
+SimplifyOptions with_half_a_budget(SimplifyOptions options) {
+  for (std::optional<std::uint64_t>* budget : {&options.goals.max_triangles, &options.goals.max_vertices}) {
+    if (*budget) **budget = std::max<std::uint64_t>(**budget / 2, 1);
+  }
+  if (const ProgressCallback told = options.run.progress) {
+    options.run.progress = [told](Progress progress) {
+      progress.fraction = 1;
+      return told(progress);
+    };
+  }
+  return options;
+}
+
 class BudgetSearch {
  public:
   BudgetSearch(const SimplifyOptions& options, const BudgetTask& task)
@@ -101,6 +125,10 @@ class BudgetSearch {
   /// Why meshes within the budget were not to be had, where memory was the reason.
   const std::optional<Error>& no_room() const { return no_room_; }
 
+  /// Whether triangles jump over the budget, which leaves much of it.
+  bool has_jumped() const {
+    return fits_ && exceeds_ && highest() - exceeds_->number < kClosed && fits_->used < std::log(kNearlyFull);
+  }
  private:
   /// The refusal of a budget that is too small is that of this run.
   Result<void> begin_without_effort() {
@@ -302,14 +330,7 @@ class BudgetSearch {
     return budget_.used(vertices) > budget_.used(triangles) ? StopReason::kMaxVertices : StopReason::kMaxTriangles;
   }
 
-  bool is_better(const Simplified& made) const {
-    const auto rank = [this](const Simplified& of) {
-      const double largest = of.judged_max_error, rmse = of.judged_rmse;
-      return options_.goals.objective == Objective::kMax ? std::tuple(largest, rmse, of.mesh.triangle_count())
-                                                         : std::tuple(rmse, largest, of.mesh.triangle_count());
-    };
-    return rank(made) < rank(best_);
-  }
+  bool is_better(const Simplified& made) const { return rank(options_, made) < rank(options_, best_); }
 
   Result<Simplified> run(SimplifyOptions options, double factor, double share) {
     if (!progress_.begin(share)) return fail(ErrorKind::kCancelled, kCancelled);
@@ -366,6 +387,11 @@ class BudgetSearch {
 Result<Simplified> search_budget(const SimplifyOptions& options, const BudgetTask& task) {
   BudgetSearch search(options, task);
   auto made = search.execute();
+  if (made && search.has_jumped() && !made->is_cut_short && made->mesh.triangle_count() < kFewTriangles) {
+    auto smaller = search_budget(with_half_a_budget(options), task);
+    if (!smaller && smaller.error().kind == ErrorKind::kCancelled) return smaller;
+    if (smaller && rank(options, *smaller) < rank(options, *made)) return smaller;
+  }
   if (!made || !search.no_room() || made->stop == StopReason::kMaxError || made->stop == StopReason::kExact)
     return made;
   const double used = Budget(options).used({made->mesh.vertex_count(), made->mesh.triangle_count()});
