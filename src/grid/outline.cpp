@@ -197,28 +197,4 @@ Outline trace_outline(const Raster& raster) {
 
 Outline trace_outline(std::span<const SampleRun> runs) { return join_edges(border_edges(runs)); }
 
-bool centroid_is_surface(const Raster& raster, const std::array<Point, 3>& corners) {
-  // Three times the centroid, relative to the cell that holds it. A centroid on a cell's border may be asked of either
-  // cell.
-  const std::int64_t x3 = std::int64_t{corners[0].x} + corners[1].x + corners[2].x;
-  const std::int64_t y3 = std::int64_t{corners[0].y} + corners[1].y + corners[2].y;
-  const auto x = static_cast<std::int32_t>(std::min<std::int64_t>(x3 / 3, raster.cols - 2));
-  const auto y = static_cast<std::int32_t>(std::min<std::int64_t>(y3 / 3, raster.rows - 2));
-  const std::int64_t u = x3 - 3 * std::int64_t{x}, v = y3 - 3 * std::int64_t{y};  // 0 … 3
-  switch (valid_corners(raster, x, y)) {
-    case 0b1111:
-      return true;
-    case 0b1110:  // (x, y) is nodata
-      return u + v >= 3;
-    case 0b1101:  // (x + 1, y)
-      return u <= v;
-    case 0b1011:  // (x + 1, y + 1)
-      return u + v <= 3;
-    case 0b0111:  // (x, y + 1)
-      return u >= v;
-    default:
-      return false;
-  }
-}
-
 }  // namespace scarp

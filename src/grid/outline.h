@@ -4,7 +4,6 @@
 // between them; any other cell is nodata. The outline of the union is a set of closed lattice polygons.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -34,10 +33,6 @@ inline unsigned valid_corners(const Raster& raster, std::int32_t x, std::int32_t
   const auto bit = [&](std::int32_t i, std::int32_t j, unsigned k) { return raster.is_valid({i, j}) ? 1u << k : 0u; };
   return bit(x, y, 0) | bit(x + 1, y, 1) | bit(x + 1, y + 1, 2) | bit(x, y + 1, 3);
 }
-
-/// True if the centroid of the triangle lies in the domain. For a triangle that lies wholly inside or wholly outside
-/// this decides which. Exact.
-bool centroid_is_surface(const Raster& raster, const std::array<Point, 3>& corners);
 
 /// Simplifies the polygons so that each point of the old outline lies within `tolerance` samples of the new one. The
 /// domain only grows, over nodata samples: no valid sample is cut off or newly enclosed, and polygons still do not

@@ -24,23 +24,51 @@ bool constrain_outline(Triangulation& tin, const Outline& outline) {
   return true;
 }
 
-/// Marks what lies outside: what no path without a constrained edge connects with a triangle of surface.
-void mark_outside(const Raster& raster, Triangulation& tin) {
-  std::vector<Triangle> stack;
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
-    tin.set_outside(t, !centroid_is_surface(raster, tin.corners(t)));
-    if (!tin.is_outside(t)) stack.push_back(t);
+/// The constrained edge from v towards `to`, which chains of constrained edges join.
+HalfEdge edge_towards(const Triangulation& tin, Vertex v, Point to, std::vector<Triangle>& star) {
+  tin.star(v, star);
+  const Point from = tin.point(v);
+  for (Triangle t : star) {
+    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
+      const Point p = tin.point(tin.origin(Triangulation::next(h)));
+      const bool is_ahead =
+          std::int64_t{p.x - from.x} * (to.x - from.x) + std::int64_t{p.y - from.y} * (to.y - from.y) > 0;
+      if (tin.origin(h) == v && is_ahead && orient(from, to, p) == 0) return h;
+    }
+  }
+  return kNone;
+}
+
+/// Marks what lies outside: what no path without a constrained edge connects with the left of an outline's edge.
+/// Samples do not tell: a simplified outline may enclose triangles of nodata alone, with samples at their corners.
+Result<void> mark_outside(Triangulation& tin, const Outline& outline) {
+  for (Triangle t = 0; t < tin.triangle_count(); ++t) tin.set_outside(t, true);
+  std::vector<Triangle> stack, star;
+  const auto add = [&](Triangle t) {
+    if (!tin.is_outside(t)) return;
+    tin.set_outside(t, false);
+    stack.push_back(t);
+  };
+  for (const auto& polygon : outline) {
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Point end = polygon[(i + 1) % polygon.size()];
+      for (Vertex v = insert_point(tin, polygon[i]); tin.point(v) != end;) {
+        const HalfEdge h = edge_towards(tin, v, end, star);
+        if (h == kNone) return fail(ErrorKind::kInternal, "an edge of the outline of the valid data is missing");
+        add(Triangulation::triangle_of(h));
+        v = tin.origin(Triangulation::next(h));
+      }
+    }
   }
   while (!stack.empty()) {
     const Triangle t = stack.back();
     stack.pop_back();
     for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) {
       const HalfEdge g = tin.twin(h);
-      if (g == kNone || tin.is_constrained(h) || !tin.is_outside(g / 3)) continue;
-      tin.set_outside(g / 3, false);
-      stack.push_back(g / 3);
+      if (g != kNone && !tin.is_constrained(h)) add(Triangulation::triangle_of(g));
     }
   }
+  return {};
 }
 
 std::uint32_t count_unused_corners(const Triangulation& tin) {
@@ -108,19 +136,21 @@ Result<DomainMesh> build_domain(const Raster& raster, double outline_tolerance, 
   DomainMesh domain{Triangulation(raster.cols, raster.rows)};
   domain.whole = is_whole(raster);
   if (!domain.whole) {
-    const Outline outline = trace_outline(raster);
+    Outline outline = trace_outline(raster);
     if (outline.empty())
       return fail(
           ErrorKind::kInput,
           "the raster has no grid cell with three valid corners, so there is no surface to simplify; check nodata");
-    const bool simplified =
-        outline_tolerance > 0 && constrain_outline(domain.tin, simplify_outline(raster, outline, outline_tolerance));
-    if (!simplified) {
+    Outline simplified;
+    if (outline_tolerance > 0) simplified = simplify_outline(raster, outline, outline_tolerance);
+    if (!simplified.empty() && constrain_outline(domain.tin, simplified)) {
+      outline = std::move(simplified);
+    } else {
       domain.tin = Triangulation(raster.cols, raster.rows);
       if (!constrain_outline(domain.tin, outline))
         return fail(ErrorKind::kInternal, "two edges of the outline of the valid data cross");
     }
-    mark_outside(raster, domain.tin);
+    if (auto marked = mark_outside(domain.tin, outline); !marked) return tl::unexpected(marked.error());
   }
   if (frame.transform) follow_curved_border(raster, domain.tin, frame);
   domain.unused = count_unused_corners(domain.tin);

@@ -205,6 +205,7 @@ RC_GTEST_PROP(simplified_outlines, of_efforts_keep_the_promise_and_the_domain, (
   options.quality.effort = Effort::kFast;
   options.run.threads = 1;
   const auto fast = simplify(field.view(), options);
+  RC_ASSERT(fast || fast.error().kind == ErrorKind::kInput);
   RC_PRE(fast.has_value());
   options.quality.effort = *rc::gen::element(Effort::kNormal, Effort::kHigh, Effort::kMax);
   options.quality.vertices = *rc::gen::element(Vertices::kAuto, Vertices::kSamples);
@@ -221,6 +222,17 @@ RC_GTEST_PROP(simplified_outlines, of_efforts_keep_the_promise_and_the_domain, (
     options.run.threads = threads;
     RC_ASSERT(is_same_mesh(*simplify(field.view(), options), *made));
   }
+}
+
+RC_GTEST_PROP(simplified_outlines, of_small_shapes_keep_every_sample, ()) {
+  const Field field =
+      testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), *rc::gen::inRange(2, 14), *rc::gen::inRange(2, 14),
+                            Relief::kTies, *rc::gen::element(0.3, 0.5, 0.7));
+  SimplifyOptions options{.goals = {.max_error = 1e6}, .quality = {.effort = Effort::kFast}};
+  options.domain.outline_tolerance = *rc::gen::element(1.0, 4.0, 20.0);
+  const auto made = simplify(field.view(), options);
+  RC_ASSERT(made || made.error().kind == ErrorKind::kInput);
+  if (made) RC_ASSERT(made->measurement.uncovered == 0u);
 }
 
 TEST(simplified_outlines, take_fewer_triangles_with_each_level) {
