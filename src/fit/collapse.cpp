@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fit/height_room.h"
-#include "fit/height_step.h"
+#include "fit/fan.h"
 
 namespace scarp {
 
@@ -60,44 +59,21 @@ bool Collapse::find_polygon(Patch::Id v, Patch::Id u) {
   return true;
 }
 
-/// Whether the fan's triangles would be positive, and above the floor.
-bool Collapse::fits(const FitCorner& place) const {
-  for (std::size_t i = 0; i < polygon_.size(); ++i) {
-    if (area2(place, corner(i), corner(i + 1)) <= 0) return false;
-    if (rules_.shape.is_on() && rules_.shape.shape(place, corner(i), corner(i + 1)) < floor_) return false;
-  }
-  return true;
-}
-
-/// Gives the place its best height; the energy of the fan there. In the room only where it is the least so far.
-float Collapse::settle(FitCorner& place, float least) const {
-  TriangleError::Moments moments{};
-  for (std::size_t i = 0; i < polygon_.size(); ++i) loose_.add_moments(place, corner(i), corner(i + 1), moments);
-  const auto rise_to = [&](float height) { return (double{height} - double{place.z}) / loose_.unit(); };
-  const double lowest = rise_to(rules_.lowest), highest = rise_to(rules_.highest);
-  const double scale = loose_.has_bounds() ? scale_of_rises(moments) : 1;
-  const HeightStep best = best_height(moments, lowest, highest, scale);
-  if (!(best.energy < least)) return kNever;
-  TriangleError::Room room{static_cast<float>(lowest), static_cast<float>(highest)};
-  for (std::size_t i = 0; i < polygon_.size() && room.is_open(); ++i)
-    loose_.narrow(place, corner(i), corner(i + 1), room);
-  const double rise = rise_in(room, best.rise, scale).value_or(best.rise);
-  place.z = std::clamp(static_cast<float>(double{place.z} + rise * loose_.unit()), rules_.lowest, rules_.highest);
-  return std::abs(place.z) <= kMaxScanHeight ? static_cast<float>(best.energy) : kNever;
-}
-
 /// The best place of the new vertex; false where it promises too little.
 bool Collapse::search(Patch::Id v, Patch::Id u, Offer& offer) const {
   const FitCorner &a = patch_.at(v), &b = patch_.at(u);
   float least = kNever;
   FitCorner best;
+  const Fan fan(polygon_.size(), [this](std::size_t i) -> const FitCorner& { return corner(i); });
   const auto look = [&](double x, double y, double z) {
     FitCorner place{static_cast<std::int32_t>(std::lround(x / kFreeStep)) * kFreeStep,
                     static_cast<std::int32_t>(std::lround(y / kFreeStep)) * kFreeStep, static_cast<float>(z)};
-    const float energy = fits(place) ? settle(place, least) : kNever;
+    if (!fan.fits(place, rules_.shape, floor_)) return false;
+    const auto raised = fan.raise(loose_, rules_, place, [&](double energy) { return energy < least; });
+    const auto energy = raised.energy < kNever ? static_cast<float>(raised.least) : kNever;
     if (!(energy < least)) return false;
     least = energy;
-    best = place;
+    best = raised.place;
     return true;
   };
   const double x = b.x - a.x, y = b.y - a.y, z = double{b.z} - double{a.z};

@@ -48,8 +48,6 @@ class Collapse {
   };
   bool find_polygon(Patch::Id v, Patch::Id u);
   const FitCorner& corner(std::size_t i) const { return patch_.at(polygon_[i % polygon_.size()]); }
-  bool fits(const FitCorner& place) const;
-  float settle(FitCorner& place, float least) const;
   bool search(Patch::Id v, Patch::Id u, Offer& offer) const;
   void offer_edges_of(Patch::Id v, const std::function<bool(Patch::Id)>& is_wanted);
   bool take(const Offer& offer);

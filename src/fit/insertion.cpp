@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "fit/height_step.h"
+#include "fit/fan.h"
 #include "fit/schedule.h"
 
 namespace scarp {
@@ -81,19 +81,13 @@ void Insertion::try_place(double x, double y, Offer& best, const Offer& kind) {
   if (!is_free) place.z = error_.height_at({place.x / kLatticeSteps, place.y / kLatticeSteps});
   if (!(std::abs(place.z) <= kMaxScanHeight)) return;
   const auto corner = [this](std::size_t i) -> const FitCorner& { return rim_[i % rim_.size()]; };
-  for (std::size_t i = 0; i < rim_.size(); ++i) {
-    if (area2(place, corner(i), corner(i + 1)) <= 0) return;
-    if (rules_.shape.is_on() && rules_.shape.shape(place, corner(i), corner(i + 1)) < floor_) return;
-  }
+  const Fan fan(rim_.size(), corner);
+  if (!fan.fits(place, rules_.shape, floor_)) return;
   const float limit = energy_ - best.gain;
   if (is_free) {
-    TriangleError::Moments moments{};
-    for (std::size_t i = 0; i < rim_.size(); ++i) error_.add_moments(place, corner(i), corner(i + 1), moments);
-    const auto rise_to = [&](float height) { return (double{height} - double{place.z}) / error_.unit(); };
-    const HeightStep step = best_even_height(moments, rise_to(rules_.lowest), rise_to(rules_.highest));
-    if (!(step.energy < double{limit})) return;
-    place.z =
-        std::clamp(static_cast<float>(double{place.z} + step.rise * error_.unit()), rules_.lowest, rules_.highest);
+    const auto raised = fan.raise(error_, rules_, place, [](double) { return false; });
+    if (!(raised.energy < double{limit})) return;
+    place = raised.place;
   }
   float left = limit;
   for (std::size_t i = 0; i < rim_.size(); ++i) {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "fit/height_room.h"
-#include "fit/height_step.h"
 #include "fit/normal_equations.h"
 
 namespace scarp {
@@ -173,14 +171,7 @@ double VertexStep::shape_floor(const FitCorner& from) const {
   return floor;
 }
 
-/// Whether the star's triangles stay positive, and above the floor.
-bool VertexStep::fits(const FitCorner& place, double floor) const {
-  for (std::size_t i = 0; i < star_.faces.size(); ++i) {
-    if (area2(place, ring(i), ring(i + 1)) <= 0) return false;
-    if (rules_.shape.is_on() && rules_.shape.shape(place, ring(i), ring(i + 1)) < floor) return false;
-  }
-  return true;
-}
+bool VertexStep::fits(const FitCorner& place, double floor) const { return fan().fits(place, rules_.shape, floor); }
 
 /// Gives the place its height. Where that mends the star its energy counts as below the limit.
 VertexStep::Offer VertexStep::offer_at(const TriangleError& error, const FitCorner& from, FitCorner place,
@@ -192,28 +183,11 @@ VertexStep::Offer VertexStep::offer_at(const TriangleError& error, const FitCorn
   }
   const float rise = terrain_height(error, patch_.window(), place) - terrain_height(error, patch_.window(), from);
   place.z = std::isnan(rise) ? from.z : from.z + rise;
-  TriangleError::Moments moments{};
-  for (std::size_t i = 0; i < star_.faces.size(); ++i) error.add_moments(place, ring(i), ring(i + 1), moments);
-  const auto rise_to = [&](float height) { return (double{height} - double{place.z}) / error.unit(); };
-  const double lowest = rise_to(rules_.lowest), highest = rise_to(rules_.highest);
-  const double scale = error.has_bounds() ? scale_of_rises(moments) : 1;
-  HeightStep best = error.power() == ErrorRule::Power::kTwo ? best_even_height(moments, lowest, highest)
-                                                            : best_height(moments, lowest, highest, scale);
-  bool mends = false;
-  if (seeks_room_ && (is_over_ || best.energy < limit)) {
-    TriangleError::Room room{static_cast<float>(lowest), static_cast<float>(highest)};
-    for (std::size_t i = 0; i < star_.faces.size() && room.is_open(); ++i)
-      error.narrow(place, ring(i), ring(i + 1), room);
-    if (const auto within = rise_in(room, best.rise, scale)) {
-      best = {*within, energy_after(moments, *within)};
-      mends = is_over_;
-    }
-  }
-  const auto height = static_cast<float>(double{place.z} + best.rise * error.unit());
-  place.z = std::clamp(height, rules_.lowest, rules_.highest);
-  if (!(std::abs(place.z) <= kMaxScanHeight)) return {place, kNever};
-  const auto energy = static_cast<float>(best.energy);
-  return {place, mends ? std::min(energy, limit * (1 - kStepGain)) : energy, mends};
+  const auto raised =
+      fan().raise(error, rules_, place, [&](double energy) { return seeks_room_ && (is_over_ || energy < limit); });
+  const auto energy = static_cast<float>(raised.energy);
+  const bool mends = raised.in_room && is_over_ && energy < kNever;
+  return {raised.place, mends ? std::min(energy, limit * (1 - kStepGain)) : energy, mends};
 }
 
 /// Moves v there if that is better than the limit, and the rule of `error` lets it.

@@ -23,6 +23,7 @@
 #include <array>
 #include <vector>
 
+#include "fit/fan.h"
 #include "fit/patch.h"
 #include "fit/rules.h"
 #include "fit/triangle_error.h"
@@ -58,6 +59,9 @@ class VertexStep {
     bool mends = false;  ///< the star breaks the bound, and has room there
   };
   const FitCorner& ring(std::size_t i) const { return patch_.at(star_.ring[i % star_.ring.size()]); }
+  auto fan() const {
+    return Fan(star_.faces.size(), [this](std::size_t i) -> const FitCorner& { return ring(i); });
+  }
   Vector terrain_slope(const TriangleError& error, std::size_t field, const FitCorner& at) const;
   Vector newton_step(const TriangleError& error, const FitCorner& at);
   double mean_edge(const FitCorner& at) const;
