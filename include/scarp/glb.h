@@ -24,7 +24,7 @@ struct GlbOptions {
   /// their values: x and y are 16-bit multiples of 1/256 of `cell` or more, z of a power of two. A mesh or an axis that
   /// does not fit stays float32, which is compressed, too. simplify() makes meshes that fit with Output::lattice.
   /// Texture coordinates (16 bits), normals (12 significant bits a component) and colours (16 bits, linear) are
-  /// rounded.
+  /// rounded. Triangles and vertices get the order that takes the fewest bytes.
   bool compress = false;
   /// Sides of a cell of the raster along x and y, of either sign: Frame::affine[1] and [5]. DEFAULT: none.
   std::array<double, 2> cell{0, 0};

@@ -39,9 +39,10 @@ struct Mesh {
   }
 };
 
-/// Renumbers triangles for the vertex cache and vertices for fetch order (meshoptimizer). Same triangles, same
-/// corners, same winding; deterministic. Unused vertices are dropped. Cost: O(triangles).
-void optimize_order(Mesh& mesh);
+/// Sorts triangles by place and for the vertex cache, and vertices by first use (meshoptimizer). Same triangles, same
+/// corners, same winding; deterministic, and the same for any number of threads (0: one for each core). Unused vertices
+/// are dropped. Cost: O(triangles).
+void optimize_order(Mesh& mesh, int threads = 1);
 
 /// Turns the mesh y up: (x, y, z) becomes (x, z, −y), normals too, and metadata["up"] is "y". undo_y_up() turns a mesh
 /// that is_y_up() back; its metadata then says "z". Both are exact. All functions but these and the writers expect

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace scarp {
 
@@ -38,25 +39,29 @@ struct Extent {
   std::uint64_t valid = 0;
 };
 
-/// Lanes, since one minimum would have to wait for the one before it. `nodata`: NaN for none.
+/// Lanes without a branch, which compilers make vectors of. `nodata`: NaN for none.
 Extent extent_of(std::span<const float> samples, float nodata) {
-  constexpr std::size_t kLanes = 8;
-  constexpr float kLargest = std::numeric_limits<float>::max();
-  std::array<float, kLanes> least, most;
+  constexpr std::size_t kLanes = 16;
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  std::array<float, kLanes> least, most, last;
   std::array<std::uint32_t, kLanes> valid{};
-  least.fill(std::numeric_limits<float>::infinity());
-  most.fill(-std::numeric_limits<float>::infinity());
-  const auto look = [&](std::size_t lane, float z) {
-    const bool is_height = std::abs(z) <= kLargest && z != nodata;
-    least[lane] = is_height && z < least[lane] ? z : least[lane];
-    most[lane] = is_height && z > most[lane] ? z : most[lane];
-    valid[lane] += is_height ? 1 : 0;
+  least.fill(kInfinity);
+  most.fill(-kInfinity);
+  last.fill(kInfinity);
+  const auto look = [&](const float* lanes) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const float z = lanes[k];
+      const float low = (z != nodata) & (z > -kInfinity) ? z : kInfinity;
+      const float high = (z != nodata) & (z < kInfinity) ? z : -kInfinity;
+      least[k] = low < least[k] ? low : least[k];
+      most[k] = high > most[k] ? high : most[k];
+      valid[k] += (z != nodata) & (z > -kInfinity) & (z < kInfinity) ? 1 : 0;
+    }
   };
   const std::size_t whole = samples.size() / kLanes * kLanes;
-  for (std::size_t i = 0; i < whole; i += kLanes) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) look(lane, samples[i + lane]);
-  }
-  for (std::size_t i = whole; i < samples.size(); ++i) look(i - whole, samples[i]);
+  for (std::size_t i = 0; i < whole; i += kLanes) look(&samples[i]);
+  std::copy(samples.begin() + static_cast<std::ptrdiff_t>(whole), samples.end(), last.begin());
+  if (whole < samples.size()) look(last.data());
   Extent extent{*std::min_element(least.begin(), least.end()), *std::max_element(most.begin(), most.end())};
   for (const std::uint32_t count : valid) extent.valid += count;
   return extent;
@@ -78,26 +83,40 @@ void HeightRange::add(const HeightRange& part) {
 }
 
 HeightRange range_of(std::span<const float> samples, std::optional<float> nodata) {
-  constexpr std::size_t kBlock = 4096;
+  constexpr std::size_t kBlock = 512;
   const float none = nodata.value_or(std::numeric_limits<float>::quiet_NaN());
   HeightRange range;
-  for (std::size_t first = 0; first < samples.size(); first += kBlock) {
-    const auto block = samples.subspan(first, std::min(kBlock, samples.size() - first));
-    const Extent extent = extent_of(block, none);
-    if (extent.valid == 0) continue;
-    range.min = range.valid == 0 ? extent.least : std::min(range.min, double{extent.least});
-    range.max = range.valid == 0 ? extent.most : std::max(range.max, double{extent.most});
-    range.valid += extent.valid;
-    if (is_between_ends(range, extent.least, extent.most)) continue;
+  const auto block_at = [&](std::size_t k) {
+    return samples.subspan(k * kBlock, std::min(kBlock, samples.size() - k * kBlock));
+  };
+  std::vector<Extent> extents;
+  std::size_t lowest = 0, highest = 0;
+  for (std::size_t k = 0; k * kBlock < samples.size(); ++k) {
+    extents.push_back(extent_of(block_at(k), none));
+    range.valid += extents[k].valid;
+    if (extents[k].least < extents[lowest].least) lowest = k;
+    if (extents[k].most > extents[highest].most) highest = k;
+  }
+  if (range.valid == 0) return range;
+  range.min = extents[lowest].least;
+  range.max = extents[highest].most;
+  const auto look = [&](std::size_t k) {
+    if (extents[k].valid == 0 || is_between_ends(range, extents[k].least, extents[k].most)) return;
+    const auto block = block_at(k);
     for (std::size_t i = 0; i < block.size();) {
       const float z = block[i];
-      const std::size_t begin = i;
-      do ++i;
-      while (i < block.size() && block[i] == z);
+      const std::size_t begin = i++;
       if (!std::isfinite(z) || z == none || is_between_ends(range, z, z)) continue;
+      while (i < block.size() && block[i] == z) ++i;
       add_to(range.lowest, 1, {z, i - begin});
       add_to(range.highest, -1, {z, i - begin});
     }
+  };
+  // First where both ends lie, so that most others need no look.
+  look(lowest);
+  if (highest != lowest) look(highest);
+  for (std::size_t k = 0; k < extents.size(); ++k) {
+    if (k != lowest && k != highest) look(k);
   }
   return range;
 }

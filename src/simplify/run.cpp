@@ -422,7 +422,7 @@ class EngineRun {
 
   void order(Simplified& result) const {
     const auto start = Clock::now();
-    optimize_order(result.mesh);
+    optimize_order(result.mesh, options_.run.threads);
     record(result, "order", start);
   }
 

@@ -216,7 +216,7 @@ class PointRun {
       for (const HalfEdge h : {3 * t, 3 * t + 2, 3 * t + 1}) mesh.triangles.push_back(ids[tin.origin(h)]);
     }
     remove_thin_triangles(mesh, 4 * position_rounding(mesh), thinnest_border_);
-    optimize_order(mesh);
+    optimize_order(mesh, options_.run.threads);
     if (refinement_) {
       result.work.samples_scanned = scanned_ + refinement_->points_scanned();
       result.work.triangles_scanned = dealt_ + refinement_->lists_dealt();

@@ -62,8 +62,8 @@ TEST(OptimizeOrder, KeepsTrianglesCornersAndWinding) {
 
 TEST(OptimizeOrder, IsDeterministicAndNumbersVerticesByFirstUse) {
   Mesh a = shuffled(true), b = shuffled(true);
-  optimize_order(a);
-  optimize_order(b);
+  optimize_order(a, 1);
+  optimize_order(b, 4);
   EXPECT_EQ(a.triangles, b.triangles);
   EXPECT_EQ(a.positions, b.positions);
   std::uint32_t next = 0;
@@ -89,6 +89,17 @@ TEST(OptimizeOrder, HelpsTheVertexCache) {
   EXPECT_GT(misses(mesh), 2.0);
   optimize_order(mesh);
   EXPECT_LT(misses(mesh), 0.9);
+}
+
+TEST(OptimizeOrder, IsTheSameForAnyNumberOfThreads) {
+  Mesh one = test::grid_mesh(200, 150, [](int i, int j) { return (i * j) % 7 != 3; });
+  Mesh four = one;
+  const Mesh before = one;
+  optimize_order(one, 1);
+  optimize_order(four, 4);
+  EXPECT_EQ(one.triangles, four.triangles);
+  EXPECT_EQ(one.positions, four.positions);
+  EXPECT_EQ(described(one), described(before));
 }
 
 TEST(OptimizeOrder, TakesAnEmptyMesh) {

@@ -78,6 +78,12 @@ void store_items(const GlbAttribute& attribute, const MeshPart& part, std::uint8
   for (const std::uint32_t v : part.vertices) attribute.store(v, at);
 }
 
+std::vector<MeshPart> parts_for_codec(const Mesh& mesh) {
+  std::vector<MeshPart> parts = split_mesh(mesh);
+  for (MeshPart& part : parts) order_for_codec(part.vertices, part.corners);
+  return parts;
+}
+
 class GlbWriter {
  public:
   GlbWriter(const Mesh& mesh, const GlbOptions& options)
@@ -85,7 +91,7 @@ class GlbWriter {
         options_(options),
         grid_(options.compress ? find_grid(mesh, options.cell) : GlbGrid{}),
         attributes_(list_glb_attributes(mesh, grid_, options)),
-        parts_(split_mesh(mesh)) {}
+        parts_(options.compress ? parts_for_codec(mesh) : split_mesh(mesh)) {}
 
   Result<std::vector<std::uint8_t>> encode() {
     if (std::string why = find_obstacle(); !why.empty()) return fail(ErrorKind::kOutput, std::move(why));

@@ -4,6 +4,9 @@
 #include <meshoptimizer.h>
 #endif
 
+#include <limits>
+#include <utility>
+
 namespace scarp {
 
 #ifdef SCARP_WITH_MESHOPTIMIZER
@@ -41,6 +44,19 @@ void undo_filter(const MeshoptStream& stream, std::uint8_t* items) {
 
 }  // namespace
 
+void order_for_codec(std::vector<std::uint32_t>& vertices, std::vector<std::uint16_t>& corners) {
+  const std::vector<std::uint32_t> given(corners.begin(), corners.end());
+  std::vector<std::uint32_t> ordered(given.size()), places(vertices.size()), moved(vertices.size());
+  meshopt_optimizeVertexCacheStrip(ordered.data(), given.data(), given.size(), vertices.size());
+  std::size_t used = meshopt_optimizeVertexFetchRemap(places.data(), ordered.data(), ordered.size(), vertices.size());
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    if (places[v] == std::numeric_limits<std::uint32_t>::max()) places[v] = static_cast<std::uint32_t>(used++);
+    moved[places[v]] = vertices[v];
+  }
+  vertices = std::move(moved);
+  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = static_cast<std::uint16_t>(places[ordered[i]]);
+}
+
 std::vector<std::uint8_t> encode_meshopt_attributes(std::span<const std::uint8_t> items, std::size_t stride) {
   const std::size_t count = items.size() / stride;
   meshopt_encodeVertexVersion(0);
@@ -75,6 +91,7 @@ const char* decode_meshopt(const MeshoptStream& stream, std::vector<std::uint8_t
 
 #else
 
+void order_for_codec(std::vector<std::uint32_t>&, std::vector<std::uint16_t>&) {}
 std::vector<std::uint8_t> encode_meshopt_attributes(std::span<const std::uint8_t>, std::size_t) { return {}; }
 std::vector<std::uint8_t> encode_meshopt_triangles(std::span<const std::uint16_t>, std::size_t) { return {}; }
 const char* decode_meshopt(const MeshoptStream&, std::vector<std::uint8_t>&) {

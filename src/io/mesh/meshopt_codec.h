@@ -25,6 +25,10 @@ struct MeshoptStream {
   std::uint64_t count = 0, stride = 0;
 };
 
+/// Puts triangles, and vertices by first use, into the order that takes the fewest bytes when encoded; vertices without
+/// triangles come last. Same triangles, same winding.
+void order_for_codec(std::vector<std::uint32_t>& vertices, std::vector<std::uint16_t>& corners);
+
 /// Items of `stride` bytes, a multiple of 4 up to 256. Version 0 of the codec, which every decoder reads. Empty in a
 /// build without the codec.
 std::vector<std::uint8_t> encode_meshopt_attributes(std::span<const std::uint8_t> items, std::size_t stride);
