@@ -27,6 +27,7 @@ run_all() {
   while read -r line; do
     try bash -c "$line"
     [ "$code" = 0 ] || fail "exit code $code: $(basename "$1"): $line"
+    if grep -Eq 'warning: .* no [a-z ]+ (was|were) found' "$logs/err"; then fail "it finds nothing: $(basename "$1"): $line"; fi
   done < "$root/commands"
   cd "$scratch"
 }
