@@ -231,15 +231,22 @@ Result<std::vector<std::uint8_t>> encode_3mf(std::span<const Mesh> objects);
 /// of the screen that it had to cover for the level before; for the finest that is 1. REQUIRES: encode_mesh() made the
 /// files; `ratio` above 1. Fails with kOutput above 4 GiB.
 Result<std::vector<std::uint8_t>> join_glb_levels(std::span<const std::vector<std::uint8_t>> levels, double ratio);
-/// Reads any of these formats but GeoPackage; recognises the format by content. Fails with kInput. Never trusts a
-/// length or an index in the file.
-Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
+/// How the numbers of a mesh file are to be read: what the mesh, which is z up and absolute, no longer shows.
+struct MeshFileAxes {
+  char up = 0;              ///< 'y' or 'z'; 0 where neither the format nor the file says, and z is taken
+  bool has_offsets = false;  ///< positions in the file are offsets from Mesh::origin (GLB, STL, 3MF)
+};
+/// Reads any of these formats but GeoPackage; recognises the format by content. `axes`, if given, tells the file's own.
+/// Fails with kInput. Never trusts a length or an index in the file.
+Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors,
+                         MeshFileAxes* axes = nullptr);
 
 /// encode_mesh() to a temporary name beside `path`, then renamed; nothing is left behind on failure.
 /// Fails with kOutput, also if `path` exists and `overwrite` is false.
 Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional<MeshFormat> format = {},
                         bool overwrite = true);
-Result<Mesh> read_mesh(const std::string& path);
+/// decode_mesh() of a file.
+Result<Mesh> read_mesh(const std::string& path, MeshFileAxes* axes = nullptr);
 
 /// Writes bytes to a temporary name beside `path` (".scarp-R.tmp", R: 16 random hexadecimal digits) and renames it.
 /// kOutput on any failure, with nothing left behind; also if `path` exists and `overwrite` is false. A symbolic link is

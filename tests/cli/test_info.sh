@@ -84,5 +84,27 @@ for words in 'attributes  *normals, uvs' 'command  *scarp simplify jacksboro_fau
   'z  *23[0-9.]* to 10[0-9.]*, [0-9.]* in all'; do
   grep -q "$words" "$logs/out" || fail "info of a mesh does not tell '$words': $(cat "$logs/out")"
 done
+# The axes and the origin of the file's own numbers.
+for given in "y.obj|--up y|y is up" "z.obj|--up z|z is up" "y.ply|--up y|y is up" "z.ply||z is up" "y.stl|--up y|y is up" \
+  "z.stl||z is up" "a.glb||y is up"; do
+  IFS='|' read -r name option words <<< "$given"
+  succeeds "$scarp" simplify "$dem" "axes_$name" -e 50 $option
+  succeeds "$scarp" info "axes_$name"
+  grep -q "^  in the file *$words" "$logs/out" || fail "info axes_$name does not say that $words: $(cat "$logs/out")"
+  if grep -q '^  up ' "$logs/out"; then fail "info axes_$name tells of another axis"; fi
+  if grep -q 'offsets' "$logs/out"; then fail "info axes_$name tells offsets from 0"; fi
+done
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' > foreign.obj
+succeeds "$scarp" info foreign.obj
+grep -q '^  in the file *nothing says which axis is up: z is taken' "$logs/out" || fail "an axis that no file tells"
+for name in far.stl far.glb far.obj; do
+  succeeds "$scarp" simplify "$dem" $name -e 50 --crs EPSG:32616
+  succeeds "$scarp" info $name --json
+  cp "$logs/out" info.json
+done
+[ "$(json info.json mesh axes)" = '{"up": "y", "offsets_from": null}' ] || fail "axes of an OBJ: $(json info.json mesh axes)"
+succeeds "$scarp" info far.stl
+grep -q '^  in the file *z is up; positions are offsets from x 74[0-9.]*, y 402[0-9.]*, z 0' "$logs/out" ||
+  fail "info does not tell the origin of an STL file: $(cat "$logs/out")"
 refuses 1 "--crs is for rasters, and dressed.glb holds a mesh" "$scarp" info dressed.glb --crs local
 refuses 2 "missing.glb" "$scarp" info missing.glb

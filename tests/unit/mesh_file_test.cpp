@@ -142,8 +142,13 @@ TEST(MeshFiles, TurnedYUpAreReadAsTheyWere) {
     const auto written = encode_mesh(turned, format);
     ASSERT_TRUE(written);
     EXPECT_NE(*written, *encode_mesh(mesh, format));
-    const auto back = decode_mesh(*written, "x"), plain = decode_mesh(*encode_mesh(mesh, format), "x");
+    MeshFileAxes axes, plain_axes;
+    const auto back = decode_mesh(*written, "x", &axes),
+               plain = decode_mesh(*encode_mesh(mesh, format), "x", &plain_axes);
     ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(axes.up, 'y');
+    EXPECT_EQ(plain_axes.up, 'z');
+    EXPECT_EQ(axes.has_offsets, format == MeshFormat::kStl);
     EXPECT_FALSE(is_y_up(*back));
     EXPECT_EQ(back->metadata.at("up"), "z");
     EXPECT_TRUE(test::same_geometry(*plain, *back));

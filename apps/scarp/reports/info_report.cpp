@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -69,6 +70,32 @@ std::vector<std::string> list_attributes(const Mesh& mesh) {
   if (mesh.channel_count > 0)
     names.emplace_back(format_plural(static_cast<std::uint64_t>(mesh.channel_count), "channel"));
   return names;
+}
+
+bool has_offsets(const MeshFile& file) {
+  return file.axes.has_offsets && file.mesh.origin != std::array<double, 3>{0, 0, 0};
+}
+
+/// How the file's own numbers differ from the ranges told, which are z up and absolute.
+std::string describe_axes(const MeshFile& file) {
+  std::string text = "z is up";
+  if (file.axes.up == 'y') text = "y is up (above: z)";
+  if (file.axes.up == 0) text = "nothing says which axis is up: z is taken";
+  if (!has_offsets(file)) return text;
+  const std::array<double, 3>& o = file.mesh.origin;
+  return text + fmt::format("; positions are offsets from x {:.10g}, y {:.10g}, z {:.10g}", o[0], o[1], o[2]);
+}
+
+Json axes_report(const MeshFile& file) {
+  return Json{{"up", file.axes.up == 0 ? Json(nullptr) : Json(std::string(1, file.axes.up))},
+              {"offsets_from", has_offsets(file) ? Json(file.mesh.origin) : Json(nullptr)}};
+}
+
+/// "up" is told for the file, and the mesh that was read is z up whatever it says.
+std::map<std::string, std::string> metadata_of(const MeshFile& file) {
+  std::map<std::string, std::string> metadata = file.mesh.metadata;
+  metadata.erase("up");
+  return metadata;
 }
 
 }  // namespace
@@ -164,8 +191,9 @@ std::string mesh_facts(const MeshFile& file) {
       "mesh", fmt::format("{}, {} vertices{}", format_plural(mesh.triangle_count(), "triangle"),
                           format_count(mesh.vertex_count()), measure_solid(mesh).is_solid() ? ", a closed solid" : ""));
   if (mesh.vertex_count() > 0) text += range_line("x", box, 0) + range_line("y", box, 1) + range_line("z", box, 2);
+  text += fact_line("in the file", describe_axes(file));
   text += fact_line("attributes", attributes.empty() ? "none" : attributes);
-  for (const auto& [key, value] : mesh.metadata) {
+  for (const auto& [key, value] : metadata_of(file)) {
     constexpr std::size_t kMost = 200;
     text += fact_line(key.c_str(), value.size() > kMost ? value.substr(0, kMost) + " ..." : value);
   }
@@ -181,8 +209,9 @@ Json mesh_facts_report(const MeshFile& file, const std::string& command_line) {
                         {"vertices", file.mesh.vertex_count()},
                         {"closed", measure_solid(file.mesh).is_solid()},
                         {"bounds", file.mesh.vertex_count() > 0 ? describe_box(box_of(file.mesh)) : Json(nullptr)},
+                        {"axes", axes_report(file)},
                         {"attributes", list_attributes(file.mesh)},
-                        {"metadata", file.mesh.metadata}};
+                        {"metadata", metadata_of(file)}};
   return report;
 }
 

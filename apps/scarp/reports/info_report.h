@@ -6,6 +6,7 @@
 
 #include "reports/report.h"
 #include "scarp/height_field.h"
+#include "scarp/io.h"
 #include "scarp/mesh.h"
 #include "scarp/points.h"
 #include "scarp/suggest.h"
@@ -17,6 +18,7 @@ struct MeshFile {
   std::string path, format;
   std::uint64_t bytes = 0;
   Mesh mesh;
+  MeshFileAxes axes;
 };
 
 std::string raster_facts(const OwnedHeightField& field);

@@ -96,6 +96,16 @@ bool has_up_axis(MeshFormat format) {
   return format == MeshFormat::kObj || format == MeshFormat::kPly || format == MeshFormat::kStl;
 }
 
+/// Of a mesh as its reader left it. Scarp's own files say what is y up, and nothing of what is z up.
+char find_up(MeshFormat format, std::span<const std::uint8_t> bytes, const Mesh& mesh) {
+  if (format == MeshFormat::kGlb) return 'y';
+  if (!has_up_axis(format)) return 'z';
+  if (mesh.metadata.contains("up")) return is_y_up(mesh) ? 'y' : 'z';
+  const auto generator = mesh.metadata.find("generator");
+  const bool is_own = generator != mesh.metadata.end() && generator->second.starts_with("Scarp");
+  return is_own || (format == MeshFormat::kStl && starts_with(bytes, "scarp ")) ? 'z' : '\0';
+}
+
 const FormatRow* find_row(MeshFormat format) {
   for (const FormatRow& row : kFormats) {
     if (row.format == format) return &row;
@@ -296,7 +306,7 @@ Result<std::vector<std::uint8_t>> encode_mesh(const Mesh& mesh, MeshFormat forma
   }
 }
 
-Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors) {
+Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors, MeshFileAxes* axes) {
   const auto unusable = [&](const std::string& why) {
     return fail(ErrorKind::kInput, fmt::format("{} is not a usable mesh: {}", name_for_errors, why));
   };
@@ -305,13 +315,14 @@ Result<Mesh> decode_mesh(std::span<const std::uint8_t> bytes, const std::string&
   if (!format) {
     return unusable("it is neither GLB nor OBJ, PLY, STL, TIN, 2DM, VTU, VTP, LandXML, DXF or 3MF");
   }
-  const auto decode = find_row(*format)->decode;
-  if (decode == nullptr) return unusable("it is a GeoPackage, which Scarp writes and does not read");
+  const FormatRow& row = *find_row(*format);
+  if (row.decode == nullptr) return unusable("it is a GeoPackage, which Scarp writes and does not read");
   try {
-    Result<Mesh> mesh = decode(bytes);
+    Result<Mesh> mesh = row.decode(bytes);
     if (!mesh) return unusable(mesh.error().message);
     drop_partial_attributes(*mesh);
     if (!has_up_axis(*format)) mesh->metadata.erase("up");
+    if (axes != nullptr) *axes = {find_up(*format, bytes, *mesh), row.as_float};
     undo_y_up(*mesh);
     if (const std::string why = find_unreadable(*mesh); !why.empty()) return unusable(why);
     return mesh;
@@ -333,10 +344,10 @@ Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional
   return write_file(path, *bytes, overwrite);
 }
 
-Result<Mesh> read_mesh(const std::string& path) {
+Result<Mesh> read_mesh(const std::string& path, MeshFileAxes* axes) {
   auto bytes = read_file(path);
   if (!bytes) return tl::unexpected<Error>(bytes.error());
-  return decode_mesh(*bytes, path);
+  return decode_mesh(*bytes, path, axes);
 }
 
 }  // namespace scarp
