@@ -126,3 +126,22 @@ gdal_translate -q -ot Float64 -scale 0 402 0 4.02e39 ramp.tif over.tif
 refuses 2 "over.tif: the value 3.5e+38 at column 35, row 0 is beyond what a float32 holds (3.4e38)" \
   "$scarp" simplify over.tif over.glb -e 1e37
 refuses 2 "the value 3.5e+38 at column 35, row 0" "$scarp" simplify over.tif over.glb -e 1e37 --memory 200M
+
+# Two values that are not declared: each way that a warning names ends with none.
+need gdalwarp
+awk 'BEGIN {
+  print "ncols 60\nnrows 40\nxllcorner 0\nyllcorner 0\ncellsize 10";
+  for (r = 0; r < 40; ++r) {
+    line = "";
+    for (c = 0; c < 60; ++c) line = line (c < 5 ? "-9999 " : c > 50 ? "0 " : sprintf("%.1f ", 500 + r + c));
+    print line;
+  }
+}' > two.asc
+for given in "" "--nodata -9999" "--nodata 0"; do
+  succeeds "$scarp" info two.asc --no-suggest $given
+  grep -o 'gdalwarp -srcnodata .* NEW.tif' "$logs/err" > way || fail "no way out of two nodata values $given"
+  eval "$(sed 's/NEW.tif/one.tif -q -overwrite/' way)"
+  succeeds "$scarp" simplify one.tif one.glb -e 1 --report one.json --overwrite
+  [ ! -s "$logs/err" ] || fail "the way out leads to another warning $given"
+  [ "$(json one.json input void)" = $((14 * 40)) ] || fail "the way out misses samples: $(json one.json input void)"
+done

@@ -65,7 +65,8 @@ Result<void> InfoCommand::run(const std::string& command_line) const {
   Result<OwnedHeightField> field = read_height_field(raster_.path(), *read);
   if (!field) return tl::unexpected(field.error());
   if (const auto needle = find_needle(*field, field->info)) field->info.warnings.push_back(*needle);
-  for (std::string& warning : warn_of_undeclared_nodata(field->info)) field->info.warnings.push_back(std::move(warning));
+  for (std::string& warning : warn_of_undeclared_nodata(field->info, *field))
+    field->info.warnings.push_back(std::move(warning));
   if (!json_) {
     display.finish();
     if (!quiet_) print_warnings(field->info.warnings);

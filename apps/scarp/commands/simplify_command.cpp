@@ -367,7 +367,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
         "the heights span magnitudes beyond exact arithmetic");
   }
   if (!plan->channels.image) {
-    for (std::string& sentence : warn_of_undeclared_nodata(outcome.as_read))
+    for (std::string& sentence : warn_of_undeclared_nodata(outcome.as_read, outcome.field))
       outcome.warnings.push_back(std::move(sentence));
   }
   warn_of_missing_walls(given_.cliff, fitted.walls, outcome.warnings);

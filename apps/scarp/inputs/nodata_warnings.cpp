@@ -2,21 +2,33 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "terminal/text.h"
 
 namespace scarp::cli {
+namespace {
 
-std::vector<std::string> warn_of_undeclared_nodata(const RasterInfo& info) {
+/// What there is to do. --nodata names one value, in place of the one that counts already (NaN always does).
+std::string remedy_of(const std::string& value, const std::string& kept, const std::string& path) {
+  if (kept.empty()) return "give --nodata " + value;
+  return fmt::format(
+      "--nodata takes one value, and gdalwarp -srcnodata {} -dstnodata {} {} NEW.tif makes one value of both", value,
+      kept, shell_word(path));
+}
+
+}  // namespace
+
+std::vector<std::string> warn_of_undeclared_nodata(const RasterInfo& info, const HeightField& field) {
+  const auto samples = static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(field.rows);
   std::vector<std::string> sentences;
-  const std::vector<UndeclaredNodata>& found = info.undeclared_nodata;
-  for (const UndeclaredNodata& nodata : found) {
+  const bool has_kept = info.valid < samples && info.nodata && std::isfinite(*info.nodata);
+  std::string kept = has_kept ? fmt::format("{}", *info.nodata) : "";
+  for (const UndeclaredNodata& nodata : info.undeclared_nodata) {
     // As short as it can be without becoming another float32.
     const std::string value = fmt::format("{}", static_cast<float>(nodata.of.height));
-    // --nodata names one value.
-    const std::string remedy = &nodata == &found.front()
-                                   ? "give --nodata " + value
-                                   : fmt::format("gdalwarp -srcnodata {} -dstnodata {} makes one value of both", value,
-                                                 static_cast<float>(found.front().of.height));
+    const std::string remedy = remedy_of(value, kept, info.path);
+    if (kept.empty()) kept = value;
     sentences.push_back(
         fmt::format("{} exactly {}, far {} all others ({} to {}): if {} nodata, {}",
                     nodata.of.samples == 1 ? "1 sample is" : format_count(nodata.of.samples) + " samples are", value,
