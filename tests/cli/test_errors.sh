@@ -33,7 +33,15 @@ done <<'END'
 --thread --num-threads
 --force --overwrite
 -srcnodata --nodata
+--hel --help or --help-all
+--eff --effort
+--lod --lods or --lods-in-one
+--lods-in --lods-in-one
+--max --max-error, --max-triangles, --max-points or --max-edge
+--fallof --falloff
 END
+refuses 1 "a share of the relief is an error with a % behind it: -e 1%" "$scarp" simplify "$dem" out.glb --percent 1
+refuses 1 "unknown command 'simp' (did you mean simplify?)" "$scarp" simp
 refuses 1 "option --error=5 is unknown (did you mean --max-error?)" "$scarp" simplify "$dem" out.glb --error=5
 refuses 1 "gdal_edit.py -a_srs" "$scarp" simplify "$dem" out.glb -e 1 -a_srs EPSG:32611
 refuses 1 "the output is the word behind the input" "$scarp" simplify "$dem" -o out.glb -e 1

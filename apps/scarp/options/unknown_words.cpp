@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <string_view>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct Foreign {
 /// have is passed over.
 constexpr Foreign kForeign[] = {
     {"error err epsilon eps zerror z-error max-err maxerror tol threshold", "--max-error", ""},
+    {"percent percentage relative", "--max-error", "a share of the relief is an error with a % behind it: -e 1%"},
     {"triangles faces target-faces target-triangles tris num-triangles", "--max-triangles", ""},
     {"num-points num-vertices max-vertices", "--max-points", ""},
     {"ratio si simplify-ratio decimate", "--max-triangles",
@@ -94,19 +96,31 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return steps[a.size()][b.size()];
 }
 
-/// The name that is like the word; empty if none is.
-std::string find_alike(const std::string& word, const std::vector<std::string>& names) {
-  std::string best;
-  std::size_t least = std::min<std::size_t>(2, word.size() / 3) + 1;
-  for (const std::string& name : names) {
-    const bool is_beginning = word.size() >= 3 && name.starts_with(word);
-    const std::size_t steps = is_beginning ? std::min<std::size_t>(1, least - 1) : distance(word, name);
-    if (steps < least) best = name, least = steps;
-  }
-  const auto holds = [&](const std::string& name) { return name.find(word) != std::string::npos; };
-  if (best.empty() && word.size() >= 4 && std::count_if(names.begin(), names.end(), holds) == 1)
-    best = *std::find_if(names.begin(), names.end(), holds);
-  return best;
+/// The names that are like the word: those that begin with it, else those at the least distance, else one that holds
+/// it. Empty if none is.
+std::vector<std::string> find_alike(const std::string& word, const std::vector<std::string>& names) {
+  std::vector<std::string> alike;
+  const auto choose = [&](const auto& is_chosen) {
+    std::copy_if(names.begin(), names.end(), std::back_inserter(alike), is_chosen);
+  };
+  if (word.size() >= 2) choose([&](const std::string& name) { return name.starts_with(word); });
+  if (!alike.empty()) return alike;
+  const std::size_t most = std::min<std::size_t>(2, word.size() / 3);
+  for (std::size_t steps = 1; alike.empty() && steps <= most; ++steps)
+    choose([&](const std::string& name) { return distance(word, name) == steps; });
+  if (!alike.empty() || word.size() < 4) return alike;
+  choose([&](const std::string& name) { return name.find(word) != std::string::npos; });
+  return alike.size() == 1 ? alike : std::vector<std::string>();
+}
+
+/// "did you mean --lods or --lods-in-one?", the first few of them; empty without any.
+std::string ask(const std::vector<std::string>& meant, const char* dashes) {
+  constexpr std::size_t kMost = 4;
+  const std::size_t count = std::min(meant.size(), kMost);
+  std::string text;
+  for (std::size_t k = 0; k < count; ++k)
+    text += (k == 0 ? "did you mean " : k + 1 < count ? ", " : " or ") + (dashes + meant[k]);
+  return text.empty() ? text : text + "?";
 }
 
 std::vector<std::string> names_of(const CLI::App* command) {
@@ -119,7 +133,7 @@ std::vector<std::string> names_of(const CLI::App* command) {
   return names;
 }
 
-/// "did you mean --effort?", or better advice; empty if nothing is like the word.
+/// What ask() says, or better advice; empty if nothing is like the word.
 std::string advise(const CLI::App* command, const std::string& word) {
   const std::string name = bare(word);
   const std::vector<std::string> names = names_of(command);
@@ -132,8 +146,7 @@ std::string advise(const CLI::App* command, const std::string& word) {
     if (foreign.meant[0] != 0 && !has(foreign.meant)) continue;
     return foreign.advice[0] != 0 ? foreign.advice : fmt::format("did you mean {}?", foreign.meant);
   }
-  const std::string alike = find_alike(name, names);
-  return alike.empty() ? "" : fmt::format("did you mean --{}?", alike);
+  return ask(find_alike(name, names), "--");
 }
 
 const CLI::App* find_chosen(const CLI::App& program, std::string_view name) {
@@ -180,13 +193,13 @@ Error unknown_command(const std::string& word) {
       {"generate", "create make synthesize"}};
   std::vector<std::string> names;
   for (const CommandRow& row : command_rows()) names.emplace_back(row.name);
-  std::string meant;
+  std::vector<std::string> meant;
   for (const auto& [name, words] : kMeant) {
-    if (holds_word(words, bare(word))) meant = name;
+    if (holds_word(words, bare(word))) meant.assign(1, name);
   }
   if (meant.empty()) meant = find_alike(bare(word), names);
   const bool is_file = meant.empty() && word.find_first_of("./") != std::string::npos;
-  const std::string hint = !meant.empty() ? fmt::format(" (did you mean {}?)", meant) : ": " + choose_command();
+  const std::string hint = !meant.empty() ? fmt::format(" ({})", ask(meant, "")) : ": " + choose_command();
   return {
       ErrorKind::kUsage,
       is_file
