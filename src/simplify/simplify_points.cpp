@@ -298,7 +298,7 @@ class PointRun {
       const auto mended = m.is_sound() ? mend(result) : false;
       if (!mended) return tl::unexpected(mended.error());
       if (!*mended && !trim_border(result.mesh))
-        return fail(ErrorKind::kPromise, (m.is_sound() ? describe_broken(m) : "the mesh folds over itself") + advice());
+        return fail(ErrorKind::kPromise, (m.is_sound() ? describe_broken(m) : "the mesh folds over itself") + advice(m));
       freeze_into(result);
       result.seconds_refine += seconds_since(again);
     }
@@ -310,19 +310,27 @@ class PointRun {
   std::string describe_broken(const Measurement& m) const {
     if (m.uncovered > 0) return fmt::format("{} points are not covered by the mesh", m.uncovered);
     const auto i = static_cast<std::size_t>(m.max_error_at[0]);
-    return fmt::format("a max error of {} cannot be kept: at ({}, {}) the mesh is off by {}", bound_, points_.x[i],
-                       points_.y[i], m.max_error);
+    return fmt::format("a max error of {} cannot be kept: at ({:.10g}, {:.10g}) the mesh is off by {:.3g}", bound_,
+                       points_.x[i], points_.y[i], m.max_error);
   }
-  std::string advice() const {
+  std::string advice(const Measurement& m) const {
     const std::string far = describe_far_points(points_);
+    const std::string larger = m.is_sound() && m.uncovered == 0
+                                   ? fmt::format("ask for at least {:.2g}", round_up(m.max_error))
+                                   : std::string("ask for a larger error");
     return (options_.float32_positions
-                ? ": positions in the mesh are rounded to float32, which alone costs that much; ask for a larger "
-                  "error, "
-                  "or write OBJ or PLY, whose positions are double"
-                : fmt::format(": points are snapped to a lattice of step {}, which alone costs that much; ask for a "
-                              "larger error, or split the points into smaller areas",
-                              snapped_.lattice.step)) +
+                ? fmt::format(": positions in the mesh are rounded to float32, which alone costs that much; {}, or write "
+                              "OBJ or PLY, whose positions are double",
+                              larger)
+                : fmt::format(": points are snapped to a lattice of step {:.3g}, which alone costs that much; {}, or "
+                              "split the points into smaller areas",
+                              snapped_.lattice.step, larger)) +
            (far.empty() ? "" : "; " + far);
+  }
+  /// To two digits.
+  static double round_up(double error) {
+    const double unit = std::pow(10.0, std::floor(std::log10(error)) - 1);
+    return std::ceil(error / unit) * unit;
   }
 
   const PointSet& points_;

@@ -15,7 +15,7 @@ for e in 5 20; do
 done
 succeeds "$scarp" simplify contours.gpkg again.glb -e 20 -j 1
 grep -q '^  lines ' "$logs/out" || fail "the summary does not count the lines"
-grep -Eq 'triangles .* flat between points of equal height' "$logs/out" || fail "the summary does not tell flat triangles"
+grep -Eq 'triangles .* [0-9]+ \([0-9.]+ %\) flat between points of equal height' "$logs/out" || fail "the summary does not tell flat triangles"
 succeeds "$scarp" simplify contours.gpkg other.glb -e 20 -j 4 -q
 cmp again.glb other.glb || fail "threads change the mesh"
 python3 - <<'PY' || fail "the reports"
@@ -46,8 +46,23 @@ collection "$(line '"high"' '[[0,0],[1,1]]'),$(line 5 '[[0,1],[0.2,1]]')" >words
 refuses 2 "crossing.geojson feature 0 and crossing.geojson feature 1 meet at" \
   "$scarp" simplify crossing.geojson x.glb -e 1 --crs source
 grep -q 'heights 10 and 20: correct one of the two, or leave it out' "$logs/err" || fail "no way out is named"
+[ "$(grep -o 'crossing.geojson' "$logs/err" | wc -l)" -le 2 ] || fail "the file is named again and again"
 refuses 2 "feature 1 has no height: its attribute ELEV is empty" "$scarp" simplify missing.geojson x.glb -e 1
 refuses 2 "feature 0 has no number as its height: its attribute ELEV is 'high'" "$scarp" simplify words.geojson x.glb -e 1
+collection "$(line 10 '[[0,0,250],[900,0,260],[900,900,270]]'),$(line 20 '[[0,100,300],[800,100],[800,800,340]]')" >flat.geojson
+sed 's/"properties":{[^}]*}/"properties":{}/g' flat.geojson > partly.geojson
+succeeds "$scarp" info partly.geojson --crs source
+grep -q 'warning: partly.geojson: 1 point has exactly the height 0, far below all others (250 to 340): if it means that it has none, correct it or leave it out' \
+  "$logs/err" || fail "a height that is not there is taken for 0 without a word"
+collection "$(line 10 '[[0,0],[1,1]]'),{\"type\":\"Feature\",\"properties\":{\"ELEV\":4},\"geometry\":null},$(line 20 '[[0,3],[1,4]]')" >none.geojson
+succeeds "$scarp" info none.geojson --z-field ELEV --crs source
+grep -q 'warning: 1 feature of none.geojson has no point and was left out' "$logs/err" || fail "one feature is several"
+# The number that the refusal of -e 0 names holds.
+ogr2ogr -t_srs EPSG:4326 degrees.gpkg contours.gpkg
+refuses 3 "a max error of 0 cannot be kept" "$scarp" simplify degrees.gpkg exact.obj -e 0
+least=$(sed -n 's/.*ask for at least \([^,]*\), or split.*/\1/p' "$logs/err")
+[ -n "$least" ] || fail "no error that can be kept is named"
+succeeds "$scarp" simplify degrees.gpkg exact.obj -e "$least"
 gdal_contour -q -amin ELEV -p -i 200 dem.tif bands.gpkg -f GPKG
 refuses 2 "holds no layer of points or lines" "$scarp" simplify bands.gpkg x.glb -e 5
 refuses 2 "not a point or a line: give its contours as lines" "$scarp" simplify bands.gpkg x.glb -e 5 --layer contour

@@ -133,7 +133,8 @@ Error explain_frame(Error error, const std::string& crs, const std::string& mesh
 
 /// Library errors about the points themselves do not know the file.
 Error with_path(Error error, const std::string& path) {
-  if (error.kind == ErrorKind::kInput) error.message = fmt::format("{}: {}", path, error.message);
+  if (error.kind == ErrorKind::kInput && !error.message.starts_with(path))
+    error.message = fmt::format("{}: {}", path, error.message);
   return error;
 }
 

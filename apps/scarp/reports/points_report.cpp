@@ -132,7 +132,9 @@ std::string make_summary(const SimplifyPlan& plan, const PointsOutcome& outcome,
                                                format_share(static_cast<double>(outcome.vertices),
                                                             static_cast<double>(outcome.points.size())),
                                                format_count(outcome.on_hull)));
-  const std::string flats = fmt::format(", {} flat between points of equal height", format_count(outcome.flat));
+  const std::string flats =
+      fmt::format(", {} ({}) flat between points of equal height", format_count(outcome.flat),
+                  format_share(static_cast<double>(outcome.flat), static_cast<double>(outcome.triangles)));
   text += summary_line("triangles", format_count(outcome.triangles) + (outcome.points.lines.empty() ? "" : flats));
   text += solid_line(plan, outcome);
   text += summary_line("effort", "fast (scattered points are only refined)");

@@ -1,18 +1,25 @@
 // One door for all points: the name's end, else the first bytes, say whose reader a file goes to.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "base/caught.h"
+#include "grid/height_range.h"
 #include "io/mesh/mesh_file_text.h"
 #include "io/points/point_source.h"
 #include "io/spool.h"
+#include "scarp/height_field.h"
 #include "scarp/io.h"
 
 namespace scarp {
@@ -77,11 +84,40 @@ bool is_point_file(const std::string& path) {
   return is_one_of(extension, kPoints) || (extension == ".gpkg" && !opens_as_raster(path));
 }
 
-Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options) try {
+namespace {
+
+Result<PointSet> read_by_content(const std::string& path, const ReadPointsOptions& options) {
   if (!is_text_of_columns(path)) return read_gdal_points(path, options);
   const auto bytes = read_file(path);
   if (!bytes) return tl::unexpected(bytes.error());
   return decode_columns(*bytes, path, options);
+}
+
+/// Heights that most likely say that there is none. GDAL reads a vertex without a third coordinate as 0, where others of
+/// its geometry have one.
+void warn_of_missing_heights(PointSet& points) {
+  std::vector<float> heights;
+  heights.reserve(points.size());
+  std::copy_if(points.z.begin(), points.z.end(), std::back_inserter(heights),
+               [](double z) { return std::abs(z) <= std::numeric_limits<float>::max(); });
+  for (const UndeclaredNodata& missing : find_undeclared_nodata(range_of(heights))) {
+    const bool is_one = missing.of.samples == 1;
+    const auto height = static_cast<float>(missing.of.height);
+    points.warnings.push_back(fmt::format(
+        "{}: {} exactly the height {}, far {} all others ({:.6g} to {:.6g}): if it means that {}, correct {} or leave {} "
+        "out",
+        points.path, is_one ? "1 point has" : fmt::format("{} points have", missing.of.samples), height,
+        missing.is_high ? "above" : "below", missing.min, missing.max, is_one ? "it has none" : "they have none",
+        is_one ? "it" : "them", is_one ? "it" : "them"));
+  }
+}
+
+}  // namespace
+
+Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options) try {
+  auto points = read_by_content(path, options);
+  if (points) warn_of_missing_heights(*points);
+  return points;
 } catch (...) {
   return caught(ErrorKind::kInput, "read " + path);
 }
