@@ -32,6 +32,14 @@ refuses 1 "OUTPUT and --report both write to standard output" "$scarp" simplify 
 refuses 1 "cannot tell the format from -" "$scarp" simplify "$dem" - -e 50
 refuses 2 "standard input: the file is empty" "$scarp" info - < /dev/null
 refuses 2 "standard input: not a raster" "$scarp" simplify - b.glb -e 1 < <(echo "no raster at all, but words")
+printf 'x,y,z\n0,0,1\n1,0,2\n0,1,3\n1,1,5\n0.3,0.7,2\n' > points.csv
+for piped in points.csv points.ply; do
+  for command in "simplify - b.glb -e 1" "info -" "measure - points.ply"; do
+    refuses 2 "it is read as a raster, with --points as points or lines, never as a mesh" "$scarp" $command < $piped
+  done
+done
+echo '{"type":"Point","coordinates":[1,2,3]}' > point.json
+refuses 2 "point.json: holds vector data (GeoJSON), not a raster; --points takes it for points or lines" "$scarp" info point.json
 cp "$dem" own.tif
 try "$scarp" simplify - own.tif -e 50 --overwrite < own.tif
 [ "$code" = 1 ] || fail "exit code $code instead of 1 where OUTPUT is what standard input reads"

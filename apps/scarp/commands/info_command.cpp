@@ -63,7 +63,7 @@ Result<void> InfoCommand::run(const std::string& command_line) const {
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
   read->run.progress = display.callback();
   Result<OwnedHeightField> field = read_height_field(raster_.path(), *read);
-  if (!field) return tl::unexpected(field.error());
+  if (!field) return tl::unexpected(raster_.explain(std::move(field.error())));
   if (const auto needle = find_needle(*field, field->info)) field->info.warnings.push_back(*needle);
   for (std::string& warning : warn_of_undeclared_nodata(field->info, *field))
     field->info.warnings.push_back(std::move(warning));

@@ -223,7 +223,7 @@ Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judg
   MemoryNeeds needs{cut_.files.empty() && companions_.roi.empty() ? 0 : kVectorBytes};
   if (companions_.gives_bounds()) needs.per_sample = kBoundedSampleBytes;
   Result<OwnedHeightField> field = read_within(raster_.path(), options, *limit, needs);
-  if (!field) return tl::unexpected(std::move(field.error()));
+  if (!field) return tl::unexpected(raster_.explain(std::move(field.error())));
   if (const std::optional<std::string> need = find_need_of_samples()) {
     if (auto in_memory = check_in_memory(*field, *need, needs); !in_memory) return in_memory;
   }

@@ -291,7 +291,8 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   Outcome outcome;
   ProgressDisplay display(ProgressDisplay::choose(given_.json_progress, given_.quiet));
   const Result<void> has_inputs = read_inputs(*plan, given_.raster.band.has_value(), display.callback(), outcome);
-  if (!has_inputs) return tl::unexpected(name_memory(given_.memory, outcome.field, has_inputs.error()));
+  if (!has_inputs)
+    return tl::unexpected(name_memory(given_.memory, outcome.field, given_.raster.explain(has_inputs.error())));
 
   const Result<void> has_place = check_place_of_channels(*plan, outcome.channels);
   if (!has_place) return has_place;

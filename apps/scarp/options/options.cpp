@@ -211,6 +211,15 @@ std::string RasterArguments::canonical() const {
          canonical_option("--resolution", resolution);
 }
 
+Error RasterArguments::explain(Error error) const {
+  if (error.kind != ErrorKind::kInput) return error;
+  if (paths.size() == 1 && path() == "-" && error.message.starts_with("standard input"))
+    error.message += "; it is read as a raster, with --points as points or lines, never as a mesh";
+  else if (error.message.starts_with(path() + ": holds vector data"))
+    error.message += "; --points takes it for points or lines";
+  return error;
+}
+
 Result<ReadOptions> RasterArguments::parse() const {
   ReadOptions options;
   for (const std::string& path : paths) {

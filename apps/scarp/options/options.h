@@ -95,6 +95,8 @@ struct RasterArguments {
   Result<ReadOptions> parse() const;
   /// " --band 2 --crs local": those that were given.
   std::string canonical() const;
+  /// What the library says of a raster that cannot be read, and what else standard input and vector data can be.
+  Error explain(Error error) const;
 };
 
 /// A file that the run will write, and the option that asked for it ("OUTPUT", "--report", …).
