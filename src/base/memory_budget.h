@@ -2,10 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "scarp/result.h"
 
 namespace scarp {
+
+/// What makes a mesh smaller, at the end of the sentence that refuses it. The runs of a search for a budget know no
+/// budget, so the search puts its own words there.
+inline constexpr std::string_view kLargerError = "a larger max error";
 
 /// Bytes of the process, as the caller's options tell them; without a limit nothing is refused.
 struct MemoryBudget {

@@ -7,6 +7,7 @@
 #include <exception>
 #include <functional>
 #include <new>
+#include <utility>
 
 #include "base/memory_budget.h"
 #include "grid/samples.h"
@@ -31,9 +32,20 @@ Result<Simplified> simplify_within_budget(const HeightField& field, SimplifyOpti
   return lowers_squares(field, options) ? search_squares(options, task) : search_budget(options, task);
 }
 
+/// Where a budget decides how large the mesh is, it has to be smaller.
+Error name_budget(const SimplifyOptions& options, Error error) {
+  if (error.kind != ErrorKind::kMemory || !error.message.ends_with(kLargerError)) return error;
+  error.message.replace(error.message.size() - kLargerError.size(), kLargerError.size(),
+                        options.goals.max_triangles ? "a smaller budget of triangles" : "a smaller budget of vertices");
+  return error;
+}
+
 /// REQUIRES: a chosen effort.
 Result<Simplified> make_mesh(const HeightField& field, const SimplifyOptions& options) {
-  return has_budget(options) ? simplify_within_budget(field, options) : simplify_once(field, options);
+  if (!has_budget(options)) return simplify_once(field, options);
+  auto made = simplify_within_budget(field, options);
+  if (!made) return tl::unexpected(name_budget(options, std::move(made.error())));
+  return made;
 }
 
 /// With an effort that nobody asked for. Where memory is too little for it, the mesh is refined only. One thread needs

@@ -30,3 +30,5 @@ succeeds "$scarp" simplify hills.tif mesh.ply -t 2000 --rivers river.geojson --e
 
 refuses 1 "alone need" "$scarp" simplify hills.tif x.ply -t 1 --memory 78M
 refuses 1 "--memory 74M is too little: the mesh has" "$scarp" simplify hills.tif x.ply -t 400000 --memory 74M
+grep -q 'allow that much, or a smaller budget of triangles$' "$logs/err" || fail "the advice does not name the budget"
+refuses 1 "or a smaller budget of vertices" "$scarp" simplify hills.tif x.ply -p 200000 --memory 74M
