@@ -129,6 +129,7 @@ touch taken_lod1.glb
 refuses 4 "taken_lod1.glb exists already" "$scarp" simplify "$dem" taken.glb -e 5 --lods 3
 refuses 1 "--lods cannot be combined with --max-triangles" "$scarp" simplify "$dem" x.glb -e 5 -t 900 --lods 3
 refuses 1 "--lods needs --max-error" "$scarp" simplify "$dem" x.glb -t 900 --lods 3
+refuses 1 "--lods 3:nan: the ratio nan is not a finite number" "$scarp" simplify "$dem" x.glb -e 5 --lods 3:nan
 refuses 1 "--lods 1 is not a whole number of at least 2" "$scarp" simplify "$dem" x.glb -e 5 --lods 1
 refuses 1 "has a ratio that is not above 1" "$scarp" simplify "$dem" x.glb -e 5 --lods 3:1
 refuses 1 "--lods-in-one needs --lods" "$scarp" simplify "$dem" x.glb -e 5 --lods-in-one

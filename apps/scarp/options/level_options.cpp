@@ -25,7 +25,7 @@ Result<std::optional<Levels>> LevelArguments::parse(const OutputFormat& format, 
   if (*count > 32) return usage(fmt::format("--lods {} is more than 32 levels", *count));
   Levels levels{static_cast<int>(*count)};
   if (colon != std::string::npos) {
-    const Result<double> ratio = parse_number("--lods", lods->substr(colon + 1));
+    const Result<double> ratio = parse_number(fmt::format("--lods {}: the ratio", *lods), lods->substr(colon + 1));
     if (!ratio) return tl::unexpected(ratio.error());
     if (!(*ratio > 1)) return usage(fmt::format("--lods {} has a ratio that is not above 1", *lods));
     levels.ratio = *ratio;
