@@ -30,6 +30,12 @@ for mask in weights.tif percent.tif; do
 done
 grep -q -- '--mask percent.tif' <(strings masked.glb) || fail "the metadata does not name the mask"
 
+# A colour picture has three bands and one of them counts.
+gdal_translate -q -of PNG -ot Byte -b 1 -b 1 -b 1 -colorinterp red,green,blue percent.tif picture.png
+succeeds "$scarp" simplify "$dem" pictured.glb -e 20 --mask picture.png
+grep -q '^scarp: warning: picture.png: this is a colour picture, and its first band alone, red, is taken for the values$' \
+  "$logs/err" || fail "a picture is a mask without a word"
+
 # A mask that is 1 everywhere changes next to nothing: bounds are rounded downwards to float32.
 make_raster ones.tif 1 Byte
 succeeds "$scarp" simplify "$dem" plain.obj -e 20 --effort fast --report plain.json

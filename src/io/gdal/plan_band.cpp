@@ -92,8 +92,17 @@ Result<BandPlan> plan_band(GDALDatasetH dataset, const std::string& path, const 
   return plan;
 }
 
-void warn_of_colours(GDALDatasetH dataset, const BandPlan& plan, RasterInfo& info) {
+void warn_of_colours(GDALDatasetH dataset, const BandPlan& plan, bool as_values, RasterInfo& info) {
   const GDALColorInterp meaning = GDALGetRasterColorInterpretation(plan.band);
+  if (as_values) {
+    if (meaning == GCI_RedBand && GDALGetRasterCount(dataset) >= 3)
+      info.warnings.push_back(
+          info.path + ": this is a colour picture, and its first band alone, red, is taken for the values");
+    if (meaning == GCI_PaletteIndex)
+      info.warnings.push_back(
+          info.path + ": this is a picture with a palette, and the numbers of its colours are taken for the values");
+    return;
+  }
   if (plan.type == GDT_Byte && GDALGetRasterCount(dataset) >= 3 && meaning == GCI_RedBand) {
     info.warnings.push_back(
         "this is a colour picture, and its red is taken as height: heights packed into colours need to be "

@@ -77,7 +77,7 @@ Result<Plan> plan_raster(Session& session, const std::string& path, const ReadOp
     if (!band) return tl::unexpected(band.error());
     plan.band = *band;
     plan.band.means = means;
-    warn_of_colours(plan.dataset.get(), plan.band, plan.info);
+    warn_of_colours(plan.dataset.get(), plan.band, options.as_values, plan.info);
   } else {
     if (auto packed = verify_packed(plan.dataset.get(), path); !packed) return tl::unexpected(packed.error());
     plan.info.sample_type = options.decode == Decode::kTerrarium ? "Byte (terrarium)" : "Byte (mapbox)";

@@ -33,8 +33,8 @@ struct BandPlan {
 /// kInput if the band does not exist, or is complex.
 Result<BandPlan> plan_band(GDALDatasetH dataset, const std::string& path, const ReadOptions& options, RasterInfo& info);
 
-/// Adds what seems odd about a band of heights: that it is a colour or the number of one.
-void warn_of_colours(GDALDatasetH dataset, const BandPlan& plan, RasterInfo& info);
+/// Adds what seems odd about a band of heights, or of values: that it is a colour or the number of one.
+void warn_of_colours(GDALDatasetH dataset, const BandPlan& plan, bool as_values, RasterInfo& info);
 
 /// What reading came upon.
 struct Findings {
