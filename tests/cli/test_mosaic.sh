@@ -29,6 +29,25 @@ succeeds "$scarp" simplify tiles/a.tif tiles/b.tif gap.stl -e 20 --report gap.js
 [ "$(json gap.json input void)" = "$((200 * 194))" ] || fail "the gap is not missing: $(json gap.json input void)"
 holds "$(json gap.json input min) >= 236"
 
+# What Scarp made of a raster is no part of the folder that the raster lies in.
+mkdir work
+gdal_translate -q -ot Float32 utm.tif work/m.tif
+succeeds "$scarp" simplify work/m.tif work/a.tif -e 60 --error-raster work/z.tif
+succeeds "$scarp" simplify work/m.tif work.glb -e 60
+succeeds "$scarp" measure work/m.tif work.glb --error-raster work/e.tif
+succeeds "$scarp" simplify work work.stl -e 20 --report work.json
+same whole.stl work.stl
+grep -q '^  read as *work/m.tif, without what Scarp made: a.tif, e.tif, z.tif' "$logs/out" || fail "outputs are left out silently"
+[ "$(json work.json input max)" = 1076.0 ] || fail "an output is taken for a part of the mosaic"
+succeeds "$scarp" simplify work/m.tif work.glb -e 60 --overwrite --preview work/p.png
+refuses 2 "p.png: has no georeference, so that it has no place in a mosaic: name the other rasters one by one" "$scarp" info work
+rm work/p.png
+rm work/m.tif work/z.tif work/e.tif
+succeeds "$scarp" info work --no-suggest # nothing else is there
+succeeds "$scarp" generate fractal 60 50 work/hills.tif --size 30
+succeeds "$scarp" info work --no-suggest
+grep -q '^  read as *work/hills.tif, without what Scarp made: a.tif' "$logs/out" || fail "a synthetic raster is no input"
+
 # What makes no mosaic.
 gdalwarp -q -t_srs EPSG:32616 tiles/b.tif zone.tif
 gdal_translate -q -ot Float32 tiles/b.tif float.tif

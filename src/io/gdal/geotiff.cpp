@@ -8,18 +8,22 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "io/gdal/crs.h"
 #include "io/gdal/memory_file.h"
+#include "io/gdal/mosaic.h"
 #include "io/gdal/open.h"
 #include "io/gdal/session.h"
 #include "io/raster/raster_source.h"
 
 namespace scarp {
 namespace {
+
+constexpr std::string_view kGenerated = "generated";  // RasterInfo::format of a field that was made of no raster
 
 tl::unexpected<Error> refuse_geotiff(const std::string& why) {
   return fail(ErrorKind::kOutput, "the raster cannot be encoded as GeoTIFF: " + why);
@@ -100,6 +104,8 @@ Result<std::unique_ptr<GeoTiff>> create_geotiff(const std::string& path, int col
   if (like != nullptr && !like->unit.empty()) {
     good = good && GDALSetRasterUnitType(band, like->unit.c_str()) == CE_None;
   }
+  const bool is_derived = like != nullptr && like->format != kGenerated;
+  if (is_derived) good = good && gdal::mark_derived(dataset.get());
   if (!good || session.failed()) return refuse_geotiff(session.reason());
   return std::make_unique<GdalGeoTiff>(std::move(dataset), cols);
 }

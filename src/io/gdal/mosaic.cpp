@@ -45,7 +45,8 @@ Result<Tile> look_at(Session& session, const std::string& path) {
   tile.rows = GDALGetRasterYSize(raster);
   tile.bands = GDALGetRasterCount(raster);
   if (GDALGetGeoTransform(raster, tile.gt.data()) != CE_None) {
-    return fail(ErrorKind::kInput, path + ": has no georeference, so that it has no place in a mosaic");
+    return fail(ErrorKind::kInput,
+                path + ": has no georeference, so that it has no place in a mosaic: name the other rasters one by one");
   }
   if (tile.gt[2] != 0 || tile.gt[4] != 0) {
     return fail(ErrorKind::kInput, fmt::format("{}: is rotated, so that it has no place in a mosaic: turn it first {}",
@@ -144,9 +145,29 @@ struct FreeOptions {
   void operator()(GDALBuildVRTOptions* options) const { GDALBuildVRTOptionsFree(options); }
 };
 
+constexpr const char *kMadeKey = "SCARP_ROLE", *kMade = "derived";
+
+/// Leaves out what Scarp made of the others, in the order of names; their names, without folders.
+std::vector<std::string> take_derived(const std::vector<bool>& is_derived, std::vector<std::string>& rasters) {
+  std::vector<std::string> kept, left;
+  for (std::size_t k = 0; k < rasters.size(); ++k) (is_derived[k] ? left : kept).push_back(rasters[k]);
+  if (kept.empty() || left.empty()) return {};
+  rasters = std::move(kept);
+  for (std::string& name : left) name = CPLGetFilename(name.c_str());
+  return left;
+}
+
 }  // namespace
 
-Result<std::vector<std::string>> expand_folders(Session& session, const std::vector<std::string>& paths) {
+bool mark_derived(GDALDatasetH raster) { return GDALSetMetadataItem(raster, kMadeKey, kMade, nullptr) == CE_None; }
+
+bool is_derived(GDALDatasetH raster) {
+  const char* made = GDALGetMetadataItem(raster, kMadeKey, nullptr);
+  return made != nullptr && EQUAL(made, kMade);
+}
+
+Result<std::vector<std::string>> expand_folders(Session& session, const std::vector<std::string>& paths,
+                                                std::vector<std::string>& left_out) {
   std::vector<std::string> all;
   for (const std::string& path : paths) {
     VSIStatBufL status{};
@@ -159,15 +180,20 @@ Result<std::vector<std::string>> expand_folders(Session& session, const std::vec
       continue;
     }
     const CPLStringList entries(VSIReadDir(vsi.c_str()));
-    std::vector<std::string> rasters;
-    for (int k = 0; k < entries.size(); ++k) {
-      const std::string name = CPLFormFilename(vsi.c_str(), entries[k], nullptr);
-      if (VSIStatL(name.c_str(), &status) == 0 && VSI_ISREG(status.st_mode) && open_raster(session, name))
-        rasters.push_back(name);
+    std::vector<std::string> names, rasters;
+    std::vector<bool> are_derived;
+    for (int k = 0; k < entries.size(); ++k) names.push_back(CPLFormFilename(vsi.c_str(), entries[k], nullptr));
+    std::sort(names.begin(), names.end());
+    for (const std::string& name : names) {
+      if (VSIStatL(name.c_str(), &status) != 0 || !VSI_ISREG(status.st_mode)) continue;
+      const auto dataset = open_raster(session, name);
+      if (!dataset) continue;
+      rasters.push_back(name);
+      are_derived.push_back(is_derived(dataset->get()));
     }
     session.clear();
     if (rasters.empty()) return fail(ErrorKind::kInput, path + ": the folder holds no raster");
-    std::sort(rasters.begin(), rasters.end());
+    for (std::string& name : take_derived(are_derived, rasters)) left_out.push_back(std::move(name));
     all.insert(all.end(), rasters.begin(), rasters.end());
   }
   return all;

@@ -170,12 +170,15 @@ Result<Dataset> open_view(Session& session, const std::string& path, const Raste
                           std::string& words, Means* means, std::optional<double> nodata) {
   std::vector<std::string> given{path};
   given.insert(given.end(), view.more.begin(), view.more.end());
-  const auto paths = expand_folders(session, given);
+  std::vector<std::string> left_out;
+  const auto paths = expand_folders(session, given, left_out);
   if (!paths) return tl::unexpected(paths.error());
   const bool is_mosaic = paths->size() > 1;
   auto whole = is_mosaic ? open_mosaic(session, *paths) : open_raster(session, paths->front());
   if (!whole) return whole;
   if (is_mosaic) words = fmt::format("mosaic of {} rasters", paths->size());
+  if (!left_out.empty())
+    words += fmt::format("{}, without what Scarp made: {}", is_mosaic ? "" : paths->front(), fmt::join(left_out, ", "));
   if (!view.extent && !view.resolution) return whole;
 
   std::array<double, 6> gt{};
