@@ -233,7 +233,7 @@ Result<std::vector<std::uint8_t>> encode_3mf(std::span<const Mesh> objects);
 Result<std::vector<std::uint8_t>> join_glb_levels(std::span<const std::vector<std::uint8_t>> levels, double ratio);
 /// How the numbers of a mesh file are to be read: what the mesh, which is z up and absolute, no longer shows.
 struct MeshFileAxes {
-  char up = 0;              ///< 'y' or 'z'; 0 where neither the format nor the file says, and z is taken
+  char up = 0;               ///< 'y' or 'z'; 0 where neither the format nor the file says, and z is taken
   bool has_offsets = false;  ///< positions in the file are offsets from Mesh::origin (GLB, STL, 3MF)
 };
 /// Reads any of these formats but GeoPackage; recognises the format by content. `axes`, if given, tells the file's own.

@@ -36,10 +36,11 @@ Result<void> MemoryBudget::check_mesh(std::uint64_t work, std::uint64_t vertices
   const double whole = static_cast<double>(vertices) / std::clamp(share, 1e-6, 1.0);
   // A quarter more, since what is left may be rougher than what is done.
   const double needed = static_cast<double>(taken + work) + 1.25 * whole * static_cast<double>(per_vertex);
-  return fail(ErrorKind::kMemory,
-              fmt::format("the memory limit is too little: the mesh has {} vertices when {:.0f} % of the run is done, and "
-                          "the whole would need about {}M; allow that much, or {}",
-                          vertices, 100 * share, megabytes(needed), kLargerError));
+  return fail(
+      ErrorKind::kMemory,
+      fmt::format("the memory limit is too little: the mesh has {} vertices when {:.0f} % of the run is done, and "
+                  "the whole would need about {}M; allow that much, or {}",
+                  vertices, 100 * share, megabytes(needed), kLargerError));
 }
 
 Result<void> MemoryBudget::check_part(std::uint64_t bytes, double share, const char* what, const char* advice) const {

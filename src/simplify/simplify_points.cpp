@@ -298,7 +298,8 @@ class PointRun {
       const auto mended = m.is_sound() ? mend(result) : false;
       if (!mended) return tl::unexpected(mended.error());
       if (!*mended && !trim_border(result.mesh))
-        return fail(ErrorKind::kPromise, (m.is_sound() ? describe_broken(m) : "the mesh folds over itself") + advice(m));
+        return fail(ErrorKind::kPromise,
+                    (m.is_sound() ? describe_broken(m) : "the mesh folds over itself") + advice(m));
       freeze_into(result);
       result.seconds_refine += seconds_since(again);
     }
@@ -319,9 +320,10 @@ class PointRun {
                                    ? fmt::format("ask for at least {:.2g}", round_up(m.max_error))
                                    : std::string("ask for a larger error");
     return (options_.float32_positions
-                ? fmt::format(": positions in the mesh are rounded to float32, which alone costs that much; {}, or write "
-                              "OBJ or PLY, whose positions are double",
-                              larger)
+                ? fmt::format(
+                      ": positions in the mesh are rounded to float32, which alone costs that much; {}, or write "
+                      "OBJ or PLY, whose positions are double",
+                      larger)
                 : fmt::format(": points are snapped to a lattice of step {:.3g}, which alone costs that much; {}, or "
                               "split the points into smaller areas",
                               snapped_.lattice.step, larger)) +

@@ -52,7 +52,7 @@ refuses 2 "feature 0 has no number as its height: its attribute ELEV is 'high'" 
 collection "$(line 10 '[[0,0,250],[900,0,260],[900,900,270]]'),$(line 20 '[[0,100,300],[800,100],[800,800,340]]')" >flat.geojson
 sed 's/"properties":{[^}]*}/"properties":{}/g' flat.geojson > partly.geojson
 succeeds "$scarp" info partly.geojson --crs source
-grep -q 'warning: partly.geojson: 1 point has exactly the height 0, far below all others (250 to 340): if it means that it has none, correct it or leave it out' \
+grep -q 'warning: partly.geojson: 1 point has exactly the height 0, far below all others (250 to 340): if it has none, correct or leave out that point' \
   "$logs/err" || fail "a height that is not there is taken for 0 without a word"
 collection "$(line 10 '[[0,0],[1,1]]'),{\"type\":\"Feature\",\"properties\":{\"ELEV\":4},\"geometry\":null},$(line 20 '[[0,3],[1,4]]')" >none.geojson
 succeeds "$scarp" info none.geojson --z-field ELEV --crs source

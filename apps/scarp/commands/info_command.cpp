@@ -121,8 +121,7 @@ Result<void> InfoCommand::run_mesh(const std::string& format, const std::string&
   Result<Mesh> mesh = read_mesh(raster_.path(), &axes);
   if (!mesh) return tl::unexpected(std::move(mesh.error()));
   std::error_code ignored;
-  MeshFile file{raster_.path(), format, std::filesystem::file_size(raster_.path(), ignored), std::move(*mesh),
-                axes};
+  MeshFile file{raster_.path(), format, std::filesystem::file_size(raster_.path(), ignored), std::move(*mesh), axes};
   return print_to_stdout(json_ ? to_text(mesh_facts_report(file, command_line)) : mesh_facts(file));
 }
 

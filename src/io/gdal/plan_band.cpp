@@ -96,8 +96,8 @@ void warn_of_colours(GDALDatasetH dataset, const BandPlan& plan, bool as_values,
   const GDALColorInterp meaning = GDALGetRasterColorInterpretation(plan.band);
   if (as_values) {
     if (meaning == GCI_RedBand && GDALGetRasterCount(dataset) >= 3)
-      info.warnings.push_back(
-          info.path + ": this is a colour picture, and its first band alone, red, is taken for the values");
+      info.warnings.push_back(info.path +
+                              ": this is a colour picture, and its first band alone, red, is taken for the values");
     if (meaning == GCI_PaletteIndex)
       info.warnings.push_back(
           info.path + ": this is a picture with a palette, and the numbers of its colours are taken for the values");

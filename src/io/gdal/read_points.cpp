@@ -292,11 +292,10 @@ Result<PointSet> read(const std::string& path, const ReadPointsOptions& options)
             ? fmt::format("1 feature of {} has no point and was left out", path)
             : fmt::format("{} features of {} have no point and were left out", collector.without_geometry(), path));
   if (collector.without_extent() > 0)
-    points.warnings.push_back(
-        collector.without_extent() == 1
-            ? fmt::format("1 line of {} is a single point, and counts as one", path)
-            : fmt::format("{} lines of {} are a single point each, and count as points", collector.without_extent(),
-                          path));
+    points.warnings.push_back(collector.without_extent() == 1
+                                  ? fmt::format("1 line of {} is a single point, and counts as one", path)
+                                  : fmt::format("{} lines of {} are a single point each, and count as points",
+                                                collector.without_extent(), path));
   const Crs crs = layer_crs(*layer);
   if (auto placed = place(crs, options.crs, points); !placed) return tl::unexpected(placed.error());
   for (const std::string& warning : session.warnings()) points.warnings.push_back("GDAL: " + warning);

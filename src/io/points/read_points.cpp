@@ -93,8 +93,8 @@ Result<PointSet> read_by_content(const std::string& path, const ReadPointsOption
   return decode_columns(*bytes, path, options);
 }
 
-/// Heights that most likely say that there is none. GDAL reads a vertex without a third coordinate as 0, where others of
-/// its geometry have one.
+/// Heights that most likely say that there is none. GDAL reads a vertex without a third coordinate as 0, where others
+/// of its geometry have one.
 void warn_of_missing_heights(PointSet& points) {
   std::vector<float> heights;
   heights.reserve(points.size());
@@ -102,13 +102,11 @@ void warn_of_missing_heights(PointSet& points) {
                [](double z) { return std::abs(z) <= std::numeric_limits<float>::max(); });
   for (const UndeclaredNodata& missing : find_undeclared_nodata(range_of(heights))) {
     const bool is_one = missing.of.samples == 1;
-    const auto height = static_cast<float>(missing.of.height);
     points.warnings.push_back(fmt::format(
-        "{}: {} exactly the height {}, far {} all others ({:.6g} to {:.6g}): if it means that {}, correct {} or leave {} "
-        "out",
-        points.path, is_one ? "1 point has" : fmt::format("{} points have", missing.of.samples), height,
-        missing.is_high ? "above" : "below", missing.min, missing.max, is_one ? "it has none" : "they have none",
-        is_one ? "it" : "them", is_one ? "it" : "them"));
+        "{}: {} exactly the height {}, far {} all others ({:.6g} to {:.6g}): if {} none, correct or leave out {}",
+        points.path, is_one ? "1 point has" : fmt::format("{} points have", missing.of.samples),
+        static_cast<float>(missing.of.height), missing.is_high ? "above" : "below", missing.min, missing.max,
+        is_one ? "it has" : "they have", is_one ? "that point" : "those points"));
   }
 }
 
