@@ -15,6 +15,7 @@
 #include <cmath>
 #include <exception>
 #include <limits>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -37,20 +38,37 @@ constexpr double kNearLargest = 3.4e38;
 template <class Raw>
 class NodataTest {
  public:
-  explicit NodataTest(std::optional<Raw> value) : value_(value) {}
-  bool operator()(Raw raw) const {
-    if (!value_) return false;
-    if (raw == *value_) return true;
+  explicit NodataTest(std::optional<Raw> value) : has_value_(value.has_value()), value_(value.value_or(Raw{})) {
     if constexpr (std::is_floating_point_v<Raw>) {
+      constexpr Raw kNever = std::numeric_limits<Raw>::quiet_NaN();
       const Raw near = static_cast<Raw>(kNearLargest);
-      return std::abs(*value_) >= near && std::abs(raw) >= near && std::signbit(raw) == std::signbit(*value_);
+      if (!has_value_) value_ = kNever;
+      least_ = value_ >= near ? near : kNever;
+      most_ = value_ <= -near ? -near : kNever;
     }
-    return false;
+  }
+  bool operator()(Raw raw) const {
+    if constexpr (std::is_floating_point_v<Raw>) return (raw == value_) | (raw >= least_) | (raw <= most_);
+    return has_value_ && raw == value_;
   }
 
  private:
-  std::optional<Raw> value_;
+  bool has_value_;
+  Raw value_;
+  Raw least_{}, most_{};  // beyond, what is large is nodata, too
 };
+
+/// Nodata and what is not finite becomes kNodataSample. Returns how many were infinite. Without a branch, so that
+/// compilers make vectors of it.
+std::uint32_t mark_nodata(std::span<float> heights, const NodataTest<float>& is_nodata) {
+  std::uint32_t infinities = 0;
+  for (float& z : heights) {
+    const bool is_missing = is_nodata(z), is_finite = std::abs(z) <= kLargest;
+    infinities += static_cast<std::uint32_t>(!is_missing & !is_finite & (z == z));
+    z = is_missing | !is_finite ? kNodataSample : z;
+  }
+  return infinities;
+}
 
 float to_float32(double value) { return std::abs(value) <= kLargest ? static_cast<float>(value) : kNodataSample; }
 
@@ -64,8 +82,8 @@ double distance(Integer raw, float rounded) {
 }
 
 /// How far GDAL's mean may lie from the exact one: it adds float32 values and keeps a float32, whatever type is asked
-/// for. Of whole cells the sum is exact. There, if mean · cells is whole, then so is mean · cells · counted; that differs
-/// from sum · cells by less than 1, so it is that, and the mean is exact.
+/// for. Of whole cells the sum is exact. There, if mean · cells is whole, then so is mean · cells · counted; that
+/// differs from sum · cells by less than 1, so it is that, and the mean is exact.
 double rounding_of_mean(double mean, const Means& means) {
   if (means.cells == 1 || !std::isfinite(mean) || mean == 0) return 0;
   const double half_step = std::ldexp(1.0, std::ilogb(mean) - 24), cells = means.cells;
@@ -110,17 +128,14 @@ class BandReader : public WindowReader {
     }
     const NodataTest<float> is_nodata(narrowed_nodata());
     for (int row = 0; row < window.rows; ++row) {
-      float* z = row_of(row);
-      for (int col = 0; col < window.cols; ++col) {
-        if (plan_.signed_byte && z[col] > 127) z[col] -= 256;
-        if (is_nodata(z[col]) || std::isnan(z[col])) {
-          z[col] = kNodataSample;
-        } else if (std::isinf(z[col])) {
-          z[col] = kNodataSample;
-          ++findings_.infinities;
-        } else {
-          findings_.rounding = std::max(findings_.rounding, rounding_of_mean(z[col], plan_.means));
-        }
+      const std::span<float> heights(row_of(row), static_cast<std::size_t>(window.cols));
+      if (plan_.signed_byte) {
+        for (float& z : heights) z = z > 127 ? z - 256 : z;
+      }
+      findings_.infinities += mark_nodata(heights, is_nodata);
+      if (plan_.means.cells <= 1) continue;
+      for (const float z : heights) {
+        if (!std::isnan(z)) findings_.rounding = std::max(findings_.rounding, rounding_of_mean(z, plan_.means));
       }
     }
     return true;
