@@ -39,8 +39,11 @@ done <<'END'
 --lods-in --lods-in-one
 --max --max-error, --max-triangles, --max-points or --max-edge
 --fallof --falloff
+--errr --max-error
+--bbbox --te
 END
 refuses 1 "a share of the relief is an error with a % behind it: -e 1%" "$scarp" simplify "$dem" out.glb --percent 1
+refuses 1 "contour lines are an input: scarp simplify contours.gpkg OUTPUT -e 2" "$scarp" simplify "$dem" out.glb --contours lines.gpkg
 refuses 1 "unknown command 'simp' (did you mean simplify?)" "$scarp" simp
 refuses 1 "option --error=5 is unknown (did you mean --max-error?)" "$scarp" simplify "$dem" out.glb --error=5
 refuses 1 "gdal_edit.py -a_srs" "$scarp" simplify "$dem" out.glb -e 1 -a_srs EPSG:32611

@@ -54,6 +54,7 @@ constexpr Foreign kForeign[] = {
     {"lakes", "--water", ""},
     {"bl breakline", "--breaklines", ""},
     {"v V verbose debug", "--timing", "--timing tells what each pass took, --version the version"},
+    {"contours contour isolines", "--points", "contour lines are an input: scarp simplify contours.gpkg OUTPUT -e 2"},
     {"co", "", "formats have no creation options"},
     {"optimize quality level compression-level", "--effort", ""},
 };
@@ -67,15 +68,6 @@ std::string bare(const std::string& word) {
     if (name.size() > 1) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   }
   return name;
-}
-
-bool holds_word(std::string_view words, std::string_view word) {
-  for (std::size_t begin = 0; begin < words.size();) {
-    const std::size_t end = std::min(words.find(' ', begin), words.size());
-    if (words.substr(begin, end - begin) == word) return true;
-    begin = end + 1;
-  }
-  return false;
 }
 
 /// Letters to change, add, leave out or exchange with their neighbours.
@@ -94,6 +86,17 @@ std::size_t distance(std::string_view a, std::string_view b) {
     }
   }
   return steps[a.size()][b.size()];
+}
+
+/// Whether one of the words is this one, or, of four letters or more, `most` letters beside it.
+bool holds_word(std::string_view words, std::string_view word, std::size_t most = 0) {
+  for (std::size_t begin = 0; begin < words.size();) {
+    const std::size_t end = std::min(words.find(' ', begin), words.size());
+    const std::string_view here = words.substr(begin, end - begin);
+    if (here == word || (here.size() >= 4 && distance(here, word) <= most)) return true;
+    begin = end + 1;
+  }
+  return false;
 }
 
 /// The names that are like the word: those that begin with it, else those at the least distance, else one that holds
@@ -141,12 +144,17 @@ std::string advise(const CLI::App* command, const std::string& word) {
     return std::find(names.begin(), names.end(), bare(option)) != names.end();
   };
   if (has(name)) return fmt::format("did you mean --{}?", name);
-  for (const Foreign& foreign : kForeign) {
-    if (!holds_word(foreign.words, name) || command == nullptr) continue;
-    if (foreign.meant[0] != 0 && !has(foreign.meant)) continue;
-    return foreign.advice[0] != 0 ? foreign.advice : fmt::format("did you mean {}?", foreign.meant);
-  }
-  return ask(find_alike(name, names), "--");
+  const auto advise_on_foreign = [&](std::size_t most) -> std::string {
+    for (const Foreign& foreign : kForeign) {
+      if (!holds_word(foreign.words, name, most) || command == nullptr) continue;
+      if (foreign.meant[0] != 0 && !has(foreign.meant)) continue;
+      return foreign.advice[0] != 0 ? foreign.advice : fmt::format("did you mean {}?", foreign.meant);
+    }
+    return {};
+  };
+  std::string advice = advise_on_foreign(0);
+  if (advice.empty()) advice = ask(find_alike(name, names), "--");
+  return advice.empty() && name.size() >= 4 ? advise_on_foreign(1) : advice;
 }
 
 const CLI::App* find_chosen(const CLI::App& program, std::string_view name) {
