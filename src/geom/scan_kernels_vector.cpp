@@ -158,48 +158,8 @@ std::vector<ScanKernels> find_kernels() {
   const auto add = [&](std::int64_t target, const ScanKernels& kernels) {
     if ((supported & target) != 0) found.push_back(kernels);
   };
-#if HWY_TARGETS & HWY_AVX3_DL
-  add(HWY_AVX3_DL, N_AVX3_DL::kernels());
-#endif
-#if HWY_TARGETS & HWY_AVX3
-  add(HWY_AVX3, N_AVX3::kernels());
-#endif
-#if HWY_TARGETS & HWY_AVX2
-  add(HWY_AVX2, N_AVX2::kernels());
-#endif
-#if HWY_TARGETS & HWY_SSE4
-  add(HWY_SSE4, N_SSE4::kernels());
-#endif
-#if HWY_TARGETS & HWY_SSSE3
-  add(HWY_SSSE3, N_SSSE3::kernels());
-#endif
-#if HWY_TARGETS & HWY_SVE2_128
-  add(HWY_SVE2_128, N_SVE2_128::kernels());
-#endif
-#if HWY_TARGETS & HWY_SVE_256
-  add(HWY_SVE_256, N_SVE_256::kernels());
-#endif
-#if HWY_TARGETS & HWY_SVE2
-  add(HWY_SVE2, N_SVE2::kernels());
-#endif
-#if HWY_TARGETS & HWY_SVE
-  add(HWY_SVE, N_SVE::kernels());
-#endif
-#if HWY_TARGETS & HWY_NEON
-  add(HWY_NEON, N_NEON::kernels());
-#endif
-#if HWY_TARGETS & HWY_PPC8
-  add(HWY_PPC8, N_PPC8::kernels());
-#endif
-#if HWY_TARGETS & HWY_WASM
-  add(HWY_WASM, N_WASM::kernels());
-#endif
-#if HWY_TARGETS & HWY_RVV
-  add(HWY_RVV, N_RVV::kernels());
-#endif
-#if HWY_TARGETS & HWY_EMU128
-  add(HWY_EMU128, N_EMU128::kernels());
-#endif
+#define SCARP_INSTRUCTION_SET(target, set) add(target, set::kernels());
+#include "base/each_instruction_set.inc"
   return found;
 }
 

@@ -67,6 +67,37 @@ Extent extent_of(std::span<const float> samples, float nodata) {
   return extent;
 }
 
+/// Whether all of some samples lie strictly between `low` and `high`, or are NaN. Without branches, for vectors.
+template <std::size_t kCount>
+bool are_between(const float* samples, float low, float high) {
+  int beyond = 0;
+  for (std::size_t i = 0; i < kCount; ++i) beyond |= int{samples[i] <= low} | int{samples[i] >= high};
+  return beyond == 0;
+}
+
+/// Notes the heights of some samples that may be among the outermost. `nodata`: NaN for none.
+void note_ends(HeightRange& range, std::span<const float> samples, float nodata) {
+  constexpr std::size_t kTogether = 32;
+  std::size_t i = 0;
+  while (i < samples.size()) {
+    const auto low = static_cast<float>(range.lowest.back().height),
+               high = static_cast<float>(range.highest.back().height);
+    const bool has_ends = range.lowest.back().samples > 0 && range.highest.back().samples > 0 && low < high;
+    while (has_ends && i + kTogether <= samples.size() && are_between<kTogether>(&samples[i], low, high))
+      i += kTogether;
+    const std::size_t stop = std::min(samples.size(), i + kTogether);
+    while (i < stop) {
+      const float z = samples[i];
+      const std::size_t begin = i;
+      do ++i;
+      while (i < samples.size() && samples[i] == z);
+      if (!std::isfinite(z) || z == nodata || is_between_ends(range, z, z)) continue;
+      add_to(range.lowest, 1, {z, i - begin});
+      add_to(range.highest, -1, {z, i - begin});
+    }
+  }
+}
+
 }  // namespace
 
 void HeightRange::add(const HeightRange& part) {
@@ -101,16 +132,8 @@ HeightRange range_of(std::span<const float> samples, std::optional<float> nodata
   range.min = extents[lowest].least;
   range.max = extents[highest].most;
   const auto look = [&](std::size_t k) {
-    if (extents[k].valid == 0 || is_between_ends(range, extents[k].least, extents[k].most)) return;
-    const auto block = block_at(k);
-    for (std::size_t i = 0; i < block.size();) {
-      const float z = block[i];
-      const std::size_t begin = i++;
-      if (!std::isfinite(z) || z == none || is_between_ends(range, z, z)) continue;
-      while (i < block.size() && block[i] == z) ++i;
-      add_to(range.lowest, 1, {z, i - begin});
-      add_to(range.highest, -1, {z, i - begin});
-    }
+    if (extents[k].valid > 0 && !is_between_ends(range, extents[k].least, extents[k].most))
+      note_ends(range, block_at(k), none);
   };
   // First where both ends lie, so that most others need no look.
   look(lowest);
@@ -119,6 +142,14 @@ HeightRange range_of(std::span<const float> samples, std::optional<float> nodata
     if (k != lowest && k != highest) look(k);
   }
   return range;
+}
+
+void add_samples(HeightRange& range, std::span<const float> samples, float least, float most, std::uint64_t valid) {
+  if (valid == 0) return;
+  range.min = range.valid == 0 ? least : std::min(range.min, double{least});
+  range.max = range.valid == 0 ? most : std::max(range.max, double{most});
+  range.valid += valid;
+  if (!is_between_ends(range, least, most)) note_ends(range, samples, std::numeric_limits<float>::quiet_NaN());
 }
 
 void set_range(const HeightRange& range, RasterInfo& info) {

@@ -1,6 +1,7 @@
 // The range of many samples, and what lies at its ends.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -10,6 +11,9 @@ namespace scarp {
 
 /// Of the samples that are finite and not `nodata`.
 HeightRange range_of(std::span<const float> samples, std::optional<float> nodata = std::nullopt);
+
+/// Adds samples that are known to hold `valid` heights from `least` to `most`; all others are NaN.
+void add_samples(HeightRange& range, std::span<const float> samples, float least, float most, std::uint64_t valid);
 
 /// Fills in all that `info` tells of the range.
 void set_range(const HeightRange& range, RasterInfo& info);

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "grid/height_range.h"
-#include "grid/window.h"
 
 namespace scarp::judge {
 namespace {
@@ -24,41 +23,78 @@ bool mark_heights(const float* samples, std::vector<std::uint8_t>& marks) {
 
 }  // namespace
 
-Result<Band> Band::read(const HeightField& field, int first, int rows, const Limits& limits, double guard) {
-  Band band(field, first, rows, limits, guard);
-  const int top = std::max(first - 1, 0), bottom = std::min(band.end() + 1, field.rows);
-  float* samples = &band.heights_[band.height_at(0, top)];
-  if (auto read = read_window(field, 0, top, field.cols, bottom - top, samples, field.cols); !read)
-    return tl::unexpected(std::move(read.error()));
+Result<Band> Band::read(const HeightField& field, int first, int rows, const Limits& limits, double guard,
+                        Histogram& histogram) {
+  Band band(field, first, rows, limits, guard, histogram);
+  if (auto taken = band.take_heights(field); !taken) return tl::unexpected(std::move(taken.error()));
   if (limits.source != nullptr) {
-    band.tolerances_.resize(band.errors_.size());
+    band.tolerances_.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(field.cols));
     auto read = limits.source->read(0, first, field.cols, rows, band.tolerances_.data(), field.cols);
     if (!read) return tl::unexpected(std::move(read.error()));
   }
-  band.report_.heights = range_of({band.heights(first), band.errors_.size()});
   band.classify();
   if (limits.region != nullptr) band.cut();
+  band.is_whole_ = true;
+  for (int row = first; row < band.end(); ++row) band.is_whole_ = band.is_whole_ && band.is_whole(row);
   return band;
 }
 
-Band::Band(const HeightField& field, int first, int rows, const Limits& limits, double guard)
+Band::Band(const HeightField& field, int first, int rows, const Limits& limits, double guard, Histogram& histogram)
     : cols_(field.cols),
       first_(first),
       rows_(rows),
       has_row_below_(first + rows < field.rows),
       limits_(limits),
       least_limit_(limits.by_sample.empty() && limits.source == nullptr ? limits.everywhere : -HUGE_VAL),
-      guard_(guard) {
+      guard_(guard),
+      histogram_(histogram),
+      valid_(static_cast<std::size_t>(rows) + 2, 0) {
   const std::size_t size = static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols_);
-  heights_.assign(size + 2 * static_cast<std::size_t>(cols_), std::numeric_limits<float>::quiet_NaN());
-  errors_.assign(size, std::numeric_limits<double>::quiet_NaN());
+  heights_.resize(size + 2 * static_cast<std::size_t>(cols_) + kKernelPadding);
+  errors_.resize(size + kKernelPadding);
+  std::fill(errors_.begin(), errors_.end(), std::numeric_limits<double>::quiet_NaN());
+  std::fill(heights_.end() - kKernelPadding, heights_.end(), std::numeric_limits<float>::quiet_NaN());
   row_nodata_cells_.assign(static_cast<std::size_t>(rows), 0);
+  report_.rows.resize(static_cast<std::size_t>(rows));
   if (limits.region != nullptr) places_ = limits.region->places(first, rows);
+}
+
+Result<void> Band::take_heights(const HeightField& field) {
+  const auto cols = static_cast<std::size_t>(cols_);
+  const int top = std::max(first_ - 1, 0), bottom = std::min(end() + 1, field.rows);
+  if (field.samples == nullptr) {
+    auto read = field.source->read(0, top, cols_, bottom - top, &heights_[height_at(0, top)], cols_);
+    if (!read) return read;
+  }
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  const float nodata = field.samples != nullptr ? field.nodata.value_or(kNone) : kNone;
+  for (int row = first_ - 1; row <= end(); ++row) {
+    float* heights = &heights_[height_at(0, row)];
+    if (row < top || row >= bottom) {
+      std::fill_n(heights, cols, kNone);
+      continue;
+    }
+    const float* from = field.samples != nullptr ? field.samples + static_cast<std::size_t>(row) * cols : heights;
+    const RowHeights taken = judge_kernels().take_row(from, cols_, nodata, heights);
+    valid_[static_cast<std::size_t>(row - first_ + 1)] = static_cast<std::int32_t>(taken.valid);
+    if (row >= first_ && row < end())
+      add_samples(report_.heights, {heights, cols}, taken.least, taken.most, taken.valid);
+  }
+  return {};
+}
+
+void Band::drop(int col, int row) {
+  heights_[height_at(col, row)] = std::numeric_limits<float>::quiet_NaN();
+  --valid_[static_cast<std::size_t>(row - first_ + 1)];
 }
 
 void Band::classify() {
   const auto cols = static_cast<std::size_t>(cols_);
-  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto all_are_whole = [this](int first, int last) {
+    while (first <= last && is_whole(first)) ++first;
+    return first > last;
+  };
+  if (has_row_below_ ? all_are_whole(first_, end()) : all_are_whole(rows_ > 1 ? first_ : first_ - 1, end() - 1)) return;
   // marks: rows r − 1, r, r + 1. counts[c]: heights among the four corners of a cell, above and below row r.
   std::vector<std::uint8_t> before(cols), here(cols), after(cols), above(cols, 0), below(cols, 0);
   const auto count_cells = [&](const std::vector<std::uint8_t>& top, const std::vector<std::uint8_t>& bottom,
@@ -77,26 +113,22 @@ void Band::classify() {
     } else {
       count_cells(here, after, below);
     }
-    float* heights = &heights_[height_at(0, row)];
     // A whole row below a whole row needs no look at single samples; both count arrays stay true for the next row.
     const bool has_cells = row + 1 < end() || has_row_below_;
     if (!(here_is_whole && after_is_whole && has_cells)) {
       for (std::size_t c = 0; c < cols; ++c) {
-        if (!here[c]) {
-          heights[c] = nan;
-          continue;
-        }
+        if (!here[c]) continue;
         const bool left = c > 0 && (above[c - 1] >= 3 || below[c - 1] >= 3);
         const bool right = c + 1 < cols && (above[c] >= 3 || below[c] >= 3);
         if (left || right) continue;
-        heights[c] = nan;
+        drop(static_cast<int>(c), row);
         const bool is_cut_off =
             limits_.region != nullptr && place(static_cast<int>(c), row) == CutRegion::Place::kOutside;
         ++(is_cut_off ? report_.cut_off : report_.stray);
       }
       for (std::size_t c = 0; has_cells && c + 1 < cols; ++c) {
         if (below[c] == 4) continue;
-        if (cells_.empty()) cells_.assign(errors_.size(), kWhole);
+        if (cells_.empty()) cells_.assign(static_cast<std::size_t>(rows_) * cols, kWhole);
         std::uint8_t kind = kNodata;
         if (below[c] == 3) {
           const int missing = !here[c] ? 0 : !here[c + 1] ? 1 : !after[c] ? 2 : 3;
@@ -115,10 +147,9 @@ void Band::classify() {
 
 void Band::cut() {
   for (int row = first_; row < end(); ++row) {
-    float* heights = &heights_[height_at(0, row)];
     for (int c = 0; c < cols_; ++c) {
-      if (std::isnan(heights[c]) || place(c, row) != CutRegion::Place::kOutside) continue;
-      heights[c] = std::numeric_limits<float>::quiet_NaN();
+      if (std::isnan(heights(row)[c]) || place(c, row) != CutRegion::Place::kOutside) continue;
+      drop(c, row);
       ++report_.cut_off;
     }
   }
@@ -142,19 +173,32 @@ bool Band::find_missing() {
   bool any = false;
   row_missing_.assign(static_cast<std::size_t>(rows_), 0);
   for (int row = first_; row < end(); ++row) {
-    const float* height = heights(row);
-    const double* error = errors(row);
-    for (int c = 0; c < cols_; ++c) {
-      if (!std::isnan(error[c]) || std::isnan(height[c])) continue;
-      if (limits_.region != nullptr && place(c, row) == CutRegion::Place::kNear) {
-        ++report_.cut_off;
-        continue;
-      }
-      if (!any) nearest_.assign(errors_.size(), {});
+    const auto index = static_cast<std::size_t>(row - first_);
+    const Buckets buckets = sum(row);
+    const bool is_covered = report_.rows[index].samples == static_cast<std::uint64_t>(valid_[index + 1]);
+    if (!is_covered && find_missing(row)) {
+      row_missing_[index] = 1;
       any = true;
-      row_missing_[static_cast<std::size_t>(row - first_)] = 1;
-      nearest_[at(c, row)].distance = HUGE_VAL;
+    } else {
+      histogram_.add(buckets);
     }
+  }
+  return any;
+}
+
+bool Band::find_missing(int row) {
+  bool any = false;
+  const float* height = heights(row);
+  const double* error = errors(row);
+  for (int c = 0; c < cols_; ++c) {
+    if (!std::isnan(error[c]) || std::isnan(height[c])) continue;
+    if (limits_.region != nullptr && place(c, row) == CutRegion::Place::kNear) {
+      ++report_.cut_off;
+      continue;
+    }
+    if (nearest_.empty()) nearest_.assign(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(cols_), {});
+    any = true;
+    nearest_[at(c, row)].distance = HUGE_VAL;
   }
   return any;
 }
@@ -167,12 +211,32 @@ void Band::offer_nearest(int col, int row, double distance, std::uint32_t triang
   held = error;
 }
 
-BandReport Band::finish(Histogram& histogram, Keep keep) {
-  const auto cols = static_cast<std::size_t>(cols_);
-  report_.rows.reserve(static_cast<std::size_t>(rows_));
+Buckets Band::sum(int row) {
+  Buckets buckets;
+  report_.rows[static_cast<std::size_t>(row - first_)] =
+      sum_row({errors(row), static_cast<std::size_t>(cols_)}, scratch_, buckets);
+  return buckets;
+}
+
+void Band::find_largest() {
+  int row = -1;
+  for (int r = first_; r < end(); ++r) {
+    const double largest = report_.rows[static_cast<std::size_t>(r - first_)].largest;
+    if (!(largest > report_.largest)) continue;
+    report_.largest = largest;
+    row = r;
+  }
+  if (row < 0) return;
+  const double* error = errors(row);
+  int col = 0;
+  while (std::abs(error[col]) != report_.largest) ++col;
+  report_.largest_at = {col, row};
+}
+
+BandReport Band::finish(Keep keep) {
   for (int row = first_; row < end(); ++row) {
+    if (row_has_missing(row)) histogram_.add(sum(row));
     const double* error = errors(row);
-    report_.rows.push_back(sum_row({error, cols}, histogram));
     for (int c = 0; has_tolerances() && c < cols_; ++c) {
       if (std::abs(error[c]) > tolerance(c, row)) ++report_.over_tolerance;
     }
@@ -186,15 +250,16 @@ BandReport Band::finish(Histogram& histogram, Keep keep) {
       }
     }
   }
+  find_largest();
   // A triangle's worst sample only: the lowest row, then column, among equals.
   auto& offenders = report_.offenders;
   std::sort(offenders.begin(), offenders.end(), is_worse_of_triangle);
   const auto same = [](const TriangleOffender& a, const TriangleOffender& b) { return a.triangle == b.triangle; };
   offenders.erase(std::unique(offenders.begin(), offenders.end(), same), offenders.end());
   if (keep != Keep::kNothing) {
-    report_.kept.resize(errors_.size());
+    report_.kept.resize(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(cols_));
     const float* height = heights(first_);
-    for (std::size_t i = 0; i < errors_.size(); ++i) {
+    for (std::size_t i = 0; i < report_.kept.size(); ++i) {
       report_.kept[i] = static_cast<float>(keep == Keep::kHeights ? double{height[i]} + errors_[i] : errors_[i]);
     }
   }

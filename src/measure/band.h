@@ -9,8 +9,10 @@
 #include <span>
 #include <vector>
 
+#include "base/array.h"
 #include "measure/cut_region.h"
 #include "measure/error_summary.h"
+#include "measure/judge_kernels.h"
 #include "scarp/height_field.h"
 #include "scarp/measure.h"
 #include "scarp/result.h"
@@ -37,6 +39,8 @@ inline bool is_worse_of_triangle(const TriangleOffender& a, const TriangleOffend
 /// What one band says about the mesh. Depends on the band only.
 struct BandReport {
   std::vector<RowSums> rows;
+  double largest = -1;                             ///< |error|; −1 if there is no sample
+  std::array<std::int32_t, 2> largest_at{-1, -1};  ///< the lowest row, then column, among equals
   HeightRange heights;
   std::uint64_t uncovered = 0, stray = 0, cut_off = 0, nodata_cells_covered = 0;
   std::array<std::int32_t, 2> uncovered_at{-1, -1};  ///< the first one
@@ -61,17 +65,21 @@ enum class Keep { kNothing, kErrors, kHeights };
 /// The rows [first, first + rows) of a field, to work on. Scanners read heights and cells, and write errors.
 class Band {
  public:
-  static int rows_per_band(int cols) { return cols <= 4096 ? 32 : std::max(8, 32 * 4096 / cols); }
+  static constexpr int kMostRows = kMostBandRows;
+  static int rows_per_band(int cols) { return cols <= 4096 ? kMostRows : std::max(8, kMostRows * 4096 / cols); }
 
   /// Reads the rows, with every sample that need not be covered (nodata, stray or cut off) as NaN, and finds the cells
-  /// that must not be covered. Fails as the field's source and that of limits do.
-  static Result<Band> read(const HeightField& field, int first, int rows, const Limits& limits, double guard);
+  /// that must not be covered. Errors will be counted in `histogram`, which outlives the band. Fails as the field's
+  /// source and that of limits do.
+  static Result<Band> read(const HeightField& field, int first, int rows, const Limits& limits, double guard,
+                           Histogram& histogram);
 
   int first() const { return first_; }
   int end() const { return first_ + rows_; }
   int cols() const { return cols_; }
   const float* heights(int row) const { return &heights_[height_at(0, row)]; }
   double* errors(int row) { return &errors_[at(0, row)]; }
+  BandRows rows() { return {heights(first_), errors_.data(), cols_, first_, is_whole_}; }
 
   /// Takes `error` for a sample of errors() if it is larger than what is `held` there; among equals the positive.
   void offer(double& held, double error) {
@@ -79,6 +87,11 @@ class Band {
     if (now < before || (now == before && !(error > held))) return;  // false for the NaN of a sample not covered yet
     held = error;
     if (now > largest_) largest_ = now;
+  }
+  /// What an error must reach to be critical or an offender, at least.
+  double watch() const {
+    const double limit = std::min(largest_, least_limit_);
+    return limit - (2 * guard_ + 4 * kRounding * std::abs(limit));
   }
   /// True if an error of about this size may become the band's largest or break a bound, so that its last bit counts.
   bool is_critical(int col, int row, double error) const {
@@ -93,9 +106,10 @@ class Band {
   /// Notes a sample of `triangle` that breaks the bound.
   void add_offender(std::uint32_t triangle, Offender offender) { report_.offenders.push_back({triangle, offender}); }
 
-  /// True if a sample of the row, or of the band, that must be covered is not. Valid after find_missing(), which is
-  /// called once; samples near the end of the region that are not covered are cut off then.
+  /// Sums up the rows whose samples are covered as they must be. True if a sample of the band that must be covered is
+  /// not. Called once; samples near the end of the region that are not covered are cut off then.
   bool find_missing();
+  /// The same of a row, after find_missing().
   bool row_has_missing(int row) const { return row_missing_[static_cast<std::size_t>(row - first_)] != 0; }
   bool is_missing(int col, int row) const { return nearest_[at(col, row)].distance >= 0; }
   /// Offers a triangle at some distance to a missing sample: the nearest is taken, the larger error among equals.
@@ -109,11 +123,12 @@ class Band {
   std::optional<std::array<double, 2>> nodata_point(int col, int row) const;
   void count_nodata_cell(int col, int row);
 
-  /// Sums up. Ends the band's life as a workplace.
-  BandReport finish(Histogram& histogram, Keep keep);
+  /// Sums up the rest. Ends the band's life as a workplace.
+  BandReport finish(Keep keep);
 
  private:
-  Band(const HeightField& field, int first, int rows, const Limits& limits, double guard);
+  Band(const HeightField& field, int first, int rows, const Limits& limits, double guard, Histogram& histogram);
+  Result<void> take_heights(const HeightField& field);
 
   struct Nearest {
     double distance = -1;  ///< −1: not missing; infinite: nothing near yet
@@ -140,18 +155,28 @@ class Band {
   bool has_tolerances() const { return !limits_.by_sample.empty() || !tolerances_.empty(); }
   /// REQUIRES: there is a region.
   CutRegion::Place place(int col, int row) const { return places_[at(col, row)]; }
+  bool is_whole(int row) const { return valid_[static_cast<std::size_t>(row - first_ + 1)] == cols_; }
   void classify();
   void cut();
+  /// Takes a height away, so that it need not be covered.
+  void drop(int col, int row);
+  bool find_missing(int row);
+  Buckets sum(int row);
+  void find_largest();
 
   int cols_ = 0, first_ = 0, rows_ = 0;
   bool has_row_below_ = false;  // in the field
   Limits limits_;
   double least_limit_ = HUGE_VAL;  // no sample has a smaller one
   double guard_ = 0, largest_ = 0;
+  bool is_whole_ = false;  // all of its samples must be covered
   bool has_nodata_cells_ = false;
-  std::vector<float> heights_;
-  std::vector<float> tolerances_;  // empty unless there is a source of them
-  std::vector<double> errors_;
+  Histogram& histogram_;
+  Array<float> heights_;
+  std::vector<std::int32_t> valid_;  // by row, from the one above on: heights that are left
+  std::vector<float> tolerances_;    // empty unless there is a source of them
+  Array<double> errors_;
+  Array<std::uint32_t> scratch_;
   std::vector<CutRegion::Place> places_;  // empty without a region
   std::vector<Nearest> nearest_;          // empty if nothing is missing
   std::vector<std::uint8_t> cells_, row_nodata_cells_, row_missing_;

@@ -1,44 +1,107 @@
 #include "measure/error_summary.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <limits>
+#include <utility>
 
 #include "base/bits.h"
+#include "measure/judge_kernels.h"
 
 namespace scarp::judge {
 
-void Histogram::add(float magnitude) {
-  const std::uint32_t bucket = (bit_cast<std::uint32_t>(magnitude) & 0x7fffffffu) >> kShift;
-  auto& page = pages_[bucket >> kPageBits];
-  if (!page) page = std::make_unique<Page>();
-  ++(*page)[bucket & ((1u << kPageBits) - 1)];
-  ++count_;
+void Histogram::make_page(std::uint32_t index) {
+  const std::size_t begin = counts_.size();
+  counts_.resize(begin + kPageSize);
+  std::fill(counts_.begin() + begin, counts_.end(), 0u);
+  pages_[index] = static_cast<std::uint32_t>(begin);
+}
+
+/// Around the exponent of the first row's largest error.
+void Histogram::make_first_pages(std::uint32_t index) {
+  constexpr std::uint32_t kBelow = 9, kAbove = 2;
+  const std::uint32_t first = index - std::min(index, kBelow), last = std::min(index + kAbove, kPages - 1);
+  for (std::uint32_t page = first; page <= last; ++page) make_page(page);
+  dense_from_ = first << kPageBits;
+  dense_size_ = static_cast<std::uint32_t>(counts_.size());
+}
+
+void Histogram::carry() {
+  carried_.resize(counts_.size(), 0);
+  for (std::size_t i = 0; i < counts_.size(); ++i) carried_[i] += std::exchange(counts_[i], 0u);
+  recent_ = 0;
+}
+
+void Histogram::add(const Buckets& buckets) {
+  if (recent_ + buckets.count > std::numeric_limits<std::uint32_t>::max()) carry();
+  recent_ += buckets.count;
+  if (dense_size_ == 0 && buckets.count > 0)
+    make_first_pages(*std::max_element(buckets.values, buckets.values + buckets.count) >> kPageBits);
+  std::uint32_t* counts = counts_.data();
+  const std::uint32_t *value = buckets.values, *const end = value + buckets.count;
+  const std::uint32_t dense_from = dense_from_, dense_size = dense_size_;
+  for (; value != end; ++value) {
+    const std::uint32_t bucket = *value;
+    if (bucket - dense_from < dense_size) {
+      ++counts[bucket - dense_from];
+      continue;
+    }
+    const std::uint32_t index = bucket >> kPageBits;
+    if (pages_[index] == kNone) {
+      make_page(index);
+      counts = counts_.data();
+    }
+    ++counts[pages_[index] + (bucket & (kPageSize - 1))];
+  }
+  zeros_ += buckets.zeros;
+  count_ += static_cast<std::uint64_t>(static_cast<std::int64_t>(buckets.count) + buckets.zeros);
 }
 
 void Histogram::merge(const Histogram& other) {
-  for (std::size_t p = 0; p < pages_.size(); ++p) {
-    if (!other.pages_[p]) continue;
-    if (!pages_[p]) pages_[p] = std::make_unique<Page>();
-    for (std::size_t i = 0; i < pages_[p]->size(); ++i) (*pages_[p])[i] += (*other.pages_[p])[i];
+  if (recent_ + other.recent_ > std::numeric_limits<std::uint32_t>::max() || !other.carried_.empty()) carry();
+  for (std::uint32_t p = 0; p < kPages; ++p) {
+    if (other.pages_[p] == kNone) continue;
+    if (pages_[p] == kNone) make_page(p);
+    const std::uint32_t* from = &other.counts_[other.pages_[p]];
+    std::uint32_t* to = &counts_[pages_[p]];
+    for (std::size_t i = 0; i < kPageSize; ++i) to[i] += from[i];
+    if (other.pages_[p] >= other.carried_.size()) continue;
+    carried_.resize(counts_.size(), 0);
+    for (std::size_t i = 0; i < kPageSize; ++i) carried_[pages_[p] + i] += other.carried_[other.pages_[p] + i];
   }
+  recent_ += other.recent_;
+  zeros_ += other.zeros_;
   count_ += other.count_;
 }
 
-double Histogram::percentile(unsigned permille) const {
-  const std::uint64_t rank = count_ / 1000 * permille + (count_ % 1000 * permille + 999) / 1000;
-  std::uint64_t passed = 0;
-  for (std::size_t p = 0; p < pages_.size(); ++p) {
-    if (!pages_[p]) continue;
-    for (std::size_t i = 0; i < pages_[p]->size(); ++i) {
-      passed += (*pages_[p])[i];
-      if (passed < rank || passed == 0) continue;
+std::uint64_t Histogram::count_of(std::uint32_t bucket) const {
+  const std::uint32_t page = pages_[bucket >> kPageBits];
+  if (page == kNone) return 0;
+  const std::size_t at = page + (bucket & (kPageSize - 1));
+  return counts_[at] + (at < carried_.size() ? carried_[at] : 0);
+}
+
+void Histogram::find(std::span<const unsigned> permilles, std::span<double> found) const {
+  const auto rank = [this](unsigned permille) {
+    return count_ / 1000 * permille + (count_ % 1000 * permille + 999) / 1000;
+  };
+  std::size_t next = 0;
+  std::uint64_t passed = count_of(0) + static_cast<std::uint64_t>(zeros_);
+  const auto settle = [&](double value) {
+    while (next < permilles.size() && passed != 0 && passed >= rank(permilles[next])) found[next++] = value;
+  };
+  settle(0);  // zeros, and what is nearer to it than 1e-41
+  for (std::uint32_t p = 0; p < kPages && next < permilles.size(); ++p) {
+    if (pages_[p] == kNone) continue;
+    const std::uint32_t first = p << kPageBits, last = first + static_cast<std::uint32_t>(kPageSize - 1);
+    for (std::uint32_t bucket = std::max(first, 1u); bucket <= last; ++bucket) {
+      const std::uint64_t count = count_of(bucket);
+      if (count == 0) continue;
+      passed += count;
       // The last finite bucket ends at infinity; there is none above it.
-      const auto bucket = static_cast<std::uint32_t>((p << kPageBits) + i);
-      if (bucket == 0) return 0;  // zero, or nearer to it than 1e-41
-      return static_cast<double>(bit_cast<float>((bucket + 1) << kShift));
+      settle(static_cast<double>(bit_cast<float>((bucket + 1) << kBucketShift)));
     }
   }
-  return 0;
 }
 
 void Sum::add(double value) {
@@ -47,23 +110,16 @@ void Sum::add(double value) {
   sum_ = sum;
 }
 
-RowSums sum_row(std::span<const double> errors, Histogram& histogram) {
-  RowSums sums;
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    const double error = errors[i];
-    if (std::isnan(error)) continue;
-    const double magnitude = std::abs(error);
-    ++sums.samples;
-    sums.error += error;
-    sums.magnitude += magnitude;
-    sums.square += error * error;
-    histogram.add(static_cast<float>(magnitude));
-    if (magnitude > sums.largest) {
-      sums.largest = magnitude;
-      sums.largest_at = static_cast<int>(i);
-    }
-  }
-  return sums;
+RowSums sum_row(std::span<const double> errors, Array<std::uint32_t>& room, Buckets& buckets) {
+  room.resize(errors.size() + kKernelPadding);
+  buckets.values = room.data();
+  return judge_kernels().sum_row(errors.data(), static_cast<std::int32_t>(errors.size()), buckets);
+}
+
+void set_percentiles(const Histogram& histogram, Measurement& result) {
+  const auto found = histogram.percentiles(std::array{500u, 950u, 990u, 999u});
+  double* const percentiles[] = {&result.p50, &result.p95, &result.p99, &result.p999};
+  for (std::size_t i = 0; i < found.size(); ++i) *percentiles[i] = std::min(found[i], result.max_error);
 }
 
 }  // namespace scarp::judge

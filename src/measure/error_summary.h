@@ -2,25 +2,64 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
+#include <vector>
+
+#include "base/array.h"
+#include "scarp/measure.h"
 
 namespace scarp::judge {
 
-/// Counts |error| in buckets of equal leading bits: 2^12 to a power of two, so a bucket's ends differ by at most 0.025
-/// %. Pages of counts are made when first needed.
+/// A bucket of the histogram holds the |error| whose float32 have the same leading bits: 2^12 to a power of two, so a
+/// bucket's ends differ by at most 0.025 %.
+constexpr int kBucketShift = 11;
+
+/// Buckets of the errors of a row, as the kernels hand them out.
+struct Buckets {
+  std::uint32_t* values = nullptr;  ///< room for all of the row and kKernelPadding more
+  std::size_t count = 0;
+  std::int64_t zeros = 0;  ///< to be added to the count of bucket 0
+};
+
+/// Counts |error| by bucket.
 class Histogram {
  public:
-  void add(float magnitude);
+  void add(const Buckets& buckets);
   void merge(const Histogram& other);
-  /// Upper end of the bucket in which the `permille`·n/1000-th smallest value lies; 0 if nothing was counted.
-  double percentile(unsigned permille) const;
+  /// For each of the ascending `permilles` the upper end of the bucket in which the `permille`·n/1000-th smallest value
+  /// lies; 0 if nothing was counted.
+  template <std::size_t kCount>
+  std::array<double, kCount> percentiles(const std::array<unsigned, kCount>& permilles) const {
+    std::array<double, kCount> found{};
+    find(permilles, found);
+    return found;
+  }
 
  private:
-  static constexpr unsigned kShift = 11, kPageBits = 12;
-  using Page = std::array<std::uint64_t, 1u << kPageBits>;
-  std::array<std::unique_ptr<Page>, 256> pages_;  // by the exponent of the float
+  static constexpr unsigned kPageBits = 12, kPages = 256;
+  static constexpr std::size_t kPageSize = std::size_t{1} << kPageBits;
+  static constexpr std::uint32_t kNone = 0xffffffff;
+  static constexpr std::array<std::uint32_t, kPages> no_pages() {
+    std::array<std::uint32_t, kPages> none{};
+    none.fill(kNone);
+    return none;
+  }
+  void make_page(std::uint32_t index);
+  void make_first_pages(std::uint32_t index);
+  void carry();
+  std::uint64_t count_of(std::uint32_t bucket) const;
+  void find(std::span<const unsigned> permilles, std::span<double> found) const;
+
+  /// Pages of counts, one for each exponent of the float, made when first needed. The first ones are neighbours, so
+  /// that most errors need no look at pages_: those of `dense_size_` buckets from `dense_from_` on.
+  Array<std::uint32_t> counts_;
+  std::array<std::uint32_t, kPages> pages_ = no_pages();  ///< by exponent: where the page begins
+  std::uint32_t dense_from_ = 0, dense_size_ = 0;
+  std::vector<std::uint64_t> carried_;  ///< what counts_ had no room for, as counts_
+  std::uint64_t recent_ = 0;            ///< in counts_
+  std::int64_t zeros_ = 0;              ///< beside those counted in bucket 0
   std::uint64_t count_ = 0;
 };
 
@@ -34,15 +73,23 @@ class Sum {
   double sum_ = 0, lost_ = 0;
 };
 
-/// Sums of one row, in column order.
+/// Sums of one row. Each has kSumParts parts, by column; the parts of a sum are added up as sum_of_parts() does.
 struct RowSums {
   std::uint64_t samples = 0;
   double error = 0, magnitude = 0, square = 0;
   double largest = -1;  ///< |error|; −1 if there is no sample
-  int largest_at = -1;  ///< its lowest column
 };
 
-/// Sums up the errors that are not NaN and counts them in `histogram`.
-RowSums sum_row(std::span<const double> errors, Histogram& histogram);
+constexpr std::size_t kSumParts = 8;
+
+[[gnu::always_inline]] inline double sum_of_parts(const double* parts) {
+  return ((parts[0] + parts[4]) + (parts[2] + parts[6])) + ((parts[1] + parts[5]) + (parts[3] + parts[7]));
+}
+
+/// Sums up the errors that are not NaN, by the kernels in use, and says their buckets, which lie in `room`.
+RowSums sum_row(std::span<const double> errors, Array<std::uint32_t>& room, Buckets& buckets);
+
+/// p50 … p999 of the errors counted, none above the max error that `result` has.
+void set_percentiles(const Histogram& histogram, Measurement& result);
 
 }  // namespace scarp::judge

@@ -6,6 +6,7 @@
 // and triangles are brought into grid coordinates around the sample by the inverse of that affine map.
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "measure/bucket_grid.h"
 #include "measure/facet_error.h"
@@ -40,19 +41,17 @@ struct LocalFrame {
 
 class FrameScanner : public Scanner {
  public:
-  FrameScanner(const HeightField& field, const Mesh& mesh, std::vector<std::uint32_t> ids, double tolerance)
+  FrameScanner(const HeightField& field, const Mesh& mesh, std::span<const std::uint32_t> ids, double tolerance)
       : frame_(field.frame),
         mesh_(mesh),
         tolerance_(tolerance),
         grid_(bounds(field), std::max<std::size_t>(1, ids.size())) {
     facets_.mesh = &mesh;
-    facets_.ids = std::move(ids);
-    facets_.x.resize(mesh.vertex_count());
-    facets_.y.resize(mesh.vertex_count());
-    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
-      facets_.x[v] = mesh.positions[3 * v];
-      facets_.y[v] = mesh.positions[3 * v + 1];
-    }
+    facets_.ids = ids;
+    facets_.corners.resize(mesh.vertex_count());
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
+      facets_.corners[v] = {mesh.positions[3 * v], mesh.positions[3 * v + 1],
+                            mesh.origin[2] + mesh.positions[3 * v + 2]};
     grid_.fill([&](const auto& visit) {
       for (const std::uint32_t id : facets_.ids) {
         Facet facet;
@@ -236,9 +235,9 @@ class FrameScanner : public Scanner {
 
 }  // namespace
 
-std::unique_ptr<Scanner> make_frame_scanner(const HeightField& field, const Mesh& mesh, std::vector<std::uint32_t> ids,
-                                            double tolerance) {
-  return std::make_unique<FrameScanner>(field, mesh, std::move(ids), tolerance);
+std::unique_ptr<Scanner> make_frame_scanner(const HeightField& field, const Mesh& mesh,
+                                            std::span<const std::uint32_t> ids, double tolerance) {
+  return std::make_unique<FrameScanner>(field, mesh, ids, tolerance);
 }
 
 }  // namespace scarp::judge

@@ -22,6 +22,8 @@ class GridMap {
         std::max({std::abs(a_[3]), std::abs(origin[1]), std::abs(a_[4]) * field.cols, std::abs(a_[5]) * field.rows});
   }
 
+  static bool is_on_lattice(double place) { return std::nearbyint(place * kSteps) == place * kSteps; }
+
   /// The column and row of a position relative to the origin.
   std::array<double, 2> operator()(double x, double y) const {
     const double dx = sum_of(origin_[0], -a_[0], x), dy = sum_of(origin_[1], -a_[3], y);
@@ -47,13 +49,13 @@ class GridMap {
     const double value = (p * dx + q * dy) / det_;
     const double near = (std::abs(p) * noise_x + std::abs(q) * noise_y) / std::abs(det_) +
                         4 * kUlp * (std::abs(p * dx) + std::abs(q * dy)) / std::abs(det_);
-    for (const double steps : {1.0, 256.0}) {
-      const double place = std::round(value * steps) / steps;
+    for (const double steps : {1.0, kSteps}) {
+      const double place = std::nearbyint(value * steps) / steps;
       if (std::abs(value - place) <= std::min(near, kMostNear / steps)) return place;
     }
     return value;
   }
-  static constexpr double kMostNear = 1.0 / 256;
+  static constexpr double kSteps = 256, kMostNear = 1 / kSteps;
 
   std::array<double, 6> a_;
   std::array<double, 3> origin_;

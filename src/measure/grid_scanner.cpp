@@ -3,15 +3,20 @@
 // The vertices are mapped back to grid coordinates, where sample (col, row) is the point (col, row). The inverse map
 // leaves noise of some 1e-16 of the coordinates; what is that near to a lattice line is put onto it (see GridMap), so
 // that a vertex on a sample is judged there and the sums below are exact for it. Each triangle is cut into rows; for a
-// row the samples between its left and right side are visited. Samples on a side belong to both triangles. A sample's
-// error is the barycentric mean of (corner height − sample): all weights are positive, so nothing cancels that was not
-// equal before. Of a mesh in space this finds the samples near each triangle, and what is left uncovered;
+// row the samples between its left and right side are visited, in vectors (judge_kernels.h). Samples on a side belong
+// to both triangles. A sample's error is the barycentric mean of (corner height − sample): all weights are positive, so
+// nothing cancels that was not equal before. What may be the band's largest or break a bound is settled without
+// rounding. Of a mesh in space this finds the samples near each triangle, and what is left uncovered;
 // space_judge.h says the errors.
+#include <bit>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "base/parallel.h"
 #include "measure/facet_error.h"
-#include "measure/grid_map.h"
+#include "measure/facet_task.h"
+#include "measure/judge_kernels.h"
 #include "measure/scanner.h"
 #include "measure/space_judge.h"
 
@@ -20,19 +25,23 @@ namespace {
 
 class GridScanner : public Scanner {
  public:
-  GridScanner(const HeightField& field, const Mesh& mesh, std::vector<std::uint32_t> ids, double tolerance,
-              const SpaceJudge* space)
-      : rows_per_band_(Band::rows_per_band(field.cols)), rows_(field.rows), tolerance_(tolerance), space_(space) {
-    facets_.mesh = &mesh;
-    facets_.ids = std::move(ids);
-    map_to_grid(field, mesh);
-    sort_into_bands();
+  GridScanner(const HeightField& field, const Mesh& mesh, GridPlaces places, std::span<const std::uint32_t> ids,
+              double tolerance, int threads, const SpaceJudge* space)
+      : rows_per_band_(Band::rows_per_band(field.cols)),
+        rows_(field.rows),
+        tolerance_(tolerance),
+        are_on_lattice_(places.are_on_lattice),
+        space_(space),
+        facets_{std::move(places.corners), &mesh, ids} {
+    sort_into_bands(threads);
   }
 
   void scan(Band& band) const override {
     const auto index = static_cast<std::size_t>(band.first() / rows_per_band_);
     const auto each_facet = [&](auto&& visit) {
+      constexpr std::size_t kAhead = 8;
       for (std::size_t i = starts_[index]; i < starts_[index + 1]; ++i) {
+        if (i + kAhead < starts_[index + 1]) facets_.expect(entries_[i + kAhead]);
         Facet facet;
         if (facets_.get(entries_[i], facet)) visit(facet, entries_[i]);
       }
@@ -57,101 +66,93 @@ class GridScanner : public Scanner {
   }
 
  private:
-  void map_to_grid(const HeightField& field, const Mesh& mesh) {
-    const GridMap to_grid(field, mesh.origin);
-    facets_.x.resize(mesh.vertex_count());
-    facets_.y.resize(mesh.vertex_count());
-    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
-      const auto [col, row] = to_grid(mesh.positions[3 * v], mesh.positions[3 * v + 1]);
-      facets_.x[v] = col;
-      facets_.y[v] = row;
-    }
-  }
+  /// Bands first … last; none if first > last.
+  struct BandSpan {
+    std::int32_t first, last;
+  };
 
-  /// Rows [first, second] of the field that the facet, grown by the tolerance, touches; first > second if none.
-  std::pair<int, int> touched_rows(const Facet& facet, std::uint32_t id) const {
-    const Interval along = facet.plan.y_extent();
+  /// Those that the triangle, grown by the tolerance, touches.
+  BandSpan touched_bands(std::uint32_t id) const {
+    const std::uint32_t* vertices = &facets_.mesh->triangles[3 * std::size_t{id}];
+    const double a = facets_.corners[vertices[0]].y, b = facets_.corners[vertices[1]].y,
+                 c = facets_.corners[vertices[2]].y;
     const double reach = tolerance_ + (space_ != nullptr ? space_->bend(id) : 0);
-    return {static_cast<int>(std::clamp(std::floor(along.lo - reach), 0.0, double(rows_))),
-            static_cast<int>(std::clamp(std::floor(along.hi + reach), -1.0, double(rows_ - 1)))};
+    const double lo = std::max(std::min({a, b, c}) - reach, 0.0),
+                 hi = std::min(std::max({a, b, c}) + reach, rows_ - 1.0);
+    if (!(lo < rows_ && hi >= 0)) return {0, -1};
+    return {static_cast<std::int32_t>(lo) / rows_per_band_, static_cast<std::int32_t>(hi) / rows_per_band_};
   }
 
-  void sort_into_bands() {
+  /// By counting, part by part: triangles of a band stay ascending.
+  void sort_into_bands(int threads) {
+    constexpr std::size_t kTogether = 1 << 16;
     const auto bands = static_cast<std::size_t>((rows_ - 1) / rows_per_band_ + 1);
-    const auto each_entry = [&](auto&& visit) {
-      for (const std::uint32_t id : facets_.ids) {
-        Facet facet;
-        if (!facets_.get(id, facet)) continue;
-        const auto [first, last] = touched_rows(facet, id);
-        for (int b = first / rows_per_band_; first <= last && b <= last / rows_per_band_; ++b)
-          visit(id, std::size_t(b));
-      }
+    const std::size_t count = facets_.ids.size(), parts = (count + kTogether - 1) / kTogether;
+    Array<BandSpan> touched;
+    touched.resize(count);
+    std::vector<std::size_t> next(parts * bands, 0);  // by part, then band: first the count, then where to put
+    const auto each_in = [&](std::size_t part, const auto& visit) {
+      for (std::size_t i = part * kTogether; i < std::min(count, (part + 1) * kTogether); ++i)
+        visit(i, &next[part * bands]);
     };
+    parallel_for(parts, threads, [&](std::size_t part) {
+      each_in(part, [&](std::size_t i, std::size_t* counts) {
+        touched[i] = touched_bands(facets_.ids[i]);
+        for (std::int32_t band = touched[i].first; band <= touched[i].last; ++band) ++counts[band];
+      });
+    });
     starts_.assign(bands + 1, 0);
-    each_entry([&](std::uint32_t, std::size_t b) { ++starts_[b + 1]; });
-    for (std::size_t b = 0; b < bands; ++b) starts_[b + 1] += starts_[b];
-    entries_.resize(starts_[bands]);
-    std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
-    each_entry([&](std::uint32_t id, std::size_t b) { entries_[next[b]++] = id; });
-  }
-
-  /// Whole numbers in [lo, hi] that are in [least, most].
-  static std::pair<int, int> whole_between(double lo, double hi, int least, int most) {
-    return {static_cast<int>(std::clamp(std::ceil(lo), double(least), most + 1.0)),
-            static_cast<int>(std::clamp(std::floor(hi), least - 1.0, double(most)))};
+    std::size_t sum = 0;
+    for (std::size_t band = 0; band < bands; ++band) {
+      starts_[band] = sum;
+      for (std::size_t part = 0; part < parts; ++part) sum += std::exchange(next[part * bands + band], sum);
+    }
+    starts_[bands] = sum;
+    entries_.resize(sum);
+    parallel_for(parts, threads, [&](std::size_t part) {
+      each_in(part, [&](std::size_t i, std::size_t* at) {
+        for (std::int32_t band = touched[i].first; band <= touched[i].last; ++band)
+          entries_[at[band]++] = facets_.ids[i];
+      });
+    });
   }
 
   void judge_inside(const Facet& facet, std::uint32_t id, Band& band) const {
-    const PlanTriangle& plan = facet.plan;
-    const Interval along = plan.y_extent(), across = plan.x_extent();
-    const double margin = 1e-9 + 1e-12 * (across.hi - across.lo);
-    const double slack = plan.slack();
-    const double per_area = 1 / plan.double_area();
-    // weight(k, col, row) = dx[k]·(row − y) − dy[k]·(col − x) with the side's first corner (x, y).
-    std::array<double, 3> x{}, y{}, dx{}, dy{}, per_dy{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
-      x[k] = plan.x[a];
-      y[k] = plan.y[a];
-      dx[k] = plan.x[b] - plan.x[a];
-      dy[k] = plan.y[b] - plan.y[a];
-      per_dy[k] = 1 / dy[k];
-    }
-    Offender worst;
-    const auto [first, last] = whole_between(along.lo - margin, along.hi + margin, band.first(), band.end() - 1);
-    for (int row = first; row <= last; ++row) {
-      std::array<double, 3> common{};
-      double lo = across.lo - margin, hi = across.hi + margin;
-      for (std::size_t k = 0; k < 3; ++k) {
-        common[k] = dx[k] * (row - y[k]);
-        if (dy[k] > 0) hi = std::min(hi, x[k] + common[k] * per_dy[k] + margin);
-        if (dy[k] < 0) lo = std::max(lo, x[k] + common[k] * per_dy[k] - margin);
-      }
-      auto [col, end] = whole_between(lo, hi, 0, band.cols() - 1);
-      const auto weight = [&](std::size_t k, int c) { return common[k] - dy[k] * (c - x[k]); };
-      const auto is_outside = [&](int c) {
-        return weight(0, c) < -slack || weight(1, c) < -slack || weight(2, c) < -slack;
-      };
-      while (col <= end && is_outside(col)) ++col;
-      while (col <= end && is_outside(end)) --end;
-      const float* heights = band.heights(row);
-      double* errors = band.errors(row);
-      for (; col <= end; ++col) {
-        const double sample = heights[col];
-        if (std::isnan(sample)) continue;
-        const double w0 = std::max(0.0, weight(0, col)), w1 = std::max(0.0, weight(1, col)),
-                     w2 = std::max(0.0, weight(2, col));
-        const double t0 = w0 * (facet.z[0] - sample), t1 = w1 * (facet.z[1] - sample), t2 = w2 * (facet.z[2] - sample);
-        double error = (t0 + t1 + t2) * per_area;
-        if (band.is_critical(col, row, error) && (t0 != 0 || t1 != 0 || t2 != 0)) {
-          error = settle_error({w0, w1, w2}, facet.z, sample);
-        }
-        band.offer(errors[col], error);
-        if (band.is_offender(col, row, error) && std::abs(error) > std::abs(worst.error)) worst = {col, row, error};
-      }
-    }
-    if (worst.error != 0) band.add_offender(id, worst);
+    FacetTask task;
+    if (!make_task(facet, {band.first(), band.end() - 1, band.cols()}, are_on_lattice_, task)) return;
+    Inside inside{facet, task, band, {}};
+    Caution caution{band.watch(), &inside, &Inside::look};
+    judge_kernels().judge_facet(task, band.rows(), caution);
+    if (inside.worst.error != 0) band.add_offender(id, inside.worst);
   }
+
+  /// One facet in one band, as far as its samples need more than plain arithmetic.
+  struct Inside {
+    const Facet& facet;
+    const FacetTask& task;
+    Band& band;
+    Offender worst;
+
+    /// Caution::look.
+    static double look(void* self, std::int32_t row, std::int32_t column, std::uint32_t lanes) {
+      auto& inside = *static_cast<Inside*>(self);
+      for (; lanes != 0; lanes &= lanes - 1) inside.look_at(column + std::countr_zero(lanes), row);
+      return inside.band.watch();
+    }
+    void look_at(int col, int row) {
+      const double sample = band.heights(row)[col];
+      std::array<double, 3> w{};
+      double sum = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        w[k] = std::max(0.0, task.dx[k] * (row - task.y[k]) - task.dy[k] * (col - task.x[k]));
+        sum += w[k] * (facet.z[k] - sample);
+      }
+      double error = sum * task.per_area;
+      if (band.is_critical(col, row, error)) error = settle_error(w, facet.z, sample);
+      band.offer(band.errors(row)[col], error);
+      if (band.is_offender(col, row, error) && std::abs(error) > std::abs(worst.error)) worst = {col, row, error};
+    }
+  };
 
   /// `error_of`: of a sample, on the facet.
   template <class ErrorOf>
@@ -189,17 +190,19 @@ class GridScanner : public Scanner {
 
   int rows_per_band_, rows_;
   double tolerance_;
+  bool are_on_lattice_;
   const SpaceJudge* space_;  // null on the map
   Facets facets_;
-  std::vector<std::size_t> starts_;     // by band
-  std::vector<std::uint32_t> entries_;  // triangles of each band, ascending
+  std::vector<std::size_t> starts_;  // by band
+  Array<std::uint32_t> entries_;     // triangles of each band, ascending
 };
 
 }  // namespace
 
-std::unique_ptr<Scanner> make_grid_scanner(const HeightField& field, const Mesh& mesh, std::vector<std::uint32_t> ids,
-                                           double tolerance, const SpaceJudge* space) {
-  return std::make_unique<GridScanner>(field, mesh, std::move(ids), tolerance, space);
+std::unique_ptr<Scanner> make_grid_scanner(const HeightField& field, const Mesh& mesh, GridPlaces places,
+                                           std::span<const std::uint32_t> ids, double tolerance, int threads,
+                                           const SpaceJudge* space) {
+  return std::make_unique<GridScanner>(field, mesh, std::move(places), ids, tolerance, threads, space);
 }
 
 }  // namespace scarp::judge

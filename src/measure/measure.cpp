@@ -9,14 +9,17 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <utility>
 
+#include "base/array.h"
 #include "base/caught.h"
 #include "base/parallel.h"
 #include "grid/line_positions.h"
 #include "measure/band.h"
 #include "measure/check_mesh.h"
 #include "measure/cut_region.h"
-#include "measure/grid_map.h"
+#include "measure/grid_places.h"
 #include "measure/progress_gate.h"
 #include "measure/scanner.h"
 #include "measure/space_judge.h"
@@ -44,16 +47,6 @@ Result<void> check_input(const HeightField& field, const Mesh& mesh, const Measu
     return fail(ErrorKind::kInput, "the height field's frame puts all samples on one line; give it a cell size");
   }
   if (auto sound = judge::check_mesh(mesh); !sound) return sound;
-  const judge::GridMap to_grid(field, mesh.origin);
-  for (std::size_t v = 0; field.frame.is_affine() && v < mesh.vertex_count(); ++v) {
-    const auto [col, row] = to_grid(mesh.positions[3 * v], mesh.positions[3 * v + 1]);
-    if (judge::is_in_reach(col) && judge::is_in_reach(row)) continue;
-    return fail(
-        ErrorKind::kInput,
-        fmt::format("vertex {} of the mesh lies more than 1e100 cells from the height field; only nearer ones can "
-                    "be judged",
-                    v));
-  }
   for (const Line& ring :
        options.cutline != nullptr ? std::span<const Line>(options.cutline->rings) : std::span<const Line>()) {
     if (auto placed = check_line_positions(ring.name, ring.points, options.cutline->affine); !placed) return placed;
@@ -102,14 +95,14 @@ class Verdict {
       error_.add(row.error);
       magnitude_.add(row.magnitude);
       square_.add(row.square);
-      if (row.largest > largest_) {
-        largest_ = row.largest;
-        result_.max_error_at = {row.largest_at, first_row + static_cast<int>(i)};
-      }
       if (options_.on_row) {
         const auto cols = static_cast<std::size_t>(cols_);
         options_.on_row(first_row + static_cast<int>(i), {report.kept.data() + i * cols, cols});
       }
+    }
+    if (report.largest > largest_) {
+      largest_ = report.largest;
+      result_.max_error_at = report.largest_at;
     }
     offenders_.insert(offenders_.end(), report.offenders.begin(), report.offenders.end());
     result_.offenders.insert(result_.offenders.end(), report.uncovered_offenders.begin(),
@@ -125,13 +118,7 @@ class Verdict {
       result_.mean_abs_error = magnitude_.value() / count;
       result_.rmse = std::sqrt(square_.value() / count);
     }
-    const auto percentile = [&](unsigned permille) {
-      return std::min(histogram.percentile(permille), result_.max_error);
-    };
-    result_.p50 = percentile(500);
-    result_.p95 = percentile(950);
-    result_.p99 = percentile(990);
-    result_.p999 = percentile(999);
+    set_percentiles(histogram, result_);
     merge_offenders();
   }
 
@@ -191,13 +178,13 @@ Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const jud
     std::vector<Result<BandReport>> reports(static_cast<std::size_t>(std::min(window, bands - first)));
     parallel_for(reports.size(), options.run.threads, [&](std::size_t i) {
       const int row = (first + static_cast<int>(i)) * height;
-      Result<Band> band = Band::read(field, row, std::min(height, field.rows - row), limits, guard);
+      Result<Band> band = Band::read(field, row, std::min(height, field.rows - row), limits, guard, histograms[i]);
       if (!band) {
         reports[i] = tl::unexpected(std::move(band.error()));
         return;
       }
       scanner.scan(*band);
-      reports[i] = band->finish(histograms[i], options.on_row ? keep : judge::Keep::kNothing);
+      reports[i] = band->finish(options.on_row ? keep : judge::Keep::kNothing);
     });
     for (std::size_t i = 0; i < reports.size(); ++i) {
       if (!reports[i]) return tl::unexpected(std::move(reports[i].error()));
@@ -211,7 +198,7 @@ Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const jud
 
 /// Which triangles say something about heights: all, or the upward ones of a solid.
 struct Surface {
-  std::vector<std::uint32_t> judged;
+  Array<std::uint32_t> judged;
   std::vector<std::uint32_t> welded;  ///< see weld_vertices(); with the edges, where they were asked for or needed
   judge::EdgeReport edges;
   bool closed = false;
@@ -219,18 +206,25 @@ struct Surface {
 
 Surface find_surface(const Mesh& mesh, bool with_edges) {
   Surface surface;
-  std::vector<std::uint32_t> upward;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    surface.judged.push_back(static_cast<std::uint32_t>(t));
-    if (facing(mesh, t) > 0) upward.push_back(surface.judged.back());
+  const std::size_t count = mesh.triangle_count();
+  surface.judged.resize(count);
+  std::size_t upward = 0;
+  for (std::size_t t = 0; t < count; ++t) {
+    surface.judged[t] = static_cast<std::uint32_t>(t);
+    upward += facing(mesh, t) > 0;
   }
   // A solid has walls and a bottom: where all triangles look up, the edges matter for the topology only.
-  if (with_edges || upward.size() < surface.judged.size()) {
+  if (with_edges || upward < count) {
     surface.welded = judge::weld_vertices(mesh);
     surface.edges = judge::check_edges(mesh, surface.welded);
     surface.closed = surface.edges.open.empty();
   }
-  if (surface.closed) surface.judged = std::move(upward);
+  if (!surface.closed) return surface;
+  upward = 0;
+  for (std::size_t t = 0; t < count; ++t) {
+    if (facing(mesh, t) > 0) surface.judged[upward++] = static_cast<std::uint32_t>(t);
+  }
+  surface.judged.resize(upward);
   return surface;
 }
 
@@ -240,35 +234,37 @@ class Judged {
   /// `field` and `mesh` outlive this. Fails as measure().
   static Result<Judged> of(const HeightField& field, const Mesh& mesh, const MeasureOptions& options) {
     Judged judged(field, mesh);
-    if (!field.frame.space) {
-      if (auto checked = check_input(field, mesh, options); !checked) return tl::unexpected(checked.error());
-      return judged;
+    if (field.frame.space) {
+      if (auto sound = judge::check_mesh(mesh); !sound) return tl::unexpected(sound.error());
+      auto flat = judge::bring_to_map(field, mesh);
+      if (!flat) return tl::unexpected(flat.error());
+      judged.flat_mesh_ = std::move(*flat);
+      judged.flat_field_ = judge::on_map(field);
     }
-    if (auto sound = judge::check_mesh(mesh); !sound) return tl::unexpected(sound.error());
-    auto flat = judge::bring_to_map(field, mesh);
-    if (!flat) return tl::unexpected(flat.error());
-    judged.flat_mesh_ = std::move(*flat);
-    judged.flat_field_ = judge::on_map(field);
     if (auto checked = check_input(judged.field(), judged.mesh(), options); !checked)
       return tl::unexpected(checked.error());
+    if (!judged.field().frame.is_affine()) return judged;
+    auto places = judge::place_on_grid(judged.field(), judged.mesh(), options.run.threads);
+    if (!places) return tl::unexpected(std::move(places.error()));
+    judged.places_ = std::move(*places);
     return judged;
   }
 
   const HeightField& field() const { return flat_field_ ? *flat_field_ : field_; }
   const Mesh& mesh() const { return flat_mesh_ ? *flat_mesh_ : mesh_; }
 
-  /// Of the triangles `ids`. Borrows this.
-  std::unique_ptr<judge::Scanner> make_scanner(const std::vector<std::uint32_t>& ids, double tolerance) {
+  /// Of the triangles `ids`. Borrows both. Called once.
+  std::unique_ptr<judge::Scanner> make_scanner(std::span<const std::uint32_t> ids, double tolerance, int threads) {
     if (field_.frame.transform) return judge::make_frame_scanner(field_, mesh_, ids, tolerance);
     if (flat_mesh_) space_ = std::make_unique<judge::SpaceJudge>(field_, mesh_, *flat_mesh_, ids);
-    return judge::make_grid_scanner(field(), mesh(), ids, tolerance, space_.get());
+    return judge::make_grid_scanner(field(), mesh(), std::move(places_), ids, tolerance, threads, space_.get());
   }
 
   /// Samples that may mend what is no error of heights; beside the offenders.
   std::vector<Offender> unfolding() const { return space_ ? space_->unfolding() : std::vector<Offender>(); }
 
   /// REQUIRES: make_scanner() was called.
-  void measure_shape(const std::vector<std::uint32_t>& ids, Measurement& result) const {
+  void measure_shape(std::span<const std::uint32_t> ids, Measurement& result) const {
     judge::count_faults(mesh(), result);
     if (space_) result.down_facing += space_->folds();
     if (!flat_mesh_) return judge::measure_angles(mesh_, ids, result);
@@ -282,6 +278,7 @@ class Judged {
   const Mesh& mesh_;
   std::optional<HeightField> flat_field_;
   std::optional<Mesh> flat_mesh_;
+  judge::GridPlaces places_;  // in affine frames
   std::unique_ptr<judge::SpaceJudge> space_;
 };
 
@@ -302,7 +299,7 @@ Result<Measurement> measure(const HeightField& asked, const Mesh& given, const M
   result.closed = closed;
 
   const double tolerance = options.coverage_tolerance;
-  const auto scanner = judged_mesh->make_scanner(judged, tolerance);
+  const auto scanner = judged_mesh->make_scanner(judged, tolerance, options.run.threads);
   std::optional<judge::CutRegion> cut;
   if (options.cutline != nullptr) cut.emplace(*options.cutline, field.cols, field.rows);
   const judge::CutRegion* region = cut ? &*cut : nullptr;
@@ -349,7 +346,8 @@ Result<void> resample_rows(const HeightField& asked, const Mesh& given,
   if (!judged) return tl::unexpected(judged.error());
   const HeightField& field = judged->field();
   const Mesh& mesh = judged->mesh();
-  const auto scanner = judged->make_scanner(find_surface(mesh, false).judged, options.coverage_tolerance);
+  const Surface surface = find_surface(mesh, false);
+  const auto scanner = judged->make_scanner(surface.judged, options.coverage_tolerance, threads);
   ProgressGate gate(options.run.progress);
   Measurement ignored;
   return judge_heights(field, mesh, *scanner, nullptr, options, judge::Keep::kHeights, gate, ignored);

@@ -146,22 +146,33 @@ class Offenders {
 };
 
 void summarize(std::span<const double> errors, Measurement& result) {
+  constexpr std::size_t kTogether = 1 << 16;
   Histogram histogram;
-  const RowSums sums = sum_row(errors, histogram);
-  result.samples = sums.samples;
-  result.max_error = std::max(0.0, sums.largest);
-  result.max_error_at = {sums.largest_at, sums.largest_at < 0 ? -1 : 0};
-  if (sums.samples > 0) {
-    const auto count = static_cast<double>(sums.samples);
-    result.mean_error = sums.error / count;
-    result.mean_abs_error = sums.magnitude / count;
-    result.rmse = std::sqrt(sums.square / count);
+  Array<std::uint32_t> room;
+  Sum error, magnitude, square;
+  double largest = -1;
+  for (std::size_t first = 0; first < errors.size(); first += kTogether) {
+    const auto part = errors.subspan(first, std::min(kTogether, errors.size() - first));
+    Buckets buckets;
+    const RowSums sums = sum_row(part, room, buckets);
+    histogram.add(buckets);
+    result.samples += sums.samples;
+    error.add(sums.error);
+    magnitude.add(sums.magnitude);
+    square.add(sums.square);
+    if (!(sums.largest > largest)) continue;
+    largest = sums.largest;
+    const auto at = std::find_if(part.begin(), part.end(), [&](double e) { return std::abs(e) == largest; });
+    result.max_error_at = {static_cast<std::int32_t>(first + static_cast<std::size_t>(at - part.begin())), 0};
   }
-  const auto percentile = [&](unsigned permille) { return std::min(histogram.percentile(permille), result.max_error); };
-  result.p50 = percentile(500);
-  result.p95 = percentile(950);
-  result.p99 = percentile(990);
-  result.p999 = percentile(999);
+  result.max_error = std::max(0.0, largest);
+  if (result.samples > 0) {
+    const auto count = static_cast<double>(result.samples);
+    result.mean_error = error.value() / count;
+    result.mean_abs_error = magnitude.value() / count;
+    result.rmse = std::sqrt(square.value() / count);
+  }
+  set_percentiles(histogram, result);
 }
 
 }  // namespace

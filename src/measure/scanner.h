@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <memory>
-#include <vector>
+#include <span>
 
+#include "base/array.h"
 #include "measure/band.h"
+#include "measure/grid_places.h"
 #include "measure/plan_triangle.h"
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
@@ -14,19 +16,23 @@ namespace scarp::judge {
 
 /// The triangles to judge heights on, in some plan coordinates.
 struct Facets {
-  std::vector<double> x, y;  ///< by vertex
+  Array<FacetCorner> corners;  ///< by vertex
   const Mesh* mesh = nullptr;
-  std::vector<std::uint32_t> ids;  ///< of the mesh's triangles, ascending
+  std::span<const std::uint32_t> ids;  ///< of the mesh's triangles, ascending
 
   /// The triangle `id`, counter-clockwise. Returns false if it has no area seen from above.
   bool get(std::uint32_t id, Facet& facet) const {
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t v = mesh->triangles[3 * std::size_t{id} + k];
-      facet.plan.x[k] = x[v];
-      facet.plan.y[k] = y[v];
-      facet.z[k] = mesh->origin[2] + mesh->positions[3 * v + 2];
+      const FacetCorner& corner = corners[mesh->triangles[3 * std::size_t{id} + k]];
+      facet.plan.x[k] = corner.x;
+      facet.plan.y[k] = corner.y;
+      facet.z[k] = corner.z;
     }
     return make_counter_clockwise(facet);
+  }
+  /// The triangle `id` will be asked for soon.
+  void expect(std::uint32_t id) const {
+    for (std::size_t k = 0; k < 3; ++k) __builtin_prefetch(&corners[mesh->triangles[3 * std::size_t{id} + k]]);
   }
 };
 
@@ -40,12 +46,14 @@ class Scanner {
 
 class SpaceJudge;
 
-/// For affine frames: vertices are mapped back to the grid, triangles are scanned row by row. `space`: who says the
-/// errors of a mesh in space, which `field` and `mesh` then are on the map; null: there is none.
-std::unique_ptr<Scanner> make_grid_scanner(const HeightField& field, const Mesh& mesh, std::vector<std::uint32_t> ids,
-                                           double tolerance, const SpaceJudge* space = nullptr);
+/// For affine frames: `places` says where vertices lie in the grid, triangles are scanned row by row. `space`: who says
+/// the errors of a mesh in space, which `field` and `mesh` then are on the map; null: there is none. What is borrowed
+/// outlives the scanner.
+std::unique_ptr<Scanner> make_grid_scanner(const HeightField& field, const Mesh& mesh, GridPlaces places,
+                                           std::span<const std::uint32_t> ids, double tolerance, int threads,
+                                           const SpaceJudge* space = nullptr);
 /// For any frame: samples are mapped to the mesh, where a grid of buckets knows the triangles. About ten times slower.
-std::unique_ptr<Scanner> make_frame_scanner(const HeightField& field, const Mesh& mesh, std::vector<std::uint32_t> ids,
-                                            double tolerance);
+std::unique_ptr<Scanner> make_frame_scanner(const HeightField& field, const Mesh& mesh,
+                                            std::span<const std::uint32_t> ids, double tolerance);
 
 }  // namespace scarp::judge

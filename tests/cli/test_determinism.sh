@@ -23,6 +23,9 @@ done
 for kernel in scalar ssse3 sse4 avx2 avx3 neon unknown; do
   SCARP_KERNEL=$kernel succeeds "$scarp" simplify holes.tif "kernel.$kernel.glb" -e 20
   cmp glb/holes.1.glb "kernel.$kernel.glb" || fail "the instruction set $kernel changes the mesh"
+  SCARP_KERNEL=$kernel "$scarp" measure holes.tif glb/holes.1.glb --json |
+    grep -v -e '"read"' -e '"measure"' -e '"total"' > "judged.$kernel"
+  cmp judged.scalar "judged.$kernel" || fail "the instruction set $kernel changes the verdict"
 done
 # Another folder, a relative path, the format by --of.
 mkdir elsewhere

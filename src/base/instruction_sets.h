@@ -1,0 +1,30 @@
+// Which of several compilations of the same vector code is used: of every table that is compiled once for each
+// instruction set, the best that the machine has, or the one that the environment variable SCARP_KERNEL names (any name
+// of the tables, in any case; others are ignored).
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <span>
+#include <string_view>
+
+namespace scarp {
+
+inline bool is_same_kernel_name(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+/// REQUIRES: `available` is not empty; the best is first. A table has a `name`.
+template <class Kernels>
+const Kernels& choose_kernels(std::span<const Kernels> available) {
+  if (const char* wanted = std::getenv("SCARP_KERNEL")) {
+    for (const Kernels& kernels : available) {
+      if (is_same_kernel_name(kernels.name, wanted)) return kernels;
+    }
+  }
+  return available.front();
+}
+
+}  // namespace scarp
