@@ -119,6 +119,12 @@ Result<void> resample_rows(const HeightField& field, const Mesh& mesh,
 /// O(samples + triangles).
 Result<Measurement> measure(const HeightField& field, const Mesh& mesh, const MeasureOptions& options = {});
 
+/// Fills the topology and shape in `result`, which measure() made of the same mesh without them; no sample's error is
+/// looked at. Such is Simplified::measurement. Of `options` cutline, coverage_tolerance and run count. Fails as
+/// measure(). Cost: O(triangles).
+Result<void> measure_topology(const HeightField& field, const Mesh& mesh, const MeasureOptions& options,
+                              Measurement& result);
+
 }  // namespace scarp
 
 #pragma GCC visibility pop

@@ -3,11 +3,13 @@
 // Half-edges are sorted by their smaller vertex (counting sort), then by the larger one within each vertex's short
 // list: equal ones are the triangles around one edge.
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <limits>
 #include <numeric>
 
+#include "base/array.h"
 #include "base/bits.h"
 #include "measure/topology.h"
 
@@ -31,79 +33,106 @@ class UnionFind {
   std::vector<std::uint32_t> parent_;
 };
 
-struct HalfEdge {
-  std::uint32_t other = 0;  ///< the larger vertex
-  std::uint32_t half = 0;   ///< 3·triangle + corner it starts from
-};
-
+/// Half-edges by the smaller of their vertices, then the larger one, then their number, 3·triangle + the corner that
+/// they start from.
 class EdgeList {
  public:
   EdgeList(const Mesh& mesh, std::span<const std::uint32_t> welded) : mesh_(mesh), welded_(welded) {
-    starts_.assign(welded.size() + 1, 0);
-    each_half([&](std::uint32_t low, HalfEdge) { ++starts_[low + 1]; });
+    const std::size_t vertices = mesh.vertex_count();
+    starts_.resize(vertices + 2);
+    std::fill(starts_.begin(), starts_.end(), 0u);
+    // Two places on: while they are filled, starts_[v + 1] is where the next of v goes.
+    each_half([&](std::uint32_t low, std::uint32_t) { ++starts_[low + 2]; });
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
     halves_.resize(starts_.back());
-    std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
-    each_half([&](std::uint32_t low, HalfEdge edge) { halves_[next[low]++] = edge; });
-    for (std::size_t v = 0; v < welded.size(); ++v) {
-      std::sort(halves_.begin() + starts_[v], halves_.begin() + starts_[v + 1],
-                [](const HalfEdge& a, const HalfEdge& b) {
-                  return a.other != b.other ? a.other < b.other : a.half < b.half;
-                });
-    }
+    each_half([&](std::uint32_t low, std::uint32_t half) { halves_[starts_[low + 1]++] = half; });
   }
 
-  std::uint32_t from(std::uint32_t half) const { return welded_[mesh_.triangles[half]]; }
-  std::uint32_t to(std::uint32_t half) const { return welded_[mesh_.triangles[next_corner(half)]]; }
+  std::uint32_t from(std::uint32_t half) const { return vertex(mesh_.triangles[half]); }
+  std::uint32_t to(std::uint32_t half) const { return vertex(mesh_.triangles[next_corner(half)]); }
   static std::uint32_t next_corner(std::uint32_t half) { return half % 3 == 2 ? half - 2 : half + 1; }
 
-  /// Calls visit(half-edges of one edge) for each edge.
+  /// Calls visit(the edge's larger vertex, its half-edges) for each edge.
   template <class Visit>
   void each_edge(const Visit& visit) const {
-    for (std::size_t v = 0; v + 1 < starts_.size(); ++v) {
-      for (std::size_t i = starts_[v], end = i; i < starts_[v + 1]; i = end) {
-        while (end < starts_[v + 1] && halves_[end].other == halves_[i].other) ++end;
-        visit(std::span<const HalfEdge>(&halves_[i], end - i));
+    struct Spoke {
+      std::uint32_t other, half;
+    };
+    std::vector<Spoke> spokes;
+    std::vector<std::uint32_t> around;
+    for (std::uint32_t v = 0; v + 2 < starts_.size(); ++v) {
+      spokes.clear();
+      for (std::size_t i = starts_[v]; i < starts_[v + 1]; ++i) {
+        const std::uint32_t half = halves_[i], a = from(half);
+        spokes.push_back({a == v ? to(half) : a, half});
+      }
+      const auto before = [](const Spoke& a, const Spoke& b) { return a.other < b.other; };
+      if (spokes.size() <= kFew) {
+        for (std::size_t i = 1; i < spokes.size(); ++i) {
+          for (std::size_t k = i; k > 0 && before(spokes[k], spokes[k - 1]); --k) std::swap(spokes[k], spokes[k - 1]);
+        }
+      } else {
+        std::stable_sort(spokes.begin(), spokes.end(), before);
+      }
+      for (std::size_t i = 0; i < spokes.size();) {
+        around.clear();
+        const std::uint32_t other = spokes[i].other;
+        for (; i < spokes.size() && spokes[i].other == other; ++i) around.push_back(spokes[i].half);
+        visit(other, std::span<const std::uint32_t>(around));
       }
     }
   }
 
  private:
+  static constexpr std::size_t kFew = 24;
+
+  std::uint32_t vertex(std::uint32_t v) const { return welded_.empty() ? v : welded_[v]; }
   template <class Visit>
   void each_half(const Visit& visit) const {
     for (std::size_t t = 0; t < mesh_.triangle_count(); ++t) {
-      const std::array<std::uint32_t, 3> v{welded_[mesh_.triangles[3 * t]], welded_[mesh_.triangles[3 * t + 1]],
-                                           welded_[mesh_.triangles[3 * t + 2]]};
+      const std::array<std::uint32_t, 3> v{vertex(mesh_.triangles[3 * t]), vertex(mesh_.triangles[3 * t + 1]),
+                                           vertex(mesh_.triangles[3 * t + 2])};
       if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = v[k], b = v[(k + 1) % 3];
-        visit(std::min(a, b), HalfEdge{std::max(a, b), static_cast<std::uint32_t>(3 * t + k)});
-      }
+      for (std::size_t k = 0; k < 3; ++k)
+        visit(std::min(v[k], v[k == 2 ? 0 : k + 1]), static_cast<std::uint32_t>(3 * t + k));
     }
   }
 
   const Mesh& mesh_;
   std::span<const std::uint32_t> welded_;
-  std::vector<std::size_t> starts_;  // by smaller vertex
-  std::vector<HalfEdge> halves_;
+  Array<std::uint32_t> starts_;  // by smaller vertex
+  Array<std::uint32_t> halves_;
 };
 
 /// Corners that are joined by edges of two triangles form fans; an open edge ends a fan at both its vertices, and each
 /// fan with an end has two. So the open edges chained through fans are the loops, also where loops touch in a vertex.
-std::uint64_t count_loops(const EdgeList& edges, std::size_t corners, std::span<const OpenEdge> open,
+/// Only fans at vertices of open edges matter.
+std::uint64_t count_loops(const Mesh& mesh, const EdgeList& edges, std::span<const OpenEdge> open,
                           std::span<const std::uint32_t> open_halves) {
-  UnionFind fans(corners);
-  edges.each_edge([&](std::span<const HalfEdge> around) {
+  std::vector<bool> is_end(mesh.vertex_count());
+  for (const OpenEdge& edge : open) is_end[edge.from] = is_end[edge.to] = true;
+  std::vector<std::uint32_t> corners;
+  for (std::uint32_t corner = 0; corner < mesh.triangles.size(); ++corner) {
+    if (is_end[edges.from(corner)]) corners.push_back(corner);
+  }
+  const auto place = [&](std::uint32_t corner) {
+    return static_cast<std::uint32_t>(std::lower_bound(corners.begin(), corners.end(), corner) - corners.begin());
+  };
+  UnionFind fans(corners.size());
+  const auto join = [&](std::uint32_t a, std::uint32_t b) {
+    if (is_end[edges.from(a)]) fans.join(place(a), place(b));
+  };
+  edges.each_edge([&](std::uint32_t, std::span<const std::uint32_t> around) {
     if (around.size() != 2) return;
-    const std::uint32_t a = around[0].half, b = around[1].half;
+    const std::uint32_t a = around[0], b = around[1];
     const bool same_start = edges.from(a) == edges.from(b);
-    fans.join(a, same_start ? b : EdgeList::next_corner(b));
-    fans.join(EdgeList::next_corner(a), same_start ? EdgeList::next_corner(b) : b);
+    join(a, same_start ? b : EdgeList::next_corner(b));
+    join(EdgeList::next_corner(a), same_start ? EdgeList::next_corner(b) : b);
   });
-  for (const std::uint32_t half : open_halves) fans.join(half, EdgeList::next_corner(half));
+  for (const std::uint32_t half : open_halves) fans.join(place(half), place(EdgeList::next_corner(half)));
   std::vector<std::uint32_t> loops;
   loops.reserve(open.size());
-  for (const std::uint32_t half : open_halves) loops.push_back(fans.find(half));
+  for (const std::uint32_t half : open_halves) loops.push_back(fans.find(place(half)));
   std::sort(loops.begin(), loops.end());
   return static_cast<std::uint64_t>(std::unique(loops.begin(), loops.end()) - loops.begin());
 }
@@ -141,11 +170,11 @@ EdgeReport check_edges(const Mesh& mesh, std::span<const std::uint32_t> welded) 
   EdgeReport report;
   std::vector<std::uint32_t> open_halves;
   std::uint64_t contacts = 0;
-  edges.each_edge([&](std::span<const HalfEdge> around) {
+  edges.each_edge([&](std::uint32_t other, std::span<const std::uint32_t> around) {
     const auto forward = static_cast<std::size_t>(
-        std::count_if(around.begin(), around.end(), [&](const HalfEdge& e) { return edges.to(e.half) == e.other; }));
+        std::count_if(around.begin(), around.end(), [&](std::uint32_t half) { return edges.to(half) == other; }));
     if (around.size() == 1) {
-      const std::uint32_t half = around[0].half;
+      const std::uint32_t half = around[0];
       report.open.push_back({edges.from(half), edges.to(half), half / 3});
       open_halves.push_back(half);
     } else if (around.size() == 2) {
@@ -158,7 +187,7 @@ EdgeReport check_edges(const Mesh& mesh, std::span<const std::uint32_t> welded) 
   if (report.open.empty()) {
     report.non_manifold -= contacts;
   } else {
-    report.loops = count_loops(edges, mesh.triangles.size(), report.open, open_halves);
+    report.loops = count_loops(mesh, edges, report.open, open_halves);
   }
   return report;
 }

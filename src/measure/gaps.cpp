@@ -189,15 +189,16 @@ void settle(const HeightField& field, const Mesh& mesh, const std::vector<Doubt>
 
 }  // namespace
 
-Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, std::span<const std::uint32_t> welded,
-                                 std::span<const OpenEdge> open, double tolerance, const CutRegion* region) {
+Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, const Connections& connections,
+                                 double tolerance, const CutRegion* region) {
+  const std::vector<OpenEdge>& open = connections.edges.open;
   if (open.empty()) return 0;
   // Ends of the edge, then the triangle's third corner.
   std::vector<std::uint32_t> vertices;
   for (const OpenEdge& edge : open) {
     vertices.insert(vertices.end(), {edge.from, edge.to});
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t v = welded[mesh.triangles[3 * std::size_t{edge.triangle} + k]];
+      const std::uint32_t v = connections.vertex(mesh.triangles[3 * std::size_t{edge.triangle} + k]);
       if (v != edge.from && v != edge.to) vertices.push_back(v);
     }
   }

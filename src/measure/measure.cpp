@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -199,8 +200,7 @@ Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const jud
 /// Which triangles say something about heights: all, or the upward ones of a solid.
 struct Surface {
   Array<std::uint32_t> judged;
-  std::vector<std::uint32_t> welded;  ///< see weld_vertices(); with the edges, where they were asked for or needed
-  judge::EdgeReport edges;
+  judge::Connections connections;  ///< where they were asked for or needed
   bool closed = false;
 };
 
@@ -215,9 +215,8 @@ Surface find_surface(const Mesh& mesh, bool with_edges) {
   }
   // A solid has walls and a bottom: where all triangles look up, the edges matter for the topology only.
   if (with_edges || upward < count) {
-    surface.welded = judge::weld_vertices(mesh);
-    surface.edges = judge::check_edges(mesh, surface.welded);
-    surface.closed = surface.edges.open.empty();
+    surface.connections = judge::connect(mesh, upward == count);
+    surface.closed = surface.connections.edges.open.empty();
   }
   if (!surface.closed) return surface;
   upward = 0;
@@ -231,8 +230,9 @@ Surface find_surface(const Mesh& mesh, bool with_edges) {
 /// What is judged on the map: a mesh in space is brought there, and its heights are judged in space.
 class Judged {
  public:
-  /// `field` and `mesh` outlive this. Fails as measure().
-  static Result<Judged> of(const HeightField& field, const Mesh& mesh, const MeasureOptions& options) {
+  /// `field` and `mesh` outlive this. `with_heights`: there will be a scanner. Fails as measure().
+  static Result<Judged> of(const HeightField& field, const Mesh& mesh, const MeasureOptions& options,
+                           bool with_heights = true) {
     Judged judged(field, mesh);
     if (field.frame.space) {
       if (auto sound = judge::check_mesh(mesh); !sound) return tl::unexpected(sound.error());
@@ -243,7 +243,7 @@ class Judged {
     }
     if (auto checked = check_input(judged.field(), judged.mesh(), options); !checked)
       return tl::unexpected(checked.error());
-    if (!judged.field().frame.is_affine()) return judged;
+    if (!with_heights || !judged.field().frame.is_affine()) return judged;
     auto places = judge::place_on_grid(judged.field(), judged.mesh(), options.run.threads);
     if (!places) return tl::unexpected(std::move(places.error()));
     judged.places_ = std::move(*places);
@@ -256,19 +256,24 @@ class Judged {
   /// Of the triangles `ids`. Borrows both. Called once.
   std::unique_ptr<judge::Scanner> make_scanner(std::span<const std::uint32_t> ids, double tolerance, int threads) {
     if (field_.frame.transform) return judge::make_frame_scanner(field_, mesh_, ids, tolerance);
-    if (flat_mesh_) space_ = std::make_unique<judge::SpaceJudge>(field_, mesh_, *flat_mesh_, ids);
+    look_in_space(ids);
     return judge::make_grid_scanner(field(), mesh(), std::move(places_), ids, tolerance, threads, space_.get());
+  }
+
+  /// Of the triangles `ids`; before folds are asked for.
+  void look_in_space(std::span<const std::uint32_t> ids) {
+    if (flat_mesh_ && !space_) space_ = std::make_unique<judge::SpaceJudge>(field_, mesh_, *flat_mesh_, ids);
   }
 
   /// Samples that may mend what is no error of heights; beside the offenders.
   std::vector<Offender> unfolding() const { return space_ ? space_->unfolding() : std::vector<Offender>(); }
 
-  /// REQUIRES: make_scanner() was called.
-  void measure_shape(std::span<const std::uint32_t> ids, Measurement& result) const {
-    judge::count_faults(mesh(), result);
+  /// REQUIRES: look_in_space() was called.
+  void measure_shape(std::span<const std::uint32_t> ids, int threads, Measurement& result) const {
+    judge::count_faults(mesh(), threads, result);
     if (space_) result.down_facing += space_->folds();
-    if (!flat_mesh_) return judge::measure_angles(mesh_, ids, result);
-    judge::measure_angles(judge::seen_from_above(field_, mesh_), ids, result);
+    if (!flat_mesh_) return judge::measure_angles(mesh_, ids, threads, result);
+    judge::measure_angles(judge::seen_from_above(field_, mesh_), ids, threads, result);
   }
 
  private:
@@ -282,56 +287,82 @@ class Judged {
   std::unique_ptr<judge::SpaceJudge> space_;
 };
 
+/// Null without a cutline.
+std::unique_ptr<judge::CutRegion> make_region(const MeasureOptions& options, const HeightField& field) {
+  if (options.cutline == nullptr) return nullptr;
+  return std::make_unique<judge::CutRegion>(*options.cutline, field.cols, field.rows);
+}
+
+/// Fills topology and shape.
+Result<void> judge_topology(const Judged& judged, const Surface& surface, const judge::CutRegion* region,
+                            const MeasureOptions& options, ProgressGate& gate, Measurement& result) {
+  if (!gate.go_on("topology", 0)) return cancelled();
+  const Mesh& mesh = judged.mesh();
+  const judge::EdgeReport& edges = surface.connections.edges;
+  result.open_edges = edges.open.size();
+  result.misoriented_edges = edges.misoriented;
+  result.non_manifold_edges = edges.non_manifold;
+  result.border_loops = edges.loops;
+  judged.measure_shape(surface.judged, options.run.threads, result);
+  result.t_junctions = judge::count_t_junctions(mesh, surface.connections);
+  const Result<std::uint64_t> gaps =
+      judge::count_gaps(judged.field(), mesh, surface.connections, options.coverage_tolerance, region);
+  if (!gaps) return tl::unexpected(gaps.error());
+  result.gaps = *gaps;
+  if (surface.connections.is_single_layer) return {};
+  bool is_stopped = false;
+  result.overlaps = judge::count_overlaps(mesh, surface.judged, options.run.threads, [&](double fraction) {
+    is_stopped = !gate.go_on("topology", fraction);
+    return !is_stopped;
+  });
+  if (is_stopped) return cancelled();
+  return {};
+}
+
 }  // namespace
 
 Result<Measurement> measure(const HeightField& asked, const Mesh& given, const MeasureOptions& options) try {
-  auto judged_mesh = Judged::of(asked, given, options);
-  if (!judged_mesh) return tl::unexpected(judged_mesh.error());
-  const HeightField& field = judged_mesh->field();
-  const Mesh& mesh = judged_mesh->mesh();
+  auto judged = Judged::of(asked, given, options);
+  if (!judged) return tl::unexpected(judged.error());
+  const HeightField& field = judged->field();
+  const Mesh& mesh = judged->mesh();
   ProgressGate gate(options.run.progress);
 
   Measurement result;
   result.vertices = mesh.vertex_count();
   result.triangles = mesh.triangle_count();
   const Surface surface = find_surface(mesh, options.topology);
-  const auto& [judged, welded, edges, closed] = surface;
-  result.closed = closed;
+  result.closed = surface.closed;
 
-  const double tolerance = options.coverage_tolerance;
-  const auto scanner = judged_mesh->make_scanner(judged, tolerance, options.run.threads);
-  std::optional<judge::CutRegion> cut;
-  if (options.cutline != nullptr) cut.emplace(*options.cutline, field.cols, field.rows);
-  const judge::CutRegion* region = cut ? &*cut : nullptr;
-  if (auto judged_heights = judge_heights(field, mesh, *scanner, region, options, judge::Keep::kErrors, gate, result);
-      !judged_heights) {
-    return tl::unexpected(std::move(judged_heights.error()));
+  const auto scanner = judged->make_scanner(surface.judged, options.coverage_tolerance, options.run.threads);
+  const auto region = make_region(options, field);
+  if (auto done = judge_heights(field, mesh, *scanner, region.get(), options, judge::Keep::kErrors, gate, result);
+      !done) {
+    return tl::unexpected(std::move(done.error()));
   }
 
   if (options.collect_above) {
-    const std::vector<Offender> more = judged_mesh->unfolding();
+    const std::vector<Offender> more = judged->unfolding();
     result.offenders.insert(result.offenders.end(), more.begin(), more.end());
   }
-
-  if (options.topology) {
-    if (!gate.go_on("topology", 0)) return cancelled();
-    result.open_edges = edges.open.size();
-    result.misoriented_edges = edges.misoriented;
-    result.non_manifold_edges = edges.non_manifold;
-    result.border_loops = edges.loops;
-    judged_mesh->measure_shape(judged, result);
-    result.t_junctions = judge::count_t_junctions(mesh, welded, edges.open);
-    const Result<std::uint64_t> gaps = judge::count_gaps(field, mesh, welded, edges.open, tolerance, region);
-    if (!gaps) return tl::unexpected(gaps.error());
-    result.gaps = *gaps;
-    bool is_stopped = false;
-    result.overlaps = judge::count_overlaps(mesh, judged, options.run.threads, [&](double fraction) {
-      is_stopped = !gate.go_on("topology", fraction);
-      return !is_stopped;
-    });
-    if (is_stopped) return cancelled();
-  }
+  if (!options.topology) return result;
+  if (auto done = judge_topology(*judged, surface, region.get(), options, gate, result); !done)
+    return tl::unexpected(std::move(done.error()));
   return result;
+} catch (...) {
+  return caught(ErrorKind::kInput, "measure the mesh");
+}
+
+Result<void> measure_topology(const HeightField& field, const Mesh& mesh, const MeasureOptions& options,
+                              Measurement& result) try {
+  auto judged = Judged::of(field, mesh, options, false);
+  if (!judged) return tl::unexpected(judged.error());
+  ProgressGate gate(options.run.progress);
+  const Surface surface = find_surface(judged->mesh(), true);
+  result.closed = surface.closed;
+  result.down_facing = result.degenerate = result.overlaps = 0;
+  judged->look_in_space(surface.judged);
+  return judge_topology(*judged, surface, make_region(options, judged->field()).get(), options, gate, result);
 } catch (...) {
   return caught(ErrorKind::kInput, "measure the mesh");
 }

@@ -195,11 +195,10 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
     all.push_back(t);
     if ((b[0] - a[0]) * (c[1] - a[1]) > (b[1] - a[1]) * (c[0] - a[0])) upward.push_back(t);
   }
-  std::vector<std::uint32_t> welded;
-  EdgeReport edges;
+  Connections connections;
+  const EdgeReport& edges = connections.edges;
   if (options.topology || upward.size() < all.size()) {
-    welded = weld_vertices(mesh);
-    edges = check_edges(mesh, welded);
+    connections = connect(mesh, upward.size() == all.size());
     result.closed = edges.open.empty();
   }
   const std::vector<std::uint32_t>& judged = result.closed ? upward : all;
@@ -252,10 +251,11 @@ Result<Measurement> judge_points(const PointSet& points, const SnappedPoints& sn
     result.misoriented_edges = edges.misoriented;
     result.non_manifold_edges = edges.non_manifold;
     result.border_loops = edges.loops;
-    count_faults(mesh, result);
-    measure_angles(mesh, judged, result);
-    result.t_junctions = count_t_junctions(mesh, welded, edges.open);
+    count_faults(mesh, options.run.threads, result);
+    measure_angles(mesh, judged, options.run.threads, result);
+    result.t_junctions = count_t_junctions(mesh, connections);
     result.gaps = count_hull_gaps(points, snapped, mesh, edges.open, tolerance);
+    if (connections.is_single_layer) return result;
     bool is_stopped = false;
     result.overlaps = count_overlaps(mesh, judged, options.run.threads, [&](double fraction) {
       is_stopped = !gate.go_on("topology", fraction);

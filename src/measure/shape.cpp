@@ -3,8 +3,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <numbers>
 
+#include "base/array.h"
+#include "base/parallel.h"
 #include "measure/bucket_grid.h"
 #include "measure/topology.h"
 
@@ -21,16 +24,33 @@ PlanTriangle plan_of(const Mesh& mesh, std::size_t t) {
   return plan;
 }
 
-/// Degrees; 0 without area.
-double smallest_angle(const PlanTriangle& plan) {
+/// The tangent of the smallest angle; 0 without area.
+double smallest_tangent(const PlanTriangle& plan) {
   const double area = std::abs(plan.double_area());
   if (area == 0) return 0;
-  const std::array<double, 3> sides{plan.side(0), plan.side(1), plan.side(2)};
-  const int k = static_cast<int>(std::min_element(sides.begin(), sides.end()) - sides.begin());
-  const int a = (k + 1) % 3, b = (k + 2) % 3;
+  std::array<double, 3> sides{};  // squared
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t a = k == 2 ? 0 : k + 1, b = a == 2 ? 0 : a + 1;
+    const double x = plan.x[b] - plan.x[a], y = plan.y[b] - plan.y[a];
+    sides[k] = x * x + y * y;
+  }
+  const std::size_t k = sides[1] < sides[0] ? (sides[2] < sides[1] ? 2 : 1) : (sides[2] < sides[0] ? 2 : 0);
+  const std::size_t a = k == 2 ? 0 : k + 1, b = a == 2 ? 0 : a + 1;
   const double dot =
       (plan.x[a] - plan.x[k]) * (plan.x[b] - plan.x[k]) + (plan.y[a] - plan.y[k]) * (plan.y[b] - plan.y[k]);
-  return std::atan2(area, dot) * (180 / std::numbers::pi);
+  return area / dot;
+}
+
+double degrees_of(double tangent) { return std::atan(tangent) * (180 / std::numbers::pi); }
+
+constexpr std::size_t kTogether = 1 << 15;
+
+std::size_t part_count(std::size_t count) { return (count + kTogether - 1) / kTogether; }
+
+/// Calls task(part, first, end) for the parts of 0 … count − 1.
+void in_parts(std::size_t count, int threads, const std::function<void(std::size_t, std::size_t, std::size_t)>& task) {
+  parallel_for(part_count(count), threads,
+               [&](std::size_t part) { task(part, part * kTogether, std::min(count, (part + 1) * kTogether)); });
 }
 
 /// No area in space, up to the rounding of the cross product.
@@ -79,8 +99,8 @@ double position_noise(const Mesh& mesh) {
   return largest * (is_float ? 0x1p-22 : 0x1p-51);
 }
 
-std::uint64_t count_t_junctions(const Mesh& mesh, std::span<const std::uint32_t> welded,
-                                std::span<const OpenEdge> open) {
+std::uint64_t count_t_junctions(const Mesh& mesh, const Connections& connections) {
+  const std::vector<OpenEdge>& open = connections.edges.open;
   if (open.empty()) return 0;
   const auto segment = [&](std::size_t i) {
     const double* a = &mesh.positions[3 * std::size_t{open[i].from}];
@@ -103,7 +123,11 @@ std::uint64_t count_t_junctions(const Mesh& mesh, std::span<const std::uint32_t>
   });
 
   std::vector<bool> is_used(mesh.vertex_count());
-  for (const std::uint32_t v : mesh.triangles) is_used[welded[v]] = true;
+  if (connections.is_single_layer) {
+    for (const OpenEdge& edge : open) is_used[edge.from] = true;
+  } else {
+    for (const std::uint32_t v : mesh.triangles) is_used[connections.vertex(v)] = true;
+  }
   std::uint64_t count = 0;
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
     if (!is_used[v]) continue;
@@ -111,7 +135,8 @@ std::uint64_t count_t_junctions(const Mesh& mesh, std::span<const std::uint32_t>
     if (x < box.x0 - reach || x > box.x1 + reach || y < box.y0 - reach || y > box.y1 + reach) continue;
     const auto breaks = [&](std::uint32_t i) {
       const std::uint32_t* corners = &mesh.triangles[3 * std::size_t{open[i].triangle}];
-      if (std::any_of(corners, corners + 3, [&](std::uint32_t corner) { return welded[corner] == v; })) return false;
+      if (std::any_of(corners, corners + 3, [&](std::uint32_t corner) { return connections.vertex(corner) == v; }))
+        return false;
       const PlanSegment s = segment(i);
       return s.has_inside(x, y, noise + 1e-9 * s.length());
     };
@@ -127,25 +152,43 @@ std::uint64_t count_t_junctions(const Mesh& mesh, std::span<const std::uint32_t>
   return count;
 }
 
-void count_faults(const Mesh& mesh, Measurement& result) {
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    result.down_facing += plan_of(mesh, t).double_area() < 0;
-    result.degenerate += is_degenerate(mesh, t);
+void count_faults(const Mesh& mesh, int threads, Measurement& result) {
+  struct Faults {
+    std::uint64_t down_facing = 0, degenerate = 0;
+  };
+  std::vector<Faults> found(part_count(mesh.triangle_count()));
+  in_parts(mesh.triangle_count(), threads, [&](std::size_t part, std::size_t first, std::size_t end) {
+    Faults faults;
+    for (std::size_t t = first; t < end; ++t) {
+      faults.down_facing += plan_of(mesh, t).double_area() < 0;
+      faults.degenerate += is_degenerate(mesh, t);
+    }
+    found[part] = faults;
+  });
+  for (const Faults& faults : found) {
+    result.down_facing += faults.down_facing;
+    result.degenerate += faults.degenerate;
   }
 }
 
-void measure_angles(const Mesh& mesh, std::span<const std::uint32_t> judged, Measurement& result) {
-  std::vector<double> angles;
-  angles.reserve(judged.size());
-  for (const std::uint32_t t : judged) angles.push_back(smallest_angle(plan_of(mesh, t)));
-  if (angles.empty()) return;
-  const std::array<std::size_t, 3> percents{1, 5, 50};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t rank = std::max<std::size_t>(1, (angles.size() * percents[i] + 99) / 100) - 1;
-    std::nth_element(angles.begin(), angles.begin() + static_cast<std::ptrdiff_t>(rank), angles.end());
-    result.angle_percentiles[i] = angles[rank];
+void measure_angles(const Mesh& mesh, std::span<const std::uint32_t> judged, int threads, Measurement& result) {
+  if (judged.empty()) return;
+  Array<double> tangents;
+  tangents.resize(judged.size());
+  in_parts(judged.size(), threads, [&](std::size_t, std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) tangents[i] = smallest_tangent(plan_of(mesh, judged[i]));
+  });
+  // From the largest percentile down: the next one lies in what is left of it.
+  constexpr std::array<std::size_t, 3> kPercents{1, 5, 50};
+  double* end = tangents.end();
+  for (std::size_t i = kPercents.size(); i-- > 0;) {
+    double* at = tangents.begin() + std::max<std::size_t>(1, (tangents.size() * kPercents[i] + 99) / 100) - 1;
+    if (at < end) std::nth_element(tangents.begin(), at, end);
+    result.angle_percentiles[i] = degrees_of(*at);
+    end = at;
   }
-  result.min_angle = *std::min_element(angles.begin(), angles.end());
+  result.min_angle =
+      end == tangents.begin() ? result.angle_percentiles[0] : degrees_of(*std::min_element(tangents.begin(), end));
 }
 
 }  // namespace scarp::judge

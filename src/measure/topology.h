@@ -26,20 +26,38 @@ struct EdgeReport {
   std::uint64_t misoriented = 0, non_manifold = 0, loops = 0;
 };
 
-/// `welded`: from weld_vertices(). Triangles with two corners in one place have no edges. In a mesh without open edges
-/// four triangles may meet in an edge, two in each direction: there two solids touch. Cost: O(triangles).
+/// `welded`: from weld_vertices(); empty: no two vertices are one. Triangles with two corners in one place have no
+/// edges. In a mesh without open edges four triangles may meet in an edge, two in each direction: there two solids
+/// touch. Cost: O(triangles).
 EdgeReport check_edges(const Mesh& mesh, std::span<const std::uint32_t> welded);
+
+/// How the triangles of a mesh hang together.
+struct Connections {
+  std::vector<std::uint32_t> welded;  ///< as check_edges() takes it
+  EdgeReport edges;
+  /// No two triangles overlap, and no vertex but those of open edges lies on an open edge, seen from above. False: it
+  /// is not known.
+  bool is_single_layer = false;
+
+  std::uint32_t vertex(std::uint32_t v) const { return welded.empty() ? v : welded[v]; }
+};
+
+/// `looks_up`: all triangles do, seen from above. Cost: O(triangles).
+Connections connect(const Mesh& mesh, bool looks_up);
+
+/// Whether the border of a surface, its triangles on the left of each open edge, winds around no point more than once,
+/// up to the rounding of positions. False where that is not quickly seen.
+bool winds_once(const Mesh& mesh, std::span<const OpenEdge> open);
 
 /// Vertices in the interior of an open edge, seen from above, up to rounding: 1e-9 of the edge's length and what the
 /// positions' precision (float32, or double) leaves in doubt. Cost: O(vertices) for edges of ordinary shape.
-std::uint64_t count_t_junctions(const Mesh& mesh, std::span<const std::uint32_t> welded,
-                                std::span<const OpenEdge> open);
+std::uint64_t count_t_junctions(const Mesh& mesh, const Connections& connections);
 
 /// Open edges beside which the domain of `field` goes on, within `region` (null: everywhere); see Measurement::gaps.
 /// Cost: O(open edges · samples beside each · log), O(triangles) more if there is doubt. Fails as the field's source
 /// does.
-Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, std::span<const std::uint32_t> welded,
-                                 std::span<const OpenEdge> open, double tolerance, const CutRegion* region);
+Result<std::uint64_t> count_gaps(const HeightField& field, const Mesh& mesh, const Connections& connections,
+                                 double tolerance, const CutRegion* region);
 
 /// Pairs among the triangles `ids` whose interiors overlap seen from above by more than rounding; at most kMostOverlaps
 /// are counted. `go_on` is called from this thread from time to time; false ends the search. Cost: O(triangles · log)
@@ -53,8 +71,8 @@ std::uint64_t count_overlaps(const Mesh& mesh, std::span<const std::uint32_t> id
 double position_noise(const Mesh& mesh);
 
 /// Fills down_facing and degenerate.
-void count_faults(const Mesh& mesh, Measurement& result);
+void count_faults(const Mesh& mesh, int threads, Measurement& result);
 /// Fills the angles, of `judged` triangles seen along z.
-void measure_angles(const Mesh& mesh, std::span<const std::uint32_t> judged, Measurement& result);
+void measure_angles(const Mesh& mesh, std::span<const std::uint32_t> judged, int threads, Measurement& result);
 
 }  // namespace scarp::judge

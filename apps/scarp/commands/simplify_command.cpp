@@ -228,16 +228,22 @@ Result<void> check_promise(const Outcome& outcome) {
 }
 
 /// simplify() leaves out the topology where it holds by construction; a report states what was looked at, not what must
-/// be so.
-Result<void> judge_topology(const ProgressCallback& progress, int threads, Outcome& outcome) {
+/// be so. A print is judged as a whole: its proof was that of the terrain.
+Result<void> judge_topology(const ProgressCallback& progress, const SimplifyPlan& plan, Outcome& outcome) {
   MeasureOptions options;
   options.cutline = outcome.cut.judged();
-  options.run.threads = threads;
+  options.run.threads = plan.simplify.run.threads;
   options.run.progress = progress;
   const Clock::time_point start = Clock::now();
-  Result<Measurement> measured = measure(outcome.field, outcome.simplified.mesh, options);
-  if (!measured) return tl::unexpected(std::move(measured.error()));
-  outcome.simplified.measurement = std::move(*measured);
+  Simplified& simplified = outcome.simplified;
+  if (plan.solid) {
+    Result<Measurement> measured = measure(outcome.field, simplified.mesh, options);
+    if (!measured) return tl::unexpected(std::move(measured.error()));
+    simplified.measurement = std::move(*measured);
+  } else {
+    const Result<void> measured = measure_topology(outcome.field, simplified.mesh, options, simplified.measurement);
+    if (!measured) return measured;
+  }
   add_judging(start, outcome);
   return {};
 }
@@ -341,7 +347,7 @@ Result<void> SimplifyCommand::run(const std::string& command_line) const {
   const bool by_construction = options.output.float32_positions ? offsets_are_exact(field.frame, field.cols, field.rows)
                                                                 : field.frame.is_affine();
   if (plan->report && by_construction) {
-    const Result<void> judged = judge_topology(display.callback(), plan->simplify.run.threads, outcome);
+    const Result<void> judged = judge_topology(display.callback(), *plan, outcome);
     if (!judged) return judged;
   }
   if (outcome.simplified.ignored > 0) {
