@@ -27,7 +27,8 @@ namespace scarp {
 /// Which part of the raster the mesh covers.
 struct Domain {
   /// How far, in samples, the outline of the valid data may be simplified, at least 0. It only moves outwards, over
-  /// nodata: no valid sample is cut off. DEFAULT: 0, the exact outline.
+  /// nodata: no valid sample is cut off. Voids that hold no sample close where they are nowhere farther from their
+  /// outline. DEFAULT: 0, the exact outline.
   double outline_tolerance = 0;
   /// The edge of the raster. DEFAULT: simplified with the surface.
   Border border = {};
@@ -119,6 +120,9 @@ struct Simplified {
   /// That the outline of the valid data alone needs, as far as Domain::outline_tolerance leaves it. 0 where every
   /// sample is valid, and with lines or a cutline.
   std::uint64_t outline_triangles = 0;
+  /// What outline_triangles would be at an outline tolerance of one sample. 0 where that tolerance is not 0, where
+  /// outline_triangles is less than half of the mesh, and where samples are streamed.
+  std::uint64_t outline_triangles_at_one = 0;
   std::uint64_t cut_off = 0;         ///< valid samples outside the cutline
   std::optional<ShapeReport> shape;  ///< of `mesh`, where Quality::shape asks for something
   std::vector<Pass> passes;          ///< in the order in which they ended

@@ -1,12 +1,13 @@
 // Fewer vertices on ragged outlines, without losing a sample.
 //
-// From a kept vertex the polygon runs as far ahead as one straight segment may replace the chain between. It may if
-// the chain lies on the segment's domain side (left) within the tolerance, so that the domain only grows, and if the
-// area between chain and segment holds no other height, so that nothing is newly enclosed. The second condition also
-// keeps segments from crossing: whatever crossed one would have to end in that area, on a sample.
+// A straight segment may replace the chain between two vertices if the chain lies on the segment's domain side (left)
+// within the tolerance, so that the domain only grows, and if the area between chain and segment holds no other height,
+// so that nothing is newly enclosed. The second condition also keeps segments from crossing: whatever crossed one would
+// have to end in that area, on a sample. Of all ways around a polygon the one with the fewest segments is taken.
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "grid/outline.h"
 
@@ -83,30 +84,65 @@ std::vector<Point> touching_vertices(const Outline& outline) {
   return touching;
 }
 
-std::vector<Point> simplify_polygon(const Raster& raster, const std::vector<Point>& polygon,
-                                    const std::vector<Point>& touching, double tolerance) {
-  const std::size_t n = polygon.size();
-  std::vector<Point> kept, chain;
-  for (std::size_t i = 0; i < n;) {
-    kept.push_back(polygon[i]);
-    std::size_t best = i + 1;
-    chain = {polygon[i], polygon[(i + 1) % n]};
+/// The polygon from a corner on, back to that corner.
+std::vector<Point> unrolled(const std::vector<Point>& polygon, Point corner) {
+  std::vector<Point> path = polygon;
+  std::rotate(path.begin(), std::find(path.begin(), path.end(), corner), path.end());
+  path.push_back(path.front());
+  return path;
+}
+
+/// The corners, but the first, of the fewest segments that may replace a closed path; among equals those that grow
+/// least.
+std::vector<Point> shortest_path(const Raster& raster, const std::vector<Point>& path,
+                                 const std::vector<Point>& touching, double tolerance) {
+  struct Best {
+    std::size_t segments, from;
+    std::int64_t growth;  // twice the area
+  };
+  const std::size_t n = path.size() - 1;
+  std::vector<Best> best(path.size(), {path.size(), 0, 0});
+  best[0].segments = 0;
+  std::vector<Point> chain;
+  for (std::size_t i = 0; i < n; ++i) {
+    chain.assign(1, path[i]);
     int failures = 0;
-    for (std::size_t j = i + 2; j <= n && j - i <= kLongestChain && failures < kLinkPatience; ++j) {
-      // A segment back to the start would close a polygon of fewer than three corners.
-      if (j == n && kept.size() < 3) break;
-      if (std::binary_search(touching.begin(), touching.end(), chain.back(), before)) break;
-      chain.push_back(polygon[j % n]);
-      if (hugs_segment(chain, tolerance) && area_is_nodata(raster, chain)) {
-        best = j;
+    const std::size_t segments = best[i].segments + 1;
+    std::int64_t growth = best[i].growth;
+    for (std::size_t j = i + 1; j <= n && j - i <= kLongestChain && failures < kLinkPatience; ++j) {
+      // A polygon has three corners.
+      if (j == n && segments < 3) break;
+      if (j > i + 1 && std::binary_search(touching.begin(), touching.end(), chain.back(), before)) break;
+      chain.push_back(path[j]);
+      growth += orient(path[i], path[j], path[j - 1]);
+      if (std::pair(segments, growth) >= std::pair(best[j].segments, best[j].growth)) continue;
+      if (j == i + 1 || (hugs_segment(chain, tolerance) && area_is_nodata(raster, chain))) {
+        best[j] = {segments, i, growth};
         failures = 0;
       } else {
         ++failures;
       }
     }
-    i = best;
   }
-  return kept.size() >= 3 ? kept : polygon;
+  std::vector<Point> kept;
+  for (std::size_t j = n; j > 0; j = best[j].from) kept.push_back(path[j]);
+  std::reverse(kept.begin(), kept.end());
+  return kept;
+}
+
+/// From a corner that stays in any case, or else from one that a first try keeps.
+std::vector<Point> simplify_polygon(const Raster& raster, const std::vector<Point>& polygon,
+                                    const std::vector<Point>& touching, double tolerance) {
+  std::vector<Point> simplest = polygon;
+  const auto begin_at = [&](Point corner) {
+    std::vector<Point> kept = shortest_path(raster, unrolled(polygon, corner), touching, tolerance);
+    if (kept.size() >= 3 && kept.size() < simplest.size()) simplest = std::move(kept);
+  };
+  const auto stays = [&](Point p) { return std::binary_search(touching.begin(), touching.end(), p, before); };
+  const auto fixed = std::find_if(polygon.begin(), polygon.end(), stays);
+  begin_at(fixed != polygon.end() ? *fixed : polygon.front());
+  if (fixed == polygon.end()) begin_at(simplest[simplest.size() / 2]);
+  return simplest;
 }
 
 }  // namespace

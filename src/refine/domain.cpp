@@ -24,6 +24,10 @@ bool constrain_outline(Triangulation& tin, const Outline& outline) {
   return true;
 }
 
+Outline loosen_outline(const Raster& raster, const Outline& outline, double tolerance) {
+  return simplify_outline(raster, close_voids(raster, outline, tolerance), tolerance);
+}
+
 /// The constrained edge from v towards `to`, which chains of constrained edges join.
 HalfEdge edge_towards(const Triangulation& tin, Vertex v, Point to, std::vector<Triangle>& star) {
   tin.star(v, star);
@@ -142,7 +146,7 @@ Result<DomainMesh> build_domain(const Raster& raster, double outline_tolerance, 
           ErrorKind::kInput,
           "the raster has no grid cell with three valid corners, so there is no surface to simplify; check nodata");
     Outline simplified;
-    if (outline_tolerance > 0) simplified = simplify_outline(raster, outline, outline_tolerance);
+    if (outline_tolerance > 0) simplified = loosen_outline(raster, outline, outline_tolerance);
     if (!simplified.empty() && constrain_outline(domain.tin, simplified)) {
       outline = std::move(simplified);
     } else {

@@ -74,6 +74,7 @@ class EngineRun {
     order(result);
     result.seconds_refine += seconds_since(start);
     if (auto proven = prove_and_mend(result); !proven) return tl::unexpected(proven.error());
+    count_looser_outline(result);
     if (options_.quality.shape.any()) result.shape = report_shapes(result.mesh, options_.quality.shape, shaped->forced);
     return result;
   }
@@ -452,6 +453,14 @@ class EngineRun {
                             static_cast<std::size_t>(p.x)]);
     }
     record(result, "freeze", start);
+  }
+
+  /// Where the outline takes most of the mesh.
+  void count_looser_outline(Simplified& result) const {
+    if (options_.domain.outline_tolerance > 0 || plan_.is_streamed || result.outline_triangles == 0) return;
+    if (2 * result.outline_triangles < result.mesh.triangle_count()) return;
+    const auto domain = build_domain(raster_, 1, field_.frame);
+    if (domain) result.outline_triangles_at_one = count_border_triangles(domain->tin);
   }
 
   /// Inserts the samples that break the bound in the judge's eyes, as far as the budgets allow, and refines on. Returns

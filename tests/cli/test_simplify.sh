@@ -18,7 +18,7 @@ python3 - hills.json "$(wc -c < hills.glb)" <<'PYTHON'
 import json, sys
 r = json.load(open(sys.argv[1]))
 assert list(r) == ["scarp", "command", "input", "frame", "goal", "strategy", "breaklines", "water", "rivers", "cliffs", "ridges", "shape", "cutline", "node_strings", "materials", "stopped_by", "vertices", "triangles",
-                   "full_triangles", "outline_triangles", "max_error", "max_error_at", "rmse", "mean_error", "mean_abs_error", "p50", "p95", "p99", "p999", "ignored",
+                   "full_triangles", "outline_triangles", "outline_triangles_at_one", "max_error", "max_error_at", "rmse", "mean_error", "mean_abs_error", "p50", "p95", "p99", "p999", "ignored",
                    "max_error_place",
                    "samples", "uncovered", "stray", "void_cells_covered", "topology", "levels", "work", "passes", "seconds", "outputs",
                    "warnings"], list(r)

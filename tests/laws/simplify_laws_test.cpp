@@ -397,5 +397,31 @@ TEST(simplify, a_simplified_outline_loses_no_sample) {
   EXPECT_LT(loose->mesh.triangle_count(), exact->mesh.triangle_count());
 }
 
+TEST(simplify, scattered_missing_samples_close_within_the_outline_tolerance) {
+  Field field{60, 60, std::vector<float>(3600, 7.0f)};
+  for (const std::size_t k : {605u, 1330u, 1331u, 2222u, 3000u}) field.samples[k] = std::nanf("");
+  const auto result = simplify(field.view(), {.goals = {.max_error = 1.0}, .domain = {.outline_tolerance = 1.0}});
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->mesh.triangle_count(), 2u);
+  EXPECT_EQ(judge(field.view(), result->mesh).uncovered, 0u);
+}
+
+TEST(simplify, what_an_outline_tolerance_of_one_would_take_is_what_it_takes) {
+  Field field = testing::random_field(16, 80, 80, Relief::kRidges, 0.3);
+  for (std::size_t k = 0; k < field.samples.size(); ++k) {
+    if (!std::isnan(field.samples[k])) field.samples[k] = static_cast<float>(k % 80) / 4;
+  }
+  const auto exact = simplify(field.view(), {.goals = {.max_error = 5.0}}),
+             loose = simplify(field.view(), {.goals = {.max_error = 5.0}, .domain = {.outline_tolerance = 1.0}}),
+             fine = simplify(testing::random_field(16, 80, 80, Relief::kRidges, 0.01).view(), {.max_error = 0.01});
+  ASSERT_TRUE(exact && loose && fine);
+  EXPECT_GT(exact->outline_triangles, 0u);
+  EXPECT_EQ(exact->outline_triangles_at_one, loose->outline_triangles);
+  EXPECT_LT(loose->outline_triangles, exact->outline_triangles);
+  EXPECT_EQ(loose->outline_triangles_at_one, 0u);
+  EXPECT_GT(fine->outline_triangles, 0u);
+  EXPECT_EQ(fine->outline_triangles_at_one, 0u) << "the outline is a small part of the mesh";
+}
+
 }  // namespace
 }  // namespace scarp::simplify_laws_test

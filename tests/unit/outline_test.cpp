@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <map>
 
 #include "laws/fields.h"
@@ -122,6 +124,79 @@ TEST(outline, a_diagonal_staircase_becomes_one_edge) {
   ASSERT_EQ(simple.size(), 1u);
   EXPECT_GT(exact[0].size(), 20u);
   EXPECT_LE(simple[0].size(), 6u);
+}
+
+TEST(outline, a_round_void_takes_the_fewest_chords) {
+  testing::Field field{120, 120, std::vector<float>(14400, 1.0f)};
+  for (std::int32_t y = 0; y < 120; ++y) {
+    for (std::int32_t x = 0; x < 120; ++x) {
+      const bool is_void = (x - 60) * (x - 60) + (y - 60) * (y - 60) < 1400;
+      if (is_void) field.samples[static_cast<std::size_t>(120 * y + x)] = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  const Outline simple = simplify_outline(field.raster(), trace_outline(field.raster()), 1.5);
+  ASSERT_EQ(simple.size(), 2u);
+  EXPECT_EQ(simple[0].size(), 4u);
+  EXPECT_EQ(simple[1].size(), 16u) << "two in each octant; the farthest corner from each on took 20";
+}
+
+std::size_t voids_left(const std::vector<std::string>& picture, double tolerance) {
+  const auto field = field_of(picture);
+  return close_voids(field.raster(), trace_outline(field.raster()), tolerance).size() - 1;
+}
+
+TEST(outline, voids_close_where_they_are_nowhere_farther_from_their_outline) {
+  const std::vector<std::string> one{"xxxxx", "xxxxx", "xx.xx", "xxxxx", "xxxxx"};
+  EXPECT_EQ(voids_left(one, 0.7), 1u) << "a diamond's centre is 0.707 samples from its sides";
+  EXPECT_EQ(voids_left(one, 0.75), 0u);
+  const std::vector<std::string> four{"xxxxxx", "xxxxxx", "xx..xx", "xx..xx", "xxxxxx", "xxxxxx"};
+  EXPECT_EQ(voids_left(four, 1.4), 1u) << "half a cell more than the missing samples";
+  EXPECT_EQ(voids_left(four, 1.5), 0u);
+  const std::vector<std::string> line{"xxxxxxxxx", "xxxxxxxxx", "xx.....xx", "xxxxxxxxx", "xxxxxxxxx"};
+  EXPECT_EQ(voids_left(line, 1), 0u) << "as long as it may be";
+}
+
+TEST(outline, voids_that_hold_a_height_stay) {
+  const std::vector<std::string> alone{"xxxxxxx", "xxxxxxx", "xx...xx", "xx.x.xx", "xx...xx", "xxxxxxx", "xxxxxxx"};
+  EXPECT_EQ(voids_left(alone, 9), 1u);
+}
+
+double distance(Point a, Point b, double x, double y) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  const double along = std::clamp(((x - a.x) * dx + (y - a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+  return std::hypot(a.x + along * dx - x, a.y + along * dy - y);
+}
+
+RC_GTEST_PROP(outline, closed_voids_hold_no_height_and_lie_within_the_tolerance, ()) {
+  const auto field = testing::random_field(*rc::gen::arbitrary<std::uint32_t>(), 30, 30, testing::Relief::kTies,
+                                           *rc::gen::element(0.05, 0.3, 0.6));
+  const double tolerance = *rc::gen::element(0.5, 0.75, 1.0, 1.5, 2.5);
+  const Outline exact = trace_outline(field.raster()), left = close_voids(field.raster(), exact, tolerance);
+  for (const auto& polygon : exact) {
+    if (std::find(left.begin(), left.end(), polygon) != left.end()) continue;
+    RC_ASSERT(twice_area(polygon) < 0);
+    // Points an eighth of a sample apart, off the lattice's lines and diagonals.
+    for (double y = 0.03; y < 29; y += 0.125) {
+      for (double x = 0.05; x < 29; x += 0.125) {
+        bool inside = false;
+        double nearest = 99;
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+          const Point a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+          nearest = std::min(nearest, distance(a, b, x, y));
+          if ((a.y > y) != (b.y > y) && x < a.x + (y - a.y) * (b.x - a.x) / (b.y - a.y)) inside = !inside;
+        }
+        if (!inside) continue;
+        RC_ASSERT(nearest <= tolerance);
+        // A height near it is a sample of the outline.
+        const Point p{static_cast<std::int32_t>(std::lround(x)), static_cast<std::int32_t>(std::lround(y))};
+        if (!field.raster().is_valid(p) || std::hypot(p.x - x, p.y - y) > 0.1) continue;
+        double beside = 99;
+        for (std::size_t i = 0; i < polygon.size(); ++i)
+          beside = std::min(beside, distance(polygon[i], polygon[(i + 1) % polygon.size()], p.x, p.y));
+        RC_ASSERT(beside == 0);
+      }
+    }
+  }
 }
 
 /// The valid samples of a field.

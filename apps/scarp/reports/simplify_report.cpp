@@ -137,8 +137,10 @@ std::string outline_line(const SimplifyPlan& plan, const Outcome& outcome) {
   constexpr std::uint64_t kFew = 100;
   const std::uint64_t least = outcome.simplified.outline_triangles;
   if (least < kFew || 2 * least < outcome.triangles) return "";
-  return summary_line("outlines", fmt::format("of nodata and border alone need {}: --outline-tolerance takes fewer{}",
-                                              format_plural(least, "triangle"),
+  const std::uint64_t at_one = outcome.simplified.outline_triangles_at_one;
+  const std::string fewer = at_one > 0 ? fmt::format("1 takes {}", format_count(at_one)) : std::string("takes fewer");
+  return summary_line("outlines", fmt::format("of nodata and border alone need {}: --outline-tolerance {}{}",
+                                              format_plural(least, "triangle"), fewer,
                                               plan.memory && outcome.field.source ? ", without --memory" : ""));
 }
 
@@ -162,7 +164,8 @@ namespace {
 /// STL holds offsets from an origin that only Scarp reads in its header.
 std::string offset_words(const SimplifyPlan& plan, const Mesh& mesh) {
   const std::array<double, 3>& o = mesh.origin;
-  if (!plan.format.is_mesh() || plan.format.mesh != MeshFormat::kStl || plan.solid || (o[0] == 0 && o[1] == 0)) return "";
+  if (!plan.format.is_mesh() || plan.format.mesh != MeshFormat::kStl || plan.solid || (o[0] == 0 && o[1] == 0))
+    return "";
   return fmt::format("; the file holds offsets from {:.10g}, {:.10g}", o[0], o[1]);
 }
 
@@ -212,6 +215,7 @@ Json make_report(const SimplifyPlan& plan, const Outcome& outcome, const std::ve
   report["triangles"] = outcome.triangles;
   report["full_triangles"] = full_grid_triangles(outcome.field);
   report["outline_triangles"] = outcome.simplified.outline_triangles;
+  report["outline_triangles_at_one"] = outcome.simplified.outline_triangles_at_one;
   add_all_errors(report, plan, outcome);
   if (!plan.channels.image)
     report["max_error_place"] = to_json(find_place(outcome.as_read, outcome.simplified.measurement.max_error_at));
