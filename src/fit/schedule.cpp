@@ -1,5 +1,7 @@
 #include "fit/schedule.h"
 
+#include <algorithm>
+
 #include "fit/collapse.h"
 #include "fit/flips.h"
 #include "fit/vertex_step.h"
@@ -30,7 +32,8 @@ Schedule::Schedule(Patch& patch, const TriangleError& error, ErrorRule::Power po
       options_(options),
       repair_(patch, loose_, options.depth, options.rules),
       notes_(patch.node_count()),
-      queue_(patch.node_count()) {}
+      queue_(patch.node_count()),
+      is_settled_(patch.node_count(), 0) {}
 
 void Schedule::measure_all() {
   for (Id f = 0; f < patch_.face_count(); ++f) {
@@ -39,6 +42,7 @@ void Schedule::measure_all() {
 }
 
 void Schedule::remove_all(std::size_t most) {
+  std::fill(is_settled_.begin(), is_settled_.end(), std::uint8_t{0});
   left_ = count_faces(patch_);
   for (Id v = 0; v < patch_.node_count(); ++v) notes_[v].witness = sample_under(patch_.at(v));
   for (Id v = 0; v < patch_.node_count(); ++v) {
@@ -55,6 +59,7 @@ void Schedule::remove_all(std::size_t most) {
 }
 
 void Schedule::collapse() {
+  std::fill(is_settled_.begin(), is_settled_.end(), std::uint8_t{0});
   Collapse pass(patch_, loose_, options_.rules, repair_);
   const auto [done, tried] = pass.run([this](Id v) { return is_wanted(v); }, options_.is_time_up);
   counts_.removed += done;
@@ -67,18 +72,35 @@ void Schedule::sweep() {
   for (Id f = 0; f < patch_.face_count(); ++f) {
     const auto& [a, b, c] = patch_.face(f).corners;
     if (a == kNone || !(is_wanted(a) || is_wanted(b) || is_wanted(c))) continue;
-    for (unsigned edge = 0; edge < 3; ++edge) flips.improve(strict_, f, edge);
+    for (unsigned edge = 0; edge < 3; ++edge) {
+      if (flips.improve(strict_, f, edge)) unsettle_flipped(f);
+    }
   }
   for (Id f = 0; f < patch_.face_count(); ++f) {
-    for (unsigned edge = 0; edge < 3 && patch_.face(f).corners[0] != kNone; ++edge) flips.heal(strict_, f, edge);
+    for (unsigned edge = 0; edge < 3 && patch_.face(f).corners[0] != kNone; ++edge) {
+      if (flips.heal(strict_, f, edge)) unsettle_flipped(f);
+    }
   }
   for (Id v = 0; v < patch_.node_count(); ++v) {
-    if (is_wanted(v) && !patch_.is_removed(v)) step.improve(strict_, v);
+    if (!is_wanted(v) || is_settled_[v] != 0 || patch_.is_removed(v)) continue;
+    if (!step.improve(strict_, v)) {
+      is_settled_[v] = 1;
+    } else {
+      patch_.find_star(v, star_);
+      for (const Id u : star_.ring) is_settled_[u] = 0;
+    }
   }
+}
+
+/// Its new edge is the last of both faces.
+void Schedule::unsettle_flipped(Id face) {
+  const Patch::Quad q = patch_.quad(face, 2);
+  for (const Id v : {q.a, q.b, q.c, q.d}) is_settled_[v] = 0;
 }
 
 void Schedule::shake() {
   VertexStep step(patch_, options_.rules);
+  std::fill(is_settled_.begin(), is_settled_.end(), std::uint8_t{0});
   std::uint32_t dice = options_.shake;
   for (Id v = 0; v < patch_.node_count(); ++v) {
     // Numerical Recipes' congruential generator, its bits mixed.

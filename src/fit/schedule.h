@@ -51,7 +51,8 @@ class Schedule {
 
   /// Errors and energies of all triangles by the power. REQUIRED before the others.
   void measure_all();
-  /// One look at each edge, and one step of each vertex, under the bound itself.
+  /// One look at each edge, and one step of each vertex around which anything has changed since its last step found
+  /// nothing, under the bound itself.
   void sweep();
   void shake();
   /// The cheapest vertex first, until no more than `most` triangles are left, or none can go.
@@ -73,6 +74,7 @@ class Schedule {
   void offer(Patch::Id v);
   void take();
   void remove(Patch::Id v);
+  void unsettle_flipped(Patch::Id face);
 
   Patch& patch_;
   TriangleError strict_, loose_;
@@ -85,6 +87,7 @@ class Schedule {
   std::vector<FitCorner> ring_;
   std::vector<Patch::RingTriangle> triangles_;
   std::size_t left_ = 0;  // triangles
+  std::vector<std::uint8_t> is_settled_;  // by node, 1 where a step found nothing and nothing has changed around since
   RepairCounts counts_;
 };
 
