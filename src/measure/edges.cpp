@@ -37,55 +37,54 @@ class UnionFind {
 /// they start from.
 class EdgeList {
  public:
+  /// The larger vertex, then the number, in one: they are sorted by both.
+  struct HalfEdge {
+    std::uint64_t key;
+
+    std::uint32_t other() const { return static_cast<std::uint32_t>(key >> 32); }
+    std::uint32_t half() const { return static_cast<std::uint32_t>(key); }
+    friend bool operator<(HalfEdge a, HalfEdge b) { return a.key < b.key; }
+  };
+
   EdgeList(const Mesh& mesh, std::span<const std::uint32_t> welded) : mesh_(mesh), welded_(welded) {
     const std::size_t vertices = mesh.vertex_count();
     starts_.resize(vertices + 2);
     std::fill(starts_.begin(), starts_.end(), 0u);
     // Two places on: while they are filled, starts_[v + 1] is where the next of v goes.
-    each_half([&](std::uint32_t low, std::uint32_t) { ++starts_[low + 2]; });
+    each_half([&](std::uint32_t low, HalfEdge) { ++starts_[low + 2]; });
     std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
     halves_.resize(starts_.back());
-    each_half([&](std::uint32_t low, std::uint32_t half) { halves_[starts_[low + 1]++] = half; });
+    each_half([&](std::uint32_t low, HalfEdge edge) { halves_[starts_[low + 1]++] = edge; });
+    for (std::size_t v = 0; v < vertices; ++v) sort(halves_.begin() + starts_[v], halves_.begin() + starts_[v + 1]);
   }
 
   std::uint32_t from(std::uint32_t half) const { return vertex(mesh_.triangles[half]); }
   std::uint32_t to(std::uint32_t half) const { return vertex(mesh_.triangles[next_corner(half)]); }
   static std::uint32_t next_corner(std::uint32_t half) { return half % 3 == 2 ? half - 2 : half + 1; }
 
-  /// Calls visit(the edge's larger vertex, its half-edges) for each edge.
+  /// Calls visit(half-edges of one edge) for each edge.
   template <class Visit>
   void each_edge(const Visit& visit) const {
-    struct Spoke {
-      std::uint32_t other, half;
-    };
-    std::vector<Spoke> spokes;
-    std::vector<std::uint32_t> around;
-    for (std::uint32_t v = 0; v + 2 < starts_.size(); ++v) {
-      spokes.clear();
-      for (std::size_t i = starts_[v]; i < starts_[v + 1]; ++i) {
-        const std::uint32_t half = halves_[i], a = from(half);
-        spokes.push_back({a == v ? to(half) : a, half});
-      }
-      const auto before = [](const Spoke& a, const Spoke& b) { return a.other < b.other; };
-      if (spokes.size() <= kFew) {
-        for (std::size_t i = 1; i < spokes.size(); ++i) {
-          for (std::size_t k = i; k > 0 && before(spokes[k], spokes[k - 1]); --k) std::swap(spokes[k], spokes[k - 1]);
-        }
-      } else {
-        std::stable_sort(spokes.begin(), spokes.end(), before);
-      }
-      for (std::size_t i = 0; i < spokes.size();) {
-        around.clear();
-        const std::uint32_t other = spokes[i].other;
-        for (; i < spokes.size() && spokes[i].other == other; ++i) around.push_back(spokes[i].half);
-        visit(other, std::span<const std::uint32_t>(around));
+    for (std::size_t v = 0; v + 2 < starts_.size(); ++v) {
+      for (std::size_t i = starts_[v], end = i; i < starts_[v + 1]; i = end) {
+        do ++end;
+        while (end < starts_[v + 1] && halves_[end].other() == halves_[i].other());
+        visit(std::span<const HalfEdge>(&halves_[i], end - i));
       }
     }
   }
 
  private:
-  static constexpr std::size_t kFew = 24;
-
+  static void sort(HalfEdge* first, HalfEdge* last) {
+    constexpr std::ptrdiff_t kFew = 24;
+    if (last - first > kFew) return std::sort(first, last);
+    for (HalfEdge* next = first + 1; next < last; ++next) {
+      const HalfEdge edge = *next;
+      HalfEdge* hole = next;
+      for (; hole > first && edge < hole[-1]; --hole) *hole = hole[-1];
+      *hole = edge;
+    }
+  }
   std::uint32_t vertex(std::uint32_t v) const { return welded_.empty() ? v : welded_[v]; }
   template <class Visit>
   void each_half(const Visit& visit) const {
@@ -93,15 +92,17 @@ class EdgeList {
       const std::array<std::uint32_t, 3> v{vertex(mesh_.triangles[3 * t]), vertex(mesh_.triangles[3 * t + 1]),
                                            vertex(mesh_.triangles[3 * t + 2])};
       if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
-      for (std::size_t k = 0; k < 3; ++k)
-        visit(std::min(v[k], v[k == 2 ? 0 : k + 1]), static_cast<std::uint32_t>(3 * t + k));
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = v[k], b = v[k == 2 ? 0 : k + 1];
+        visit(std::min(a, b), HalfEdge{std::uint64_t{std::max(a, b)} << 32 | static_cast<std::uint32_t>(3 * t + k)});
+      }
     }
   }
 
   const Mesh& mesh_;
   std::span<const std::uint32_t> welded_;
   Array<std::uint32_t> starts_;  // by smaller vertex
-  Array<std::uint32_t> halves_;
+  Array<HalfEdge> halves_;
 };
 
 /// Corners that are joined by edges of two triangles form fans; an open edge ends a fan at both its vertices, and each
@@ -122,9 +123,9 @@ std::uint64_t count_loops(const Mesh& mesh, const EdgeList& edges, std::span<con
   const auto join = [&](std::uint32_t a, std::uint32_t b) {
     if (is_end[edges.from(a)]) fans.join(place(a), place(b));
   };
-  edges.each_edge([&](std::uint32_t, std::span<const std::uint32_t> around) {
+  edges.each_edge([&](std::span<const EdgeList::HalfEdge> around) {
     if (around.size() != 2) return;
-    const std::uint32_t a = around[0], b = around[1];
+    const std::uint32_t a = around[0].half(), b = around[1].half();
     const bool same_start = edges.from(a) == edges.from(b);
     join(a, same_start ? b : EdgeList::next_corner(b));
     join(EdgeList::next_corner(a), same_start ? EdgeList::next_corner(b) : b);
@@ -170,11 +171,11 @@ EdgeReport check_edges(const Mesh& mesh, std::span<const std::uint32_t> welded) 
   EdgeReport report;
   std::vector<std::uint32_t> open_halves;
   std::uint64_t contacts = 0;
-  edges.each_edge([&](std::uint32_t other, std::span<const std::uint32_t> around) {
-    const auto forward = static_cast<std::size_t>(
-        std::count_if(around.begin(), around.end(), [&](std::uint32_t half) { return edges.to(half) == other; }));
+  edges.each_edge([&](std::span<const EdgeList::HalfEdge> around) {
+    const auto forward = static_cast<std::size_t>(std::count_if(
+        around.begin(), around.end(), [&](EdgeList::HalfEdge edge) { return edges.to(edge.half()) == edge.other(); }));
     if (around.size() == 1) {
-      const std::uint32_t half = around[0];
+      const std::uint32_t half = around[0].half();
       report.open.push_back({edges.from(half), edges.to(half), half / 3});
       open_halves.push_back(half);
     } else if (around.size() == 2) {

@@ -74,11 +74,11 @@ void Histogram::merge(const Histogram& other) {
   count_ += other.count_;
 }
 
-std::uint64_t Histogram::count_of(std::uint32_t bucket) const {
-  const std::uint32_t page = pages_[bucket >> kPageBits];
-  if (page == kNone) return 0;
-  const std::size_t at = page + (bucket & (kPageSize - 1));
-  return counts_[at] + (at < carried_.size() ? carried_[at] : 0);
+std::uint64_t Histogram::count_in(std::size_t first, std::size_t end) const {
+  std::uint64_t count = 0;
+  for (std::size_t i = first; i < end; ++i) count += counts_[i];
+  for (std::size_t i = first; i < std::min(end, carried_.size()); ++i) count += carried_[i];
+  return count;
 }
 
 void Histogram::find(std::span<const unsigned> permilles, std::span<double> found) const {
@@ -86,19 +86,25 @@ void Histogram::find(std::span<const unsigned> permilles, std::span<double> foun
     return count_ / 1000 * permille + (count_ % 1000 * permille + 999) / 1000;
   };
   std::size_t next = 0;
-  std::uint64_t passed = count_of(0) + static_cast<std::uint64_t>(zeros_);
+  std::uint64_t passed = static_cast<std::uint64_t>(zeros_);
   const auto settle = [&](double value) {
     while (next < permilles.size() && passed != 0 && passed >= rank(permilles[next])) found[next++] = value;
   };
+  if (pages_[0] != kNone) passed += count_in(pages_[0], pages_[0] + 1);
   settle(0);  // zeros, and what is nearer to it than 1e-41
   for (std::uint32_t p = 0; p < kPages && next < permilles.size(); ++p) {
     if (pages_[p] == kNone) continue;
-    const std::uint32_t first = p << kPageBits, last = first + static_cast<std::uint32_t>(kPageSize - 1);
-    for (std::uint32_t bucket = std::max(first, 1u); bucket <= last; ++bucket) {
-      const std::uint64_t count = count_of(bucket);
-      if (count == 0) continue;
-      passed += count;
+    const std::size_t first = pages_[p] + (p == 0 ? 1 : 0), end = pages_[p] + kPageSize;
+    const std::uint64_t in_page = count_in(first, end);
+    if (passed + in_page < rank(permilles[next])) {
+      passed += in_page;
+      continue;
+    }
+    for (std::size_t at = first; at < end; ++at) {
+      if (counts_[at] == 0 && at >= carried_.size()) continue;
+      passed += count_in(at, at + 1);
       // The last finite bucket ends at infinity; there is none above it.
+      const auto bucket = static_cast<std::uint32_t>((std::size_t{p} << kPageBits) + (at - pages_[p]));
       settle(static_cast<double>(bit_cast<float>((bucket + 1) << kBucketShift)));
     }
   }

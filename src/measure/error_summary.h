@@ -49,7 +49,7 @@ class Histogram {
   void make_page(std::uint32_t index);
   void make_first_pages(std::uint32_t index);
   void carry();
-  std::uint64_t count_of(std::uint32_t bucket) const;
+  std::uint64_t count_in(std::size_t first, std::size_t end) const;
   void find(std::span<const unsigned> permilles, std::span<double> found) const;
 
   /// Pages of counts, one for each exponent of the float, made when first needed. The first ones are neighbours, so

@@ -7,6 +7,7 @@
 #include "base/memory_budget.h"
 #include "fit/fit.h"
 #include "metric/request.h"
+#include "pieces/goals.h"
 #include "scarp/height_field.h"
 
 namespace scarp {
@@ -17,6 +18,8 @@ struct Scale {
   double line_error = 0;  ///< what lines follow the raster by, where there is no max error
   double start = 1;       ///< the share of all bounds that refinement goes to; fitting works towards the bounds
   std::optional<SquareGoal> squares = std::nullopt;  ///< what fitting works for. DEFAULT: for few triangles
+  /// A mesh that breaks this is of no use but for its size: it is neither put in order nor proven.
+  std::optional<Budget> room = std::nullopt;
 };
 
 /// A run towards its goals. The field and the options stay alive.
@@ -39,7 +42,7 @@ struct Plan {
   bool finishes_strips;        ///< some pass works on a strip while its samples are in memory
   std::int32_t lattice_steps;  ///< lattice points between two samples that vertices may take, and one of these
   bool is_exact;               ///< the mesh holds each of these points exactly
-  double aim;                  ///< the share of every bound at which the engine aims; of it refinement takes scale.start
+  double aim;  ///< the share of every bound at which the engine aims; of it refinement takes scale.start
   Scale scale;
   MemoryBudget memory;
 };

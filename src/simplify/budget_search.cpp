@@ -129,6 +129,7 @@ class BudgetSearch {
   bool has_jumped() const {
     return fits_ && exceeds_ && highest() - exceeds_->number < kClosed && fits_->used < std::log(kNearlyFull);
   }
+
  private:
   /// The refusal of a budget that is too small is that of this run.
   Result<void> begin_without_effort() {
@@ -225,7 +226,7 @@ class BudgetSearch {
   Result<double> expect_by_refinement(double number) {
     SimplifyOptions refine = without_effort(number_.towards(number));
     refine.output.normals = refine.output.uvs = false;
-    const auto made = run(std::move(refine), number_.factor_of(number), 0.05);
+    const auto made = run(std::move(refine), number_.factor_of(number), 0.05, Budget(0, 0));
     if (!made && made.error().kind == ErrorKind::kPromise) return std::log(kAim);
     if (!made) return tl::unexpected(made.error());
     add_work(*made, others_);
@@ -235,7 +236,7 @@ class BudgetSearch {
   /// What effort is expected to leave of a refined mesh: the more, the nearer its triangles come to the full grid's.
   /// Lines through what bench/quality/fit.cpp has measured.
   double expected_after(const Simplified& refined) const {
-    const auto full = 2 * static_cast<double>(std::max<std::uint64_t>(refined.measurement.samples, 1));
+    const auto full = 2 * static_cast<double>(std::max<std::uint64_t>(best_.measurement.samples, 1));
     const double density = std::min(static_cast<double>(refined.mesh.triangle_count()) / full, 1.0);
     const bool is_free = options_.quality.vertices != Vertices::kSamples;
     double kept = is_free ? 0.26 + 0.35 * std::sqrt(density) : 0.33 + 0.4 * std::sqrt(density);
@@ -282,7 +283,7 @@ class BudgetSearch {
   /// A run with the whole effort. Keeps the better mesh.
   Result<void> look(double number) {
     ++runs_;
-    auto made = run(number_.towards(number), number_.factor_of(number), 0.35);
+    auto made = run(number_.towards(number), number_.factor_of(number), 0.35, budget_);
     if (!made && made.error().kind != ErrorKind::kPromise) return tl::unexpected(made.error());
     const double used = made ? used_by(*made) : std::numeric_limits<double>::infinity();
     if (made && used > 1) add_work(*made, others_);
@@ -332,12 +333,13 @@ class BudgetSearch {
 
   bool is_better(const Simplified& made) const { return rank(options_, made) < rank(options_, best_); }
 
-  Result<Simplified> run(SimplifyOptions options, double factor, double share) {
+  /// `room`: see Scale.
+  Result<Simplified> run(SimplifyOptions options, double factor, double share, std::optional<Budget> room = {}) {
     if (!progress_.begin(share)) return fail(ErrorKind::kCancelled, kCancelled);
     options.run.progress = progress_.of_run(options.quality.effort != Effort::kFast);
     constexpr std::uint64_t kBytesPerVertex = 48;
     options.run.memory.taken += kBytesPerVertex * best_.mesh.vertex_count();
-    auto made = task_.run(options, {factor});
+    auto made = task_.run(options, {.factor = factor, .room = room});
     if (!made && has_mesh_ && !task_.insertion_stops) excuse(made.error());
     has_mesh_ = has_mesh_ || made.has_value();
     return made;
@@ -367,7 +369,7 @@ class BudgetSearch {
   bool has_effort_;
   BudgetNumber number_;
   bool is_factor_;
-  double floor_;    // the least number that is of use
+  double floor_;  // the least number that is of use
   Pace pace_;
   double power_;
   Simplified best_;

@@ -311,12 +311,12 @@ std::uint64_t proof_bytes(const HeightField& field, const SimplifyOptions& optio
 }
 
 Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, const Criterion& criterion, bool exact,
-                    Simplified& result) {
+                    Look look, Simplified& result) {
   const SourceBounds* windowed = criterion.source_bounds();
   const bool is_tallied = !criterion.bounds().empty() || !field.channels.empty() || field.height_scale != 1;
   const bool by_sample = is_tallied || windowed != nullptr;
   MeasureOptions judge;
-  judge.topology = !exact;
+  judge.topology = !exact && look == Look::kAll;
   if (!options.features.cutline.rings.empty()) judge.cutline = &options.features.cutline;
   judge.run.threads = threads_within(field, options);
   judge.run.progress = options.run.progress;

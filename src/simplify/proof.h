@@ -17,11 +17,14 @@ struct Proof {
   std::vector<Offender> offenders;  ///< samples whose insertion may mend it
 };
 
+/// What is judged: heights alone, or the topology too.
+enum class Look { kHeights, kAll };
+
 /// Fills the measurements of `result` from its mesh; looks for breaches where the error goal ended the run. `exact`:
 /// vertices lie exactly on their samples, so that a breach within the judge's own rounding is none, and the topology,
-/// which holds by construction, is left out. Fails as measure() does.
+/// which holds by construction, is left out whatever `look` says. Fails as measure() does.
 Result<Proof> prove(const HeightField& field, const SimplifyOptions& options, const Criterion& criterion, bool exact,
-                    Simplified& result);
+                    Look look, Simplified& result);
 
 /// What prove() takes whatever the mesh.
 std::uint64_t proof_bytes(const HeightField& field, const SimplifyOptions& options);

@@ -71,8 +71,12 @@ class EngineRun {
     const bool is_final = result.stop != StopReason::kMaxError || exact_ || !piece_->lattice.are_samples();
     if (is_final) refinement_.reset();
     freeze_into(result, is_final);
-    order(result);
     result.seconds_refine += seconds_since(start);
+    if (is_useless(result.mesh)) return result;
+    if (!is_final) {
+      if (auto looked = mend_ahead(result); !looked) return tl::unexpected(looked.error());
+    }
+    order(result);
     if (auto proven = prove_and_mend(result); !proven) return tl::unexpected(proven.error());
     count_looser_outline(result);
     if (options_.quality.shape.any()) result.shape = report_shapes(result.mesh, options_.quality.shape, shaped->forced);
@@ -189,6 +193,11 @@ class EngineRun {
   }
 
   std::uint64_t vertices() const { return piece_->tin.vertex_count() - unused_; }
+
+  /// See Scale::room.
+  bool is_useless(const Mesh& mesh) const {
+    return plan_.scale.room && plan_.scale.room->used({mesh.vertex_count(), mesh.triangle_count()}) > 1;
+  }
 
   MeshSize size() const { return {vertices(), refinement_->triangle_count()}; }
   std::optional<StopReason> exceeded(std::uint32_t gain) const { return budget_.exceeded(size(), gain); }
@@ -425,6 +434,7 @@ class EngineRun {
     const auto start = Clock::now();
     optimize_order(result.mesh, options_.run.threads);
     record(result, "order", start);
+    result.seconds_refine += seconds_since(start);
   }
 
   /// The last time the workbench's memory is given back on the way.
@@ -466,6 +476,9 @@ class EngineRun {
   /// Inserts the samples that break the bound in the judge's eyes, as far as the budgets allow, and refines on. Returns
   /// false if that cannot help.
   Result<bool> mend(std::vector<Offender> offenders, Simplified& result) {
+    if (!refinement_)
+      refinement_.emplace(criterion_.metric(), piece_->tin, options_.strategy.algorithm, options_.strategy.edges,
+                          Refinement::Start::kClean);
     // A vertex among them: its own rounding breaks the bound, and no other vertex can mend that.
     const auto is_vertex = [this](const Offender& o) { return refinement_->gain_at({o.col, o.row}) == 0; };
     // Where a fold is to go, any sample may be named.
@@ -496,12 +509,31 @@ class EngineRun {
     return true;
   }
 
+  /// What the first proof would find is looked for before the mesh is put in order and its topology judged, which take
+  /// longer. What this cannot mend is left to the proof.
+  Result<void> mend_ahead(Simplified& result) {
+    const auto start = Clock::now();
+    const auto found = prove(field_, options_, criterion_, exact_, Look::kHeights, result);
+    if (!found) return tl::unexpected(found.error());
+    result.seconds_measure += seconds_since(start);
+    record(result, "prove", start);
+    if (found->kept) return {};
+    const auto again = Clock::now();
+    const auto mended = mend(found->offenders, result);
+    if (!mended) return tl::unexpected(mended.error());
+    if (!*mended) return {};
+    record(result, "refine", again);
+    freeze_into(result, false);
+    result.seconds_refine += seconds_since(again);
+    return {};
+  }
+
   /// Judges the mesh as it will be written. Where float32 positions or the frame's curvature cost the bound, or fold
   /// the mesh in space, the samples that break it are inserted and refinement goes on.
   Result<void> prove_and_mend(Simplified& result) {
     for (;;) {
       const auto start = Clock::now();
-      const auto proof = prove(field_, options_, criterion_, exact_, result);
+      const auto proof = prove(field_, options_, criterion_, exact_, Look::kAll, result);
       if (!proof) return tl::unexpected(proof.error());
       result.seconds_measure += seconds_since(start);
       record(result, "prove", start);
@@ -514,9 +546,6 @@ class EngineRun {
                     "where the grid's are curved; ask for a smaller error, or write in the local or grid frame");
       if (proof->kept && is_sound) return {};
       if (!piece_) return fail(exact_ ? ErrorKind::kInternal : ErrorKind::kPromise, proof->broken);
-      if (!refinement_)
-        refinement_.emplace(criterion_.metric(), piece_->tin, options_.strategy.algorithm, options_.strategy.edges,
-                            Refinement::Start::kClean);
       const auto again = Clock::now();
       const auto mended = mend(proof->offenders, result);
       if (!mended) return tl::unexpected(mended.error());
@@ -531,8 +560,8 @@ class EngineRun {
                                "larger error, or use the local or grid frame"));
       record(result, "refine", again);
       freeze_into(result, false);
-      order(result);
       result.seconds_refine += seconds_since(again);
+      order(result);
     }
   }
 
