@@ -138,12 +138,12 @@ struct Simplified {
 /// order (Algorithm III), which is one thread's work. What is promised is the same.
 ///
 /// Effort: kNormal then removes each vertex whose place the vertices around it can take, all triangulations of the ring
-/// that it leaves considered, the one with the least squared error taken; those that cost least go first. What is left
-/// are samples with their own heights, and no vertex can go alone. kHigh goes on with rings that the bound forbids: it
-/// flips edges and moves vertices around them, and takes all back where that does not mend it. Vertices that are free
-/// keep max_error on the lattice they move on; where float32 positions cannot hold that lattice exactly they aim 0.2 %
-/// below it, and should rounding break it yet, the run is made again with vertices on samples, unless kFree was asked.
-/// With channels vertices stay on samples, with their values, and the norm is what every effort keeps.
+/// that it leaves considered, the one with the least squared error taken; those that cost least go first. Once, vertices
+/// move to better samples in between. What is left are samples with their own heights, and no vertex can go alone. kHigh
+/// goes on with rings that the bound forbids: it flips edges and moves vertices around them, or takes all back. Vertices
+/// that are free keep max_error on the lattice they move on; where float32 positions cannot hold that exactly they aim
+/// 0.2 % below it, and should rounding break it yet, the run is made again with vertices on samples, unless kFree was
+/// asked. With channels vertices stay on samples, with their values, and the norm is what every effort keeps.
 ///
 /// Guarantees, for every input:
 /// (1) if max_error is given and no budget ended the run, every valid sample of the domain is covered and lies within

@@ -52,7 +52,7 @@ Result<Fitted> fit(const Raster& raster, Triangulation tin, VertexLattice lattic
   // borders of the first held back; so does the last one of repair.
   const double removal = 1.0 / (1 + 5 * repairs);
   const std::int32_t first_side = side();
-  bool goes_on = rounds.run({first_side, 0}, is_cut ? 0.8 * removal : removal);
+  bool goes_on = rounds.run({first_side, 0}, is_cut ? 0.8 * removal : removal, options.depth.relocates);
   if (goes_on && is_cut) goes_on = rounds.run({first_side, first_side / 2}, removal);
   rounds.forget_held();
   // As triangles become fewer, squares become larger.

@@ -35,17 +35,17 @@ namespace scarp {
 
 /// How far fitting goes beyond removal.
 struct FitDepth {
+  /// After the first removal each vertex takes a step to a better sample, and removal goes on (relocation.h).
+  bool relocates = false;
   int rounds = 0;  ///< over all vertices, of removal with repair (schedule.h)
   RepairDepth repair = {};
   int polishes = 0;  ///< sweeps in the end that lower the squared error
 };
 
-/// With free vertices, over the 19 cases of repair.h: 0.291 of greedy's triangles (0.303 with shapes of at least a
-/// tenth, in 5 to 30 times its time), with an RMSE 1.10 times as large.
-inline constexpr FitDepth kHighDepth{2, {4, 1.5, false}, 9};
-/// With shapes of at least a tenth, over the 42 cases of bench/quality/efforts.csv: 0.295 of greedy's triangles, with
-/// an RMSE 1.20 times as large, in 8 to 128 times its time.
-inline constexpr FitDepth kMaxDepth{3, {6, 2.5, true, true, true}, 9};
+inline constexpr FitDepth kNormalDepth{true};
+/// bench/quality/efforts.csv tells what each of these leaves of greedy's triangles, and its time.
+inline constexpr FitDepth kHighDepth{true, 2, {6, 3, false, true}, 9};
+inline constexpr FitDepth kMaxDepth{true, 3, {6, 3, true, true, true, 4}, 9};
 
 inline constexpr std::uint64_t kNoBudget = std::numeric_limits<std::uint64_t>::max();
 
@@ -66,7 +66,7 @@ struct FitOptions {
   int threads = 0;
   /// Vertices must stay on sides that are no straight lines in the mesh's frame, or that are shared with others.
   FreeSides free_sides = {};
-  /// Where it has rounds, vertices are other samples afterwards than before.
+  /// Where it relocates or has rounds, vertices are other samples afterwards than before.
   FitDepth depth = {};
   /// Floor of the shapes of triangles, 2·area over the longest edge squared (rules.h); 0: none. A tenth costs 2 to 6 %
   /// of the triangles and saves time. Triangles of the mesh that is given may lie below; no move makes the worst worse.

@@ -8,12 +8,13 @@ namespace scarp {
 
 namespace {
 
-/// Triangles nearer to the bound than this, in thresholds, are worth a flip, and steps of their corners.
+/// Triangles nearer to the bound than this, in thresholds, are worth a flip.
 constexpr double kWorthChange = 0.9;
-/// A round must leave less than this share of the excess.
-constexpr double kProgress = 0.95;
-/// The largest excess that is left to hope after the second round, and after the fourth.
-constexpr double kSecondHope = 0.6, kFourthHope = 0.25;
+/// The excess up to which there is hope, before the first round and after each; of what lies above, less than a tenth
+/// would be mended. The last one holds for all further rounds.
+constexpr std::array<double, 5> kHopes{2.5, 1, 0.42, 0.22, 0.11};
+
+double hope_after(int rounds) { return kHopes[std::min(static_cast<std::size_t>(rounds), kHopes.size() - 1)]; }
 
 }  // namespace
 
@@ -84,21 +85,16 @@ bool Repair::mend() {
     mend_all();
     return !excess().any;
   }
-  Excess left = excess();
-  for (int round = 0; left.any; ++round) {
-    if (round == depth_.rounds) return false;
-    const Excess before = left;
+  for (int round = 0;; ++round) {
+    const Excess left = excess();
+    if (!left.any) return true;
+    if (round == depth_.rounds || left.sum > depth_.patience * hope_after(round)) return false;
     for (const Patch::Id v : ring_) {
-      if (is_strained(v, kWorthChange) && step_.improve(loose_, v)) moved_.push_back(v);
+      if (is_strained(v, 1) && step_.improve(loose_, v)) moved_.push_back(v);
     }
     for (const Patch::Id v : ring_) flip_around(v, kWorthChange);
     if (depth_.probes && round % 2 == 1) look_around(round);
-    left = excess();
-    if (!left.any) return true;
-    if (round > 0 && left.sum > kProgress * before.sum) return false;
-    if ((round == 1 && left.worst > kSecondHope) || (round == 3 && left.worst > kFourthHope)) return false;
   }
-  return true;
 }
 
 /// Whether a triangle around v has more than this share of the threshold.
@@ -124,7 +120,6 @@ Repair::Excess Repair::excess() const {
     const double over = face.worst / threshold - 1;
     excess.any = true;
     excess.sum += over;
-    excess.worst = std::max(excess.worst, over);
   }
   return excess;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "fit/relocation.h"
 #include "fit/removal.h"
 
 namespace scarp {
@@ -70,10 +71,10 @@ Rounds::Rounds(const Raster& raster, Triangulation tin, VertexLattice lattice, c
   if (rules_.freedom == Freedom::kLattice) set_range(raster, options.read, rules_);
 }
 
-bool Rounds::run(const PatchGrid& grid, double end) {
+bool Rounds::run(const PatchGrid& grid, double end, bool relocates) {
   return work_on(grid, end, fitted_.lattice.steps,
-                 [this](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
-                   return remove(patch, vertices, error);
+                 [&](Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
+                   return remove(patch, vertices, error, relocates);
                  });
 }
 
@@ -188,13 +189,20 @@ void Rounds::add(const FitCounts& counts) {
 }
 
 /// A vertex that is free in one patch is in no other, so patches write to elements of their own.
-FitCounts Rounds::remove(Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error) {
+FitCounts Rounds::remove(Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error,
+                         bool relocates) {
   std::vector<std::uint8_t> settled;
   settled.reserve(vertices.size());
   for (const Vertex v : vertices) settled.push_back(settled_[v]);
   ShapeRule shape = rules_.shape;
   if (options_.floor_yields) shape.floor = 0;
-  const RemovalCounts counts = remove_vertices(patch, error, shape, options_.is_time_up, settled);
+  RemovalCounts counts = remove_vertices(patch, error, shape, options_.is_time_up, settled);
+  if (relocates && error.has_energy() && !is_time_up()) {
+    relocate_vertices(patch, error, {Freedom::kSamples, shape}, settled);
+    const RemovalCounts more = remove_vertices(patch, error, shape, options_.is_time_up, settled);
+    counts.removed += more.removed;
+    counts.searches += more.searches;
+  }
   for (Patch::Id v = 0; v < vertices.size(); ++v) {
     if (!patch.is_locked(v)) settled_[vertices[v]] = settled[v];
   }

@@ -17,8 +17,9 @@ class Rounds {
   /// Raster and options stay alive.
   Rounds(const Raster& raster, Triangulation tin, VertexLattice lattice, const FitOptions& options);
 
-  /// Of removal. `end`: the share of the whole that is then done. False if it was told to stop, as those below.
-  bool run(const PatchGrid& grid, double end);
+  /// Of removal; `relocates`: then each vertex takes a step, and removal goes on. `end`: the share of the whole that is
+  /// then done. False if it was told to stop, as those below.
+  bool run(const PatchGrid& grid, double end, bool relocates = false);
 
   /// Of removal with repair; `only_held`: it begins with the vertices that repair has had on borders so far.
   bool repair(const PatchGrid& grid, double end, const RepairOptions& options, bool only_held = false);
@@ -58,7 +59,7 @@ class Rounds {
             std::int32_t steps);
   void add(const FitCounts& counts);
   bool tell(double share) const { return !options_.progress || options_.progress(share, vertices()); }
-  FitCounts remove(Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error);
+  FitCounts remove(Patch& patch, const std::vector<Vertex>& vertices, const TriangleError& error, bool relocates);
   void hold_borders(const std::vector<std::vector<Vertex>>& vertices);
   std::vector<std::uint8_t> near_held(const Patch& patch, const std::vector<Vertex>& vertices) const;
   void renumber(const std::vector<Vertex>& numbers, std::size_t count);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "fit/normal_equations.h"
 
@@ -13,8 +14,17 @@ namespace {
 /// Of the energy before: what must be gained.
 constexpr float kStepGain = 2e-3f;
 /// Lengths of a step: times Newton's, but at most this share of the mean edge.
-constexpr std::array<double, 3> kLengths{1.5, 0.45, 0.12};
-constexpr std::array<double, 3> kStepReaches{0.4, 0.12, 0.032};
+struct Length {
+  double times, reach;
+};
+constexpr std::array<Length, 3> kOfSquares{{{1.5, 0.4}, {0.45, 0.12}, {0.12, 0.032}}};
+/// Where the largest errors lead, most of the longest steps fail.
+constexpr std::array<Length, 2> kFree{{{0.45, 0.12}, {0.12, 0.032}}}, kOnSamples{{{1, 0.3}, {0.3, 0.1}}};
+
+std::span<const Length> lengths_of(ErrorRule::Power power, bool is_free) {
+  if (power == ErrorRule::Power::kTwo) return kOfSquares;
+  return is_free ? kFree : kOnSamples;
+}
 
 constexpr std::array<Point, 8> kStepWays{Point{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
 
@@ -111,8 +121,9 @@ bool VertexStep::improve(const TriangleError& error, Patch::Id v) {
   const double length = std::sqrt(step.x * step.x + step.y * step.y) * kLatticeSteps;
   const double edge = mean_edge(from), floor = shape_floor(from);
   Point last{0, 0};
-  for (std::size_t i = 0; length > 0 && length < 1e9 && i < kLengths.size(); ++i) {
-    const double scale = std::min(kLengths[i], kStepReaches[i] * edge / length) * kLatticeSteps / unit();
+  for (const auto& [times, reach] : lengths_of(error.power(), is_free())) {
+    if (!(length > 0 && length < 1e9)) break;
+    const double scale = std::min(times, reach * edge / length) * kLatticeSteps / unit();
     Point by{static_cast<std::int32_t>(std::lround(step.x * scale)),
              static_cast<std::int32_t>(std::lround(step.y * scale))};
     if (by == Point{0, 0}) by = unit_step(step.x, step.y);

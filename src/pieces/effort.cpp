@@ -128,6 +128,9 @@ std::optional<FitNorm> fit_norm(const SimplifyOptions& options, const Raster& ra
   return norm;
 }
 
+/// A short edge is worth any try.
+constexpr double kAnyPatience = 100;
+
 FitOptions fit_options(const HeightField& field, const SimplifyOptions& options, double threshold) {
   // On samples a floor would cost up to a tenth more, and could leave more triangles than normal effort does.
   constexpr double kUsualShape = 0.1;
@@ -136,10 +139,14 @@ FitOptions fit_options(const HeightField& field, const SimplifyOptions& options,
   fit.threshold = threshold;
   if (field.frame.transform || options.domain.border.is_locked) fit.free_sides = {false, false, false, false};
   fit.vertices_are_free = vertices_are_free(field, options);
+  if (options.quality.effort == Effort::kNormal) fit.depth = kNormalDepth;
   if (options.quality.effort == Effort::kHigh) fit.depth = kHighDepth;
   if (options.quality.effort == Effort::kMax) fit.depth = kMaxDepth;
   // Two neighbours that are too near to each other are mostly both needed, but one between them may do.
-  if (options.quality.shape.min_edge) fit.depth.repair.collapses = moves_vertices(options.quality.effort);
+  if (options.quality.shape.min_edge && moves_vertices(options.quality.effort)) {
+    fit.depth.repair = kMaxDepth.repair;
+    fit.depth.repair.patience = kAnyPatience;
+  }
   fit.min_shape = options.quality.min_shape.value_or(fit.vertices_are_free ? kUsualShape : 0);
   fit.floor_yields = !options.quality.min_shape;
   fit.aspect = std::hypot(a[2], a[5]) / std::hypot(a[1], a[4]);

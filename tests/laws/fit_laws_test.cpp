@@ -87,11 +87,48 @@ RC_GTEST_PROP(fit, leaves_the_sides_alone_where_they_are_not_free, ()) {
   RC_ASSERT(on_sides(fitted.tin) == before_fit);
 }
 
+RC_GTEST_PROP(fit, relocation_keeps_the_bound_the_domain_and_vertices_on_samples, ()) {
+  const Field field = any_field();
+  const double threshold = any_threshold();
+  auto tin = refined(field, threshold);
+  RC_PRE(tin.has_value());
+  const std::int64_t outside = testing::outside_area2(*tin);
+  const Points outline = outline_of(*tin, field);
+  const auto fitted = *fit(field.raster(), std::move(*tin),
+                           {.threshold = threshold,
+                            .threads = 2,
+                            .depth = {.relocates = true},
+                            .patch_side = *rc::gen::element(0, 1, 5, 16, 40)});
+  const std::string unsound = testing::verify_triangulation(fitted.tin, field.cols, field.rows, testing::Edges::kAny);
+  RC_ASSERT(unsound == "");
+  const std::string broken = testing::find_broken_bound(field.raster(), fitted.tin, threshold);
+  RC_ASSERT(broken == "");
+  RC_ASSERT(testing::outside_area2(fitted.tin) == outside);
+  RC_ASSERT(fitted.lattice.are_samples());
+  RC_ASSERT(outline_of(fitted.tin, field) == outline);
+  for (const auto& [x, y] : vertices_of(fitted.tin)) {
+    const bool is_corner = (x == 0 || x == field.cols - 1) && (y == 0 || y == field.rows - 1);
+    RC_ASSERT(is_corner || field.raster().is_valid({x, y}));
+  }
+}
+
+TEST(fit, relocation_leaves_fewer_vertices) {
+  const Field field = testing::random_field(31, 200, 180, testing::Relief::kRidges);
+  FitOptions options{.threshold = 20};
+  const auto removed = *fit(field.raster(), *refined(field, 20), options);
+  options.depth.relocates = true;
+  const auto relocated = *fit(field.raster(), *refined(field, 20), options);
+  EXPECT_LT(relocated.tin.vertex_count(), removed.tin.vertex_count());
+}
+
 RC_GTEST_PROP(fit, threads_change_nothing, ()) {
   const Field field = any_field();
   const double threshold = any_threshold();
   RC_PRE(refined(field, threshold).has_value());
-  FitOptions options{.threshold = threshold, .threads = 1, .patch_side = *rc::gen::element(3, 8, 16)};
+  FitOptions options{.threshold = threshold,
+                     .threads = 1,
+                     .depth = {.relocates = *rc::gen::arbitrary<bool>()},
+                     .patch_side = *rc::gen::element(3, 8, 16)};
   const auto first = *fit(field.raster(), *refined(field, threshold), options);
   for (const int threads : {2, 7}) {
     options.threads = threads;

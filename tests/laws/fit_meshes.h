@@ -41,7 +41,8 @@ inline std::optional<Triangulation> refined(const Field& field, double threshold
 }
 
 inline FitDepth any_depth(int least_rounds) {
-  return {*rc::gen::inRange(least_rounds, 4),
+  return {*rc::gen::arbitrary<bool>(),
+          *rc::gen::inRange(least_rounds, 4),
           {*rc::gen::inRange(0, 7), *rc::gen::element(1.0, 1.5, 2.5, 4.0), *rc::gen::arbitrary<bool>(),
            *rc::gen::arbitrary<bool>()},
           *rc::gen::inRange(0, 3)};
