@@ -35,7 +35,11 @@ class SquaresSearch {
     if (!fast) return fast;
     const double reached = fast->judged_max_error;
     const double asked = number_.is_factor() ? 1 : options_.goals.max_error.value_or(reached);
-    if (!(reached > 0) || std::isinf(reached) || fast->stop == StopReason::kExact) return search_budget(options_, task_);
+    if (!(reached > 0) || std::isinf(reached) || fast->stop == StopReason::kExact) {
+      auto searched = search_budget(options_, task_);
+      // Efforts may spend a max error that refinement did not need.
+      return searched && rank(*fast) < rank(*searched) ? fast : searched;
+    }
     const auto first = find_start(reached, static_cast<double>(fast->mesh.triangle_count()));
     if (!first) return tl::unexpected(first.error());
     std::optional<Simplified> best;
