@@ -1,5 +1,7 @@
 #include "fit/relocation.h"
 
+#include <algorithm>
+
 #include "fit/repair.h"
 #include "fit/vertex_step.h"
 
@@ -13,7 +15,12 @@ void relocate_vertices(Patch& patch, const TriangleError& error, const MoveRules
       if (patch.face(f).corners[0] != kNone) visit(f);
     }
   };
-  each_face([&](Patch::Id f) { measure(patch, strict, f); });
+  // Where all are locked, corners may lie beyond what can be scanned.
+  each_face([&](Patch::Id f) {
+    const auto& corners = patch.face(f).corners;
+    if (!std::all_of(corners.begin(), corners.end(), [&](Patch::Id v) { return patch.is_locked(v); }))
+      measure(patch, strict, f);
+  });
   VertexStep step(patch, rules);
   Patch::Star star;
   for (Patch::Id v = 0; v < patch.node_count(); ++v) {
