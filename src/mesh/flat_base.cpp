@@ -13,11 +13,15 @@
 // star, whose ring is closed by that line; v lies on it, which is all that the test above needs: an ear at either end
 // of the line has v on its wrong side, and of the others there is always one.
 //
+// Slanted borders give rings whose corners lie on a line but for their rounding. Ears as thin as that are not cut,
+// since a writer that rounds again would fold them; a vertex that cannot go without one stays.
+//
 // This is vertex deletion by ear queue without its Delaunay priority (Devillers 2002, "On deletion in Delaunay
 // triangulations"): a floor may have long thin triangles.
 
 #include "mesh/flat_base.h"
 
+#include <algorithm>
 #include <functional>
 #include <queue>
 #include <utility>
@@ -65,6 +69,20 @@ class FlatBase {
     return exact_orient(point(a), point(b), point(c));
   }
   bool turns_left(std::uint32_t a, std::uint32_t b, std::uint32_t c) const { return orient(a, b, c) > 0; }
+
+  /// Whether a triangle turns left, and will when its corners are moved and rounded once more: by the share of its
+  /// longest side that it is high.
+  bool is_firm(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    constexpr double kThinnest = 0x1p-36;
+    const auto side = [&](std::uint32_t from, std::uint32_t to, std::size_t axis) {
+      return positions_[3 * std::size_t{to} + axis] - positions_[3 * std::size_t{from} + axis];
+    };
+    const auto square = [&](std::uint32_t from, std::uint32_t to) {
+      return side(from, to, 0) * side(from, to, 0) + side(from, to, 1) * side(from, to, 1);
+    };
+    const double area = side(a, b, 0) * side(a, c, 1) - side(a, b, 1) * side(a, c, 0);
+    return turns_left(a, b, c) && area >= kThinnest * std::max({square(a, b), square(b, c), square(c, a)});
+  }
 
   void find_degrees() {
     const std::size_t vertices = positions_.size() / 3;
@@ -138,7 +156,7 @@ class FlatBase {
   }
 
   /// Fills ears_ with the triangles that fill the ring of v; ear number e will take the place of triangle star_[e].
-  /// Returns false if there is no way, which happens only if the triangles given overlap.
+  /// Returns false if there is no way without an ear that is too thin, or if the triangles given overlap.
   bool cut_ears(std::uint32_t v) {
     ears_.clear();
     if (ring_.size() < 3) return false;
@@ -147,7 +165,7 @@ class FlatBase {
     while (left >= 3) {
       const std::uint32_t before = ring_[at].previous, after = ring_[at].next;
       const std::uint32_t a = ring_[before].start, b = ring_[at].start, c = ring_[after].start;
-      const int side = !turns_left(a, b, c) ? -1 : left == 3 ? 1 : orient(a, c, v);
+      const int side = !is_firm(a, b, c) ? -1 : left == 3 ? 1 : orient(a, c, v);
       if (side > 0 || (side == 0 && left == 4)) {
         ears_.push_back({{a, b, c}, {ring_[before].across, ring_[at].across}});
         ring_[before].across = 3 * star_[ears_.size() - 1] + 2;

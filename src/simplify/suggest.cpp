@@ -25,8 +25,9 @@ constexpr std::uint64_t kWholeLimit = 2'000'000;
 constexpr int kWindowSide = 256;
 constexpr int kMaxWindows = 16;
 constexpr std::string_view kPass = "estimate";
-constexpr double kGreedyPart = 0.5;   // of the pass
-constexpr double kUsualRatio = 0.55;  // triangles of a default run per those of greedy insertion, more or less
+constexpr double kGreedyPart = 0.5;  // of the pass
+// Triangles of a default run per those of greedy insertion, more or less, and seldom fewer.
+constexpr double kUsualRatio = 0.52, kLeastRatio = 0.35;
 
 struct Window {
   std::vector<float> samples;  ///< empty for the whole field
@@ -166,37 +167,44 @@ class ShareSearch {
       : windows_(windows), curve_(curve), sample_rounding_(sample_rounding) {}
 
   Result<std::optional<double>> find(double target, const ProgressCallback& progress) {
-    double aim = target / ratio_, tried = -1;
+    double aim = target / ratio_, tried = -1, fitting = 0, exceeding = std::numeric_limits<double>::infinity();
     std::optional<double> found;
-    for (double margin = kMargin;;) {
+    double margin = kMargin;
+    for (int looks = 0; !found || looks < kMostLooks;) {
       const GreedyMesh* mesh = curve_.find_within(aim);
       if (mesh == nullptr) return found;
       aim = static_cast<double>(mesh->triangles);
       const double error = round_up(mesh->smallest_error + sample_rounding_);
-      if (error != tried) {
-        tried = error;
-        const Result<double> triangles = count_triangles(windows_, error, progress);
-        if (!triangles) return tl::unexpected(triangles.error());
-        ratio_ = std::isfinite(*triangles) ? *triangles / aim : 1;
-        const bool fits = *triangles <= target, had_one = found.has_value();
-        if (fits) found = error;
-        // A second look where the ratio of the share before left much unused.
-        if (had_one || (fits && *triangles >= kUse * target)) return found;
-        if (fits) {
-          aim = target / ratio_;
-          continue;
-        }
+      if (error == tried && found) return found;
+      if (error == tried) {
+        aim -= 1;
+        continue;
+      }
+      tried = error;
+      ++looks;
+      const Result<double> triangles = count_triangles(windows_, error, progress);
+      if (!triangles) return tl::unexpected(triangles.error());
+      ratio_ = std::isfinite(*triangles) ? *triangles / aim : 1;
+      if (*triangles <= target) {
+        found = error;
+        fitting = aim;
+        if (*triangles >= kUse * target) return found;
+        aim = target / ratio_;
+      } else {
+        exceeding = aim;
         aim = std::min(aim, target / ratio_) * (1 - margin);
         margin = std::min(2 * margin, 0.5);
       }
-      if (found) return found;
-      aim = std::min(aim, static_cast<double>(mesh->triangles - 1));
+      // Where the ratio leads out of what is known, halfway.
+      if (found && !(fitting < aim && aim < exceeding)) aim = (fitting + exceeding) / 2;
     }
+    return found;
   }
 
  private:
   static constexpr double kMargin = 0.002;  ///< towards fewer triangles where the ratio was not enough; then doubled
   static constexpr double kUse = 0.9;
+  static constexpr int kMostLooks = 6;  ///< while one fits already
 
   const std::vector<Window>& windows_;
   const GreedyCurve& curve_;
@@ -246,7 +254,7 @@ Result<Suggestions> suggest_errors(const HeightField& field, std::span<const dou
   }
 
   GreedyCurve curve;
-  if (auto followed = curve.follow(joint, shares.back() / kUsualRatio * static_cast<double>(full), progress); !followed)
+  if (auto followed = curve.follow(joint, shares.back() / kLeastRatio * static_cast<double>(full), progress); !followed)
     return tl::unexpected(followed.error());
   joint = {};
   ShareSearch search(valid, curve, field.sample_rounding);
