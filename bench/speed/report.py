@@ -157,6 +157,24 @@ def call_table(rows):
     return markdown(header, [[row[column] for column in columns] for row in rows])
 
 
+def program_table(rows):
+    """Whole programs: CPU on one thread, delatin's in multiples of it, wall clock on the most threads."""
+    most = max(int(row["threads"]) for row in rows)
+    header = ["raster", "error", "program", "vertices", "CPU ms, min (median)", "delatin ÷ it",
+              f"wall: 1 thread ÷ {most}", "peak MB", "passes, ms"]
+    lines = []
+    for (name, error), case in by_case([row for row in rows if row["threads"] == "1"], "program").items():
+        threaded = {row["program"]: row for row in rows if (row["raster"], row["error"]) == (name, error)
+                    and row["threads"] == str(most) != "1"}
+        for program, row in case.items():
+            lines.append([name, error, program, row["vertices"] or "–",
+                          f"{row['cpu_min_ms']} ({row['cpu_median_ms']})",
+                          ratios_cell(case.get("delatin"), row) if program != "delatin" else "1",
+                          ratios_cell(row, threaded.get(program), "wall"), row["peak_mb"],
+                          row["passes_ms"]])
+    return markdown(header, lines)
+
+
 def tile_table(rows, start, what):
     """By side; the largest side holds the raster in one tile, and is what the others are compared with."""
     sides = sorted({int(row["side"]) for row in rows})
@@ -236,7 +254,8 @@ def tables():
         found.update(time=time_table(results), vertices=vertex_table(results), verification=verify_table(results),
                      spread=spread_lines(results))
     for name, file, make in (("kernels", "kernels.csv", kernel_table), ("threads", "threads.csv", thread_table),
-                             ("calls", "calls.csv", call_table), ("borders", "tiles.csv", border_table),
+                             ("calls", "calls.csv", call_table),
+                              ("programs", "programs.csv", program_table), ("borders", "tiles.csv", border_table),
                              ("starts", "tiles.csv", start_table)):
         rows = read_table(HERE / file)
         if rows:
@@ -257,6 +276,8 @@ SECTIONS = (
     ("kernels", "Instruction sets", "The same meshes, bit for bit."),
     ("threads", "Threads", "The same meshes, bit for bit."),
     ("calls", "Calls in one process", "The first call, and the mean of 49 later ones; each frees its mesh again."),
+    ("programs", "Whole programs",
+     "A deflated GeoTIFF in, a GLB out; the proof included. delatin: node's process from raw samples to raw triangles."),
     ("borders", "Tiles: vertices with fixed borders",
      "By side of the tiles, each started from two triangles; against the raster as one tile (last column, vertices)."),
     ("starts", "Starts: coarse starts against two triangles",

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Times triangulation only, in interleaved rounds; keeps CSV tables beside this file and writes results.md from them.
+"""Times triangulation only (but for "programs"), in interleaved rounds; keeps CSV tables beside this file and writes results.md from them.
 
   peers    Scarp's two orders, delatin (node), VTK, one verification of Scarp's mesh     results.csv
   kernels  the instruction sets of this machine, forced one by one                       kernels.csv
   threads  one thread against more                                                       threads.csv
   calls    the first call of a process against later ones                                calls.csv
   tiles    vertices and time by side of the tiles, with and without coarse starts        tiles.csv
+  programs whole programs, GeoTIFF to GLB, by effort; delatin's process                  programs.csv
 
 A round runs each program once on the same raw raster with the same error. Each is one process that warms up, then
 reports its own time; reading and writing are outside of it. In the last round each mesh is judged by measure().
@@ -27,6 +28,7 @@ import tempfile
 from pathlib import Path
 
 import report
+from programs import time_programs
 from rasters import ERRORS, HERE, LARGE, RASTERS, SHARES, cpu_model, make_raw
 
 KERNELS = ("AVX3", "AVX2", "SSE4", "NEON", "WASM", "SCALAR")
@@ -37,8 +39,9 @@ PART_RASTERS = {
     "peers": tuple(RASTERS),
     "kernels": ("fuji", "essen_dom", "sierra_3601", "moon_4096"),
     "threads": ("essen_dom", "sierra_3601", "moon_4096", "fractal_4096", "sierra_mosaic"),
-    "calls": ("fuji", "essen_dom"),
+    "calls": ("fuji", "essen_dom", "sierra_3601"),
     "tiles": ("essen_dom", "everest", "sierra_3601", "moon_4096", "fractal_4096"),
+    "programs": ("fuji", "essen_dom", "sierra_3601", "moon_4096"),
 }
 
 
@@ -57,6 +60,11 @@ class Bench:
 
     def rounds(self, raster):
         return self.options.rounds or (5 if raster[1] * raster[2] <= LARGE else 2)
+
+    @staticmethod
+    def install_delatin():
+        if not (HERE / "node_modules" / "delatin").is_dir():
+            subprocess.run(["npm", "ci", "--no-audit", "--no-fund", "--ignore-scripts"], cwd=HERE, check=True)
 
     def scarp(self, *arguments):
         return [self.bin / "speed_scarp", *arguments]
@@ -82,11 +90,6 @@ def times_of(reports):
         cells[f"{clock}_min_ms"] = f"{min(times):.3f}"
         cells[f"{clock}_median_ms"] = f"{statistics.median(times):.3f}"
     return cells
-
-
-def install_delatin():
-    if not (HERE / "node_modules" / "delatin").is_dir():
-        subprocess.run(["npm", "ci", "--no-audit", "--no-fund", "--ignore-scripts"], cwd=HERE, check=True)
 
 
 def time_peers(bench, name, raster, error):
@@ -120,7 +123,7 @@ def time_peers(bench, name, raster, error):
         wanted = [program for program in wanted if program != "vtk"]
     commands = {program: run for program, run in commands.items() if program in wanted}
     if "delatin" in commands:
-        install_delatin()
+        bench.install_delatin()
     samples = raster[1] * raster[2]
     once = ("vtk", "delatin") if samples > 10 * LARGE else ("vtk",) if samples > LARGE else ()
     for program, reports in bench.interleave(commands, raster, once).items():
@@ -164,8 +167,9 @@ def time_threads(bench, name, raster, error):
 
 
 def time_calls(bench, name, raster, error):
-    for order in ("dominant", "greedy"):
-        done = call(bench.scarp(*raster, error, "--order", order, "--repeat", 50))[0]
+    large = raster[1] * raster[2] > LARGE
+    for order in ("dominant",) if large else ("dominant", "greedy"):
+        done = call(bench.scarp(*raster, error, "--order", order, "--repeat", 10 if large else 50))[0]
         for which, times in (("first", done["first"]), ("later", done)):
             yield {"raster": name, "samples": raster[1] * raster[2], "error": f"{error:g}", "order": order,
                    "call": which, "wall_ms": f"{1e3 * times['seconds']:.3f}",
@@ -187,6 +191,7 @@ PARTS = {
     "threads": (time_threads, "threads.csv", ("raster", "error", "threads")),
     "calls": (time_calls, "calls.csv", ("raster", "error", "order", "call")),
     "tiles": (time_tiles, "tiles.csv", ("raster", "error", "side", "start")),
+    "programs": (time_programs, "programs.csv", ("raster", "error", "program", "threads")),
 }
 
 

@@ -1,13 +1,15 @@
 // Times delatin on a raw raster, as speed_scarp times Scarp.
 //
-//   node speed_delatin.mjs RASTER COLS ROWS ERROR [MESH]
+//   node speed_delatin.mjs RASTER COLS ROWS ERROR [MESH [once]]
+//
+// "once": no warm-up, so that the time of the process is that of reading, one triangulation and writing.
 
 import {readFileSync, writeFileSync} from 'node:fs';
 import Delatin from 'delatin';
 
-const [path, cols, rows, error, mesh] = process.argv.slice(2);
+const [path, cols, rows, error, mesh, once] = process.argv.slice(2);
 if (error === undefined) {
-  console.error('usage: node speed_delatin.mjs RASTER COLS ROWS ERROR [MESH]');
+  console.error('usage: node speed_delatin.mjs RASTER COLS ROWS ERROR [MESH [once]]');
   process.exit(2);
 }
 const bytes = readFileSync(path);
@@ -33,7 +35,7 @@ function warmUp() {
   return refine(part, w, h);
 }
 
-warmUp();
+if (once === undefined) warmUp();
 const cpu = process.cpuUsage(), start = performance.now();
 const tin = refine(samples, width, height);
 const seconds = (performance.now() - start) / 1000, used = process.cpuUsage(cpu);
