@@ -6,55 +6,12 @@
 #include <limits>
 
 #include "fit/norm_error.h"
+#include "fit/triangle_kernels.h"
 #include "fit/triangle_scan.h"
+#include "fit/triangle_sums.h"
 #include "geom/exact_error.h"
 
 namespace scarp {
-
-namespace {
-
-/// Adds up lanes, in an order that is part of the result.
-float sum_of(Floats low, Floats high) {
-  const Floats s = low + high;
-  return std::min((s[0] + s[2]) + (s[1] + s[3]), std::numeric_limits<float>::max());
-}
-
-/// Largest error, lane by lane.
-struct Largest {
-  Floats worst{};
-
-  void add(Floats low, Floats high) { worst = larger_of(larger_of(low, high), worst); }
-  bool exceeds(float cut) const { return any(worst > all(cut)); }
-  float largest() const { return std::max(std::max(worst[0], worst[2]), std::max(worst[1], worst[3])); }
-};
-
-/// And the sum of squares.
-struct Squares : Largest {
-  Floats low_sum{}, high_sum{};
-
-  void add(Floats low, Floats high, float) {
-    Largest::add(low, high);
-    low_sum += low * low;
-    high_sum += high * high;
-  }
-  float energy(float per_square) const { return sum_of(low_sum, high_sum) * per_square; }
-};
-
-/// Or of eighth powers, of errors in thresholds.
-struct EighthPowers : Largest {
-  Floats low_sum{}, high_sum{};
-
-  void add(Floats low, Floats high, float per_square) {
-    Largest::add(low, high);
-    const Floats low2 = low * low * all(per_square), high2 = high * high * all(per_square);
-    const Floats low4 = low2 * low2, high4 = high2 * high2;
-    low_sum += low4 * low4;
-    high_sum += high4 * high4;
-  }
-  float energy(float) const { return sum_of(low_sum, high_sum); }
-};
-
-}  // namespace
 
 TriangleError::TriangleError(const Raster& raster, Point first, double threshold, const ErrorRule& rule)
     : raster_(raster),
@@ -65,7 +22,8 @@ TriangleError::TriangleError(const Raster& raster, Point first, double threshold
       power_(rule.power),
       per_threshold_(threshold > 0x1p-60 && threshold < 0x1p60 ? static_cast<float>(1 / threshold) : 0),
       per_square_(per_threshold_ > 0 ? static_cast<float>(1 / (threshold * threshold)) : 0),
-      end_(raster.row(raster.rows)) {}
+      end_(raster.row(raster.rows)),
+      kernels_(&triangle_kernels()) {}
 
 TriangleError::TriangleError(const Raster& raster, Point first, const SampleBounds& bounds, const ErrorRule& rule)
     : TriangleError(raster, first, 1, rule) {
@@ -86,24 +44,16 @@ TriangleError TriangleError::with(const ErrorRule& rule) const {
   return {raster_, first_, threshold_, rule};
 }
 
+SampleRows TriangleError::rows() const { return {raster_.row(first_.y) + first_.x, raster_.cols, end_}; }
+
 /// The samples of a triangle against one threshold.
-template <class Sums>
 struct TriangleError::ByThreshold {
   const TriangleError& of;
   TriangleTask task;
-  Sums sums;
 
   ByThreshold(const TriangleError& error, const FitCorner& a, const FitCorner& b, const FitCorner& c)
       : of(error), task(a, b, c, error.threshold_, error.limit_) {}
 
-  void add_row(TriangleScan& scan, std::int32_t y, std::int32_t first, std::int32_t last) {
-    scan.each_eight(of.raster_.row(of.first_.y + y) + of.first_.x, y, first, last,
-                    [&](std::int32_t, Floats, Floats low, Masks low_meant, Floats high, Masks high_meant) {
-                      sums.add(magnitudes(low, low_meant), magnitudes(high, high_meant), of.per_square_);
-                    });
-  }
-  float energy() const { return sums.energy(of.per_square_); }
-  bool breaks_limit() const { return sums.exceeds(task.cut); }
   bool breaks(float worst) const { return worst > task.certain; }
   bool is_in_doubt(float worst) const { return worst > task.doubt || double{task.plane.guard} > of.threshold_; }
   bool is_in_doubt(float error, Point) const { return error > task.doubt || double{task.plane.guard} > of.threshold_; }
@@ -185,12 +135,9 @@ TriangleError::Verdict TriangleError::assess(const FitCorner& a, const FitCorner
                                              float energy_limit) const {
   if (norm_ != nullptr) return norm_->assess({a, b, c}, energy_limit, {limit_, power_});
   if (holds_corners_only(a, b, c)) return assess_corners({a, b, c}, energy_limit);
-  if (has_bounds()) {
-    return power_ == ErrorRule::Power::kTwo ? assess_by<ByBounds<Squares>>(a, b, c, energy_limit)
-                                            : assess_by<ByBounds<EighthPowers>>(a, b, c, energy_limit);
-  }
-  return power_ == ErrorRule::Power::kTwo ? assess_by<ByThreshold<Squares>>(a, b, c, energy_limit)
-                                          : assess_by<ByThreshold<EighthPowers>>(a, b, c, energy_limit);
+  if (!has_bounds()) return assess_by_threshold(a, b, c, energy_limit);
+  return power_ == ErrorRule::Power::kTwo ? assess_by_bounds<ByBounds<Squares>>(a, b, c, energy_limit)
+                                          : assess_by_bounds<ByBounds<EighthPowers>>(a, b, c, energy_limit);
 }
 
 std::size_t TriangleError::field_count() const { return norm_ != nullptr ? norm_->field_count() : 1; }
@@ -201,9 +148,23 @@ double TriangleError::norm_value_at(std::size_t field, Point sample) const { ret
 
 double TriangleError::norm_bound_at(Point sample) const { return norm_->bound_at(sample); }
 
+TriangleError::Verdict TriangleError::assess_by_threshold(const FitCorner& a, const FitCorner& b, const FitCorner& c,
+                                                          float energy_limit) const {
+  const ByThreshold tally(*this, a, b, c);
+  const auto power = static_cast<std::size_t>(power_);
+  const TriangleSums sums = kernels_->assess[power](tally.task, rows(), {tally.task.cut, energy_limit, per_square_});
+  Verdict verdict{sums.kind, sums.worst, sums.energy, {}};
+  if (verdict.kind == Verdict::Kind::kBreaks) {
+    verdict.witness = find_worst(tally, sums.y, sums.first, sums.last);
+  } else if (verdict.kind == Verdict::Kind::kKeeps && !decide(tally, verdict) && limit_ == threshold_) {
+    verdict.kind = Verdict::Kind::kBreaks;
+  }
+  return verdict;
+}
+
 template <class Tally>
-TriangleError::Verdict TriangleError::assess_by(const FitCorner& a, const FitCorner& b, const FitCorner& c,
-                                                float energy_limit) const {
+TriangleError::Verdict TriangleError::assess_by_bounds(const FitCorner& a, const FitCorner& b, const FitCorner& c,
+                                                       float energy_limit) const {
   Tally tally(*this, a, b, c);
   TriangleScan scan(tally.task, end_);
   Verdict verdict;

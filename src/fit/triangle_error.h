@@ -47,6 +47,9 @@ struct ErrorRule {
   Power power = Power::kTwo;  ///< p of the energy Σ (error / threshold)^p
 };
 
+struct CornerWeight;
+struct SampleRows;
+struct TriangleKernels;
 struct TriangleTask;
 class NormError;
 
@@ -140,17 +143,17 @@ class TriangleError {
   }
 
  private:
-  template <class Sums>
   struct ByThreshold;
   template <class Sums>
   struct ByBounds;
-  template <bool kBounded, class Add>
-  void each_residual_by(const TriangleTask& task, const std::array<FitCorner, 3>& corners, const Add& add) const;
-  template <class Add>
-  void each_residual(const TriangleTask& task, const std::array<FitCorner, 3>& corners, const Add& add) const;
+  SampleRows rows() const;
+  CornerWeight weight_of(const FitCorner& a, const FitCorner& b, const FitCorner& c) const;
+  template <class Sums>
+  Sums ask_by_bounds(const TriangleTask& task, const CornerWeight& weight, Sums sums) const;
   TriangleTask task_of(const FitCorner& a, const FitCorner& b, const FitCorner& c) const;
+  Verdict assess_by_threshold(const FitCorner& a, const FitCorner& b, const FitCorner& c, float energy_limit) const;
   template <class Tally>
-  Verdict assess_by(const FitCorner& a, const FitCorner& b, const FitCorner& c, float energy_limit) const;
+  Verdict assess_by_bounds(const FitCorner& a, const FitCorner& b, const FitCorner& c, float energy_limit) const;
   Verdict assess_corners(const std::array<FitCorner, 3>& corners, float energy_limit) const;
   float energy_of(float error) const;
   template <class Tally>
@@ -173,6 +176,7 @@ class TriangleError {
   ErrorRule::Power power_;
   float per_threshold_, per_square_;  // 0 where squares of float32 come to an end
   const float* end_;                  // of the samples
+  const TriangleKernels* kernels_;    // of one threshold
   const NormError* norm_ = nullptr;
 };
 

@@ -1,0 +1,81 @@
+// The scan of a trial triangle against one threshold, in vectors: the inner loops of triangle_error.h.
+//
+// One source is compiled for every instruction set, as that of the engine's scan (geom/scan_kernels.h); the best that
+// the machine has is chosen at run time. All of them, and the twin in vectors of four, give the same bits: an error is
+// the same sequence of separately rounded operations everywhere, and sums have as many parts, whatever the width of a
+// vector, which are added up in the same order.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "fit/triangle_error.h"
+
+namespace scarp {
+
+struct TriangleTask;
+
+/// Samples from the first of the window on; nothing is read from `end` on.
+struct SampleRows {
+  const float* first;
+  std::ptrdiff_t stride;
+  const float* end;
+};
+
+/// What is asked of a triangle.
+struct ErrorLimits {
+  float cut;         ///< an error above it breaks the limit
+  float energy;      ///< from here on the triangle is costly
+  float per_square;  ///< 1 / threshold², or 0
+};
+
+struct TriangleSums {
+  TriangleError::Verdict::Kind kind = TriangleError::Verdict::Kind::kKeeps;
+  float worst = 0, energy = 0;            ///< kKeeps, or kCostly if all samples were needed to tell; else 0
+  std::int32_t y = 0, first = 0, last = 0;  ///< kBreaks: the samples among which one breaks the limit
+};
+
+/// How the errors of a triangle follow the height of its first corner.
+struct CornerWeight {
+  float slope_x, slope_y;  ///< of the corner's weight, which is 1 at the corner
+  float per_threshold;     ///< 1 / threshold, or 0
+};
+
+struct CornerPull {
+  double stiffness = 0, push = 0;
+};
+
+struct TriangleKernels {
+  const char* name;  ///< as that of ScanKernels
+  using Assess = TriangleSums (*)(const TriangleTask& task, const SampleRows& rows, const ErrorLimits& limits);
+  using Pull = CornerPull (*)(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight);
+  /// Adds to them.
+  using Moments = void (*)(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight,
+                           TriangleError::Moments& moments);
+  /// Of squares and of eighth powers, as ErrorRule::Power.
+  std::array<Assess, 2> assess;
+  std::array<Pull, 2> pull;
+  std::array<Moments, 2> add_moments;
+  void (*narrow)(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight,
+                 TriangleError::Room& room);
+};
+
+/// The best for this machine; SCARP_KERNEL in the environment names another (base/instruction_sets.h).
+const TriangleKernels& triangle_kernels();
+
+/// All that this machine can run, best first; the twin is the last.
+std::span<const TriangleKernels> available_triangle_kernels();
+
+namespace trial {
+
+const TriangleKernels& plain_triangle_kernels();
+std::span<const TriangleKernels> vector_triangle_kernels();
+
+}  // namespace trial
+
+/// Corners that hardly weigh at a sample leave it alone.
+inline constexpr float kLeastShare = 1e-5f;
+
+}  // namespace scarp
