@@ -65,8 +65,10 @@ RESERVED = [
      [r"src/base/parallel\.(h|cpp)$", r"src/io/gdal/", r"src/io/temporary_file\.cpp$", r"apps/"],
      "atomics belong to src/base/parallel, src/io/gdal and what a signal handler reads (src/io/temporary_file.cpp, apps)"),
     (r"hwy/.*|[a-z]*mmintrin\.h$|immintrin\.h$|x86intrin\.h$|arm_neon\.h$|wasm_simd128\.h$",
-     [r"src/geom/scan_kernels[a-z_-]*\.(h|cpp)$", r"src/measure/judge_kernels_vector\.cpp$"],
-     "instruction sets are known to src/geom/scan_kernels* and src/measure/judge_kernels_vector.cpp only"),
+     [r"src/geom/scan_kernels[a-z_-]*\.(h|cpp)$", r"src/measure/judge_kernels_vector\.cpp$",
+      r"src/fit/triangle_kernels_vector\.cpp$"],
+     "instruction sets are known to src/geom/scan_kernels*, src/measure/judge_kernels_vector.cpp and "
+     "src/fit/triangle_kernels_vector.cpp only"),
     (r"CLI/.*", [r"apps/"], "command lines are known to apps only"),
     (r"(format|ranges)$", [r"src/io/gdal/", r"apps/"], "the core builds without std::format and range views"),
 ]

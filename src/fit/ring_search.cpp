@@ -90,21 +90,22 @@ void RingSearch::look_from(Point sample) {
     x_[i] = ring_[i].x - sample.x * kLatticeSteps;
     y_[i] = ring_[i].y - sample.y * kLatticeSteps;
     z_[i] = error_.value_at(0, ring_[i]) - height;
-    right_of_[i] = 0;
   }
   for (std::size_t k = 0; k < more_z_.size(); ++k) {
     const double value = error_.value_at(k + 1, sample);
     for (std::size_t i = 0; i < size_; ++i) more_z_[k][i] = error_.value_at(k + 1, ring_[i]) - value;
   }
   for (std::size_t i = 0; i < size_; ++i) {
-    Set left = 0;
+    const double x = x_[i], y = y_[i];
+    Set left = 0, right = 0;
     for (std::size_t j = i + 1; j < size_; ++j) {
-      cross_[i][j] = x_[i] * y_[j] - x_[j] * y_[i];
-      const Set is_left = cross_[i][j] >= 0 ? 1 : 0;
-      left |= is_left << j;
-      right_of_[j] |= is_left << i;
+      const double cross = x * y_[j] - x_[j] * y;
+      cross_[i][j] = cross;
+      left |= static_cast<Set>(cross >= 0) << j;
+      right |= static_cast<Set>(cross <= 0) << j;
     }
     left_of_[i] = left;
+    right_of_[i] = right;
   }
 }
 
@@ -155,12 +156,11 @@ inline bool RingSearch::breaks(std::size_t i, std::size_t q, std::size_t j) cons
 bool RingSearch::cross_out() {
   bool any = false;
   for (std::size_t i = 0; i + 2 < size_; ++i) {
-    for (std::size_t j = i + 2; j < size_; ++j) {
-      const double wq = -cross_[i][j];
-      if (wq < 0) continue;
-      for (Set left = allowed_[i][j] & left_of_[i] & right_of_[j]; left != 0; left &= left - 1) {
-        const std::size_t q = lowest(left);
-        if (!breaks(i, q, j)) continue;
+    for (Set middles = left_of_[i]; middles != 0; middles &= middles - 1) {
+      const std::size_t q = lowest(middles);
+      for (Set lasts = left_of_[q] & right_of_[i]; lasts != 0; lasts &= lasts - 1) {
+        const std::size_t j = lowest(lasts);
+        if ((allowed_[i][j] & only(q)) == 0 || !breaks(i, q, j)) continue;
         allowed_[i][j] &= ~only(q);
         any = true;
       }
@@ -170,32 +170,30 @@ bool RingSearch::cross_out() {
 }
 
 /// Finds the intervals that can be triangulated, then those that a triangulation of the whole needs; false if the whole
-/// cannot.
+/// cannot. Inner intervals first, then outer ones; without branches, which nobody could predict.
 bool RingSearch::connect() {
-  for (std::size_t i = 0; i < size_; ++i) {
-    open_from_[i] = only(i + 1);
-    open_to_[i] = i > 0 ? only(i - 1) : 0;
-    needed_from_[i] = needed_to_[i] = 0;
-  }
-  for (std::size_t length = 2; length < size_; ++length) {
-    for (std::size_t i = 0; i + length < size_; ++i) {
-      const std::size_t j = i + length;
-      choices_[i][j] = allowed_[i][j] & open_from_[i] & open_to_[j];
-      if (choices_[i][j] == 0) continue;
-      open_from_[i] |= only(j);
-      open_to_[j] |= only(i);
+  std::array<Set, kMostCorners> open_to;  // first corners of intervals that can be triangulated
+  for (std::size_t j = 1; j < size_; ++j) open_to[j] = only(j - 1);
+  for (std::size_t i = size_ - 2; i-- > 0;) {
+    Set open_from = only(i + 1);
+    for (std::size_t j = i + 2; j < size_; ++j) {
+      const Set choices = allowed_[i][j] & open_from & open_to[j], is_open = choices != 0 ? 1 : 0;
+      choices_[i][j] = choices;
+      open_from |= is_open << j;
+      open_to[j] |= is_open << i;
     }
   }
   const std::size_t last = size_ - 1;
   if (choices_[0][last] == 0) return false;
-  needed_from_[0] = only(last);
-  for (std::size_t length = last; length >= 2; --length) {
-    for (std::size_t i = 0; i + length < size_; ++i) {
-      const std::size_t j = i + length;
-      if (!is_needed(i, j)) continue;
-      needed_from_[i] |= choices_[i][j];
-      needed_to_[j] |= choices_[i][j];
+  for (std::size_t j = 0; j < size_; ++j) needed_to_[j] = 0;
+  Set needed_from = only(last);
+  for (std::size_t i = 0; i + 2 < size_; ++i, needed_from = 0) {
+    for (std::size_t j = last; j >= i + 2; --j) {
+      const Set is_needed = (needed_from >> j | needed_to_[j] >> i) & 1, choices = choices_[i][j] & (0 - is_needed);
+      needed_from |= choices;
+      needed_to_[j] |= choices;
     }
+    needed_from_[i] = needed_from;
   }
   return true;
 }

@@ -77,10 +77,10 @@ class RingSearch {
   double limit_ = 0;                                      // of that sample
   Table<double> cross_;                                   // products of them
   Table<double> square_;                                  // of edges and diagonals, where there is a floor of shapes
-  std::array<Set, kMostCorners> left_of_, right_of_;      // last by first, first by last: where they are not negative
+  std::array<Set, kMostCorners> left_of_, right_of_;      // last by first: where they are not negative, not positive
   Table<Set> allowed_;                                    // middles of triangles that are not crossed out
   Table<Set> choices_;  // those that leave intervals with triangulations on both sides
-  std::array<Set, kMostCorners> open_from_, open_to_, needed_from_, needed_to_;
+  std::array<Set, kMostCorners> needed_from_, needed_to_;
   Table<float> cost_, worst_, energy_;  // of the best triangulation; of its triangle at the interval
   Table<std::uint8_t> middle_;
 };

@@ -33,7 +33,7 @@ struct ErrorLimits {
 
 struct TriangleSums {
   TriangleError::Verdict::Kind kind = TriangleError::Verdict::Kind::kKeeps;
-  float worst = 0, energy = 0;            ///< kKeeps, or kCostly if all samples were needed to tell; else 0
+  float worst = 0, energy = 0;              ///< kKeeps, or kCostly if all samples were needed to tell; else 0
   std::int32_t y = 0, first = 0, last = 0;  ///< kBreaks: the samples among which one breaks the limit
 };
 

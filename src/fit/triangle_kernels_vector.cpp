@@ -81,9 +81,7 @@ struct FourSums {
   FourVec sums;
 
   HWY_INLINE FourSums() : sums(hn::Zero(Four())) {}
-  HWY_INLINE void add(const Eight& terms) {
-    sums = hn::Add(hn::Add(sums, low_of(terms)), high_of(terms));
-  }
+  HWY_INLINE void add(const Eight& terms) { sums = hn::Add(hn::Add(sums, low_of(terms)), high_of(terms)); }
   HWY_INLINE double total() const {
     float s[4];
     hn::StoreU(sums, Four(), s);
@@ -267,8 +265,7 @@ struct Residuals {
 };
 
 template <class Asks>
-HWY_INLINE Asks ask(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight,
-                    const Asks& begin) {
+HWY_INLINE Asks ask(const TriangleTask& task, const SampleRows& rows, const CornerWeight& weight, const Asks& begin) {
   Residuals<Asks> residuals(task, rows, weight, begin);
   each_span(task, residuals);
   return residuals.asks;

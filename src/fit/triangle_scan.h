@@ -1,5 +1,5 @@
 // The rows of one triangle, eight samples at a time: what assessing a triangle and asking its samples have in common.
-// For triangle_error.cpp, triangle_pull.cpp and norm_scan.h alone.
+// For the files triangle_*.cpp and norm_scan.h alone.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <utility>
 
 #include "fit/triangle_error.h"
 #include "geom/scan_kernels.h"
@@ -71,16 +70,20 @@ struct TriangleTask {
   float doubt, certain;  // computed errors up to `doubt` keep the threshold, above `certain` break it
   float cut;             // above it they break the limit
 
-  TriangleTask(const FitCorner& a, const FitCorner& b, const FitCorner& c, double threshold, double limit)
+  [[gnu::always_inline]] TriangleTask(const FitCorner& a, const FitCorner& b, const FitCorner& c, double threshold,
+                                      double limit)
       : corners{a, b, c} {
     constexpr double kStep = 1.0 / kLatticeSteps;
     const Place pa{a.x * kStep, a.y * kStep}, pb{b.x * kStep, b.y * kStep}, pc{c.x * kStep, c.y * kStep};
-    top = pa;
-    middle = pb;
-    bottom = pc;
-    if (middle.y < top.y) std::swap(top, middle);
-    if (bottom.y < top.y) std::swap(top, bottom);
-    if (bottom.y < middle.y) std::swap(middle, bottom);
+    // By comparisons alone, as nobody could predict the branches of swaps. Two of the eight outcomes cannot be.
+    constexpr std::array<std::array<std::uint8_t, 3>, 8> kOrders{
+        {{0, 1, 2}, {1, 0, 2}, {0, 1, 2}, {1, 2, 0}, {0, 2, 1}, {0, 1, 2}, {2, 0, 1}, {2, 1, 0}}};
+    const std::array<Place, 3> places{pa, pb, pc};
+    const auto& [first, second, third] =
+        kOrders[unsigned{b.y < a.y} | unsigned{c.y < a.y} << 1 | unsigned{c.y < b.y} << 2];
+    top = places[first];
+    middle = places[second];
+    bottom = places[third];
     base_x = static_cast<float>(pa.x);
     base_y = static_cast<float>(pa.y);
     plane = ScanPlane::spanned(
