@@ -138,7 +138,7 @@ struct HeightRange {
   /// Adds the samples of another part of the raster.
   void add(const HeightRange& part);
 };
-HeightRange height_range(const HeightField& field);
+HeightRange height_range(const HeightField& field, int threads = 1);
 
 /// The heights at either end of the range that most likely stand for nodata. A height does where it is far from all
 /// others within:

@@ -96,6 +96,12 @@ void parallel_for(std::size_t count, int threads, const std::function<void(std::
   failure.rethrow();
 }
 
+void parallel_for_parts(std::size_t count, std::size_t size, int threads,
+                        const std::function<void(std::size_t first, std::size_t end)>& task) {
+  parallel_for((count + size - 1) / size, threads,
+               [&](std::size_t part) { task(part * size, std::min(count, (part + 1) * size)); });
+}
+
 void run_beside(int threads, const std::function<void()>& beside, const std::function<void()>& rest) {
   FirstFailure failure(2);
   const auto run = [&](std::size_t i, const std::function<void()>& task) {

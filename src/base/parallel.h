@@ -1,7 +1,9 @@
 // The one place that knows threads.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <mutex>
 
@@ -16,6 +18,11 @@ int thread_count(int requested);
 /// is rethrown here once all threads have ended; tasks of higher indices may then have been left out.
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& task);
 
+/// Calls task(first, end) for the parts [first, end) of 0 … count − 1, each of `size` but the last, as parallel_for()
+/// does.
+void parallel_for_parts(std::size_t count, std::size_t size, int threads,
+                        const std::function<void(std::size_t first, std::size_t end)>& task);
+
 /// Calls task(i, worker) for i in 0 … count − 1 as parallel_for() does, with worker in 0 … thread_count(threads) − 1
 /// naming the thread (for scratch memory), and commit(i) in ascending order, on the calling thread only, once task i
 /// has ended; commit returns false to stop everything. No task starts more than a few places per thread before the next
@@ -27,6 +34,14 @@ void parallel_in_order(std::size_t count, int threads, const std::function<void(
 /// thread (or where the machine gives no more) beside() comes first. Neither reads what the other writes. Exceptions:
 /// as parallel_for(), beside() being of the lower index.
 void run_beside(int threads, const std::function<void()>& beside, const std::function<void()>& rest);
+
+/// Lowers `value` to `least` if it is larger. Threads may do this at once while none reads or writes it otherwise.
+inline void lower_together(std::uint32_t& value, std::uint32_t least) {
+  const std::atomic_ref<std::uint32_t> shared(value);
+  std::uint32_t now = shared.load(std::memory_order_relaxed);
+  while (least < now && !shared.compare_exchange_weak(now, least, std::memory_order_relaxed)) {
+  }
+}
 
 /// A value that threads use one after the other.
 template <class T>

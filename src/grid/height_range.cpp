@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/parallel.h"
+
 namespace scarp {
 
 namespace {
@@ -160,10 +162,18 @@ void set_range(const HeightRange& range, RasterInfo& info) {
   info.undeclared_nodata = find_undeclared_nodata(range);
 }
 
-HeightRange height_range(const HeightField& field) {
+HeightRange height_range(const HeightField& field, int threads) {
+  constexpr std::size_t kTogether = std::size_t{1} << 20;
   if (field.samples == nullptr) return {};
   const auto count = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
-  return range_of({field.samples, count}, field.nodata);
+  std::vector<HeightRange> parts((count + kTogether - 1) / kTogether);
+  parallel_for(parts.size(), threads, [&](std::size_t i) {
+    const std::size_t first = i * kTogether;
+    parts[i] = range_of({field.samples + first, std::min(kTogether, count - first)}, field.nodata);
+  });
+  HeightRange whole;
+  for (const HeightRange& part : parts) whole.add(part);
+  return whole;
 }
 
 }  // namespace scarp

@@ -149,7 +149,7 @@ Result<void> read_inputs(const SimplifyPlan& plan, bool one_band, const Progress
   if (!cut) return tl::unexpected(std::move(cut.error()));
   outcome.cut = std::move(*cut);
   complete_info(outcome.field.info, outcome.as_read);
-  outcome.heights = height_range(outcome.field);
+  outcome.heights = height_range(outcome.field, plan.simplify.run.threads);
   outcome.seconds_read = seconds_since(start);
   return {};
 }

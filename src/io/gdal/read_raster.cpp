@@ -108,8 +108,35 @@ struct OpenedRaster {
     return options.decode == Decode::kNone ? make_band_reader(plan.band)
                                            : make_packed_reader(plan.dataset.get(), options);
   }
+  /// Of a file whose blocks are decoded each on its own; empty for others.
+  OpenAgain again(const ReadOptions& options) const {
+    const char* name = GDALGetDescription(plan.dataset.get());
+    if (field.info.format != "GTiff" || std::string_view(name).starts_with("/vsi")) return {};
+    return [this, &options]() -> std::optional<ReadHandle> { return open_again(options); };
+  }
   GDALRasterBandH first_band(const ReadOptions& options) const {
     return options.decode == Decode::kNone ? plan.band.band : GDALGetRasterBand(plan.dataset.get(), 1);
+  }
+
+ private:
+  std::optional<ReadHandle> open_again(const ReadOptions& options) const {
+    constexpr const char* kDrivers[] = {"GTiff", nullptr};
+    ReadHandle handle{Dataset(GDALOpenEx(GDALGetDescription(plan.dataset.get()), GDAL_OF_RASTER | GDAL_OF_READONLY,
+                                         kDrivers, nullptr, nullptr)),
+                      nullptr};
+    if (!handle.dataset) return {};
+    if (options.decode != Decode::kNone) {
+      handle.reader = make_packed_reader(handle.dataset.get(), options);
+      return handle;
+    }
+    RasterInfo said;
+    auto band = plan_band(handle.dataset.get(), field.info.path, options, said);
+    if (!band) return {};
+    BandPlan same = plan.band;
+    same.band = band->band;
+    same.mask = band->mask;
+    handle.reader = make_band_reader(same);
+    return handle;
   }
 };
 
@@ -145,14 +172,14 @@ Result<void> refuse_beyond(const Findings& findings, const std::string& path, co
 Result<OwnedHeightField> read_samples(Session& session, OpenedRaster opened, const ReadOptions& options) {
   OwnedHeightField& field = opened.field;
   const std::string& path = field.info.path;
-  if (auto allocated = allocate_samples(path, field); !allocated) return tl::unexpected(allocated.error());
-  std::uint64_t infinities = 0;
+  if (auto allocated = allocate_samples(path, field, options.run.threads); !allocated)
+    return tl::unexpected(allocated.error());
   const auto reader = opened.make_reader(options);
-  auto samples = read_windows(session, opened.first_band(options), *reader, options, field, infinities);
-  if (!samples) return tl::unexpected(samples.error());
+  const auto found = read_windows(session, opened.first_band(options), *reader, opened.again(options), options, field);
+  if (!found) return tl::unexpected(found.error());
   add_gdal_warnings(session, field.info);
-  if (auto finished = finish_raster(field, infinities, options); !finished) return tl::unexpected(finished.error());
-  if (auto held = refuse_beyond(reader->findings(), path, options); !held) return tl::unexpected(held.error());
+  if (auto done = finish_raster(field, found->infinities, options); !done) return tl::unexpected(done.error());
+  if (auto held = refuse_beyond(*found, path, options); !held) return tl::unexpected(held.error());
   return std::move(field);
 }
 

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "base/int128.h"
+#include "base/parallel.h"
 #include "grid/height_range.h"
 #include "io/gdal/windows.h"
 
@@ -232,14 +233,51 @@ bool is_float32(const BandPlan& plan) {
 
 std::unique_ptr<WindowReader> make_band_reader(const BandPlan& plan) { return std::make_unique<BandReader>(plan); }
 
-Result<void> read_windows(Session& session, GDALRasterBandH band, WindowReader& reader, const ReadOptions& options,
-                          OwnedHeightField& field, std::uint64_t& infinities) {
+Result<Findings> read_windows(Session& session, GDALRasterBandH band, WindowReader& reader, const OpenAgain& open_again,
+                              const ReadOptions& options, OwnedHeightField& field) {
   const Extent extent{field.info.path, field.cols, field.rows};
-  auto done = for_each_window(session, band, extent, options.run.progress,
-                              [&](const Window& window) { return read_into(reader, window, field); });
-  field.sample_rounding = reader.findings().rounding;
-  infinities += reader.findings().infinities;
-  return done;
+  const WindowPlan plan(band, field.cols, field.rows);
+  const std::size_t most =
+      std::min({static_cast<std::size_t>(thread_count(options.run.threads)), plan.count(), plan.most_at_once()});
+  std::vector<ReadHandle> more;
+  while (open_again && more.size() + 1 < most) {
+    auto handle = open_again();
+    if (!handle) break;
+    more.push_back(std::move(*handle));
+  }
+  struct Stack {
+    Result<void> status;
+    Findings findings;
+    std::vector<std::string> warnings;
+  };
+  std::vector<Stack> stacks(plan.count());
+  ReadProgress progress(extent, options.run.progress);
+  Result<void> done;
+  Findings findings;
+  parallel_in_order(
+      plan.count(), static_cast<int>(more.size() + 1),
+      [&](std::size_t i, std::size_t worker) {
+        // GDAL keeps what it has to say by thread.
+        Session here(session);
+        WindowReader& reads = worker == 0 ? reader : *more[worker - 1].reader;
+        stacks[i].status = for_each_slice(plan.stack(i), plan.rows_at_once(), [&](const Window& window) {
+          return read_or_explain(here, window, extent.path,
+                                 [&](const Window& part) { return read_into(reads, part, field); });
+        });
+        stacks[i].findings = reads.take_findings();
+        stacks[i].warnings = here.warnings();
+      },
+      [&](std::size_t i) {
+        const Stack stack = std::exchange(stacks[i], {});
+        for (const std::string& warning : stack.warnings) session.note(false, false, warning.c_str());
+        findings.add(stack.findings);
+        done = stack.status;
+        if (done) done = progress.add(plan.stack(i));
+        return done.has_value();
+      });
+  if (!done) return tl::unexpected(done.error());
+  field.sample_rounding = findings.rounding;
+  return findings;
 }
 
 Result<void> read_bands(Session& session, std::span<const BandPlan> plans, const ReadOptions& options,

@@ -3,13 +3,18 @@
 
 #include <gdal.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "io/gdal/open.h"
 #include "io/gdal/session.h"
 #include "io/gdal/view.h"
 #include "io/gdal/windows.h"
@@ -45,6 +50,13 @@ struct Findings {
     int col = 0, row = 0;
   };
   std::optional<Beyond> beyond;  ///< the first value that is finite, and beyond float32
+
+  /// Of windows further on.
+  void add(const Findings& further) {
+    infinities += further.infinities;
+    rounding = std::max(rounding, further.rounding);
+    if (!beyond) beyond = further.beyond;
+  }
 };
 
 /// Reads windows of heights, nodata as NaN. Not for several threads at once.
@@ -53,8 +65,9 @@ class WindowReader {
   virtual ~WindowReader() = default;
   /// Writes the window to `out`, `stride` floats from row to row. False if GDAL fails.
   virtual bool read(const Window& window, float* out, std::ptrdiff_t stride) = 0;
-  /// Of all windows so far.
+  /// Of all windows since the last call of take_findings().
   const Findings& findings() const { return findings_; }
+  Findings take_findings() { return std::exchange(findings_, {}); }
 
  protected:
   Findings findings_;
@@ -65,11 +78,19 @@ std::unique_ptr<WindowReader> make_band_reader(const BandPlan& plan);
 /// Of heights packed into bands of colour.
 std::unique_ptr<WindowReader> make_packed_reader(GDALDatasetH dataset, const ReadOptions& options);
 
+/// What a thread reads with.
+struct ReadHandle {
+  Dataset dataset;
+  std::unique_ptr<WindowReader> reader;
+};
+/// Opens a raster once more.
+using OpenAgain = std::function<std::optional<ReadHandle>()>;
+
 /// Reads the raster of `band` into field.samples (already allocated) by windows of a few MB that follow the file's own
-/// blocks. Sets field.sample_rounding; adds to `infinities`. kInput as soon as GDAL reports any failure, kCancelled if
-/// the callback says so.
-Result<void> read_windows(Session& session, GDALRasterBandH band, WindowReader& reader, const ReadOptions& options,
-                          OwnedHeightField& field, std::uint64_t& infinities);
+/// blocks; on several threads if `open_again` is not empty. Sets field.sample_rounding. kInput as soon as GDAL reports
+/// any failure, kCancelled if the callback says so.
+Result<Findings> read_windows(Session& session, GDALRasterBandH band, WindowReader& reader, const OpenAgain& open_again,
+                              const ReadOptions& options, OwnedHeightField& field);
 
 /// The same for several bands of one raster, each into the field of its number; windows are read for all bands before
 /// the next, so that interleaved files are decoded once.

@@ -85,12 +85,19 @@ void widen_block_cache(std::uint64_t bytes) {
   GDALSetCacheMax64(std::max(GDALGetCacheMax64(), kBlockCacheBytes + static_cast<GIntBig>(std::min(bytes, kMost))));
 }
 
-Session::Session(bool remote) {
+void Session::begin() {
   CPLPushErrorHandlerEx(collect, this);
   start_gdal_once();
   set_option("CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");  // would lie beside the input
   set_option("GML_PARSER", "EXPAT");                   // limits what entities expand to
   set_default("GDAL_ERROR_ON_LIBJPEG_WARNING", "YES");  // else what a truncated JPEG lacks is grey
+}
+
+Session::Session(const Session&) { begin(); }
+
+Session::Session(bool remote) {
+  hdf5_errors_.emplace();
+  begin();
   if (!remote) return;
   set_default("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");  // no requests for side files that are not there
   set_default("CPL_VSIL_CURL_USE_HEAD", "NO");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,8 +36,9 @@ class Hdf5Errors {
 class Session {
  public:
   explicit Session(bool remote = false);
+  /// In another thread, or nested, for work on a local file beside the one that began; HDF5 is left alone.
+  explicit Session(const Session& first);
   ~Session();
-  Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
   bool failed() const { return !failures_.empty(); }
@@ -57,7 +59,9 @@ class Session {
  private:
   void set_default(const char* key, const char* value);
 
-  Hdf5Errors hdf5_errors_;
+  void begin();
+
+  std::optional<Hdf5Errors> hdf5_errors_;
   std::vector<std::string> failures_, warnings_;
   bool out_of_memory_ = false;
   std::vector<std::pair<std::string, std::pair<bool, std::string>>> saved_options_;  // key, (was set, value)

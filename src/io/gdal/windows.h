@@ -20,22 +20,27 @@ struct Window {
 
 constexpr int kWindowSamples = 1 << 18;  // 2 MB of doubles
 
-/// A window's size that reads each of the file's blocks once: whole blocks, as many as kWindowSamples hold, and full
-/// rows where blocks are full rows. Blocks larger than that are read in slices, one after the other.
-inline Window window_size(GDALRasterBandH band, int cols, int rows) {
-  int block_cols = 1, block_rows = 1;
-  GDALGetBlockSize(band, &block_cols, &block_rows);
-  block_cols = std::clamp(block_cols, 1, cols);
-  block_rows = std::clamp(block_rows, 1, rows);
-  Window window;
-  window.cols = block_cols == cols ? cols : std::max(block_cols, kWindowSamples / block_rows / block_cols * block_cols);
-  window.cols = std::min(window.cols, cols);
-  const int most_rows = std::max(1, kWindowSamples / window.cols);
-  window.rows =
-      block_rows > most_rows ? most_rows : (block_cols == cols ? most_rows / block_rows * block_rows : block_rows);
-  window.rows = std::min(window.rows, rows);
-  return window;
-}
+/// How a raster is read: each of the file's blocks once. A window is whole blocks, as many as kWindowSamples hold, and
+/// full rows where blocks are full rows. Larger blocks are read in slices, one after the other: windows of one stack.
+class WindowPlan {
+ public:
+  WindowPlan(GDALRasterBandH band, int cols, int rows);
+
+  /// Stacks, rows of them from the top.
+  std::size_t count() const { return across_ * ((static_cast<std::size_t>(rows_) - 1) / stack_rows() + 1); }
+  Window stack(std::size_t i) const;
+  /// Rows of a window; more than the stack has if that is one window.
+  int rows_at_once() const { return size_.rows; }
+  /// Stacks that the cache of blocks holds at once.
+  std::size_t most_at_once() const { return most_at_once_; }
+
+ private:
+  std::size_t stack_rows() const { return static_cast<std::size_t>(stack_rows_); }
+
+  int cols_, rows_, stack_rows_ = 1;
+  Window size_;
+  std::size_t across_ = 1, most_at_once_ = 1;
+};
 
 /// The first row of a window that could not be read, found by reading it again row by row; for a message.
 template <class Read>
@@ -68,28 +73,44 @@ struct Extent {
   int cols = 0, rows = 0;
 };
 
-/// Calls read(window) -> bool for all windows, rows of windows from the top. Fails as read_or_explain(), with
-/// kCancelled if the callback says so; calls the callback at most ten times a second.
+/// Reports to the callback at most ten times a second.
+class ReadProgress {
+ public:
+  ReadProgress(const Extent& raster, const ProgressCallback& progress) : raster_(raster), progress_(progress) {}
+  /// The samples of another window are read. Fails with kCancelled if the callback says so.
+  Result<void> add(const Window& window);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  const Extent raster_;
+  const ProgressCallback& progress_;
+  Clock::time_point last_ = Clock::now();
+  double samples_ = 0;
+};
+
+/// Calls use(window) -> Result<void> for the windows of a stack.
+template <class Use>
+Result<void> for_each_slice(const Window& stack, int rows_at_once, Use use) {
+  for (int row = 0; row < stack.rows; row += std::min(rows_at_once, stack.rows - row)) {
+    const Window window{stack.col, stack.row + row, stack.cols, std::min(rows_at_once, stack.rows - row)};
+    if (auto done = use(window); !done) return done;
+  }
+  return {};
+}
+
+/// Calls read(window) -> bool for all windows, stack by stack. Fails as read_or_explain(), with kCancelled if the
+/// callback says so.
 template <class Read>
 Result<void> for_each_window(Session& session, GDALRasterBandH band, const Extent& raster,
                              const ProgressCallback& progress, Read read) {
-  using Clock = std::chrono::steady_clock;
-  const Window size = window_size(band, raster.cols, raster.rows);
-  auto last = Clock::now();
-  for (int row = 0; row < raster.rows; row += size.rows) {
-    const int rows = std::min(size.rows, raster.rows - row);
-    for (int col = 0; col < raster.cols; col += size.cols) {
-      const Window window{col, row, std::min(size.cols, raster.cols - col), rows};
-      if (auto done = read_or_explain(session, window, raster.path, read); !done) return done;
-      if (progress && Clock::now() - last > std::chrono::milliseconds(100)) {
-        last = Clock::now();
-        Progress now;
-        now.pass = "read";
-        now.fraction = (row + static_cast<double>(rows) * (col + window.cols) / raster.cols) / raster.rows;
-        if (!progress(now)) return fail(ErrorKind::kCancelled, raster.path + ": reading was cancelled");
-      }
-    }
-    if (row > raster.rows - size.rows) break;  // row + size.rows may overflow
+  const WindowPlan plan(band, raster.cols, raster.rows);
+  ReadProgress done(raster, progress);
+  for (std::size_t i = 0; i < plan.count(); ++i) {
+    const auto all = for_each_slice(plan.stack(i), plan.rows_at_once(), [&](const Window& window) {
+      const auto seen = read_or_explain(session, window, raster.path, read);
+      return seen ? done.add(window) : seen;
+    });
+    if (!all) return all;
   }
   return {};
 }

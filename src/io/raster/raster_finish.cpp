@@ -7,9 +7,9 @@
 #include <exception>
 #include <iterator>
 
-#include "grid/local_frame.h"
-
+#include "base/large_vector.h"
 #include "grid/height_range.h"
+#include "grid/local_frame.h"
 
 namespace scarp {
 
@@ -55,10 +55,11 @@ Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std:
   return {};
 }
 
-Result<void> allocate_samples(const std::string& name, OwnedHeightField& field) {
+Result<void> allocate_samples(const std::string& name, OwnedHeightField& field, int threads) {
   const auto count = static_cast<std::size_t>(field.cols) * static_cast<std::size_t>(field.rows);
   try {
-    field.samples.resize(count);
+    field.samples.clear();
+    resize_large(field.samples, count, threads);
   } catch (const std::exception&) {
     return fail(ErrorKind::kInput,
                 fmt::format("{}: the machine refuses the {} of memory that {} x {} samples need", name,
@@ -68,7 +69,7 @@ Result<void> allocate_samples(const std::string& name, OwnedHeightField& field) 
 }
 
 Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities, const ReadOptions& options) {
-  set_range(height_range(field), field.info);
+  set_range(height_range(field, options.run.threads), field.info);
   return finish_info(field, infinities, options);
 }
 

@@ -18,7 +18,7 @@ Result<void> check_raster_size(const std::string& name, std::uint64_t cols, std:
                                const ReadOptions& options, std::uint64_t bands = 1);
 
 /// Memory for the samples; kInput if the machine refuses it. Call check_raster_size() first.
-Result<void> allocate_samples(const std::string& name, OwnedHeightField& field);
+Result<void> allocate_samples(const std::string& name, OwnedHeightField& field, int threads = 1);
 
 /// Fills in valid, min and max; then finish_info().
 Result<void> finish_raster(OwnedHeightField& field, std::uint64_t infinities, const ReadOptions& options);
