@@ -8,10 +8,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/curve.h"
+#include "base/large_vector.h"
 #include "base/parallel.h"
 #include "mesh/attributes.h"
 #include "scarp/mesh.h"
@@ -22,7 +26,8 @@ namespace scarp {
 
 namespace {
 
-constexpr std::size_t kChunkTriangles = 1 << 14, kCellTriangles = 64;
+constexpr std::size_t kChunkTriangles = 1 << 14, kCellTriangles = 64, kPartVertices = 1 << 15;
+constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
 constexpr unsigned kCacheSize = 16;
 
 using Corners = std::array<std::uint32_t, 3>;
@@ -32,46 +37,82 @@ Corners corners_of(const Mesh& mesh, std::size_t t) {
 }
 
 /// Where each vertex lies on a curve through cells of the mesh's rectangle.
-std::vector<std::uint32_t> curve_places(const Mesh& mesh, std::size_t& cells) {
+std::vector<std::uint32_t> curve_places(const Mesh& mesh, int threads, std::size_t& cells) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::array<double, 2> low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
-  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+  struct Box {
+    std::array<double, 2> low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
+  };
+  const std::size_t vertices = mesh.vertex_count();
+  std::vector<Box> boxes(vertices / kPartVertices + 1);
+  parallel_for_parts(vertices, kPartVertices, threads, [&](std::size_t first, std::size_t end) {
+    Box box;
+    for (std::size_t v = first; v < end; ++v) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        box.low[k] = std::min(box.low[k], mesh.positions[3 * v + k]);
+        box.high[k] = std::max(box.high[k], mesh.positions[3 * v + k]);
+      }
+    }
+    boxes[first / kPartVertices] = box;
+  });
+  Box whole;
+  for (const Box& box : boxes) {
     for (std::size_t k = 0; k < 2; ++k) {
-      low[k] = std::min(low[k], mesh.positions[3 * v + k]);
-      high[k] = std::max(high[k], mesh.positions[3 * v + k]);
+      whole.low[k] = std::min(whole.low[k], box.low[k]);
+      whole.high[k] = std::max(whole.high[k], box.high[k]);
     }
   }
   std::size_t side = 1;
   while (side * side * kCellTriangles < mesh.triangle_count()) side *= 2;
   cells = side * side;
   std::array<double, 2> scale;
-  for (std::size_t k = 0; k < 2; ++k) scale[k] = high[k] > low[k] ? static_cast<double>(side) / (high[k] - low[k]) : 0;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double extent = whole.high[k] - whole.low[k];
+    scale[k] = extent > 0 ? static_cast<double>(side) / extent : 0;
+  }
   const auto cell = [&](std::size_t v, std::size_t k) {
-    const double at = (mesh.positions[3 * v + k] - low[k]) * scale[k];
+    const double at = (mesh.positions[3 * v + k] - whole.low[k]) * scale[k];
     return static_cast<std::uint64_t>(std::clamp(at, 0.0, static_cast<double>(side - 1)));
   };
-  std::vector<std::uint32_t> places(mesh.vertex_count());
-  for (std::size_t v = 0; v < places.size(); ++v)
-    places[v] = static_cast<std::uint32_t>(curve_place(cell(v, 0), cell(v, 1)));
+  std::vector<std::uint32_t> places(vertices);
+  parallel_for_parts(vertices, kPartVertices, threads, [&](std::size_t first, std::size_t end) {
+    for (std::size_t v = first; v < end; ++v)
+      places[v] = static_cast<std::uint32_t>(curve_place(cell(v, 0), cell(v, 1)));
+  });
   return places;
 }
 
 /// Each triangle at its corner that comes first; those of one cell stay in their order.
-std::vector<std::uint32_t> sort_along_curve(const Mesh& mesh) {
+std::vector<std::uint32_t> sort_along_curve(const Mesh& mesh, int threads) {
+  constexpr std::size_t kMostParts = 8, kLeastTogether = 1 << 16;
   std::size_t cells = 0;
-  const std::vector<std::uint32_t> places = curve_places(mesh, cells);
+  const std::vector<std::uint32_t> places = curve_places(mesh, threads, cells);
   const auto place_of = [&](std::size_t t) {
     const auto [a, b, c] = corners_of(mesh, t);
     return std::min({places[a], places[b], places[c]});
   };
-  std::vector<std::uint32_t> begin(cells + 1);
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) ++begin[place_of(t) + 1];
-  for (std::size_t k = 1; k < begin.size(); ++k) begin[k] += begin[k - 1];
-  std::vector<std::uint32_t> sorted(mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    const Corners corners = corners_of(mesh, t);
-    std::copy(corners.begin(), corners.end(), sorted.begin() + 3 * std::ptrdiff_t{begin[place_of(t)]++});
+  // Counters take memory by part, and the order is the same with any number of them.
+  const std::size_t count = mesh.triangle_count();
+  const std::size_t parts = std::clamp<std::size_t>(static_cast<std::size_t>(thread_count(threads)), 1, kMostParts);
+  const std::size_t together = std::max(kLeastTogether, (count + parts - 1) / parts);
+  std::vector<std::vector<std::uint32_t>> begins((count + together - 1) / together);
+  parallel_for_parts(count, together, threads, [&](std::size_t first, std::size_t end) {
+    std::vector<std::uint32_t>& begin = begins[first / together];
+    begin.resize(cells);
+    for (std::size_t t = first; t < end; ++t) ++begin[place_of(t)];
+  });
+  std::uint32_t sum = 0;
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    for (auto& begin : begins) sum += std::exchange(begin[cell], sum);
   }
+  std::vector<std::uint32_t> sorted;
+  resize_large(sorted, mesh.triangles.size(), threads);
+  parallel_for_parts(count, together, threads, [&](std::size_t first, std::size_t end) {
+    std::vector<std::uint32_t>& begin = begins[first / together];
+    for (std::size_t t = first; t < end; ++t) {
+      const Corners corners = corners_of(mesh, t);
+      std::copy(corners.begin(), corners.end(), sorted.begin() + 3 * std::ptrdiff_t{begin[place_of(t)]++});
+    }
+  });
   return sorted;
 }
 
@@ -109,29 +150,62 @@ void order_chunk(std::uint32_t* corners, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) corners[i] = ids.vertices()[ordered[i]];
 }
 
+/// Chunks of triangles that are sorted.
+constexpr std::size_t kChunkCorners = 3 * kChunkTriangles;
+
+/// New ids of the vertices, in the order in which the corners first name them; kUnused for those that none does.
+/// Returns how many are used.
+std::size_t number_by_first_use(std::span<const std::uint32_t> corners, int threads, std::vector<std::uint32_t>& ids) {
+  // Who names a vertex first, by chunk; in there all is one thread's.
+  std::vector<std::uint32_t> owners(ids.size(), kUnused);
+  parallel_for_parts(corners.size(), kChunkCorners, threads, [&](std::size_t first, std::size_t end) {
+    const auto chunk = static_cast<std::uint32_t>(first / kChunkCorners);
+    for (std::size_t i = first; i < end; ++i) lower_together(owners[corners[i]], chunk);
+  });
+  std::vector<std::uint32_t> begins(corners.size() / kChunkCorners + 2, 0);
+  std::fill(ids.begin(), ids.end(), kUnused);
+  parallel_for_parts(corners.size(), kChunkCorners, threads, [&](std::size_t first, std::size_t end) {
+    const auto chunk = static_cast<std::uint32_t>(first / kChunkCorners);
+    std::uint32_t count = 0;
+    for (std::size_t i = first; i < end; ++i) {
+      const std::uint32_t v = corners[i];
+      if (owners[v] == chunk && ids[v] == kUnused) ids[v] = count++;
+    }
+    begins[chunk + 1] = count;
+  });
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  parallel_for_parts(ids.size(), kPartVertices, threads, [&](std::size_t first, std::size_t end) {
+    for (std::size_t v = first; v < end; ++v) {
+      if (owners[v] != kUnused) ids[v] += begins[owners[v]];
+    }
+  });
+  return begins.back();
+}
+
 }  // namespace
 
 void optimize_order(Mesh& mesh, int threads) {
   const std::size_t vertices = mesh.vertex_count();
-  std::vector<std::uint32_t> triangles = sort_along_curve(mesh);
-  const std::size_t chunk = 3 * kChunkTriangles;
+  mesh.triangles = sort_along_curve(mesh, threads);
+  std::vector<std::uint32_t>& triangles = mesh.triangles;
   const auto for_each_chunk = [&](const auto& task) {
-    parallel_for((triangles.size() + chunk - 1) / chunk, threads, [&](std::size_t i) {
-      task(triangles.data() + i * chunk, std::min(chunk, triangles.size() - i * chunk));
-    });
+    parallel_for_parts(triangles.size(), kChunkCorners, threads,
+                       [&](std::size_t first, std::size_t end) { task(triangles.data() + first, end - first); });
   };
   for_each_chunk(order_chunk);
   std::vector<std::uint32_t> new_ids(vertices);
-  const std::size_t used =
-      meshopt_optimizeVertexFetchRemap(new_ids.data(), triangles.data(), triangles.size(), vertices);
+  const std::size_t used = number_by_first_use(triangles, threads, new_ids);
 
   const auto reorder = [&](auto& values, std::size_t width) {
-    std::decay_t<decltype(values)> reordered(width * used);
-    for (std::size_t v = 0; v < vertices; ++v) {
-      if (new_ids[v] == std::numeric_limits<std::uint32_t>::max()) continue;
-      std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(width * v), width,
-                  reordered.begin() + static_cast<std::ptrdiff_t>(width * new_ids[v]));
-    }
+    std::decay_t<decltype(values)> reordered;
+    resize_large(reordered, width * used, threads);
+    parallel_for_parts(vertices, kPartVertices, threads, [&](std::size_t first, std::size_t end) {
+      for (std::size_t v = first; v < end; ++v) {
+        if (new_ids[v] == kUnused) continue;
+        std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(width * v), width,
+                    reordered.begin() + static_cast<std::ptrdiff_t>(width * new_ids[v]));
+      }
+    });
     values = std::move(reordered);
   };
   reorder(mesh.positions, 3);
@@ -140,7 +214,6 @@ void optimize_order(Mesh& mesh, int threads) {
   for_each_chunk([&](std::uint32_t* corners, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) corners[i] = new_ids[corners[i]];
   });
-  mesh.triangles = std::move(triangles);
 }
 
 #else
