@@ -32,6 +32,7 @@ struct GlbOptions {
   /// Tangent-space normals by the mesh's uvs. Every vertex then gets the normal (0, 0, 1) and the tangent (1, 0, 0), in
   /// place of Mesh::normals: red is x, green y, blue z of the surface's normal, whatever the triangles.
   GlbImage normal_map = {};
+  int threads = 1;  ///< 0: all cores. Never changes the bytes. DEFAULT: 1.
 };
 
 /// The bytes of a GLB file. encode_mesh() is this without options. Fails with kOutput as it does, for images without

@@ -112,7 +112,8 @@ Result<ReadyFile> encode(const SimplifyPlan& plan, const PointsArguments& argume
   if (outcome.centre) move(-1, *outcome.centre, outcome.simplified.mesh);
   add_metadata(plan, arguments, outcome);
   turn_as_planned(plan, outcome.simplified.mesh);
-  auto bytes = encode_as(plan.format, outcome.simplified.mesh, {.compress = plan.compress}, plan.doubles);
+  auto bytes = encode_as(plan.format, outcome.simplified.mesh,
+                         {.compress = plan.compress, .threads = plan.simplify.run.threads}, plan.doubles);
   if (!bytes) return tl::unexpected(std::move(bytes.error()));
   return ReadyFile{plan.output, plan.format.name(), std::move(*bytes)};
 }

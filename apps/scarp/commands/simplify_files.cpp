@@ -170,7 +170,7 @@ Result<std::vector<std::uint8_t>> encode_dem(const SimplifyPlan& plan, const Out
 /// Compression, and the images that the file holds.
 Result<GlbOptions> glb_options(const SimplifyPlan& plan, const Outcome& outcome) {
   const std::array<double, 6>& affine = outcome.field.frame.affine;
-  GlbOptions glb{.compress = plan.compress, .cell = {affine[1], affine[5]}};
+  GlbOptions glb{.compress = plan.compress, .cell = {affine[1], affine[5]}, .threads = plan.simplify.run.threads};
   if (plan.images.drape) {
     auto bytes = encode_image(outcome.drape, plan.images.drape_format);
     if (!bytes) return tl::unexpected(bytes.error());

@@ -15,6 +15,8 @@
 #include <utility>
 
 #include "base/caught.h"
+#include "base/large_vector.h"
+#include "base/parallel.h"
 #include "io/mesh/file_bytes.h"
 #include "io/mesh/glb_attributes.h"
 #include "io/mesh/glb_json.h"
@@ -61,8 +63,8 @@ class Binary {
     return add(size, [bytes = std::move(bytes)](std::uint8_t* at) { std::memcpy(at, bytes.data(), bytes.size()); });
   }
   std::uint64_t size() const { return size_; }
-  void write(std::uint8_t* begin) const {
-    for (const auto& [offset, write] : pieces_) write(begin + offset);
+  void write(std::uint8_t* begin, int threads) const {
+    parallel_for(pieces_.size(), threads, [&](std::size_t i) { pieces_[i].write(begin + pieces_[i].offset); });
   }
 
  private:
@@ -78,11 +80,20 @@ void store_items(const GlbAttribute& attribute, const MeshPart& part, std::uint8
   for (const std::uint32_t v : part.vertices) attribute.store(v, at);
 }
 
-std::vector<MeshPart> parts_for_codec(const Mesh& mesh) {
-  std::vector<MeshPart> parts = split_mesh(mesh);
-  for (MeshPart& part : parts) order_for_codec(part.vertices, part.corners);
+std::vector<MeshPart> list_parts(const Mesh& mesh, const GlbOptions& options) {
+  std::vector<MeshPart> parts = split_mesh(mesh, options.threads);
+  if (!options.compress) return parts;
+  parallel_for(parts.size(), options.threads,
+               [&](std::size_t i) { order_for_codec(parts[i].vertices, parts[i].corners); });
   return parts;
 }
+
+/// What JSON tells of a part, and its compressed arrays where they are.
+struct PreparedPart {
+  std::array<float, 3> low, high;                  ///< of its positions
+  std::vector<std::vector<std::uint8_t>> streams;  ///< of its attributes
+  std::vector<std::uint8_t> triangles;
+};
 
 class GlbWriter {
  public:
@@ -91,13 +102,15 @@ class GlbWriter {
         options_(options),
         grid_(options.compress ? find_grid(mesh, options.cell) : GlbGrid{}),
         attributes_(list_glb_attributes(mesh, grid_, options)),
-        parts_(options.compress ? parts_for_codec(mesh) : split_mesh(mesh)) {}
+        parts_(list_parts(mesh, options)) {}
 
   Result<std::vector<std::uint8_t>> encode() {
     if (std::string why = find_obstacle(); !why.empty()) return fail(ErrorKind::kOutput, std::move(why));
     describe_asset();
+    std::vector<PreparedPart> prepared(parts_.size());
+    parallel_for(parts_.size(), options_.threads, [&](std::size_t i) { prepared[i] = prepare(parts_[i]); });
     Json primitives = Json::array();
-    for (const MeshPart& part : parts_) primitives.push_back(add_part(part));
+    for (std::size_t i = 0; i < parts_.size(); ++i) primitives.push_back(add_part(parts_[i], std::move(prepared[i])));
     json_["meshes"] = Json::array({{{"name", "terrain"}, {"primitives", std::move(primitives)}}});
     add_material();
     json_["accessors"] = std::move(accessors_);
@@ -183,27 +196,41 @@ class GlbWriter {
     return views_.size() - 1;
   }
 
-  std::size_t add_items(const GlbAttribute& attribute, const MeshPart& part) {
+  PreparedPart prepare(const MeshPart& part) const {
+    PreparedPart prepared;
+    find_bounds(part, prepared);
+    if (!options_.compress) return prepared;
+    for (const GlbAttribute& attribute : attributes_) {
+      std::vector<std::uint8_t> items(attribute.stride * part.vertices.size());
+      store_items(attribute, part, items.data());
+      prepared.streams.push_back(encode_meshopt_attributes(items, attribute.stride));
+    }
+    prepared.triangles = encode_meshopt_triangles(part.corners, part.vertices.size());
+    return prepared;
+  }
+
+  std::size_t add_items(std::size_t number, const MeshPart& part, PreparedPart& prepared) {
+    const GlbAttribute& attribute = attributes_[number];
     const std::uint64_t count = part.vertices.size(), size = attribute.stride * count;
     if (!options_.compress) {
       return add_view(size, kArrayBuffer, 0,
                       [&attribute, &part](std::uint8_t* at) { store_items(attribute, part, at); });
     }
-    std::vector<std::uint8_t> items(size);
-    store_items(attribute, part, items.data());
-    return add_packed(encode_meshopt_attributes(items, attribute.stride), kArrayBuffer, count, attribute.stride,
-                      "ATTRIBUTES");
+    return add_packed(std::move(prepared.streams[number]), kArrayBuffer, count, attribute.stride, "ATTRIBUTES");
   }
 
-  Json add_part(const MeshPart& part) {
+  Json add_part(const MeshPart& part, PreparedPart prepared) {
     constexpr const char* kTypes[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
     Json named = Json::object();
-    for (const GlbAttribute& attribute : attributes_) {
+    for (std::size_t number = 0; number < attributes_.size(); ++number) {
+      const GlbAttribute& attribute = attributes_[number];
       named[attribute.name] = accessors_.size();
-      Json& accessor =
-          add_accessor(add_items(attribute, part), attribute.component, part.vertices.size(), kTypes[attribute.width]);
+      Json& accessor = add_accessor(add_items(number, part, prepared), attribute.component, part.vertices.size(),
+                                    kTypes[attribute.width]);
       if (attribute.is_normalized) accessor["normalized"] = true;
-      if (attribute.name == "POSITION") add_bounds(part, accessor);
+      if (attribute.name != "POSITION") continue;
+      accessor["min"] = prepared.low;
+      accessor["max"] = prepared.high;
     }
     Json primitive = {{"attributes", named}, {"indices", accessors_.size()}, {"material", 0}, {"mode", 4}};
     if (mesh_.channel_count > 0) {
@@ -212,8 +239,7 @@ class GlbWriter {
     }
     const std::uint64_t corners = part.corners.size();
     const std::size_t view = options_.compress
-                                 ? add_packed(encode_meshopt_triangles(part.corners, part.vertices.size()),
-                                              kIndexBuffer, corners, 2, "TRIANGLES")
+                                 ? add_packed(std::move(prepared.triangles), kIndexBuffer, corners, 2, "TRIANGLES")
                                  : add_view(2 * corners, kIndexBuffer, 0, [&part](std::uint8_t* at) {
                                      for (const std::uint16_t corner : part.corners) store_number(at, corner);
                                    });
@@ -221,20 +247,17 @@ class GlbWriter {
     return primitive;
   }
 
-  void add_bounds(const MeshPart& part, Json& accessor) const {
-    std::array<float, 3> low, high;
-    low.fill(std::numeric_limits<float>::infinity());
-    high.fill(-std::numeric_limits<float>::infinity());
+  void find_bounds(const MeshPart& part, PreparedPart& prepared) const {
+    prepared.low.fill(std::numeric_limits<float>::infinity());
+    prepared.high.fill(-std::numeric_limits<float>::infinity());
     for (const std::uint32_t v : part.vertices) {
       const std::array<double, 3> number = grid_.number(&mesh_.positions[3 * std::size_t{v}]);
       for (std::size_t k = 0; k < 3; ++k) {
         const float coordinate = static_cast<float>(number[k]) + 0.0f;
-        low[k] = std::min(low[k], coordinate);
-        high[k] = std::max(high[k], coordinate);
+        prepared.low[k] = std::min(prepared.low[k], coordinate);
+        prepared.high[k] = std::max(prepared.high[k], coordinate);
       }
     }
-    accessor["min"] = low;
-    accessor["max"] = high;
   }
 
   /// Returns the number of a texture that shows it.
@@ -300,7 +323,8 @@ class GlbWriter {
                   fmt::format("a GLB file holds less than 4 GiB, and this mesh needs {:.1f} GiB; write PLY instead",
                               static_cast<double>(total) / (1 << 30)));
     }
-    std::vector<std::uint8_t> bytes(total);
+    std::vector<std::uint8_t> bytes;
+    resize_large(bytes, total, options_.threads);
     std::uint8_t* at = bytes.data();
     for (const std::uint32_t word : {kMagic, std::uint32_t{2}, static_cast<std::uint32_t>(total),
                                      static_cast<std::uint32_t>(json.size()), kJsonChunk}) {
@@ -310,7 +334,7 @@ class GlbWriter {
     at += json.size();
     store_number(at, static_cast<std::uint32_t>(binary));
     store_number(at, kBinaryChunk);
-    binary_.write(at);
+    binary_.write(at, options_.threads);
     return bytes;
   }
 

@@ -170,7 +170,10 @@ std::string find_unwritable(const Mesh& mesh, bool as_float) {
     return fmt::format("the mesh has {} channels, and a mesh file holds at most {}", mesh.channel_count, kMaxChannels);
   }
   if (count > std::numeric_limits<std::uint32_t>::max()) return "the mesh has more vertices than 32 bits can number";
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+  // Without branches first, which compilers make vectors of.
+  std::uint32_t largest = 0;
+  for (const std::uint32_t v : mesh.triangles) largest = std::max(largest, v);
+  for (std::size_t i = 0; largest >= count && i < mesh.triangles.size(); ++i) {
     if (mesh.triangles[i] >= count) {
       return fmt::format("triangle {} names vertex {}, and the mesh has {}", i / 3, mesh.triangles[i], count);
     }

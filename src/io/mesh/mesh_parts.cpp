@@ -2,49 +2,111 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
+#include <utility>
+
+#include "base/parallel.h"
 
 namespace scarp {
 namespace {
 
 constexpr std::size_t kMostVertices = 65535;
-constexpr std::uint32_t kUnseen = std::numeric_limits<std::uint32_t>::max();
+/// Triangles that a thread works on at a time where several halve one share.
+constexpr std::size_t kTogether = 1 << 16;
 
-class Splitter {
+/// Places of vertices in the part that is being made: a hash table, open addressing.
+class Places {
  public:
-  explicit Splitter(const Mesh& mesh) : mesh_(mesh), place_(mesh.vertex_count(), kUnseen) {}
+  Places() { slots_.resize(kSlots, {kFree, 0}); }
 
-  std::vector<MeshPart> parts;
-
-  void split(std::span<std::uint32_t> triangles) {
-    if (add_part(triangles)) return;
-    const auto middle = static_cast<std::ptrdiff_t>(halve(triangles));
-    split(triangles.first(static_cast<std::size_t>(middle)));
-    split(triangles.subspan(static_cast<std::size_t>(middle)));
+  /// That of the vertex, which is the next one if it is new; it is then added to `vertices`.
+  std::uint32_t find(std::uint32_t vertex, std::vector<std::uint32_t>& vertices) {
+    std::size_t i = vertex * 0x9e3779b1u >> kShift;
+    while (slots_[i].vertex != vertex && slots_[i].vertex != kFree) i = (i + 1) & (kSlots - 1);
+    if (slots_[i].vertex == kFree) {
+      slots_[i] = {vertex, static_cast<std::uint32_t>(vertices.size())};
+      vertices.push_back(vertex);
+    }
+    return slots_[i].place;
   }
 
  private:
-  /// False if the triangles have too many vertices.
-  bool add_part(std::span<const std::uint32_t> triangles) {
-    MeshPart part;
-    part.corners.reserve(std::min(3 * triangles.size(), 6 * kMostVertices));
-    bool fits = true;
-    for (std::size_t i = 0; i < triangles.size() && fits; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t v = mesh_.triangles[3 * std::size_t{triangles[i]} + k];
-        if (place_[v] == kUnseen) {
-          place_[v] = static_cast<std::uint32_t>(part.vertices.size());
-          part.vertices.push_back(v);
-        }
-        part.corners.push_back(static_cast<std::uint16_t>(place_[v]));
+  static constexpr std::size_t kSlots = std::size_t{1} << 17;  // nearly twice as many as there can be vertices
+  static constexpr unsigned kShift = 32 - std::countr_zero(kSlots);
+  static constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
+  struct Slot {
+    std::uint32_t vertex, place;
+  };
+  std::vector<Slot> slots_;
+};
+
+/// Triangles that stay together until they become a part, or two halves.
+struct Share {
+  std::size_t first = 0, count = 0;
+  std::optional<MeshPart> part = {};
+};
+
+class Splitter {
+ public:
+  Splitter(const Mesh& mesh, int threads) : mesh_(mesh), threads_(thread_count(threads)), ids_(mesh.triangle_count()) {
+    std::iota(ids_.begin(), ids_.end(), 0);
+  }
+
+  /// Halves all shares that are too large, again and again.
+  std::vector<MeshPart> split() {
+    std::vector<Share> shares{{0, ids_.size()}};
+    const auto is_made = [](const Share& share) { return share.part.has_value(); };
+    while (!std::all_of(shares.begin(), shares.end(), is_made)) {
+      std::vector<std::size_t> open;
+      for (std::size_t i = 0; i < shares.size(); ++i) {
+        if (!is_made(shares[i])) open.push_back(i);
       }
-      fits = part.vertices.size() <= kMostVertices;
+      std::vector<std::size_t> middles(shares.size(), 0);
+      const int each = std::max(1, threads_ / static_cast<int>(std::min<std::size_t>(open.size(), 1 << 16)));
+      parallel_for(open.size(), threads_, [&](std::size_t k) {
+        Share& share = shares[open[k]];
+        share.part = make_part(triangles_of(share));
+        if (!share.part) middles[open[k]] = halve(share, each);
+      });
+      std::vector<Share> next;
+      for (std::size_t i = 0; i < shares.size(); ++i) {
+        Share& share = shares[i];
+        if (is_made(share)) {
+          next.push_back(std::move(share));
+          continue;
+        }
+        next.push_back({share.first, middles[i]});
+        next.push_back({share.first + middles[i], share.count - middles[i]});
+      }
+      shares = std::move(next);
     }
-    for (const std::uint32_t v : part.vertices) place_[v] = kUnseen;
-    if (fits) parts.push_back(std::move(part));
-    return fits;
+    std::vector<MeshPart> parts;
+    for (Share& share : shares) parts.push_back(std::move(*share.part));
+    return parts;
+  }
+
+ private:
+  std::span<std::uint32_t> triangles_of(const Share& share) {
+    return std::span(ids_).subspan(share.first, share.count);
+  }
+
+  /// Nothing if the triangles have too many vertices.
+  std::optional<MeshPart> make_part(std::span<const std::uint32_t> triangles) const {
+    MeshPart part;
+    Places places;
+    part.corners.reserve(std::min(3 * triangles.size(), 6 * kMostVertices));
+    for (const std::uint32_t t : triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t v = mesh_.triangles[3 * std::size_t{t} + k];
+        part.corners.push_back(static_cast<std::uint16_t>(places.find(v, part.vertices)));
+      }
+      if (part.vertices.size() > kMostVertices) return std::nullopt;
+    }
+    return part;
   }
 
   /// Thrice the centre of a triangle.
@@ -55,49 +117,102 @@ class Splitter {
     return sum;
   }
 
-  /// Moves those on one side of the median to the front, in their order. Returns their number.
-  std::size_t halve(std::span<std::uint32_t> triangles) const {
-    std::array<double, 2> low, high;
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
-    for (const std::uint32_t t : triangles) {
-      for (std::size_t axis = 0; axis < 2; ++axis) {
-        low[axis] = std::min(low[axis], centre(t, axis));
-        high[axis] = std::max(high[axis], centre(t, axis));
-      }
+  struct Extent {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    void add(const Extent& other) {
+      low = std::min(low, other.low);
+      high = std::max(high, other.high);
     }
-    const std::size_t axis = high[1] - low[1] > high[0] - low[0] ? 1 : 0;
-    std::vector<double> centres;
-    centres.reserve(triangles.size());
-    for (const std::uint32_t t : triangles) centres.push_back(centre(t, axis));
-    const auto middle = centres.begin() + static_cast<std::ptrdiff_t>(centres.size() / 2);
-    std::nth_element(centres.begin(), middle, centres.end());
-    const double median = *middle;
-    const auto behind = std::stable_partition(triangles.begin(), triangles.end(),
-                                              [&](std::uint32_t t) { return centre(t, axis) < median; });
-    const auto front = static_cast<std::size_t>(behind - triangles.begin());
-    return front == 0 ? triangles.size() / 2 : front;  // all centres lie behind each other
+  };
+
+  /// Of the centres along both axes.
+  std::array<Extent, 2> extents_of(std::span<const std::uint32_t> triangles, int threads) const {
+    std::vector<std::array<Extent, 2>> parts(triangles.size() / kTogether + 1);
+    parallel_for_parts(triangles.size(), kTogether, threads, [&](std::size_t first, std::size_t end) {
+      std::array<Extent, 2> extents;
+      for (std::size_t i = first; i < end; ++i) {
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+          const double at = centre(triangles[i], axis);
+          extents[axis].add({at, at});
+        }
+      }
+      parts[first / kTogether] = extents;
+    });
+    std::array<Extent, 2> whole;
+    for (const auto& part : parts) {
+      for (std::size_t axis = 0; axis < 2; ++axis) whole[axis].add(part[axis]);
+    }
+    return whole;
+  }
+
+  /// Moves those on one side of the median to the front, in their order. Returns their number.
+  std::size_t halve(const Share& share, int threads) {
+    const std::span<std::uint32_t> triangles = triangles_of(share);
+    const std::array<Extent, 2> extents = extents_of(triangles, threads);
+    const std::size_t axis = extents[1].high - extents[1].low > extents[0].high - extents[0].low ? 1 : 0;
+    const std::size_t count = triangles.size();
+    std::vector<double> centres(count);
+    parallel_for_parts(count, kTogether, threads, [&](std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) centres[i] = centre(triangles[i], axis);
+    });
+    const double median = median_of(centres, extents[axis], threads);
+    std::vector<std::size_t> fronts(count / kTogether + 2, 0);
+    parallel_for_parts(count, kTogether, threads, [&](std::size_t first, std::size_t end) {
+      std::size_t front = 0;
+      for (std::size_t i = first; i < end; ++i) front += centres[i] < median;
+      fronts[first / kTogether + 1] = front;
+    });
+    std::partial_sum(fronts.begin(), fronts.end(), fronts.begin());
+    const std::size_t middle = fronts.back();
+    if (middle == 0) return count / 2;  // all centres lie behind each other
+    std::vector<std::uint32_t> sides(count);
+    parallel_for_parts(count, kTogether, threads, [&](std::size_t first, std::size_t end) {
+      std::size_t front = fronts[first / kTogether], back = middle + first - front;
+      for (std::size_t i = first; i < end; ++i) sides[centres[i] < median ? front++ : back++] = triangles[i];
+    });
+    std::copy(sides.begin(), sides.end(), triangles.begin());
+    return middle;
+  }
+
+  /// The one that half of the centres come before. Buckets keep their order, so only those of one are sorted.
+  static double median_of(std::span<const double> centres, const Extent& extent, int threads) {
+    constexpr std::size_t kBuckets = 1024;
+    const double scale = extent.high > extent.low ? (kBuckets - 1) / (extent.high - extent.low) : 0;
+    const auto bucket_of = [&](double centre) { return static_cast<std::size_t>((centre - extent.low) * scale); };
+    std::vector<std::array<std::size_t, kBuckets>> parts(centres.size() / kTogether + 1);
+    parallel_for_parts(centres.size(), kTogether, threads, [&](std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) ++parts[first / kTogether][bucket_of(centres[i])];
+    });
+    std::size_t rank = centres.size() / 2, bucket = 0;
+    for (;; ++bucket) {
+      std::size_t inside = 0;
+      for (const auto& counts : parts) inside += counts[bucket];
+      if (rank < inside) break;
+      rank -= inside;
+    }
+    std::vector<double> near;
+    for (const double centre : centres) {
+      if (bucket_of(centre) == bucket) near.push_back(centre);
+    }
+    const auto middle = near.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(near.begin(), middle, near.end());
+    return *middle;
   }
 
   const Mesh& mesh_;
-  std::vector<std::uint32_t> place_;  // of a vertex in the part that is being made
+  int threads_;
+  std::vector<std::uint32_t> ids_;
 };
 
 }  // namespace
 
-std::vector<MeshPart> split_mesh(const Mesh& mesh) {
-  if (mesh.vertex_count() <= kMostVertices) {
-    MeshPart whole;
-    whole.vertices.resize(mesh.vertex_count());
-    std::iota(whole.vertices.begin(), whole.vertices.end(), 0);
-    whole.corners.assign(mesh.triangles.begin(), mesh.triangles.end());
-    return {std::move(whole)};
-  }
-  Splitter splitter(mesh);
-  std::vector<std::uint32_t> triangles(mesh.triangle_count());
-  std::iota(triangles.begin(), triangles.end(), 0);
-  splitter.split(triangles);
-  return std::move(splitter.parts);
+std::vector<MeshPart> split_mesh(const Mesh& mesh, int threads) {
+  if (mesh.vertex_count() > kMostVertices) return Splitter(mesh, threads).split();
+  MeshPart whole;
+  whole.vertices.resize(mesh.vertex_count());
+  std::iota(whole.vertices.begin(), whole.vertices.end(), 0);
+  whole.corners.assign(mesh.triangles.begin(), mesh.triangles.end());
+  return {std::move(whole)};
 }
 
 }  // namespace scarp

@@ -17,6 +17,6 @@ struct MeshPart {
 /// Every triangle is in one part, in the order that it has in the mesh; a vertex on the line between parts is in each
 /// of them. A mesh of few vertices is one part, as it stands. No part has more than 65,535 vertices, since a corner of
 /// 65,535 would restart a primitive. Parts are halves of halves, along x or y. Cost: O(triangles · log parts).
-std::vector<MeshPart> split_mesh(const Mesh& mesh);
+std::vector<MeshPart> split_mesh(const Mesh& mesh, int threads);
 
 }  // namespace scarp
