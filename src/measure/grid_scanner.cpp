@@ -88,19 +88,17 @@ class GridScanner : public Scanner {
     constexpr std::size_t kTogether = 1 << 16;
     const auto bands = static_cast<std::size_t>((rows_ - 1) / rows_per_band_ + 1);
     const std::size_t count = facets_.ids.size(), parts = (count + kTogether - 1) / kTogether;
-    Array<BandSpan> touched;
-    touched.resize(count);
     std::vector<std::size_t> next(parts * bands, 0);  // by part, then band: first the count, then where to put
-    const auto each_in = [&](std::size_t part, const auto& visit) {
-      for (std::size_t i = part * kTogether; i < std::min(count, (part + 1) * kTogether); ++i)
-        visit(i, &next[part * bands]);
-    };
-    parallel_for(parts, threads, [&](std::size_t part) {
-      each_in(part, [&](std::size_t i, std::size_t* counts) {
-        touched[i] = touched_bands(facets_.ids[i]);
-        for (std::int32_t band = touched[i].first; band <= touched[i].last; ++band) ++counts[band];
+    const auto each_touch = [&](const auto& visit) {
+      parallel_for_parts(count, kTogether, threads, [&](std::size_t first, std::size_t end) {
+        std::size_t* const at = &next[first / kTogether * bands];
+        for (std::size_t i = first; i < end; ++i) {
+          const BandSpan touched = touched_bands(facets_.ids[i]);
+          for (std::int32_t band = touched.first; band <= touched.last; ++band) visit(at[band], facets_.ids[i]);
+        }
       });
-    });
+    };
+    each_touch([](std::size_t& number, std::uint32_t) { ++number; });
     starts_.assign(bands + 1, 0);
     std::size_t sum = 0;
     for (std::size_t band = 0; band < bands; ++band) {
@@ -109,12 +107,7 @@ class GridScanner : public Scanner {
     }
     starts_[bands] = sum;
     entries_.resize(sum);
-    parallel_for(parts, threads, [&](std::size_t part) {
-      each_in(part, [&](std::size_t i, std::size_t* at) {
-        for (std::int32_t band = touched[i].first; band <= touched[i].last; ++band)
-          entries_[at[band]++] = facets_.ids[i];
-      });
-    });
+    each_touch([this](std::size_t& at, std::uint32_t id) { entries_[at++] = id; });
   }
 
   void judge_inside(const Facet& facet, std::uint32_t id, Band& band) const {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -204,15 +205,21 @@ struct Surface {
   bool closed = false;
 };
 
-Surface find_surface(const Mesh& mesh, bool with_edges) {
+Surface find_surface(const Mesh& mesh, bool with_edges, int threads) {
+  constexpr std::size_t kTogether = 1 << 16;
   Surface surface;
   const std::size_t count = mesh.triangle_count();
   surface.judged.resize(count);
-  std::size_t upward = 0;
-  for (std::size_t t = 0; t < count; ++t) {
-    surface.judged[t] = static_cast<std::uint32_t>(t);
-    upward += facing(mesh, t) > 0;
-  }
+  std::vector<std::size_t> upwards(count / kTogether + 1, 0);
+  parallel_for_parts(count, kTogether, threads, [&](std::size_t first, std::size_t end) {
+    std::size_t here = 0;
+    for (std::size_t t = first; t < end; ++t) {
+      surface.judged[t] = static_cast<std::uint32_t>(t);
+      here += facing(mesh, t) > 0;
+    }
+    upwards[first / kTogether] = here;
+  });
+  std::size_t upward = std::accumulate(upwards.begin(), upwards.end(), std::size_t{0});
   // A solid has walls and a bottom: where all triangles look up, the edges matter for the topology only.
   if (with_edges || upward < count) {
     surface.connections = judge::connect(mesh, upward == count);
@@ -331,7 +338,7 @@ Result<Measurement> measure(const HeightField& asked, const Mesh& given, const M
   Measurement result;
   result.vertices = mesh.vertex_count();
   result.triangles = mesh.triangle_count();
-  const Surface surface = find_surface(mesh, options.topology);
+  const Surface surface = find_surface(mesh, options.topology, options.run.threads);
   result.closed = surface.closed;
 
   const auto scanner = judged->make_scanner(surface.judged, options.coverage_tolerance, options.run.threads);
@@ -358,7 +365,7 @@ Result<void> measure_topology(const HeightField& field, const Mesh& mesh, const 
   auto judged = Judged::of(field, mesh, options, false);
   if (!judged) return tl::unexpected(judged.error());
   ProgressGate gate(options.run.progress);
-  const Surface surface = find_surface(judged->mesh(), true);
+  const Surface surface = find_surface(judged->mesh(), true, options.run.threads);
   result.closed = surface.closed;
   result.down_facing = result.degenerate = result.overlaps = 0;
   judged->look_in_space(surface.judged);
@@ -377,7 +384,7 @@ Result<void> resample_rows(const HeightField& asked, const Mesh& given,
   if (!judged) return tl::unexpected(judged.error());
   const HeightField& field = judged->field();
   const Mesh& mesh = judged->mesh();
-  const Surface surface = find_surface(mesh, false);
+  const Surface surface = find_surface(mesh, false, threads);
   const auto scanner = judged->make_scanner(surface.judged, options.coverage_tolerance, threads);
   ProgressGate gate(options.run.progress);
   Measurement ignored;
