@@ -1,7 +1,6 @@
 // The one place that knows threads.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -37,9 +36,9 @@ void run_beside(int threads, const std::function<void()>& beside, const std::fun
 
 /// Lowers `value` to `least` if it is larger. Threads may do this at once while none reads or writes it otherwise.
 inline void lower_together(std::uint32_t& value, std::uint32_t least) {
-  const std::atomic_ref<std::uint32_t> shared(value);
-  std::uint32_t now = shared.load(std::memory_order_relaxed);
-  while (least < now && !shared.compare_exchange_weak(now, least, std::memory_order_relaxed)) {
+  // std::atomic_ref is missing from some libraries.
+  std::uint32_t now = __atomic_load_n(&value, __ATOMIC_RELAXED);
+  while (least < now && !__atomic_compare_exchange_n(&value, &now, least, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
   }
 }
 
