@@ -5,9 +5,27 @@
 #include "pieces/border_chain.h"
 #include "pieces/tile_plan.h"
 #include "refine/dominant.h"
+#include "refine/lazy_levels.h"
 #include "refine/tile_domain.h"
+#include "refine/tile_order.h"
 
 namespace scarp {
+
+namespace {
+
+DominantRun refine_in_order(TileOrder order, TileMesh& mesh, TileScanner& scanner, std::size_t most) {
+  switch (order) {
+    case TileOrder::kLazyHalf:
+      return refine_lazily(mesh, scanner, AreaPower::kHalf, most);
+    case TileOrder::kLazyOne:
+      return refine_lazily(mesh, scanner, AreaPower::kOne, most);
+    case TileOrder::kDominant:
+      break;
+  }
+  return refine_dominant(mesh, scanner, most);
+}
+
+}  // namespace
 
 double expected_density(std::size_t kept, std::int64_t steps) {
   // The square of the density along a line, times what was found on terrain of all kinds (2 to 10).
@@ -32,10 +50,11 @@ TileOutcome TileWorker::refine(const HeightField& field, const TileWindow& windo
   }
   if (outcome.status = find_border(field, window, shared, threshold); !outcome.status) return outcome;
   if (outcome.status = start_tile(tile_, border_, mesh_); !outcome.status) return outcome;
-  coarse_.insert(tile_, shared, threshold, steps_ > 0 ? expected_density(border_.size(), steps_) : density, mesh_);
+  const double expected = steps_ > 0 ? expected_density(border_.size(), steps_) : density;
+  coarse_.insert(tile_, shared, threshold, expected, mesh_);
   TileScanner scanner(tile_.view(), threshold);
   scanner.set_shared(shared);
-  const DominantRun run = refine_dominant(mesh_, scanner, most);
+  const DominantRun run = refine_in_order(choose_order(tile_.view(), expected), mesh_, scanner, most);
   outcome.is_broken_off = !run.finished;
   if (outcome.is_broken_off) return outcome;
   outcome.is_unsuited = scanner.has_given_up();

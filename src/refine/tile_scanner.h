@@ -41,6 +41,7 @@ class TileScanner {
   void set_shared(const SharedSides& sides) { shared_ = sides; }
   bool has_given_up() const { return has_given_up_; }
 
+  double threshold() const { return threshold_; }
   std::uint64_t samples_scanned() const { return samples_; }
   std::uint64_t triangles_scanned() const { return triangles_; }
 

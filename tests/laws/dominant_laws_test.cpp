@@ -6,40 +6,17 @@
 #include <limits>
 #include <optional>
 
-#include "laws/tile_meshes.h"
+#include "laws/started_tiles.h"
 #include "refine/coarse_start.h"
 #include "refine/dominant.h"
-#include "refine/tile.h"
-#include "refine/tile_domain.h"
 
 namespace scarp::dominant_laws_test {
 namespace {
 
 using testing::Field;
 using testing::Relief;
-
-struct Started {
-  Tile tile;
-  TileMesh mesh;
-};
-
-/// False where no cell is surface.
-bool start(const Field& field, Started& started) {
-  return started.tile.load(field.view(), {0, 0, field.cols, field.rows}) &&
-         start_tile(started.tile, {}, started.mesh) &&
-         testing::outside_area2(started.mesh) < 2 * std::int64_t{field.cols - 1} * (field.rows - 1);
-}
-
-Field any_field(std::int32_t largest) {
-  const auto cols = *rc::gen::inRange(2, largest), rows = *rc::gen::inRange(2, largest);
-  const auto seed = *rc::gen::arbitrary<std::uint32_t>();
-  const int relief = *rc::gen::inRange(0, 6);
-  return relief == 5 ? testing::sloping_field(seed, cols, rows)
-                     : testing::random_field(seed, cols, rows, testing::kReliefs[relief],
-                                             *rc::gen::element(0.0, 0.0, 0.03, 0.2, 0.5));
-}
-
-double any_threshold() { return *rc::gen::element(0.0, 1e-9, 1e-7, 1e-6, 0.01, 0.5, 1.0, 2.0, 7.3, 30.0, 1e5); }
+using testing::start;
+using Started = testing::StartedTile;
 
 std::vector<TilePoint> refine(const Field& field, double threshold, const ScanKernels& kernels, TileMesh& mesh) {
   Started started;
@@ -54,8 +31,8 @@ std::vector<TilePoint> refine(const Field& field, double threshold, const ScanKe
 }
 
 RC_GTEST_PROP(dominant, ends_with_every_sample_within_the_bound, ()) {
-  const Field field = any_field(48);
-  const double threshold = any_threshold();
+  const Field field = testing::any_tile_field(48);
+  const double threshold = testing::any_tile_threshold();
   Started started;
   RC_PRE(start(field, started));
   TileScanner scanner(started.tile.view(), threshold);
@@ -79,8 +56,8 @@ RC_GTEST_PROP(dominant, reproduces_slopes_that_float32_cannot_hold, ()) {
 }
 
 RC_GTEST_PROP(dominant, gives_the_same_mesh_by_every_kernel_and_every_time, ()) {
-  const Field field = any_field(90);
-  const double threshold = any_threshold();
+  const Field field = testing::any_tile_field(90);
+  const double threshold = testing::any_tile_threshold();
   TileMesh first;
   const auto inserted = refine(field, threshold, scan_kernels(), first);
   for (const ScanKernels& kernels : available_kernels()) {
@@ -118,8 +95,8 @@ std::optional<TileMesh::Id> find_maximum(TileMesh& mesh, std::optional<TilePoint
 
 // The definition: whatever is inserted was, in a mesh scanned from scratch, the worst candidate near it.
 RC_GTEST_PROP(dominant, inserts_local_maxima_only_and_leaves_none, ()) {
-  const Field field = any_field(22);
-  const double threshold = any_threshold();
+  const Field field = testing::any_tile_field(22);
+  const double threshold = testing::any_tile_threshold();
   TileMesh refined;
   const auto inserted = refine(field, threshold, scan_kernels(), refined);
   Started slow;
@@ -182,8 +159,8 @@ TEST(dominant, a_plane_needs_no_vertex_but_the_corners) {
 }
 
 RC_GTEST_PROP(tile_scanner, ranks_what_breaks_the_bound_and_nothing_else, ()) {
-  const Field field = any_field(30);
-  const double threshold = any_threshold();
+  const Field field = testing::any_tile_field(30);
+  const double threshold = testing::any_tile_threshold();
   Started started;
   RC_PRE(start(field, started));
   TileMesh& mesh = started.mesh;
