@@ -51,10 +51,11 @@ TileOutcome TileWorker::refine(const HeightField& field, const TileWindow& windo
   if (outcome.status = find_border(field, window, shared, threshold); !outcome.status) return outcome;
   if (outcome.status = start_tile(tile_, border_, mesh_); !outcome.status) return outcome;
   const double expected = steps_ > 0 ? expected_density(border_.size(), steps_) : density;
-  coarse_.insert(tile_, shared, threshold, expected, mesh_);
+  const TileOrder order = choose_order(tile_.view(), expected);
+  coarse_.insert(tile_, shared, threshold, expected, order == TileOrder::kLazyOne, mesh_);
   TileScanner scanner(tile_.view(), threshold);
   scanner.set_shared(shared);
-  const DominantRun run = refine_in_order(choose_order(tile_.view(), expected), mesh_, scanner, most);
+  const DominantRun run = refine_in_order(order, mesh_, scanner, most);
   outcome.is_broken_off = !run.finished;
   if (outcome.is_broken_off) return outcome;
   outcome.is_unsuited = scanner.has_given_up();

@@ -15,14 +15,15 @@ struct Attempt {
   double most;      ///< kept where this share or less is needed
 };
 constexpr Attempt kAttempts[] = {{8, 0.12, 0.08}, {4, 0.08, 0.03}};
+constexpr Attempt kRoughAttempts[] = {{8, 0.25, 0.12}, {4, 0.08, 0.06}};
 
 }  // namespace
 
-void CoarseStart::insert(const Tile& tile, const SharedSides& shared, double threshold, double density,
+void CoarseStart::insert(const Tile& tile, const SharedSides& shared, double threshold, double density, bool is_rough,
                          TileMesh& mesh) {
   work_ = {};
   const std::int32_t last_col = tile.view().cols - 1, last_row = tile.view().rows - 1;
-  for (const Attempt& attempt : kAttempts) {
+  for (const Attempt& attempt : is_rough ? kRoughAttempts : kAttempts) {
     const std::int32_t step = attempt.step;
     // Fewer than some 16 coarse samples a side say nothing about the terrain.
     if (density * step * step > attempt.expected || std::min(last_col, last_row) < 16 * step) continue;

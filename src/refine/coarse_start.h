@@ -20,10 +20,12 @@ namespace scarp {
 class CoarseStart {
  public:
   /// Inserts into the started `mesh` of a tile what every 8th, or 4th, sample alone would need, where that is few.
-  /// `density`: vertices a sample to be expected of the finished mesh; it decides what is tried. A trial that needs too
-  /// many is broken off: at most one insertion for each 260 samples of the tile is in vain. No vertex is put on a
-  /// shared side, or outside the surface.
-  void insert(const Tile& tile, const SharedSides& shared, double threshold, double density, TileMesh& mesh);
+  /// `density`: vertices a sample to be expected of the finished mesh; it decides what is tried. On terrain that
+  /// `is_rough` more is tried and kept: extremes of noise are many there. A trial that needs too many is broken off: at
+  /// most one insertion for each 190 samples of the tile is in vain. No vertex is put on a shared side, or outside the
+  /// surface.
+  void insert(const Tile& tile, const SharedSides& shared, double threshold, double density, bool is_rough,
+              TileMesh& mesh);
 
   /// Of the last call.
   const Work& work() const { return work_; }

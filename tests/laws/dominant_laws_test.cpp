@@ -196,7 +196,7 @@ TEST(coarse_start, puts_no_vertex_on_a_shared_side_and_leaves_a_sound_mesh) {
       Started started;
       ASSERT_TRUE(start(field, started));
       CoarseStart coarse;
-      coarse.insert(started.tile, shared, kBound, 0, started.mesh);
+      coarse.insert(started.tile, shared, kBound, 0, false, started.mesh);
       EXPECT_EQ(testing::verify_tile_mesh(started.mesh, cols, rows), "");
       EXPECT_EQ(started.mesh.vertex_count() > 4, std::min(cols, rows) > 64);
       for (TileMesh::Id t = 0; t < started.mesh.triangle_count(); ++t) {
@@ -219,7 +219,7 @@ TEST(coarse_start, is_left_out_where_the_mesh_will_be_dense) {
   Started started;
   ASSERT_TRUE(start(field, started));
   CoarseStart coarse;
-  coarse.insert(started.tile, {}, 5, 0.5, started.mesh);
+  coarse.insert(started.tile, {}, 5, 0.5, true, started.mesh);
   EXPECT_EQ(started.mesh.vertex_count(), 4u);
   EXPECT_EQ(coarse.work().triangles_scanned, 0u);
 }
