@@ -30,7 +30,7 @@ ROOMS = {
                ["goals", "height_field", "lines", "paper", "points", "progress", "regions", "result", "simplify", "strategy", "tolerances"],
                "how far a triangle is from its samples, and how far it may be: tolerances, regions, importance"),
     "io": (2, ["base", "grid", "mesh"],
-           ["cutline", "degrees", "drape", "frame", "glb", "height_field", "io", "lines", "mesh", "points", "progress", "result", "solid", "strategy", "version", "zones"],
+           ["cutline", "degrees", "drape", "frame", "glb", "height_field", "io", "lines", "mesh", "points", "progress", "result", "solid", "strategy", "tile", "tile_folder", "version", "zones"],
            "bytes to values and back: `mesh/`, `raster/`, `points/`, `gdal/`"),
     "measure": (3, ["base", "grid", "mesh"],
                 ["cutline", "frame", "height_field", "judge", "measure", "mesh", "points", "progress", "result", "strategy"],
@@ -51,6 +51,7 @@ ROOMS = {
                "a window worked on alone, borders first: tiles, strips, seams, freezing"),
     "simplify": (6, ["base", "grid", "geom", "mesh", "tin", "metric", "io", "measure", "refine", "fit", "lines", "shape",
                      "features", "pieces"], ANY, "the list: the door, the passes, budgets, the proof, scattered points"),
+    "tiles": (6, ["base", "grid"], ANY, "pyramids of tiles on the globe: levels, edges, each tile, quantized-mesh"),
     "apps": (7, [], ANY, "the command line; knows `include/scarp` only"),
 }
 

@@ -16,6 +16,7 @@
 #include "commands/measure_command.h"
 #include "commands/paper_command.h"
 #include "commands/simplify_command.h"
+#include "commands/tile_command.h"
 #include "options/help.h"
 #include "options/missing_value.h"
 #include "options/unknown_words.h"
@@ -97,6 +98,7 @@ int run_program(int argc, char** argv) {
   program.require_subcommand(1);
   SimplifyCommand simplify(program);
   MeasureCommand measure(program);
+  TileCommand tile(program);
   InfoCommand info(program);
   GenerateCommand generate(program);
   PaperCommand paper(program);
@@ -123,6 +125,7 @@ int run_program(int argc, char** argv) {
   const std::string command_line = join_command_line(argc, argv);
   return report_end(simplify.is_chosen()   ? simplify.run(command_line)
                     : measure.is_chosen()  ? measure.run(command_line)
+                    : tile.is_chosen()     ? tile.run(command_line)
                     : info.is_chosen()     ? info.run(command_line)
                     : generate.is_chosen() ? generate.run()
                     : paper.is_chosen()    ? paper.run()

@@ -92,6 +92,9 @@ struct RasterInfo {
   std::string crs;               ///< of the file, "EPSG:4326" where an authority is known, else WKT; empty if none
   std::string crs_unit;          ///< of its x and y: "metre", "US survey foot", "degree"; empty if there is no CRS
   bool is_geographic = false;    ///< x and y of the file are degrees
+  std::string vertical;          ///< what heights are above, where the CRS says so: "EGM96 height"; else empty
+  bool is_ellipsoidal = false;   ///< heights are above the ellipsoid, as the CRS says
+  std::string crs_with_heights;  ///< WKT of the CRS where `vertical` is set; else empty
   std::string unit;              ///< of z where the file says so; else empty
   double z_scale = 1, z_offset = 0;  ///< those of ReadOptions: heights are z_scale · value + z_offset
   std::optional<double> nodata;      ///< the nodata value used, of the file's values

@@ -35,6 +35,8 @@
 #include "scarp/solid.h"
 #include "scarp/strategy.h"
 #include "scarp/suggest.h"
+#include "scarp/tile.h"
+#include "scarp/tile_folder.h"
 #include "scarp/tolerances.h"
 #include "scarp/version.h"
 #include "scarp/water.h"

@@ -8,6 +8,7 @@
 #include "scarp/cutline.h"
 #include "scarp/drape.h"
 #include "scarp/lines.h"
+#include "scarp/tile_folder.h"
 
 namespace scarp {
 namespace {
@@ -32,6 +33,10 @@ Result<std::vector<std::uint8_t>> encode_geotiff(const RasterImage&) {
 
 Result<std::unique_ptr<GeoTiff>> create_geotiff(const std::string&, int, int, const RasterInfo*) {
   return fail(ErrorKind::kOutput, "GeoTIFF cannot be written: this build of Scarp has no GDAL, which encodes it");
+}
+
+Result<RasterOnGlobe> place_on_globe(const RasterInfo&, Vertical, const std::string& path) {
+  return fail(ErrorKind::kInput, path + ": this build of Scarp knows no place on the globe: it was built without GDAL");
 }
 
 std::optional<CrsDescription> describe_crs(const std::string&) { return {}; }

@@ -32,7 +32,7 @@ const char* name_lines(const SimplifyOptions& options) {
   return all(is_ridge_line) ? "ridges" : "breaklines";
 }
 
-Result<void> check_border(const SimplifyOptions& options) {
+Result<void> check_border(const HeightField& field, const SimplifyOptions& options) {
   const Border& border = options.domain.border;
   if (!border.is_locked) return {};
   if (!options.goals.max_error && !has_tolerances(options))
@@ -41,6 +41,13 @@ Result<void> check_border(const SimplifyOptions& options) {
   if (error && !(*error >= 0 && *error <= options.goals.max_error.value_or(HUGE_VAL) && std::isfinite(*error)))
     return usage(fmt::format("the border's max error must lie in 0 … {}, that of the mesh, not {}",
                              options.goals.max_error.value_or(HUGE_VAL), *error));
+  for (const auto& [col, row] : options.features.points) {
+    if (col <= 0 || row <= 0 || col >= field.cols - 1 || row >= field.rows - 1)
+      return usage(fmt::format(
+          "sample ({}, {}) lies on the raster's edge, which is locked: leave it out, or give it as one of the border's "
+          "vertices",
+          col, row));
+  }
   return {};
 }
 
@@ -109,7 +116,7 @@ Result<void> check_needs(const HeightField& field, const SimplifyOptions& option
   const bool has_error_for_all = options.goals.max_error || has_budget(options);
   if (options.quality.min_shape && !(*options.quality.min_shape >= 0 && *options.quality.min_shape <= 0.5))
     return usage(fmt::format("the floor of shapes must lie in 0 … 0.5, not {}", *options.quality.min_shape));
-  if (auto sound = check_border(options); !sound) return sound;
+  if (auto sound = check_border(field, options); !sound) return sound;
   if (options.goals.objective == Objective::kRms && !has_budget(options))
     return usage("the rms objective needs a budget of triangles or vertices: a max error alone decides the mesh");
   if (options.quality.vertices == Vertices::kFree && options.quality.effort != Effort::kHigh &&

@@ -29,6 +29,16 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp measure dem.tif hills.glb --script outliers.txt --fail-above 1\n"
      "  scarp measure photo.png photo.glb --image --fail-above 8\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
+    {kTile, "tile", "Make a pyramid of terrain tiles for globes: quantized-mesh, for CesiumJS and others",
+     "INPUT OUTPUT [OPTIONS]",
+     "Tiles of neighbours have the same edges, and each tells its error bound, the earth's curve included.\n"
+     "Serve the folder with the header 'Content-Encoding: gzip' for its .terrain files.\n"
+     "Examples:\n"
+     "  scarp tile dem.tif globe                             all levels, 0 to what the raster is worth\n"
+     "  scarp tile dem.tif globe --vertical egm96            the raster's CRS does not say: above the sea\n"
+     "  scarp tile north.tif south.tif globe --effort high   a mosaic, in fewer triangles\n"
+     "  scarp tile dem.tif globe -e 2 --zoom 14              the finest level and its max error\n"
+     "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
     {kInfo, "info", "Describe a raster, points or a mesh, and suggest errors for a raster", "FILE [OPTIONS]",
      "The facts come at once, the suggestions when they are found, by running the engine: on the whole\n"
      "raster up to 2 million samples, on windows of it beyond that (an estimate).\n"

@@ -12,6 +12,7 @@ std::span<const OptionRow> file_rows();
 std::span<const OptionRow> sample_rows();
 std::span<const OptionRow> line_rows();
 std::span<const OptionRow> strategy_rows();
+std::span<const OptionRow> tile_rows();
 std::span<const OptionRow> run_rows();
 
 }  // namespace scarp::cli

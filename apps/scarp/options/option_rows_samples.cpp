@@ -10,7 +10,7 @@ using enum OptionType;
 constexpr OptionRow kSampleRows[] = {
     {.id = kNodata,
      .name = "--nodata",
-     .commands = kSimplify | kMeasure | kInfo,
+     .commands = kSimplify | kMeasure | kInfo | kTile,
      .group = OptionGroup::kNodata,
      .type = kNumber,
      .value = "V",

@@ -119,6 +119,10 @@ enum class OptionId {
   kOut,
   kNoSuggest,
   kNoTiming,
+  kQuality,
+  kZoom,
+  kCells,
+  kVertical,
   kMemory,
   kThreads,
   kQuiet,
@@ -167,8 +171,8 @@ enum class OptionType {
 /// Commands as bits, so that a row can belong to several.
 using Commands = unsigned;
 inline constexpr Commands kSimplify = 1, kMeasure = 2, kInfo = 4, kGenerate = 8, kPaper = 16, kHelpCommand = 32,
-                          kVersionCommand = 64;
-inline constexpr Commands kEveryCommand = 127;
+                          kVersionCommand = 64, kTile = 128;
+inline constexpr Commands kEveryCommand = 255;
 
 struct OptionRow {
   OptionId id;

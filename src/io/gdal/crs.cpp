@@ -62,6 +62,15 @@ std::string crs_name(const Crs& crs) {
   return name;
 }
 
+std::string wkt_with_heights(const Crs& crs) {
+  const char* options[] = {"FORMAT=WKT2_2019", nullptr};
+  char* wkt = nullptr;
+  std::string text;
+  if (crs && OSRExportToWktEx(crs.get(), &wkt, options) == OGRERR_NONE && wkt != nullptr) text = wkt;
+  CPLFree(wkt);
+  return text;
+}
+
 std::string short_name(const Crs& crs) {
   const std::string name = crs_name(crs);
   if (name.size() < 40) return name;

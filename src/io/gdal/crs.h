@@ -32,6 +32,8 @@ Crs find_crs(const std::string& definition);
 
 /// "EPSG:32611" where an authority is known, else WKT.
 std::string crs_name(const Crs& crs);
+/// WKT of 2019, which knows vertical datums. Empty for null.
+std::string wkt_with_heights(const Crs& crs);
 /// "EPSG:32611", or the name in the WKT: short enough for a sentence.
 std::string short_name(const Crs& crs);
 

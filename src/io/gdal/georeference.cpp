@@ -197,6 +197,9 @@ void describe_georeference(const Georeference& geo, RasterInfo& info) {
   info.crs = crs_name(geo.crs);
   info.crs_unit = geo.unit_name;
   info.is_geographic = geo.geographic;
+  info.vertical = geo.in_space.vertical;
+  info.is_ellipsoidal = geo.in_space.is_ellipsoidal;
+  if (!geo.in_space.vertical.empty()) info.crs_with_heights = wkt_with_heights(geo.in_space.crs);
   const auto& gt = geo.pixels;
   info.cell_x = std::hypot(gt[1], gt[4]);
   info.cell_y = std::hypot(gt[2], gt[5]);

@@ -1,0 +1,34 @@
+// scarp tile: a pyramid of terrain tiles.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "options/options.h"
+#include "scarp/tile.h"
+#include "scarp/tile_folder.h"
+
+namespace scarp::cli {
+
+class TileCommand {
+ public:
+  /// Adds the command to the program. This object must stay alive and in place until run() is done.
+  explicit TileCommand(CLI::App& program);
+  TileCommand(const TileCommand&) = delete;
+  TileCommand& operator=(const TileCommand&) = delete;
+
+  bool is_chosen() const { return command_->parsed(); }
+  Result<void> run(const std::string& command_line) const;
+
+ private:
+  Result<PyramidSettings> parse_settings() const;
+  Result<OwnedHeightField> read_raster(const ProgressCallback& progress) const;
+
+  CLI::App* command_;
+  RasterArguments raster_;
+  std::string output_;
+  Given max_error_, quality_, zoom_, cells_, effort_, vertical_, background_, threads_, report_;
+  bool overwrite_ = false, quiet_ = false, json_progress_ = false;
+};
+
+}  // namespace scarp::cli

@@ -1,0 +1,236 @@
+// Tile pyramids of terrain on the globe: which tiles there are, how each is made, and the bytes of quantized-mesh.
+//
+// The grid is geographic TMS: level z has 2^(z+1) × 2^z tiles, each 180° / 2^z wide and high; x counts from 180° W
+// eastwards, y from the south. A tile is a function of (its id, the plan, the heights of its nodes and a few nodes
+// around it). No neighbour enters it, so tiles may be made in any order, on any machine; two neighbours still have the
+// same vertices, heights and normals on the edge that they share.
+//
+// NODES. The source is sampled on a lattice: `cells` cells a side for tiles of the finest level. Coarser tiles use all
+// nodes below them, down to the plan's level of blocks. The max error of a tile counts all of them.
+//
+// HEIGHTS are multiples of a quantum that a level shares, and a tile's header is chosen so that clients decode a height
+// to the same float32 in each tile.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scarp/degrees.h"
+#include "scarp/frame.h"
+#include "scarp/height_field.h"
+#include "scarp/quality.h"
+#include "scarp/result.h"
+#include "scarp/run.h"
+
+#pragma GCC visibility push(default)
+
+namespace scarp {
+
+/// A tile of the geographic grid.
+struct TileId {
+  int z = 0;
+  std::uint32_t x = 0, y = 0;  ///< y from the south
+
+  friend bool operator==(const TileId&, const TileId&) = default;
+};
+
+inline constexpr int kMaxTileLevel = 23;
+
+/// Degrees.
+struct DegreeBox {
+  double west = 0, south = 0, east = 0, north = 0;
+};
+DegreeBox bounds_of(TileId id);
+
+/// The error in metres that clients assume for a level of quantized-mesh: of an ellipsoid's `semi_major` axis, 65
+/// samples a tile, two roots (CesiumJS, cesium-native).
+double geometric_error(int z, double semi_major = 6378137);
+
+/// A rectangle of nodes. Nodes divide each parallel into `per_turn` steps, and each meridian into half as many.
+struct NodeWindow {
+  std::int64_t per_turn = 0;
+  std::int64_t col = 0;  ///< from 180° W; any number, for columns repeat after a turn
+  std::int64_t row = 0;  ///< from the north pole, southwards; 0 … per_turn / 2
+  int cols = 0, rows = 0;
+};
+
+/// Heights by place.
+class NodeSource {
+ public:
+  virtual ~NodeSource() = default;
+  /// Writes cols × rows heights in metres to `out`, the northern row first, NaN where there is none. A node's height is
+  /// a function of its place alone. Several threads may call it at once. Fails as the samples' source does.
+  virtual Result<void> read(const NodeWindow& window, std::span<float> out) const = 0;
+};
+
+/// Where a raster lies on the globe, and what its samples are.
+struct RasterPlace {
+  /// From samples to the CRS's x and y, as Frame::affine.
+  std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
+  /// From longitude and latitude in degrees to x and y. Null: x and y are longitude and latitude.
+  std::shared_ptr<const PointTransform> from_degrees = nullptr;
+};
+
+/// Nodes by interpolation between the samples of a raster: cubic (Catmull-Rom) where all 16 samples around a node are
+/// heights, else bilinear between those of four that are. No height where the nearest sample has none. The raster's
+/// place of a node is exact at each 16th node and interpolated between where `from_degrees` is given. Borrows the
+/// field's samples. Fails with kUsage for an affine map without an inverse.
+Result<std::unique_ptr<NodeSource>> make_node_source(const HeightField& field, const RasterPlace& place);
+
+/// The surface that heights are above, such as the sea: itself above the ellipsoid.
+class HeightZero {
+ public:
+  virtual ~HeightZero() = default;
+  /// Heights in metres above the ellipsoid at degrees, NaN where they are not known. Each depends on its place alone.
+  /// Several threads may call it at once. The spans have equal sizes.
+  virtual void find(std::span<const double> longitudes, std::span<const double> latitudes,
+                    std::span<double> heights) const = 0;
+};
+
+/// The nodes of `source`, raised by their zero's height, which is exact at most 1/32° apart and interpolated between.
+/// Its read() fails with kInput for a height whose zero is not known. Borrows the source.
+std::unique_ptr<NodeSource> make_raised_source(const NodeSource& source, std::shared_ptr<const HeightZero> zero);
+
+/// Degrees that the raster covers, half a cell around the outer samples included. Fails with kInput where its outline
+/// has no longitude or latitude. `to_degrees`: from x and y to degrees, null as in RasterPlace.
+Result<DegreeBox> degrees_covered(const HeightField& field, const std::array<double, 6>& affine,
+                                  const PointTransform* to_degrees);
+
+/// What to aim at.
+struct PyramidSettings {
+  /// Nodes' cells a side of tiles of the finest level, a power of two, 16 … 256. DEFAULT: 128.
+  int cells = 128;
+  /// Levels 0 … max_zoom. DEFAULT (−1): the first level whose nodes are no farther apart than 1.1 cells of the source.
+  int max_zoom = -1;
+  /// Metres, of the finest level; above 0. DEFAULT (0): a quarter of its geometric error.
+  double max_error = 0;
+  /// A level's max error is the geometric error over this, or max_error if that is more. At least 1/2. DEFAULT: 2.
+  double quality = 2;
+  /// DEFAULT: kNormal.
+  Effort effort = Effort::kNormal;
+  /// Height of nodes without a height, metres. DEFAULT: 0, the ellipsoid.
+  float background = 0;
+  Geodetic ellipsoid = {};
+};
+
+/// A level of a pyramid.
+struct PyramidLevel {
+  double geometric_error = 0;  ///< metres
+  double max_error = 0;        ///< of the tiles' meshes at their nodes, metres
+  double quantum = 0;          ///< heights are multiples of this power of two, metres
+  int segments = 1;            ///< edges of triangles span at most 1/segments of a tile, for the earth's curvature
+};
+
+/// The settings, resolved: all that a tile depends on besides its nodes.
+struct PyramidPlan {
+  int cells = 128;
+  int block_level =
+      0;  ///< tiles of this level and below count all nodes; those above, nodes reduced to 256 cells a side
+  std::vector<PyramidLevel> levels;  ///< 0 … the finest
+  Effort effort = Effort::kNormal;
+  float background = 0;
+  Geodetic ellipsoid = {};
+  DegreeBox covered = {};  ///< by the source
+
+  int max_zoom() const { return static_cast<int>(levels.size()) - 1; }
+};
+
+/// What a plan needs to know of the source.
+struct SourceFacts {
+  DegreeBox covered = {};
+  double cell = 0;          ///< metres along the ground, the geometric mean of both ways, above 0
+  double min = 0, max = 0;  ///< bounds of its heights, metres
+};
+
+/// Fails with kUsage for settings out of range.
+Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSettings& settings = {});
+
+/// A tile's mesh, as clients decode it.
+struct TerrainTile {
+  TileId id;
+  std::vector<std::uint16_t> u, v;                   ///< 0 … 32767 from west, from south
+  std::vector<std::int32_t> heights;                 ///< in quanta of the level
+  std::vector<std::array<std::uint8_t, 2>> normals;  ///< octahedral, earth-centred
+  std::vector<std::uint32_t> triangles;              ///< counter-clockwise seen from above
+  double quantum = 1;
+
+  /// Largest |mesh − node| over all nodes of the tile, of the heights as clients decode them, in metres, where edges
+  /// are straight on the map. Above the plan's block level an upper bound.
+  double node_error = 0;
+  /// What flat triangles lie below the ellipsoid's curve at most, in metres: adds to node_error in space.
+  double sag = 0;
+
+  double bound() const { return node_error + sag; }
+};
+
+/// The tile. Its node_error is at most the level's max error, but where positions in 32767ths of the tile cannot follow
+/// the land, next to a cliff. REQUIRES: plan.block_level <= id.z <= plan.max_zoom(). Fails as the source does.
+Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
+
+/// Where the tiles of a pyramid go.
+class TileSink {
+ public:
+  virtual ~TileSink() = default;
+  /// The bytes to keep. Several threads call it at once.
+  virtual Result<std::vector<std::uint8_t>> encode(const TerrainTile& tile) const = 0;
+  /// Called in the same order for any number of threads, by one thread at a time.
+  virtual Result<void> put(TileId id, std::span<const std::uint8_t> bytes) = 0;
+};
+
+/// What the tiles of a level are like.
+struct LevelSummary {
+  std::uint64_t tiles = 0, triangles = 0, bytes = 0;
+  double node_error = 0, bound = 0;  ///< the largest of its tiles
+  /// Tiles whose node_error is above the level's max error: cliffs that rounded positions cannot follow. Not counted
+  /// above the block level, where it is an upper bound.
+  std::uint64_t over = 0;
+};
+
+struct PyramidReport {
+  std::vector<LevelSummary> levels;               ///< 0 … the finest
+  std::vector<std::vector<std::uint64_t>> tiles;  ///< by level: rows and columns of its tiles, y · 2^32 + x, sorted
+};
+
+/// Makes all tiles of a pyramid: those with heights; of levels up to plan.block_level also the others that clients need
+/// to reach them: both roots, and the siblings of each tile. A tile's bytes are those of make_tile(). Tiles above the
+/// block level are made of nodes reduced to 256 cells a side, and their node_error is an upper bound for all nodes
+/// below, which the reduction carries upwards.
+///
+/// Cost: each node is read once, by blocks; memory: that of a block's nodes, 4 · (32 · cells)² bytes, and for each
+/// block 200 kB. Progress: pass "tiles". Fails as make_tile() and the sink do, and with kCancelled.
+Result<PyramidReport> make_pyramid(const PyramidPlan& plan, const NodeSource& source, TileSink& sink,
+                                   const Run& run = {});
+
+/// The bytes of a quantized-mesh 1.0 file, not compressed. With normals (extension 1). Deterministic: no function of
+/// the machine's mathematics library is called.
+std::vector<std::uint8_t> encode_quantized_mesh(const TerrainTile& tile, const Geodetic& ellipsoid = {});
+
+/// A quantized-mesh file, as clients read it.
+struct QuantizedMesh {
+  std::array<double, 3> center{};
+  float min_height = 0, max_height = 0;
+  std::array<double, 4> sphere{};  ///< centre, radius
+  std::array<double, 3> horizon_point{};
+  std::vector<std::uint16_t> u, v, h;  ///< 0 … 32767
+  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> west, south, east, north;  ///< vertices on the edges
+  std::vector<std::array<std::uint8_t, 2>> normals;     ///< empty, or one a vertex
+
+  /// As clients decode it: min + (max − min) · h / 32767.
+  double height(std::size_t vertex) const {
+    const double low = double{min_height}, high = double{max_height};
+    return low + (high - low) * (static_cast<double>(h[vertex]) / 32767);
+  }
+};
+
+/// Fails with kInput for what is no such file; never trusts a length or an index in it.
+Result<QuantizedMesh> decode_quantized_mesh(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
+
+}  // namespace scarp
+
+#pragma GCC visibility pop

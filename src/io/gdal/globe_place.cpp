@@ -1,0 +1,152 @@
+// Where a raster lies on the globe: the ways to longitude, latitude and heights above the ellipsoid.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "io/gdal/crs.h"
+#include "io/gdal/session.h"
+#include "scarp/tile_folder.h"
+
+namespace scarp {
+namespace {
+
+using gdal::Crs;
+using gdal::Passage;
+
+/// Degrees that two geodetic datums may differ by and yet count as one, for rasters in degrees.
+constexpr double kSameDegrees = 1e-9;
+
+/// A CRS of three dimensions, x before y before heights; null if GDAL does not know it.
+Crs find_space_crs(const std::string& definition) {
+  Crs crs(OSRNewSpatialReference(nullptr));
+  if (OSRSetFromUserInput(crs.get(), definition.c_str()) != OGRERR_NONE) return nullptr;
+  OSRSetAxisMappingStrategy(crs.get(), OAMS_TRADITIONAL_GIS_ORDER);
+  return crs;
+}
+
+/// By PROJ, through the raster's own x and y where its zero is that of a CRS of these.
+class ProjZero final : public HeightZero {
+ public:
+  /// `from_degrees`: null where x and y are degrees.
+  ProjZero(std::shared_ptr<const PointTransform> from_degrees, const Crs& heights, const Crs& ellipsoid)
+      : from_degrees_(std::move(from_degrees)), way_(heights, ellipsoid, true) {}
+
+  bool usable() const { return way_.usable(); }
+  void find(std::span<const double> longitudes, std::span<const double> latitudes,
+            std::span<double> heights) const override {
+    std::vector<double> x(longitudes.begin(), longitudes.end()), y(latitudes.begin(), latitudes.end());
+    std::fill(heights.begin(), heights.end(), 0.0);
+    if (from_degrees_ != nullptr) from_degrees_->apply(x, y);
+    way_.apply(x, y, heights);
+  }
+
+ private:
+  std::shared_ptr<const PointTransform> from_degrees_;
+  Passage way_;
+};
+
+/// Degrees of the earth's, where there is a way to them; else of the raster's own ellipsoid, of another planet.
+struct Degrees {
+  Crs crs;
+  Geodetic ellipsoid;
+};
+
+Degrees choose_degrees(const Crs& source) {
+  OGRErr error = OGRERR_NONE;
+  Geodetic own;
+  own.semi_major = OSRGetSemiMajor(source.get(), &error);
+  own.inverse_flattening = OSRGetInvFlattening(source.get(), &error);
+  const Geodetic earth;
+  if (error == OGRERR_NONE && std::abs(own.semi_major / earth.semi_major - 1) > 0.01)
+    return {gdal::copy_crs(Crs(OSRCloneGeogCS(source.get())).get()), own};
+  return {gdal::find_crs("EPSG:4326"), earth};
+}
+
+bool is_same_point(const PointTransform& transform, double x, double y) {
+  double mapped_x = x, mapped_y = y;
+  return transform.apply({&mapped_x, 1}, {&mapped_y, 1}) && std::abs(mapped_x - x) < kSameDegrees &&
+         std::abs(mapped_y - y) < kSameDegrees;
+}
+
+bool is_metre(const std::string& unit) {
+  return unit.empty() || unit == "m" || unit == "metre" || unit == "meter" || unit == "metres" || unit == "meters";
+}
+
+constexpr const char* kWaysOut =
+    "give --vertical egm96 for heights above the sea, or --vertical ellipsoid for heights above the ellipsoid, as GPS "
+    "gives them";
+
+/// Where heights above the sea or another surface begin.
+Result<void> find_zero(const RasterInfo& info, Vertical vertical, const std::string& path, RasterOnGlobe& globe) {
+  std::shared_ptr<const PointTransform> to_xy;
+  Crs heights;
+  if (vertical == Vertical::kEgm96) {
+    globe.vertical = "EGM96 height";
+    heights = find_space_crs("EPSG:4326+5773");
+  } else {
+    globe.vertical = info.vertical;
+    heights = find_space_crs(info.crs_with_heights);
+    to_xy = globe.place.from_degrees;
+  }
+  const Crs ellipsoid = find_space_crs("EPSG:4979");
+  auto zero = heights && ellipsoid ? std::make_shared<ProjZero>(to_xy, heights, ellipsoid) : nullptr;
+  const std::array<double, 6>& gt = info.geotransform;
+  double x = gt[0], y = gt[3];
+  if (globe.to_degrees != nullptr) globe.to_degrees->apply({&x, 1}, {&y, 1});
+  double height = NAN;
+  if (zero != nullptr && zero->usable()) zero->find({&x, 1}, {&y, 1}, {&height, 1});
+  if (!std::isfinite(height))
+    return fail(ErrorKind::kUsage,
+                fmt::format("{}: the way from {} to heights above the ellipsoid is not on this machine: install its "
+                            "grid for PROJ (Debian: proj-data), or {}",
+                            path, globe.vertical, kWaysOut));
+  globe.zero = std::move(zero);
+  return {};
+}
+
+}  // namespace
+
+Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, Vertical vertical, const std::string& path) {
+  gdal::Session quiet;
+  const Crs source = info.crs.empty() ? nullptr : gdal::find_crs(info.crs);
+  if (!info.has_georeference || !source)
+    return fail(ErrorKind::kInput,
+                fmt::format("{} does not say where on the globe it lies: give it a position and a CRS (gdal_translate "
+                            "-a_ullr … -a_srs EPSG:4326)",
+                            path));
+  if (!is_metre(info.unit))
+    return fail(ErrorKind::kInput, fmt::format("the heights of {} are in {}, tiles need metres: give --z-scale 0.3048 "
+                                               "for feet",
+                                               path, info.unit));
+  RasterOnGlobe globe;
+  const Degrees degrees = choose_degrees(source);
+  globe.ellipsoid = degrees.ellipsoid;
+  const std::array<double, 6>& gt = info.geotransform;
+  globe.place.affine = {gt[0] + (gt[1] + gt[2]) / 2, gt[1], gt[2], gt[3] + (gt[4] + gt[5]) / 2, gt[4], gt[5]};
+  auto forth = degrees.crs ? gdal::build_transform(source, degrees.crs) : nullptr;
+  auto back = degrees.crs ? gdal::build_transform(degrees.crs, source) : nullptr;
+  if (!forth || !back)
+    return fail(ErrorKind::kInput,
+                fmt::format("{}: PROJ knows no way from {} to longitude and latitude", path, gdal::short_name(source)));
+  const bool are_degrees = info.is_geographic && is_same_point(*forth, globe.place.affine[0], globe.place.affine[3]);
+  if (!are_degrees) {
+    globe.place.from_degrees = std::move(back);
+    globe.to_degrees = std::move(forth);
+  }
+
+  if (vertical == Vertical::kEllipsoid || (vertical == Vertical::kAuto && info.is_ellipsoidal)) {
+    globe.vertical = "the ellipsoid";
+    return globe;
+  }
+  if (vertical == Vertical::kAuto && info.vertical.empty())
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("nobody says what the heights of {} are above, which may be 100 m apart: {}", path, kWaysOut));
+  if (auto found = find_zero(info, vertical, path, globe); !found) return tl::unexpected(found.error());
+  return globe;
+}
+
+}  // namespace scarp

@@ -1,0 +1,251 @@
+#include "tiles/coarse_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tiles/tile_mesh_parts.h"
+
+namespace scarp {
+namespace {
+
+/// Of a number, for what single precision rounds away, outwards.
+float rounded_down(double value) {
+  return std::nextafter(static_cast<float>(value), -std::numeric_limits<float>::infinity());
+}
+float rounded_up(double value) {
+  return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
+}
+
+/// Heights at the corners of a cell, from its north-western corner.
+struct Corners {
+  double nw = 0, ne = 0, sw = 0, se = 0;
+
+  double at(double x, double y) const {
+    const double north = nw + (ne - nw) * x, south = sw + (se - sw) * x;
+    return north + (south - north) * y;
+  }
+};
+
+/// A corner of a piece of a triangle, in cells from the tile's north-western corner, and the mesh's height there.
+struct Corner {
+  double x = 0, y = 0, z = 0;
+};
+
+/// A piece of a triangle, convex.
+using Piece = std::vector<Corner>;
+
+/// What lies on the side of `limit` where sign · coordinate <= sign · limit.
+void cut(Piece& piece, double Corner::*coordinate, double limit, double sign, Piece& scratch) {
+  scratch.clear();
+  for (std::size_t k = 0; k < piece.size(); ++k) {
+    const Corner& from = piece[k];
+    const Corner& to = piece[(k + 1) % piece.size()];
+    const double a = sign * (from.*coordinate - limit), b = sign * (to.*coordinate - limit);
+    if (a <= 0) scratch.push_back(from);
+    if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
+      const double t = a / (a - b);
+      Corner corner{from.x + (to.x - from.x) * t, from.y + (to.y - from.y) * t, from.z + (to.z - from.z) * t};
+      corner.*coordinate = limit;
+      scratch.push_back(corner);
+    }
+  }
+  piece.swap(scratch);
+}
+
+/// Extremes of mesh − surface on a piece in a cell: at its corners, or along its sides where the slope along them is
+/// that of the surface. Inside there is none, for the surface is a saddle.
+struct Extremes {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+Extremes extremes(const Piece& piece, const Corners& surface, std::int32_t col, std::int32_t row) {
+  Extremes found;
+  const double bend = surface.nw - surface.ne - surface.sw + surface.se;
+  for (std::size_t k = 0; k < piece.size(); ++k) {
+    const Corner& from = piece[k];
+    const Corner& to = piece[(k + 1) % piece.size()];
+    const auto difference = [&](double t) {
+      const double x = from.x + (to.x - from.x) * t - col, y = from.y + (to.y - from.y) * t - row;
+      return from.z + (to.z - from.z) * t - surface.at(x, y);
+    };
+    found.add(difference(0));
+    const double curve = -bend * (to.x - from.x) * (to.y - from.y);
+    if (curve == 0) continue;
+    const double t = 0.5 - (difference(1) - difference(0)) / (2 * curve);
+    if (t > 0 && t < 1) found.add(difference(t));
+  }
+  return found;
+}
+
+}  // namespace
+
+CoarseTile CoarseTile::reduce(std::int32_t steps, const std::function<float(std::int32_t, std::int32_t)>& node) {
+  CoarseTile tile;
+  const std::int32_t step = steps / kCoarseCells;
+  for (std::int32_t row = 0; row <= kCoarseCells; ++row) {
+    for (std::int32_t col = 0; col <= kCoarseCells; ++col) tile.nodes_.push_back(node(col * step, row * step));
+  }
+  for (std::int32_t row = 0; row < kCoarseCells; ++row) {
+    for (std::int32_t col = 0; col < kCoarseCells; ++col) {
+      const Corners surface{tile.node(col, row), tile.node(col + 1, row), tile.node(col, row + 1),
+                            tile.node(col + 1, row + 1)};
+      double low = 0, high = 0;
+      Extremes heights;
+      for (std::int32_t y = 0; y <= step; ++y) {
+        for (std::int32_t x = 0; x <= step; ++x) {
+          const float height = node(col * step + x, row * step + y);
+          const double off = double{height} - surface.at(static_cast<double>(x) / step, static_cast<double>(y) / step);
+          low = std::min(low, off);
+          high = std::max(high, off);
+          heights.add(double{height});
+        }
+      }
+      tile.cells_.push_back(
+          {rounded_down(low), rounded_up(high), static_cast<float>(heights.low), static_cast<float>(heights.high)});
+    }
+  }
+  return tile;
+}
+
+CoarseTile CoarseTile::flat(float height) {
+  CoarseTile tile;
+  tile.nodes_.assign((kCoarseCells + 1) * (kCoarseCells + 1), height);
+  tile.cells_.assign(kCoarseCells * kCoarseCells, {0, 0, height, height});
+  tile.has_heights = false;
+  return tile;
+}
+
+CoarseTile CoarseTile::join(const std::array<const CoarseTile*, 4>& children) {
+  CoarseTile tile;
+  const auto child_of = [&](std::int32_t& col, std::int32_t& row, std::int32_t last) {
+    std::size_t which = 0;
+    if (col > last) {
+      col -= kCoarseCells;
+      which += 1;
+    }
+    if (row > last) {
+      row -= kCoarseCells;
+      which += 2;
+    }
+    return children[which];
+  };
+  const auto fine_node = [&](std::int32_t col, std::int32_t row) {
+    const CoarseTile* child = child_of(col, row, kCoarseCells);
+    return child->node(col, row);
+  };
+  const auto fine_cell = [&](std::int32_t col, std::int32_t row) {
+    const CoarseTile* child = child_of(col, row, kCoarseCells - 1);
+    return child->cell(col, row);
+  };
+  for (std::int32_t row = 0; row <= kCoarseCells; ++row) {
+    for (std::int32_t col = 0; col <= kCoarseCells; ++col) tile.nodes_.push_back(fine_node(2 * col, 2 * row));
+  }
+  for (std::int32_t row = 0; row < kCoarseCells; ++row) {
+    for (std::int32_t col = 0; col < kCoarseCells; ++col) {
+      const Corners surface{tile.node(col, row), tile.node(col + 1, row), tile.node(col, row + 1),
+                            tile.node(col + 1, row + 1)};
+      double low = 0, high = 0;
+      Extremes heights;
+      for (std::int32_t y = 0; y < 2; ++y) {
+        for (std::int32_t x = 0; x < 2; ++x) {
+          Extremes apart;
+          for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}})
+            apart.add(double{fine_node(2 * col + x + dx, 2 * row + y + dy)} -
+                      surface.at((x + dx) / 2.0, (y + dy) / 2.0));
+          const CoarseCell fine = fine_cell(2 * col + x, 2 * row + y);
+          low = std::min(low, apart.low + double{fine.low});
+          high = std::max(high, apart.high + double{fine.high});
+          heights.add(double{fine.min});
+          heights.add(double{fine.max});
+        }
+      }
+      tile.cells_.push_back(
+          {rounded_down(low), rounded_up(high), static_cast<float>(heights.low), static_cast<float>(heights.high)});
+    }
+  }
+  tile.has_heights =
+      std::any_of(children.begin(), children.end(), [](const CoarseTile* child) { return child->has_heights; });
+  return tile;
+}
+
+const CoarseTile& CoarseLevel::at(std::uint32_t x, std::uint32_t y) const {
+  const auto found = tiles_.find(key(x, y));
+  return found == tiles_.end() ? flat_ : found->second;
+}
+
+Result<void> CoarseLevel::read(const NodeWindow& window, std::span<float> out) const {
+  const std::int64_t across = std::int64_t{2} << z_, down = std::int64_t{1} << z_;
+  for (int j = 0; j < window.rows; ++j) {
+    const std::int64_t row = window.row + j, tile_row = std::min(row / kCoarseCells, down - 1);
+    for (int i = 0; i < window.cols; ++i) {
+      const std::int64_t turn = across * kCoarseCells;
+      const std::int64_t col = (((window.col + i) % turn) + turn) % turn;
+      out[static_cast<std::size_t>(j) * static_cast<std::size_t>(window.cols) + static_cast<std::size_t>(i)] =
+          at(static_cast<std::uint32_t>(col / kCoarseCells), static_cast<std::uint32_t>(down - 1 - tile_row))
+              .node(static_cast<std::int32_t>(col % kCoarseCells),
+                    static_cast<std::int32_t>(row - tile_row * kCoarseCells));
+    }
+  }
+  return {};
+}
+
+double bound_error(const TerrainTile& tile, const CoarseLevel& level) {
+  constexpr std::int32_t kSide = 2 * kCoarseCells;
+  const Mesh mesh = decoded(tile, kSide);
+  const auto corner = [&](std::uint32_t vertex) {
+    const std::array<double, 3> at = mesh.vertex(vertex);
+    return Corner{at[0], kSide - at[1], at[2]};
+  };
+  double worst = 0;
+  Piece strip, piece, scratch;
+  for (std::size_t k = 0; k < mesh.triangles.size(); k += 3) {
+    const Piece triangle{corner(mesh.triangles[k]), corner(mesh.triangles[k + 1]), corner(mesh.triangles[k + 2])};
+    const auto range = [&](double Corner::*coordinate) {
+      const auto [low, high] = std::minmax({triangle[0].*coordinate, triangle[1].*coordinate, triangle[2].*coordinate});
+      const std::int32_t first = std::clamp(static_cast<std::int32_t>(std::floor(low)), 0, kSide - 1);
+      return std::pair{first, std::clamp(static_cast<std::int32_t>(std::ceil(high)) - 1, first, kSide - 1)};
+    };
+    const auto [top, bottom] = range(&Corner::y);
+    for (std::int32_t row = top; row <= bottom; ++row) {
+      strip = triangle;
+      cut(strip, &Corner::y, row, -1, scratch);
+      cut(strip, &Corner::y, row + 1, 1, scratch);
+      if (strip.size() < 3) continue;
+      double left = kSide, right = 0;
+      for (const Corner& at : strip) {
+        left = std::min(left, at.x);
+        right = std::max(right, at.x);
+      }
+      const std::int32_t first = std::clamp(static_cast<std::int32_t>(std::floor(left)), 0, kSide - 1);
+      const std::int32_t last = std::clamp(static_cast<std::int32_t>(std::ceil(right)) - 1, first, kSide - 1);
+      for (std::int32_t col = first; col <= last; ++col) {
+        piece = strip;
+        cut(piece, &Corner::x, col, -1, scratch);
+        cut(piece, &Corner::x, col + 1, 1, scratch);
+        if (piece.size() < 3) continue;
+        const bool is_east = col >= kCoarseCells, is_south = row >= kCoarseCells;
+        const CoarseTile& coarse = level.at(2 * tile.id.x + is_east, 2 * tile.id.y + !is_south);
+        const std::int32_t x = col - is_east * kCoarseCells, y = row - is_south * kCoarseCells;
+        const Corners surface{coarse.node(x, y), coarse.node(x + 1, y), coarse.node(x, y + 1),
+                              coarse.node(x + 1, y + 1)};
+        const Extremes apart = extremes(piece, surface, col, row);
+        const CoarseCell nodes = coarse.cell(x, y);
+        const double from_surface = std::max(double{nodes.high} - apart.low, apart.high - double{nodes.low});
+        Extremes flat;
+        for (const Corner& at : piece) flat.add(at.z);
+        const double from_range = std::max(double{nodes.max} - flat.low, flat.high - double{nodes.min});
+        worst = std::max(worst, std::min(from_surface, from_range));
+      }
+    }
+  }
+  // What the arithmetic of pieces may round away.
+  return worst * (1 + 1e-9) + 1e-6;
+}
+
+}  // namespace scarp

@@ -1,0 +1,72 @@
+// Nodes above the blocks: reduced, with what each cell lost.
+//
+// A coarse tile holds 128 × 128 cells of its place. Each cell knows by how much the nodes of the source lie below and
+// above the bilinear surface between its corners, over all nodes in it. Four coarse tiles become one of the level
+// above, every second node left out: the bilinear surfaces of both differ by one that is bilinear too, so that its
+// extremes are at corners, and bounds add up. Where they add up to more than the heights in the cell allow, these
+// count.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "scarp/tile.h"
+
+namespace scarp {
+
+inline constexpr std::int32_t kCoarseCells = 128;
+
+/// Bounds of the nodes in a cell: of node − bilinear surface, and of the heights themselves.
+struct CoarseCell {
+  float low = 0, high = 0;
+  float min = 0, max = 0;
+};
+
+class CoarseTile {
+ public:
+  /// Of `steps` × `steps` cells' nodes, the northern row first; `steps` a multiple of kCoarseCells.
+  static CoarseTile reduce(std::int32_t steps, const std::function<float(std::int32_t col, std::int32_t row)>& node);
+  /// Without heights.
+  static CoarseTile flat(float height);
+  /// Of the level above. `children`: north-west, north-east, south-west, south-east.
+  static CoarseTile join(const std::array<const CoarseTile*, 4>& children);
+
+  float node(std::int32_t col, std::int32_t row) const {
+    return nodes_[static_cast<std::size_t>(row * (kCoarseCells + 1) + col)];
+  }
+  CoarseCell cell(std::int32_t col, std::int32_t row) const {
+    return cells_[static_cast<std::size_t>(row * kCoarseCells + col)];
+  }
+  bool has_heights = true;
+
+ private:
+  std::vector<float> nodes_;
+  std::vector<CoarseCell> cells_;
+};
+
+/// The coarse tiles of a level, as a source for tiles of the level above it.
+class CoarseLevel final : public NodeSource {
+ public:
+  CoarseLevel(int z, float background) : z_(z), flat_(CoarseTile::flat(background)) {}
+
+  void add(std::uint32_t x, std::uint32_t y, CoarseTile tile) { tiles_.insert_or_assign(key(x, y), std::move(tile)); }
+  const CoarseTile& at(std::uint32_t x, std::uint32_t y) const;
+  bool has(std::uint32_t x, std::uint32_t y) const { return tiles_.count(key(x, y)) > 0; }
+  Result<void> read(const NodeWindow& window, std::span<float> out) const override;
+
+ private:
+  static std::uint64_t key(std::uint32_t x, std::uint32_t y) { return std::uint64_t{y} << 32 | x; }
+
+  int z_;
+  CoarseTile flat_;
+  std::map<std::uint64_t, CoarseTile> tiles_;
+};
+
+/// Bounds |mesh − node| over all nodes of the source under a tile of the level above `level`.
+double bound_error(const TerrainTile& tile, const CoarseLevel& level);
+
+}  // namespace scarp

@@ -1,0 +1,104 @@
+// The levels of a pyramid: errors, quanta, and the finest one.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "scarp/tile.h"
+#include "tiles/globe.h"
+
+namespace scarp {
+namespace {
+
+constexpr double kPi = 3.141592653589793;
+/// Levels of tiles below a block's own. A block of 128 cells a tile then has 4096 × 4096 of them.
+constexpr int kBlockDepth = 5;
+/// A quantum is at most this share of the max error.
+constexpr double kQuantaOfError = 32;
+/// Finer heights than this are noise, and 2²⁴ of them hold no mountain.
+constexpr double kLeastQuantum = 0x1p-10;
+/// The finest level's nodes may be this many cells of the source apart.
+constexpr double kSpacing = 1.1;
+
+double power_of_two_below(double value) { return std::ldexp(1.0, std::ilogb(value)); }
+
+/// Edges between grid points are so short that the sag is at most an eighth of the geometric error.
+int segments_of(int z) { return z < 10 ? 32 >> (z / 2) : 1; }
+
+/// Metres between two nodes on the ground, the geometric mean of both ways.
+double spacing_of(int z, int cells, double latitude, const Globe& globe) {
+  const Globe::Radii radii = globe.radii(latitude);
+  const double radians = kPi / std::ldexp(cells, z);
+  return radians * std::sqrt(radii.meridian * radii.parallel);
+}
+
+int find_max_zoom(const SourceFacts& source, int cells, const Globe& globe) {
+  // The middle, and no nearer to a pole than where parallels have shrunk to a tenth.
+  const double latitude = std::clamp((source.covered.south + source.covered.north) / 2, -84.0, 84.0);
+  int z = 0;
+  while (z < kMaxTileLevel && spacing_of(z, cells, latitude, globe) > kSpacing * source.cell) ++z;
+  return z;
+}
+
+}  // namespace
+
+DegreeBox bounds_of(TileId id) {
+  const double side = std::ldexp(180.0, -id.z);
+  return {-180 + id.x * side, -90 + id.y * side, -180 + (id.x + 1.0) * side, -90 + (id.y + 1.0) * side};
+}
+
+double geometric_error(int z, double semi_major) { return std::ldexp(semi_major * 2 * kPi * 0.25 / (65 * 2), -z); }
+
+Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSettings& settings) {
+  if (settings.cells < 16 || settings.cells > 256 || !std::has_single_bit(static_cast<unsigned>(settings.cells)))
+    return fail(ErrorKind::kUsage, fmt::format("{} cells a tile: give 16, 32, 64, 128 or 256", settings.cells));
+  if (settings.max_zoom < -1 || settings.max_zoom > kMaxTileLevel)
+    return fail(ErrorKind::kUsage,
+                fmt::format("level {} does not exist: the finest is at most {}", settings.max_zoom, kMaxTileLevel));
+  if (!(settings.quality >= 0.5) || !(settings.quality <= 1e6))
+    return fail(ErrorKind::kUsage, fmt::format("a quality of {} is none: give 0.5 or more", settings.quality));
+  if (!(settings.max_error >= 0) || !std::isfinite(settings.max_error))
+    return fail(ErrorKind::kUsage, fmt::format("a max error of {} m is none: give more than 0", settings.max_error));
+  if (!std::isfinite(settings.background) || std::abs(settings.background) > 20000)
+    return fail(ErrorKind::kUsage, fmt::format("a background of {} m is no height of a planet: give one within 20000",
+                                               settings.background));
+  const double low = std::min<double>(source.min, settings.background);
+  const double high = std::max<double>(source.max, settings.background);
+  if (!(source.cell > 0) || !(high - low <= 40000) || std::max(std::abs(low), std::abs(high)) > 20000)
+    return fail(ErrorKind::kUsage,
+                fmt::format("heights of {} to {} are not metres of a planet: give them in metres, within 20000 (is "
+                            "nodata undeclared?)",
+                            source.min, source.max));
+
+  const Globe globe(settings.ellipsoid);
+  PyramidPlan plan;
+  plan.cells = settings.cells;
+  plan.effort = settings.effort;
+  plan.background = settings.background;
+  plan.ellipsoid = settings.ellipsoid;
+  plan.covered = source.covered;
+  const int finest = settings.max_zoom >= 0 ? settings.max_zoom : find_max_zoom(source, settings.cells, globe);
+  plan.block_level = std::max(0, finest - kBlockDepth);
+  const double least = settings.max_error > 0 ? settings.max_error : geometric_error(finest, globe.semi_major()) / 4;
+  for (int z = 0; z <= finest; ++z) {
+    PyramidLevel level;
+    level.geometric_error = geometric_error(z, globe.semi_major());
+    level.max_error = std::max(least, level.geometric_error / settings.quality);
+    if (z == finest) level.max_error = least;
+    // A tile's 32767 steps must hold its relief, here that of the whole source.
+    const double room = (high - low) / 32767;
+    level.quantum = std::max({power_of_two_below(level.max_error / kQuantaOfError), kLeastQuantum,
+                              room > 0 ? 2 * power_of_two_below(room) : 0});
+    if (level.quantum > level.max_error / 4)
+      return fail(ErrorKind::kUsage,
+                  fmt::format("a max error of {} m is less than quantized-mesh holds for heights of {} to {} m: its "
+                              "steps are {} m; give {} or more",
+                              level.max_error, low, high, level.quantum, 4 * level.quantum));
+    level.segments = segments_of(z);
+    plan.levels.push_back(level);
+  }
+  return plan;
+}
+
+}  // namespace scarp

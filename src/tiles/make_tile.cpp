@@ -1,0 +1,237 @@
+// A tile from its nodes: edges first, then the mesh between them, then the proof of what clients will decode.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "scarp/measure.h"
+#include "scarp/mesh.h"
+#include "scarp/simplify.h"
+#include "scarp/tile.h"
+#include "tiles/globe.h"
+#include "tiles/tile_edges.h"
+#include "tiles/tile_maker.h"
+#include "tiles/tile_mesh_parts.h"
+#include "tiles/tile_nodes.h"
+
+namespace scarp {
+namespace {
+
+/// Meshes that are made at most, until what clients decode satisfies the level's max error.
+constexpr int kTrials = 12;
+/// Free vertices lie on eighths of a step.
+constexpr std::int64_t kParts = 8;
+
+class TileMaker {
+ public:
+  TileMaker(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileJudge& judge)
+      : plan_(plan), level_(plan.levels[static_cast<std::size_t>(id.z)]), id_(id), nodes_(nodes), judge_(judge) {}
+
+  Result<TerrainTile> make() {
+    lay_edges();
+    std::optional<TerrainTile> best;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      // A little less each time: the rounding of a forced vertex may break the bound elsewhere.
+      auto mesh = refine((level_.max_error - level_.quantum / 2) * (1 - trial / 128.0));
+      if (!mesh) return tl::unexpected(mesh.error());
+      TerrainTile tile = quantize(*mesh);
+      const std::vector<SampleAt> folds = find_folds(tile);
+      if (!folds.empty()) {
+        force_around(folds);
+        continue;
+      }
+      const Result<TileVerdict> verdict = judge_(tile);
+      if (!verdict) return tl::unexpected(verdict.error());
+      tile.node_error = verdict->error;
+      if (!best || verdict->error < best->node_error) best = std::move(tile);
+      if (verdict->error <= level_.max_error || verdict->offenders.empty()) break;
+      force_around(verdict->offenders);
+    }
+    if (!best) return fail(ErrorKind::kInternal, fmt::format("tile {}/{}/{} folds over", id_.z, id_.x, id_.y));
+    finish(*best);
+    return std::move(*best);
+  }
+
+ private:
+  std::int32_t steps() const { return nodes_.steps(); }
+  std::size_t index(std::int32_t col, std::int32_t row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(steps() + 1) + static_cast<std::size_t>(col);
+  }
+
+  /// The samples that the engine sees: multiples of the quantum; on the edges the lines themselves.
+  void lay_edges() {
+    samples_.resize(index(0, steps() + 1));
+    for (std::int32_t row = 0; row <= steps(); ++row) {
+      for (std::int32_t col = 0; col <= steps(); ++col) samples_[index(col, row)] = rounded(nodes_.at(col, row));
+    }
+    const std::int32_t last = steps();
+    edges_.top = lay_edge([&](std::int32_t i) { return std::pair{i, 0}; });
+    edges_.bottom = lay_edge([&](std::int32_t i) { return std::pair{i, last}; });
+    edges_.left = lay_edge([&](std::int32_t i) { return std::pair{0, i}; });
+    edges_.right = lay_edge([&](std::int32_t i) { return std::pair{last, i}; });
+  }
+
+  template <class Place>
+  std::vector<std::int32_t> lay_edge(const Place& place) {
+    std::vector<float> heights;
+    for (std::int32_t i = 0; i <= steps(); ++i) heights.push_back(nodes_.at(place(i).first, place(i).second));
+    std::vector<std::int32_t> vertices = choose_edge_vertices(heights, level_);
+    for (std::size_t k = 1; k < vertices.size(); ++k) {
+      const std::int32_t from = vertices[k - 1], to = vertices[k];
+      const double low = double{rounded(heights[static_cast<std::size_t>(from)])};
+      const double high = double{rounded(heights[static_cast<std::size_t>(to)])};
+      for (std::int32_t i = from + 1; i < to; ++i) {
+        const double line = low + (high - low) * (static_cast<double>(i - from) / (to - from));
+        samples_[index(place(i).first, place(i).second)] = static_cast<float>(line);
+      }
+    }
+    return vertices;
+  }
+
+  float rounded(float height) const {
+    return static_cast<float>(level_.quantum * quanta_of(double{height}, level_.quantum));
+  }
+
+  /// Nodes of which the mesh is too far become vertices, and those around them, so that no needle of a triangle ends
+  /// there, whose corner's rounding would tilt it.
+  void force_around(const std::vector<SampleAt>& nodes) {
+    for (const auto& [col, row] : nodes) {
+      for (std::int32_t y = std::max(row - 1, 1); y <= std::min(row + 1, steps() - 1); ++y) {
+        for (std::int32_t x = std::max(col - 1, 1); x <= std::min(col + 1, steps() - 1); ++x) forced_.insert({y, x});
+      }
+    }
+  }
+
+  Result<Mesh> refine(double max_error) const {
+    HeightField field;
+    field.samples = samples_.data();
+    field.cols = field.rows = steps() + 1;
+    field.frame = grid_frame(field.rows);
+    SimplifyOptions options;
+    options.goals.max_error = max_error;
+    options.domain.border.is_locked = true;
+    options.domain.border.vertices = edges_;
+    options.quality.effort = plan_.effort;
+    options.output.float32_positions = false;
+    options.run.threads = 1;
+    const std::int32_t segments = std::min(level_.segments, steps()), side = steps() / segments;
+    for (std::int32_t row = side; row < steps(); row += side) {
+      for (std::int32_t col = side; col < steps(); col += side) options.features.points.push_back({col, row});
+    }
+    for (const auto& [row, col] : forced_) options.features.points.push_back({col, row});
+    auto simplified = simplify(field, options);
+    if (!simplified) return tl::unexpected(simplified.error());
+    return std::move(simplified->mesh);
+  }
+
+  TerrainTile quantize(const Mesh& mesh) const {
+    // As a mesh of whole numbers, for the order of its vertices.
+    Mesh whole;
+    whole.triangles = mesh.triangles;
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+      const std::array<double, 3> at = mesh.vertex(v);
+      for (const double way : {at[0], at[1]}) {
+        const auto parts = static_cast<std::int64_t>(std::floor(way * kParts + 0.5));
+        whole.positions.push_back(quantized(parts, kParts * steps()));
+      }
+      whole.positions.push_back(quanta_of(at[2], level_.quantum));
+    }
+    optimize_order(whole);
+    TerrainTile tile;
+    tile.id = id_;
+    tile.quantum = level_.quantum;
+    tile.triangles = std::move(whole.triangles);
+    for (std::size_t v = 0; v < whole.vertex_count(); ++v) {
+      const std::array<double, 3> at = whole.vertex(v);
+      tile.u.push_back(static_cast<std::uint16_t>(at[0]));
+      tile.v.push_back(static_cast<std::uint16_t>(at[1]));
+      tile.heights.push_back(static_cast<std::int32_t>(at[2]));
+    }
+    return tile;
+  }
+
+  /// Nodes at the corners of triangles that rounding has turned over.
+  std::vector<SampleAt> find_folds(const TerrainTile& tile) const {
+    std::vector<SampleAt> nodes;
+    for (std::size_t k = 0; k < tile.triangles.size(); k += 3) {
+      const std::uint32_t a = tile.triangles[k], b = tile.triangles[k + 1], c = tile.triangles[k + 2];
+      const std::int64_t abx = tile.u[b] - tile.u[a], aby = tile.v[b] - tile.v[a];
+      const std::int64_t acx = tile.u[c] - tile.u[a], acy = tile.v[c] - tile.v[a];
+      if (abx * acy > acx * aby) continue;
+      for (const std::uint32_t v : {a, b, c}) {
+        nodes.push_back({nearest_node(tile.u[v], steps()), steps() - nearest_node(tile.v[v], steps())});
+      }
+    }
+    return nodes;
+  }
+
+  void finish(TerrainTile& tile) const {
+    const Globe globe(plan_.ellipsoid);
+    tile.sag = largest_sag(tile, globe);
+    tile.normals = node_normals(tile, nodes_, globe);
+  }
+
+  const PyramidPlan& plan_;
+  const PyramidLevel& level_;
+  TileId id_;
+  const TileNodes& nodes_;
+  const TileJudge& judge_;
+  std::vector<float> samples_;
+  EdgeVertices edges_;
+  std::set<std::pair<std::int32_t, std::int32_t>> forced_;  ///< row, column of nodes that must be vertices
+};
+
+}  // namespace
+
+Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, double max_error) {
+  const std::int32_t steps = nodes.steps();
+  std::vector<float> heights;
+  heights.reserve(static_cast<std::size_t>(steps + 1) * static_cast<std::size_t>(steps + 1));
+  for (std::int32_t row = 0; row <= steps; ++row) {
+    for (std::int32_t col = 0; col <= steps; ++col) heights.push_back(nodes.at(col, row));
+  }
+  HeightField field;
+  field.samples = heights.data();
+  field.cols = field.rows = steps + 1;
+  field.frame = grid_frame(field.rows);
+  MeasureOptions options;
+  options.topology = false;
+  options.run.threads = 1;
+  options.collect_above = max_error;
+  const Result<Measurement> measured = measure(field, decoded(tile, steps), options);
+  if (!measured) return tl::unexpected(measured.error());
+  if (measured->uncovered > 0)
+    return fail(ErrorKind::kInternal, fmt::format("tile {}/{}/{} leaves {} of its nodes uncovered", tile.id.z,
+                                                  tile.id.x, tile.id.y, measured->uncovered));
+  TileVerdict verdict{measured->max_error, {}};
+  for (const Offender& offender : measured->offenders) verdict.offenders.push_back({offender.col, offender.row});
+  return verdict;
+}
+
+Result<TerrainTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileJudge& judge) {
+  return TileMaker(plan, id, nodes, judge).make();
+}
+
+Result<TerrainTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes) {
+  const double max_error = plan.levels[static_cast<std::size_t>(id.z)].max_error;
+  return make_tile_of(plan, id, nodes, [&](const TerrainTile& tile) { return judge_at_nodes(tile, nodes, max_error); });
+}
+
+Result<TerrainTile> make_flat_tile(const PyramidPlan& plan, TileId id) {
+  const TileNodes nodes = TileNodes::flat(2 * plan.levels[static_cast<std::size_t>(id.z)].segments, plan.background);
+  return make_tile_of(plan, id, nodes);
+}
+
+Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source) {
+  const std::int32_t steps = steps_of(plan, id.z);
+  const auto nodes = TileNodes::read(id, steps, normal_reach(steps), plan.background, source);
+  if (!nodes) return tl::unexpected(nodes.error());
+  if (!nodes->has_heights()) return make_flat_tile(plan, id);
+  return make_tile_of(plan, id, *nodes);
+}
+
+}  // namespace scarp

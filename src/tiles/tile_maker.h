@@ -1,0 +1,33 @@
+// A tile from nodes that are at hand.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "scarp/tile.h"
+#include "tiles/tile_nodes.h"
+
+namespace scarp {
+
+/// A bound of the largest |mesh − node| of a tile, of the mesh that clients decode.
+struct TileVerdict {
+  double error = 0;
+  std::vector<SampleAt> offenders;  ///< nodes that break the level's max error; empty where they are not known
+};
+using TileJudge = std::function<Result<TileVerdict>(const TerrainTile& tile)>;
+
+/// The errors at the nodes themselves, by measure().
+Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, double max_error);
+
+/// A mesh of the nodes that satisfies the level's max error where rounded positions can, else the one with the least.
+Result<TerrainTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileJudge& judge);
+/// The same, judged at its nodes.
+Result<TerrainTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes);
+
+/// Nodes of a side of a tile at or below the plan's block level.
+inline std::int32_t steps_of(const PyramidPlan& plan, int z) { return plan.cells << (plan.max_zoom() - z); }
+
+/// A tile without a height, of the background alone: the same on its edges as its neighbours.
+Result<TerrainTile> make_flat_tile(const PyramidPlan& plan, TileId id);
+
+}  // namespace scarp

@@ -1,0 +1,88 @@
+#include "tiles/tile_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+
+namespace scarp {
+namespace {
+
+/// Rows that a thread reads at a time.
+constexpr int kRowsTogether = 256;
+
+}  // namespace
+
+Result<TileNodes> TileNodes::read(TileId id, std::int32_t steps, std::int32_t halo, float background,
+                                  const NodeSource& source) {
+  TileNodes nodes;
+  nodes.steps_ = steps;
+  nodes.halo_ = halo;
+  const std::int64_t per_turn = std::int64_t{steps} << (id.z + 1), last_row = per_turn / 2;
+  const std::int64_t first_row = (((std::int64_t{1} << id.z) - 1) - id.y) * steps - halo;
+  const std::int32_t side = nodes.side();
+  const std::int64_t from = std::max<std::int64_t>(first_row, 0), to = std::min(first_row + side - 1, last_row);
+  nodes.heights_.resize(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+  const auto row_of = [&](std::int64_t row) {
+    return nodes.heights_.begin() + static_cast<std::ptrdiff_t>((row - first_row) * side);
+  };
+  const NodeWindow window{per_turn, std::int64_t{id.x} * steps - halo, from, side, static_cast<int>(to - from + 1)};
+  auto read = source.read(window, std::span(nodes.heights_)
+                                      .subspan(static_cast<std::size_t>((from - first_row) * side),
+                                               static_cast<std::size_t>(side) * static_cast<std::size_t>(window.rows)));
+  if (!read) return tl::unexpected(read.error());
+  for (std::int64_t row = first_row; row < from; ++row) std::copy_n(row_of(from), side, row_of(row));
+  for (std::int64_t row = to + 1; row < first_row + side; ++row) std::copy_n(row_of(to), side, row_of(row));
+  for (std::int32_t row = 0; row <= steps && !nodes.has_heights_; ++row) {
+    for (std::int32_t col = 0; col <= steps; ++col) nodes.has_heights_ |= !std::isnan(nodes.at(col, row));
+  }
+  for (float& height : nodes.heights_) {
+    if (std::isnan(height)) height = background;
+  }
+  return nodes;
+}
+
+TileNodes TileNodes::flat(std::int32_t steps, float height) {
+  TileNodes nodes;
+  nodes.steps_ = steps;
+  nodes.halo_ = 1;
+  nodes.heights_.assign(static_cast<std::size_t>(nodes.side()) * static_cast<std::size_t>(nodes.side()), height);
+  return nodes;
+}
+
+Result<HeldNodes> HeldNodes::read(const NodeWindow& window, const NodeSource& source, int threads) {
+  HeldNodes held;
+  held.window_ = window;
+  const auto cols = static_cast<std::size_t>(window.cols);
+  held.heights_.resize(cols * static_cast<std::size_t>(window.rows));
+  const auto bands = static_cast<std::size_t>((window.rows + kRowsTogether - 1) / kRowsTogether);
+  std::vector<Result<void>> read(bands);
+  parallel_for(bands, threads, [&](std::size_t k) {
+    NodeWindow band = window;
+    const int first = static_cast<int>(k) * kRowsTogether;
+    band.row += first;
+    band.rows = std::min(kRowsTogether, window.rows - first);
+    read[k] = source.read(
+        band, std::span(held.heights_)
+                  .subspan(cols * static_cast<std::size_t>(first), cols * static_cast<std::size_t>(band.rows)));
+  });
+  for (const Result<void>& one : read) {
+    if (!one) return tl::unexpected(one.error());
+  }
+  return held;
+}
+
+bool HeldNodes::has_heights() const {
+  return std::any_of(heights_.begin(), heights_.end(), [](float z) { return !std::isnan(z); });
+}
+
+Result<void> HeldNodes::read(const NodeWindow& window, std::span<float> out) const {
+  for (std::int64_t row = 0; row < window.rows; ++row) {
+    const auto from = (window.row - window_.row + row) * window_.cols + (window.col - window_.col);
+    std::copy_n(heights_.begin() + static_cast<std::ptrdiff_t>(from), window.cols,
+                out.begin() + static_cast<std::ptrdiff_t>(row * window.cols));
+  }
+  return {};
+}
+
+}  // namespace scarp

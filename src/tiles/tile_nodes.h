@@ -1,0 +1,52 @@
+// The nodes of a tile, and a few around it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scarp/tile.h"
+
+namespace scarp {
+
+/// steps + 1 nodes a side, and `halo` more on each side; beyond the poles the pole's own.
+class TileNodes {
+ public:
+  /// `steps`: of the tile's sides. Nodes without a height get the background's.
+  static Result<TileNodes> read(TileId id, std::int32_t steps, std::int32_t halo, float background,
+                                const NodeSource& source);
+
+  /// All of one height, with one more around.
+  static TileNodes flat(std::int32_t steps, float height);
+
+  std::int32_t steps() const { return steps_; }
+  bool has_heights() const { return has_heights_; }  ///< of its own nodes at least one
+  /// REQUIRES: −halo <= col, row <= steps + halo. Rows go south.
+  float at(std::int32_t col, std::int32_t row) const {
+    return heights_[static_cast<std::size_t>(row + halo_) * static_cast<std::size_t>(side()) +
+                    static_cast<std::size_t>(col + halo_)];
+  }
+
+ private:
+  std::int32_t side() const { return steps_ + 1 + 2 * halo_; }
+
+  std::int32_t steps_ = 0, halo_ = 0;
+  std::vector<float> heights_;
+  bool has_heights_ = false;
+};
+
+/// Nodes that were read once for many tiles.
+class HeldNodes final : public NodeSource {
+ public:
+  /// `threads` read bands of rows.
+  static Result<HeldNodes> read(const NodeWindow& window, const NodeSource& source, int threads);
+  bool has_heights() const;
+  /// REQUIRES: the window lies in the one that is held, with columns of the same turn.
+  Result<void> read(const NodeWindow& window, std::span<float> out) const override;
+
+ private:
+  NodeWindow window_;
+  std::vector<float> heights_;
+};
+
+}  // namespace scarp

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# scarp tile: a folder of quantized-mesh tiles whose neighbours fit.
+source "$(dirname "$0")/lib.sh"
+need python3 gdal_translate gdalwarp
+reader=$SCARP_SOURCE/tests/cli/tiles.py
+
+# Heights above nobody knows what are no heights on a globe.
+refuses 1 "--vertical egm96" "$scarp" tile "$dem" globe
+
+succeeds "$scarp" tile "$dem" globe --vertical egm96 --report r.json -j 1
+grep -q "EGM96 height" "$logs/out" || fail "the summary does not tell the datum"
+[ "$(json globe/layer.json maxzoom)" = 11 ] || fail "3 seconds of arc are level 11"
+read -r tiles edges low high < <(python3 "$reader" globe)
+holds "$tiles > 50 && $edges > 70"
+# The land lies 31 to 33 m below its heights above the sea there; around it the ellipsoid's own surface.
+holds "$low == 0 && $high > 1030 && $high < 1055"
+[ "$(find globe -name '*.terrain' | wc -l)" = "$tiles" ] || fail "files and tiles differ"
+# What is promised of each level is what layer.json says.
+for z in 11 10 9 8 7 6; do
+  holds "$(json r.json levels $z node_error) <= $(json r.json levels $z asked)"
+  holds "$(json r.json levels $z bound) == $(json globe/layer.json scarp levels $z bound)"
+done
+[ -z "$(find . -name '.scarp*')" ] || fail "something temporary is left"
+
+# Threads change nothing.
+succeeds "$scarp" tile "$dem" again --vertical egm96 -j 3 -q
+diff -r globe again || fail "3 threads make other tiles"
+
+# What is there stays.
+refuses 4 "--overwrite" "$scarp" tile "$dem" globe --vertical egm96
+mkdir other && touch other/mine
+refuses 4 "no set of tiles" "$scarp" tile "$dem" other --vertical egm96 --overwrite
+succeeds "$scarp" tile "$dem" globe/ --vertical ellipsoid --zoom 9 --overwrite -q
+[ "$(json globe/layer.json maxzoom)" = 9 ] || fail "not replaced"
+[ ! -e globe/10 ] || fail "old tiles are left"
+read -r tiles edges low high < <(python3 "$reader" globe)
+holds "$high > 1060"
+
+# A raster in UTM, whose outline is slanted in degrees; efforts.
+succeeds gdalwarp -q -t_srs EPSG:32616 -r bilinear -dstnodata -9999 -ot Float32 "$dem" utm.tif
+for effort in fast high; do
+  succeeds "$scarp" tile utm.tif "utm_$effort" --vertical ellipsoid --effort $effort --zoom 10 --report $effort.json -q
+  python3 "$reader" "utm_$effort" > /dev/null || fail "utm, $effort"
+  holds "$(json $effort.json levels 10 node_error) <= $(json $effort.json levels 10 asked)"
+done
+holds "$(json high.json levels 10 triangles) < 0.6 * $(json fast.json levels 10 triangles)"
+
+# Around the antimeridian and a pole.
+for place in "179.9 10.2 180.24 9.9" "-180.1 -70.1 -179.77 -70.4" "359.8 50.2 360.14 49.9" "12 90 12.34 89.71"; do
+  succeeds gdal_translate -q -a_srs EPSG:4979 -a_ullr $place "$dem" placed.tif
+  succeeds "$scarp" tile placed.tif placed --overwrite -q
+  python3 "$reader" placed > /dev/null || fail "at $place"
+done
+
+# A user's mistakes.
+refuses 1 "--zoom" "$scarp" tile "$dem" no --vertical egm96 --zoom x
+refuses 1 "at most 23" "$scarp" tile "$dem" no --vertical egm96 --zoom 24
+refuses 1 "above 0" "$scarp" tile "$dem" no --vertical egm96 -e 0
+refuses 1 "cells" "$scarp" tile "$dem" no --vertical egm96 --cells 100
+refuses 1 "quality" "$scarp" tile "$dem" no --vertical egm96 --quality 0.1
+refuses 1 "quantized-mesh holds" "$scarp" tile "$dem" no --vertical egm96 -e 0.01
+refuses 2 "no such file" "$scarp" tile missing.tif no
+refuses 4 "no folder can be made" "$scarp" tile "$dem" missing/no --vertical egm96
+printf "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n4 5 6\n7 8 9\n" > bare.asc
+refuses 2 "where on the globe" "$scarp" tile bare.asc no

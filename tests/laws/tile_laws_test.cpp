@@ -1,0 +1,378 @@
+// Laws of tiles: two neighbours decode to the same edge, and a tile's bound is that of all its nodes.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "laws/sanitized.h"
+#include "scarp/tile.h"
+#include "tiles/coarse_nodes.h"
+#include "tiles/globe.h"
+#include "tiles/sine.h"
+
+namespace scarp::tile_laws_test {
+namespace {
+
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+/// Heights from a hash of a node's place, on waves: steep, flat, with steps and voids, all round the globe.
+class AnyLand final : public NodeSource {
+ public:
+  AnyLand(std::uint32_t seed, double relief, double noise, bool has_voids, DegreeBox covered)
+      : seed_(seed), relief_(relief), noise_(noise), has_voids_(has_voids), covered_(covered) {}
+
+  float at(std::int64_t per_turn, std::int64_t col, std::int64_t row) const {
+    col = ((col % per_turn) + per_turn) % per_turn;
+    if (row == 0 || row == per_turn / 2) col = 0;
+    const double lon = -180 + 360.0 * static_cast<double>(col) / static_cast<double>(per_turn);
+    const double lat = 90 - 360.0 * static_cast<double>(row) / static_cast<double>(per_turn);
+    if (lon < covered_.west || lon > covered_.east || lat < covered_.south || lat > covered_.north) return kNone;
+    const std::uint32_t hash =
+        mix(static_cast<std::uint32_t>(col) * 2654435761u ^ mix(static_cast<std::uint32_t>(row) + seed_));
+    if (has_voids_ &&
+        mix(static_cast<std::uint32_t>(col / 9) * 31u + static_cast<std::uint32_t>(row / 7) + seed_) % 11 == 0)
+      return kNone;
+    const double wave = sine_of_degrees(std::fmod(lon * 977 + seed_ % 360, 720)).sine *
+                        sine_of_degrees(std::fmod(lat * 1201, 720)).cosine;
+    const double step = std::fmod(lon * 53 + lat * 17 + 1e4, 7) < 0.4 ? relief_ / 3 : 0;
+    return static_cast<float>(relief_ / 2 * wave + step + noise_ * (hash % 1024) / 1024.0);
+  }
+  Result<void> read(const NodeWindow& window, std::span<float> out) const override {
+    std::size_t k = 0;
+    for (int j = 0; j < window.rows; ++j) {
+      for (int i = 0; i < window.cols; ++i) out[k++] = at(window.per_turn, window.col + i, window.row + j);
+    }
+    return {};
+  }
+
+ private:
+  static std::uint32_t mix(std::uint32_t x) {
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
+    return x ^ (x >> 16);
+  }
+
+  std::uint32_t seed_;
+  double relief_, noise_;
+  bool has_voids_;
+  DegreeBox covered_;
+};
+
+PyramidPlan plan_of(double relief, double noise, int finest, int cells, Effort effort, double share = 0.25) {
+  SourceFacts source{{-180, -90, 180, 90}, 1, -relief, relief + noise};
+  PyramidSettings settings;
+  settings.cells = cells;
+  settings.max_zoom = finest;
+  settings.effort = effort;
+  settings.max_error = share * geometric_error(finest);
+  const Result<PyramidPlan> plan = plan_pyramid(source, settings);
+  EXPECT_TRUE(plan) << plan.error().message;
+  return *plan;
+}
+
+QuantizedMesh decode(const TerrainTile& tile) {
+  const auto decoded = decode_quantized_mesh(encode_quantized_mesh(tile), "tile");
+  EXPECT_TRUE(decoded) << decoded.error().message;
+  return *decoded;
+}
+
+/// A vertex on an edge as clients see it: place along the edge, height in single precision, normal.
+using EdgeVertex = std::tuple<std::uint16_t, float, std::array<std::uint8_t, 2>>;
+
+std::vector<EdgeVertex> edge_of(const QuantizedMesh& mesh, const std::vector<std::uint32_t>& vertices,
+                                const std::vector<std::uint16_t>& along) {
+  std::vector<EdgeVertex> edge;
+  for (const std::uint32_t v : vertices)
+    edge.emplace_back(along[v], static_cast<float>(mesh.height(v)) + 0.0f, mesh.normals[v]);
+  return edge;
+}
+
+/// Single precision of 0 is the one exception: there clients may differ by 1.5e-11 m.
+std::vector<EdgeVertex> without_dust(std::vector<EdgeVertex> edge) {
+  for (auto& [place, height, normal] : edge) {
+    if (std::abs(height) < 1e-10f) height = 0;
+  }
+  return edge;
+}
+
+/// Largest error at the nodes of a decoded tile, by brute force: every node in every triangle around it.
+double brute_force(const QuantizedMesh& mesh, TileId id, std::int32_t steps, const NodeSource& source,
+                   float background) {
+  std::vector<float> nodes(static_cast<std::size_t>(steps + 1) * static_cast<std::size_t>(steps + 1));
+  const std::int64_t per_turn = std::int64_t{steps} << (id.z + 1);
+  const std::int64_t row = ((std::int64_t{1} << id.z) - 1 - id.y) * std::int64_t{steps};
+  EXPECT_TRUE(source.read({per_turn, std::int64_t{id.x} * steps, row, steps + 1, steps + 1}, nodes));
+  std::vector<double> worst(nodes.size(), -1);
+  for (std::size_t k = 0; k < mesh.triangles.size(); k += 3) {
+    std::array<double, 3> x{}, y{}, z{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t v = mesh.triangles[k + c];
+      x[c] = mesh.u[v] * static_cast<double>(steps) / 32767;
+      y[c] = steps - mesh.v[v] * static_cast<double>(steps) / 32767;
+      z[c] = mesh.height(v);
+    }
+    const double area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
+    const auto [left, right] = std::minmax({x[0], x[1], x[2]});
+    const auto [top, bottom] = std::minmax({y[0], y[1], y[2]});
+    for (auto j = static_cast<std::int32_t>(std::ceil(top - 1e-9)); j <= bottom + 1e-9; ++j) {
+      for (auto i = static_cast<std::int32_t>(std::ceil(left - 1e-9)); i <= right + 1e-9; ++i) {
+        const double b = ((i - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (j - y[0])) / area;
+        const double c = ((x[1] - x[0]) * (j - y[0]) - (i - x[0]) * (y[1] - y[0])) / area;
+        if (b < -1e-9 || c < -1e-9 || b + c > 1 + 1e-9) continue;
+        const auto at = static_cast<std::size_t>(j * (steps + 1) + i);
+        const double node = std::isnan(nodes[at]) ? double{background} : double{nodes[at]};
+        worst[at] = std::max(worst[at], std::abs(z[0] + b * (z[1] - z[0]) + c * (z[2] - z[0]) - node));
+      }
+    }
+  }
+  EXPECT_GE(*std::min_element(worst.begin(), worst.end()), 0) << "a node without a triangle";
+  return *std::max_element(worst.begin(), worst.end());
+}
+
+std::int32_t nodes_of(const PyramidPlan& plan, int z) { return plan.cells << (plan.max_zoom() - z); }
+
+Effort any_effort() { return *rc::gen::element(Effort::kFast, Effort::kNormal, Effort::kHigh); }
+
+AnyLand any_land(double& relief, double& noise) {
+  relief = *rc::gen::element(0.0, 40.0, 900.0, 6000.0);
+  noise = *rc::gen::element(0.0, 3.0, 200.0);
+  return {*rc::gen::arbitrary<std::uint32_t>(), relief, noise, *rc::gen::arbitrary<bool>(), {-180, -90, 180, 90}};
+}
+
+RC_GTEST_PROP(tile_laws, neighbours_decode_to_the_same_edge, ()) {
+  double relief = 0, noise = 0;
+  const AnyLand land = any_land(relief, noise);
+  const int finest = *rc::gen::inRange(2, 9), z = std::max(0, finest - *rc::gen::inRange(0, 3));
+  const PyramidPlan plan = plan_of(relief, noise, finest, 32, any_effort());
+  const std::uint32_t across = std::uint32_t{2} << z, down = std::uint32_t{1} << z;
+  const auto x = *rc::gen::inRange<std::uint32_t>(0, across), y = *rc::gen::inRange<std::uint32_t>(0, down);
+  const auto tile = make_tile(plan, {z, x, y}, land);
+  RC_ASSERT(tile.has_value());
+  const QuantizedMesh here = decode(*tile);
+  // The eastern neighbour of the last column is the first.
+  const auto east = make_tile(plan, {z, (x + 1) % across, y}, land);
+  RC_ASSERT(east.has_value());
+  const QuantizedMesh there = decode(*east);
+  RC_ASSERT(without_dust(edge_of(here, here.east, here.v)) == without_dust(edge_of(there, there.west, there.v)));
+  if (y + 1 < down) {
+    const auto north = make_tile(plan, {z, x, y + 1}, land);
+    RC_ASSERT(north.has_value());
+    const QuantizedMesh above = decode(*north);
+    RC_ASSERT(without_dust(edge_of(here, here.north, here.u)) == without_dust(edge_of(above, above.south, above.u)));
+  } else {
+    for (const std::uint32_t v : here.north) RC_ASSERT(here.h[v] == here.h[here.north[0]]);
+  }
+}
+
+RC_GTEST_PROP(tile_laws, the_bound_is_that_of_all_nodes_as_clients_decode_them, ()) {
+  double relief = 0, noise = 0;
+  const AnyLand land = any_land(relief, noise);
+  const int finest = *rc::gen::inRange(1, 9), z = std::max(0, finest - *rc::gen::inRange(0, 3));
+  const PyramidPlan plan = plan_of(relief, noise, finest, 32, any_effort());
+  const TileId id{z, *rc::gen::inRange<std::uint32_t>(0, std::uint32_t{2} << z),
+                  *rc::gen::inRange<std::uint32_t>(0, std::uint32_t{1} << z)};
+  const auto tile = make_tile(plan, id, land);
+  RC_ASSERT(tile.has_value());
+  const double error = brute_force(decode(*tile), id, nodes_of(plan, z), land, plan.background);
+  RC_ASSERT(error <= tile->node_error * (1 + 1e-9) + 1e-6);
+  RC_ASSERT(tile->node_error <= plan.levels[static_cast<std::size_t>(z)].max_error);
+}
+
+/// Tiles in memory.
+class Kept final : public TileSink {
+ public:
+  Result<std::vector<std::uint8_t>> encode(const TerrainTile& tile) const override {
+    const std::lock_guard lock(mutex_);
+    made_[key(tile.id)] = tile;
+    return encode_quantized_mesh(tile);
+  }
+  Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override {
+    order.push_back(key(id));
+    files[key(id)].assign(bytes.begin(), bytes.end());
+    return {};
+  }
+  const TerrainTile& tile(TileId id) const { return made_.at(key(id)); }
+
+  using Key = std::tuple<int, std::uint32_t, std::uint32_t>;
+  static Key key(TileId id) { return {id.z, id.x, id.y}; }
+  std::vector<Key> order;
+  std::map<Key, std::vector<std::uint8_t>> files;
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::map<Key, TerrainTile> made_;
+};
+
+struct Made {
+  PyramidPlan plan;
+  Kept kept;
+  PyramidReport report;
+};
+
+std::unique_ptr<Made> make_small_pyramid(const AnyLand& land, const DegreeBox& covered, int threads) {
+  SourceFacts source{covered, 1, -1000, 1200};
+  PyramidSettings settings;
+  settings.cells = 16;
+  settings.max_zoom = 7;
+  auto made = std::make_unique<Made>();
+  made->plan = *plan_pyramid(source, settings);
+  Run run;
+  run.threads = threads;
+  auto report = make_pyramid(made->plan, land, made->kept, run);
+  EXPECT_TRUE(report) << report.error().message;
+  if (report) made->report = *report;
+  return made;
+}
+
+const DegreeBox kIsland{10.3, 34.1, 31.9, 50.2};
+
+TEST(pyramid_laws, a_tile_of_a_pyramid_is_the_one_made_alone_and_threads_change_nothing) {
+  const AnyLand land(7, 900, 50, false, kIsland);
+  const auto one = make_small_pyramid(land, kIsland, 1), three = make_small_pyramid(land, kIsland, 3);
+  EXPECT_EQ(one->kept.order, three->kept.order);
+  EXPECT_EQ(one->kept.files, three->kept.files);
+  std::size_t alone = 0;
+  for (const auto& [key, bytes] : one->kept.files) {
+    const auto [z, x, y] = key;
+    if (z < one->plan.block_level) continue;
+    const auto tile = make_tile(one->plan, {z, x, y}, land);
+    ASSERT_TRUE(tile) << tile.error().message;
+    EXPECT_EQ(encode_quantized_mesh(*tile), bytes) << z << "/" << x << "/" << y;
+    ++alone;
+  }
+  EXPECT_GT(alone, 200u);
+}
+
+TEST(pyramid_laws, every_tile_with_heights_is_there_with_its_ancestors_and_siblings) {
+  const AnyLand land(7, 900, 50, false, kIsland);
+  const auto made = make_small_pyramid(land, kIsland, 2);
+  std::set<Kept::Key> expected;
+  for (int z = 0; z <= made->plan.max_zoom(); ++z) {
+    for (std::uint32_t y = 0; y < std::uint32_t{1} << z; ++y) {
+      for (std::uint32_t x = 0; x < std::uint32_t{2} << z; ++x) {
+        const DegreeBox box = bounds_of({z, x, y});
+        const bool meets = box.west < kIsland.east && box.east > kIsland.west && box.south < kIsland.north &&
+                           box.north > kIsland.south;
+        if (!meets) continue;
+        expected.insert({z, x, y});
+        if (z == 0 || z > made->plan.block_level) continue;
+        for (const std::uint32_t k : {0u, 1u, 2u, 3u}) expected.insert({z, (x & ~1u) + (k & 1), (y & ~1u) + (k >> 1)});
+      }
+    }
+  }
+  expected.insert({0, 0, 0});
+  expected.insert({0, 1, 0});
+  for (const Kept::Key& key : expected) {
+    const auto [z, x, y] = key;
+    // A corner of a tile may hold none of its nodes.
+    if (made->kept.files.count(key) == 0) {
+      const auto tile = make_tile(made->plan, {z, x, y}, land);
+      ASSERT_TRUE(tile);
+      EXPECT_TRUE(z > made->plan.block_level) << z << "/" << x << "/" << y;
+      for (const std::int32_t height : tile->heights) EXPECT_EQ(height, 0);
+    }
+  }
+  for (const auto& [key, bytes] : made->kept.files) EXPECT_TRUE(expected.count(key) > 0);
+  std::uint64_t tiles = 0;
+  for (const LevelSummary& level : made->report.levels) tiles += level.tiles;
+  EXPECT_EQ(tiles, made->kept.files.size());
+}
+
+TEST(pyramid_laws, bounds_above_the_blocks_hold_for_all_nodes_below) {
+  const AnyLand land(11, 900, 120, true, kIsland);
+  const auto made = make_small_pyramid(land, kIsland, 2);
+  ASSERT_EQ(made->plan.block_level, 2);
+  for (int z = 0; z < made->plan.block_level; ++z) {
+    for (const std::uint64_t id : made->report.tiles[static_cast<std::size_t>(z)]) {
+      const TileId tile{z, static_cast<std::uint32_t>(id), static_cast<std::uint32_t>(id >> 32)};
+      const TerrainTile& mesh = made->kept.tile(tile);
+      const double error = brute_force(decode(mesh), tile, nodes_of(made->plan, z), land, 0);
+      EXPECT_LE(error, mesh.node_error) << z << "/" << tile.x << "/" << tile.y;
+      EXPECT_GE(error, 0.5 * mesh.node_error) << "the bound says little";
+    }
+  }
+}
+
+TEST(pyramid_laws, neighbours_above_the_blocks_decode_to_the_same_edge) {
+  const AnyLand land(11, 900, 120, true, kIsland);
+  const auto made = make_small_pyramid(land, kIsland, 2);
+  int edges = 0;
+  for (int z = 0; z <= made->plan.max_zoom(); ++z) {
+    const std::uint32_t across = std::uint32_t{2} << z;
+    for (const auto& [key, bytes] : made->kept.files) {
+      const auto [level, x, y] = key;
+      if (level != z) continue;
+      const QuantizedMesh here = *decode_quantized_mesh(bytes, "tile");
+      if (const auto east = made->kept.files.find({z, (x + 1) % across, y}); east != made->kept.files.end()) {
+        const QuantizedMesh there = *decode_quantized_mesh(east->second, "tile");
+        EXPECT_EQ(without_dust(edge_of(here, here.east, here.v)), without_dust(edge_of(there, there.west, there.v)));
+        ++edges;
+      }
+      if (const auto north = made->kept.files.find({z, x, y + 1}); north != made->kept.files.end()) {
+        const QuantizedMesh there = *decode_quantized_mesh(north->second, "tile");
+        EXPECT_EQ(without_dust(edge_of(here, here.north, here.u)), without_dust(edge_of(there, there.south, there.u)));
+        ++edges;
+      }
+    }
+  }
+  EXPECT_GT(edges, 300);
+}
+
+TEST(globe_laws, sines_are_those_of_the_library) {
+  for (double degrees = -720; degrees <= 720; degrees += 0.37) {
+    const SineCosine at = sine_of_degrees(degrees);
+    EXPECT_NEAR(at.sine, std::sin(degrees * 0.017453292519943295), 4e-16 + 2e-16 * std::abs(degrees) / 57);
+    EXPECT_NEAR(at.cosine, std::cos(degrees * 0.017453292519943295), 4e-16 + 2e-16 * std::abs(degrees) / 57);
+  }
+  EXPECT_EQ(sine_of_degrees(90).sine, 1);
+  EXPECT_EQ(sine_of_degrees(180).sine, 0);
+  EXPECT_EQ(sine_of_degrees(-90).cosine, 0);
+}
+
+TEST(globe_laws, triangles_lie_below_the_ellipsoid_by_no_more_than_the_sag) {
+  const PyramidPlan plan = plan_of(0, 0, 9, 16, Effort::kFast);
+  const AnyLand sea(1, 0, 0, false, {-180, -90, 180, 90});
+  const Globe globe{Geodetic{}};
+  for (const TileId id : {TileId{4, 0, 0}, TileId{5, 30, 16}, TileId{7, 100, 64}, TileId{9, 3, 511}}) {
+    const auto tile = make_tile(plan, id, sea);
+    ASSERT_TRUE(tile) << tile.error().message;
+    EXPECT_LE(tile->sag, plan.levels[static_cast<std::size_t>(id.z)].geometric_error / 8);
+    const DegreeBox box = bounds_of(id);
+    double deepest = 0;
+    for (std::size_t k = 0; k < tile->triangles.size(); k += 3) {
+      std::array<Space, 3> corners;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::uint32_t v = tile->triangles[k + c];
+        corners[c] = globe.position(box.west + (box.east - box.west) * tile->u[v] / 32767.0,
+                                    box.south + (box.north - box.south) * tile->v[v] / 32767.0, 0);
+      }
+      for (int a = 0; a <= 8; ++a) {
+        for (int b = 0; a + b <= 8; ++b) {
+          const Space p =
+              sum(sum(scaled(corners[0], a / 8.0), scaled(corners[1], b / 8.0)), scaled(corners[2], (8 - a - b) / 8.0));
+          // Depth below the ellipsoid, along the way to the centre: less than along the vertical.
+          const double f = 1 / 298.257223563, polar = 6378137 * (1 - f);
+          const double scale =
+              std::sqrt((p[0] * p[0] + p[1] * p[1]) / (6378137.0 * 6378137.0) + p[2] * p[2] / (polar * polar));
+          deepest = std::max(deepest, (1 - scale) * polar);
+        }
+      }
+    }
+    EXPECT_LE(deepest, tile->sag * (1 + 1e-6));
+    EXPECT_GE(deepest, 0.5 * tile->sag);
+  }
+}
+
+}  // namespace
+}  // namespace scarp::tile_laws_test
