@@ -4,10 +4,10 @@ _scarp() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command='' options='' word
   COMPREPLY=()
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
-    case $word in simplify | measure | info | generate | paper | help | version) command=$word && break ;; esac
+    case $word in simplify | measure | tile | info | generate | paper | help | version) command=$word && break ;; esac
   done
   if [[ -z $command ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure info generate paper help version --help --version' -- "$current"))
+    COMPREPLY=($(compgen -W 'simplify measure tile info generate paper help version --help --version' -- "$current"))
     return
   fi
 
@@ -26,16 +26,18 @@ _scarp() {
       "measure --te" | "measure --resolution" | "measure --z-scale" | "measure --z-offset" | "measure --cell-size" | \
       "measure --nodata" | "measure --falloff" | "measure --inset" | "measure --memory" | "measure -j" | \
       "measure --num-threads" | "measure --texture-weight" | "measure --channel-weights" | "measure --layer" | \
-      "measure --z-field" | "info --band" | "info --te" | "info --resolution" | "info --z-scale" | \
-      "info --z-offset" | "info --cell-size" | "info --nodata" | "info --layer" | "info --z-field" | \
-      "generate --seed" | "generate --range" | "generate --size")
+      "measure --z-field" | "tile --band" | "tile --te" | "tile --resolution" | "tile --z-scale" | \
+      "tile --z-offset" | "tile -e" | "tile --max-error" | "tile --quality" | "tile --zoom" | "tile --nodata" | \
+      "tile --background" | "tile -j" | "tile --num-threads" | "info --band" | "info --te" | "info --resolution" | \
+      "info --z-scale" | "info --z-offset" | "info --cell-size" | "info --nodata" | "info --layer" | \
+      "info --z-field" | "generate --seed" | "generate --range" | "generate --size")
       return
       ;;
     "simplify --objective")
       COMPREPLY=($(compgen -W 'max rms' -- "$current"))
       return
       ;;
-    "simplify --decode" | "measure --decode" | "info --decode")
+    "simplify --decode" | "measure --decode" | "tile --decode" | "info --decode")
       COMPREPLY=($(compgen -W 'terrarium mapbox' -- "$current"))
       return
       ;;
@@ -56,7 +58,7 @@ _scarp() {
       "simplify --breaklines" | "simplify --cutline" | "simplify --materials" | "simplify --node-strings" | \
       "simplify --water" | "simplify --rivers" | "simplify --texture" | "measure --map" | "measure --error-raster" | \
       "measure --mask" | "measure --tolerance" | "measure --roi" | "measure --script" | "measure --cutline" | \
-      "measure --texture")
+      "measure --texture" | "tile --report")
       COMPREPLY=($(compgen -f -- "$current"))
       return
       ;;
@@ -116,6 +118,18 @@ _scarp() {
       COMPREPLY=($(compgen -W 'sum max sqerr abn tight' -- "$current"))
       return
       ;;
+    "tile --vertical")
+      COMPREPLY=($(compgen -W 'auto egm96 ellipsoid' -- "$current"))
+      return
+      ;;
+    "tile --effort")
+      COMPREPLY=($(compgen -W 'fast normal high' -- "$current"))
+      return
+      ;;
+    "tile --cells")
+      COMPREPLY=($(compgen -W '16 32 64 128 256' -- "$current"))
+      return
+      ;;
     "generate --of")
       COMPREPLY=($(compgen -W 'tif pgm' -- "$current"))
       return
@@ -149,6 +163,11 @@ _scarp() {
         options+=' --num-threads --quiet --json-progress --help --help-all --version --texture --texture-weight'
         options+=' --image --norm --channel-weights --points --duplicates --layer --z-field'
         ;;
+      tile)
+        options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --report'
+        options+=' --overwrite --effort --max-error --quality --zoom --cells --nodata --background'
+        options+=' --num-threads --quiet --json-progress --help --help-all --version'
+        ;;
       info)
         options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --crs'
         options+=' --no-suggest --json --nodata --quiet --json-progress --help --help-all --version'
@@ -176,7 +195,7 @@ _scarp() {
     return
   fi
   if [[ $command == help && $COMP_CWORD -eq 2 ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure info generate paper help version' -- "$current"))
+    COMPREPLY=($(compgen -W 'simplify measure tile info generate paper help version' -- "$current"))
     return
   fi
   COMPREPLY=($(compgen -f -- "$current"))

@@ -87,9 +87,9 @@ double height_step(const HeightField& field, const SimplifyOptions& options) {
   if (!options.output.lattice || !rows_run_along_x(field.frame) || has_own || has_norm(field)) return 0;
   // Meshes that share a border share its bound, and not always their own: levels, and neighbours of other errors.
   const Border& border = options.domain.border;
-  const std::optional<double> shared = border.is_locked ? border.max_error : std::nullopt;
   const double asked = options.goals.max_error.value_or(0);
-  const double bound = std::min(asked, shared.value_or(asked)) - field.sample_rounding;
+  const double shared = border.is_locked ? border.max_error.value_or(asked) : asked;
+  const double bound = std::min(asked, shared) - field.sample_rounding;
   if (!(bound > 0) || std::isinf(bound)) return 0;
   return std::ldexp(1.0, std::ilogb(2 * kHeightShare * bound));
 }
