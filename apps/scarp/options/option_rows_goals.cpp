@@ -74,9 +74,9 @@ constexpr OptionRow kGoalRows[] = {
      .value = "LEVEL",
      .choices = "fast normal high max",
      .by_default = "normal; fast with strategies, --order greedy, or too little --memory",
-     .help = "How much work to do for fewer triangles. fast: refine only. normal: also remove vertices; 0.52 of the "
-             "triangles of fast. high: also move vertices; 0.30. max: try more of that; 0.28. CPU time is 0.5, 1.6, "
-             "10.9 and 59 times that of --order greedy. With -t or -p: a smaller error instead.",
+     .help = "How much work to do for fewer triangles. fast: refine only. normal: also remove vertices; 0.53 of the "
+             "triangles of fast. high: also move vertices; 0.30. max: try more of that; 0.28. CPU time is 0.4, 1.4, "
+             "9.6 and 50 times that of --order greedy. With -t or -p: a smaller error instead.",
      .brief = "fast, normal, high or max: fewer triangles for more time"},
     {.id = kVertices,
      .name = "--vertices",
