@@ -117,7 +117,7 @@ complete -c scarp -n '__fish_seen_subcommand_from tile' -s e -l max-error -x -d 
 complete -c scarp -n '__fish_seen_subcommand_from tile' -l quality -x -d 'Max error of the coarser levels: the geometric error that clients assume, over Q'
 complete -c scarp -n '__fish_seen_subcommand_from tile' -l zoom -x -d 'The finest level'
 complete -c scarp -n '__fish_seen_subcommand_from tile' -l cells -x -a '16 32 64 128 256' -d 'Cells between the nodes of a tile of the finest level, each way'
-complete -c scarp -n '__fish_seen_subcommand_from tile' -l background -x -d 'Height of nodata, and of the globe around the raster'
+complete -c scarp -n '__fish_seen_subcommand_from tile' -l background -x -d 'Height of nodata, and of the globe around the raster, above the ellipsoid, whatever --vertical says'
 complete -c scarp -n '__fish_seen_subcommand_from info' -l crs -x -a 'source local enu grid EPSG:' -d 'Coordinates that a mesh would have: source, local, enu, grid or a CRS such as EPSG:32611'
 complete -c scarp -n '__fish_seen_subcommand_from info' -l no-suggest -d 'Print the facts alone, without running the engine to suggest errors'
 complete -c scarp -n '__fish_seen_subcommand_from generate' -l seed -x -d 'Which fractal, which smooth field'

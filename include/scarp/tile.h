@@ -107,7 +107,8 @@ struct PyramidSettings {
   int cells = 128;
   /// Levels 0 … max_zoom. DEFAULT (−1): the first level whose nodes are no farther apart than 1.1 cells of the source.
   int max_zoom = -1;
-  /// Metres, of the finest level; above 0. DEFAULT (0): a quarter of its geometric error.
+  /// Metres, of the finest level; above 0. DEFAULT (0): a quarter of its geometric error, or what the
+  /// format holds for such heights if that is more.
   double max_error = 0;
   /// A level's max error is the geometric error over this, or max_error if that is more. At least 1/2. DEFAULT: 2.
   double quality = 2;
@@ -145,6 +146,7 @@ struct SourceFacts {
   DegreeBox covered = {};
   double cell = 0;          ///< metres along the ground, the geometric mean of both ways, above 0
   double min = 0, max = 0;  ///< bounds of its heights, metres
+  double cell_degrees = 0;  ///< as `cell`, of a raster in degrees; 0 for others
 };
 
 /// Fails with kUsage for settings out of range.
@@ -186,12 +188,13 @@ class TileSink {
 struct LevelSummary {
   std::uint64_t tiles = 0, triangles = 0, bytes = 0;
   double node_error = 0, bound = 0;  ///< the largest of its tiles
-  /// Tiles whose node_error is above the level's max error: cliffs that rounded positions cannot follow. Not counted
-  /// above the block level, where it is an upper bound.
+  /// Tiles whose node_error is above the level's max error: those with cliffs that rounded positions cannot follow, and
+  /// above the block level those whose reduced nodes let no less be proven.
   std::uint64_t over = 0;
 };
 
 struct PyramidReport {
+  bool has_heights = false;                       ///< some node has one
   std::vector<LevelSummary> levels;               ///< 0 … the finest
   std::vector<std::vector<std::uint64_t>> tiles;  ///< by level: rows and columns of its tiles, y · 2^32 + x, sorted
 };

@@ -26,8 +26,8 @@ struct LayerFacts {
 class TileFolder final : public TileSink {
  public:
   /// Tiles go to a folder with a temporary name beside `path`, which finish() gives its own; without that nothing is
-  /// left. Fails with kOutput where `path` exists, unless `overwrite` is true and it is a set of tiles (it holds
-  /// layer.json) or empty, and where no folder can be made.
+  /// left. Fails with kOutput where `path` exists, unless it is empty, or `overwrite` is true and it is a set of
+  /// Scarp's tiles with nothing else in it, and where no folder can be made.
   static Result<std::unique_ptr<TileFolder>> create(const std::string& path, const PyramidPlan& plan, bool overwrite);
   TileFolder(const TileFolder&) = delete;
   TileFolder& operator=(const TileFolder&) = delete;
@@ -66,9 +66,10 @@ struct RasterOnGlobe {
 };
 
 /// `path`: the raster's, for sentences. Fails with kInput without a georeference or a CRS, for heights that are not in
-/// metres, and where PROJ knows no way to longitude and latitude; with kUsage where nobody says what the heights are
-/// above, and where the geoid is not on this machine.
-Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, Vertical vertical, const std::string& path);
+/// metres, where PROJ knows no way to longitude and latitude, and beyond 180° of a cylindrical projection; with kUsage
+/// where nobody says what the heights are above, and where the geoid is not on this machine.
+Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows, Vertical vertical,
+                                     const std::string& path);
 
 }  // namespace scarp
 

@@ -18,6 +18,8 @@ constexpr int kBlockDepth = 5;
 constexpr double kQuantaOfError = 32;
 /// Finer heights than this are noise, and 2²⁴ of them hold no mountain.
 constexpr double kLeastQuantum = 0x1p-10;
+/// Cubic interpolation between samples goes beyond them by no more than this share of their range, on either side.
+constexpr double kOvershoot = 0.3;
 /// The finest level's nodes may be this many cells of the source apart.
 constexpr double kSpacing = 1.1;
 
@@ -34,10 +36,17 @@ double spacing_of(int z, int cells, double latitude, const Globe& globe) {
 }
 
 int find_max_zoom(const SourceFacts& source, int cells, const Globe& globe) {
-  // The middle, and no nearer to a pole than where parallels have shrunk to a tenth.
-  const double latitude = std::clamp((source.covered.south + source.covered.north) / 2, -84.0, 84.0);
+  const DegreeBox& covered = source.covered;
+  // Where a pole is covered, nodes are as dense as anybody likes there: what counts is the edge.
+  const double latitude = covered.north >= 90    ? std::max(covered.south, 0.0)
+                          : covered.south <= -90 ? std::min(covered.north, 0.0)
+                                                 : (covered.south + covered.north) / 2;
+  const auto is_coarse = [&](int z) {
+    return source.cell_degrees > 0 ? 180 / std::ldexp(cells, z) > kSpacing * source.cell_degrees
+                                   : spacing_of(z, cells, latitude, globe) > kSpacing * source.cell;
+  };
   int z = 0;
-  while (z < kMaxTileLevel && spacing_of(z, cells, latitude, globe) > kSpacing * source.cell) ++z;
+  while (z < kMaxTileLevel && is_coarse(z)) ++z;
   return z;
 }
 
@@ -57,14 +66,15 @@ Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSetting
     return fail(ErrorKind::kUsage,
                 fmt::format("level {} does not exist: the finest is at most {}", settings.max_zoom, kMaxTileLevel));
   if (!(settings.quality >= 0.5) || !(settings.quality <= 1e6))
-    return fail(ErrorKind::kUsage, fmt::format("a quality of {} is none: give 0.5 or more", settings.quality));
+    return fail(ErrorKind::kUsage, fmt::format("a quality of {} is none: give 0.5 to 1000000", settings.quality));
   if (!(settings.max_error >= 0) || !std::isfinite(settings.max_error))
     return fail(ErrorKind::kUsage, fmt::format("a max error of {} m is none: give more than 0", settings.max_error));
   if (!std::isfinite(settings.background) || std::abs(settings.background) > 20000)
     return fail(ErrorKind::kUsage, fmt::format("a background of {} m is no height of a planet: give one within 20000",
                                                settings.background));
-  const double low = std::min<double>(source.min, settings.background);
-  const double high = std::max<double>(source.max, settings.background);
+  const double overshoot = kOvershoot * (source.max - source.min);
+  const double low = std::min<double>(source.min - overshoot, settings.background);
+  const double high = std::max<double>(source.max + overshoot, settings.background);
   if (!(source.cell > 0) || !(high - low <= 40000) || std::max(std::abs(low), std::abs(high)) > 20000)
     return fail(ErrorKind::kUsage,
                 fmt::format("heights of {} to {} are not metres of a planet: give them in metres, within 20000 (is "
@@ -80,21 +90,24 @@ Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSetting
   plan.covered = source.covered;
   const int finest = settings.max_zoom >= 0 ? settings.max_zoom : find_max_zoom(source, settings.cells, globe);
   plan.block_level = std::max(0, finest - kBlockDepth);
-  const double least = settings.max_error > 0 ? settings.max_error : geometric_error(finest, globe.semi_major()) / 4;
+  // A tile's 32767 steps must hold its relief, here that of the whole source.
+  const double room = (high - low) / 32767;
+  const double least_quantum = std::max(kLeastQuantum, room > 0 ? 2 * power_of_two_below(room) : 0);
+  const double least = settings.max_error > 0
+                           ? settings.max_error
+                           : std::max(geometric_error(finest, globe.semi_major()) / 4, 4 * least_quantum);
   for (int z = 0; z <= finest; ++z) {
     PyramidLevel level;
     level.geometric_error = geometric_error(z, globe.semi_major());
     level.max_error = std::max(least, level.geometric_error / settings.quality);
     if (z == finest) level.max_error = least;
-    // A tile's 32767 steps must hold its relief, here that of the whole source.
-    const double room = (high - low) / 32767;
-    level.quantum = std::max({power_of_two_below(level.max_error / kQuantaOfError), kLeastQuantum,
-                              room > 0 ? 2 * power_of_two_below(room) : 0});
+    level.quantum = std::max(power_of_two_below(level.max_error / kQuantaOfError), least_quantum);
     if (level.quantum > level.max_error / 4)
-      return fail(ErrorKind::kUsage,
-                  fmt::format("a max error of {} m is less than quantized-mesh holds for heights of {} to {} m: its "
-                              "steps are {} m; give {} or more",
-                              level.max_error, low, high, level.quantum, 4 * level.quantum));
+      return fail(
+          ErrorKind::kUsage,
+          fmt::format("a max error of {} m is less than quantized-mesh holds for heights of {} to {} m, the background "
+                      "included: its steps are {} m; give {} or more",
+                      level.max_error, low, high, level.quantum, 4 * level.quantum));
     level.segments = segments_of(z);
     plan.levels.push_back(level);
   }

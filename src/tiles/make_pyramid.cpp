@@ -47,8 +47,9 @@ class PyramidRun {
 
  private:
   bool is_covered(TileId id) const {
-    // A node more on each side, so that heights on a border count for the tiles on both of its sides.
-    const double node = std::ldexp(180.0 / plan_.cells, -plan_.max_zoom());
+    // More on each side, so that heights on a border, or as near as normals reach, count on both of its sides.
+    const double node =
+        (normal_reach(steps_of(plan_, plan_.block_level)) + 1) * std::ldexp(180.0 / plan_.cells, -plan_.max_zoom());
     const DegreeBox box = bounds_of(id), &covered = plan_.covered;
     if (box.south > covered.north + node || box.north < covered.south - node) return false;
     for (const double turn : {-720.0, -360.0, 0.0, 360.0, 720.0}) {
@@ -83,6 +84,7 @@ class PyramidRun {
       auto read = read_block(block);
       if (!read) return tl::unexpected(read.error());
       if (read->has_heights()) nodes = std::move(*read);
+      report_.has_heights |= nodes.has_value();
     }
     if (!nodes) {
       const Result<TerrainTile> flat = make_flat_tile(plan_, block);
@@ -130,7 +132,7 @@ class PyramidRun {
     const auto nodes = TileNodes::read(id, steps, normal_reach(steps), plan_.background, source);
     if (!nodes) return tl::unexpected(nodes.error());
     if (!nodes->has_heights() && !is_wanted) return std::optional<TerrainTile>();
-    auto tile = nodes->has_heights() ? make_tile_of(plan_, id, *nodes) : make_flat_tile(plan_, id);
+    auto tile = nodes->is_flat() ? make_flat_tile(plan_, id) : make_tile_of(plan_, id, *nodes);
     if (!tile) return tl::unexpected(tile.error());
     return std::optional(std::move(*tile));
   }
@@ -157,16 +159,13 @@ class PyramidRun {
   }
 
   Result<std::optional<TerrainTile>> make_coarse(TileId id) const {
-    bool has_heights = false;
-    for (const std::uint32_t k : {0u, 1u, 2u, 3u}) has_heights |= coarse_.has(2 * id.x + (k & 1), 2 * id.y + (k >> 1));
     const std::int32_t steps = 2 * kCoarseCells;
     const auto nodes = TileNodes::read(id, steps, normal_reach(steps), plan_.background, coarse_);
     if (!nodes) return tl::unexpected(nodes.error());
-    auto tile = has_heights ? make_tile_of(plan_, id, *nodes,
-                                           [&](const TerrainTile& made) -> Result<TileVerdict> {
-                                             return TileVerdict{bound_error(made, coarse_), {}};
-                                           })
-                            : make_flat_tile(plan_, id);
+    auto tile = nodes->is_flat() ? make_flat_tile(plan_, id)
+                                 : make_tile_of(plan_, id, *nodes, [&](const TerrainTile& made) -> Result<TileVerdict> {
+                                     return TileVerdict{bound_error(made, coarse_), {}};
+                                   });
     if (!tile) return tl::unexpected(tile.error());
     return std::optional(std::move(*tile));
   }
@@ -226,7 +225,7 @@ class PyramidRun {
     level.bytes += bytes.size();
     level.node_error = std::max(level.node_error, tile.node_error);
     level.bound = std::max(level.bound, tile.bound());
-    level.over += tile.id.z >= plan_.block_level && tile.node_error > plan_.levels[z].max_error;
+    level.over += tile.node_error > plan_.levels[z].max_error;
     report_.tiles[z].push_back(std::uint64_t{tile.id.y} << 32 | tile.id.x);
     return sink_.put(tile.id, bytes);
   }

@@ -230,7 +230,7 @@ Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSour
   const std::int32_t steps = steps_of(plan, id.z);
   const auto nodes = TileNodes::read(id, steps, normal_reach(steps), plan.background, source);
   if (!nodes) return tl::unexpected(nodes.error());
-  if (!nodes->has_heights()) return make_flat_tile(plan, id);
+  if (nodes->is_flat()) return make_flat_tile(plan, id);
   return make_tile_of(plan, id, *nodes);
 }
 

@@ -38,6 +38,7 @@ Result<TileNodes> TileNodes::read(TileId id, std::int32_t steps, std::int32_t ha
   }
   for (float& height : nodes.heights_) {
     if (std::isnan(height)) height = background;
+    nodes.is_flat_ &= height == background;
   }
   return nodes;
 }

@@ -21,6 +21,8 @@ class TileNodes {
 
   std::int32_t steps() const { return steps_; }
   bool has_heights() const { return has_heights_; }  ///< of its own nodes at least one
+  /// All nodes, those around it too, have the background's height.
+  bool is_flat() const { return is_flat_; }
   /// REQUIRES: −halo <= col, row <= steps + halo. Rows go south.
   float at(std::int32_t col, std::int32_t row) const {
     return heights_[static_cast<std::size_t>(row + halo_) * static_cast<std::size_t>(side()) +
@@ -32,7 +34,7 @@ class TileNodes {
 
   std::int32_t steps_ = 0, halo_ = 0;
   std::vector<float> heights_;
-  bool has_heights_ = false;
+  bool has_heights_ = false, is_flat_ = true;
 };
 
 /// Nodes that were read once for many tiles.

@@ -13,7 +13,7 @@ sed -e 's/\\-/-/g' -e 's/\\f[RIBP]//g' "$man" >man.txt
 sed -nE '/^complete/s/ -l ([a-z-]+)/ --\1/gp' "$completions/scarp.fish" >fish.txt
 
 commands=$("$scarp" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
-[ "$(wc -w <<<"$commands")" = 7 ] || fail "--help lists other commands: $commands"
+[ "$(wc -w <<<"$commands")" = 8 ] || fail "--help lists other commands: $commands"
 "$scarp" help >help.txt
 "$scarp" --help | cmp - help.txt || fail "scarp help and scarp --help differ"
 : >all_options
@@ -116,6 +116,7 @@ END
       "measure --norm") try "$scarp" measure "$dem" out.obj --image "$option" nonsense ;;
       simplify*) try "$scarp" simplify "$dem" out.obj -e 1 "$option" nonsense ;;
       measure*) try "$scarp" measure "$dem" out.obj "$option" nonsense ;;
+      tile*) try "$scarp" tile "$dem" out "$option" nonsense ;;
       info*) try "$scarp" info "$dem" "$option" nonsense ;;
       generate*) try "$scarp" generate cliff 9 9 out.tif "$option" nonsense ;;
     esac

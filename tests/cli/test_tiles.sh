@@ -63,3 +63,20 @@ refuses 2 "no such file" "$scarp" tile missing.tif no
 refuses 4 "no folder can be made" "$scarp" tile "$dem" missing/no --vertical egm96
 printf "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2 3\n4 5 6\n7 8 9\n" > bare.asc
 refuses 2 "where on the globe" "$scarp" tile bare.asc no
+
+# What is not Scarp's is not deleted.
+touch globe/mine
+refuses 4 "globe/mine is not Scarp's" "$scarp" tile "$dem" globe --vertical egm96 --overwrite
+mkdir theirs && echo '{"format":"quantized-mesh-1.0"}' > theirs/layer.json
+refuses 4 "is not Scarp's" "$scarp" tile "$dem" theirs --vertical egm96 --overwrite
+
+# Beyond 180 degrees of a projection places are not found again; a raster between nodes has none.
+succeeds gdal_translate -q -a_srs EPSG:3857 -a_ullr 20000000 2000000 20400000 1600000 "$dem" beyond.tif
+refuses 2 "beyond 180 degrees" "$scarp" tile beyond.tif no --vertical ellipsoid
+succeeds gdal_translate -q -a_srs EPSG:4326 -a_ullr 10.01 50.02 10.06 49.97 -outsize 60 60 "$dem" small.tif
+refuses 1 "larger --zoom" "$scarp" tile small.tif no --vertical ellipsoid --zoom 3
+
+# Fine rasters of high land have the least error that the format holds, above an ellipsoid far below.
+succeeds gdal_translate -q -ot Float32 -a_srs EPSG:32616 -a_ullr 500000 4000060 500060 4000000 -outsize 60 60 -scale 236 1076 2400 2430 "$dem" lidar.tif
+succeeds "$scarp" tile lidar.tif lidar --vertical ellipsoid -q
+python3 "$reader" lidar > /dev/null || fail "lidar"

@@ -304,9 +304,9 @@ TEST(pyramid_laws, bounds_above_the_blocks_hold_for_all_nodes_below) {
   }
 }
 
-TEST(pyramid_laws, neighbours_above_the_blocks_decode_to_the_same_edge) {
-  const AnyLand land(11, 900, 120, true, kIsland);
-  const auto made = make_small_pyramid(land, kIsland, 2);
+void expect_same_edges(const DegreeBox& covered, int least) {
+  const AnyLand land(11, 900, 120, true, covered);
+  const auto made = make_small_pyramid(land, covered, 2);
   int edges = 0;
   for (int z = 0; z <= made->plan.max_zoom(); ++z) {
     const std::uint32_t across = std::uint32_t{2} << z;
@@ -326,7 +326,14 @@ TEST(pyramid_laws, neighbours_above_the_blocks_decode_to_the_same_edge) {
       }
     }
   }
-  EXPECT_GT(edges, 300);
+  EXPECT_GT(edges, least);
+}
+
+TEST(pyramid_laws, neighbours_in_a_pyramid_decode_to_the_same_edge) { expect_same_edges(kIsland, 300); }
+
+TEST(pyramid_laws, land_that_ends_just_before_an_edge_is_seen_by_the_tile_behind_it) {
+  expect_same_edges({100, 20, 179.95, 22.45}, 50);
+  expect_same_edges({45.05, 44.95, 60, 50}, 50);
 }
 
 TEST(globe_laws, sines_are_those_of_the_library) {

@@ -19,6 +19,7 @@ namespace scarp::cli {
 namespace {
 
 constexpr Choice<Effort> kEfforts[] = {{"fast", Effort::kFast}, {"normal", Effort::kNormal}, {"high", Effort::kHigh}};
+constexpr Choice<int> kCells[] = {{"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}};
 constexpr Choice<Vertical> kVerticals[] = {
     {"auto", Vertical::kAuto}, {"egm96", Vertical::kEgm96}, {"ellipsoid", Vertical::kEllipsoid}};
 
@@ -56,13 +57,14 @@ std::string make_summary(const std::string& input, const std::string& output, co
   text += fmt::format("  heights above  {}\n", vertical);
   text += fmt::format("  tiles          {}, levels 0 to {}, {}, {}\n", format_count(all.tiles), plan.max_zoom(),
                       format_plural(all.triangles, "triangle"), format_bytes(all.bytes));
-  text += "  level      tiles  triangles/tile  bytes/tile      asked  error bound\n";
+  text += "  level      tiles  triangles/tile  bytes/tile      asked   at nodes  with the earth's curve\n";
   for (std::size_t z = 0; z < plan.levels.size(); ++z) {
     const LevelSummary& level = report.levels[z];
     const std::uint64_t tiles = std::max<std::uint64_t>(level.tiles, 1);
-    text += fmt::format("  {:5} {:>10} {:>15} {:>11} {:>10} {:>12}\n", z, format_count(level.tiles),
+    text += fmt::format("  {:5} {:>10} {:>15} {:>11} {:>10} {:>10} {:>23}\n", z, format_count(level.tiles),
                         format_count(level.triangles / tiles), format_count(level.bytes / tiles),
-                        format_metres(plan.levels[z].max_error), format_metres(level.bound));
+                        format_metres(plan.levels[z].max_error), format_metres(level.node_error),
+                        format_metres(level.bound));
   }
   text += fmt::format("  time           {} s\n", format_seconds(seconds));
   return text;
@@ -73,15 +75,19 @@ std::vector<std::string> warnings_of(const OwnedHeightField& field, const Pyrami
   std::vector<std::string> warnings = field.info.warnings;
   // Degrees are what tiles are made in.
   std::erase_if(warnings, [](const std::string& one) { return one.find("x and y are degrees") != std::string::npos; });
+  std::string over;
+  std::uint64_t tiles = 0;
   for (std::size_t z = 0; z < plan.levels.size(); ++z) {
-    const LevelSummary& level = report.levels[z];
-    if (level.over == 0) continue;
-    warnings.push_back(
-        fmt::format("{} of level {} could not keep {}: positions are rounded to 32767ths of a tile, too "
-                    "coarse for its cliffs; the error there is {}",
-                    format_plural(level.over, "tile"), z, format_metres(plan.levels[z].max_error),
-                    format_metres(level.node_error)));
+    if (report.levels[z].over == 0) continue;
+    over += fmt::format("{}{}", over.empty() ? "" : ", ", z);
+    tiles += report.levels[z].over;
   }
+  if (tiles > 0)
+    warnings.push_back(
+        fmt::format("{} of the levels {} did not keep the max error asked, as the table shows: next to a "
+                    "cliff, the raster's own edge above the background included, positions in 32767ths "
+                    "of a tile are too coarse",
+                    format_plural(tiles, "tile"), over));
   return warnings;
 }
 
@@ -129,9 +135,9 @@ Result<PyramidSettings> TileCommand::parse_settings() const {
     settings.max_zoom = static_cast<int>(std::min<std::uint64_t>(*zoom, kMaxTileLevel + 1));
   }
   if (cells_) {
-    const Result<std::uint64_t> cells = parse_count("--cells", *cells_, 1);
+    const Result<int> cells = choose("--cells", *cells_, kCells);
     if (!cells) return tl::unexpected(cells.error());
-    settings.cells = static_cast<int>(std::min<std::uint64_t>(*cells, 1 << 20));
+    settings.cells = *cells;
   }
   if (effort_) {
     const Result<Effort> effort = choose("--effort", *effort_, kEfforts);
@@ -171,7 +177,7 @@ Result<void> TileCommand::run(const std::string& command_line) const {
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
   const Result<OwnedHeightField> field = read_raster(display.callback());
   if (!field) return tl::unexpected(field.error());
-  const Result<RasterOnGlobe> globe = place_on_globe(field->info, *vertical, raster_.path());
+  const Result<RasterOnGlobe> globe = place_on_globe(field->info, field->cols, field->rows, *vertical, raster_.path());
   if (!globe) return tl::unexpected(globe.error());
   settings->ellipsoid = globe->ellipsoid;
   const Result<DegreeBox> covered = degrees_covered(*field, globe->place.affine, globe->to_degrees.get());
@@ -183,7 +189,9 @@ Result<void> TileCommand::run(const std::string& command_line) const {
   const double reserve = globe->zero ? 110 : 0;
   if (globe->zero) raised = make_raised_source(**nodes, globe->zero);
   const Result<PyramidPlan> plan =
-      plan_pyramid({*covered, cell_of(field->info), field->info.min - reserve, field->info.max + reserve}, *settings);
+      plan_pyramid({*covered, cell_of(field->info), field->info.min - reserve, field->info.max + reserve,
+                    globe->to_degrees ? 0 : std::sqrt(field->info.cell_x * field->info.cell_y)},
+                   *settings);
   if (!plan) return tl::unexpected(plan.error());
 
   auto folder = TileFolder::create(output_, *plan, overwrite_);
@@ -193,6 +201,9 @@ Result<void> TileCommand::run(const std::string& command_line) const {
   run.progress = display.callback();
   const Result<PyramidReport> report = make_pyramid(*plan, raised ? *raised : **nodes, **folder, run);
   if (!report) return tl::unexpected(report.error());
+  if (!report->has_heights)
+    return fail(ErrorKind::kUsage,
+                fmt::format("no node of level {} lies in {}: give a larger --zoom", plan->max_zoom(), raster_.path()));
   LayerFacts facts;
   facts.name = base_name(raster_.path());
   facts.description = fmt::format("heights above {}", globe->vertical);

@@ -75,6 +75,24 @@ bool is_metre(const std::string& unit) {
   return unit.empty() || unit == "m" || unit == "metre" || unit == "meter" || unit == "metres" || unit == "meters";
 }
 
+/// Whether places of the raster are found again from their degrees. Beyond 180° of a cylindrical projection they are
+/// not: the way back ends a turn away.
+bool is_found_again(int cols, int rows, const RasterOnGlobe& globe) {
+  const std::array<double, 6>& a = globe.place.affine;
+  const double cell = std::hypot(a[1], a[4]) + std::hypot(a[2], a[5]);
+  constexpr int kPlaces = 33;
+  for (int j = 0; j < kPlaces; ++j) {
+    for (int i = 0; i < kPlaces; ++i) {
+      const double col = (cols - 1.0) * i / (kPlaces - 1), row = (rows - 1.0) * j / (kPlaces - 1);
+      const double from_x = a[0] + a[1] * col + a[2] * row, from_y = a[3] + a[4] * col + a[5] * row;
+      double x = from_x, y = from_y;
+      if (!globe.to_degrees->apply({&x, 1}, {&y, 1}) || !globe.place.from_degrees->apply({&x, 1}, {&y, 1})) continue;
+      if (std::abs(x - from_x) + std::abs(y - from_y) > cell) return false;
+    }
+  }
+  return true;
+}
+
 constexpr const char* kWaysOut =
     "give --vertical egm96 for heights above the sea, or --vertical ellipsoid for heights above the ellipsoid, as GPS "
     "gives them";
@@ -109,7 +127,8 @@ Result<void> find_zero(const RasterInfo& info, Vertical vertical, const std::str
 
 }  // namespace
 
-Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, Vertical vertical, const std::string& path) {
+Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows, Vertical vertical,
+                                     const std::string& path) {
   gdal::Session quiet;
   const Crs source = info.crs.empty() ? nullptr : gdal::find_crs(info.crs);
   if (!info.has_georeference || !source)
@@ -135,6 +154,11 @@ Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, Vertical vertical, 
   if (!are_degrees) {
     globe.place.from_degrees = std::move(back);
     globe.to_degrees = std::move(forth);
+    if (!is_found_again(cols, rows, globe))
+      return fail(ErrorKind::kInput,
+                  fmt::format("{} reaches beyond 180 degrees of its projection, where places are not found again from "
+                              "longitude and latitude: put it into degrees (gdalwarp -t_srs EPSG:4326)",
+                              path));
   }
 
   if (vertical == Vertical::kEllipsoid || (vertical == Vertical::kAuto && info.is_ellipsoidal)) {

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
@@ -19,6 +20,27 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+bool is_number(const std::string& text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// What a folder holds that no set of tiles of Scarp's does; empty if there is no such thing.
+std::string find_foreign(const fs::path& folder) {
+  std::error_code error;
+  for (auto at = fs::recursive_directory_iterator(folder, error); !error && at != fs::recursive_directory_iterator();
+       at.increment(error)) {
+    const fs::path& path = at->path();
+    const bool is_level = at.depth() < 2 && at->is_directory() && is_number(path.filename().string());
+    const bool is_tile = at.depth() == 2 && path.extension() == ".terrain" && is_number(path.stem().string());
+    if (!is_level && !is_tile && !(at.depth() == 0 && path.filename() == "layer.json")) return path.string();
+  }
+  if (error) return folder.string();
+  std::ifstream layer(folder / "layer.json");
+  const Json json = Json::parse(layer, nullptr, false);
+  if (json.is_object() && json.contains("scarp")) return "";
+  return (folder / "layer.json").string();
+}
 
 /// Tiles of a level from x to end_x and from y to end_y.
 struct TileRange {
@@ -58,12 +80,11 @@ std::vector<TileRange> find_ranges(const std::vector<std::uint64_t>& tiles) {
 
 Result<void> write_whole(const std::string& path, std::span<const std::uint8_t> bytes) {
   std::FILE* file = std::fopen(path.c_str(), "wbx");
-  bool good = file != nullptr;
-  good = good && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  const int reason = errno;
-  if (file != nullptr) good = std::fclose(file) == 0 && good;
-  if (good) return {};
-  return fail(ErrorKind::kOutput, fmt::format("{} cannot be written: {}", path, std::strerror(good ? errno : reason)));
+  int reason = file == nullptr ? errno : 0;
+  if (file != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size()) reason = errno;
+  if (file != nullptr && std::fclose(file) != 0 && reason == 0) reason = errno;
+  if (reason == 0) return {};
+  return fail(ErrorKind::kOutput, fmt::format("{} cannot be written: {}", path, std::strerror(reason)));
 }
 
 }  // namespace
@@ -95,6 +116,8 @@ Result<std::unique_ptr<TileFolder>> TileFolder::create(const std::string& path, 
   // Without the slash at its end.
   impl->target = fs::path(path).has_filename() ? fs::path(path) : fs::path(path).parent_path();
   std::error_code error;
+  if (path.empty()) return fail(ErrorKind::kUsage, "OUTPUT is empty: give the name of a folder to make");
+  if (fs::is_symlink(impl->target, error)) impl->target = fs::canonical(impl->target, error);
   if (fs::exists(impl->target, error)) {
     const bool is_empty = fs::is_directory(impl->target, error) && fs::is_empty(impl->target, error);
     const bool is_set = fs::exists(impl->target / "layer.json", error);
@@ -102,6 +125,10 @@ Result<std::unique_ptr<TileFolder>> TileFolder::create(const std::string& path, 
       return fail(ErrorKind::kOutput, fmt::format("{} is there and is no set of tiles: give another name", path));
     if (is_set && !overwrite)
       return fail(ErrorKind::kOutput, fmt::format("{} is there already: give another name, or --overwrite", path));
+    const std::string foreign = is_set ? find_foreign(impl->target) : "";
+    if (!foreign.empty())
+      return fail(ErrorKind::kOutput,
+                  fmt::format("{} is not Scarp's, and would be deleted with the tiles: give another name", foreign));
   }
   const fs::path beside = fs::absolute(impl->target, error).parent_path();
   std::string name = (beside / ".scarp-tiles-XXXXXX").string();
