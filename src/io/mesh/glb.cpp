@@ -360,7 +360,7 @@ Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh, const GlbOptions&
   try {
     return GlbWriter(mesh, options).encode();
   } catch (...) {
-    return caught(ErrorKind::kOutput, "encode the mesh");
+    return caught(ErrorKind::kInput, "encode the mesh");
   }
 }
 
