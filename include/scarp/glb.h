@@ -36,7 +36,8 @@ struct GlbOptions {
 };
 
 /// The bytes of a GLB file. encode_mesh() is this without options. Fails with kOutput as it does, for images without
-/// uvs, and for `compress` where positions are neither on the lattice nor float32, or without libmeshoptimizer.
+/// uvs, and for `compress` where positions are neither on the lattice nor float32, or without libmeshoptimizer; with kInput where
+/// memory runs out.
 Result<std::vector<std::uint8_t>> encode_glb(const Mesh& mesh, const GlbOptions& options);
 
 }  // namespace scarp

@@ -197,15 +197,41 @@ struct PyramidReport {
   bool has_heights = false;                       ///< some node has one
   std::vector<LevelSummary> levels;               ///< 0 … the finest
   std::vector<std::vector<std::uint64_t>> tiles;  ///< by level: rows and columns of its tiles, y · 2^32 + x, sorted
+
+  /// Of other tiles of the same pyramid.
+  void add(const PyramidReport& more);
 };
 
-/// Makes all tiles of a pyramid: those with heights; of levels up to plan.block_level also the others that clients need
-/// to reach them: both roots, and the siblings of each tile. A tile's bytes are those of make_tile(). Tiles above the
-/// block level are made of nodes reduced to 256 cells a side, and their node_error is an upper bound for all nodes
-/// below, which the reduction carries upwards.
+/// The blocks of a pyramid: its tiles of plan.block_level, along Hilbert's curve, so that neighbours in the list are
+/// neighbours on the globe. All tiles below a block are made with it; any process may make any block.
+std::vector<TileId> find_blocks(const PyramidPlan& plan);
+
+/// What is known of a block that was made.
+struct BlockReport {
+  TileId block;
+  PyramidReport report;
+  /// For finish_pyramid(): its nodes reduced to 128 cells a side, and bounds of what the reduction lost, 330 kB. The
+  /// same bytes on every machine. Empty for a block without heights.
+  std::vector<std::uint8_t> reduced;
+};
+
+/// Makes the tiles of one block that have heights, and the block's own in any case. A tile's bytes are those of
+/// make_tile(). REQUIRES: find_blocks() names the block.
 ///
-/// Cost: each node is read once, by blocks; memory: that of a block's nodes, 4 · (32 · cells)² bytes, and for each
-/// block 200 kB. Progress: pass "tiles". Fails as make_tile() and the sink do, and with kCancelled.
+/// Cost: each node is read once; memory: that of its nodes, 4 · (32 · cells)² bytes. Progress: pass "tiles". Fails as
+/// make_tile() and the sink do, and with kCancelled.
+Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const NodeSource& source, TileSink& sink,
+                               const Run& run = {});
+
+/// Makes the tiles above the blocks, of nodes reduced to 256 cells a side. Their node_error is an upper bound for all
+/// nodes below, which the reduction carries upwards. REQUIRES: `blocks` are those of find_blocks(), in any order.
+/// Returns what is known of all tiles. Progress and failures as make_block(), and kInput for damaged `reduced`.
+Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockReport> blocks, TileSink& sink,
+                                     const Run& run = {});
+
+/// Makes all tiles of a pyramid: those with heights; of levels up to plan.block_level also the others that clients need
+/// to reach them: both roots, and the siblings of each tile. The same as make_block() for each of find_blocks() in
+/// their order, and then finish_pyramid().
 Result<PyramidReport> make_pyramid(const PyramidPlan& plan, const NodeSource& source, TileSink& sink,
                                    const Run& run = {});
 

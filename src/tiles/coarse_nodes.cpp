@@ -1,7 +1,9 @@
 #include "tiles/coarse_nodes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "tiles/tile_mesh_parts.h"
@@ -171,6 +173,25 @@ CoarseTile CoarseTile::join(const std::array<const CoarseTile*, 4>& children) {
   }
   tile.has_heights =
       std::any_of(children.begin(), children.end(), [](const CoarseTile* child) { return child->has_heights; });
+  return tile;
+}
+
+std::vector<std::uint8_t> CoarseTile::to_bytes() const {
+  static_assert(std::endian::native == std::endian::little);
+  const std::size_t nodes = nodes_.size() * sizeof(float), cells = cells_.size() * sizeof(CoarseCell);
+  std::vector<std::uint8_t> bytes(nodes + cells);
+  std::memcpy(bytes.data(), nodes_.data(), nodes);
+  std::memcpy(bytes.data() + nodes, cells_.data(), cells);
+  return bytes;
+}
+
+Result<CoarseTile> CoarseTile::from_bytes(std::span<const std::uint8_t> bytes) {
+  CoarseTile tile = flat(0);
+  const std::size_t nodes = tile.nodes_.size() * sizeof(float), cells = tile.cells_.size() * sizeof(CoarseCell);
+  if (bytes.size() != nodes + cells) return fail(ErrorKind::kInput, "the reduced nodes of a block are damaged");
+  std::memcpy(tile.nodes_.data(), bytes.data(), nodes);
+  std::memcpy(tile.cells_.data(), bytes.data() + nodes, cells);
+  tile.has_heights = true;
   return tile;
 }
 

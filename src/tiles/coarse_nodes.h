@@ -35,6 +35,11 @@ class CoarseTile {
   /// Of the level above. `children`: north-west, north-east, south-west, south-east.
   static CoarseTile join(const std::array<const CoarseTile*, 4>& children);
 
+  /// Little-endian floats: nodes, then cells.
+  std::vector<std::uint8_t> to_bytes() const;
+  /// The reverse, of a tile with heights. Fails with kInput for another number of bytes.
+  static Result<CoarseTile> from_bytes(std::span<const std::uint8_t> bytes);
+
   float node(std::int32_t col, std::int32_t row) const {
     return nodes_[static_cast<std::size_t>(row * (kCoarseCells + 1) + col)];
   }
@@ -55,7 +60,6 @@ class CoarseLevel final : public NodeSource {
 
   void add(std::uint32_t x, std::uint32_t y, CoarseTile tile) { tiles_.insert_or_assign(key(x, y), std::move(tile)); }
   const CoarseTile& at(std::uint32_t x, std::uint32_t y) const;
-  bool has(std::uint32_t x, std::uint32_t y) const { return tiles_.count(key(x, y)) > 0; }
   Result<void> read(const NodeWindow& window, std::span<float> out) const override;
 
  private:

@@ -254,6 +254,47 @@ TEST(pyramid_laws, a_tile_of_a_pyramid_is_the_one_made_alone_and_threads_change_
   EXPECT_GT(alone, 200u);
 }
 
+TEST(pyramid_laws, blocks_made_by_different_processes_in_any_order_make_the_same_pyramid) {
+  const AnyLand land(13, 900, 50, true, kIsland);
+  const auto whole = make_small_pyramid(land, kIsland, 2);
+  const std::vector<TileId> blocks = find_blocks(whole->plan);
+  ASSERT_GT(blocks.size(), 3u);
+  std::map<Kept::Key, std::vector<std::uint8_t>> files;
+  std::vector<BlockReport> reports;
+  for (auto block = blocks.rbegin(); block != blocks.rend(); ++block) {
+    Kept kept;
+    auto made = make_block(whole->plan, *block, land, kept);
+    ASSERT_TRUE(made) << made.error().message;
+    reports.push_back(std::move(*made));
+    files.merge(kept.files);
+    EXPECT_TRUE(kept.files.empty()) << "a tile of two blocks";
+  }
+  Kept top;
+  const auto report = finish_pyramid(whole->plan, std::move(reports), top);
+  ASSERT_TRUE(report) << report.error().message;
+  files.merge(top.files);
+  EXPECT_EQ(files, whole->kept.files);
+  EXPECT_EQ(report->tiles, whole->report.tiles);
+  for (std::size_t z = 0; z < report->levels.size(); ++z) {
+    EXPECT_EQ(report->levels[z].bytes, whole->report.levels[z].bytes);
+    EXPECT_EQ(report->levels[z].bound, whole->report.levels[z].bound);
+  }
+}
+
+TEST(pyramid_laws, blocks_follow_a_curve_of_neighbours) {
+  SourceFacts source{{-180, -90, 180, 90}, 1, 0, 100};
+  PyramidSettings settings;
+  settings.max_zoom = 9;
+  const PyramidPlan plan = *plan_pyramid(source, settings);
+  const std::vector<TileId> blocks = find_blocks(plan);
+  ASSERT_EQ(blocks.size(), 2u << (2 * plan.block_level));
+  for (std::size_t k = 1; k < blocks.size(); ++k) {
+    const std::int64_t right = std::int64_t{blocks[k].x} - blocks[k - 1].x,
+                       up = std::int64_t{blocks[k].y} - blocks[k - 1].y;
+    EXPECT_EQ(std::abs(right) + std::abs(up), 1) << "at block " << k;
+  }
+}
+
 TEST(pyramid_laws, every_tile_with_heights_is_there_with_its_ancestors_and_siblings) {
   const AnyLand land(7, 900, 50, false, kIsland);
   const auto made = make_small_pyramid(land, kIsland, 2);

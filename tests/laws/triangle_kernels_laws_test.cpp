@@ -35,7 +35,7 @@ RC_GTEST_PROP(TriangleKernelsLaws, AllGiveTheSameBits, (std::uint32_t seed)) {
   };
   const std::int32_t cols = 2 + below(90), rows = 2 + below(40), steps = below(2) == 0 ? kLatticeSteps : 1;
   const auto relief = static_cast<Relief>(below(5));
-  const Field field = random_field(random(), cols, rows, relief, below(2) == 0 ? 0.1 : 0);
+  const Field field = random_field(static_cast<std::uint32_t>(random()), cols, rows, relief, below(2) == 0 ? 0.1 : 0);
   const float* const samples = field.samples.data();
   const SampleRows of{samples, cols, samples + field.samples.size()};
   const TriangleKernels& twin = available_triangle_kernels().back();

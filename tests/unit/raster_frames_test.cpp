@@ -148,7 +148,9 @@ TEST_F(RasterFrames, HeightsAreScaled) {
   std::vector<float> samples(whole->samples.size());
   ASSERT_TRUE(streamed->source->read(0, 0, kCols, kRows, samples.data(), kCols));
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    if (k != 7) EXPECT_EQ(samples[k], whole->samples[k]);
+    if (k != 7) {
+      EXPECT_EQ(samples[k], whole->samples[k]);
+    }
   }
   EXPECT_EQ(streamed->sample_rounding, whole->sample_rounding);
   options.run.memory.limit = 0;

@@ -203,7 +203,9 @@ TEST(quantized_mesh, damaged_files_are_refused_or_read_without_harm) {
   const std::vector<std::uint8_t> bytes = some_file();
   for (std::size_t size = 0; size < bytes.size(); size += 7) {
     const auto mesh = decode_quantized_mesh(std::span(bytes).first(size), "tile");
-    if (mesh) EXPECT_TRUE(mesh->normals.empty());
+    if (mesh) {
+      EXPECT_TRUE(mesh->normals.empty());
+    }
   }
   std::mt19937 random(7);
   for (int trial = 0; trial < 3000; ++trial) {

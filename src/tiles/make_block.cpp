@@ -1,0 +1,87 @@
+// A block: the tile of the block level and all below it, of nodes that are read once.
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "scarp/tile.h"
+#include "tiles/coarse_nodes.h"
+#include "tiles/pyramid_tiles.h"
+#include "tiles/tile_maker.h"
+#include "tiles/tile_mesh_parts.h"
+#include "tiles/tile_nodes.h"
+#include "tiles/tile_output.h"
+
+namespace scarp {
+namespace {
+
+/// All nodes of a block and around it, read by all threads.
+Result<HeldNodes> read_block(const PyramidPlan& plan, TileId block, const NodeSource& source, int threads) {
+  const std::int32_t steps = steps_of(plan, block.z), halo = normal_reach(steps);
+  const std::int64_t per_turn = std::int64_t{steps} << (block.z + 1);
+  const std::int64_t row = (((std::int64_t{1} << block.z) - 1) - block.y) * steps;
+  const std::int64_t first = std::max<std::int64_t>(row - halo, 0), last = std::min(row + steps + halo, per_turn / 2);
+  return HeldNodes::read(
+      {per_turn, std::int64_t{block.x} * steps - halo, first, steps + 1 + 2 * halo, static_cast<int>(last - first + 1)},
+      source, threads);
+}
+
+/// The block's tile, then level by level those below it, by rows.
+std::vector<TileId> tiles_of(const PyramidPlan& plan, TileId block) {
+  std::vector<TileId> tiles;
+  for (int deeper = 0; deeper <= plan.max_zoom() - block.z; ++deeper) {
+    const std::uint32_t side = std::uint32_t{1} << deeper;
+    for (std::uint32_t y = 0; y < side; ++y) {
+      for (std::uint32_t x = 0; x < side; ++x)
+        tiles.push_back({block.z + deeper, (block.x << deeper) + x, (block.y << deeper) + y});
+    }
+  }
+  return tiles;
+}
+
+/// Nothing for a tile without heights, unless it is wanted all the same.
+Result<std::optional<TerrainTile>> make_if_any(const PyramidPlan& plan, TileId id, const NodeSource& source,
+                                               bool is_wanted) {
+  const std::int32_t steps = steps_of(plan, id.z);
+  const auto nodes = TileNodes::read(id, steps, normal_reach(steps), plan.background, source);
+  if (!nodes) return tl::unexpected(nodes.error());
+  if (!nodes->has_heights() && !is_wanted) return std::optional<TerrainTile>();
+  auto tile = nodes->is_flat() ? make_flat_tile(plan, id) : make_tile_of(plan, id, *nodes);
+  if (!tile) return tl::unexpected(tile.error());
+  return std::optional(std::move(*tile));
+}
+
+}  // namespace
+
+Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const NodeSource& source, TileSink& sink,
+                               const Run& run) {
+  TileOutput output(plan, sink, run);
+  BlockReport made;
+  made.block = block;
+  std::optional<HeldNodes> nodes;
+  if (is_covered(plan, block)) {
+    auto read = read_block(plan, block, source, run.threads);
+    if (!read) return tl::unexpected(read.error());
+    if (read->has_heights()) nodes = std::move(*read);
+  }
+  if (!nodes) {
+    const Result<TerrainTile> flat = make_flat_tile(plan, block);
+    if (!flat) return tl::unexpected(flat.error());
+    if (auto put = output.put(*flat); !put) return tl::unexpected(put.error());
+    made.report = output.take_report();
+    return made;
+  }
+  const auto make = [&](TileId id) { return make_if_any(plan, id, *nodes, id.z == plan.block_level); };
+  if (auto put = output.make(tiles_of(plan, block), make); !put) return tl::unexpected(put.error());
+  made.report = output.take_report();
+  made.report.has_heights = true;
+  if (plan.block_level == 0) return made;
+  const std::int32_t steps = steps_of(plan, block.z);
+  const auto whole = TileNodes::read(block, steps, 0, plan.background, *nodes);
+  if (!whole) return tl::unexpected(whole.error());
+  made.reduced =
+      CoarseTile::reduce(steps, [&](std::int32_t col, std::int32_t row) { return whole->at(col, row); }).to_bytes();
+  return made;
+}
+
+}  // namespace scarp

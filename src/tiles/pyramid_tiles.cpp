@@ -1,0 +1,74 @@
+#include "tiles/pyramid_tiles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tiles/tile_maker.h"
+#include "tiles/tile_mesh_parts.h"
+
+namespace scarp {
+namespace {
+
+/// Where a tile lies on Hilbert's curves through the two roots, each from its south-western to its south-eastern corner.
+std::uint64_t place_on_curve(TileId id) {
+  const std::uint32_t last = (std::uint32_t{1} << id.z) - 1;
+  std::uint32_t x = id.x & last, y = id.y;
+  std::uint64_t place = id.x >> id.z;
+  for (int bit = id.z - 1; bit >= 0; --bit) {
+    const std::uint32_t right = (x >> bit) & 1, up = (y >> bit) & 1;
+    place = place << 2 | ((3 * right) ^ up);
+    if (up != 0) continue;
+    if (right != 0) {
+      x = last - x;
+      y = last - y;
+    }
+    std::swap(x, y);
+  }
+  return place;
+}
+
+}  // namespace
+
+bool is_covered(const PyramidPlan& plan, TileId id) {
+  // More on each side, so that heights on a border, or as near as normals reach, count on both of its sides.
+  const double node =
+      (normal_reach(steps_of(plan, plan.block_level)) + 1) * std::ldexp(180.0 / plan.cells, -plan.max_zoom());
+  const DegreeBox box = bounds_of(id), &covered = plan.covered;
+  if (box.south > covered.north + node || box.north < covered.south - node) return false;
+  for (const double turn : {-720.0, -360.0, 0.0, 360.0, 720.0}) {
+    if (box.west + turn <= covered.east + node && box.east + turn >= covered.west - node) return true;
+  }
+  return false;
+}
+
+std::array<TileId, 4> children_of(TileId id) {
+  const int z = id.z + 1;
+  return {{{z, 2 * id.x, 2 * id.y},
+           {z, 2 * id.x + 1, 2 * id.y},
+           {z, 2 * id.x, 2 * id.y + 1},
+           {z, 2 * id.x + 1, 2 * id.y + 1}}};
+}
+
+std::vector<TileSet> choose_tiles(const PyramidPlan& plan) {
+  std::vector<TileSet> chosen{{{0, 0}, {0, 1}}};
+  for (int z = 1; z <= plan.block_level; ++z) {
+    TileSet level;
+    for (const auto& [y, x] : chosen.back()) {
+      const std::array<TileId, 4> children = children_of({z - 1, x, y});
+      if (std::none_of(children.begin(), children.end(), [&](TileId id) { return is_covered(plan, id); })) continue;
+      for (const TileId child : children) level.insert({child.y, child.x});
+    }
+    chosen.push_back(std::move(level));
+  }
+  return chosen;
+}
+
+std::vector<TileId> find_blocks(const PyramidPlan& plan) {
+  std::vector<TileId> blocks;
+  const std::vector<TileSet> chosen = choose_tiles(plan);
+  for (const auto& [y, x] : chosen.back()) blocks.push_back({plan.block_level, x, y});
+  std::sort(blocks.begin(), blocks.end(), [](TileId a, TileId b) { return place_on_curve(a) < place_on_curve(b); });
+  return blocks;
+}
+
+}  // namespace scarp
