@@ -8,7 +8,7 @@
 #include "scarp/cutline.h"
 #include "scarp/drape.h"
 #include "scarp/lines.h"
-#include "scarp/tile_folder.h"
+#include "scarp/globe_place.h"
 
 namespace scarp {
 namespace {

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "scarp/tile_folder.h"
+#include "scarp/gzip.h"
 
 namespace scarp::tile_test {
 namespace {

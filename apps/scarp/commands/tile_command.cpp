@@ -11,6 +11,8 @@
 #include "options/option_table.h"
 #include "reports/json.h"
 #include "reports/report.h"
+#include "scarp/globe_place.h"
+#include "scarp/tile_set.h"
 #include "terminal/clock.h"
 #include "terminal/progress_display.h"
 #include "terminal/text.h"
@@ -194,12 +196,13 @@ Result<void> TileCommand::run(const std::string& command_line) const {
                    *settings);
   if (!plan) return tl::unexpected(plan.error());
 
-  auto folder = TileFolder::create(output_, *plan, overwrite_);
-  if (!folder) return tl::unexpected(folder.error());
+  auto set = create_tile_set(output_, TileFormat::kQuantizedMesh, overwrite_);
+  if (!set) return tl::unexpected(set.error());
+  TileSetSink sink(**set, quantized_mesh_encoder(plan->ellipsoid));
   Run run;
   run.threads = *threads;
   run.progress = display.callback();
-  const Result<PyramidReport> report = make_pyramid(*plan, raised ? *raised : **nodes, **folder, run);
+  const Result<PyramidReport> report = make_pyramid(*plan, raised ? *raised : **nodes, sink, run);
   if (!report) return tl::unexpected(report.error());
   if (!report->has_heights)
     return fail(ErrorKind::kUsage,
@@ -207,7 +210,9 @@ Result<void> TileCommand::run(const std::string& command_line) const {
   LayerFacts facts;
   facts.name = base_name(raster_.path());
   facts.description = fmt::format("heights above {}", globe->vertical);
-  if (auto finished = (*folder)->finish(*report, facts); !finished) return finished;
+  facts.version = sink.version();
+  if (auto put = (*set)->put_file("layer.json", encode_layer_json(*plan, *report, facts)); !put) return put;
+  if (auto finished = (*set)->finish(); !finished) return finished;
   display.finish();
   if (!quiet_) print_warnings(warnings_of(*field, *plan, *report));
   const double seconds = seconds_since(start);

@@ -6,7 +6,6 @@
 
 #include "options/options.h"
 #include "scarp/tile.h"
-#include "scarp/tile_folder.h"
 
 namespace scarp::cli {
 

@@ -8,7 +8,7 @@
 
 #include "io/gdal/crs.h"
 #include "io/gdal/session.h"
-#include "scarp/tile_folder.h"
+#include "scarp/globe_place.h"
 
 namespace scarp {
 namespace {

@@ -1,8 +1,8 @@
+#include "scarp/gzip.h"
+
 #include <zlib.h>
 
 #include <algorithm>
-
-#include "scarp/tile_folder.h"
 
 namespace scarp {
 namespace {
@@ -51,5 +51,7 @@ Result<std::vector<std::uint8_t>> decompress_gzip(std::span<const std::uint8_t> 
   if (state != Z_STREAM_END) return fail(ErrorKind::kInput, "it is no gzip file, damaged, or too large");
   return whole;
 }
+
+bool is_gzip(std::span<const std::uint8_t> bytes) { return bytes.size() >= 2 && bytes[0] == 0x1f && bytes[1] == 0x8b; }
 
 }  // namespace scarp

@@ -1,0 +1,112 @@
+// A set of tiles, as one keeps it: a folder, or one file. All containers hold the same things: tiles, each a few bytes
+// under its TileId, and other files by name, such as "layer.json". A set that is written to one container and read
+// from it is the same set, byte for byte.
+//
+// The container is chosen by the ending of the path:
+//   (none of these)  a folder: each tile and each file under its name; any web server can serve it
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scarp/result.h"
+#include "scarp/tile.h"
+
+#pragma GCC visibility push(default)
+
+namespace scarp {
+
+enum class TileFormat {
+  kQuantizedMesh,  ///< named "z/x/y.terrain", y from the south
+  kGlb,            ///< named "r/z/x/y.glb", where x counts within root r: x of the TileId is r · 2^z + x
+};
+
+/// The name that a tile has where tiles are files, as TileFormat says.
+std::string tile_name(TileFormat format, TileId id);
+/// The reverse; nothing for other names, and for tiles that the grid does not have.
+std::optional<TileId> find_tile_id(TileFormat format, std::string_view name);
+
+/// Takes a set of tiles into its container. One thread at a time.
+class TileSetWriter {
+ public:
+  /// What is not finished leaves nothing.
+  virtual ~TileSetWriter() = default;
+  /// The bytes as they are kept: readers get the same. Tiles may come in any order. REQUIRES: each id once, of the
+  /// grid. Fails with kOutput.
+  virtual Result<void> put_tile(TileId id, std::span<const std::uint8_t> bytes) = 0;
+  /// Fails with kOutput. REQUIRES: each name once; it is a relative path of plain parts, no tile's name, and one of
+  /// "layer.json", "tileset.json" and "subtrees/….subtree" if Scarp is to know the set as its own.
+  virtual Result<void> put_file(const std::string& name, std::span<const std::uint8_t> bytes) = 0;
+  /// The set takes its name. Fails with kOutput. REQUIRES: called once, at the end.
+  virtual Result<void> finish() = 0;
+};
+
+/// A set under a temporary name in the folder of `path`, until finish(). The bytes of the finished set do not depend on
+/// the order of its tiles and files. Fails with kOutput where `path` exists, unless it is an empty folder and the set
+/// is to be one, or `overwrite` is true and it is a set of Scarp's tiles with nothing else in it: "layer.json" or
+/// "tileset.json" say whose it is. Fails with kOutput where nothing can be made, too.
+Result<std::unique_ptr<TileSetWriter>> create_tile_set(const std::string& path, TileFormat format, bool overwrite);
+
+/// Reads a finished set. Several threads may read at once.
+class TileSetReader {
+ public:
+  virtual ~TileSetReader() = default;
+  virtual TileFormat format() const = 0;
+  /// By level: rows and columns of its tiles, y · 2^32 + x, sorted, as PyramidReport::tiles.
+  virtual const std::vector<std::vector<std::uint64_t>>& tiles() const = 0;
+  /// Names of the other files, sorted.
+  virtual std::vector<std::string> files() const = 0;
+  /// As they are kept, compressed or not. Fails with kInput where there is no such tile, or the container is damaged.
+  virtual Result<std::vector<std::uint8_t>> read_tile(TileId id) const = 0;
+  virtual Result<std::vector<std::uint8_t>> read_file(const std::string& name) const = 0;
+};
+
+/// Sets of other programs open as well: folders of "z/x/y.terrain", whether compressed or not, and with tiles missing.
+/// Fails with kInput for what is no set of tiles, is damaged, or was cut off; never trusts a length or an offset in it.
+/// Memory: 8 bytes a tile and more by the container, never more than a small multiple of the set's size.
+Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path);
+
+/// The bytes that are kept of a tile. Several threads call it at once.
+using TileEncoder = std::function<Result<std::vector<std::uint8_t>>(const TerrainTile&)>;
+
+/// quantized-mesh in gzip: servers must send "Content-Encoding: gzip" with such tiles.
+TileEncoder quantized_mesh_encoder(const Geodetic& ellipsoid = {});
+
+/// Tiles by an encoder into a set.
+class TileSetSink final : public TileSink {
+ public:
+  /// Borrows the writer.
+  TileSetSink(TileSetWriter& writer, TileEncoder encoder);
+
+  Result<std::vector<std::uint8_t>> encode(const TerrainTile& tile) const override;
+  Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override;
+  /// A hash of all tiles put so far, whatever their order: 16 hexadecimal digits.
+  std::string version() const;
+
+ private:
+  TileSetWriter* writer_;
+  TileEncoder encoder_;
+  std::uint64_t hash_ = 0;
+};
+
+/// What layer.json says besides the tiles.
+struct LayerFacts {
+  std::string name = "terrain";
+  std::string description;
+  std::string attribution;
+  std::string version;  ///< changes when a tile does: clients ask for tiles with it, past old copies
+};
+
+/// The bytes of layer.json, for "quantized-mesh-1.0": the file that clients ask for first.
+std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const PyramidReport& report,
+                                            const LayerFacts& facts);
+
+}  // namespace scarp
+
+#pragma GCC visibility pop

@@ -1,0 +1,143 @@
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include "io/file_reason.h"
+#include "io/tiles/byte_source.h"
+#include "io/tiles/folder_set.h"
+#include "io/tiles/tile_names.h"
+
+namespace scarp {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a folder holds that no set of tiles of Scarp's does; empty if there is no such thing.
+std::string find_foreign(const fs::path& folder) {
+  std::error_code error;
+  for (auto at = fs::recursive_directory_iterator(folder, error); !error && at != fs::recursive_directory_iterator();
+       at.increment(error)) {
+    const std::string name = at->path().lexically_relative(folder).generic_string();
+    const bool is_part = name.find_first_not_of("0123456789/") == std::string::npos || name == "subtrees" ||
+                         name.rfind("subtrees/", 0) == 0;
+    const bool is_file =
+        find_tile_id(TileFormat::kQuantizedMesh, name) || find_tile_id(TileFormat::kGlb, name) || is_known_name(name);
+    if (!(at->is_directory() && !at->is_symlink() ? is_part : is_file)) return at->path().string();
+  }
+  if (error) return folder.string();
+  std::string foreign;
+  for (const char* const name : {"layer.json", "tileset.json"}) {
+    const fs::path path = folder / name;
+    const auto source = ByteSource::open(path.string());
+    if (!source) continue;
+    const auto bytes = (*source)->read(0, (*source)->size());
+    if (bytes && bears_mark(*bytes)) return "";
+    foreign = path.string();
+  }
+  return foreign.empty() ? folder.string() : foreign;
+}
+
+Result<void> check_ours(const fs::path& folder) {
+  const std::string foreign = find_foreign(folder);
+  if (foreign.empty()) return {};
+  return fail(ErrorKind::kOutput,
+              fmt::format("{} is not Scarp's, and would be deleted with the tiles: give another name", foreign));
+}
+
+Result<void> write_whole(const std::string& path, std::span<const std::uint8_t> bytes) {
+  std::FILE* file = std::fopen(path.c_str(), "wbx");
+  int reason = file == nullptr ? errno : 0;
+  if (file != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size()) reason = errno;
+  if (file != nullptr && std::fclose(file) != 0 && reason == 0) reason = errno;
+  if (reason == 0) return {};
+  return fail(ErrorKind::kOutput, fmt::format("cannot write {}: {}", path, reason_of(reason)));
+}
+
+/// The set's folder under a temporary name.
+class FolderWriter final : public TileSetWriter {
+ public:
+  FolderWriter(fs::path target, fs::path folder, TileFormat format, bool replaces)
+      : target_(std::move(target)), folder_(std::move(folder)), format_(format), replaces_(replaces) {}
+  FolderWriter(const FolderWriter&) = delete;
+  FolderWriter& operator=(const FolderWriter&) = delete;
+  ~FolderWriter() override {
+    std::error_code ignored;
+    if (!folder_.empty()) fs::remove_all(folder_, ignored);
+  }
+
+  Result<void> put_tile(TileId id, std::span<const std::uint8_t> bytes) override {
+    return put_file(tile_name(format_, id), bytes);
+  }
+  Result<void> put_file(const std::string& name, std::span<const std::uint8_t> bytes) override {
+    const fs::path path = folder_ / name;
+    if (folders_.insert(path.parent_path().string()).second) {
+      std::error_code error;
+      fs::create_directories(path.parent_path(), error);
+      if (error)
+        return fail(ErrorKind::kOutput,
+                    fmt::format("{} cannot be made: {}", path.parent_path().string(), reason_of(error.value())));
+    }
+    return write_whole(path.string(), bytes);
+  }
+  Result<void> finish() override {
+    std::error_code error;
+    fs::path old;
+    if (replaces_) {
+      // It may hold more by now.
+      if (auto checked = check_ours(target_); !checked) return checked;
+      old = folder_;
+      old += ".old";
+      fs::rename(target_, old, error);
+    }
+    if (!error) fs::rename(folder_, target_, error);
+    if (error) {
+      std::error_code ignored;
+      if (!old.empty() && !fs::exists(target_, ignored)) fs::rename(old, target_, ignored);
+      return fail(ErrorKind::kOutput, fmt::format("{} cannot take its name: {}", target_.string(), error.message()));
+    }
+    folder_.clear();
+    if (!old.empty()) fs::remove_all(old, error);
+    return {};
+  }
+
+ private:
+  fs::path target_, folder_;
+  TileFormat format_;
+  bool replaces_;                  ///< a set of Scarp's
+  std::set<std::string> folders_;  ///< that were made
+};
+
+}  // namespace
+
+Result<std::unique_ptr<TileSetWriter>> create_folder_set(const std::string& path, TileFormat format, bool overwrite) {
+  // Without the slash at its end.
+  fs::path target = fs::path(path).has_filename() ? fs::path(path) : fs::path(path).parent_path();
+  bool replaces = false;
+  std::error_code error;
+  if (fs::is_symlink(target, error)) target = fs::canonical(target, error);
+  if (fs::exists(target, error)) {
+    const bool is_empty = fs::is_directory(target, error) && fs::is_empty(target, error);
+    const bool is_set = fs::exists(target / "layer.json", error) || fs::exists(target / "tileset.json", error);
+    if (!is_empty && !is_set)
+      return fail(ErrorKind::kOutput, fmt::format("{} is there and is no set of tiles: give another name", path));
+    if (is_set && !overwrite)
+      return fail(ErrorKind::kOutput, fmt::format("{} is there already: give another name, or --overwrite", path));
+    if (is_set) {
+      if (auto checked = check_ours(target); !checked) return tl::unexpected(checked.error());
+    }
+    replaces = is_set;
+  }
+  const fs::path beside = fs::absolute(target, error).parent_path();
+  std::string name = (beside / ".scarp-tiles-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr)
+    return fail(ErrorKind::kOutput, fmt::format("no folder can be made in {}: {}", beside.string(), reason_of(errno)));
+  fs::permissions(name, fs::perms(0755), error);
+  return std::make_unique<FolderWriter>(std::move(target), name, format, replaces);
+}
+
+}  // namespace scarp

@@ -1,0 +1,46 @@
+#include "scarp/tile_set.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "io/tiles/folder_set.h"
+#include "scarp/gzip.h"
+
+namespace scarp {
+
+Result<std::unique_ptr<TileSetWriter>> create_tile_set(const std::string& path, TileFormat format, bool overwrite) {
+  if (path.empty()) return fail(ErrorKind::kUsage, "OUTPUT is empty: give the name of a set of tiles to make");
+  return create_folder_set(path, format, overwrite);
+}
+
+Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+    return fail(ErrorKind::kInput, fmt::format("no such file or folder: {}", path));
+  if (std::filesystem::is_directory(path, error)) return open_folder_set(path);
+  return fail(ErrorKind::kInput, fmt::format("{} is no set of tiles", path));
+}
+
+TileEncoder quantized_mesh_encoder(const Geodetic& ellipsoid) {
+  return [ellipsoid](const TerrainTile& tile) { return compress_gzip(encode_quantized_mesh(tile, ellipsoid)); };
+}
+
+TileSetSink::TileSetSink(TileSetWriter& writer, TileEncoder encoder) : writer_(&writer), encoder_(std::move(encoder)) {}
+
+Result<std::vector<std::uint8_t>> TileSetSink::encode(const TerrainTile& tile) const { return encoder_(tile); }
+
+Result<void> TileSetSink::put(TileId id, std::span<const std::uint8_t> bytes) {
+  // FNV-1a of the id and the bytes. Sums do not depend on the order.
+  std::uint64_t hash = 0xcbf29ce484222325;
+  constexpr std::uint64_t kPrime = 0x100000001b3;
+  for (const std::uint32_t part : {static_cast<std::uint32_t>(id.z), id.x, id.y}) hash = (hash ^ part) * kPrime;
+  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * kPrime;
+  hash_ += hash;
+  return writer_->put_tile(id, bytes);
+}
+
+std::string TileSetSink::version() const { return fmt::format("{:016x}", hash_); }
+
+}  // namespace scarp
