@@ -4,10 +4,10 @@ _scarp() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command='' options='' word
   COMPREPLY=()
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
-    case $word in simplify | measure | tile | info | generate | paper | help | version) command=$word && break ;; esac
+    case $word in simplify | measure | tile | tile-plan | tile-run | tile-finish | info | generate | paper | help | version) command=$word && break ;; esac
   done
   if [[ -z $command ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure tile info generate paper help version --help --version' -- "$current"))
+    COMPREPLY=($(compgen -W 'simplify measure tile tile-plan tile-run tile-finish info generate paper help version --help --version' -- "$current"))
     return
   fi
 
@@ -28,16 +28,20 @@ _scarp() {
       "measure --num-threads" | "measure --texture-weight" | "measure --channel-weights" | "measure --layer" | \
       "measure --z-field" | "tile --band" | "tile --te" | "tile --resolution" | "tile --z-scale" | \
       "tile --z-offset" | "tile -e" | "tile --max-error" | "tile --quality" | "tile --zoom" | "tile --nodata" | \
-      "tile --background" | "tile -j" | "tile --num-threads" | "info --band" | "info --te" | "info --resolution" | \
-      "info --z-scale" | "info --z-offset" | "info --cell-size" | "info --nodata" | "info --layer" | \
-      "info --z-field" | "generate --seed" | "generate --range" | "generate --size")
+      "tile --background" | "tile -j" | "tile --num-threads" | "tile-plan --band" | "tile-plan --te" | \
+      "tile-plan --resolution" | "tile-plan --z-scale" | "tile-plan --z-offset" | "tile-plan --shards" | \
+      "tile-plan -e" | "tile-plan --max-error" | "tile-plan --quality" | "tile-plan --zoom" | "tile-plan --nodata" | \
+      "tile-plan --background" | "tile-run --shard" | "tile-run --memory" | "tile-run -j" | \
+      "tile-run --num-threads" | "tile-finish -j" | "tile-finish --num-threads" | "info --band" | "info --te" | \
+      "info --resolution" | "info --z-scale" | "info --z-offset" | "info --cell-size" | "info --nodata" | \
+      "info --layer" | "info --z-field" | "generate --seed" | "generate --range" | "generate --size")
       return
       ;;
     "simplify --objective")
       COMPREPLY=($(compgen -W 'max rms' -- "$current"))
       return
       ;;
-    "simplify --decode" | "measure --decode" | "tile --decode" | "info --decode")
+    "simplify --decode" | "measure --decode" | "tile --decode" | "tile-plan --decode" | "info --decode")
       COMPREPLY=($(compgen -W 'terrarium mapbox' -- "$current"))
       return
       ;;
@@ -58,7 +62,7 @@ _scarp() {
       "simplify --breaklines" | "simplify --cutline" | "simplify --materials" | "simplify --node-strings" | \
       "simplify --water" | "simplify --rivers" | "simplify --texture" | "measure --map" | "measure --error-raster" | \
       "measure --mask" | "measure --tolerance" | "measure --roi" | "measure --script" | "measure --cutline" | \
-      "measure --texture" | "tile --report")
+      "measure --texture" | "tile --report" | "tile-plan --slurm" | "tile-finish --report")
       COMPREPLY=($(compgen -f -- "$current"))
       return
       ;;
@@ -118,24 +122,24 @@ _scarp() {
       COMPREPLY=($(compgen -W 'sum max sqerr abn tight' -- "$current"))
       return
       ;;
-    "tile --vertical")
+    "tile --vertical" | "tile-plan --vertical")
       COMPREPLY=($(compgen -W 'auto egm96 ellipsoid' -- "$current"))
       return
       ;;
-    "tile --effort")
+    "tile --effort" | "tile-plan --effort")
       COMPREPLY=($(compgen -W 'fast normal high' -- "$current"))
       return
       ;;
-    "tile --cells")
+    "tile --cells" | "tile-plan --cells")
       COMPREPLY=($(compgen -W '16 32 64 128 256' -- "$current"))
+      return
+      ;;
+    "tile-run --parts" | "tile-finish --parts" | "paper --data" | "paper --out")
+      COMPREPLY=($(compgen -d -- "$current"))
       return
       ;;
     "generate --of")
       COMPREPLY=($(compgen -W 'tif pgm' -- "$current"))
-      return
-      ;;
-    "paper --data" | "paper --out")
-      COMPREPLY=($(compgen -d -- "$current"))
       return
       ;;
   esac
@@ -168,6 +172,19 @@ _scarp() {
         options+=' --overwrite --effort --max-error --quality --zoom --cells --nodata --background'
         options+=' --num-threads --quiet --json-progress --help --help-all --version'
         ;;
+      tile-plan)
+        options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --overwrite'
+        options+=' --shards --slurm --effort --max-error --quality --zoom --cells --nodata'
+        options+=' --background --quiet --json-progress --help --help-all --version'
+        ;;
+      tile-run)
+        options+=' --shard --parts --memory --num-threads --quiet --json-progress --help --help-all'
+        options+=' --version'
+        ;;
+      tile-finish)
+        options+=' --report --overwrite --parts --num-threads --quiet --json-progress --help --help-all'
+        options+=' --version'
+        ;;
       info)
         options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --crs'
         options+=' --no-suggest --json --nodata --quiet --json-progress --help --help-all --version'
@@ -195,7 +212,7 @@ _scarp() {
     return
   fi
   if [[ $command == help && $COMP_CWORD -eq 2 ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure tile info generate paper help version' -- "$current"))
+    COMPREPLY=($(compgen -W 'simplify measure tile tile-plan tile-run tile-finish info generate paper help version' -- "$current"))
     return
   fi
   COMPREPLY=($(compgen -f -- "$current"))

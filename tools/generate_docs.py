@@ -130,7 +130,7 @@ def cli_page(table, old):
         words = match.group(2).split()
         return f"{match.group(1)}\n{markdown_table(table, match.group(0).split()[2].rstrip(':'), words, shown)}\n<!-- end -->"
 
-    new = re.sub(r"(<!-- options [a-z]+: ([a-z0-9 -]+?) -->)\n(?:[^\n]*\n)*?<!-- end -->", fill, old)
+    new = re.sub(r"(<!-- options [a-z-]+: ([a-z0-9 -]+?) -->)\n(?:[^\n]*\n)*?<!-- end -->", fill, old)
     missing = {option["name"] for option in table.options if option["name"].startswith("-")} - shown - {"--help", "--help-all", "--version"}
     if missing:
         raise SystemExit(f"docs/cli.md: no table has {', '.join(sorted(missing))}")

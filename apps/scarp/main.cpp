@@ -9,6 +9,7 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "commands/generate_command.h"
 #include "commands/help_command.h"
@@ -17,6 +18,9 @@
 #include "commands/paper_command.h"
 #include "commands/simplify_command.h"
 #include "commands/tile_command.h"
+#include "commands/tile_finish_command.h"
+#include "commands/tile_plan_command.h"
+#include "commands/tile_run_command.h"
 #include "options/help.h"
 #include "options/missing_value.h"
 #include "options/unknown_words.h"
@@ -90,7 +94,22 @@ int report_end(const scarp::Result<void>& result) {
   return exit_code(result.error().kind);
 }
 
-int run_program(int argc, char** argv) {
+/// "tile plan" is the command tile-plan.
+std::vector<std::string> join_command(int argc, char** argv) {
+  std::vector<std::string> words(argv, argv + argc);
+  if (argc < 3 || words[1] != "tile" || find_command("tile-" + words[2]) == nullptr) return words;
+  words[1] = "tile-" + words[2];
+  words.erase(words.begin() + 2);
+  return words;
+}
+
+int run_program(int count, char** words) {
+  std::vector<std::string> joined = join_command(count, words);
+  std::vector<char*> arguments;
+  for (std::string& word : joined) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  char** const argv = arguments.data();
+  const int argc = static_cast<int>(joined.size());
   CLI::App program("", "scarp");
   program.set_version_flag("--version", fmt::format("scarp {}", scarp::version()));
   program.set_help_flag("-h,--help");
@@ -99,6 +118,9 @@ int run_program(int argc, char** argv) {
   SimplifyCommand simplify(program);
   MeasureCommand measure(program);
   TileCommand tile(program);
+  TilePlanCommand tile_plan(program);
+  TileRunCommand tile_run(program);
+  TileFinishCommand tile_finish(program);
   InfoCommand info(program);
   GenerateCommand generate(program);
   PaperCommand paper(program);
@@ -122,14 +144,17 @@ int run_program(int argc, char** argv) {
   }
 
   if (version_command->parsed()) return report_end(print_to_stdout(fmt::format("scarp {}\n", scarp::version())));
-  const std::string command_line = join_command_line(argc, argv);
-  return report_end(simplify.is_chosen()   ? simplify.run(command_line)
-                    : measure.is_chosen()  ? measure.run(command_line)
-                    : tile.is_chosen()     ? tile.run(command_line)
-                    : info.is_chosen()     ? info.run(command_line)
-                    : generate.is_chosen() ? generate.run()
-                    : paper.is_chosen()    ? paper.run()
-                                           : help.run());
+  const std::string command_line = join_command_line(count, words);
+  return report_end(simplify.is_chosen()      ? simplify.run(command_line)
+                    : measure.is_chosen()     ? measure.run(command_line)
+                    : tile.is_chosen()        ? tile.run(command_line)
+                    : tile_plan.is_chosen()   ? tile_plan.run()
+                    : tile_run.is_chosen()    ? tile_run.run()
+                    : tile_finish.is_chosen() ? tile_finish.run(command_line)
+                    : info.is_chosen()        ? info.run(command_line)
+                    : generate.is_chosen()    ? generate.run()
+                    : paper.is_chosen()       ? paper.run()
+                                              : help.run());
 }
 
 /// A standard stream that the caller has closed would lend its number to the next file that is opened, which messages

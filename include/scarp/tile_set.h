@@ -75,8 +75,8 @@ Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path);
 /// The bytes that are kept of a tile. Several threads call it at once.
 using TileEncoder = std::function<Result<std::vector<std::uint8_t>>(const TerrainTile&)>;
 
-/// quantized-mesh in gzip: servers must send "Content-Encoding: gzip" with such tiles.
-TileEncoder quantized_mesh_encoder(const Geodetic& ellipsoid = {});
+/// Of a format. quantized-mesh is in gzip: servers must send "Content-Encoding: gzip" with such tiles.
+TileEncoder make_tile_encoder(TileFormat format, const Geodetic& ellipsoid = {});
 
 /// Tiles by an encoder into a set.
 class TileSetSink final : public TileSink {
@@ -106,6 +106,11 @@ struct LayerFacts {
 /// The bytes of layer.json, for "quantized-mesh-1.0": the file that clients ask for first.
 std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const PyramidReport& report,
                                             const LayerFacts& facts);
+
+/// Puts the files that tell clients of the tiles, and finishes the set. `facts.version` is taken from the sink. Fails
+/// with kOutput.
+Result<void> finish_tile_set(TileSetWriter& set, const TileSetSink& sink, const PyramidPlan& plan,
+                             const PyramidReport& report, LayerFacts facts);
 
 }  // namespace scarp
 

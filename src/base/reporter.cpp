@@ -14,4 +14,12 @@ bool Reporter::report(std::string_view pass, double fraction, std::uint64_t vert
   return !callback_ || callback_({pass, fraction_, vertices, error});
 }
 
+ProgressCallback part_of(const ProgressCallback& whole, double begin, double share) {
+  if (!whole) return {};
+  return [&whole, begin, share](Progress progress) {
+    progress.fraction = std::min(1.0, begin + share * progress.fraction);
+    return whole(progress);
+  };
+}
+
 }  // namespace scarp

@@ -26,4 +26,7 @@ class Reporter {
   double fraction_ = 0;
 };
 
+/// Tells progress of a part of the whole, `share` of it from `begin` on. Borrows the callback; empty if that is.
+ProgressCallback part_of(const ProgressCallback& whole, double begin, double share);
+
 }  // namespace scarp

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/reporter.h"
 #include "scarp/tile.h"
 #include "tiles/coarse_nodes.h"
 #include "tiles/pyramid_tiles.h"
@@ -38,18 +39,6 @@ CoarseLevel join_level(const PyramidPlan& plan, const std::vector<TileId>& tiles
     if (joined.has_heights) level.add(id.x, id.y, std::move(joined));
   }
   return level;
-}
-
-/// The same run, whose progress is that of a part of the whole.
-Run part_of(const Run& run, double begin, double share) {
-  Run part = run;
-  if (run.progress) {
-    part.progress = [&run, begin, share](Progress progress) {
-      progress.fraction = std::min(1.0, begin + share * progress.fraction);
-      return run.progress(progress);
-    };
-  }
-  return part;
 }
 
 }  // namespace
@@ -87,12 +76,15 @@ Result<PyramidReport> make_pyramid(const PyramidPlan& plan, const NodeSource& so
   // The levels above the blocks take about a block's time for each thousand of their tiles.
   const double share = 1 / (static_cast<double>(blocks.size()) + 1);
   std::vector<BlockReport> made;
+  Run part = run;
   for (const TileId block : blocks) {
-    auto one = make_block(plan, block, source, sink, part_of(run, static_cast<double>(made.size()) * share, share));
+    part.progress = part_of(run.progress, static_cast<double>(made.size()) * share, share);
+    auto one = make_block(plan, block, source, sink, part);
     if (!one) return tl::unexpected(one.error());
     made.push_back(std::move(*one));
   }
-  return finish_pyramid(plan, std::move(made), sink, part_of(run, 1 - share, share));
+  part.progress = part_of(run.progress, 1 - share, share);
+  return finish_pyramid(plan, std::move(made), sink, part);
 }
 
 }  // namespace scarp

@@ -9,7 +9,8 @@
 namespace scarp {
 namespace {
 
-/// Where a tile lies on Hilbert's curves through the two roots, each from its south-western to its south-eastern corner.
+/// Where a tile lies on Hilbert's curves through the two roots, each from its south-western to its south-eastern
+/// corner.
 std::uint64_t place_on_curve(TileId id) {
   const std::uint32_t last = (std::uint32_t{1} << id.z) - 1;
   std::uint32_t x = id.x & last, y = id.y;

@@ -12,8 +12,8 @@ sed -e 's/\\-/-/g' -e 's/\\f[RIBP]//g' "$man" >man.txt
 # fish says `-l max-error` for --max-error.
 sed -nE '/^complete/s/ -l ([a-z-]+)/ --\1/gp' "$completions/scarp.fish" >fish.txt
 
-commands=$("$scarp" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
-[ "$(wc -w <<<"$commands")" = 8 ] || fail "--help lists other commands: $commands"
+commands=$("$scarp" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p')
+[ "$(wc -w <<<"$commands")" = 11 ] || fail "--help lists other commands: $commands"
 "$scarp" help >help.txt
 "$scarp" --help | cmp - help.txt || fail "scarp help and scarp --help differ"
 : >all_options

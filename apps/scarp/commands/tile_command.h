@@ -4,8 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "options/options.h"
-#include "scarp/tile.h"
+#include "options/tile_options.h"
 
 namespace scarp::cli {
 
@@ -20,13 +19,10 @@ class TileCommand {
   Result<void> run(const std::string& command_line) const;
 
  private:
-  Result<PyramidSettings> parse_settings() const;
-  Result<OwnedHeightField> read_raster(const ProgressCallback& progress) const;
-
   CLI::App* command_;
-  RasterArguments raster_;
+  TileArguments tiles_;
   std::string output_;
-  Given max_error_, quality_, zoom_, cells_, effort_, vertical_, background_, threads_, report_;
+  Given threads_, report_;
   bool overwrite_ = false, quiet_ = false, json_progress_ = false;
 };
 

@@ -39,6 +39,25 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp tile north.tif south.tif globe --effort high   a mosaic, in fewer triangles\n"
      "  scarp tile dem.tif globe -e 2 --zoom 14              the finest level and its max error\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
+    {kTilePlan, "tile-plan", "Plan tiles that many processes make, on one machine or a cluster", "INPUT PLAN [OPTIONS]",
+     "Also: scarp tile plan. Makes a few tiles, and tells what all of them will take.\n"
+     "Examples:\n"
+     "  scarp tile plan dem.tif world.json --vertical egm96\n"
+     "  scarp tile plan dem.tif world.json --slurm run.sh    then: bash run.sh world\n"
+     "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
+    {kTileRun, "tile-run", "Make a share of the tiles of a plan", "PLAN [OPTIONS]",
+     "Also: scarp tile run. Any process may make any share; the tiles are the same. Each finished block is on the "
+     "disk\n"
+     "at once: a run that was killed goes on where it was.\n"
+     "Examples:\n"
+     "  scarp tile run world.json                     all blocks that are missing\n"
+     "  scarp tile run world.json --shard 3/200 -j 1\n"
+     "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
+    {kTileFinish, "tile-finish", "Join the parts of a plan into a set of tiles", "PLAN OUTPUT [OPTIONS]",
+     "Also: scarp tile finish. Makes the levels above the blocks. The set is that of scarp tile, byte for byte.\n"
+     "Examples:\n"
+     "  scarp tile finish world.json world\n"
+     "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
     {kInfo, "info", "Describe a raster, points or a mesh, and suggest errors for a raster", "FILE [OPTIONS]",
      "The facts come at once, the suggestions when they are found, by running the engine: on the whole\n"
      "raster up to 2 million samples, on windows of it beyond that (an estimate).\n"

@@ -123,6 +123,11 @@ enum class OptionId {
   kZoom,
   kCells,
   kVertical,
+  kPlan,
+  kShard,
+  kShards,
+  kParts,
+  kSlurm,
   kMemory,
   kThreads,
   kQuiet,
@@ -171,8 +176,8 @@ enum class OptionType {
 /// Commands as bits, so that a row can belong to several.
 using Commands = unsigned;
 inline constexpr Commands kSimplify = 1, kMeasure = 2, kInfo = 4, kGenerate = 8, kPaper = 16, kHelpCommand = 32,
-                          kVersionCommand = 64, kTile = 128;
-inline constexpr Commands kEveryCommand = 255;
+                          kVersionCommand = 64, kTile = 128, kTilePlan = 512, kTileRun = 1024, kTileFinish = 2048;
+inline constexpr Commands kEveryCommand = 4095;
 
 struct OptionRow {
   OptionId id;

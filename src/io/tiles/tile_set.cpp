@@ -23,7 +23,7 @@ Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path) {
   return fail(ErrorKind::kInput, fmt::format("{} is no set of tiles", path));
 }
 
-TileEncoder quantized_mesh_encoder(const Geodetic& ellipsoid) {
+TileEncoder make_tile_encoder([[maybe_unused]] TileFormat format, const Geodetic& ellipsoid) {
   return [ellipsoid](const TerrainTile& tile) { return compress_gzip(encode_quantized_mesh(tile, ellipsoid)); };
 }
 
@@ -42,5 +42,12 @@ Result<void> TileSetSink::put(TileId id, std::span<const std::uint8_t> bytes) {
 }
 
 std::string TileSetSink::version() const { return fmt::format("{:016x}", hash_); }
+
+Result<void> finish_tile_set(TileSetWriter& set, const TileSetSink& sink, const PyramidPlan& plan,
+                             const PyramidReport& report, LayerFacts facts) {
+  facts.version = sink.version();
+  if (auto put = set.put_file("layer.json", encode_layer_json(plan, report, facts)); !put) return put;
+  return set.finish();
+}
 
 }  // namespace scarp

@@ -1,0 +1,63 @@
+#include "commands/tile_finish_command.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+#include "options/option_table.h"
+#include "options/plan_options.h"
+#include "reports/report.h"
+#include "reports/tile_report.h"
+#include "terminal/clock.h"
+#include "terminal/progress_display.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+
+TileFinishCommand::TileFinishCommand(CLI::App& program) : command_(add_command(program, kTileFinish)) {
+  add_option(*command_, OptionId::kPlan, plan_);
+  add_option(*command_, OptionId::kOutput, output_);
+  add_option(*command_, OptionId::kParts, parts_);
+  add_option(*command_, OptionId::kReport, report_);
+  add_flag(*command_, OptionId::kOverwrite, overwrite_);
+  add_option(*command_, OptionId::kThreads, threads_);
+  add_flag(*command_, OptionId::kQuiet, quiet_);
+  add_flag(*command_, OptionId::kJsonProgress, json_progress_);
+}
+
+Result<void> TileFinishCommand::run(const std::string& command_line) const {
+  const Clock::time_point start = Clock::now();
+  Run run;
+  const Result<int> threads = parse_threads(threads_);
+  if (!threads) return tl::unexpected(threads.error());
+  run.threads = *threads;
+  std::vector<PlannedOutput> outputs;
+  if (report_) outputs.push_back({"--report", *report_});
+  if (auto checked = check_outputs(outputs, files_read(*command_), overwrite_); !checked) return checked;
+  const Result<TileJob> job = read_tile_job(plan_);
+  if (!job) return tl::unexpected(job.error());
+  auto set = create_tile_set(output_, job->format, overwrite_);
+  if (!set) return tl::unexpected(set.error());
+  ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
+  run.progress = display.callback();
+  const Result<PyramidReport> report = finish_parts(*job, parts_folder(plan_, parts_), **set, run);
+  if (!report) return tl::unexpected(report.error());
+  display.finish();
+  if (!quiet_) print_warnings(warnings_of_levels(job->plan, *report));
+  const double seconds = seconds_since(start);
+  if (report_) {
+    const Json json{{"command", command_line},
+                    {"plan", plan_},
+                    {"output", output_},
+                    {"vertical", job->heights_above},
+                    {"max_zoom", job->plan.max_zoom()},
+                    {"levels", describe_levels(job->plan, *report)},
+                    {"seconds", seconds}};
+    if (auto written = write_report(json, *report_, overwrite_, output_); !written) return written;
+  }
+  if (quiet_) return {};
+  return print_summary(make_tile_summary(*job, output_, *report, seconds));
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,91 @@
+#include "commands/tile_plan_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "commands/slurm_script.h"
+#include "options/option_table.h"
+#include "options/plan_options.h"
+#include "reports/tile_report.h"
+#include "scarp/io.h"
+#include "terminal/progress_display.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+/// As many tasks as clusters take in an array by default.
+constexpr std::uint64_t kMostShards = 1000;
+std::string format_hours(double seconds) {
+  return seconds < 7200 ? fmt::format("{} minutes", format_number(std::ceil(seconds / 6) / 10))
+                        : fmt::format("{} hours", format_number(std::ceil(seconds / 360) / 10));
+}
+
+std::string make_summary(const TileJob& job, const std::string& plan, const TileEstimate& estimate,
+                         std::uint64_t shards) {
+  std::string text = fmt::format("{} -> {}\n", job.facts.name, plan);
+  text += fmt::format("  heights above  {}\n", job.heights_above);
+  text += fmt::format("  levels         0 to {}, {} of level {}\n", job.plan.max_zoom(),
+                      format_plural(estimate.blocks, "block"), job.plan.block_level);
+  text += fmt::format("  max error      {} m, level {}; {} m, level {}\n",
+                      format_number(job.plan.levels.back().max_error), job.plan.max_zoom(),
+                      format_number(job.plan.levels[static_cast<std::size_t>(job.plan.block_level)].max_error),
+                      job.plan.block_level);
+  text += "  of a few tiles made to see, about:\n";
+  text += fmt::format("    tiles        {}, {} of them of level {}\n", format_count(estimate.tiles),
+                      format_count(estimate.finest_tiles), job.plan.max_zoom());
+  text += fmt::format("    bytes        {}, and {} of parts until the set is finished\n", format_bytes(estimate.bytes),
+                      format_bytes(estimate.parts));
+  text += fmt::format("    time         {} of one core of this machine\n", format_hours(estimate.core_seconds));
+  text += fmt::format("    memory       {} a process, and the raster's\n", format_bytes(estimate.memory));
+  text += fmt::format(
+      "next: scarp tile run {} --shard 1/{} … {}/{}, anywhere, in any order; then scarp tile finish {} "
+      "OUTPUT\n",
+      shell_word(plan), shards, shards, shards, shell_word(plan));
+  return text;
+}
+
+}  // namespace
+
+TilePlanCommand::TilePlanCommand(CLI::App& program) : command_(add_command(program, kTilePlan)) {
+  add_arguments(*command_, OptionId::kInput, tiles_.raster.paths, OptionId::kPlan, plan_);
+  tiles_.add_to(*command_);
+  add_option(*command_, OptionId::kShards, shards_);
+  add_option(*command_, OptionId::kSlurm, slurm_);
+  add_flag(*command_, OptionId::kOverwrite, overwrite_);
+  add_flag(*command_, OptionId::kQuiet, quiet_);
+  add_flag(*command_, OptionId::kJsonProgress, json_progress_);
+}
+
+Result<void> TilePlanCommand::run() const {
+  std::vector<PlannedOutput> outputs{{"PLAN", plan_}};
+  if (slurm_) outputs.push_back({"--slurm", *slurm_});
+  if (auto checked = check_outputs(outputs, files_read(*command_), overwrite_); !checked) return checked;
+  ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
+  const Result<OpenedJob> opened = tiles_.open(display.callback());
+  if (!opened) return tl::unexpected(opened.error());
+  const Result<TileEstimate> estimate = estimate_tiles(opened->job, opened->raster->nodes());
+  if (!estimate) return tl::unexpected(estimate.error());
+  const std::uint64_t blocks = std::max<std::uint64_t>(estimate->blocks, 1);
+  std::uint64_t shards = std::min(blocks, kMostShards);
+  if (shards_) {
+    const Result<std::uint64_t> count = parse_count("--shards", *shards_, 1);
+    if (!count) return tl::unexpected(count.error());
+    shards = std::min(*count, blocks);
+  }
+  const std::vector<std::uint8_t> plan = encode_tile_job(opened->job);
+  const std::string script = slurm_script(plan_, shards, estimate->memory + kShareRasterBytes);
+  std::vector<FileBytes> files{{plan_, plan}};
+  if (slurm_)
+    files.push_back({*slurm_, std::span(reinterpret_cast<const std::uint8_t*>(script.data()), script.size())});
+  if (auto written = write_files(files, overwrite_); !written) return written;
+  display.finish();
+  if (quiet_) return {};
+  print_warnings(warnings_of_raster(opened->raster->info()));
+  return print_summary(make_summary(opened->job, plan_, *estimate, shards));
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,29 @@
+// scarp tile plan: a job of tiles that many processes share.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "options/tile_options.h"
+
+namespace scarp::cli {
+
+class TilePlanCommand {
+ public:
+  /// Adds the command to the program. This object must stay alive and in place until run() is done.
+  explicit TilePlanCommand(CLI::App& program);
+  TilePlanCommand(const TilePlanCommand&) = delete;
+  TilePlanCommand& operator=(const TilePlanCommand&) = delete;
+
+  bool is_chosen() const { return command_->parsed(); }
+  Result<void> run() const;
+
+ private:
+  CLI::App* command_;
+  TileArguments tiles_;
+  std::string plan_;
+  Given slurm_, shards_;
+  bool overwrite_ = false, quiet_ = false, json_progress_ = false;
+};
+
+}  // namespace scarp::cli

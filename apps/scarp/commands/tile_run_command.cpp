@@ -1,0 +1,84 @@
+#include "commands/tile_run_command.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "options/memory.h"
+#include "options/option_table.h"
+#include "options/plan_options.h"
+#include "scarp/tile_job.h"
+#include "terminal/clock.h"
+#include "terminal/progress_display.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+/// "3/200".
+Result<Shard> parse_shard(const Given& text) {
+  if (!text) return Shard{};
+  const std::size_t slash = text->find('/');
+  if (slash == std::string::npos)
+    return fail(ErrorKind::kUsage, fmt::format("--shard {}: give its number and how many there are, as 3/200", *text));
+  const Result<std::uint64_t> number = parse_count("--shard", text->substr(0, slash), 1);
+  if (!number) return tl::unexpected(number.error());
+  const Result<std::uint64_t> of = parse_count("--shard", text->substr(slash + 1), 1);
+  if (!of) return tl::unexpected(of.error());
+  if (*number > *of || *of > 1'000'000)
+    return fail(ErrorKind::kUsage, fmt::format("--shard {}: there is no such share", *text));
+  return Shard{static_cast<std::uint32_t>(*number), static_cast<std::uint32_t>(*of)};
+}
+
+}  // namespace
+
+TileRunCommand::TileRunCommand(CLI::App& program) : command_(add_command(program, kTileRun)) {
+  add_option(*command_, OptionId::kPlan, plan_);
+  add_option(*command_, OptionId::kShard, shard_);
+  add_option(*command_, OptionId::kParts, parts_);
+  add_option(*command_, OptionId::kMemory, memory_);
+  add_option(*command_, OptionId::kThreads, threads_);
+  add_flag(*command_, OptionId::kQuiet, quiet_);
+  add_flag(*command_, OptionId::kJsonProgress, json_progress_);
+}
+
+Result<void> TileRunCommand::run() const {
+  const Clock::time_point start = Clock::now();
+  const Result<Shard> shard = parse_shard(shard_);
+  if (!shard) return tl::unexpected(shard.error());
+  Run run;
+  const Result<int> threads = parse_threads(threads_);
+  if (!threads) return tl::unexpected(threads.error());
+  run.threads = *threads;
+  ReadOptions options;
+  std::uint64_t memory = kShareRasterBytes;
+  if (memory_) {
+    const Result<std::uint64_t> bytes = parse_bytes("--memory", *memory_);
+    if (!bytes) return tl::unexpected(bytes.error());
+    memory = *bytes;
+  }
+  const Result<TileJob> job = read_tile_job(plan_);
+  if (!job) return tl::unexpected(job.error());
+  if (auto same = check_rasters(*job); !same) return same;
+  ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
+  options = job->reading;
+  options.run.memory.limit = memory;
+  options.run.threads = *threads;
+  const auto raster = GlobeRaster::open(job->rasters.front().path, options, job->vertical);
+  if (!raster) return tl::unexpected(raster.error());
+  run.progress = display.callback();
+  const Result<PartsReport> made = make_parts(*job, (*raster)->nodes(), parts_folder(plan_, parts_), *shard, run);
+  if (!made) {
+    if (made.error().kind != ErrorKind::kCancelled) return tl::unexpected(made.error());
+    display.finish();
+    return fail(ErrorKind::kCancelled, "interrupted; the blocks made so far stay, the same command goes on");
+  }
+  display.finish();
+  if (quiet_) return {};
+  return print_summary(fmt::format("{}, share {} of {}: {} made, {} there before; {}, {}; {} s\n", plan_, shard->number,
+                                   shard->of, format_plural(made->blocks, "block"), made->there,
+                                   format_plural(made->tiles, "tile"), format_bytes(made->bytes),
+                                   format_seconds(seconds_since(start))));
+}
+
+}  // namespace scarp::cli

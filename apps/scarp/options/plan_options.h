@@ -1,0 +1,21 @@
+// What the processes of a plan of tiles agree on.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "options/options.h"
+
+namespace scarp::cli {
+
+/// What the raster may have of a process's memory, unless --memory says otherwise: a share of the blocks needs a part
+/// of it.
+inline constexpr std::uint64_t kShareRasterBytes = 256'000'000;
+
+/// --parts, or else a folder beside the plan: "world.parts" for "world.json".
+inline std::string parts_folder(const std::string& plan, const Given& parts) {
+  return parts ? *parts : std::filesystem::path(plan).replace_extension(".parts").string();
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,91 @@
+#include "reports/tile_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reports/report.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+std::string format_metres(double metres) { return format_number(metres) + " m"; }
+
+}  // namespace
+
+Json describe_levels(const PyramidPlan& plan, const PyramidReport& report) {
+  Json levels = Json::array();
+  for (std::size_t z = 0; z < plan.levels.size(); ++z) {
+    const LevelSummary& level = report.levels[z];
+    levels.push_back({{"zoom", z},
+                      {"tiles", level.tiles},
+                      {"triangles", level.triangles},
+                      {"bytes", level.bytes},
+                      {"geometric_error", plan.levels[z].geometric_error},
+                      {"asked", plan.levels[z].max_error},
+                      {"tiles_over", level.over},
+                      {"node_error", level.node_error},
+                      {"bound", level.bound}});
+  }
+  return levels;
+}
+
+std::string make_tile_summary(const TileJob& job, const std::string& output, const PyramidReport& report,
+                              double seconds) {
+  const PyramidPlan& plan = job.plan;
+  LevelSummary all;
+  for (const LevelSummary& level : report.levels) {
+    all.tiles += level.tiles;
+    all.triangles += level.triangles;
+    all.bytes += level.bytes;
+  }
+  std::string text = fmt::format("{} -> {}\n", job.facts.name, output);
+  text += fmt::format("  heights above  {}\n", job.heights_above);
+  text += fmt::format("  tiles          {}, levels 0 to {}, {}, {}\n", format_count(all.tiles), plan.max_zoom(),
+                      format_plural(all.triangles, "triangle"), format_bytes(all.bytes));
+  text += "  level      tiles  triangles/tile  bytes/tile      asked   at nodes  with the earth's curve\n";
+  for (std::size_t z = 0; z < plan.levels.size(); ++z) {
+    const LevelSummary& level = report.levels[z];
+    const std::uint64_t tiles = std::max<std::uint64_t>(level.tiles, 1);
+    text += fmt::format("  {:5} {:>10} {:>15} {:>11} {:>10} {:>10} {:>23}\n", z, format_count(level.tiles),
+                        format_count(level.triangles / tiles), format_count(level.bytes / tiles),
+                        format_metres(plan.levels[z].max_error), format_metres(level.node_error),
+                        format_metres(level.bound));
+  }
+  text += fmt::format("  time           {} s\n", format_seconds(seconds));
+  return text;
+}
+
+std::vector<std::string> warnings_of_raster(const RasterInfo& raster) {
+  std::vector<std::string> warnings = raster.warnings;
+  // Degrees are what tiles are made in.
+  std::erase_if(warnings, [](const std::string& one) { return one.find("x and y are degrees") != std::string::npos; });
+  return warnings;
+}
+
+std::vector<std::string> warnings_of_levels(const PyramidPlan& plan, const PyramidReport& report) {
+  std::vector<std::string> warnings;
+  std::string over;
+  std::uint64_t tiles = 0;
+  for (std::size_t z = 0; z < plan.levels.size(); ++z) {
+    if (report.levels[z].over == 0) continue;
+    over += fmt::format("{}{}", over.empty() ? "" : ", ", z);
+    tiles += report.levels[z].over;
+  }
+  if (tiles > 0)
+    warnings.push_back(
+        fmt::format("{} of the levels {} did not keep the max error asked, as the table shows: next to a "
+                    "cliff, the raster's own edge above the background included, positions in 32767ths "
+                    "of a tile are too coarse",
+                    format_plural(tiles, "tile"), over));
+  return warnings;
+}
+
+Result<void> check_heights(const TileJob& job, const PyramidReport& report) {
+  if (report.has_heights) return {};
+  return fail(ErrorKind::kUsage, fmt::format("no node of level {} lies in {}: give a larger --zoom",
+                                             job.plan.max_zoom(), job.rasters.front().path));
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,24 @@
+// What a finished set of tiles is like, in words and as JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reports/json.h"
+#include "scarp/tile_job.h"
+
+namespace scarp::cli {
+
+/// "levels": one object a level.
+Json describe_levels(const PyramidPlan& plan, const PyramidReport& report);
+/// A table of the levels, with what was read and written above it, and the time below.
+std::string make_tile_summary(const TileJob& job, const std::string& output, const PyramidReport& report,
+                              double seconds);
+/// Of a raster, but for those about frames that tiles do not have.
+std::vector<std::string> warnings_of_raster(const RasterInfo& raster);
+/// Of levels whose tiles do not keep the max error.
+std::vector<std::string> warnings_of_levels(const PyramidPlan& plan, const PyramidReport& report);
+/// Fails with kUsage where no node has a height.
+Result<void> check_heights(const TileJob& job, const PyramidReport& report);
+
+}  // namespace scarp::cli

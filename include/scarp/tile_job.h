@@ -1,0 +1,147 @@
+// A pyramid of tiles that many processes make, on one machine or on many that share a folder.
+//
+//   plan     write_tile_plan(): everything that a tile depends on, in a file
+//   run      each process makes blocks of the plan and keeps them in parts: make_parts()
+//   finish   finish_parts(): the levels above the blocks, and the set
+//
+// Nothing but the plan and the parts passes between processes. A block that is in a part is never made again, so a run
+// that was interrupted goes on where it was. The set is that of make_pyramid(), byte for byte, whoever made its blocks.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scarp/globe_place.h"
+#include "scarp/io.h"
+#include "scarp/result.h"
+#include "scarp/run.h"
+#include "scarp/tile.h"
+#include "scarp/tile_set.h"
+
+#pragma GCC visibility push(default)
+
+namespace scarp {
+
+/// A raster, open as nodes on the globe.
+class GlobeRaster {
+ public:
+  /// Reads it, or leaves it in its file where memory does not hold it, as open_height_field(); options.crs is not read.
+  /// Fails as that and place_on_globe() do.
+  static Result<std::unique_ptr<GlobeRaster>> open(const std::string& path, ReadOptions options, Vertical vertical);
+  GlobeRaster(const GlobeRaster&) = delete;
+  GlobeRaster& operator=(const GlobeRaster&) = delete;
+  ~GlobeRaster();
+
+  /// Heights above the ellipsoid. Lives as long as this.
+  const NodeSource& nodes() const;
+  /// For plan_pyramid(). REQUIRES: opened with options.with_range.
+  SourceFacts facts() const;
+  const RasterInfo& info() const;
+  const RasterOnGlobe& place() const;
+
+ private:
+  struct Impl;
+  explicit GlobeRaster(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// What tells a file from a later one of the same name.
+struct FileStamp {
+  std::string path;  ///< absolute, where it names a file
+  std::uint64_t size = 0;
+  std::int64_t changed = 0;  ///< nanoseconds since 1970; both 0 for what is no file, such as a URL
+
+  friend bool operator==(const FileStamp&, const FileStamp&) = default;
+};
+FileStamp stamp_of(const std::string& path);
+
+/// All that a set depends on.
+struct TileJob {
+  std::vector<FileStamp> rasters;  ///< the first, then those that make a mosaic with it
+  ReadOptions reading;             ///< band, nodata, decode, z_scale, z_offset and view
+  Vertical vertical = Vertical::kAuto;
+  TileFormat format = TileFormat::kQuantizedMesh;
+  PyramidPlan plan;
+  LayerFacts facts;           ///< but for the version
+  std::string heights_above;  ///< the datum, in words
+};
+
+/// The text of a plan file: JSON. Numbers are read back exactly.
+std::vector<std::uint8_t> encode_tile_job(const TileJob& job);
+/// Fails with kInput for what is no plan of this version of Scarp's.
+Result<TileJob> decode_tile_job(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
+/// decode_tile_job() of a file. Fails with kInput where it cannot be read, too.
+Result<TileJob> read_tile_job(const std::string& path);
+/// A hash of all of it: parts of another plan are not taken.
+std::uint64_t key_of(const TileJob& job);
+/// Fails with kInput if a raster is not what it was when the plan was made.
+Result<void> check_rasters(const TileJob& job);
+
+/// What making a set will take, of a few tiles that were made to see.
+struct TileEstimate {
+  std::uint64_t blocks = 0;        ///< that may have heights
+  std::uint64_t finest_tiles = 0;  ///< of the finest level
+  std::uint64_t tiles = 0;         ///< of all levels
+  std::uint64_t bytes = 0;         ///< of the tiles, as kept
+  double core_seconds = 0;         ///< on this machine
+  std::uint64_t memory = 0;        ///< bytes of a process with one thread, without the raster
+  std::uint64_t parts = 0;         ///< bytes of the parts, until the set is finished
+};
+/// Makes `samples` tiles of the finest level, evenly over the blocks, on one thread. Fails as make_tile() does.
+Result<TileEstimate> estimate_tiles(const TileJob& job, const NodeSource& nodes, int samples = 24);
+
+/// The blocks that processes made so far: files in a folder. Each process that makes some writes a file of its own,
+/// which it only ever appends to; a record that was cut off is not looked at.
+class TileParts {
+ public:
+  /// Looks at all parts in the folder, which need not be there. Fails with kInput for parts of another plan, and where
+  /// they cannot be read.
+  static Result<std::unique_ptr<TileParts>> open(const std::string& folder, std::uint64_t key);
+  TileParts(const TileParts&) = delete;
+  TileParts& operator=(const TileParts&) = delete;
+  ~TileParts();
+
+  bool has(TileId block) const;
+  std::size_t count() const;
+  /// What make_block() returned, and the block's tiles in their order, each handed to `put`. Fails with kInput for a
+  /// damaged part, with the file's name, and as `put` does.
+  Result<BlockReport> read(TileId block,
+                           const std::function<Result<void>(TileId, std::span<const std::uint8_t>)>& put) const;
+
+ private:
+  friend class PartWriter;
+  struct Impl;
+  explicit TileParts(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// One of n shares of the blocks: consecutive ones of find_blocks(), 1 … of.
+struct Shard {
+  std::uint32_t number = 1, of = 1;
+};
+
+/// What a process made.
+struct PartsReport {
+  std::uint64_t blocks = 0;  ///< made now
+  std::uint64_t there = 0;   ///< of its share, made before
+  std::uint64_t tiles = 0, bytes = 0;
+};
+
+/// Makes the blocks of a share that no part has, and appends them to a new file of the folder, which is made if needed.
+/// Each block is on the disk before the next is begun. Progress: pass "tiles". Fails as make_block(), with kOutput
+/// where the file cannot be written, and with kCancelled; blocks that were made stay.
+Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, const std::string& folder, Shard shard,
+                               const Run& run = {});
+
+/// Puts all tiles of the parts and the levels above them into the set, and finishes it. Fails with
+/// kInput where blocks are missing, telling how many, and as finish_pyramid() and the set do.
+Result<PyramidReport> finish_parts(const TileJob& job, const std::string& folder, TileSetWriter& set,
+                                   const Run& run = {});
+
+}  // namespace scarp
+
+#pragma GCC visibility pop

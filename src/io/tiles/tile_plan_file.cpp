@@ -1,0 +1,202 @@
+// A job of tiles as a file.
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "io/tiles/byte_source.h"
+#include "scarp/tile_job.h"
+#include "scarp/version.h"
+
+namespace scarp {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kPlanVersion = 1;
+constexpr std::pair<Effort, const char*> kEfforts[] = {
+    {Effort::kFast, "fast"}, {Effort::kNormal, "normal"}, {Effort::kHigh, "high"}};
+constexpr std::pair<Decode, const char*> kDecodes[] = {
+    {Decode::kNone, "none"}, {Decode::kTerrarium, "terrarium"}, {Decode::kMapbox, "mapbox"}};
+constexpr std::pair<Vertical, const char*> kVerticals[] = {
+    {Vertical::kAuto, "auto"}, {Vertical::kEllipsoid, "ellipsoid"}, {Vertical::kEgm96, "egm96"}};
+constexpr std::pair<TileFormat, const char*> kFormats[] = {{TileFormat::kQuantizedMesh, "quantized-mesh"},
+                                                           {TileFormat::kGlb, "glb"}};
+
+template <class T, std::size_t N>
+const char* word_of(T value, const std::pair<T, const char*> (&words)[N]) {
+  for (const auto& [one, word] : words) {
+    if (one == value) return word;
+  }
+  return "";
+}
+
+/// Throws std::out_of_range for an unknown word.
+template <class T, std::size_t N>
+T value_of(const std::string& word, const std::pair<T, const char*> (&words)[N]) {
+  for (const auto& [one, name] : words) {
+    if (word == name) return one;
+  }
+  throw std::out_of_range(word);
+}
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+template <class T>
+std::optional<T> optional_of(const Json& json) {
+  return json.is_null() ? std::nullopt : std::optional(json.get<T>());
+}
+
+Json describe_reading(const ReadOptions& reading) {
+  return {{"band", reading.band},
+          {"nodata", or_null(reading.nodata)},
+          {"decode", word_of(reading.decode, kDecodes)},
+          {"z_scale", reading.z_scale},
+          {"z_offset", reading.z_offset},
+          {"extent", or_null(reading.view.extent)},
+          {"resolution", or_null(reading.view.resolution)}};
+}
+
+Json describe_plan(const PyramidPlan& plan) {
+  Json levels = Json::array();
+  for (const PyramidLevel& level : plan.levels) {
+    levels.push_back({{"geometric_error", level.geometric_error},
+                      {"max_error", level.max_error},
+                      {"quantum", level.quantum},
+                      {"segments", level.segments}});
+  }
+  return {{"cells", plan.cells},
+          {"block_level", plan.block_level},
+          {"effort", word_of(plan.effort, kEfforts)},
+          {"background", plan.background},
+          {"ellipsoid", {plan.ellipsoid.semi_major, plan.ellipsoid.inverse_flattening}},
+          {"covered", {plan.covered.west, plan.covered.south, plan.covered.east, plan.covered.north}},
+          {"levels", std::move(levels)}};
+}
+
+PyramidPlan parse_plan(const Json& json) {
+  PyramidPlan plan;
+  plan.cells = json.at("cells");
+  plan.block_level = json.at("block_level");
+  plan.effort = value_of(json.at("effort"), kEfforts);
+  plan.background = json.at("background");
+  plan.ellipsoid.semi_major = json.at("ellipsoid").at(0);
+  plan.ellipsoid.inverse_flattening = json.at("ellipsoid").at(1);
+  const Json& covered = json.at("covered");
+  plan.covered = {covered.at(0), covered.at(1), covered.at(2), covered.at(3)};
+  for (const Json& level : json.at("levels"))
+    plan.levels.push_back(
+        {level.at("geometric_error"), level.at("max_error"), level.at("quantum"), level.at("segments")});
+  return plan;
+}
+
+/// Whether it is one that plan_pyramid() could have made.
+bool is_sound(const PyramidPlan& plan) {
+  if (plan.levels.empty() || plan.max_zoom() > kMaxTileLevel || plan.block_level < 0 ||
+      plan.block_level > plan.max_zoom() || plan.max_zoom() - plan.block_level > 8 || plan.cells < 16 ||
+      plan.cells > 256 || (plan.cells & (plan.cells - 1)) != 0)
+    return false;
+  return std::all_of(plan.levels.begin(), plan.levels.end(), [](const PyramidLevel& level) {
+    return level.max_error > 0 && level.quantum > 0 && level.segments >= 1 && level.segments <= 256 &&
+           (level.segments & (level.segments - 1)) == 0;
+  });
+}
+
+TileJob parse_job(const Json& json) {
+  TileJob job;
+  for (const Json& raster : json.at("rasters")) {
+    job.rasters.push_back({raster.at("path"), raster.at("size"), raster.at("changed")});
+  }
+  const Json& reading = json.at("reading");
+  job.reading.band = reading.at("band");
+  job.reading.nodata = optional_of<double>(reading.at("nodata"));
+  job.reading.decode = value_of(reading.at("decode"), kDecodes);
+  job.reading.z_scale = reading.at("z_scale");
+  job.reading.z_offset = reading.at("z_offset");
+  job.reading.view.extent = optional_of<std::array<double, 4>>(reading.at("extent"));
+  job.reading.view.resolution = optional_of<double>(reading.at("resolution"));
+  for (std::size_t k = 1; k < job.rasters.size(); ++k) job.reading.view.more.push_back(job.rasters[k].path);
+  job.vertical = value_of(json.at("vertical"), kVerticals);
+  job.format = value_of(json.at("format"), kFormats);
+  job.facts = {json.at("name"), json.at("description"), json.at("attribution"), ""};
+  job.heights_above = json.at("heights_above");
+  job.plan = parse_plan(json.at("pyramid"));
+  return job;
+}
+
+}  // namespace
+
+FileStamp stamp_of(const std::string& path) {
+  std::error_code error;
+  struct stat facts {};
+  if (stat(path.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode)) return {path, 0, 0};
+  return {std::filesystem::absolute(path, error).lexically_normal().string(), static_cast<std::uint64_t>(facts.st_size),
+          std::int64_t{facts.st_mtim.tv_sec} * 1000000000 + facts.st_mtim.tv_nsec};
+}
+
+std::vector<std::uint8_t> encode_tile_job(const TileJob& job) {
+  Json rasters = Json::array();
+  for (const FileStamp& raster : job.rasters)
+    rasters.push_back({{"path", raster.path}, {"size", raster.size}, {"changed", raster.changed}});
+  const Json json{{"scarp_tile_plan", kPlanVersion},
+                  {"generator", std::string("scarp ") + version()},
+                  {"rasters", std::move(rasters)},
+                  {"reading", describe_reading(job.reading)},
+                  {"vertical", word_of(job.vertical, kVerticals)},
+                  {"heights_above", job.heights_above},
+                  {"format", word_of(job.format, kFormats)},
+                  {"name", job.facts.name},
+                  {"description", job.facts.description},
+                  {"attribution", job.facts.attribution},
+                  {"pyramid", describe_plan(job.plan)}};
+  const std::string text = json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return {text.begin(), text.end()};
+}
+
+Result<TileJob> decode_tile_job(std::span<const std::uint8_t> bytes, const std::string& name_for_errors) {
+  try {
+    const Json json = Json::parse(bytes.begin(), bytes.end());
+    if (json.at("scarp_tile_plan") == kPlanVersion) {
+      TileJob job = parse_job(json);
+      if (is_sound(job.plan) && !job.rasters.empty()) return job;
+    }
+  } catch (const std::exception&) {
+    // Said below.
+  }
+  return fail(ErrorKind::kInput,
+              fmt::format("{} is no plan of tiles of this version: make it with scarp tile plan", name_for_errors));
+}
+
+Result<TileJob> read_tile_job(const std::string& path) {
+  const auto source = ByteSource::open(path);
+  if (!source) return tl::unexpected(source.error());
+  const auto bytes = (*source)->read(0, (*source)->size());
+  if (!bytes) return tl::unexpected(bytes.error());
+  return decode_tile_job(*bytes, path);
+}
+
+std::uint64_t key_of(const TileJob& job) {
+  std::uint64_t key = 0xcbf29ce484222325;  // FNV-1a
+  for (const std::uint8_t byte : encode_tile_job(job)) key = (key ^ byte) * 0x100000001b3;
+  return key;
+}
+
+Result<void> check_rasters(const TileJob& job) {
+  for (const FileStamp& raster : job.rasters) {
+    const FileStamp now = stamp_of(raster.path);
+    if (now.size != raster.size || now.changed != raster.changed)
+      return fail(ErrorKind::kInput,
+                  fmt::format("{} is not the file that it was when the plan was made: plan again", raster.path));
+  }
+  return {};
+}
+
+}  // namespace scarp
