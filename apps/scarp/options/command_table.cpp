@@ -46,9 +46,8 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp tile plan dem.tif world.json --slurm run.sh    then: bash run.sh world\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
     {kTileRun, "tile-run", "Make a share of the tiles of a plan", "PLAN [OPTIONS]",
-     "Also: scarp tile run. Any process may make any share; the tiles are the same. Each finished block is on the "
-     "disk\n"
-     "at once: a run that was killed goes on where it was.\n"
+     "Also: scarp tile run. Any process may make any share; the tiles are the same. Each finished block is\n"
+     "on the disk at once: a run that was killed goes on where it was.\n"
      "Examples:\n"
      "  scarp tile run world.json                     all blocks that are missing\n"
      "  scarp tile run world.json --shard 3/200 -j 1\n"
