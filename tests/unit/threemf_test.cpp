@@ -4,7 +4,7 @@
 #include <string>
 
 #include "io/mesh/file_bytes.h"
-#include "io/mesh/zip.h"
+#include "io/zip.h"
 #include "mesh_samples.h"
 #include "scarp/io.h"
 #include "scarp/solid.h"

@@ -20,7 +20,7 @@
 #include "io/mesh/mesh_file.h"
 #include "io/mesh/mesh_file_text.h"
 #include "io/mesh/xml_reader.h"
-#include "io/mesh/zip.h"
+#include "io/zip.h"
 #include "scarp/io.h"
 #include "scarp/solid.h"
 #include "scarp/version.h"

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include "io/base64.h"
 #include "io/mesh/mesh_file_text.h"
 
 namespace scarp {
@@ -27,35 +28,6 @@ std::size_t width_of(VtkType type) {
     if (known.type == type) return known.width;
   }
   return 1;
-}
-
-int base64_value(std::uint8_t c) {
-  if (c >= 'A' && c <= 'Z') return c - 'A';
-  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-  if (c >= '0' && c <= '9') return c - '0' + 52;
-  if (c == '+') return 62;
-  return c == '/' ? 63 : -1;
-}
-
-/// Reads groups of four letters until `count` bytes are there; a padded group ends a part, and the next one goes on.
-/// Returns false if letters are missing or wrong.
-bool read_base64(std::span<const std::uint8_t>& letters, std::size_t count, std::vector<std::uint8_t>& bytes) {
-  while (bytes.size() < count) {
-    if (letters.size() < 4) return false;
-    std::uint32_t group = 0;
-    std::size_t padding = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const int value = base64_value(letters[k]);
-      const bool pads = letters[k] == '=' && k >= 2;
-      if (value < 0 && !pads) return false;
-      if (value >= 0 && padding > 0) return false;
-      padding += pads ? 1 : 0;
-      group = group << 6 | static_cast<std::uint32_t>(pads ? 0 : value);
-    }
-    for (std::size_t k = 0; k < 3 - padding; ++k) bytes.push_back(static_cast<std::uint8_t>(group >> (16 - 8 * k)));
-    letters = letters.subspan(4);
-  }
-  return true;
 }
 
 std::span<const std::uint8_t> bytes_of(std::string_view text) {

@@ -6,12 +6,14 @@
 #include <utility>
 
 #include "io/tiles/folder_set.h"
+#include "io/tiles/set_archive.h"
 #include "scarp/gzip.h"
 
 namespace scarp {
 
 Result<std::unique_ptr<TileSetWriter>> create_tile_set(const std::string& path, TileFormat format, bool overwrite) {
   if (path.empty()) return fail(ErrorKind::kUsage, "OUTPUT is empty: give the name of a set of tiles to make");
+  if (const Archive* archive = find_archive(path)) return create_archive_set(*archive, path, format, overwrite);
   return create_folder_set(path, format, overwrite);
 }
 
@@ -20,7 +22,9 @@ Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path) {
   if (!std::filesystem::exists(path, error))
     return fail(ErrorKind::kInput, fmt::format("no such file or folder: {}", path));
   if (std::filesystem::is_directory(path, error)) return open_folder_set(path);
-  return fail(ErrorKind::kInput, fmt::format("{} is no set of tiles", path));
+  if (const Archive* archive = find_archive(path)) return archive->open(path);
+  return fail(ErrorKind::kInput,
+              fmt::format("{} is no set of tiles: neither a folder nor a .pmtiles, .mbtiles or .3tz", path));
 }
 
 TileEncoder make_tile_encoder([[maybe_unused]] TileFormat format, const Geodetic& ellipsoid) {

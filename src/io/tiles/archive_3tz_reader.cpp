@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "io/tiles/set_archive.h"
+#include "io/tiles/tile_levels.h"
+#include "io/tiles/tile_names.h"
+#include "io/zip.h"
+
+namespace scarp {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+class ReaderOf3tz final : public TileSetReader {
+ public:
+  static Result<std::unique_ptr<TileSetReader>> open(const std::string& path) {
+    auto source = ByteSource::open(path);
+    if (!source) return tl::unexpected(source.error());
+    std::unique_ptr<ReaderOf3tz> reader(new ReaderOf3tz(std::move(*source)));
+    if (auto read = reader->read_directory(); !read) return tl::unexpected(std::move(read.error()));
+    return reader;
+  }
+
+  TileFormat format() const override { return format_; }
+  const std::vector<std::vector<std::uint64_t>>& tiles() const override { return levels_.levels(); }
+  std::vector<std::string> files() const override { return files_; }
+  Result<Bytes> read_tile(TileId id) const override {
+    if (!is_of_grid(id)) return refuse("holds no such tile");
+    return read_file(tile_name(format_, id));
+  }
+  Result<Bytes> read_file(const std::string& name) const override {
+    const auto found = std::lower_bound(records_.begin(), records_.end(), name, is_before);
+    if (found == records_.end() || found->name != name) return refuse(fmt::format("holds no {}", name));
+    const auto head = source_->read(found->offset, kZipHeaderSize);
+    if (!head) return tl::unexpected(head.error());
+    const std::uint64_t length = zip_header_length(*head);
+    if (length == 0) return refuse(fmt::format("is damaged: {} is not where it should be", name));
+    const auto packed = source_->read(found->offset + length, found->packed);
+    if (!packed) return tl::unexpected(packed.error());
+    auto bytes = unpack_zip_entry(*found, *packed);
+    if (!bytes) return refuse(fmt::format("cannot be read: {}", bytes.error().message));
+    return bytes;
+  }
+
+ private:
+  explicit ReaderOf3tz(std::unique_ptr<ByteSource> source) : source_(std::move(source)) {}
+
+  static bool is_before(const ZipRecord& record, std::string_view name) { return record.name < name; }
+
+  tl::unexpected<Error> refuse(const std::string& why) const {
+    return fail(ErrorKind::kInput, fmt::format("{} {}", source_->path(), why));
+  }
+
+  Result<void> read_directory() {
+    const std::uint64_t size = source_->size(), tail_size = std::min(size, kLongestZipEnd);
+    const auto tail = source_->read(size - tail_size, tail_size);
+    if (!tail) return tl::unexpected(tail.error());
+    const auto directory = find_zip_directory(*tail, size);
+    if (!directory) return refuse(fmt::format("is no .3tz: {}", directory.error().message));
+    auto bytes = source_->read(directory->start, size - directory->start);
+    if (!bytes) return tl::unexpected(bytes.error());
+    directory_ = std::move(*bytes);
+    auto records = read_zip_directory(directory_, directory->count);
+    if (!records) return refuse(fmt::format("is no .3tz: {}", records.error().message));
+    records_ = std::move(*records);
+    std::sort(records_.begin(), records_.end(), [](const ZipRecord& a, const ZipRecord& b) { return a.name < b.name; });
+    const auto same = std::adjacent_find(records_.begin(), records_.end(),
+                                         [](const ZipRecord& a, const ZipRecord& b) { return a.name == b.name; });
+    if (same != records_.end()) return refuse("is damaged: it has a name twice");
+    const bool is_terrain = std::any_of(records_.begin(), records_.end(), [](const ZipRecord& record) {
+      return find_tile_id(TileFormat::kQuantizedMesh, record.name).has_value();
+    });
+    format_ = is_terrain ? TileFormat::kQuantizedMesh : TileFormat::kGlb;
+    for (const ZipRecord& record : records_) {
+      if (const auto id = find_tile_id(format_, record.name)) {
+        levels_.add(*id);
+      } else if (is_plain_name(record.name) && record.name[0] != '@') {
+        files_.emplace_back(record.name);
+      }
+    }
+    levels_.sort();
+    if (levels_.count() == 0) return refuse("is no set of tiles: it holds none");
+    return {};
+  }
+
+  std::unique_ptr<ByteSource> source_;
+  TileFormat format_ = TileFormat::kGlb;
+  Bytes directory_;
+  std::vector<ZipRecord> records_;  ///< by name, which lies in the directory
+  TileLevels levels_;
+  std::vector<std::string> files_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<TileSetReader>> open_3tz(const std::string& path) { return ReaderOf3tz::open(path); }
+
+}  // namespace scarp

@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "io/base64.h"
+#include "io/tiles/pmtiles_parts.h"
+#include "io/tiles/set_archive.h"
+#include "io/tiles/tile_levels.h"
+#include "io/tiles/tile_names.h"
+#include "scarp/gzip.h"
+
+namespace scarp {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+using Json = nlohmann::json;
+
+class PmtilesReader final : public TileSetReader {
+ public:
+  static Result<std::unique_ptr<TileSetReader>> open(const std::string& path) {
+    auto source = ByteSource::open(path);
+    if (!source) return tl::unexpected(source.error());
+    std::unique_ptr<PmtilesReader> reader(new PmtilesReader(std::move(*source)));
+    if (auto read = reader->read_parts(); !read) return tl::unexpected(std::move(read.error()));
+    return reader;
+  }
+
+  TileFormat format() const override { return format_; }
+  const std::vector<std::vector<std::uint64_t>>& tiles() const override { return levels_.levels(); }
+  std::vector<std::string> files() const override {
+    std::vector<std::string> names;
+    for (const auto& file : files_) names.push_back(file.first);
+    return names;
+  }
+  Result<Bytes> read_tile(TileId id) const override {
+    if (!is_of_grid(id) || !levels_.has(id)) return refuse(fmt::format("holds no {}", tile_name(format_, id)));
+    const std::uint64_t number = pmtiles_number(id);
+    const auto after =
+        std::upper_bound(entries_.begin(), entries_.end(), number,
+                         [](std::uint64_t one, const PmtilesEntry& entry) { return one < entry.number; });
+    return source_->read(header_.tiles.offset + after[-1].offset, after[-1].length);
+  }
+  Result<Bytes> read_file(const std::string& name) const override {
+    const auto file = files_.find(name);
+    if (file == files_.end()) return refuse(fmt::format("holds no {}", name));
+    return file->second;
+  }
+
+ private:
+  explicit PmtilesReader(std::unique_ptr<ByteSource> source)
+      : source_(std::move(source)), most_tiles_(source_->size() + (std::uint64_t{1} << 16)) {}
+
+  tl::unexpected<Error> refuse(const std::string& why) const {
+    return fail(ErrorKind::kInput, fmt::format("{} {}", source_->path(), why));
+  }
+
+  /// A part, taken out of its compression.
+  Result<Bytes> read_inner(std::uint64_t offset, std::uint64_t length, std::size_t most) const {
+    auto bytes = source_->read(offset, length);
+    if (!bytes || header_.inner == PmtilesCompression::kNone) return bytes;
+    auto whole = decompress_gzip(*bytes, most);
+    if (!whole) return refuse("is damaged: a part of it cannot be decompressed");
+    return whole;
+  }
+
+  Result<void> read_parts() {
+    const auto head = source_->read(0, std::min<std::uint64_t>(source_->size(), kPmtilesHeaderSize));
+    if (!head) return tl::unexpected(head.error());
+    const auto header = decode_pmtiles_header(*head);
+    if (!header) return refuse(header.error().message);
+    header_ = *header;
+    for (const PmtilesPart& part : {header_.root, header_.metadata, header_.leaves, header_.tiles}) {
+      if (!source_->has(part.offset, part.length)) return refuse("was cut off");
+    }
+    if (auto read = read_metadata(); !read) return read;
+    if (auto read = read_directory(header_.root, 0); !read) return read;
+    if (!levels_.sort()) return refuse("is damaged: it has a tile twice");
+    return {};
+  }
+
+  Result<void> read_metadata() {
+    const auto bytes =
+        read_inner(header_.metadata.offset, header_.metadata.length, most_pmtiles_metadata(header_.metadata.length));
+    if (!bytes) return tl::unexpected(bytes.error());
+    const Json metadata = Json::parse(bytes->begin(), bytes->end(), nullptr, false);
+    if (!metadata.is_object()) return refuse("is damaged: its metadata are no JSON");
+    const auto text = [&](const char* key) {
+      const auto found = metadata.find(key);
+      return found != metadata.end() && found->is_string() ? found->get<std::string>() : std::string();
+    };
+    if (text("grid") != "geographic")
+      return refuse("is no set of terrain tiles: its metadata do not say that its grid is \"geographic\"");
+    if (text("format") != media_type(TileFormat::kQuantizedMesh) && text("format") != media_type(TileFormat::kGlb))
+      return refuse("is no set of terrain tiles: its metadata name no format that Scarp knows");
+    format_ = text("format") == media_type(TileFormat::kGlb) ? TileFormat::kGlb : TileFormat::kQuantizedMesh;
+    const auto files = metadata.find("files");
+    if (files == metadata.end() || !files->is_object()) return {};
+    for (const auto& [name, content] : files->items()) {
+      if (!is_plain_name(name)) return refuse("is damaged: a name in it leads elsewhere");
+      if (content.is_string()) {
+        const auto& whole = content.get_ref<const std::string&>();
+        files_[name] = Bytes(whole.begin(), whole.end());
+      } else {
+        const auto letters = content.is_object() ? content.find("base64") : content.end();
+        if (!content.is_object() || letters == content.end() || !letters->is_string() ||
+            !decode(letters->get_ref<const std::string&>(), files_[name]))
+          return refuse(fmt::format("is damaged: {} in it cannot be read", name));
+      }
+    }
+    return {};
+  }
+
+  static bool decode(const std::string& letters, Bytes& bytes) {
+    if (letters.size() % 4 != 0) return false;
+    std::size_t padding = 0;
+    while (padding < 2 && padding < letters.size() && letters[letters.size() - 1 - padding] == '=') ++padding;
+    std::span<const std::uint8_t> rest(reinterpret_cast<const std::uint8_t*>(letters.data()), letters.size());
+    return read_base64(rest, letters.size() / 4 * 3 - padding, bytes) && rest.empty();
+  }
+
+  /// Numbers rise through all directories, so none of them is read twice.
+  Result<void> read_directory(const PmtilesPart& part, int depth) {
+    constexpr int kMostDepth = 3;
+    const auto damaged = [&] { return refuse("is damaged: a directory of it makes no sense"); };
+    constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+    const auto bytes = read_inner(part.offset, part.length, kMostBytes);
+    if (!bytes) return tl::unexpected(bytes.error());
+    const auto entries = decode_pmtiles_directory(*bytes, most_tiles_ - levels_.count());
+    if (!entries) return damaged();
+    for (const PmtilesEntry& entry : *entries) {
+      if (entry.number < next_) return damaged();
+      const PmtilesPart& whole = entry.run == 0 ? header_.leaves : header_.tiles;
+      if (entry.offset > whole.length || entry.length > whole.length - entry.offset) return damaged();
+      if (entry.run == 0) {
+        if (depth == kMostDepth) return damaged();
+        const std::uint64_t before = levels_.count();
+        if (auto read = read_directory({whole.offset + entry.offset, entry.length}, depth + 1); !read) return read;
+        if (levels_.count() == before) return damaged();
+        continue;
+      }
+      if (entry.run > most_tiles_ - levels_.count()) return damaged();
+      entries_.push_back(entry);
+      next_ = entry.number + entry.run;
+      for (std::uint64_t number = entry.number; number < next_; ++number) {
+        const auto id = find_pmtiles_id(number);
+        if (!id) return damaged();
+        levels_.add(*id);
+      }
+    }
+    return {};
+  }
+
+  std::unique_ptr<ByteSource> source_;
+  std::uint64_t most_tiles_;  ///< more than a file of its size has, unless its tiles are all alike
+  PmtilesHeader header_;
+  TileFormat format_ = TileFormat::kQuantizedMesh;
+  std::vector<PmtilesEntry> entries_;  ///< of tiles
+  std::uint64_t next_ = 0;             ///< the least number that may follow
+  TileLevels levels_;
+  std::map<std::string, Bytes> files_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<TileSetReader>> open_pmtiles(const std::string& path) { return PmtilesReader::open(path); }
+
+}  // namespace scarp

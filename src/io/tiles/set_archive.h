@@ -1,0 +1,60 @@
+// Sets of tiles in one file: what all such containers share.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "io/staged_file.h"
+#include "io/tiles/byte_source.h"
+#include "io/tiles/tile_spool.h"
+#include "scarp/tile_set.h"
+
+namespace scarp {
+
+/// A container: how a spooled set is written to it, and how it is read. write() sorts the spool and writes the whole
+/// file; StagedFile::end() follows. open() fails with kInput.
+struct Archive {
+  std::string_view ending;
+  Result<void> (*write)(TileSpool& spool, TileFormat format, StagedFile& file);
+  Result<std::unique_ptr<TileSetReader>> (*open)(const std::string& path);
+};
+
+/// By the ending of the path; null for folders.
+const Archive* find_archive(const std::string& path);
+
+Result<std::unique_ptr<TileSetWriter>> create_archive_set(const Archive& archive, const std::string& path,
+                                                          TileFormat format, bool overwrite);
+
+/// Bytes that are collected before they go to a file.
+class ChunkedOutput {
+ public:
+  explicit ChunkedOutput(StagedFile& file) : file_(&file) {}
+  Result<void> add(std::span<const std::uint8_t> bytes);
+  /// What is left.
+  Result<void> flush();
+  std::uint64_t position() const { return position_; }
+
+ private:
+  StagedFile* file_;
+  std::vector<std::uint8_t> waiting_;
+  std::uint64_t position_ = 0;
+};
+
+/// What a container says of the set besides its tiles, taken from layer.json where there is one.
+struct SetFacts {
+  std::string name = "terrain", description, attribution;
+  DegreeBox bounds{-180, -90, 180, 90};
+};
+SetFacts facts_of(const TileSpool& spool);
+
+/// What containers call the formats.
+std::string_view media_type(TileFormat format);
+
+Result<void> write_pmtiles(TileSpool& spool, TileFormat format, StagedFile& file);
+Result<std::unique_ptr<TileSetReader>> open_pmtiles(const std::string& path);
+Result<void> write_mbtiles(TileSpool& spool, TileFormat format, StagedFile& file);
+Result<std::unique_ptr<TileSetReader>> open_mbtiles(const std::string& path);
+Result<void> write_3tz(TileSpool& spool, TileFormat format, StagedFile& file);
+Result<std::unique_ptr<TileSetReader>> open_3tz(const std::string& path);
+
+}  // namespace scarp

@@ -1,0 +1,79 @@
+// ZIP archives: of 3MF in memory, and of tiles in files of any size.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scarp/result.h"
+
+namespace scarp {
+
+struct ZipEntry {
+  std::string name;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// The entries in their order, deflated, without times: equal entries make equal archives, with one version of zlib.
+/// Fails with kOutput beyond 4 GB.
+Result<std::vector<std::uint8_t>> encode_zip(std::span<const ZipEntry> entries);
+
+inline constexpr std::uint16_t kZipStored = 0, kZipDeflated = 8;
+
+/// What an archive says of an entry.
+struct ZipRecord {
+  std::string_view name;
+  std::uint64_t offset = 0, packed = 0, size = 0;  ///< where its header is; bytes in the archive, and unpacked
+  std::uint32_t checksum = 0;
+  std::uint16_t method = kZipStored, flags = 0;
+};
+
+std::uint32_t zip_checksum(std::span<const std::uint8_t> bytes);
+
+/// In front of an entry's bytes. REQUIRES: packed and size below 2^32 - 1.
+void append_zip_header(std::vector<std::uint8_t>& bytes, const ZipRecord& record);
+/// Of the directory behind all entries. Offsets take 64 bits where they must.
+void append_zip_record(std::vector<std::uint8_t>& bytes, const ZipRecord& record);
+/// Behind a directory of `count` records that starts at `start` and has `size` bytes.
+void append_zip_end(std::vector<std::uint8_t>& bytes, std::uint64_t count, std::uint64_t start, std::uint64_t size);
+
+/// Where the directory of an archive is.
+struct ZipDirectory {
+  std::uint64_t count = 0, start = 0;
+};
+/// The longest that is behind a directory: its end with 64-bit numbers and a comment.
+inline constexpr std::uint64_t kLongestZipEnd = 22 + 65535 + 20 + 56;
+/// `tail`: the last kLongestZipEnd bytes of an archive of `size` bytes, or all. Fails with kInput for what is no
+/// archive.
+Result<ZipDirectory> find_zip_directory(std::span<const std::uint8_t> tail, std::uint64_t size);
+/// `bytes`: those from the directory's start on. The records' names borrow them. Fails with kInput.
+Result<std::vector<ZipRecord>> read_zip_directory(std::span<const std::uint8_t> bytes, std::uint64_t count);
+
+inline constexpr std::size_t kZipHeaderSize = 30;
+/// Bytes from an entry's header to its contents, of the header's first kZipHeaderSize bytes; 0 if it is none.
+std::uint64_t zip_header_length(std::span<const std::uint8_t> header);
+/// `packed`: as many bytes as the record says. Fails with kInput for an entry that is encrypted, packed otherwise than
+/// by deflate, damaged, or far larger than what it is packed in can hold.
+Result<std::vector<std::uint8_t>> unpack_zip_entry(const ZipRecord& record, std::span<const std::uint8_t> packed);
+
+/// The names in an archive and their contents, taken out one by one. Borrows the bytes.
+class ZipReader {
+ public:
+  /// Fails with kInput for what is no archive, or one of several volumes.
+  static Result<ZipReader> open(std::span<const std::uint8_t> bytes);
+  /// The name that equals `name` but for the case of ASCII letters; empty if there is none.
+  std::string find(std::string_view name) const;
+  /// Fails with kInput for a name that is not there, and as unpack_zip_entry() does.
+  Result<std::vector<std::uint8_t>> extract(std::string_view name) const;
+
+ private:
+  ZipReader(std::span<const std::uint8_t> bytes, std::vector<ZipRecord> records)
+      : bytes_(bytes), records_(std::move(records)) {}
+
+  std::span<const std::uint8_t> bytes_;
+  std::vector<ZipRecord> records_;
+};
+
+}  // namespace scarp
