@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# scarp tile: the same set in a folder, PMTiles, MBTiles and .3tz, read by others.
+source "$(dirname "$0")/lib.sh"
+need python3
+reader=$SCARP_SOURCE/tests/cli/tile_sets.py
+
+succeeds "$scarp" tile "$dem" globe --vertical egm96 -q -j 1
+files=$(find globe -type f | wc -l)
+for ending in pmtiles mbtiles 3tz; do
+  succeeds "$scarp" tile "$dem" world.$ending --vertical egm96 --report $ending.json -j 1
+  grep -q "world.$ending" "$logs/out" || fail "the summary does not name $ending"
+  [ "$(python3 "$reader" globe world.$ending)" = "$files" ] || fail "world.$ending is not the folder"
+  # Threads change nothing.
+  succeeds "$scarp" tile "$dem" again.$ending --vertical egm96 -j 3 -q
+  cmp world.$ending again.$ending || fail "3 threads make another $ending"
+
+  # What is there stays; Scarp's own is replaced.
+  refuses 4 "--overwrite" "$scarp" tile "$dem" world.$ending --vertical egm96
+  succeeds "$scarp" tile "$dem" again.$ending --vertical egm96 --zoom 8 --overwrite -q
+  cmp -s world.$ending again.$ending && fail "$ending was not replaced"
+  echo mine > mine.$ending
+  refuses 4 "is not Scarp's" "$scarp" tile "$dem" mine.$ending --vertical egm96 --overwrite
+  mkdir folder.$ending
+  refuses 4 "folder" "$scarp" tile "$dem" folder.$ending --vertical egm96
+  refuses 4 "folder does not exist" "$scarp" tile "$dem" missing/world.$ending --vertical egm96
+done
+[ -z "$(find . -name '.scarp*')" ] || fail "something temporary is left"
+
+# Killed in the middle: nothing has the final name, and what was there is there still.
+make_big_raster big.tif
+cp again.pmtiles kept.pmtiles
+for output in killed killed.pmtiles killed.mbtiles killed.3tz kept.pmtiles; do
+  "$scarp" tile big.tif $output --vertical egm96 --overwrite --json-progress > /dev/null 2> progress &
+  process=$!
+  # Once tiles are on their way.
+  for _ in $(seq 600); do
+    if grep -q '"tiles"' progress; then break; fi
+    sleep 0.05
+  done
+  kill -0 $process || fail "the run ended too early to be killed"
+  kill -9 $process
+  wait $process 2> /dev/null || true
+  if [ $output = kept.pmtiles ]; then
+    cmp again.pmtiles kept.pmtiles || fail "what was there has changed"
+  else
+    [ ! -e $output ] || fail "$output is there, half made"
+  fi
+done
+
+# The reference reader of PMTiles.
+js=$SCARP_BUILD/js_of_sets
+mkdir -p "$js"
+cp "$SCARP_SOURCE"/tests/js/package.json "$SCARP_SOURCE"/tests/js/package-lock.json "$SCARP_SOURCE"/tests/js/compare_pmtiles.mjs "$js/"
+if [ ! -d "$js/node_modules/pmtiles" ] && command -v npm > /dev/null; then
+  (cd "$js" && npm ci --no-audit --no-fund > npm.log 2>&1) || echo "left out: npm could not fetch pmtiles"
+fi
+if [ -d "$js/node_modules/pmtiles" ] && command -v node > /dev/null; then
+  succeeds node "$js/compare_pmtiles.mjs" world.pmtiles globe
+  [ "$(cat "$logs/out")" = $((files - 1)) ] || fail "the reference reader finds other tiles"
+else
+  echo "left out: the reference reader of PMTiles (needs node and npm)"
+fi
