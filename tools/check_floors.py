@@ -31,7 +31,7 @@ ROOMS = {
                "how far a triangle is from its samples, and how far it may be: tolerances, regions, importance"),
     "io": (2, ["base", "grid", "mesh"],
            ["cutline", "degrees", "drape", "frame", "glb", "globe_place", "gzip", "height_field", "io", "lines", "mesh", "points", "progress", "result", "solid", "strategy", "tile", "tile_job", "tile_set", "version", "zones"],
-           "bytes to values and back: `mesh/`, `raster/`, `points/`, `gdal/`"),
+           "bytes to values and back: `mesh/`, `raster/`, `points/`, `tiles/`, `gdal/`"),
     "measure": (3, ["base", "grid", "mesh"],
                 ["cutline", "frame", "height_field", "judge", "measure", "mesh", "points", "progress", "result", "strategy"],
                 "judging a mesh, without knowing how it was made"),

@@ -3,7 +3,11 @@
 // from it is the same set, byte for byte.
 //
 // The container is chosen by the ending of the path:
+//   .pmtiles         PMTiles 3: one file, of which clients read ranges
+//   .mbtiles         MBTiles 1.3: a database of SQLite
+//   .3tz             3D Tiles Archive 1.3: ZIP, not compressed
 //   (none of these)  a folder: each tile and each file under its name; any web server can serve it
+// docs/tiles.md tells how each holds what.
 #pragma once
 
 #include <cstdint>
@@ -47,7 +51,8 @@ class TileSetWriter {
   virtual Result<void> finish() = 0;
 };
 
-/// A set under a temporary name in the folder of `path`, until finish(). The bytes of the finished set do not depend on
+/// A set under a temporary name in the folder of `path`, until finish(). One file takes the room of the set twice until
+/// then; memory: 24 bytes a tile, with PMTiles twice that. The bytes of the finished set do not depend on
 /// the order of its tiles and files. Fails with kOutput where `path` exists, unless it is an empty folder and the set
 /// is to be one, or `overwrite` is true and it is a set of Scarp's tiles with nothing else in it: "layer.json" or
 /// "tileset.json" say whose it is. Fails with kOutput where nothing can be made, too.
@@ -69,7 +74,7 @@ class TileSetReader {
 
 /// Sets of other programs open as well: folders of "z/x/y.terrain", whether compressed or not, and with tiles missing.
 /// Fails with kInput for what is no set of tiles, is damaged, or was cut off; never trusts a length or an offset in it.
-/// Memory: 8 bytes a tile and more by the container, never more than a small multiple of the set's size.
+/// Memory: 8 bytes a tile, PMTiles 32, .3tz some 150; never more than a multiple of the set's size.
 Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path);
 
 /// The bytes that are kept of a tile. Several threads call it at once.

@@ -32,10 +32,12 @@ constexpr CommandRow kCommandRows[] = {
     {kTile, "tile", "Make a pyramid of terrain tiles for globes: quantized-mesh, for CesiumJS and others",
      "INPUT OUTPUT [OPTIONS]",
      "Tiles of neighbours have the same edges, and each tells its error bound, the earth's curve included.\n"
+     "OUTPUT is a folder, or one file: .pmtiles, .mbtiles or .3tz.\n"
      "Serve the folder with the header 'Content-Encoding: gzip' for its .terrain files.\n"
      "Examples:\n"
      "  scarp tile dem.tif globe --vertical egm96            heights above the sea, all levels\n"
      "  scarp tile dem.tif globe                             the raster's CRS names its vertical datum\n"
+     "  scarp tile dem.tif globe.pmtiles                     all tiles in one file\n"
      "  scarp tile north.tif south.tif globe --effort high   a mosaic, in fewer triangles\n"
      "  scarp tile dem.tif globe -e 2 --zoom 14              the finest level and its max error\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
