@@ -9,7 +9,7 @@ CMAKE_FLAGS ?=
 DATA ?= $(or $(SCARP_SHARED),../shared)/data
 export BUILD JOBS DATA
 
-.PHONY: build demo check test soak wasm-check bench paper install clean format tidy help
+.PHONY: build demo globe check test soak wasm-check bench paper install clean format tidy help
 
 build:
 	@tools/install_packages.sh build
@@ -20,6 +20,13 @@ demo:
 	@tools/install_packages.sh build run
 	@$(MAKE) --no-print-directory build
 	@tools/demo.sh $(BUILD)/bin/scarp
+
+globe:
+	@tools/install_packages.sh build run globe
+	@$(MAKE) --no-print-directory build
+	@tools/globe.sh $(BUILD)/bin/scarp data/jacksboro_fault.tif globe --vertical egm96
+	@echo "Open the address below; Ctrl-C ends."
+	@python3 tools/globe/serve.py globe
 
 check:
 	@tools/install_packages.sh build run test
@@ -54,7 +61,7 @@ install: build
 	DESTDIR="$(DESTDIR)" cmake --install $(BUILD) --prefix "$(PREFIX)"
 
 clean:
-	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz $(BUILD)-debug $(BUILD)-core $(BUILD)-wasm $(BUILD)-tidy demo
+	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz $(BUILD)-debug $(BUILD)-core $(BUILD)-wasm $(BUILD)-tidy demo globe
 
 format:
 	@tools/install_packages.sh lint
@@ -68,6 +75,7 @@ tidy:
 help:
 	@echo 'make          build $(BUILD)/bin/scarp (Release), installing missing packages'
 	@echo 'make demo     build, simplify a bundled DEM into demo/, check the result'
+	@echo 'make globe    build, make tiles of a bundled DEM and a page with CesiumJS in globe/, and serve it on this machine'
 	@echo 'make check    what to run before every commit: the fast tests'
 	@echo 'make test     everything: tests, sanitizers, a short run of the fuzzers'
 	@echo 'make soak     the files in DATA, then laws and fuzzers from fresh random seeds for SOAK_MINUTES (10)'
@@ -77,4 +85,4 @@ help:
 	@echo 'make install  program, library, headers, man page into PREFIX (now $(PREFIX)); DESTDIR is honoured'
 	@echo 'make format   clang-format on all sources'
 	@echo 'make tidy     clang-tidy on src/ and apps/'
-	@echo 'make clean    remove the build folders and demo/'
+	@echo 'make clean    remove the build folders, demo/ and globe/'

@@ -55,7 +55,8 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp tile run world.json --shard 3/200 -j 1\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
     {kTileFinish, "tile-finish", "Join the parts of a plan into a set of tiles", "PLAN OUTPUT [OPTIONS]",
-     "Also: scarp tile finish. Makes the levels above the blocks. The set is that of scarp tile, byte for byte.\n"
+     "Also: scarp tile finish. Makes the levels above the blocks. The set is that of scarp tile, byte for\n"
+     "byte.\n"
      "Examples:\n"
      "  scarp tile finish world.json world\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},

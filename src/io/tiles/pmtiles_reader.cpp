@@ -16,7 +16,6 @@ namespace scarp {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-using Json = nlohmann::json;
 
 class PmtilesReader final : public TileSetReader {
  public:
@@ -85,7 +84,7 @@ class PmtilesReader final : public TileSetReader {
     const auto bytes =
         read_inner(header_.metadata.offset, header_.metadata.length, most_pmtiles_metadata(header_.metadata.length));
     if (!bytes) return tl::unexpected(bytes.error());
-    const Json metadata = Json::parse(bytes->begin(), bytes->end(), nullptr, false);
+    const nlohmann::json metadata = nlohmann::json::parse(bytes->begin(), bytes->end(), nullptr, false);
     if (!metadata.is_object()) return refuse("is damaged: its metadata are no JSON");
     const auto text = [&](const char* key) {
       const auto found = metadata.find(key);

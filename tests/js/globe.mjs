@@ -1,0 +1,58 @@
+// Judges a globe in a real browser: globe.mjs ADDRESS POINTS.json SHOT.png [CHROMIUM]
+//
+// POINTS.json: a list of [longitude, latitude, height]. Prints JSON: of each level of the set with heights there the largest
+// |height that CesiumJS samples - height|, what the page says, errors of the console, and what was asked of elsewhere.
+import { readFileSync } from "node:fs";
+import { chromium } from "playwright-core";
+
+const [address, points_file, shot, program = "/usr/bin/chromium"] = process.argv.slice(2);
+const points = JSON.parse(readFileSync(points_file, "utf8"));
+const browser = await chromium.launch({
+  executablePath: program,
+  args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-sync",
+    "--disable-component-update", "--disable-dev-shm-usage", "--use-gl=angle", "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader"],
+});
+const page = await browser.newPage({ viewport: { width: 900, height: 600 } });
+const errors = [], elsewhere = [];
+page.on("console", message => { if (message.type() === "error") errors.push(message.text()); });
+page.on("pageerror", error => errors.push(String(error)));
+page.on("request", request => {
+  const url = request.url();
+  if (!url.startsWith(address) && !url.startsWith("data:") && !url.startsWith("blob:")) elsewhere.push(url);
+});
+await page.goto(address);
+await page.waitForFunction(() => window.viewer !== undefined, null, { timeout: 120000 });
+const result = await page.evaluate(async points => {
+  const levels = {};
+  for (let z = 0; z <= window.layer.maxzoom; ++z) {
+    const at = points.map(([lon, lat]) => Cesium.Cartographic.fromDegrees(lon, lat));
+    if (!at.every(p => {
+      const tile = window.terrain.tilingScheme.positionToTileXY(p, z);
+      return window.terrain.availability.isTileAvailable(z, tile.x, tile.y);
+    })) continue;
+    const found = await Cesium.sampleTerrain(window.terrain, z, at);
+    levels[z] = Math.max(...found.map((p, k) => Math.abs(p.height - points[k][2])));
+  }
+  return { levels, says: document.getElementById("says").textContent };
+}, points);
+await page.waitForTimeout(2000);
+await page.waitForFunction(() => window.viewer.scene.globe.tilesLoaded, null, { timeout: 120000 });
+await page.waitForTimeout(1000);
+await page.screenshot({ path: shot });
+// A ray straight down from 20 km hits the ground that is drawn.
+await page.evaluate(([lon, lat]) => window.viewer.camera.setView({
+  destination: Cesium.Cartesian3.fromDegrees(lon, lat, 20000),
+  orientation: { heading: 0, pitch: -Math.PI / 2, roll: 0 },
+}), points[0]);
+await page.waitForTimeout(500);
+await page.waitForFunction(() => window.viewer.scene.globe.tilesLoaded, null, { timeout: 120000 });
+await page.waitForTimeout(500);
+result.picked = await page.evaluate(() => {
+  const { scene, camera } = window.viewer;
+  const hit = scene.globe.pick(new Cesium.Ray(camera.position, camera.direction), scene);
+  return hit ? Cesium.Cartographic.fromCartesian(hit).height : null;
+});
+result.expected = points[0][2];
+console.log(JSON.stringify({ ...result, errors, elsewhere }));
+await browser.close();
