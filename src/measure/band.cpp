@@ -10,6 +10,9 @@
 namespace scarp::judge {
 namespace {
 
+/// Doubles of a cache line.
+constexpr std::size_t kLine = 8;
+
 /// 1 for each sample that is a height. Returns true if all are.
 bool mark_heights(const float* samples, std::vector<std::uint8_t>& marks) {
   bool all = true;
@@ -41,6 +44,7 @@ Result<Band> Band::read(const HeightField& field, int first, int rows, const Lim
 
 Band::Band(const HeightField& field, int first, int rows, const Limits& limits, double guard, Histogram& histogram)
     : cols_(field.cols),
+      stride_(static_cast<int>((static_cast<std::size_t>(field.cols) + kLine - 1) / kLine * kLine)),
       first_(first),
       rows_(rows),
       has_row_below_(first + rows < field.rows),
@@ -51,8 +55,10 @@ Band::Band(const HeightField& field, int first, int rows, const Limits& limits, 
       valid_(static_cast<std::size_t>(rows) + 2, 0) {
   const std::size_t size = static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols_);
   heights_.resize(size + 2 * static_cast<std::size_t>(cols_) + kKernelPadding);
-  errors_.resize(size + kKernelPadding);
-  std::fill(errors_.begin(), errors_.end(), std::numeric_limits<double>::quiet_NaN());
+  const std::size_t errors = static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride_) + kKernelPadding;
+  errors_.resize(errors + kLine);
+  all_errors_ = errors_.data() + (-reinterpret_cast<std::uintptr_t>(errors_.data()) / sizeof(double)) % kLine;
+  std::fill_n(all_errors_, errors, std::numeric_limits<double>::quiet_NaN());
   std::fill(heights_.end() - kKernelPadding, heights_.end(), std::numeric_limits<float>::quiet_NaN());
   row_nodata_cells_.assign(static_cast<std::size_t>(rows), 0);
   report_.rows.resize(static_cast<std::size_t>(rows));
@@ -205,7 +211,7 @@ bool Band::find_missing(int row) {
 
 void Band::offer_nearest(int col, int row, double distance, std::uint32_t triangle, double error) {
   Nearest& nearest = nearest_[at(col, row)];
-  double& held = errors_[at(col, row)];
+  double& held = errors(row)[col];
   if (distance > nearest.distance || (distance == nearest.distance && std::abs(error) <= std::abs(held))) return;
   nearest = {distance, triangle};
   held = error;
@@ -258,9 +264,12 @@ BandReport Band::finish(Keep keep) {
   offenders.erase(std::unique(offenders.begin(), offenders.end(), same), offenders.end());
   if (keep != Keep::kNothing) {
     report_.kept.resize(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(cols_));
-    const float* height = heights(first_);
-    for (std::size_t i = 0; i < report_.kept.size(); ++i) {
-      report_.kept[i] = static_cast<float>(keep == Keep::kHeights ? double{height[i]} + errors_[i] : errors_[i]);
+    for (int row = first_; row < end(); ++row) {
+      const float* height = heights(row);
+      const double* error = errors(row);
+      float* kept = &report_.kept[at(0, row)];
+      for (int c = 0; c < cols_; ++c)
+        kept[c] = static_cast<float>(keep == Keep::kHeights ? double{height[c]} + error[c] : error[c]);
     }
   }
   return std::move(report_);

@@ -78,8 +78,8 @@ class Band {
   int end() const { return first_ + rows_; }
   int cols() const { return cols_; }
   const float* heights(int row) const { return &heights_[height_at(0, row)]; }
-  double* errors(int row) { return &errors_[at(0, row)]; }
-  BandRows rows() { return {heights(first_), errors_.data(), cols_, first_, is_whole_}; }
+  double* errors(int row) { return all_errors_ + std::ptrdiff_t{row - first_} * stride_; }
+  BandRows rows() { return {heights(first_), all_errors_, cols_, stride_, first_, is_whole_}; }
 
   /// Takes `error` for a sample of errors() if it is larger than what is `held` there; among equals the positive.
   void offer(double& held, double error) {
@@ -164,7 +164,7 @@ class Band {
   Buckets sum(int row);
   void find_largest();
 
-  int cols_ = 0, first_ = 0, rows_ = 0;
+  int cols_ = 0, stride_ = 0, first_ = 0, rows_ = 0;
   bool has_row_below_ = false;  // in the field
   Limits limits_;
   double least_limit_ = HUGE_VAL;  // no sample has a smaller one
@@ -176,6 +176,7 @@ class Band {
   std::vector<std::int32_t> valid_;  // by row, from the one above on: heights that are left
   std::vector<float> tolerances_;    // empty unless there is a source of them
   Array<double> errors_;
+  double* all_errors_ = nullptr;  // in errors_: rows of stride_, each where a cache line begins
   Array<std::uint32_t> scratch_;
   std::vector<CutRegion::Place> places_;  // empty without a region
   std::vector<Nearest> nearest_;          // empty if nothing is missing

@@ -24,11 +24,15 @@ void Histogram::make_first_pages(std::uint32_t index) {
   for (std::uint32_t page = first; page <= last; ++page) make_page(page);
   dense_from_ = first << kPageBits;
   dense_size_ = static_cast<std::uint32_t>(counts_.size());
+  small_.resize(dense_size_);
+  std::fill(small_.begin(), small_.end(), std::uint16_t{0});
 }
 
 void Histogram::carry() {
   carried_.resize(counts_.size(), 0);
-  for (std::size_t i = 0; i < counts_.size(); ++i) carried_[i] += std::exchange(counts_[i], 0u);
+  for (std::size_t i = 0; i < counts_.size(); ++i) carried_[i] += recent_in(i);
+  std::fill(counts_.begin(), counts_.end(), 0u);
+  std::fill(small_.begin(), small_.end(), std::uint16_t{0});
   recent_ = 0;
 }
 
@@ -37,13 +41,15 @@ void Histogram::add(const Buckets& buckets) {
   recent_ += buckets.count;
   if (dense_size_ == 0 && buckets.count > 0)
     make_first_pages(*std::max_element(buckets.values, buckets.values + buckets.count) >> kPageBits);
+  constexpr std::uint32_t kSmallRoom = 1 << 16;
   std::uint32_t* counts = counts_.data();
+  std::uint16_t* const small = small_.data();
   const std::uint32_t *value = buckets.values, *const end = value + buckets.count;
   const std::uint32_t dense_from = dense_from_, dense_size = dense_size_;
   for (; value != end; ++value) {
     const std::uint32_t bucket = *value;
     if (bucket - dense_from < dense_size) {
-      ++counts[bucket - dense_from];
+      if (++small[bucket - dense_from] == 0) counts[bucket - dense_from] += kSmallRoom;
       continue;
     }
     const std::uint32_t index = bucket >> kPageBits;
@@ -62,9 +68,8 @@ void Histogram::merge(const Histogram& other) {
   for (std::uint32_t p = 0; p < kPages; ++p) {
     if (other.pages_[p] == kNone) continue;
     if (pages_[p] == kNone) make_page(p);
-    const std::uint32_t* from = &other.counts_[other.pages_[p]];
     std::uint32_t* to = &counts_[pages_[p]];
-    for (std::size_t i = 0; i < kPageSize; ++i) to[i] += from[i];
+    for (std::size_t i = 0; i < kPageSize; ++i) to[i] += other.recent_in(other.pages_[p] + i);
     if (other.pages_[p] >= other.carried_.size()) continue;
     carried_.resize(counts_.size(), 0);
     for (std::size_t i = 0; i < kPageSize; ++i) carried_[pages_[p] + i] += other.carried_[other.pages_[p] + i];
@@ -76,7 +81,7 @@ void Histogram::merge(const Histogram& other) {
 
 std::uint64_t Histogram::count_in(std::size_t first, std::size_t end) const {
   std::uint64_t count = 0;
-  for (std::size_t i = first; i < end; ++i) count += counts_[i];
+  for (std::size_t i = first; i < end; ++i) count += recent_in(i);
   for (std::size_t i = first; i < std::min(end, carried_.size()); ++i) count += carried_[i];
   return count;
 }
@@ -101,7 +106,7 @@ void Histogram::find(std::span<const unsigned> permilles, std::span<double> foun
       continue;
     }
     for (std::size_t at = first; at < end; ++at) {
-      if (counts_[at] == 0 && at >= carried_.size()) continue;
+      if (recent_in(at) == 0 && at >= carried_.size()) continue;
       passed += count_in(at, at + 1);
       // The last finite bucket ends at infinity; there is none above it.
       const auto bucket = static_cast<std::uint32_t>((std::size_t{p} << kPageBits) + (at - pages_[p]));

@@ -49,12 +49,16 @@ class Histogram {
   void make_page(std::uint32_t index);
   void make_first_pages(std::uint32_t index);
   void carry();
+  /// In counts_ and small_.
+  std::uint32_t recent_in(std::size_t at) const { return counts_[at] + (at < dense_size_ ? small_[at] : 0u); }
   std::uint64_t count_in(std::size_t first, std::size_t end) const;
   void find(std::span<const unsigned> permilles, std::span<double> found) const;
 
   /// Pages of counts, one for each exponent of the float, made when first needed. The first ones are neighbours, so
-  /// that most errors need no look at pages_: those of `dense_size_` buckets from `dense_from_` on.
+  /// that most errors need no look at pages_: those of `dense_size_` buckets from `dense_from_` on. What is counted
+  /// there goes to small_ first, which takes half as much of the cache.
   Array<std::uint32_t> counts_;
+  Array<std::uint16_t> small_;
   std::array<std::uint32_t, kPages> pages_ = no_pages();  ///< by exponent: where the page begins
   std::uint32_t dense_from_ = 0, dense_size_ = 0;
   std::vector<std::uint64_t> carried_;  ///< what counts_ had no room for, as counts_

@@ -31,8 +31,9 @@ constexpr std::int32_t kMostBandRows = 32;
 struct BandRows {
   const float* heights;  ///< NaN: not to be judged
   double* errors;        ///< NaN: none so far
-  std::int32_t cols;
-  std::int32_t first;  ///< the row that the arrays begin with
+  std::int32_t cols;    ///< also from one row of heights to the next
+  std::int32_t stride;  ///< from one row of errors to the next
+  std::int32_t first;   ///< the row that the arrays begin with
   bool is_whole;       ///< no height is NaN
 };
 
@@ -43,10 +44,10 @@ struct FacetTask {
   double slack, per_area;
   std::int32_t first, last;  ///< rows, in the band
   std::int32_t left, right;  ///< columns, in the raster: no sample of the triangle lies beside them
-  /// Nothing is rounded in a weight: corners are multiples of 1/256, and not far from each other.
+  /// Nothing is rounded in a weight: corners are multiples of 1/256, and not far from each other nor from the origin.
   bool is_exact;
-  /// Each row's columns end at the triangle's sides, `margin` farther out. What this leaves out of an exact facet has
-  /// weights below 0: there it only saves work.
+  /// Each row's columns end at the triangle's sides, `margin` farther out. Of an exact facet these are its samples, no
+  /// more and no less: no side passes a sample that it misses as near as that.
   bool has_spans;
   double margin;
   std::array<double, 3> per_dy;  ///< 1 / dy, with spans

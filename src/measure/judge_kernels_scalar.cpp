@@ -28,9 +28,10 @@ Columns columns_of(const FacetTask& facet, std::int32_t row) {
 void judge_facet(const FacetTask& facet, const BandRows& band, Caution& caution) {
   for (std::int32_t row = facet.first; row <= facet.last; ++row) {
     const Columns span = columns_of(facet, row);
-    const std::ptrdiff_t start = std::ptrdiff_t{row - band.first} * band.cols;
+    const float* heights = band.heights + std::ptrdiff_t{row - band.first} * band.cols;
+    double* errors = band.errors + std::ptrdiff_t{row - band.first} * band.stride;
     for (std::int32_t col = span.first; col <= span.last; ++col) {
-      const double sample = band.heights[start + col];
+      const double sample = heights[col];
       if (std::isnan(sample)) continue;
       std::array<double, 3> weight{}, term{};
       bool is_inside = true;
@@ -45,7 +46,7 @@ void judge_facet(const FacetTask& facet, const BandRows& band, Caution& caution)
         caution.watch = caution.look(caution.judge, row, col, 1);
         continue;
       }
-      double& held = band.errors[start + col];
+      double& held = errors[col];
       if (!(magnitude <= std::abs(held)) || error == std::abs(held)) held = error;
     }
   }

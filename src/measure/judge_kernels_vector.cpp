@@ -100,9 +100,8 @@ HWY_INLINE void judge_narrow(const FacetTask& facet, const BandRows& band, Cauti
   auto w0 = weights_at(facet, 0, columns, facet.first), w1 = weights_at(facet, 1, columns, facet.first),
        w2 = weights_at(facet, 2, columns, facet.first);
   const auto down_0 = hn::Set(d, facet.dx[0]), down_1 = hn::Set(d, facet.dx[1]), down_2 = hn::Set(d, facet.dx[2]);
-  const std::ptrdiff_t start = std::ptrdiff_t{facet.first - band.first} * band.cols + col;
-  const float* heights = band.heights + start;
-  double* errors = band.errors + start;
+  const float* heights = band.heights + std::ptrdiff_t{facet.first - band.first} * band.cols + col;
+  double* errors = band.errors + std::ptrdiff_t{facet.first - band.first} * band.stride + col;
   for (std::int32_t row = facet.first; row <= facet.last; ++row) {
     const auto inside = hn::And(in_raster, hn::Ge(hn::Min(hn::Min(w0, w1), w2), zero));
     judge_samples<kIsWhole>(heights_of, w0, w1, w2, inside, heights, errors, row, col, caution);
@@ -110,28 +109,31 @@ HWY_INLINE void judge_narrow(const FacetTask& facet, const BandRows& band, Cauti
     w1 = hn::Add(w1, down_1);
     w2 = hn::Add(w2, down_2);
     heights += band.cols;
-    errors += band.cols;
+    errors += band.stride;
   }
 }
 
-/// Of an exact facet: weights go on by steps.
-template <bool kIsWhole>
+/// Of an exact facet, whose spans hold its samples and no others: weights go on by steps. Steps begin at multiples of the
+/// lanes, so that what a neighbour has just stored can be loaded again at once.
+template <bool kIsWhole, bool kHasSpans>
 HWY_INLINE void judge_exact_row(const FacetTask& facet, const BandRows& band, std::int32_t row, std::int32_t left,
                                 std::int32_t right, FacetHeights& heights_of, Caution& caution) {
   const Wide d;
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
-  const auto last = hn::Set(d, static_cast<double>(right)), zero = hn::Zero(d);
+  const std::int32_t start = left & -lanes;
+  const auto first = hn::Set(d, static_cast<double>(left)), last = hn::Set(d, static_cast<double>(right));
   const auto step = hn::Set(d, static_cast<double>(lanes));
-  auto columns = columns_from(left);
+  auto columns = columns_from(start);
   auto w0 = weights_at(facet, 0, columns, row), w1 = weights_at(facet, 1, columns, row),
        w2 = weights_at(facet, 2, columns, row);
   const auto along_0 = hn::Mul(hn::Set(d, facet.dy[0]), step), along_1 = hn::Mul(hn::Set(d, facet.dy[1]), step),
              along_2 = hn::Mul(hn::Set(d, facet.dy[2]), step);
-  const std::ptrdiff_t start = std::ptrdiff_t{row - band.first} * band.cols;
-  for (std::int32_t col = left; col <= right; col += lanes) {
-    const auto inside = hn::And(hn::Le(columns, last), hn::Ge(hn::Min(hn::Min(w0, w1), w2), zero));
-    judge_samples<kIsWhole>(heights_of, w0, w1, w2, inside, band.heights + start + col, band.errors + start + col, row,
-                            col, caution);
+  const float* heights = band.heights + std::ptrdiff_t{row - band.first} * band.cols;
+  double* errors = band.errors + std::ptrdiff_t{row - band.first} * band.stride;
+  for (std::int32_t col = start; col <= right; col += lanes) {
+    auto inside = hn::And(hn::Ge(columns, first), hn::Le(columns, last));
+    if (!kHasSpans) inside = hn::And(inside, hn::Ge(hn::Min(hn::Min(w0, w1), w2), hn::Zero(d)));
+    judge_samples<kIsWhole>(heights_of, w0, w1, w2, inside, heights + col, errors + col, row, col, caution);
     columns = hn::Add(columns, step);
     w0 = hn::Sub(w0, along_0);
     w1 = hn::Sub(w1, along_1);
@@ -145,7 +147,8 @@ HWY_INLINE void judge_row(const FacetTask& facet, const BandRows& band, std::int
   const Wide d;
   const auto lanes = static_cast<std::int32_t>(hn::Lanes(d));
   const auto last = hn::Set(d, static_cast<double>(right)), least = hn::Set(d, -facet.slack), zero = hn::Zero(d);
-  const std::ptrdiff_t start = std::ptrdiff_t{row - band.first} * band.cols;
+  const float* heights = band.heights + std::ptrdiff_t{row - band.first} * band.cols;
+  double* errors = band.errors + std::ptrdiff_t{row - band.first} * band.stride;
   for (std::int32_t col = left; col <= right; col += lanes) {
     const auto columns = columns_from(col);
     auto w0 = weights_at(facet, 0, columns, row), w1 = weights_at(facet, 1, columns, row),
@@ -154,8 +157,7 @@ HWY_INLINE void judge_row(const FacetTask& facet, const BandRows& band, std::int
     w0 = hn::IfThenElseZero(hn::Gt(w0, zero), w0);
     w1 = hn::IfThenElseZero(hn::Gt(w1, zero), w1);
     w2 = hn::IfThenElseZero(hn::Gt(w2, zero), w2);
-    judge_samples<kIsWhole>(heights_of, w0, w1, w2, inside, band.heights + start + col, band.errors + start + col, row,
-                            col, caution);
+    judge_samples<kIsWhole>(heights_of, w0, w1, w2, inside, heights + col, errors + col, row, col, caution);
   }
 }
 
@@ -197,8 +199,10 @@ HWY_INLINE void judge_facet_of(const FacetTask& facet, const BandRows& band, Cau
   for (std::int32_t row = facet.first; row <= facet.last; ++row) {
     const std::int32_t at = row - facet.first;
     const std::int32_t from = facet.has_spans ? left[at] : facet.left, to = facet.has_spans ? right[at] : facet.right;
-    if (facet.is_exact)
-      judge_exact_row<kIsWhole>(facet, band, row, from, to, heights_of, caution);
+    if (facet.is_exact && facet.has_spans)
+      judge_exact_row<kIsWhole, true>(facet, band, row, from, to, heights_of, caution);
+    else if (facet.is_exact)
+      judge_exact_row<kIsWhole, false>(facet, band, row, from, to, heights_of, caution);
     else
       judge_row<kIsWhole>(facet, band, row, from, to, heights_of, caution);
   }
