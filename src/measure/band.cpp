@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -53,13 +54,10 @@ Band::Band(const HeightField& field, int first, int rows, const Limits& limits, 
       guard_(guard),
       histogram_(histogram),
       valid_(static_cast<std::size_t>(rows) + 2, 0) {
-  const std::size_t size = static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols_);
-  heights_.resize(size + 2 * static_cast<std::size_t>(cols_) + kKernelPadding);
   const std::size_t errors = static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride_) + kKernelPadding;
   errors_.resize(errors + kLine);
   all_errors_ = errors_.data() + (-reinterpret_cast<std::uintptr_t>(errors_.data()) / sizeof(double)) % kLine;
   std::fill_n(all_errors_, errors, std::numeric_limits<double>::quiet_NaN());
-  std::fill(heights_.end() - kKernelPadding, heights_.end(), std::numeric_limits<float>::quiet_NaN());
   row_nodata_cells_.assign(static_cast<std::size_t>(rows), 0);
   report_.rows.resize(static_cast<std::size_t>(rows));
   if (limits.region != nullptr) places_ = limits.region->places(first, rows);
@@ -68,12 +66,18 @@ Band::Band(const HeightField& field, int first, int rows, const Limits& limits, 
 Result<void> Band::take_heights(const HeightField& field) {
   const auto cols = static_cast<std::size_t>(cols_);
   const int top = std::max(first_ - 1, 0), bottom = std::min(end() + 1, field.rows);
+  if (borrow_heights(field, top, bottom)) return {};
+  const std::size_t size = (static_cast<std::size_t>(rows_) + 2) * cols;
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  heights_.resize(size + kKernelPadding);
+  all_heights_ = heights_.data();
+  std::fill(heights_.end() - kKernelPadding, heights_.end(), kNone);
   if (field.samples == nullptr) {
     auto read = field.source->read(0, top, cols_, bottom - top, &heights_[height_at(0, top)], cols_);
     if (!read) return read;
   }
-  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   const float nodata = field.samples != nullptr ? field.nodata.value_or(kNone) : kNone;
+  std::vector<RowHeights> taken;
   for (int row = first_ - 1; row <= end(); ++row) {
     float* heights = &heights_[height_at(0, row)];
     if (row < top || row >= bottom) {
@@ -81,12 +85,48 @@ Result<void> Band::take_heights(const HeightField& field) {
       continue;
     }
     const float* from = field.samples != nullptr ? field.samples + static_cast<std::size_t>(row) * cols : heights;
-    const RowHeights taken = judge_kernels().take_row(from, cols_, nodata, heights);
-    valid_[static_cast<std::size_t>(row - first_ + 1)] = static_cast<std::int32_t>(taken.valid);
-    if (row >= first_ && row < end())
-      add_samples(report_.heights, {heights, cols}, taken.least, taken.most, taken.valid);
+    taken.push_back(judge_kernels().take_row(from, cols_, nodata, heights));
+    valid_[static_cast<std::size_t>(row - first_ + 1)] = static_cast<std::int32_t>(taken.back().valid);
   }
+  note_range(taken, top);
   return {};
+}
+
+bool Band::borrow_heights(const HeightField& field, int top, int bottom) {
+  // Kernels read beyond a row, in memory only where there is another.
+  const bool has_both = top == first_ - 1 && bottom == end() + 1 && cols_ >= static_cast<int>(kKernelPadding);
+  if (field.samples == nullptr || limits_.region != nullptr || !has_both) return false;
+  const float* const from = field.samples + static_cast<std::size_t>(top) * static_cast<std::size_t>(cols_);
+  const float nodata = field.nodata.value_or(std::numeric_limits<float>::quiet_NaN());
+  std::vector<RowHeights> taken;
+  for (int row = top; row < bottom; ++row) {
+    const float* heights = from + static_cast<std::ptrdiff_t>(row - top) * cols_;
+    taken.push_back(judge_kernels().take_row(heights, cols_, nodata, nullptr));
+    if (taken.back().valid != static_cast<std::uint32_t>(cols_)) return false;
+  }
+  std::fill(valid_.begin(), valid_.end(), cols_);
+  all_heights_ = from;
+  note_range(taken, top);
+  return true;
+}
+
+/// Of the band's rows; the lowest and the highest first, so that most others need no look.
+void Band::note_range(const std::vector<RowHeights>& rows, int top) {
+  int lowest = first_, highest = first_;
+  const auto heights_of = [&](int row) -> const RowHeights& { return rows[static_cast<std::size_t>(row - top)]; };
+  for (int row = first_; row < end(); ++row) {
+    if (heights_of(row).least < heights_of(lowest).least) lowest = row;
+    if (heights_of(row).most > heights_of(highest).most) highest = row;
+  }
+  const auto note = [&](int row) {
+    const RowHeights& found = heights_of(row);
+    add_samples(report_.heights, {heights(row), static_cast<std::size_t>(cols_)}, found.least, found.most, found.valid);
+  };
+  note(lowest);
+  if (highest != lowest) note(highest);
+  for (int row = first_; row < end(); ++row) {
+    if (row != lowest && row != highest) note(row);
+  }
 }
 
 void Band::drop(int col, int row) {

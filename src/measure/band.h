@@ -77,7 +77,7 @@ class Band {
   int first() const { return first_; }
   int end() const { return first_ + rows_; }
   int cols() const { return cols_; }
-  const float* heights(int row) const { return &heights_[height_at(0, row)]; }
+  const float* heights(int row) const { return all_heights_ + height_at(0, row); }
   double* errors(int row) { return all_errors_ + std::ptrdiff_t{row - first_} * stride_; }
   BandRows rows() { return {heights(first_), all_errors_, cols_, stride_, first_, is_whole_}; }
 
@@ -129,6 +129,10 @@ class Band {
  private:
   Band(const HeightField& field, int first, int rows, const Limits& limits, double guard, Histogram& histogram);
   Result<void> take_heights(const HeightField& field);
+  /// Takes the rows from `top` to `bottom` − 1 as they lie in the field's memory, and returns true, if all samples are
+  /// heights.
+  bool borrow_heights(const HeightField& field, int top, int bottom);
+  void note_range(const std::vector<RowHeights>& rows, int top);
 
   struct Nearest {
     double distance = -1;  ///< −1: not missing; infinite: nothing near yet
@@ -172,9 +176,10 @@ class Band {
   bool is_whole_ = false;  // all of its samples must be covered
   bool has_nodata_cells_ = false;
   Histogram& histogram_;
-  Array<float> heights_;
-  std::vector<std::int32_t> valid_;  // by row, from the one above on: heights that are left
-  std::vector<float> tolerances_;    // empty unless there is a source of them
+  Array<float> heights_;                // empty where they are the field's
+  const float* all_heights_ = nullptr;  // from the row above on
+  std::vector<std::int32_t> valid_;     // by row, from the one above on: heights that are left
+  std::vector<float> tolerances_;       // empty unless there is a source of them
   Array<double> errors_;
   double* all_errors_ = nullptr;  // in errors_: rows of stride_, each where a cache line begins
   Array<std::uint32_t> scratch_;

@@ -31,10 +31,10 @@ constexpr std::int32_t kMostBandRows = 32;
 struct BandRows {
   const float* heights;  ///< NaN: not to be judged
   double* errors;        ///< NaN: none so far
-  std::int32_t cols;    ///< also from one row of heights to the next
-  std::int32_t stride;  ///< from one row of errors to the next
-  std::int32_t first;   ///< the row that the arrays begin with
-  bool is_whole;       ///< no height is NaN
+  std::int32_t cols;     ///< also from one row of heights to the next
+  std::int32_t stride;   ///< from one row of errors to the next
+  std::int32_t first;    ///< the row that the arrays begin with
+  bool is_whole;         ///< no height is NaN
 };
 
 /// A triangle, counter-clockwise, and the part of it that lies in a band.
@@ -80,7 +80,7 @@ struct JudgeKernels {
   RowSums (*sum_row)(const double* errors, std::int32_t count, Buckets& buckets);
 
   /// Copies samples, those that are no heights (NaN, the infinities, `nodata`) as NaN. `nodata` is NaN where there is
-  /// none; `from` and `to` may be equal.
+  /// none; `from` and `to` may be equal. A null `to`: nothing is copied.
   RowHeights (*take_row)(const float* from, std::int32_t count, float nodata, float* to);
 };
 

@@ -80,7 +80,7 @@ RowHeights take_row(const float* from, std::int32_t count, float nodata, float* 
   for (std::int32_t i = 0; i < count; ++i) {
     const float height = from[i];
     const bool is_height = std::abs(height) <= std::numeric_limits<float>::max() && height != nodata;
-    to[i] = is_height ? height : std::numeric_limits<float>::quiet_NaN();
+    if (to != nullptr) to[i] = is_height ? height : std::numeric_limits<float>::quiet_NaN();
     if (!is_height) continue;
     ++taken.valid;
     taken.least = std::min(taken.least, height);

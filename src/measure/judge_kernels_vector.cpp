@@ -113,8 +113,8 @@ HWY_INLINE void judge_narrow(const FacetTask& facet, const BandRows& band, Cauti
   }
 }
 
-/// Of an exact facet, whose spans hold its samples and no others: weights go on by steps. Steps begin at multiples of the
-/// lanes, so that what a neighbour has just stored can be loaded again at once.
+/// Of an exact facet, whose spans hold its samples and no others: weights go on by steps. Steps begin at multiples of
+/// the lanes, so that what a neighbour has just stored can be loaded again at once.
 template <bool kIsWhole, bool kHasSpans>
 HWY_INLINE void judge_exact_row(const FacetTask& facet, const BandRows& band, std::int32_t row, std::int32_t left,
                                 std::int32_t right, FacetHeights& heights_of, Caution& caution) {
@@ -285,7 +285,7 @@ RowHeights take_row(const float* from, std::int32_t count, float nodata, float* 
     // Where `nodata` is NaN nothing is equal to it; Ne() may say that nothing is unequal either.
     const auto is_height = hn::AndNot(hn::Eq(height, none), hn::Le(hn::Abs(height), most_finite));
     valid += hn::CountTrue(d, is_height);
-    hn::StoreU(hn::IfThenElse(is_height, height, missing), d, to + i);
+    if (to != nullptr) hn::StoreU(hn::IfThenElse(is_height, height, missing), d, to + i);
     least = hn::IfThenElse(hn::And(is_height, hn::Lt(height, least)), height, least);
     most = hn::IfThenElse(hn::And(is_height, hn::Gt(height, most)), height, most);
   }
@@ -293,7 +293,7 @@ RowHeights take_row(const float* from, std::int32_t count, float nodata, float* 
   for (; i < count; ++i) {
     const float height = from[i], size = height < 0 ? -height : height;
     const bool is_height = size <= std::numeric_limits<float>::max() && height != nodata;
-    to[i] = is_height ? height : std::numeric_limits<float>::quiet_NaN();
+    if (to != nullptr) to[i] = is_height ? height : std::numeric_limits<float>::quiet_NaN();
     if (!is_height) continue;
     ++valid;
     if (height < taken.least) taken.least = height;
