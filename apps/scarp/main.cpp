@@ -16,6 +16,7 @@
 #include "commands/info_command.h"
 #include "commands/measure_command.h"
 #include "commands/paper_command.h"
+#include "commands/serve_command.h"
 #include "commands/simplify_command.h"
 #include "commands/tile_command.h"
 #include "commands/tile_finish_command.h"
@@ -121,6 +122,7 @@ int run_program(int count, char** words) {
   TilePlanCommand tile_plan(program);
   TileRunCommand tile_run(program);
   TileFinishCommand tile_finish(program);
+  ServeCommand serve(program);
   InfoCommand info(program);
   GenerateCommand generate(program);
   PaperCommand paper(program);
@@ -151,6 +153,7 @@ int run_program(int count, char** words) {
                     : tile_plan.is_chosen()   ? tile_plan.run()
                     : tile_run.is_chosen()    ? tile_run.run()
                     : tile_finish.is_chosen() ? tile_finish.run(command_line)
+                    : serve.is_chosen()       ? serve.run()
                     : info.is_chosen()        ? info.run(command_line)
                     : generate.is_chosen()    ? generate.run()
                     : paper.is_chosen()       ? paper.run()

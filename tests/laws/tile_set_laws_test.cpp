@@ -2,6 +2,7 @@
 // replaced; damaged files are refused or read without harm.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <sqlite3.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -294,10 +295,34 @@ TEST(tile_sets, damaged_ones_are_refused_or_read_without_harm) {
   }
 }
 
+TEST(mbtiles, questions_without_an_end_are_given_up) {
+  const Scratch scratch;
+  const std::string path = scratch.path("endless.mbtiles"),
+                    endless = "(WITH RECURSIVE n(k) AS (SELECT 1 UNION ALL SELECT k + 1 FROM n) SELECT max(k) FROM n)";
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
+  const std::string schema =
+      "CREATE TABLE metadata (name text, value text); INSERT INTO metadata VALUES ('format', 'terrain');"
+      "CREATE VIEW tiles AS SELECT 0 AS zoom_level, 0 AS tile_column, 0 AS tile_row, " +
+      endless +
+      " AS tile_data;"
+      "CREATE TABLE files (name text, data blob)";
+  EXPECT_EQ(sqlite3_exec(database, schema.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+  {
+    const auto reader = open_tile_set(path);
+    ASSERT_TRUE(reader) << reader.error().message;
+    EXPECT_FALSE((*reader)->read_tile({0, 0, 0}));
+  }
+  const std::string list = "DROP TABLE files; CREATE VIEW files AS SELECT " + endless + " AS name";
+  EXPECT_EQ(sqlite3_exec(database, list.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(database);
+  EXPECT_FALSE(open_tile_set(path));
+}
+
 TEST(pmtiles, numbers_are_those_of_the_specification) {
-  EXPECT_EQ(pmtiles_number({0, 0, 0}), 1u);  // 1/0/0
-  EXPECT_EQ(pmtiles_number({0, 1, 0}), 4u);  // 1/1/0
-  EXPECT_EQ(pmtiles_number({1, 0, 1}), 5u);  // 2/0/0
+  EXPECT_EQ(pmtiles_number({0, 0, 0}), 1u);                   // 1/0/0
+  EXPECT_EQ(pmtiles_number({0, 1, 0}), 4u);                   // 1/1/0
+  EXPECT_EQ(pmtiles_number({1, 0, 1}), 5u);                   // 2/0/0
   EXPECT_EQ(pmtiles_number({17, 39, 131068}), 22906496015u);  // 18/39/3
   std::set<std::uint64_t> numbers;
   for (int z = 0; z < 7; ++z) {

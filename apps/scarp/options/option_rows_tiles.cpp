@@ -140,6 +140,25 @@ constexpr OptionRow kTileRows[] = {
      .by_default = "256M",
      .help = "Memory of the raster: one whose samples need more stays in its file, and the blocks' parts of it are "
              "read. A block needs 300 MB beside it."},
+    {.id = kPort,
+     .name = "--port",
+     .commands = kServe,
+     .group = OptionGroup::kRun,
+     .type = kCount,
+     .value = "N",
+     .by_default = "8080",
+     .range = "0 to 65535",
+     .help = "Port to serve at. 0: any that is free."},
+    {.id = kHost,
+     .name = "--host",
+     .commands = kServe,
+     .group = OptionGroup::kRun,
+     .type = kText,
+     .value = "ADDRESS",
+     .choices = "127.0.0.1 0.0.0.0 ::1 ::",
+     .by_default = "127.0.0.1",
+     .help =
+         "Address of this machine to serve at. The default answers this machine alone; 0.0.0.0 answers others too."},
 };
 
 }  // namespace

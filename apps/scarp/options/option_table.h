@@ -128,6 +128,8 @@ enum class OptionId {
   kShards,
   kParts,
   kSlurm,
+  kPort,
+  kHost,
   kMemory,
   kThreads,
   kQuiet,
@@ -176,7 +178,7 @@ enum class OptionType {
 /// Commands as bits, so that a row can belong to several.
 using Commands = unsigned;
 inline constexpr Commands kSimplify = 1, kMeasure = 2, kInfo = 4, kGenerate = 8, kPaper = 16, kHelpCommand = 32,
-                          kVersionCommand = 64, kTile = 128, kTilePlan = 512, kTileRun = 1024, kTileFinish = 2048;
+                          kVersionCommand = 64, kTile = 128, kServe = 256, kTilePlan = 512, kTileRun = 1024, kTileFinish = 2048;
 inline constexpr Commands kEveryCommand = 4095;
 
 struct OptionRow {

@@ -11,20 +11,26 @@
 namespace scarp {
 namespace {
 
-/// A database is a program: views and indices in it may make a question endless. So each has an end.
-class Effort {
+/// A database is a program: views in it may make a question endless. So each has an end: it may take many more steps
+/// than an honest file of `size` bytes has work for. One thread at a time asks.
+class Question {
  public:
-  Effort(sqlite3* database, std::uint64_t steps) : database_(database), left_(steps / kEach) {
-    sqlite3_progress_handler(database, kEach, &Effort::count, this);
+  Question(sqlite3* database, std::uint64_t size) : database_(database), left_((kLeastSteps + 20 * size) / kEach) {
+    sqlite3_mutex_enter(sqlite3_db_mutex(database_));
+    sqlite3_progress_handler(database_, kEach, &Question::count, this);
   }
-  Effort(const Effort&) = delete;
-  Effort& operator=(const Effort&) = delete;
-  ~Effort() { sqlite3_progress_handler(database_, 0, nullptr, nullptr); }
+  Question(const Question&) = delete;
+  Question& operator=(const Question&) = delete;
+  ~Question() {
+    sqlite3_progress_handler(database_, 0, nullptr, nullptr);
+    sqlite3_mutex_leave(sqlite3_db_mutex(database_));
+  }
 
  private:
   static constexpr int kEach = 10000;
+  static constexpr std::uint64_t kLeastSteps = 10'000'000;
   static int count(void* self) {
-    auto& left = static_cast<Effort*>(self)->left_;
+    auto& left = static_cast<Question*>(self)->left_;
     if (left == 0) return 1;
     --left;
     return 0;
@@ -50,6 +56,7 @@ class MbtilesReader final : public TileSetReader {
   std::vector<std::string> files() const override { return files_; }
   Result<std::vector<std::uint8_t>> read_tile(TileId id) const override {
     if (!is_of_grid(id) || !levels_.has(id)) return refuse(fmt::format("holds no {}", tile_name(format_, id)));
+    const Question question(database_.get(), size_);
     const auto select =
         prepare(database_.get(),
                 "SELECT tile_data FROM tiles WHERE zoom_level = ? AND tile_column = ? AND tile_row = ? LIMIT 1");
@@ -61,6 +68,7 @@ class MbtilesReader final : public TileSetReader {
   }
   Result<std::vector<std::uint8_t>> read_file(const std::string& name) const override {
     if (!std::binary_search(files_.begin(), files_.end(), name)) return refuse(fmt::format("holds no {}", name));
+    const Question question(database_.get(), size_);
     const auto select = prepare(database_.get(), "SELECT data FROM files WHERE name = ? LIMIT 1");
     if (!select) return damaged();
     bind_text(select.get(), 1, name);
@@ -93,8 +101,7 @@ class MbtilesReader final : public TileSetReader {
     sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
     sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
     sqlite3_exec(handle, "PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0", nullptr, nullptr, nullptr);
-    constexpr std::uint64_t kLeastSteps = 10'000'000;
-    const Effort effort(handle, kLeastSteps + 20 * size_);
+    const Question question(handle, size_);
     if (auto read = read_metadata(); !read) return read;
     if (auto read = read_tiles(); !read) return read;
     return read_names();

@@ -1,0 +1,208 @@
+#include "serve/http_server.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <netdb.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <memory>
+#include <utility>
+
+#include "terminal/clock.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+constexpr std::size_t kMostConnections = 256, kLongestHead = 16384, kChunk = 1 << 16;
+constexpr std::chrono::seconds kToAsk{10}, kToTake{30}, kToClose{2};
+constexpr std::uint64_t kLeastPerSecond = 10000;  // bytes
+constexpr int kPollMilliseconds = 400;
+
+bool would_wait(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
+
+/// One client: it asks, then takes the answer, then asks again.
+class Connection {
+ public:
+  explicit Connection(int fd) : fd_(fd), deadline_(Clock::now() + kToAsk) {}
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+  ~Connection() { ::close(fd_); }
+
+  int fd() const { return fd_; }
+  short events() const { return is_answering() ? POLLOUT : POLLIN; }
+  bool is_late(Clock::time_point now) const { return now > deadline_; }
+
+  /// Both return false once the connection is to be closed.
+  bool receive(const std::function<Response(const Request&)>& answer) {
+    std::array<char, 4096> bytes;
+    const ssize_t got = ::recv(fd_, bytes.data(), bytes.size(), 0);
+    if (got < 0) return would_wait(errno);
+    if (got == 0) return false;
+    if (lingers_) return true;
+    asked_.append(bytes.data(), static_cast<std::size_t>(got));
+    return answer_next(answer);
+  }
+  bool send(const std::function<Response(const Request&)>& answer) {
+    while (is_answering()) {
+      if (sent_ == waiting_.size() && !refill()) return false;
+      const ssize_t sent = ::send(fd_, waiting_.data() + sent_, waiting_.size() - sent_, MSG_NOSIGNAL);
+      if (sent < 0) return would_wait(errno);
+      sent_ += static_cast<std::size_t>(sent);
+    }
+    if (closes_) {
+      // Closed with something unread, the answer could be lost on its way: the client closes first.
+      lingers_ = true;
+      deadline_ = Clock::now() + kToClose;
+      return ::shutdown(fd_, SHUT_WR) == 0;
+    }
+    deadline_ = Clock::now() + kToAsk;
+    return answer_next(answer);
+  }
+
+ private:
+  bool is_answering() const { return sent_ < waiting_.size() || file_.length > 0; }
+
+  bool answer_next(const std::function<Response(const Request&)>& answer) {
+    const auto end = find_request_end(asked_);
+    if (!end) {
+      if (asked_.size() > kLongestHead) begin({}, text_response(431, "the request is too long"));
+      return true;
+    }
+    const auto request = parse_request(std::string_view(asked_).substr(0, *end));
+    asked_.erase(0, *end);
+    if (!request) {
+      begin({}, text_response(400, "this is no request that this server understands"));
+    } else {
+      begin(request, answer(*request));
+    }
+    return true;
+  }
+
+  /// Without a request the connection ends after the answer.
+  void begin(const std::optional<Request>& request, Response response) {
+    closes_ = !request || !request->keeps_alive;
+    const std::string head = write_head(response, !closes_);
+    waiting_.assign(head.begin(), head.end());
+    sent_ = 0;
+    file_ = {};
+    const std::uint64_t length = response.length();
+    deadline_ = Clock::now() + kToTake + std::chrono::seconds(length / kLeastPerSecond);
+    if (request && request->method == "HEAD") return;
+    waiting_.insert(waiting_.end(), response.body.begin(), response.body.end());
+    if (response.file.fd >= 0) file_ = response.file;
+  }
+
+  /// The next bytes of the file; false where it has become shorter.
+  bool refill() {
+    waiting_.resize(std::min<std::uint64_t>(kChunk, file_.length));
+    sent_ = 0;
+    const ssize_t got = ::pread(file_.fd, waiting_.data(), waiting_.size(), static_cast<off_t>(file_.offset));
+    if (got <= 0) return false;
+    waiting_.resize(static_cast<std::size_t>(got));
+    file_.offset += static_cast<std::uint64_t>(got);
+    file_.length -= static_cast<std::uint64_t>(got);
+    return true;
+  }
+
+  int fd_;
+  Clock::time_point deadline_;
+  std::string asked_;
+  std::vector<std::uint8_t> waiting_;
+  std::size_t sent_ = 0;
+  FilePart file_;
+  bool closes_ = false, lingers_ = false;
+};
+
+/// "127.0.0.1", and "[::1]" as URLs have it.
+std::string host_in_url(const std::string& host) {
+  return host.find(':') == std::string::npos ? host : "[" + host + "]";
+}
+
+struct AddressCloser {
+  void operator()(addrinfo* list) const { freeaddrinfo(list); }
+};
+
+}  // namespace
+
+Result<HttpServer> HttpServer::listen(const std::string& host, int port) {
+  addrinfo hints = {};
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
+  addrinfo* list = nullptr;
+  if (getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &list) != 0 || list == nullptr)
+    return fail(ErrorKind::kUsage, fmt::format("--host {} is no address of this machine", shell_word(host)));
+  const std::unique_ptr<addrinfo, AddressCloser> addresses(list);
+  const int fd = ::socket(list->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  const int on = 1;
+  if (fd >= 0) ::setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  if (fd < 0 || ::bind(fd, list->ai_addr, list->ai_addrlen) != 0 || ::listen(fd, SOMAXCONN) != 0) {
+    const int error = errno;
+    if (fd >= 0) ::close(fd);
+    if (error == EADDRINUSE)
+      return fail(ErrorKind::kUsage, fmt::format("port {} is in use: give another one by --port, or 0 for any", port));
+    if (error == EADDRNOTAVAIL)
+      return fail(ErrorKind::kUsage, fmt::format("--host {} is no address of this machine", shell_word(host)));
+    return fail(ErrorKind::kUsage,
+                fmt::format("cannot serve at {}:{}: {}", host_in_url(host), port, std::strerror(error)));
+  }
+  sockaddr_storage bound = {};
+  socklen_t size = sizeof bound;
+  std::array<char, NI_MAXSERV> service{};
+  if (::getsockname(fd, reinterpret_cast<sockaddr*>(&bound), &size) == 0)
+    ::getnameinfo(reinterpret_cast<sockaddr*>(&bound), size, nullptr, 0, service.data(), service.size(),
+                  NI_NUMERICSERV);
+  return HttpServer(fd, fmt::format("http://{}:{}/", host_in_url(host), service.data()));
+}
+
+HttpServer::HttpServer(HttpServer&& other) noexcept : fd_(std::exchange(other.fd_, -1)), url_(std::move(other.url_)) {}
+HttpServer& HttpServer::operator=(HttpServer&& other) noexcept {
+  std::swap(fd_, other.fd_);
+  std::swap(url_, other.url_);
+  return *this;
+}
+HttpServer::~HttpServer() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+Result<void> HttpServer::run(const std::function<Response(const Request&)>& answer,
+                             const std::function<bool()>& is_over) {
+  std::vector<std::unique_ptr<Connection>> connections;
+  std::vector<pollfd> watched;
+  while (!is_over()) {
+    watched.clear();
+    for (const auto& connection : connections) watched.push_back({connection->fd(), connection->events(), 0});
+    const bool has_room = connections.size() < kMostConnections;
+    if (has_room) watched.push_back({fd_, POLLIN, 0});
+    if (::poll(watched.data(), watched.size(), kPollMilliseconds) < 0) {
+      if (errno == EINTR) continue;
+      return fail(ErrorKind::kOutput, fmt::format("cannot wait for requests: {}", std::strerror(errno)));
+    }
+    const Clock::time_point now = Clock::now();
+    for (std::size_t k = 0; k < connections.size(); ++k) {
+      Connection& one = *connections[k];
+      const short seen = watched[k].revents;
+      bool stays = !one.is_late(now) && (seen & (POLLERR | POLLNVAL)) == 0;
+      if (stays && (seen & (POLLIN | POLLHUP)) != 0 && one.events() == POLLIN) stays = one.receive(answer);
+      if (stays && (seen & POLLOUT) != 0) stays = one.send(answer);
+      if (!stays) connections[k].reset();
+    }
+    std::erase(connections, nullptr);
+    if (!has_room || (watched.back().revents & POLLIN) == 0) continue;
+    while (connections.size() < kMostConnections) {
+      const int fd = ::accept4(fd_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+      if (fd < 0) break;
+      connections.push_back(std::make_unique<Connection>(fd));
+    }
+  }
+  return {};
+}
+
+}  // namespace scarp::cli

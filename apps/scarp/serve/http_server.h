@@ -1,0 +1,33 @@
+// A small server: one thread, many connections, none of which can hold up the others.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "scarp/result.h"
+#include "serve/http_message.h"
+
+namespace scarp::cli {
+
+class HttpServer {
+ public:
+  /// `host`: an address or a name of this machine. `port`: 0 for any that is free. Fails with kUsage.
+  static Result<HttpServer> listen(const std::string& host, int port);
+  HttpServer(HttpServer&& other) noexcept;
+  HttpServer& operator=(HttpServer&& other) noexcept;
+  ~HttpServer();
+
+  /// "http://127.0.0.1:8080/"
+  const std::string& url() const { return url_; }
+  /// Serves until is_over(), which is asked at least twice a second. At most 256 connections are open; others wait. A
+  /// request has 10 seconds to come, and an answer 30, and one more for each 10 kB, to be taken. Fails with kOutput.
+  Result<void> run(const std::function<Response(const Request&)>& answer, const std::function<bool()>& is_over);
+
+ private:
+  HttpServer(int fd, std::string url) : fd_(fd), url_(std::move(url)) {}
+
+  int fd_ = -1;
+  std::string url_;
+};
+
+}  // namespace scarp::cli

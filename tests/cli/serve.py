@@ -1,0 +1,151 @@
+#!/usr/bin/env python3
+"""Asks a server of tiles as clients do, and as they should not.
+
+  serve.py PORT FOLDER [ARCHIVE]: the server serves the set that the folder holds, perhaps from the archive.
+"""
+
+import gzip
+import http.client
+import json
+import pathlib
+import socket
+import sys
+import threading
+import time
+
+port, folder = int(sys.argv[1]), pathlib.Path(sys.argv[2])
+archive = pathlib.Path(sys.argv[3]) if len(sys.argv) > 3 else None
+
+
+def ask(path, method="GET", **headers):
+    connection = http.client.HTTPConnection("127.0.0.1", port, timeout=20)
+    connection.request(method, path, headers={name.replace("_", "-"): value for name, value in headers.items()})
+    answer = connection.getresponse()
+    answer.data = answer.read()
+    connection.close()
+    return answer
+
+
+def raw(data):
+    with socket.create_connection(("127.0.0.1", port), timeout=20) as one:
+        one.sendall(data)
+        parts = []
+        while part := one.recv(65536):
+            parts.append(part)
+        return b"".join(parts)
+
+
+names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.terrain"))
+kept = {name: (folder / name).read_bytes() for name in names}
+
+# All tiles, over one connection, as they are kept.
+connection = http.client.HTTPConnection("127.0.0.1", port, timeout=20)
+for name in names:
+    connection.request("GET", f"/{name}?v=1", headers={"Accept-Encoding": "gzip, deflate, br"})
+    answer = connection.getresponse()
+    assert answer.status == 200 and answer.read() == kept[name], name
+    assert answer.getheader("Content-Encoding") == "gzip"
+    assert answer.getheader("Content-Type") == "application/vnd.quantized-mesh"
+    assert "immutable" in answer.getheader("Cache-Control")
+connection.close()
+
+# The header decides on compression; each form has a tag of its own.
+name = names[len(names) // 2]
+packed = ask("/" + name, Accept_Encoding="gzip")
+for refused in ("", "br", "gzip;q=0", "identity, gzip;q=0.000"):
+    plain = ask("/" + name, Accept_Encoding=refused)
+    assert plain.data == gzip.decompress(kept[name]) and plain.getheader("Content-Encoding") is None, refused
+    assert plain.getheader("Vary") == packed.getheader("Vary") == "Accept-Encoding"
+    assert plain.getheader("ETag") != packed.getheader("ETag")
+assert ask("/" + name, Accept_Encoding="*").data == kept[name]
+assert packed.getheader("Access-Control-Allow-Origin") == "*" and packed.getheader("Cache-Control") == "no-cache"
+tag = packed.getheader("ETag")
+for tags in (tag, "W/" + tag, '"other", ' + tag, "*"):
+    answer = ask("/" + name, Accept_Encoding="gzip", If_None_Match=tags)
+    assert answer.status == 304 and answer.data == b"" and answer.getheader("ETag") == tag
+assert ask("/" + name, Accept_Encoding="gzip", If_None_Match='"other"').status == 200
+head = ask("/" + name, "HEAD", Accept_Encoding="gzip")
+assert head.status == 200 and head.data == b"" and int(head.getheader("Content-Length")) == len(kept[name])
+
+layer = ask("/layer.json")
+assert layer.data == (folder / "layer.json").read_bytes() and layer.getheader("Content-Type") == "application/json"
+assert b"/layer.json\n" in ask("/").data
+
+# A browser asks before it asks.
+answer = ask("/" + name, "OPTIONS", Origin="http://example.org", Access_Control_Request_Method="GET")
+assert answer.status == 204 and "GET" in answer.getheader("Access-Control-Allow-Methods")
+assert ask("/" + name, "POST").status == 405 and ask("/" + name, "DELETE").status == 405
+
+# Not there, with a reason; nothing outside the set.
+answer = ask("/3/0/0.terrain")
+assert answer.status == 404 and b"no tile 3/0/0.terrain" in answer.data
+assert answer.getheader("Access-Control-Allow-Origin") == "*"
+for path in ("/secret", "/../secret", "/%2e%2e/secret", "/layer.json/../../secret", "//etc/passwd", "/link", "/.hidden",
+             "/0/0/../0/0.terrain", "/00/0/0.terrain", "/0/0/0.terrain%00", "/%", "/%zz"):
+    answer = ask(path)
+    assert answer.status in (400, 404) and b"mine" not in answer.data, path
+
+# The archive itself, in ranges.
+if archive:
+    whole, url = archive.read_bytes(), "/" + archive.name
+    answer = ask(url)
+    assert answer.data == whole and answer.getheader("Accept-Ranges") == "bytes"
+    tag = answer.getheader("ETag")
+    for header, want in (("bytes=0-126", whole[:127]), ("bytes=1000-", whole[1000:]), ("bytes=-77", whole[-77:]),
+                         (f"bytes=5-{10 ** 12}", whole[5:]), (f"bytes=-{10 ** 12}", whole)):
+        answer = ask(url, Range=header)
+        assert answer.status == 206 and answer.data == want, header
+        start = len(whole) - len(want) if not header.startswith("bytes=0-") else 0
+        assert answer.getheader("Content-Range") == f"bytes {start}-{start + len(want) - 1}/{len(whole)}"
+    assert ask(url, Range="bytes=0-9", If_Range=tag).status == 206
+    assert ask(url, Range="bytes=0-9", If_Range='"other"').data == whole
+    assert ask(url, If_None_Match=tag).status == 304
+    answer = ask(url, Range=f"bytes={len(whole)}-")
+    assert answer.status == 416 and answer.getheader("Content-Range") == f"bytes */{len(whole)}"
+    for header in ("bytes=9-5", "lines=1-2", "bytes=0-1,5-6", "bytes=x", "bytes=-"):
+        assert ask(url, Range=header).data == whole, header
+
+# What is no request.
+assert raw(b"nonsense\r\n\r\n").startswith(b"HTTP/1.1 400 ")
+assert raw(b"GET http://elsewhere/ HTTP/1.1\r\n\r\n").startswith(b"HTTP/1.1 400 ")
+assert raw(b"POST / HTTP/1.1\r\nContent-Length: 5\r\n\r\nhello").startswith(b"HTTP/1.1 400 ")
+assert raw(b"GET / HTTP/1.1\r\nX: " + b"y" * 40000 + b"\r\n").startswith(b"HTTP/1.1 431 ")
+assert raw(b"GET / HTTP/1.0\r\n\r\n").startswith(b"HTTP/1.1 200 ")
+# Two requests at once get two answers, in order.
+two = raw(f"GET /{name} HTTP/1.1\r\nAccept-Encoding: gzip\r\n\r\nGET /nothing HTTP/1.1\r\nConnection: close\r\n\r\n".encode())
+assert two.index(b"HTTP/1.1 200") == 0 and two.rindex(b"HTTP/1.1 404") > len(kept[name])
+
+# Those who dawdle hold up nobody, and are dropped; no more than 256 are let in.
+idle = [socket.create_connection(("127.0.0.1", port), timeout=40) for _ in range(200)]
+slow = socket.create_connection(("127.0.0.1", port), timeout=40)
+
+
+def trickle():
+    try:
+        for letter in b"GET / HTTP/1.1\r\nX: " + b"y" * 100:
+            slow.sendall(bytes([letter]))
+            time.sleep(0.3)
+    except OSError:
+        pass
+
+
+dawdler = threading.Thread(target=trickle, daemon=True)
+dawdler.start()
+start = time.monotonic()
+for k in range(50):
+    assert ask("/" + names[k % len(names)], Accept_Encoding="gzip").status == 200
+assert time.monotonic() - start < 5
+assert idle[0].recv(1) == b"" and idle[199].recv(1) == b"", "the server waits for ever"
+dawdler.join(40)
+try:
+    assert slow.recv(1) == b""
+except ConnectionResetError:
+    pass
+for one in idle:
+    one.close()
+many = [socket.create_connection(("127.0.0.1", port), timeout=40) for _ in range(300)]
+time.sleep(0.5)
+for one in many[:250]:
+    one.close()
+assert ask("/layer.json").status == 200
+print(len(names))
