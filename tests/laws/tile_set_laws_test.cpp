@@ -303,9 +303,10 @@ TEST(mbtiles, questions_without_an_end_are_given_up) {
   ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
   const std::string schema =
       "CREATE TABLE metadata (name text, value text); INSERT INTO metadata VALUES ('format', 'terrain');"
-      "CREATE VIEW tiles AS SELECT 0 AS zoom_level, 0 AS tile_column, 0 AS tile_row, " +
+      "CREATE TABLE map (zoom_level, tile_column, tile_row); INSERT INTO map VALUES (0, 0, 0);"
+      "CREATE VIEW tiles AS SELECT *, " +
       endless +
-      " AS tile_data;"
+      " AS tile_data FROM map;"
       "CREATE TABLE files (name text, data blob)";
   EXPECT_EQ(sqlite3_exec(database, schema.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
   {
