@@ -16,6 +16,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/parallel.h"
 #include "io/tiles/md5.h"
 #include "io/tiles/pmtiles_parts.h"
 #include "io/zip.h"
@@ -169,6 +170,23 @@ TEST(tile_sets, thousands_of_tiles_have_leaves_in_pmtiles) {
   ASSERT_TRUE(header);
   EXPECT_GT(header->leaves.length, 0u);
   EXPECT_LE(header->root.offset + header->root.length, 16384u);
+}
+
+TEST(tile_sets, threads_read_at_once) {
+  std::mt19937 random(6);
+  const AnySet set = any_set(random, 300);
+  const Scratch scratch;
+  for (const std::string& ending : kEndings) {
+    ASSERT_TRUE(write_set(set, scratch.path("a" + ending)));
+    const auto reader = open_tile_set(scratch.path("a" + ending));
+    ASSERT_TRUE(reader);
+    std::vector<char> same(set.tiles.size());
+    parallel_for(set.tiles.size(), 4, [&](std::size_t k) {
+      const auto bytes = (*reader)->read_tile(set.tiles[k].first);
+      same[k] = bytes && *bytes == set.tiles[k].second && (*reader)->read_file("layer.json") ? 1 : 0;
+    });
+    EXPECT_EQ(std::count(same.begin(), same.end(), 1), static_cast<std::ptrdiff_t>(same.size())) << ending;
+  }
 }
 
 TEST(tile_sets, what_is_there_stays) {

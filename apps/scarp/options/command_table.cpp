@@ -62,7 +62,7 @@ constexpr CommandRow kCommandRows[] = {
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
     {kServe, "serve", "Serve a set of tiles over HTTP, to this machine alone unless --host says otherwise",
      "SET [OPTIONS]",
-     "Tiles are sent with the headers that clients need. Of a set in one file ranges of bytes are sent, too.\n"
+     "Tiles are sent with the headers that clients need, and of a set in one file ranges of bytes, too.\n"
      "Ctrl-C ends it.\n"
      "Examples:\n"
      "  scarp serve globe                                    at http://127.0.0.1:8080/\n"
