@@ -186,6 +186,11 @@ Result<GlbOptions> glb_options(const SimplifyPlan& plan, const Outcome& outcome)
   return glb;
 }
 
+/// Whether OUTPUT is made from the samples as well as from the mesh.
+bool reads_samples(const SimplifyPlan& plan) {
+  return plan.format.kind == OutputKind::kDem || plan.images.normal_map.has_value();
+}
+
 /// Fills in OUTPUT.
 Result<void> encode_output(const SimplifyPlan& plan, const Outcome& outcome, ReadyFile& file) {
   const Mesh& mesh = outcome.simplified.mesh;
@@ -258,6 +263,8 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
   }
   if (plan.zones.find_lines() != nullptr) outcome.zones = find_zones(outcome.zone_plan, outcome.field.frame, mesh);
   turn_as_planned(plan, mesh);
+  // They may take more memory than the mesh and its file.
+  if (!reads_samples(plan)) std::vector<float>().swap(outcome.field.samples);
   if (auto encoded = encode_output(plan, outcome, files.front()); !encoded) return tl::unexpected(encoded.error());
   if (plan.levels) {
     if (auto encoded = encode_levels(plan, outcome, files); !encoded) return tl::unexpected(std::move(encoded.error()));

@@ -59,7 +59,8 @@ GoalError find_goal_error(const Outcome& outcome);
 /// What the process may take, and has taken beside the mesh; of no limit: zeros.
 MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome);
 
-/// Every file but the report, OUTPUT first. Closes the mesh into a solid where that was asked for.
+/// Every file but the report, OUTPUT first. Closes the mesh into a solid where that was asked for. The field's samples
+/// are given back before OUTPUT is encoded, unless it is made from them.
 Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const ProgressCallback& progress,
                                             Outcome& outcome);
 
