@@ -47,13 +47,13 @@ class FrameScanner : public Scanner {
         tolerance_(tolerance),
         grid_(bounds(field), std::max<std::size_t>(1, ids.size())) {
     facets_.mesh = &mesh;
-    facets_.ids = ids;
-    facets_.corners.resize(mesh.vertex_count());
+    Array<FacetCorner> corners;
+    corners.resize(mesh.vertex_count());
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v)
-      facets_.corners[v] = {mesh.positions[3 * v], mesh.positions[3 * v + 1],
-                            mesh.origin[2] + mesh.positions[3 * v + 2]};
+      corners[v] = {mesh.positions[3 * v], mesh.positions[3 * v + 1], mesh.origin[2] + mesh.positions[3 * v + 2]};
+    facets_.corners = FacetCorners(std::move(corners));
     grid_.fill([&](const auto& visit) {
-      for (const std::uint32_t id : facets_.ids) {
+      for (const std::uint32_t id : ids) {
         Facet facet;
         if (facets_.get(id, facet)) visit(id, facet.plan);
       }

@@ -14,6 +14,8 @@ namespace scarp::judge {
 /// that the vertex was made from (the frame's, the origin, its own), in samples, and what the inverse itself loses.
 class GridMap {
  public:
+  static constexpr double kSteps = 256;
+
   GridMap(const HeightField& field, const std::array<double, 3>& origin) : a_(field.frame.affine), origin_(origin) {
     det_ = a_[1] * a_[5] - a_[2] * a_[4];
     size_x_ =
@@ -55,7 +57,7 @@ class GridMap {
     }
     return value;
   }
-  static constexpr double kSteps = 256, kMostNear = 1 / kSteps;
+  static constexpr double kMostNear = 1 / kSteps;
 
   std::array<double, 6> a_;
   std::array<double, 3> origin_;

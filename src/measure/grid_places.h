@@ -1,7 +1,13 @@
 // Where the vertices of a mesh lie in the grid of its field.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
 #include "base/array.h"
+#include "measure/grid_map.h"
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
 #include "scarp/result.h"
@@ -13,9 +19,52 @@ struct FacetCorner {
   double x, y, z;
 };
 
+/// Corners by vertex. Those of a mesh whose vertices lie on samples, or near them on the lattice of fitting, take half
+/// the memory.
+class FacetCorners {
+ public:
+  /// x and y in steps of the GridMap's lattice.
+  struct Short {
+    std::int32_t x, y;
+    float z;
+  };
+
+  FacetCorners() = default;
+  explicit FacetCorners(Array<FacetCorner> corners) : corners_(std::move(corners)) {}
+  explicit FacetCorners(Array<Short> corners) : shorts_(std::move(corners)) {}
+
+  /// Returns false if `to` cannot hold the corner exactly.
+  static bool shorten(const FacetCorner& corner, Short& to) {
+    constexpr double kMost = 0x1p30;
+    const double x = corner.x * GridMap::kSteps, y = corner.y * GridMap::kSteps;
+    if (!(std::abs(x) <= kMost && std::abs(y) <= kMost && std::abs(corner.z) <= kMost)) return false;
+    to = {static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), static_cast<float>(corner.z)};
+    return to.x == x && to.y == y && double{to.z} == corner.z;
+  }
+
+  FacetCorner operator[](std::size_t v) const {
+    if (shorts_.empty()) return corners_[v];
+    const Short& at = shorts_[v];
+    return {at.x / GridMap::kSteps, at.y / GridMap::kSteps, at.z};
+  }
+  double row(std::size_t v) const { return shorts_.empty() ? corners_[v].y : shorts_[v].y / GridMap::kSteps; }
+  /// The corner will be asked for soon.
+  void expect(std::size_t v) const {
+    if (shorts_.empty()) {
+      __builtin_prefetch(&corners_[v]);
+    } else {
+      __builtin_prefetch(&shorts_[v]);
+    }
+  }
+
+ private:
+  Array<FacetCorner> corners_;  // empty where there are shorts
+  Array<Short> shorts_;
+};
+
 /// Vertices in columns, rows and heights.
 struct GridPlaces {
-  Array<FacetCorner> corners;  ///< by vertex
+  FacetCorners corners;
   bool are_on_lattice = true;  ///< all columns and rows are multiples of 1/256
 };
 

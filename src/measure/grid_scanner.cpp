@@ -25,15 +25,15 @@ namespace {
 
 class GridScanner : public Scanner {
  public:
-  GridScanner(const HeightField& field, const Mesh& mesh, GridPlaces places, std::span<const std::uint32_t> ids,
-              double tolerance, int threads, const SpaceJudge* space)
+  GridScanner(const HeightField& field, const Mesh& mesh, GridPlaces places,
+              std::optional<std::span<const std::uint32_t>> ids, double tolerance, int threads, const SpaceJudge* space)
       : rows_per_band_(Band::rows_per_band(field.cols)),
         rows_(field.rows),
         tolerance_(tolerance),
         are_on_lattice_(places.are_on_lattice),
         space_(space),
-        facets_{std::move(places.corners), &mesh, ids} {
-    sort_into_bands(threads);
+        facets_{std::move(places.corners), &mesh} {
+    sort_into_bands(ids, threads);
   }
 
   void scan(Band& band) const override {
@@ -74,8 +74,8 @@ class GridScanner : public Scanner {
   /// Those that the triangle, grown by the tolerance, touches.
   BandSpan touched_bands(std::uint32_t id) const {
     const std::uint32_t* vertices = &facets_.mesh->triangles[3 * std::size_t{id}];
-    const double a = facets_.corners[vertices[0]].y, b = facets_.corners[vertices[1]].y,
-                 c = facets_.corners[vertices[2]].y;
+    const double a = facets_.corners.row(vertices[0]), b = facets_.corners.row(vertices[1]),
+                 c = facets_.corners.row(vertices[2]);
     const double reach = tolerance_ + (space_ != nullptr ? space_->bend(id) : 0);
     const double lo = std::max(std::min({a, b, c}) - reach, 0.0),
                  hi = std::min(std::max({a, b, c}) + reach, rows_ - 1.0);
@@ -84,17 +84,19 @@ class GridScanner : public Scanner {
   }
 
   /// By counting, part by part: triangles of a band stay ascending.
-  void sort_into_bands(int threads) {
+  void sort_into_bands(std::optional<std::span<const std::uint32_t>> ids, int threads) {
     constexpr std::size_t kTogether = 1 << 16;
     const auto bands = static_cast<std::size_t>((rows_ - 1) / rows_per_band_ + 1);
-    const std::size_t count = facets_.ids.size(), parts = (count + kTogether - 1) / kTogether;
+    const std::size_t count = ids ? ids->size() : facets_.mesh->triangle_count();
+    const std::size_t parts = (count + kTogether - 1) / kTogether;
     std::vector<std::size_t> next(parts * bands, 0);  // by part, then band: first the count, then where to put
     const auto each_touch = [&](const auto& visit) {
       parallel_for_parts(count, kTogether, threads, [&](std::size_t first, std::size_t end) {
         std::size_t* const at = &next[first / kTogether * bands];
         for (std::size_t i = first; i < end; ++i) {
-          const BandSpan touched = touched_bands(facets_.ids[i]);
-          for (std::int32_t band = touched.first; band <= touched.last; ++band) visit(at[band], facets_.ids[i]);
+          const std::uint32_t id = ids ? (*ids)[i] : static_cast<std::uint32_t>(i);
+          const BandSpan touched = touched_bands(id);
+          for (std::int32_t band = touched.first; band <= touched.last; ++band) visit(at[band], id);
         }
       });
     };
@@ -193,8 +195,8 @@ class GridScanner : public Scanner {
 }  // namespace
 
 std::unique_ptr<Scanner> make_grid_scanner(const HeightField& field, const Mesh& mesh, GridPlaces places,
-                                           std::span<const std::uint32_t> ids, double tolerance, int threads,
-                                           const SpaceJudge* space) {
+                                           std::optional<std::span<const std::uint32_t>> ids, double tolerance,
+                                           int threads, const SpaceJudge* space) {
   return std::make_unique<GridScanner>(field, mesh, std::move(places), ids, tolerance, threads, space);
 }
 

@@ -200,23 +200,28 @@ Result<void> judge_heights(const HeightField& field, const Mesh& mesh, const jud
 
 /// Which triangles say something about heights: all, or the upward ones of a solid.
 struct Surface {
-  Array<std::uint32_t> judged;
-  judge::Connections connections;  ///< where they were asked for or needed
+  std::optional<Array<std::uint32_t>> judged;  ///< ascending; nothing: all
+  judge::Connections connections;              ///< where they were asked for or needed
   bool closed = false;
+
+  /// Those of a mesh of `count` triangles, one by one.
+  std::span<const std::uint32_t> list(std::size_t count) {
+    if (!judged) {
+      judged.emplace().resize(count);
+      std::iota(judged->begin(), judged->end(), 0);
+    }
+    return {judged->data(), judged->size()};
+  }
 };
 
 Surface find_surface(const Mesh& mesh, bool with_edges, int threads) {
   constexpr std::size_t kTogether = 1 << 16;
   Surface surface;
   const std::size_t count = mesh.triangle_count();
-  surface.judged.resize(count);
   std::vector<std::size_t> upwards(count / kTogether + 1, 0);
   parallel_for_parts(count, kTogether, threads, [&](std::size_t first, std::size_t end) {
     std::size_t here = 0;
-    for (std::size_t t = first; t < end; ++t) {
-      surface.judged[t] = static_cast<std::uint32_t>(t);
-      here += facing(mesh, t) > 0;
-    }
+    for (std::size_t t = first; t < end; ++t) here += facing(mesh, t) > 0;
     upwards[first / kTogether] = here;
   });
   std::size_t upward = std::accumulate(upwards.begin(), upwards.end(), std::size_t{0});
@@ -226,11 +231,12 @@ Surface find_surface(const Mesh& mesh, bool with_edges, int threads) {
     surface.closed = surface.connections.edges.open.empty();
   }
   if (!surface.closed) return surface;
-  upward = 0;
+  Array<std::uint32_t>& judged = surface.judged.emplace();
+  judged.resize(upward);
+  std::size_t next = 0;
   for (std::size_t t = 0; t < count; ++t) {
-    if (facing(mesh, t) > 0) surface.judged[upward++] = static_cast<std::uint32_t>(t);
+    if (facing(mesh, t) > 0) judged[next++] = static_cast<std::uint32_t>(t);
   }
-  surface.judged.resize(upward);
   return surface;
 }
 
@@ -260,16 +266,20 @@ class Judged {
   const HeightField& field() const { return flat_field_ ? *flat_field_ : field_; }
   const Mesh& mesh() const { return flat_mesh_ ? *flat_mesh_ : mesh_; }
 
-  /// Of the triangles `ids`. Borrows both. Called once.
-  std::unique_ptr<judge::Scanner> make_scanner(std::span<const std::uint32_t> ids, double tolerance, int threads) {
-    if (field_.frame.transform) return judge::make_frame_scanner(field_, mesh_, ids, tolerance);
-    look_in_space(ids);
+  /// Of the triangles of the surface. Called once.
+  std::unique_ptr<judge::Scanner> make_scanner(Surface& surface, double tolerance, int threads) {
+    const std::size_t count = mesh_.triangle_count();
+    if (field_.frame.transform) return judge::make_frame_scanner(field_, mesh_, surface.list(count), tolerance);
+    look_in_space(surface);
+    std::optional<std::span<const std::uint32_t>> ids;
+    if (surface.judged) ids = surface.list(count);
     return judge::make_grid_scanner(field(), mesh(), std::move(places_), ids, tolerance, threads, space_.get());
   }
 
-  /// Of the triangles `ids`; before folds are asked for.
-  void look_in_space(std::span<const std::uint32_t> ids) {
-    if (flat_mesh_ && !space_) space_ = std::make_unique<judge::SpaceJudge>(field_, mesh_, *flat_mesh_, ids);
+  /// Before folds are asked for.
+  void look_in_space(Surface& surface) {
+    if (!flat_mesh_ || space_) return;
+    space_ = std::make_unique<judge::SpaceJudge>(field_, mesh_, *flat_mesh_, surface.list(mesh_.triangle_count()));
   }
 
   /// Samples that may mend what is no error of heights; beside the offenders.
@@ -301,7 +311,7 @@ std::unique_ptr<judge::CutRegion> make_region(const MeasureOptions& options, con
 }
 
 /// Fills topology and shape.
-Result<void> judge_topology(const Judged& judged, const Surface& surface, const judge::CutRegion* region,
+Result<void> judge_topology(const Judged& judged, Surface& surface, const judge::CutRegion* region,
                             const MeasureOptions& options, ProgressGate& gate, Measurement& result) {
   if (!gate.go_on("topology", 0)) return cancelled();
   const Mesh& mesh = judged.mesh();
@@ -310,7 +320,8 @@ Result<void> judge_topology(const Judged& judged, const Surface& surface, const 
   result.misoriented_edges = edges.misoriented;
   result.non_manifold_edges = edges.non_manifold;
   result.border_loops = edges.loops;
-  judged.measure_shape(surface.judged, options.run.threads, result);
+  const std::span<const std::uint32_t> ids = surface.list(mesh.triangle_count());
+  judged.measure_shape(ids, options.run.threads, result);
   result.t_junctions = judge::count_t_junctions(mesh, surface.connections);
   const Result<std::uint64_t> gaps =
       judge::count_gaps(judged.field(), mesh, surface.connections, options.coverage_tolerance, region);
@@ -318,7 +329,7 @@ Result<void> judge_topology(const Judged& judged, const Surface& surface, const 
   result.gaps = *gaps;
   if (surface.connections.is_single_layer) return {};
   bool is_stopped = false;
-  result.overlaps = judge::count_overlaps(mesh, surface.judged, options.run.threads, [&](double fraction) {
+  result.overlaps = judge::count_overlaps(mesh, ids, options.run.threads, [&](double fraction) {
     is_stopped = !gate.go_on("topology", fraction);
     return !is_stopped;
   });
@@ -338,10 +349,10 @@ Result<Measurement> measure(const HeightField& asked, const Mesh& given, const M
   Measurement result;
   result.vertices = mesh.vertex_count();
   result.triangles = mesh.triangle_count();
-  const Surface surface = find_surface(mesh, options.topology, options.run.threads);
+  Surface surface = find_surface(mesh, options.topology, options.run.threads);
   result.closed = surface.closed;
 
-  const auto scanner = judged->make_scanner(surface.judged, options.coverage_tolerance, options.run.threads);
+  const auto scanner = judged->make_scanner(surface, options.coverage_tolerance, options.run.threads);
   const auto region = make_region(options, field);
   if (auto done = judge_heights(field, mesh, *scanner, region.get(), options, judge::Keep::kErrors, gate, result);
       !done) {
@@ -365,10 +376,10 @@ Result<void> measure_topology(const HeightField& field, const Mesh& mesh, const 
   auto judged = Judged::of(field, mesh, options, false);
   if (!judged) return tl::unexpected(judged.error());
   ProgressGate gate(options.run.progress);
-  const Surface surface = find_surface(judged->mesh(), true, options.run.threads);
+  Surface surface = find_surface(judged->mesh(), true, options.run.threads);
   result.closed = surface.closed;
   result.down_facing = result.degenerate = result.overlaps = 0;
-  judged->look_in_space(surface.judged);
+  judged->look_in_space(surface);
   return judge_topology(*judged, surface, make_region(options, judged->field()).get(), options, gate, result);
 } catch (...) {
   return caught(ErrorKind::kInput, "measure the mesh");
@@ -384,8 +395,8 @@ Result<void> resample_rows(const HeightField& asked, const Mesh& given,
   if (!judged) return tl::unexpected(judged.error());
   const HeightField& field = judged->field();
   const Mesh& mesh = judged->mesh();
-  const Surface surface = find_surface(mesh, false, threads);
-  const auto scanner = judged->make_scanner(surface.judged, options.coverage_tolerance, threads);
+  Surface surface = find_surface(mesh, false, threads);
+  const auto scanner = judged->make_scanner(surface, options.coverage_tolerance, threads);
   ProgressGate gate(options.run.progress);
   Measurement ignored;
   return judge_heights(field, mesh, *scanner, nullptr, options, judge::Keep::kHeights, gate, ignored);

@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 
-#include "base/array.h"
 #include "measure/band.h"
 #include "measure/grid_places.h"
 #include "measure/plan_triangle.h"
@@ -16,14 +16,13 @@ namespace scarp::judge {
 
 /// The triangles to judge heights on, in some plan coordinates.
 struct Facets {
-  Array<FacetCorner> corners;  ///< by vertex
+  FacetCorners corners;
   const Mesh* mesh = nullptr;
-  std::span<const std::uint32_t> ids;  ///< of the mesh's triangles, ascending
 
   /// The triangle `id`, counter-clockwise. Returns false if it has no area seen from above.
   bool get(std::uint32_t id, Facet& facet) const {
     for (std::size_t k = 0; k < 3; ++k) {
-      const FacetCorner& corner = corners[mesh->triangles[3 * std::size_t{id} + k]];
+      const FacetCorner corner = corners[mesh->triangles[3 * std::size_t{id} + k]];
       facet.plan.x[k] = corner.x;
       facet.plan.y[k] = corner.y;
       facet.z[k] = corner.z;
@@ -32,7 +31,7 @@ struct Facets {
   }
   /// The triangle `id` will be asked for soon.
   void expect(std::uint32_t id) const {
-    for (std::size_t k = 0; k < 3; ++k) __builtin_prefetch(&corners[mesh->triangles[3 * std::size_t{id} + k]]);
+    for (std::size_t k = 0; k < 3; ++k) corners.expect(mesh->triangles[3 * std::size_t{id} + k]);
   }
 };
 
@@ -46,12 +45,13 @@ class Scanner {
 
 class SpaceJudge;
 
-/// For affine frames: `places` says where vertices lie in the grid, triangles are scanned row by row. `space`: who says
-/// the errors of a mesh in space, which `field` and `mesh` then are on the map; null: there is none. What is borrowed
-/// outlives the scanner.
+/// For affine frames: `places` says where vertices lie in the grid, triangles are scanned row by row. `ids`: those to
+/// judge, ascending; nothing: all; not needed any more once the scanner is made. `space`: who says the errors of a mesh
+/// in space, which `field` and `mesh` then are on the map; null: there is none. What else is borrowed outlives the
+/// scanner.
 std::unique_ptr<Scanner> make_grid_scanner(const HeightField& field, const Mesh& mesh, GridPlaces places,
-                                           std::span<const std::uint32_t> ids, double tolerance, int threads,
-                                           const SpaceJudge* space = nullptr);
+                                           std::optional<std::span<const std::uint32_t>> ids, double tolerance,
+                                           int threads, const SpaceJudge* space = nullptr);
 /// For any frame: samples are mapped to the mesh, where a grid of buckets knows the triangles. About ten times slower.
 std::unique_ptr<Scanner> make_frame_scanner(const HeightField& field, const Mesh& mesh,
                                             std::span<const std::uint32_t> ids, double tolerance);
