@@ -47,7 +47,7 @@ ROOMS = {
               ["frame", "height_field", "mesh", "progress", "result", "shape", "strategy"],
               "angles and lengths for simulation"),
     "features": (4, ["base", "grid", "geom", "lines"], ANY, "the land's own lines: walls, ridges, valleys, lakes, rivers, flats"),
-    "pieces": (5, ["base", "grid", "geom", "tin", "metric", "refine", "fit", "lines", "shape"], ANY,
+    "pieces": (5, ["base", "grid", "geom", "mesh", "tin", "metric", "refine", "fit", "lines", "shape"], ANY,
                "a window worked on alone, borders first: tiles, strips, seams, freezing"),
     "simplify": (6, ["base", "grid", "geom", "mesh", "tin", "metric", "io", "measure", "refine", "fit", "lines", "shape",
                      "features", "pieces"], ANY, "the list: the door, the passes, budgets, the proof, scattered points"),

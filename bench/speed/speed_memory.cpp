@@ -44,8 +44,12 @@ int main(int argc, char** argv) {
   const std::size_t before = peak_memory();
   const bench::RawRaster raw = bench::read_raw(argv[1], argv[2], argv[3]);
   bench::EngineRun run = is_greedy ? bench::refine_greedily(raw, error) : bench::refine_dominantly(raw, error, threads);
-  const scarp::Mesh mesh = scarp::melt_down(scarp::SampleHeights(bench::view_of(raw)), std::move(run.domain.tin), {},
-                                            scarp::grid_frame(raw.rows), true);
+  const scarp::SampleHeights heights(bench::view_of(raw));
+  const scarp::Frame frame = scarp::grid_frame(raw.rows);
+  const scarp::VertexLattice lattice;
+  scarp::MeltDown melting(std::move(run.domain.tin), {heights, lattice, frame, true}, threads);
+  melting.order();
+  const scarp::Mesh mesh = melting.finish();
   std::printf("{\"samples\": %zu, \"order\": \"%s\", \"threads\": %d, \"vertices\": %zu, \"bytes\": %zu}\n",
               raw.samples.size(), bench::name_of(run.order), threads, mesh.vertex_count(), peak_memory() - before);
 }

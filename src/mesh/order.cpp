@@ -1,5 +1,7 @@
 // Triangles by place, then for the vertex cache (meshoptimizer's Tipsify: Sander, Nehab and Barczak 2007) in chunks of
 // them, which are small enough for the processor's own cache, and are the work of many threads.
+#include "mesh/order.h"
+
 #ifdef SCARP_WITH_MESHOPTIMIZER
 #include <meshoptimizer.h>
 #endif
@@ -22,36 +24,50 @@
 
 namespace scarp {
 
+VertexNumbers number_used(std::span<const std::uint32_t> corners, std::size_t vertices) {
+  VertexNumbers numbers{std::vector<std::uint32_t>(vertices, VertexNumbers::kUnused)};
+  for (const std::uint32_t v : corners) numbers.ids[v] = 0;
+  std::uint32_t count = 0;
+  for (std::uint32_t& id : numbers.ids) {
+    if (id != VertexNumbers::kUnused) id = count++;
+  }
+  numbers.count = count;
+  return numbers;
+}
+
 #ifdef SCARP_WITH_MESHOPTIMIZER
 
 namespace {
 
 constexpr std::size_t kChunkTriangles = 1 << 14, kCellTriangles = 64, kPartVertices = 1 << 15;
-constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kUnused = VertexNumbers::kUnused;
 constexpr unsigned kCacheSize = 16;
 
-using Corners = std::array<std::uint32_t, 3>;
-
-Corners corners_of(const Mesh& mesh, std::size_t t) {
-  return {mesh.triangles[3 * t], mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]};
-}
-
-/// Where each vertex lies on a curve through cells of the mesh's rectangle.
-std::vector<std::uint32_t> curve_places(const Mesh& mesh, int threads, std::size_t& cells) {
+/// Where each vertex lies on a curve through `side` × `side` cells of the rectangle of all.
+std::vector<std::uint32_t> curve_places(std::size_t vertices, const FindPlaces& find_places, std::size_t side,
+                                        int threads) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  constexpr std::size_t kAtOnce = 4096;
   struct Box {
     std::array<double, 2> low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
   };
-  const std::size_t vertices = mesh.vertex_count();
+  const auto each_place = [&](std::size_t first, std::size_t end, const auto& visit) {
+    std::vector<std::array<double, 2>> places(std::min(kAtOnce, end - first));
+    for (; first < end; first += kAtOnce) {
+      const std::size_t count = std::min(kAtOnce, end - first);
+      find_places(first, first + count, std::span(places).first(count));
+      for (std::size_t i = 0; i < count; ++i) visit(first + i, places[i]);
+    }
+  };
   std::vector<Box> boxes(vertices / kPartVertices + 1);
   parallel_for_parts(vertices, kPartVertices, threads, [&](std::size_t first, std::size_t end) {
     Box box;
-    for (std::size_t v = first; v < end; ++v) {
+    each_place(first, end, [&](std::size_t, const std::array<double, 2>& place) {
       for (std::size_t k = 0; k < 2; ++k) {
-        box.low[k] = std::min(box.low[k], mesh.positions[3 * v + k]);
-        box.high[k] = std::max(box.high[k], mesh.positions[3 * v + k]);
+        box.low[k] = std::min(box.low[k], place[k]);
+        box.high[k] = std::max(box.high[k], place[k]);
       }
-    }
+    });
     boxes[first / kPartVertices] = box;
   });
   Box whole;
@@ -61,37 +77,39 @@ std::vector<std::uint32_t> curve_places(const Mesh& mesh, int threads, std::size
       whole.high[k] = std::max(whole.high[k], box.high[k]);
     }
   }
-  std::size_t side = 1;
-  while (side * side * kCellTriangles < mesh.triangle_count()) side *= 2;
-  cells = side * side;
   std::array<double, 2> scale;
   for (std::size_t k = 0; k < 2; ++k) {
     const double extent = whole.high[k] - whole.low[k];
     scale[k] = extent > 0 ? static_cast<double>(side) / extent : 0;
   }
-  const auto cell = [&](std::size_t v, std::size_t k) {
-    const double at = (mesh.positions[3 * v + k] - whole.low[k]) * scale[k];
-    return static_cast<std::uint64_t>(std::clamp(at, 0.0, static_cast<double>(side - 1)));
-  };
-  std::vector<std::uint32_t> places(vertices);
+  std::vector<std::uint32_t> on_curve(vertices);
   parallel_for_parts(vertices, kPartVertices, threads, [&](std::size_t first, std::size_t end) {
-    for (std::size_t v = first; v < end; ++v)
-      places[v] = static_cast<std::uint32_t>(curve_place(cell(v, 0), cell(v, 1)));
+    each_place(first, end, [&](std::size_t v, const std::array<double, 2>& place) {
+      const auto cell = [&](std::size_t k) {
+        const double at = (place[k] - whole.low[k]) * scale[k];
+        return at > 0 ? static_cast<std::uint64_t>(std::min(at, static_cast<double>(side - 1))) : 0;  // 0 of NaN
+      };
+      on_curve[v] = static_cast<std::uint32_t>(curve_place(cell(0), cell(1)));
+    });
   });
-  return places;
+  return on_curve;
 }
 
-/// Each triangle at its corner that comes first; those of one cell stay in their order.
-std::vector<std::uint32_t> sort_along_curve(const Mesh& mesh, int threads) {
+}  // namespace
+
+// Each triangle at its corner that comes first; those of one cell stay in their order.
+std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners, std::size_t vertices,
+                                         const FindPlaces& find_places, int threads) {
   constexpr std::size_t kMostParts = 8, kLeastTogether = 1 << 16;
-  std::size_t cells = 0;
-  const std::vector<std::uint32_t> places = curve_places(mesh, threads, cells);
+  const std::size_t count = corners.size() / 3;
+  std::size_t side = 1;
+  while (side * side * kCellTriangles < count) side *= 2;
+  const std::size_t cells = side * side;
+  const std::vector<std::uint32_t> places = curve_places(vertices, find_places, side, threads);
   const auto place_of = [&](std::size_t t) {
-    const auto [a, b, c] = corners_of(mesh, t);
-    return std::min({places[a], places[b], places[c]});
+    return std::min({places[corners[3 * t]], places[corners[3 * t + 1]], places[corners[3 * t + 2]]});
   };
   // Counters take memory by part, and the order is the same with any number of them.
-  const std::size_t count = mesh.triangle_count();
   const std::size_t parts = std::clamp<std::size_t>(static_cast<std::size_t>(thread_count(threads)), 1, kMostParts);
   const std::size_t together = std::max(kLeastTogether, (count + parts - 1) / parts);
   std::vector<std::vector<std::uint32_t>> begins((count + together - 1) / together);
@@ -105,16 +123,16 @@ std::vector<std::uint32_t> sort_along_curve(const Mesh& mesh, int threads) {
     for (auto& begin : begins) sum += std::exchange(begin[cell], sum);
   }
   std::vector<std::uint32_t> sorted;
-  resize_large(sorted, mesh.triangles.size(), threads);
+  resize_large(sorted, corners.size(), threads);
   parallel_for_parts(count, together, threads, [&](std::size_t first, std::size_t end) {
     std::vector<std::uint32_t>& begin = begins[first / together];
-    for (std::size_t t = first; t < end; ++t) {
-      const Corners corners = corners_of(mesh, t);
-      std::copy(corners.begin(), corners.end(), sorted.begin() + 3 * std::ptrdiff_t{begin[place_of(t)]++});
-    }
+    for (std::size_t t = first; t < end; ++t)
+      std::copy_n(corners.data() + 3 * t, 3, sorted.data() + 3 * std::size_t{begin[place_of(t)]++});
   });
   return sorted;
 }
+
+namespace {
 
 /// Vertices of a chunk, numbered by first use.
 class LocalIds {
@@ -184,26 +202,36 @@ std::size_t number_by_first_use(std::span<const std::uint32_t> corners, int thre
 
 }  // namespace
 
-void optimize_order(Mesh& mesh, int threads) {
-  const std::size_t vertices = mesh.vertex_count();
-  mesh.triangles = sort_along_curve(mesh, threads);
-  std::vector<std::uint32_t>& triangles = mesh.triangles;
+VertexNumbers sort_for_cache(std::vector<std::uint32_t>& corners, std::size_t vertices, int threads) {
   const auto for_each_chunk = [&](const auto& task) {
-    parallel_for_parts(triangles.size(), kChunkCorners, threads,
-                       [&](std::size_t first, std::size_t end) { task(triangles.data() + first, end - first); });
+    parallel_for_parts(corners.size(), kChunkCorners, threads,
+                       [&](std::size_t first, std::size_t end) { task(corners.data() + first, end - first); });
   };
   for_each_chunk(order_chunk);
-  std::vector<std::uint32_t> new_ids(vertices);
-  const std::size_t used = number_by_first_use(triangles, threads, new_ids);
+  VertexNumbers numbers{std::vector<std::uint32_t>(vertices)};
+  numbers.count = number_by_first_use(corners, threads, numbers.ids);
+  for_each_chunk([&](std::uint32_t* chunk, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) chunk[i] = numbers.ids[chunk[i]];
+  });
+  return numbers;
+}
+
+void optimize_order(Mesh& mesh, int threads) {
+  const std::size_t vertices = mesh.vertex_count();
+  const auto find_places = [&](std::size_t first, std::size_t end, std::span<std::array<double, 2>> places) {
+    for (std::size_t v = first; v < end; ++v) places[v - first] = {mesh.positions[3 * v], mesh.positions[3 * v + 1]};
+  };
+  mesh.triangles = sort_by_place(mesh.triangles, vertices, find_places, threads);
+  const VertexNumbers numbers = sort_for_cache(mesh.triangles, vertices, threads);
 
   const auto reorder = [&](auto& values, std::size_t width) {
     std::decay_t<decltype(values)> reordered;
-    resize_large(reordered, width * used, threads);
+    resize_large(reordered, width * numbers.count, threads);
     parallel_for_parts(vertices, kPartVertices, threads, [&](std::size_t first, std::size_t end) {
       for (std::size_t v = first; v < end; ++v) {
-        if (new_ids[v] == kUnused) continue;
+        if (numbers.ids[v] == kUnused) continue;
         std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(width * v), width,
-                    reordered.begin() + static_cast<std::ptrdiff_t>(width * new_ids[v]));
+                    reordered.begin() + static_cast<std::ptrdiff_t>(width * numbers.ids[v]));
       }
     });
     values = std::move(reordered);
@@ -211,12 +239,19 @@ void optimize_order(Mesh& mesh, int threads) {
   reorder(mesh.positions, 3);
   if (!mesh.normals.empty()) reorder(mesh.normals, 3);
   for_each_attribute(mesh, reorder);
-  for_each_chunk([&](std::uint32_t* corners, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) corners[i] = new_ids[corners[i]];
-  });
 }
 
 #else
+
+std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners, std::size_t, const FindPlaces&, int) {
+  return {corners.begin(), corners.end()};
+}
+
+VertexNumbers sort_for_cache(std::vector<std::uint32_t>& corners, std::size_t vertices, int) {
+  VertexNumbers numbers = number_used(corners, vertices);
+  for (std::uint32_t& corner : corners) corner = numbers.ids[corner];
+  return numbers;
+}
 
 void optimize_order(Mesh&, int) {}
 

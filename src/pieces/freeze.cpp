@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
+#include <limits>
 #include <utility>
 
+#include "base/large_vector.h"
+#include "base/parallel.h"
 #include "grid/source_failure.h"
 #include "pieces/offset_map.h"
 
@@ -13,38 +15,80 @@ namespace scarp {
 
 namespace {
 
-/// Ids of the vertices in the mesh.
-class VertexNumbers {
+constexpr std::size_t kPartVertices = 4 * kChunkVertices, kPartTriangles = 1 << 15;
+
+/// Many vertices at a time.
+class PositionMaker {
  public:
-  explicit VertexNumbers(const Triangulation& tin) : count_(static_cast<std::uint32_t>(tin.vertex_count())) {
-    bool is_whole = true;
-    for (Triangle t = 0; t < tin.triangle_count() && is_whole; ++t) is_whole = !tin.is_outside(t);
-    if (is_whole) return;
-    ids_.assign(count_, kNone);
-    for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
-      if (!tin.is_outside(h / 3)) ids_[tin.origin(h)] = 0;
-    }
-    count_ = 0;
-    for (auto& id : ids_) {
-      if (id != kNone) id = count_++;
+  PositionMaker(const Triangulation& tin, const VertexPositions& way)
+      : tin_(tin), way_(way), offsets_(way.heights.cols(), way.heights.rows(), way.frame, way.lattice.steps) {}
+
+  std::array<double, 3> origin() const { return offsets_.origin(); }
+
+  /// Calls put(vertex, {x, y, z}) for the vertices of [first, end) that is_used(vertex).
+  template <class IsUsed, class Put>
+  void each(std::size_t first, std::size_t end, const IsUsed& is_used, const Put& put) const {
+    std::vector<Vertex> vertices;
+    std::vector<Point> chunk;
+    std::vector<double> x, y, z;
+    for (std::size_t i = first; i < end; ++i) {
+      const auto vertex = static_cast<Vertex>(i);
+      if (is_used(vertex)) {
+        vertices.push_back(vertex);
+        chunk.push_back(tin_.point(vertex));
+      }
+      if (chunk.size() < kChunkVertices && i + 1 < end) continue;
+      z.clear();
+      for (std::size_t k = 0; k < chunk.size(); ++k) z.push_back(height(vertices[k], chunk[k]));
+      offsets_.map(chunk, x, y, z);
+      for (std::vector<double>* offsets : {&x, &y, &z}) round(*offsets);
+      for (std::size_t k = 0; k < chunk.size(); ++k) put(vertices[k], std::array{x[k], y[k], z[k]});
+      vertices.clear();
+      chunk.clear();
     }
   }
-  std::uint32_t count() const { return count_; }
-  /// kNone where no triangle of the domain uses the vertex.
-  std::uint32_t of(Vertex v) const { return ids_.empty() ? v : ids_[v]; }
+  /// The same for all vertices, by several threads where the frame is affine.
+  template <class IsUsed, class Put>
+  void each_of_all(const IsUsed& is_used, int threads, const Put& put) const {
+    const std::size_t count = tin_.vertex_count();
+    if (!way_.frame.is_affine() || !way_.heights.are_in_memory()) return each(0, count, is_used, put);
+    parallel_for_parts(count, kPartVertices, threads,
+                       [&](std::size_t first, std::size_t end) { each(first, end, is_used, put); });
+  }
+  /// Without their heights. REQUIRES: an affine frame.
+  void find_places(std::size_t first, std::size_t end, std::span<std::array<double, 2>> places) const {
+    std::vector<Point> chunk;
+    std::vector<double> x, y, none;
+    for (std::size_t i = first; i < end; ++i) chunk.push_back(tin_.point(static_cast<Vertex>(i)));
+    offsets_.map(chunk, x, y, none);
+    for (std::vector<double>* offsets : {&x, &y}) round(*offsets);
+    for (std::size_t k = 0; k < chunk.size(); ++k) places[k] = {x[k], y[k]};
+  }
 
  private:
-  std::uint32_t count_;
-  std::vector<std::uint32_t> ids_;  // empty: every vertex is used
+  /// One array at a time: g++ 12 makes a vector of a vertex' x and y, and forgets to round it where rounding depends on
+  /// a condition.
+  void round(std::vector<double>& offsets) const {
+    if (!way_.round_to_float32) return;
+    for (double& offset : offsets) offset = static_cast<float>(offset);
+  }
+  float height(Vertex v, Point p) const {
+    return way_.lattice.are_samples() ? way_.heights.at_vertex(v, p) : way_.lattice.heights[v];
+  }
+
+  const Triangulation& tin_;
+  const VertexPositions& way_;
+  OffsetMap offsets_;
 };
 
 /// Seen along `up`.
-double twice_area(const Mesh& mesh, const std::array<double, 3>& up) {
+double twice_area(std::span<const Vertex> corners, const std::vector<double>& positions,
+                  const std::array<double, 3>& up) {
   double sum = 0;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-    const double* a = &mesh.positions[3 * mesh.triangles[3 * t]];
-    const double* b = &mesh.positions[3 * mesh.triangles[3 * t + 1]];
-    const double* c = &mesh.positions[3 * mesh.triangles[3 * t + 2]];
+  for (std::size_t h = 0; h < corners.size(); h += 3) {
+    const double* a = &positions[3 * std::size_t{corners[h]}];
+    const double* b = &positions[3 * std::size_t{corners[h + 1]}];
+    const double* c = &positions[3 * std::size_t{corners[h + 2]}];
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
       if (up[k] != 0) sum += up[k] * ((b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]));
@@ -53,49 +97,18 @@ double twice_area(const Mesh& mesh, const std::array<double, 3>& up) {
   return sum;
 }
 
-void add_triangles(const Triangulation& tin, const VertexNumbers& numbers, Mesh& mesh) {
-  std::size_t count = 0;
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) count += !tin.is_outside(t);
-  mesh.triangles.reserve(3 * count);
-  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
-    if (tin.is_outside(t)) continue;
-    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) mesh.triangles.push_back(numbers.of(tin.origin(h)));
-  }
-}
-
-void add_positions(const SampleHeights& heights, const Triangulation& tin, const VertexNumbers& numbers,
-                   const VertexLattice& lattice, const Frame& frame, bool round_to_float32, Mesh& mesh) {
-  mesh.positions.reserve(3 * std::size_t{numbers.count()});
-  const OffsetMap offsets(heights.cols(), heights.rows(), frame, lattice.steps);
-  std::vector<Vertex> vertices;
-  std::vector<Point> chunk;
-  std::vector<double> x, y, z;
-  for (Vertex v = 0; v < tin.vertex_count(); ++v) {
-    if (numbers.of(v) != kNone) {
-      vertices.push_back(v);
-      chunk.push_back(tin.point(v));
-    }
-    if (chunk.size() < kChunkVertices && v + 1 < tin.vertex_count()) continue;
-    z.clear();
-    for (std::size_t k = 0; k < chunk.size(); ++k)
-      z.push_back(lattice.are_samples() ? heights.at_vertex(vertices[k], chunk[k]) : lattice.heights[vertices[k]]);
-    offsets.map(chunk, x, y, z);
-    for (std::size_t k = 0; k < chunk.size(); ++k) {
-      for (double offset : {x[k], y[k], z[k]})
-        mesh.positions.push_back(round_to_float32 ? static_cast<float>(offset) : offset);
-    }
-    vertices.clear();
-    chunk.clear();
-  }
-  mesh.origin = offsets.origin();
-}
-
-/// Triangles are positive on the lattice; where the frame turns them over they are turned back.
-void face_up(const Frame& frame, Mesh& mesh) {
+/// Triangles are positive on the lattice; where the frame turns them over they are turned back. `positions`: of the
+/// vertices, but in affine frames.
+void face_up(const Frame& frame, const std::vector<double>& positions, int threads, std::span<Vertex> corners) {
   const std::array<double, 3> up = frame.space ? frame.space->up() : std::array<double, 3>{0, 0, 1};
-  if (frame.is_affine() ? frame.determinant() > 0 : twice_area(mesh, up) >= 0) return;
-  for (std::size_t t = 0; t < mesh.triangle_count(); ++t)
-    std::swap(mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]);
+  if (frame.is_affine() ? frame.determinant() > 0 : twice_area(corners, positions, up) >= 0) return;
+  parallel_for_parts(corners.size(), 3 * kPartTriangles, threads, [&](std::size_t first, std::size_t end) {
+    for (std::size_t h = first; h < end; h += 3) std::swap(corners[h + 1], corners[h + 2]);
+  });
+}
+
+void put_position(const std::array<double, 3>& position, std::size_t at, std::vector<double>& positions) {
+  std::copy(position.begin(), position.end(), positions.begin() + 3 * static_cast<std::ptrdiff_t>(at));
 }
 
 }  // namespace
@@ -107,46 +120,109 @@ float SampleHeights::at(Point p) const {
   return height;
 }
 
+Mesh freeze(const Triangulation& tin, const VertexPositions& way, int threads) {
+  Mesh mesh;
+  std::vector<std::uint32_t>& triangles = mesh.triangles;
+  std::size_t count = 0;
+  for (Triangle t = 0; t < tin.triangle_count(); ++t) count += !tin.is_outside(t);
+  triangles.reserve(3 * count);
+  for (Triangle t = 0; t < tin.triangle_count(); ++t) {
+    if (tin.is_outside(t)) continue;
+    for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) triangles.push_back(tin.origin(h));
+  }
+  const VertexNumbers numbers = number_used(triangles, tin.vertex_count());
+  for (std::uint32_t& corner : triangles) corner = numbers.ids[corner];
+  const PositionMaker maker(tin, way);
+  mesh.origin = maker.origin();
+  resize_large(mesh.positions, 3 * numbers.count, threads);
+  const auto is_used = [&](Vertex v) { return numbers.ids[v] != VertexNumbers::kUnused; };
+  maker.each_of_all(is_used, threads, [&](Vertex v, const std::array<double, 3>& position) {
+    put_position(position, numbers.ids[v], mesh.positions);
+  });
+  face_up(way.frame, mesh.positions, threads, triangles);
+  return mesh;
+}
+
 LatticePoints frozen_points(const Triangulation& tin, const VertexLattice& lattice) {
-  const VertexNumbers numbers(tin);
+  std::vector<std::uint8_t> are_used(tin.vertex_count(), 0);
+  for (HalfEdge h = 0; h < 3 * tin.triangle_count(); ++h) {
+    if (!tin.is_outside(h / 3)) are_used[tin.origin(h)] = 1;
+  }
   LatticePoints at{lattice.steps, {}};
   for (Vertex v = 0; v < tin.vertex_count(); ++v) {
-    if (numbers.of(v) != kNone) at.points.push_back(tin.point(v));
+    if (are_used[v] != 0) at.points.push_back(tin.point(v));
   }
   return at;
 }
 
-std::vector<float> sample_uvs(std::int32_t cols, std::int32_t rows, const LatticePoints& at) {
-  std::vector<float> uvs;
-  uvs.reserve(2 * at.points.size());
-  const double steps = at.steps;
-  for (Point p : at.points) {
-    uvs.push_back(static_cast<float>((p.x / steps + 0.5) / cols));
-    uvs.push_back(static_cast<float>((p.y / steps + 0.5) / rows));
+MeltDown::MeltDown(Triangulation tin, const VertexPositions& way, int threads)
+    : tin_(std::move(tin)), way_(way), threads_(threads) {
+  tin_.drop_links();
+  const std::size_t all = tin_.triangle_count();
+  corners_ = tin_.take_corners();
+  const std::span<Vertex> corners(corners_.data(), corners_.size());
+  if (triangle_count() < all) numbers_ = number_used(corners, tin_.vertex_count());
+  if (!way_.frame.is_affine()) {
+    resize_large(positions_, 3 * tin_.vertex_count(), threads_);
+    PositionMaker(tin_, way_)
+        .each_of_all(
+            [this](Vertex v) { return is_used(v); }, threads_,
+            [this](Vertex v, const std::array<double, 3>& position) { put_position(position, v, positions_); });
   }
-  return uvs;
+  face_up(way_.frame, positions_, threads_, corners);
 }
 
-Mesh freeze(const SampleHeights& heights, const Triangulation& tin, const VertexLattice& lattice, const Frame& frame,
-            bool round_to_float32) {
+void MeltDown::find_places(std::size_t first, std::size_t end, std::span<std::array<double, 2>> places) const {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  if (positions_.empty()) PositionMaker(tin_, way_).find_places(first, end, places);
+  for (std::size_t v = first; v < end; ++v) {
+    if (!positions_.empty()) places[v - first] = {positions_[3 * v], positions_[3 * v + 1]};
+    if (!is_used(static_cast<Vertex>(v))) places[v - first] = {kNaN, kNaN};
+  }
+}
+
+void MeltDown::order() {
+  const std::size_t vertices = tin_.vertex_count();
+  ordered_ = sort_by_place(
+      {corners_.data(), corners_.size()}, vertices,
+      [this](std::size_t first, std::size_t end, auto places) { find_places(first, end, places); }, threads_);
+  corners_.release();
+  numbers_ = sort_for_cache(ordered_, vertices, threads_);
+}
+
+Mesh MeltDown::finish() {
   Mesh mesh;
-  const VertexNumbers numbers(tin);
-  add_triangles(tin, numbers, mesh);
-  add_positions(heights, tin, numbers, lattice, frame, round_to_float32, mesh);
-  face_up(frame, mesh);
+  if (ordered_.empty()) {
+    ordered_.assign(corners_.begin(), corners_.end());
+    corners_.release();
+    for (std::size_t i = 0; numbers_ && i < ordered_.size(); ++i) ordered_[i] = numbers_->ids[ordered_[i]];
+  }
+  mesh.triangles = std::move(ordered_);
+  const PositionMaker maker(tin_, way_);
+  mesh.origin = maker.origin();
+  resize_large(mesh.positions, 3 * vertex_count(), threads_);
+  const auto put = [&](Vertex v, const std::array<double, 3>& position) {
+    put_position(position, number(v), mesh.positions);
+  };
+  if (positions_.empty()) {
+    maker.each_of_all([this](Vertex v) { return is_used(v); }, threads_, put);
+  } else {
+    for (Vertex v = 0; v < tin_.vertex_count(); ++v) {
+      const double* at = &positions_[3 * std::size_t{v}];
+      if (is_used(v)) put(v, {at[0], at[1], at[2]});
+    }
+    std::vector<double>().swap(positions_);
+  }
   return mesh;
 }
 
-Mesh melt_down(const SampleHeights& heights, Triangulation tin, const VertexLattice& lattice, const Frame& frame,
-               bool round_to_float32) {
-  Mesh mesh;
-  tin.drop_links();
-  const VertexNumbers numbers(tin);
-  add_triangles(tin, numbers, mesh);
-  tin.drop_triangles();
-  add_positions(heights, tin, numbers, lattice, frame, round_to_float32, mesh);
-  face_up(frame, mesh);
-  return mesh;
+LatticePoints MeltDown::points() const {
+  LatticePoints at{way_.lattice.steps, {}};
+  at.points.resize(vertex_count());
+  for (Vertex v = 0; v < tin_.vertex_count(); ++v) {
+    if (is_used(v)) at.points[number(v)] = tin_.point(v);
+  }
+  return at;
 }
 
 void round_heights(Mesh& mesh, double step) {

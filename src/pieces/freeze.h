@@ -1,11 +1,18 @@
 // From the triangulation to the final mesh.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "base/array.h"
 #include "grid/raster.h"
 #include "grid/vertex_lattice.h"
+#include "mesh/order.h"
+#include "pieces/vertex_attributes.h"
 #include "scarp/frame.h"
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
@@ -24,6 +31,7 @@ class SampleHeights {
 
   std::int32_t cols() const { return raster_.cols; }
   std::int32_t rows() const { return raster_.rows; }
+  bool are_in_memory() const { return source_ == nullptr; }
   float at(Point p) const;  ///< NaN is nodata
   float at_vertex(Vertex v, Point p) const { return v < known_.size() ? known_[v] : at(p); }
 
@@ -33,31 +41,52 @@ class SampleHeights {
   std::span<const float> known_;
 };
 
-/// The triangles that are not outside, with the vertices they use, in the frame: offsets from frame_origin(), or from
-/// that of a frame in space, rounded to float32 if asked; heights as they are, but in space. Counter-clockwise from
-/// above whatever way the frame turns. Ids follow the order of insertion. `lattice`: of the vertices; their heights
-/// come before those of samples.
-Mesh freeze(const SampleHeights& heights, const Triangulation& tin, const VertexLattice& lattice, const Frame& frame,
-            bool round_to_float32);
-
-/// The same, but frees the triangulation step by step: at most 72 bytes a vertex are in use at a time.
-Mesh melt_down(const SampleHeights& heights, Triangulation tin, const VertexLattice& lattice, const Frame& frame,
-               bool round_to_float32);
-
-/// To multiples of a power of two.
-void round_heights(Mesh& mesh, double step);
-
-/// Lattice points, with `steps` steps from one sample to the next.
-struct LatticePoints {
-  std::int32_t steps = 1;
-  std::vector<Point> points;
+/// How vertices become positions in the frame: offsets from frame_origin(), or from that of a frame in space, rounded
+/// to float32 if asked; heights as they are, but in space. What it refers to outlives it.
+struct VertexPositions {
+  const SampleHeights& heights;
+  const VertexLattice& lattice;  ///< of the vertices; their heights come before those of samples
+  const Frame& frame;
+  bool round_to_float32 = false;
 };
+
+/// The triangles that are not outside, with the vertices they use. Counter-clockwise from above whatever way the frame
+/// turns. Ids follow the order of insertion. The mesh does not depend on threads.
+Mesh freeze(const Triangulation& tin, const VertexPositions& positions, int threads = 1);
 
 /// Those of freeze()'s vertices, in its order.
 LatticePoints frozen_points(const Triangulation& tin, const VertexLattice& lattice);
 
-/// Positions in the raster's image: pixel centres, (0, 0) the image's top left corner and (1, 1) its bottom right; 2
-/// values a point.
-std::vector<float> sample_uvs(std::int32_t cols, std::int32_t rows, const LatticePoints& at);
+/// The mesh of freeze(), or that mesh in the order of optimize_order(), from a triangulation that gives its memory back
+/// step by step: in affine frames at most 64 bytes a vertex are in use at a time, else 88. Used once, from top to
+/// bottom.
+class MeltDown {
+ public:
+  MeltDown(Triangulation tin, const VertexPositions& positions, int threads);
+
+  std::size_t vertex_count() const { return numbers_ ? numbers_->count : tin_.vertex_count(); }
+  std::size_t triangle_count() const { return (ordered_.empty() ? corners_.size() : ordered_.size()) / 3; }
+
+  void order();
+  Mesh finish();
+  /// Of the finished mesh's vertices.
+  LatticePoints points() const;
+
+ private:
+  bool is_used(Vertex v) const { return !numbers_ || numbers_->ids[v] != VertexNumbers::kUnused; }
+  std::uint32_t number(Vertex v) const { return numbers_ ? numbers_->ids[v] : v; }
+  void find_places(std::size_t first, std::size_t end, std::span<std::array<double, 2>> places) const;
+
+  Triangulation tin_;
+  VertexPositions way_;
+  int threads_;
+  Array<Vertex> corners_;                 // until the triangles are ordered
+  std::optional<VertexNumbers> numbers_;  // nothing: all vertices are used, as they are
+  std::vector<double> positions_;         // by vertex; empty in affine frames, where they are quickly made again
+  std::vector<std::uint32_t> ordered_;    // corners; empty before
+};
+
+/// To multiples of a power of two.
+void round_heights(Mesh& mesh, double step);
 
 }  // namespace scarp

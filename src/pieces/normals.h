@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "grid/bands.h"
-#include "pieces/freeze.h"
+#include "pieces/vertex_attributes.h"
 #include "scarp/height_field.h"
 
 namespace scarp {

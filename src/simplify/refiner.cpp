@@ -55,7 +55,7 @@ std::uint64_t Refiner::triangle_count() const { return impl_->refinement.triangl
 Mesh Refiner::mesh() const {
   const HeightField& field = impl_->field;
   const Raster given{field.frame.space ? field.samples : impl_->raster.samples, field.cols, field.rows};
-  return freeze(SampleHeights(given), impl_->domain.tin, {}, field.frame, true);
+  return freeze(impl_->domain.tin, {SampleHeights(given), {}, field.frame, true});
 }
 
 }  // namespace scarp

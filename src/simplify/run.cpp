@@ -21,10 +21,10 @@
 #include "pieces/freeze.h"
 #include "pieces/goals.h"
 #include "pieces/locked_border.h"
-#include "pieces/normals.h"
 #include "pieces/passes.h"
 #include "pieces/release.h"
 #include "pieces/source_windows.h"
+#include "pieces/vertex_attributes.h"
 #include "refine/domain.h"
 #include "refine/refinement.h"
 #include "refine/settle_edges.h"
@@ -72,11 +72,11 @@ class EngineRun {
     if (is_final) refinement_.reset();
     freeze_into(result, is_final);
     result.seconds_refine += seconds_since(start);
-    if (is_useless(result.mesh)) return result;
+    if (is_useless({result.mesh.vertex_count(), result.mesh.triangle_count()})) return result;
     if (!is_final) {
       if (auto looked = mend_ahead(result); !looked) return tl::unexpected(looked.error());
+      order(result);
     }
-    order(result);
     if (auto proven = prove_and_mend(result); !proven) return tl::unexpected(proven.error());
     count_looser_outline(result);
     if (options_.quality.shape.any()) result.shape = report_shapes(result.mesh, options_.quality.shape, shaped->forced);
@@ -195,9 +195,7 @@ class EngineRun {
   std::uint64_t vertices() const { return piece_->tin.vertex_count() - unused_; }
 
   /// See Scale::room.
-  bool is_useless(const Mesh& mesh) const {
-    return plan_.scale.room && plan_.scale.room->used({mesh.vertex_count(), mesh.triangle_count()}) > 1;
-  }
+  bool is_useless(const MeshSize& size) const { return plan_.scale.room && plan_.scale.room->used(size) > 1; }
 
   MeshSize size() const { return {vertices(), refinement_->triangle_count()}; }
   std::optional<StopReason> exceeded(std::uint32_t gain) const { return budget_.exceeded(size(), gain); }
@@ -437,32 +435,36 @@ class EngineRun {
     result.seconds_refine += seconds_since(start);
   }
 
-  /// The last time the workbench's memory is given back on the way.
+  /// The last time the workbench's memory is given back on the way, and the mesh is put in order unless it is useless.
   void freeze_into(Simplified& result, bool is_last) {
     const auto start = Clock::now();
     if (!is_whole_ && !plan_.has_lines) result.outline_triangles = count_border_triangles(piece_->tin);
-    const Raster given{clean_field().samples, raster_.cols, raster_.rows};
+    const HeightField clean = clean_field();
+    const Raster given{clean.samples, raster_.cols, raster_.rows};
     const SampleHeights heights = !plan_.is_streamed ? SampleHeights(given) : SampleHeights(field_, heights_);
-    const bool has_more = options_.output.normals || options_.output.uvs || !field_.channels.empty();
-    const LatticePoints at = has_more ? frozen_points(piece_->tin, piece_->lattice) : LatticePoints{};
-    const bool rounds = rounds_offsets(field_, options_);
+    const VertexPositions way{heights, piece_->lattice, field_.frame, rounds_offsets(field_, options_)};
+    const bool has_more = has_attributes(field_, options_);
+    const int threads = options_.run.threads;
+    LatticePoints at;
+    double seconds_of_order = 0;
     if (is_last) {
-      result.mesh = melt_down(heights, std::move(piece_->tin), piece_->lattice, field_.frame, rounds);
+      MeltDown melting(std::move(piece_->tin), way, threads);
+      if (!is_useless({melting.vertex_count(), melting.triangle_count()})) {
+        const auto order_start = Clock::now();
+        melting.order();
+        seconds_of_order = seconds_since(order_start);
+      }
+      result.mesh = melting.finish();
+      if (has_more) at = melting.points();
       piece_.reset();
     } else {
-      result.mesh = freeze(heights, piece_->tin, piece_->lattice, field_.frame, rounds);
+      result.mesh = freeze(piece_->tin, way, threads);
+      if (has_more) at = frozen_points(piece_->tin, piece_->lattice);
     }
     if (const double step = height_step(field_, options_); step > 0) round_heights(result.mesh, step);
-    if (options_.output.normals) result.mesh.normals = sample_normals(clean_field(), at);
-    if (options_.output.uvs) result.mesh.uvs = sample_uvs(raster_.cols, raster_.rows, at);
-    result.mesh.channel_count = static_cast<int>(field_.channels.size());
-    for (Point p : field_.channels.empty() ? std::vector<Point>() : at.points) {
-      for (const Channel& channel : field_.channels)
-        result.mesh.channels.push_back(
-            channel.samples[static_cast<std::size_t>(p.y) * static_cast<std::size_t>(raster_.cols) +
-                            static_cast<std::size_t>(p.x)]);
-    }
-    record(result, "freeze", start);
+    add_attributes(clean, options_, at, result.mesh);
+    result.passes.push_back({"freeze", seconds_since(start) - seconds_of_order});
+    if (seconds_of_order > 0) result.passes.push_back({"order", seconds_of_order});
   }
 
   /// Where the outline takes most of the mesh.

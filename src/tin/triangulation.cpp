@@ -1,6 +1,8 @@
 #include "tin/triangulation.h"
 
+#include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace scarp {
 
@@ -17,6 +19,19 @@ Triangulation::Triangulation(std::int32_t cols, std::int32_t rows) {
   set_triangle(t, 0, 1, 3, false);
   set_triangle(u, 1, 2, 3, false);
   link(3 * t + 1, 3 * u + 2);
+}
+
+Array<Vertex> Triangulation::take_corners() {
+  Array<Vertex> corners = std::move(corners_);
+  std::size_t kept = 0;
+  for (Triangle t = 0; t < triangle_count(); ++t) {
+    if (is_outside(t)) continue;
+    if (kept != t) std::copy_n(&corners[3 * std::size_t{t}], 3, &corners[3 * kept]);
+    ++kept;
+  }
+  corners.resize(3 * kept);
+  flags_.release();
+  return corners;
 }
 
 void Triangulation::set_outside(Triangle t, bool outside) {

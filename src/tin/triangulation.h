@@ -115,10 +115,8 @@ class Triangulation {
 
   /// Give memory back. Without links nobody may ask for twins or insert; without triangles only vertices are left.
   void drop_links() { twins_.release(); }
-  void drop_triangles() {
-    corners_.release();
-    flags_.release();
-  }
+  /// The corners of the triangles that are not outside, 3 each; only vertices are left. REQUIRES: no links.
+  Array<Vertex> take_corners();
 
   /// The half-edge from a to b, kNone if they are not neighbours. Cost: a walk to a, O(1) if it was touched last.
   HalfEdge find_edge(Vertex a, Vertex b) const;

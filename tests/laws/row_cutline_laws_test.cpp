@@ -99,8 +99,8 @@ struct CutScene {
     return refine_tiled(with_source(edited, near), tiles);
   }
   Mesh mesh(const Tiled& tiled) const {
-    return freeze(SampleHeights(streamed, {}), tiled.domain.tin, {tiled.steps, tiled.heights, {}}, field.view().frame,
-                  false);
+    return freeze(tiled.domain.tin,
+                  {SampleHeights(streamed, {}), {tiled.steps, tiled.heights, {}}, field.view().frame, false});
   }
 };
 

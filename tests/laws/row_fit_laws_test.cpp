@@ -71,8 +71,9 @@ RC_GTEST_PROP(rows, that_are_fitted_keep_the_bound_and_the_domain, ()) {
   RC_ASSERT(unsound == "");
   RC_ASSERT(testing::outside_area2(tin) == tiled.steps * tiled.steps * testing::outside_area2(domain->tin));
   RC_ASSERT(tiled.domain.whole == domain->whole);
-  const auto judged = measure(
-      field.view(), freeze(SampleHeights(streamed, tiled.heights), tin, lattice_of(tiled), field.view().frame, false));
+  const auto judged =
+      measure(field.view(),
+              freeze(tin, {SampleHeights(streamed, tiled.heights), lattice_of(tiled), field.view().frame, false}));
   RC_ASSERT(judged.has_value());
   RC_ASSERT(judged->uncovered == 0u);
   RC_ASSERT(judged->nodata_cells_covered == 0u);

@@ -137,8 +137,9 @@ RC_GTEST_PROP(row_lines, are_chains_of_edges_and_the_bound_holds_against_the_edi
   RC_ASSERT(unsound == "");
   RC_ASSERT(holds_lines(tiled, lines->graph, scene.options.quality.effort == Effort::kFast));
   const HeightField edited = lines->apply(scene.streamed);
-  const auto judged = measure(edited, freeze(SampleHeights(edited, {}), tin, {tiled.steps, tiled.heights, {}},
-                                             scene.field.view().frame, false));
+  const auto judged = measure(
+      edited,
+      freeze(tin, {SampleHeights(edited, {}), {tiled.steps, tiled.heights, {}}, scene.field.view().frame, false}));
   RC_ASSERT(judged.has_value());
   RC_ASSERT(judged->uncovered == 0u);
   RC_ASSERT(judged->nodata_cells_covered == 0u);

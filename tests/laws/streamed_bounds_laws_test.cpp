@@ -112,7 +112,7 @@ RC_GTEST_PROP(streamed_bounds, are_kept_by_every_sample_in_small_rows, ()) {
       tin, (scene.field.cols - 1) * tiled.steps + 1, (scene.field.rows - 1) * tiled.steps + 1, testing::Edges::kAny);
   RC_ASSERT(unsound == "");
   const Mesh mesh =
-      freeze(SampleHeights(scene.streamed, tiled.heights), tin, places_of(tiled), scene.field.view().frame, false);
+      freeze(tin, {SampleHeights(scene.streamed, tiled.heights), places_of(tiled), scene.field.view().frame, false});
   expect_kept(judged(scene.field.view(), mesh, scene.promised()));
 }
 
@@ -133,7 +133,7 @@ RC_GTEST_PROP(streamed_bounds, are_kept_beside_lines, ()) {
   RC_PRE(made.has_value());
   const HeightField edited = lines->apply(scene.streamed);
   const Mesh mesh =
-      freeze(SampleHeights(edited, {}), (*made)->domain.tin, places_of(**made), scene.field.view().frame, false);
+      freeze((*made)->domain.tin, {SampleHeights(edited, {}), places_of(**made), scene.field.view().frame, false});
   expect_kept(judged(edited, mesh, scene.promised()));
 }
 

@@ -104,7 +104,7 @@ RC_GTEST_PROP(streamed_shapes, bands_leave_no_goal_behind, ()) {
   RC_ASSERT(testing::verify_triangulation(start->tin, (field.cols - 1) * kLatticeSteps + 1,
                                           (field.rows - 1) * kLatticeSteps + 1, testing::Edges::kAny) == "");
   RC_ASSERT(testing::outside_area2(start->tin) == outside);
-  const Mesh mesh = freeze(SampleHeights(streamed, {}), start->tin, start->lattice, frame, false);
+  const Mesh mesh = freeze(start->tin, {SampleHeights(streamed, {}), start->lattice, frame, false});
   for (float& bound : bounds) bound = bound * 1.000001f + 1e-6f;
   MeasureOptions judge;
   judge.tolerance = bounds;

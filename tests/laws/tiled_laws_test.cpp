@@ -156,7 +156,7 @@ RC_GTEST_PROP(tiled, keeps_the_bound_and_the_domain_with_any_tiles, ()) {
   const std::string needless = find_needless_edge(tin, metric);
   RC_ASSERT(needless == "");
 
-  const auto judged = measure(field.view(), freeze(SampleHeights(raster), tin, {}, grid_frame(field.rows), true));
+  const auto judged = measure(field.view(), freeze(tin, {SampleHeights(raster), {}, grid_frame(field.rows), true}));
   RC_ASSERT(judged.has_value());
   RC_ASSERT(judged->uncovered == 0u);
   RC_ASSERT(judged->nodata_cells_covered == 0u);

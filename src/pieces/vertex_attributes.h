@@ -1,0 +1,27 @@
+// What vertices have beside their positions.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/point.h"
+#include "metric/request.h"
+#include "scarp/height_field.h"
+#include "scarp/mesh.h"
+
+namespace scarp {
+
+/// Lattice points, with `steps` steps from one sample to the next.
+struct LatticePoints {
+  std::int32_t steps = 1;
+  std::vector<Point> points;
+};
+
+/// Whether add_attributes() adds any.
+bool has_attributes(const HeightField& field, const Request& options);
+
+/// Normals and positions in the raster's image where they are asked for, and the field's channels. `field`: as it is
+/// refined. `at`: of the vertices. Throws SourceFailure.
+void add_attributes(const HeightField& field, const Request& options, const LatticePoints& at, Mesh& mesh);
+
+}  // namespace scarp
