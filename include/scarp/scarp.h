@@ -40,6 +40,7 @@
 #include "scarp/tile.h"
 #include "scarp/tile_job.h"
 #include "scarp/tile_set.h"
+#include "scarp/tiles3d.h"
 #include "scarp/tolerances.h"
 #include "scarp/version.h"
 #include "scarp/water.h"

@@ -95,4 +95,15 @@ std::array<std::uint8_t, 2> encode_octahedral(const Space& normal) {
   return {byte(x), byte(y)};
 }
 
+Space decode_octahedral(const std::array<std::uint8_t, 2>& normal) {
+  double x = normal[0] / 127.5 - 1, y = normal[1] / 127.5 - 1;
+  const double z = 1 - std::abs(x) - std::abs(y);
+  if (z < 0) {
+    const double folded = (1 - std::abs(y)) * (x < 0 ? -1 : 1);
+    y = (1 - std::abs(x)) * (y < 0 ? -1 : 1);
+    x = folded;
+  }
+  return normalized({x, y, z});
+}
+
 }  // namespace scarp

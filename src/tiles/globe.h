@@ -45,6 +45,8 @@ class Globe {
 
 /// Octahedral, two bytes, of a vector of unit length.
 std::array<std::uint8_t, 2> encode_octahedral(const Space& normal);
+/// Of unit length.
+Space decode_octahedral(const std::array<std::uint8_t, 2>& normal);
 
 double dot(const Space& a, const Space& b);
 Space scaled(const Space& a, double factor);

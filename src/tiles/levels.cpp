@@ -7,6 +7,7 @@
 
 #include "scarp/tile.h"
 #include "tiles/globe.h"
+#include "tiles/powers.h"
 
 namespace scarp {
 namespace {
@@ -22,8 +23,6 @@ constexpr double kLeastQuantum = 0x1p-10;
 constexpr double kOvershoot = 0.3;
 /// The finest level's nodes may be this many cells of the source apart.
 constexpr double kSpacing = 1.1;
-
-double power_of_two_below(double value) { return std::ldexp(1.0, std::ilogb(value)); }
 
 /// Edges between grid points are so short that the sag is at most an eighth of the geometric error.
 int segments_of(int z) { return z < 10 ? 32 >> (z / 2) : 1; }

@@ -29,7 +29,7 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp measure dem.tif hills.glb --script outliers.txt --fail-above 1\n"
      "  scarp measure photo.png photo.glb --image --fail-above 8\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
-    {kTile, "tile", "Make a pyramid of terrain tiles for globes: quantized-mesh, for CesiumJS and others",
+    {kTile, "tile", "Make a pyramid of terrain tiles for globes: quantized-mesh or 3D Tiles, for CesiumJS and others",
      "INPUT OUTPUT [OPTIONS]",
      "Tiles of neighbours have the same edges, and each tells its error bound, the earth's curve included.\n"
      "OUTPUT is a folder, or one file: .pmtiles, .mbtiles or .3tz.\n"
@@ -40,6 +40,7 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp tile dem.tif globe.pmtiles                     all tiles in one file\n"
      "  scarp tile north.tif south.tif globe --effort high   a mosaic, in fewer triangles\n"
      "  scarp tile dem.tif globe -e 2 --zoom 14              the finest level and its max error\n"
+     "  scarp tile dem.tif globe --of 3dtiles                3D Tiles: tileset.json, subtrees, GLB files\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
     {kTilePlan, "tile-plan", "Plan tiles that many processes make, on one machine or a cluster", "INPUT PLAN [OPTIONS]",
      "Also: scarp tile plan. Makes a few tiles, and tells what all of them will take.\n"

@@ -8,6 +8,17 @@ using enum OptionId;
 using enum OptionType;
 
 constexpr OptionRow kTileRows[] = {
+    {.id = kOf,
+     .name = "--of",
+     .commands = kTile,
+     .group = OptionGroup::kOutput,
+     .type = kChoice,
+     .value = "FORMAT",
+     .choices = "qm 3dtiles",
+     .by_default = "qm",
+     .help = "Output format. qm: quantized-mesh. 3dtiles: 3D Tiles 1.1, terrain as compressed GLB files that other "
+             "clients of 3D Tiles read as well.",
+     .brief = "Output format: qm (quantized-mesh) or 3dtiles"},
     {.id = kMaxError,
      .name = "--max-error",
      .short_name = "-e",

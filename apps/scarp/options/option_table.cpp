@@ -36,7 +36,8 @@ constexpr GroupRow kGroups[] = {
 
 std::vector<const OptionRow*> sort_rows() {
   std::vector<const OptionRow*> rows;
-  for (const auto part : {goal_rows(), file_rows(), sample_rows(), line_rows(), strategy_rows(), tile_rows(), run_rows()}) {
+  for (const auto part :
+       {goal_rows(), file_rows(), sample_rows(), line_rows(), strategy_rows(), tile_rows(), run_rows()}) {
     for (const OptionRow& row : part) rows.push_back(&row);
   }
   std::stable_sort(rows.begin(), rows.end(),

@@ -103,9 +103,8 @@ Result<std::uint64_t> parse_count(std::string_view option, const std::string& te
   const bool is_whole = is_digits || (rounded && *rounded >= 0 && *rounded == std::floor(*rounded));
   if (rounded && is_whole) value = static_cast<std::uint64_t>(*rounded);
   if (!is_whole || value < least) {
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} {} is not a whole number of at least {}{}", option, shell_word(text), least,
-                            is_whole ? "" : ", such as 5000, 50k, 2M or 1e5"));
+    return fail(ErrorKind::kUsage, fmt::format("{} {} is not a whole number of at least {}{}", option, shell_word(text),
+                                               least, is_whole ? "" : ", such as 5000, 50k, 2M or 1e5"));
   }
   return value;
 }

@@ -465,9 +465,9 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given, std::vector<s
   const Result<int> threads = parse_threads(given.threads);
   if (!threads) return tl::unexpected(threads.error());
   plan.simplify.run.threads = plan.read.run.threads = *threads;
-  for (const auto step : {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_solid, plan_lines, plan_shape,
-                          plan_levels, plan_objective, plan_conflicts, plan_outputs, plan_zones, plan_space,
-                          plan_memory}) {
+  for (const auto step :
+       {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_solid, plan_lines, plan_shape, plan_levels,
+        plan_objective, plan_conflicts, plan_outputs, plan_zones, plan_space, plan_memory}) {
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());
   }

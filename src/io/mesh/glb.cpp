@@ -10,15 +10,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <limits>
 #include <utility>
 
 #include "base/caught.h"
-#include "base/large_vector.h"
 #include "base/parallel.h"
 #include "io/mesh/file_bytes.h"
 #include "io/mesh/glb_attributes.h"
+#include "io/mesh/glb_builder.h"
 #include "io/mesh/glb_json.h"
 #include "io/mesh/glb_numbers.h"
 #include "io/mesh/mesh_file.h"
@@ -28,10 +27,6 @@
 namespace scarp {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x46546C67;
-constexpr int kArrayBuffer = 34962, kIndexBuffer = 34963;
-constexpr const char* kMeshopt = "EXT_meshopt_compression";
-
 /// A PNG of one white pixel: places in an image mean something only where there is a texture, and this one stands in
 /// for the user's.
 constexpr std::uint8_t kWhitePng[] = {
@@ -40,41 +35,9 @@ constexpr std::uint8_t kWhitePng[] = {
     0x0C, 0x49, 0x44, 0x41, 0x54, 0x78, 0xDA, 0x63, 0xF8, 0xFF, 0xFF, 0x3F, 0x00, 0x05, 0xFE, 0x02, 0xFE, 0x33,
     0x12, 0x95, 0x14, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
 
-std::uint64_t pad4(std::uint64_t size) { return (size + 3) / 4 * 4; }
-
 bool has_gaps(const Mesh& mesh) {
   return std::any_of(mesh.channels.begin(), mesh.channels.end(), [](float value) { return !std::isfinite(value); });
 }
-
-/// The binary chunk as it will be: pieces, written once all sizes are known.
-class Binary {
- public:
-  using Write = std::function<void(std::uint8_t* at)>;
-
-  /// Returns its place, a multiple of 4.
-  std::uint64_t add(std::uint64_t size, Write write) {
-    const std::uint64_t offset = pad4(size_);
-    pieces_.push_back({offset, std::move(write)});
-    size_ = offset + size;
-    return offset;
-  }
-  std::uint64_t add(std::vector<std::uint8_t> bytes) {
-    const std::uint64_t size = bytes.size();
-    return add(size, [bytes = std::move(bytes)](std::uint8_t* at) { std::memcpy(at, bytes.data(), bytes.size()); });
-  }
-  std::uint64_t size() const { return size_; }
-  void write(std::uint8_t* begin, int threads) const {
-    parallel_for(pieces_.size(), threads, [&](std::size_t i) { pieces_[i].write(begin + pieces_[i].offset); });
-  }
-
- private:
-  struct Piece {
-    std::uint64_t offset;
-    Write write;
-  };
-  std::vector<Piece> pieces_;
-  std::uint64_t size_ = 0;
-};
 
 void store_items(const GlbAttribute& attribute, const MeshPart& part, std::uint8_t* at) {
   for (const std::uint32_t v : part.vertices) attribute.store(v, at);
@@ -113,13 +76,7 @@ class GlbWriter {
     for (std::size_t i = 0; i < parts_.size(); ++i) primitives.push_back(add_part(parts_[i], std::move(prepared[i])));
     json_["meshes"] = Json::array({{{"name", "terrain"}, {"primitives", std::move(primitives)}}});
     add_material();
-    json_["accessors"] = std::move(accessors_);
-    json_["bufferViews"] = std::move(views_);
-    json_["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
-    if (options_.compress) {
-      json_["buffers"].push_back({{"byteLength", unpacked_}, {"extensions", {{kMeshopt, {{"fallback", true}}}}}});
-    }
-    return assemble();
+    return glb_.assemble(options_.threads);
   }
 
  private:
@@ -147,7 +104,7 @@ class GlbWriter {
                       {"generator", generator == mesh_.metadata.end() ? "Scarp" : generator->second}};
     if (!mesh_.metadata.empty()) json_["asset"]["extras"] = metadata_to_extras(mesh_.metadata);
     std::vector<std::string> extensions;
-    if (options_.compress) extensions = {"KHR_mesh_quantization", kMeshopt};
+    if (options_.compress) extensions = {"KHR_mesh_quantization", kMeshoptExtension};
     if (options_.base_color.mime_type == kWebp) extensions.emplace_back(kWebpTexture);
     if (!extensions.empty()) {
       json_["extensionsUsed"] = extensions;
@@ -162,38 +119,6 @@ class GlbWriter {
     if (translation != std::array<double, 3>{}) node["translation"] = translation;
     if (!grid_.is_plain()) node["scale"] = grid_.scale;
     json_["nodes"] = Json::array({node});
-  }
-
-  Json& add_accessor(std::size_t view, int component, std::uint64_t count, const char* type) {
-    accessors_.push_back({{"bufferView", view}, {"componentType", component}, {"count", count}, {"type", type}});
-    return accessors_.back();
-  }
-
-  /// A view of items that stand in the binary chunk as they are. Returns its number.
-  std::size_t add_view(std::uint64_t size, int target, std::size_t stride, Binary::Write write) {
-    Json view = {{"buffer", 0}, {"byteOffset", binary_.add(size, std::move(write))}, {"byteLength", size}};
-    if (stride > 0) view["byteStride"] = stride;
-    view["target"] = target;
-    views_.push_back(std::move(view));
-    return views_.size() - 1;
-  }
-
-  /// A view of compressed items: readers that undo it put them into the second buffer, which no file holds.
-  std::size_t add_packed(std::vector<std::uint8_t> stream, int target, std::uint64_t count, std::size_t stride,
-                         const char* mode) {
-    const std::uint64_t size = count * stride;
-    Json packed = {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", stream.size()}};
-    packed["byteOffset"] = binary_.add(std::move(stream));
-    packed["byteStride"] = stride;
-    packed["count"] = count;
-    packed["mode"] = mode;
-    Json view = {{"buffer", 1}, {"byteOffset", unpacked_}, {"byteLength", size}};
-    if (target == kArrayBuffer) view["byteStride"] = stride;
-    view["target"] = target;
-    view["extensions"] = {{kMeshopt, std::move(packed)}};
-    views_.push_back(std::move(view));
-    unpacked_ = pad4(unpacked_ + size);
-    return views_.size() - 1;
   }
 
   PreparedPart prepare(const MeshPart& part) const {
@@ -213,10 +138,10 @@ class GlbWriter {
     const GlbAttribute& attribute = attributes_[number];
     const std::uint64_t count = part.vertices.size(), size = attribute.stride * count;
     if (!options_.compress) {
-      return add_view(size, kArrayBuffer, 0,
-                      [&attribute, &part](std::uint8_t* at) { store_items(attribute, part, at); });
+      return glb_.add_view(size, kArrayBuffer, 0,
+                           [&attribute, &part](std::uint8_t* at) { store_items(attribute, part, at); });
     }
-    return add_packed(std::move(prepared.streams[number]), kArrayBuffer, count, attribute.stride, "ATTRIBUTES");
+    return glb_.add_packed(std::move(prepared.streams[number]), kArrayBuffer, count, attribute.stride, "ATTRIBUTES");
   }
 
   Json add_part(const MeshPart& part, PreparedPart prepared) {
@@ -224,26 +149,26 @@ class GlbWriter {
     Json named = Json::object();
     for (std::size_t number = 0; number < attributes_.size(); ++number) {
       const GlbAttribute& attribute = attributes_[number];
-      named[attribute.name] = accessors_.size();
-      Json& accessor = add_accessor(add_items(number, part, prepared), attribute.component, part.vertices.size(),
-                                    kTypes[attribute.width]);
+      named[attribute.name] = glb_.accessor_count();
+      Json& accessor = glb_.add_accessor(add_items(number, part, prepared), attribute.component, part.vertices.size(),
+                                         kTypes[attribute.width]);
       if (attribute.is_normalized) accessor["normalized"] = true;
       if (attribute.name != "POSITION") continue;
       accessor["min"] = prepared.low;
       accessor["max"] = prepared.high;
     }
-    Json primitive = {{"attributes", named}, {"indices", accessors_.size()}, {"material", 0}, {"mode", 4}};
+    Json primitive = {{"attributes", named}, {"indices", glb_.accessor_count()}, {"material", 0}, {"mode", 4}};
     if (mesh_.channel_count > 0) {
       primitive["extras"]["channels"] = mesh_.channel_count;
       if (has_gaps(mesh_)) primitive["extras"]["noValue"] = kNoChannelValue;
     }
     const std::uint64_t corners = part.corners.size();
     const std::size_t view = options_.compress
-                                 ? add_packed(std::move(prepared.triangles), kIndexBuffer, corners, 2, "TRIANGLES")
-                                 : add_view(2 * corners, kIndexBuffer, 0, [&part](std::uint8_t* at) {
+                                 ? glb_.add_packed(std::move(prepared.triangles), kIndexBuffer, corners, 2, "TRIANGLES")
+                                 : glb_.add_view(2 * corners, kIndexBuffer, 0, [&part](std::uint8_t* at) {
                                      for (const std::uint16_t corner : part.corners) store_number(at, corner);
                                    });
-    add_accessor(view, kUint16Component, corners, "SCALAR");
+    glb_.add_accessor(view, kUint16Component, corners, "SCALAR");
     return primitive;
   }
 
@@ -262,9 +187,9 @@ class GlbWriter {
 
   /// Returns the number of a texture that shows it.
   std::size_t add_texture(const std::uint8_t* bytes, std::size_t size, const std::string& mime_type) {
-    const std::uint64_t offset = binary_.add(size, [bytes, size](std::uint8_t* at) { std::memcpy(at, bytes, size); });
-    views_.push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}});
-    json_["images"].push_back({{"bufferView", views_.size() - 1}, {"mimeType", mime_type}});
+    const std::size_t view =
+        glb_.add_view(size, 0, 0, [bytes, size](std::uint8_t* at) { std::memcpy(at, bytes, size); });
+    json_["images"].push_back({{"bufferView", view}, {"mimeType", mime_type}});
     const std::size_t source = json_["images"].size() - 1;
     Json texture = Json::object();
     if (mime_type == kWebp) {
@@ -313,31 +238,6 @@ class GlbWriter {
     json_["materials"] = Json::array({std::move(material)});
   }
 
-  Result<std::vector<std::uint8_t>> assemble() const {
-    std::string json = print_json(json_);
-    json.resize(pad4(json.size()), ' ');
-    const std::uint64_t binary = pad4(binary_.size());
-    const std::uint64_t total = 28 + json.size() + binary;
-    if (total > std::numeric_limits<std::uint32_t>::max()) {
-      return fail(ErrorKind::kOutput,
-                  fmt::format("a GLB file holds less than 4 GiB, and this mesh needs {:.1f} GiB; write PLY instead",
-                              static_cast<double>(total) / (1 << 30)));
-    }
-    std::vector<std::uint8_t> bytes;
-    resize_large(bytes, total, options_.threads);
-    std::uint8_t* at = bytes.data();
-    for (const std::uint32_t word : {kMagic, std::uint32_t{2}, static_cast<std::uint32_t>(total),
-                                     static_cast<std::uint32_t>(json.size()), kJsonChunk}) {
-      store_number(at, word);
-    }
-    std::memcpy(at, json.data(), json.size());
-    at += json.size();
-    store_number(at, static_cast<std::uint32_t>(binary));
-    store_number(at, kBinaryChunk);
-    binary_.write(at, options_.threads);
-    return bytes;
-  }
-
   static constexpr const char* kWebp = "image/webp";
   static constexpr const char* kWebpTexture = "EXT_texture_webp";
 
@@ -346,9 +246,8 @@ class GlbWriter {
   const GlbGrid grid_;
   const std::vector<GlbAttribute> attributes_;
   const std::vector<MeshPart> parts_;
-  Binary binary_;
-  std::uint64_t unpacked_ = 0;  // bytes of the second buffer
-  Json json_ = Json::object(), accessors_ = Json::array(), views_ = Json::array();
+  GlbBuilder glb_;
+  Json& json_ = glb_.json;
 };
 
 }  // namespace

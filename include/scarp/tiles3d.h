@@ -1,0 +1,115 @@
+// 3D Tiles 1.1 of terrain: the tiles of a pyramid as GLB files, and the files that tell clients which there are.
+// CesiumJS takes a set both as terrain (Cesium3DTilesTerrainProvider) and as an ordinary tileset; so do other clients
+// of 3D Tiles.
+//
+// POSITIONS are earth-centred and lie on one lattice a level: whole multiples of a power of two, at most 1/32 of the
+// level's max error. Vertices that neighbours share are the same doubles in both.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "scarp/result.h"
+#include "scarp/tile.h"
+#include "scarp/tile_set.h"
+
+#pragma GCC visibility push(default)
+
+namespace scarp {
+
+/// Metres between the points of a level's lattice: where 16 bits hold a tile of the level, as fine as they do, but no
+/// finer than 1/256 of its max error.
+double lattice_step(const PyramidPlan& plan, int z);
+
+/// What the lattice moves a vertex by at most, in metres: √3/2 of the step. Adds to TerrainTile::bound(). The sum
+/// bounds the distance in space between a node and the triangles.
+double lattice_error(const PyramidPlan& plan, int z);
+
+/// What clients ask of a tile besides its mesh.
+struct TileFacts {
+  /// Bounds of the triangles, metres above the ellipsoid; what flat ones lie below its curve is included.
+  double min_height = 0, max_height = 0;
+  std::array<double, 4> sphere{};  ///< holds the triangles: centre, radius
+  /// In units of the ellipsoid's axes: who does not see it sees none of the tile. Always finite; far out for tiles that
+  /// cannot be hidden so.
+  std::array<double, 3> horizon_point{};
+
+  friend bool operator==(const TileFacts&, const TileFacts&) = default;
+};
+
+/// A tile in space.
+struct EarthTile {
+  double step = 1;
+  std::array<std::int64_t, 3> origin{};                 ///< in steps: x towards 0° E, z towards the north pole
+  std::vector<std::array<std::uint32_t, 3>> offsets;    ///< from there, in steps, below 2^24
+  std::vector<std::array<double, 3>> normals;           ///< of unit length
+  std::vector<std::uint32_t> triangles;                 ///< counter-clockwise seen from outside
+  std::vector<std::uint32_t> west, south, east, north;  ///< vertices on the edges, by place
+  TileFacts facts;
+};
+
+/// A function of the tile and the plan. No function of the machine's mathematics library enters it.
+EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan);
+
+struct TileGlbOptions {
+  /// EXT_meshopt_compression (version 0 of the codec) and KHR_mesh_quantization. Positions then take 16 bits where the
+  /// lattice's offsets do, normals 8. Ignored in builds without libmeshoptimizer. DEFAULT: true.
+  bool compress = true;
+  std::array<double, 3> color{0.47, 0.42, 0.33};  ///< of the ground, linear. DEFAULT: earth.
+};
+
+/// The bytes of a GLB file: one node with a matrix, one mesh of one primitive, and CESIUM_tile_edges. Its y is up, as
+/// glTF demands: clients of 3D Tiles turn it back. asset.extras hold the facts. Fails as encode_glb().
+Result<std::vector<std::uint8_t>> encode_tile_glb(const EarthTile& tile, const TileGlbOptions& options = {});
+
+/// The facts of a tile that encode_tile_glb() wrote. Fails with kInput for other files.
+Result<TileFacts> read_tile_facts(std::span<const std::uint8_t> glb);
+
+/// A set's tiles, by level, row and column.
+using FactsByTile = std::map<std::tuple<int, std::uint32_t, std::uint32_t>, TileFacts>;
+
+/// What tileset.json says besides the tiles.
+struct TilesetFacts {
+  std::string name = "terrain";
+  std::string description;
+  std::string copyright;
+  std::string version;  ///< changes when a tile does
+};
+
+struct NamedFile {
+  std::string name;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// tileset.json and "subtrees/r/z/x/y.subtree": two roots of 180° with implicit children, named as TileFormat::kGlb
+/// says. A tile's geometric error is a power of two below its root's, and no less than what is proven of its level.
+/// REQUIRES: both roots are there, and each other tile's parent.
+std::vector<NamedFile> encode_tileset(const PyramidPlan& plan, const PyramidReport& report, const FactsByTile& tiles,
+                                      const TilesetFacts& facts = {});
+
+/// Tiles into a set of 3D Tiles.
+class TerrainTilesetSink final : public TileSink {
+ public:
+  /// Borrows both.
+  TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan, const TileGlbOptions& options = {});
+
+  Result<std::vector<std::uint8_t>> encode(const TerrainTile& tile) const override;
+  Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override;
+  /// The files of encode_tileset(), with a version of the tiles. Once, after all tiles.
+  Result<void> put_files(const PyramidReport& report, TilesetFacts facts = {});
+
+ private:
+  TileSetWriter* writer_;
+  const PyramidPlan* plan_;
+  TileSetSink tiles_;
+  FactsByTile facts_;
+};
+
+}  // namespace scarp
+
+#pragma GCC visibility pop

@@ -1,0 +1,49 @@
+// A GLB file in the making: accessors, views, and the pieces of its binary chunk, written once all sizes are known.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "io/mesh/glb_json.h"
+#include "scarp/result.h"
+
+namespace scarp {
+
+constexpr int kArrayBuffer = 34962, kIndexBuffer = 34963;
+constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
+
+class GlbBuilder {
+ public:
+  using Write = std::function<void(std::uint8_t* at)>;
+
+  /// All but accessors, views and buffers.
+  Json json = Json::object();
+
+  std::size_t accessor_count() const { return accessors_.size(); }
+  Json& add_accessor(std::size_t view, int component, std::uint64_t count, const char* type);
+  /// A view of `size` bytes that stand in the binary chunk as they are. Returns its number. A target or a stride of 0
+  /// is not told.
+  std::size_t add_view(std::uint64_t size, int target, std::size_t stride, Write write);
+  /// A view of compressed items: readers that undo it put them into the second buffer, which no file holds.
+  std::size_t add_packed(std::vector<std::uint8_t> stream, int target, std::uint64_t count, std::size_t stride,
+                         const char* mode, const char* filter = nullptr);
+  /// The file. Fails with kOutput for 4 GiB and more. What the pieces write from must be alive still.
+  Result<std::vector<std::uint8_t>> assemble(int threads);
+
+ private:
+  struct Piece {
+    std::uint64_t offset;
+    Write write;
+  };
+  /// Returns its place in the binary chunk, a multiple of 4.
+  std::uint64_t add_piece(std::uint64_t size, Write write);
+
+  std::vector<Piece> pieces_;
+  std::uint64_t size_ = 0;      // of the binary chunk
+  std::uint64_t unpacked_ = 0;  // bytes of the second buffer
+  Json accessors_ = Json::array(), views_ = Json::array();
+};
+
+}  // namespace scarp

@@ -1,0 +1,291 @@
+// A tile as a GLB file: y up, which is (x, z, −y) of the earth's axes, as 3D Tiles turns it back.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "base/caught.h"
+#include "io/mesh/file_bytes.h"
+#include "io/mesh/glb_attributes.h"
+#include "io/mesh/glb_builder.h"
+#include "io/mesh/glb_numbers.h"
+#include "io/mesh/meshopt_codec.h"
+#include "scarp/tiles3d.h"
+#include "scarp/version.h"
+
+namespace scarp {
+namespace {
+
+constexpr const char* kTileEdges = "CESIUM_tile_edges";
+/// 65535 itself ends a strip of triangles.
+constexpr std::size_t kShortIndices = 65535;
+constexpr std::uint32_t kShort = 65535;
+
+/// Octahedral in signed bytes, as EXT_meshopt_compression's filter undoes it: x, y, what 1 is, and nothing.
+std::array<std::int8_t, 4> to_octahedral(const std::array<double, 3>& normal) {
+  const double size = std::abs(normal[0]) + std::abs(normal[1]) + std::abs(normal[2]);
+  double x = normal[0] / size, y = normal[1] / size;
+  if (normal[2] < 0) {
+    const double folded = (1 - std::abs(y)) * (x < 0 ? -1 : 1);
+    y = (1 - std::abs(x)) * (y < 0 ? -1 : 1);
+    x = folded;
+  }
+  const auto byte = [](double value) { return static_cast<std::int8_t>(std::floor(value * 127 + 0.5)); };
+  return {byte(x), byte(y), 127, 0};
+}
+
+class TileGlb {
+ public:
+  TileGlb(const EarthTile& tile, const TileGlbOptions& options)
+      : tile_(tile), options_(options), is_packed_(options.compress && kHasMeshoptCodec) {
+    for (const auto& offset : tile.offsets) {
+      for (std::size_t k = 0; k < 3; ++k) size_[k] = std::max(size_[k], offset[k]);
+    }
+    is_short_ = is_packed_ && *std::max_element(size_.begin(), size_.end()) <= kShort;
+    has_short_indices_ = tile.offsets.size() <= kShortIndices;
+    order_vertices();
+  }
+
+  Result<std::vector<std::uint8_t>> encode() {
+    describe();
+    Json attributes = Json::object();
+    attributes["POSITION"] = add_positions();
+    if (!tile_.normals.empty()) attributes["NORMAL"] = add_normals();
+    const std::size_t indices = add_indices();
+    Json primitive = {{"attributes", std::move(attributes)}, {"indices", indices}, {"material", 0}, {"mode", 4}};
+    primitive["extensions"][kTileEdges] = add_edges();
+    glb_.json["meshes"] = Json::array({{{"primitives", Json::array({std::move(primitive)})}}});
+    const auto& [red, green, blue] = options_.color;
+    glb_.json["materials"] = Json::array(
+        {{{"pbrMetallicRoughness",
+           {{"baseColorFactor", {red, green, blue, 1.0}}, {"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}}}});
+    return glb_.assemble(1);
+  }
+
+ private:
+  /// The order that takes the fewest bytes.
+  void order_vertices() {
+    for (std::uint32_t v = 0; v < tile_.offsets.size(); ++v) vertices_.push_back(v);
+    if (has_short_indices_) corners_.assign(tile_.triangles.begin(), tile_.triangles.end());
+    if (is_packed_ && has_short_indices_) order_for_codec(vertices_, corners_);
+    places_.resize(vertices_.size());
+    for (std::uint32_t place = 0; place < vertices_.size(); ++place) places_[vertices_[place]] = place;
+  }
+
+  void describe() {
+    const TileFacts& facts = tile_.facts;
+    Json extras = {{"min_height", facts.min_height},
+                   {"max_height", facts.max_height},
+                   {"sphere", facts.sphere},
+                   {"horizon_point", facts.horizon_point}};
+    glb_.json["asset"] = {
+        {"version", "2.0"}, {"generator", std::string("scarp ") + version()}, {"extras", {{"scarp", extras}}}};
+    std::vector<std::string> used{kTileEdges}, required;
+    if (is_packed_) {
+      used.emplace_back(kMeshoptExtension);
+      used.emplace_back("KHR_mesh_quantization");
+      required.emplace_back(kMeshoptExtension);
+      required.emplace_back("KHR_mesh_quantization");
+    }
+    glb_.json["extensionsUsed"] = used;
+    if (!required.empty()) glb_.json["extensionsRequired"] = required;
+    glb_.json["scene"] = 0;
+    glb_.json["scenes"] = Json::array({{{"nodes", {0}}}});
+    const double scale = tile_.step * (is_short_ ? kShort : 1);
+    const std::array<double, 3> origin = to_y_up(tile_.step * static_cast<double>(tile_.origin[0]),
+                                                 tile_.step * static_cast<double>(tile_.origin[1] + size_[1]),
+                                                 tile_.step * static_cast<double>(tile_.origin[2]));
+    glb_.json["nodes"] = Json::array(
+        {{{"mesh", 0},
+          {"matrix",
+           {scale, 0.0, 0.0, 0.0, 0.0, scale, 0.0, 0.0, 0.0, 0.0, scale, 0.0, origin[0], origin[1], origin[2], 1.0}}}});
+  }
+
+  /// Steps from the node's origin.
+  std::array<std::uint32_t, 3> steps_of(std::uint32_t v) const {
+    const auto& [x, y, z] = tile_.offsets[v];
+    return {x, z, size_[1] - y};
+  }
+
+  template <class Number>
+  std::vector<std::uint8_t> positions_as(std::size_t width) const {
+    std::vector<std::uint8_t> items(vertices_.size() * width * sizeof(Number));
+    std::uint8_t* at = items.data();
+    for (const std::uint32_t v : vertices_) {
+      for (const std::uint32_t step : steps_of(v)) store_number(at, static_cast<Number>(step));
+      for (std::size_t k = 3; k < width; ++k) store_number(at, Number{0});
+    }
+    return items;
+  }
+
+  std::size_t add_plain(std::vector<std::uint8_t> items, int target) {
+    const std::uint64_t size = items.size();
+    return glb_.add_view(size, target, 0,
+                         [items = std::move(items)](std::uint8_t* at) { std::memcpy(at, items.data(), items.size()); });
+  }
+
+  std::size_t add_positions() {
+    const std::uint64_t count = vertices_.size();
+    std::size_t view = 0;
+    if (is_short_) {
+      constexpr std::size_t kStride = 8;
+      view = glb_.add_packed(encode_meshopt_attributes(positions_as<std::uint16_t>(4), kStride), kArrayBuffer, count,
+                             kStride, "ATTRIBUTES");
+    } else {
+      view = add_plain(positions_as<float>(3), kArrayBuffer);
+    }
+    std::array<std::uint32_t, 3> low{steps_of(0)}, high{low};
+    for (const std::uint32_t v : vertices_) {
+      const std::array<std::uint32_t, 3> steps = steps_of(v);
+      for (std::size_t k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], steps[k]);
+        high[k] = std::max(high[k], steps[k]);
+      }
+    }
+    Json& accessor = glb_.add_accessor(view, is_short_ ? kUint16Component : kFloatComponent, count, "VEC3");
+    if (is_short_) accessor["normalized"] = true;
+    accessor["min"] = low;
+    accessor["max"] = high;
+    return glb_.accessor_count() - 1;
+  }
+
+  std::size_t add_normals() {
+    const std::uint64_t count = vertices_.size();
+    std::size_t view = 0;
+    if (is_packed_) {
+      constexpr std::size_t kStride = 4;
+      std::vector<std::uint8_t> items(count * kStride);
+      std::uint8_t* at = items.data();
+      for (const std::uint32_t v : vertices_) {
+        const auto& [x, y, z] = tile_.normals[v];
+        for (const std::int8_t part : to_octahedral(to_y_up(x, y, z))) store_number(at, part);
+      }
+      view = glb_.add_packed(encode_meshopt_attributes(items, kStride), kArrayBuffer, count, kStride, "ATTRIBUTES",
+                             "OCTAHEDRAL");
+    } else {
+      std::vector<std::uint8_t> items(count * 12);
+      std::uint8_t* at = items.data();
+      for (const std::uint32_t v : vertices_) {
+        const auto& [x, y, z] = tile_.normals[v];
+        for (const double part : to_y_up(x, y, z)) store_number(at, static_cast<float>(part));
+      }
+      view = add_plain(std::move(items), kArrayBuffer);
+    }
+    Json& accessor = glb_.add_accessor(view, is_packed_ ? kInt8Component : kFloatComponent, count, "VEC3");
+    if (is_packed_) accessor["normalized"] = true;
+    return glb_.accessor_count() - 1;
+  }
+
+  template <class Range>
+  std::vector<std::uint8_t> indices_of(const Range& vertices) const {
+    std::vector<std::uint8_t> items(vertices.size() * (has_short_indices_ ? 2 : 4));
+    std::uint8_t* at = items.data();
+    for (const std::uint32_t v : vertices) {
+      if (has_short_indices_) {
+        store_number(at, static_cast<std::uint16_t>(v));
+      } else {
+        store_number(at, v);
+      }
+    }
+    return items;
+  }
+
+  int index_component() const { return has_short_indices_ ? kUint16Component : kUint32Component; }
+
+  std::size_t add_indices() {
+    const std::uint64_t count = tile_.triangles.size();
+    std::size_t view = 0;
+    if (is_packed_ && has_short_indices_) {
+      view = glb_.add_packed(encode_meshopt_triangles(corners_, vertices_.size()), kIndexBuffer, count, 2, "TRIANGLES");
+    } else {
+      view = add_plain(has_short_indices_ ? indices_of(corners_) : indices_of(tile_.triangles), kIndexBuffer);
+    }
+    glb_.add_accessor(view, index_component(), count, "SCALAR");
+    return glb_.accessor_count() - 1;
+  }
+
+  /// One view of all edges: JSON is dearer than what compression saves.
+  Json add_edges() {
+    const std::pair<const char*, const std::vector<std::uint32_t>*> edges[] = {
+        {"left", &tile_.west}, {"bottom", &tile_.south}, {"right", &tile_.east}, {"top", &tile_.north}};
+    std::vector<std::uint32_t> all;
+    for (const auto& [name, vertices] : edges) {
+      for (const std::uint32_t v : *vertices) all.push_back(places_[v]);
+    }
+    const std::size_t view = add_plain(indices_of(all), 0), size = has_short_indices_ ? 2 : 4;
+    Json accessors = Json::object();
+    std::size_t offset = 0;
+    for (const auto& [name, vertices] : edges) {
+      Json& accessor = glb_.add_accessor(view, index_component(), vertices->size(), "SCALAR");
+      if (offset > 0) accessor["byteOffset"] = offset;
+      offset += vertices->size() * size;
+      accessors[name] = glb_.accessor_count() - 1;
+    }
+    return accessors;
+  }
+
+  const EarthTile& tile_;
+  const TileGlbOptions& options_;
+  bool is_packed_, is_short_ = false, has_short_indices_ = false;
+  std::array<std::uint32_t, 3> size_{};  ///< the largest offsets
+  std::vector<std::uint32_t> vertices_;  ///< of the tile, in the file's order
+  std::vector<std::uint32_t> places_;    ///< the reverse
+  std::vector<std::uint16_t> corners_;   ///< of triangles, in the file's order
+  GlbBuilder glb_;
+};
+
+/// The numbers of an array of so many.
+template <std::size_t N>
+bool read_numbers(const Json& object, const char* key, std::array<double, N>& numbers) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_array() || found->size() != N) return false;
+  for (std::size_t k = 0; k < N; ++k) {
+    if (!(*found)[k].is_number()) return false;
+    numbers[k] = (*found)[k].get<double>();
+  }
+  return true;
+}
+
+bool read_number(const Json& object, const char* key, double& number) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_number()) return false;
+  number = found->get<double>();
+  return true;
+}
+
+const Json* find_member(const Json* object, const char* key) {
+  if (object == nullptr || !object->is_object()) return nullptr;
+  const auto found = object->find(key);
+  return found == object->end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+Result<std::vector<std::uint8_t>> encode_tile_glb(const EarthTile& tile, const TileGlbOptions& options) {
+  try {
+    return TileGlb(tile, options).encode();
+  } catch (...) {
+    return caught(ErrorKind::kInput, "encode the tile");
+  }
+}
+
+Result<TileFacts> read_tile_facts(std::span<const std::uint8_t> glb) {
+  constexpr std::size_t kHeader = 20;
+  const auto refuse = [] { return fail(ErrorKind::kInput, "a tile is no GLB file of Scarp's"); };
+  if (glb.size() < kHeader || std::memcmp(glb.data(), "glTF", 4) != 0) return refuse();
+  const std::size_t length = load_number<std::uint32_t>(glb.data() + 12);
+  if (load_number<std::uint32_t>(glb.data() + 16) != kJsonChunk || length > glb.size() - kHeader) return refuse();
+  const auto json = parse_json(std::string_view(reinterpret_cast<const char*>(glb.data()) + kHeader, length));
+  if (!json) return refuse();
+  const Json* const scarp = find_member(find_member(find_member(&*json, "asset"), "extras"), "scarp");
+  TileFacts facts;
+  if (scarp == nullptr || !scarp->is_object() || !read_number(*scarp, "min_height", facts.min_height) ||
+      !read_number(*scarp, "max_height", facts.max_height) || !read_numbers(*scarp, "sphere", facts.sphere) ||
+      !read_numbers(*scarp, "horizon_point", facts.horizon_point))
+    return refuse();
+  return facts;
+}
+
+}  // namespace scarp

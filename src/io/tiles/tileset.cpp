@@ -1,0 +1,247 @@
+// tileset.json and subtrees: https://github.com/CesiumGS/3d-tiles, version 1.1, implicit tiling.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <set>
+#include <utility>
+
+#include "io/mesh/file_bytes.h"
+#include "io/mesh/glb_json.h"
+#include "scarp/tiles3d.h"
+#include "scarp/version.h"
+
+namespace scarp {
+namespace {
+
+constexpr double kPi = 3.141592653589793;
+/// Levels of a subtree: 341 tiles.
+constexpr int kSubtreeLevels = 5;
+constexpr const char* kClass = "tile";
+
+/// Of x and y, x first: where a tile of a level stands in a subtree.
+std::uint32_t interleave(std::uint32_t x, std::uint32_t y) {
+  std::uint32_t code = 0;
+  for (int bit = 0; bit < kSubtreeLevels; ++bit)
+    code |= ((x >> bit) & 1) << (2 * bit) | ((y >> bit) & 1) << (2 * bit + 1);
+  return code;
+}
+
+/// Bits, the first in the lowest place of the first byte.
+class Bits {
+ public:
+  explicit Bits(std::size_t size) : bytes_((size + 7) / 8) {}
+  void set(std::size_t at) {
+    bytes_[at / 8] |= static_cast<std::uint8_t>(1 << (at % 8));
+    ++count_;
+  }
+  std::size_t count() const { return count_; }
+  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+
+ private:
+  std::vector<std::uint8_t> bytes_;
+  std::size_t count_ = 0;
+};
+
+/// A binary chunk whose views begin at multiples of 8.
+class Views {
+ public:
+  std::size_t add(const std::vector<std::uint8_t>& bytes) {
+    views_.push_back({{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}});
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    bytes_.resize((bytes_.size() + 7) / 8 * 8);
+    return views_.size() - 1;
+  }
+  std::size_t add_numbers(const std::vector<double>& numbers) {
+    std::vector<std::uint8_t> bytes(8 * numbers.size());
+    std::uint8_t* at = bytes.data();
+    for (const double number : numbers) store_number(at, number);
+    return add(bytes);
+  }
+  const Json& json() const { return views_; }
+  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+
+ private:
+  Json views_ = Json::array();
+  std::vector<std::uint8_t> bytes_;
+};
+
+std::vector<std::uint8_t> join_subtree(std::string json, const std::vector<std::uint8_t>& binary) {
+  json.resize((json.size() + 7) / 8 * 8, ' ');
+  std::vector<std::uint8_t> bytes(24 + json.size() + binary.size());
+  std::uint8_t* at = bytes.data();
+  store_number(at, std::uint32_t{0x74627573});
+  store_number(at, std::uint32_t{1});
+  store_number(at, std::uint64_t{json.size()});
+  store_number(at, std::uint64_t{binary.size()});
+  std::memcpy(at, json.data(), json.size());
+  if (!binary.empty()) std::memcpy(at + json.size(), binary.data(), binary.size());
+  return bytes;
+}
+
+/// The subtree below a tile: which of its tiles are there, and what is known of them.
+std::vector<std::uint8_t> encode_subtree(TileId root, const FactsByTile& tiles) {
+  constexpr std::size_t kTiles = ((std::size_t{1} << (2 * kSubtreeLevels)) - 1) / 3;
+  constexpr std::size_t kChildren = std::size_t{1} << (2 * kSubtreeLevels);
+  Bits there(kTiles), below(kChildren);
+  std::vector<double> lows, highs, spheres, horizons;
+  std::vector<std::pair<std::uint32_t, const TileFacts*>> row;
+  std::size_t first = 0;
+  for (int depth = 0; depth <= kSubtreeLevels; ++depth) {
+    const int z = root.z + depth;
+    const std::uint32_t side = std::uint32_t{1} << depth, west = root.x << depth, south = root.y << depth;
+    row.clear();
+    for (std::uint32_t y = 0; y < side; ++y) {
+      const auto end = tiles.lower_bound({z, south + y, west + side});
+      for (auto tile = tiles.lower_bound({z, south + y, west}); tile != end; ++tile)
+        row.emplace_back(interleave(std::get<2>(tile->first) - west, y), &tile->second);
+    }
+    std::sort(row.begin(), row.end());
+    for (const auto& [place, facts] : row) {
+      if (depth == kSubtreeLevels) {
+        below.set(place);
+        continue;
+      }
+      there.set(first + place);
+      lows.push_back(facts->min_height);
+      highs.push_back(facts->max_height);
+      spheres.insert(spheres.end(), facts->sphere.begin(), facts->sphere.end());
+      horizons.insert(horizons.end(), facts->horizon_point.begin(), facts->horizon_point.end());
+    }
+    first += std::size_t{1} << (2 * depth);
+  }
+  Views views;
+  const auto bits = [&](const Bits& which) {
+    if (which.count() == 0) return Json{{"constant", 0}};
+    return Json{{"bitstream", views.add(which.bytes())}, {"availableCount", which.count()}};
+  };
+  Json json;
+  const Json available = bits(there);
+  json["tileAvailability"] = available;
+  json["contentAvailability"] = Json::array({available});
+  json["childSubtreeAvailability"] = bits(below);
+  json["propertyTables"] = Json::array({{{"class", kClass},
+                                         {"count", there.count()},
+                                         {"properties",
+                                          {{"min_height", {{"values", views.add_numbers(lows)}}},
+                                           {"max_height", {{"values", views.add_numbers(highs)}}},
+                                           {"sphere", {{"values", views.add_numbers(spheres)}}},
+                                           {"horizon_point", {{"values", views.add_numbers(horizons)}}}}}}});
+  json["tileMetadata"] = 0;
+  json["buffers"] = Json::array({{{"byteLength", views.bytes().size()}}});
+  json["bufferViews"] = views.json();
+  return join_subtree(print_json(json), views.bytes());
+}
+
+std::string content_name(std::uint32_t root) { return fmt::format("{}/{{level}}/{{x}}/{{y}}.glb", root); }
+std::string subtree_name(std::uint32_t root) { return fmt::format("subtrees/{}/{{level}}/{{x}}/{{y}}.subtree", root); }
+
+Json describe_classes() {
+  const auto number = [](const char* type, const char* semantic) {
+    return Json{{"type", type}, {"componentType", "FLOAT64"}, {"required", true}, {"semantic", semantic}};
+  };
+  Json sphere = number("SCALAR", "TILE_BOUNDING_SPHERE");
+  sphere["array"] = true;
+  sphere["count"] = 4;
+  const Json properties = {{"min_height", number("SCALAR", "TILE_MINIMUM_HEIGHT")},
+                           {"max_height", number("SCALAR", "TILE_MAXIMUM_HEIGHT")},
+                           {"sphere", std::move(sphere)},
+                           {"horizon_point", number("VEC3", "TILE_HORIZON_OCCLUSION_POINT")}};
+  return {{"id", "terrain"}, {"classes", {{kClass, {{"properties", properties}}}}}};
+}
+
+std::vector<std::uint8_t> encode_tileset_json(const PyramidPlan& plan, const PyramidReport& report,
+                                              const FactsByTile& tiles, const TilesetFacts& facts) {
+  double low = 0, high = 0, root_error = 0;
+  for (const auto& [id, tile] : tiles) {
+    low = std::min(low, tile.min_height);
+    high = std::max(high, tile.max_height);
+  }
+  Json levels = Json::array();
+  for (std::size_t z = 0; z < report.levels.size(); ++z) {
+    const double bound = report.levels[z].bound + lattice_error(plan, static_cast<int>(z));
+    root_error = std::max(root_error, std::ldexp(bound, static_cast<int>(z)));
+    levels.push_back({{"max_error", plan.levels[z].max_error},
+                      {"lattice_step", lattice_step(plan, static_cast<int>(z))},
+                      {"node_error", report.levels[z].node_error},
+                      {"bound", bound},
+                      {"tiles", report.levels[z].tiles}});
+  }
+  const auto region = [&](double west, double east) {
+    return Json{{"region", {west, -kPi / 2, east, kPi / 2, low, high}}};
+  };
+  Json asset = {{"version", "1.1"}};
+  if (!facts.version.empty()) asset["tilesetVersion"] = facts.version;
+  if (!facts.copyright.empty()) asset["copyright"] = facts.copyright;
+  asset["extras"]["scarp"] = {
+      {"generator", std::string("scarp ") + version()},
+      {"maximumScreenSpaceError", 2},
+      {"bounds", {plan.covered.west, plan.covered.south, plan.covered.east, plan.covered.north}},
+      {"levels", std::move(levels)}};
+  Json children = Json::array();
+  for (const std::uint32_t root : {0u, 1u}) {
+    children.push_back({{"boundingVolume", region(root == 0 ? -kPi : 0, root == 0 ? 0 : kPi)},
+                        {"geometricError", root_error},
+                        {"refine", "REPLACE"},
+                        {"content", {{"uri", content_name(root)}}},
+                        {"implicitTiling",
+                         {{"subdivisionScheme", "QUADTREE"},
+                          {"subtreeLevels", kSubtreeLevels},
+                          {"availableLevels", plan.max_zoom() + 1},
+                          {"subtrees", {{"uri", subtree_name(root)}}}}}});
+  }
+  const Json tileset = {{"asset", std::move(asset)},
+                        {"schema", describe_classes()},
+                        {"geometricError", 2 * root_error},
+                        {"root",
+                         {{"boundingVolume", region(-kPi, kPi)},
+                          {"geometricError", 2 * root_error},
+                          {"refine", "REPLACE"},
+                          {"children", std::move(children)}}}};
+  const std::string text = tileset.dump(1) + "\n";
+  return {text.begin(), text.end()};
+}
+
+}  // namespace
+
+std::vector<NamedFile> encode_tileset(const PyramidPlan& plan, const PyramidReport& report, const FactsByTile& tiles,
+                                      const TilesetFacts& facts) {
+  std::vector<NamedFile> files;
+  files.push_back({"tileset.json", encode_tileset_json(plan, report, tiles, facts)});
+  for (const auto& [key, tile] : tiles) {
+    const auto& [z, y, x] = key;
+    if (z % kSubtreeLevels != 0) continue;
+    const std::uint32_t root = x >> z;
+    files.push_back(
+        {fmt::format("subtrees/{}/{}/{}/{}.subtree", root, z, x - (root << z), y), encode_subtree({z, x, y}, tiles)});
+  }
+  return files;
+}
+
+TerrainTilesetSink::TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan, const TileGlbOptions& options)
+    : writer_(&writer), plan_(&plan), tiles_(writer, [&plan, options](const TerrainTile& tile) {
+        return encode_tile_glb(place_on_earth(tile, plan), options);
+      }) {}
+
+Result<std::vector<std::uint8_t>> TerrainTilesetSink::encode(const TerrainTile& tile) const {
+  return tiles_.encode(tile);
+}
+
+Result<void> TerrainTilesetSink::put(TileId id, std::span<const std::uint8_t> bytes) {
+  const Result<TileFacts> facts = read_tile_facts(bytes);
+  if (!facts) return tl::unexpected(facts.error());
+  facts_[{id.z, id.y, id.x}] = *facts;
+  return tiles_.put(id, bytes);
+}
+
+Result<void> TerrainTilesetSink::put_files(const PyramidReport& report, TilesetFacts facts) {
+  facts.version = tiles_.version();
+  for (const NamedFile& file : encode_tileset(*plan_, report, facts_, facts)) {
+    if (auto put = writer_->put_file(file.name, file.bytes); !put) return put;
+  }
+  return {};
+}
+
+}  // namespace scarp

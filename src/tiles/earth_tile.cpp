@@ -1,0 +1,100 @@
+// A tile on the lattice of its level, in space.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scarp/tiles3d.h"
+#include "tiles/globe.h"
+#include "tiles/powers.h"
+#include "tiles/tile_mesh_parts.h"
+
+namespace scarp {
+namespace {
+
+/// A horizon point from which no viewer near a planet is hidden.
+constexpr double kFarOut = 1000;
+
+std::array<std::int64_t, 3> nearest_lattice_point(const Space& at, double step) {
+  std::array<std::int64_t, 3> point{};
+  for (std::size_t k = 0; k < 3; ++k) point[k] = static_cast<std::int64_t>(std::floor(at[k] / step + 0.5));
+  return point;
+}
+
+/// The degrees of shared vertices, the same bits on both sides of an edge, around the antimeridian too.
+Space shared_position(const TerrainTile& tile, std::size_t v, const Globe& globe) {
+  const DegreeBox box = bounds_of(tile.id);
+  const double side = box.north - box.south;
+  const double longitude = tile.u[v] == 32767 ? box.east : box.west + side * (tile.u[v] / 32767.0);
+  double latitude = tile.v[v] == 32767 ? box.north : box.south + side * (tile.v[v] / 32767.0);
+  return globe.position(longitude == 180 ? -180 : longitude, latitude, tile.quantum * tile.heights[v]);
+}
+
+std::vector<std::uint32_t> vertices_along(const std::vector<std::uint16_t>& across, std::uint16_t edge,
+                                          const std::vector<std::uint16_t>& along) {
+  std::vector<std::uint32_t> vertices;
+  for (std::uint32_t v = 0; v < across.size(); ++v) {
+    if (across[v] == edge) vertices.push_back(v);
+  }
+  std::sort(vertices.begin(), vertices.end(), [&](std::uint32_t a, std::uint32_t b) { return along[a] < along[b]; });
+  return vertices;
+}
+
+TileFacts find_facts(const TerrainTile& tile, const EarthTile& placed, const Globe& globe) {
+  std::vector<Space> positions;
+  for (const auto& offset : placed.offsets) {
+    Space at{};
+    for (std::size_t k = 0; k < 3; ++k)
+      at[k] = placed.step * static_cast<double>(placed.origin[k] + std::int64_t{offset[k]});
+    positions.push_back(at);
+  }
+  TileFacts facts;
+  const auto [lowest, highest] = std::minmax_element(tile.heights.begin(), tile.heights.end());
+  facts.min_height = tile.quantum * *lowest - tile.sag - placed.step;
+  facts.max_height = tile.quantum * *highest + placed.step;
+  const Globe::Sphere sphere = Globe::sphere_around(positions);
+  facts.sphere = {sphere.centre[0], sphere.centre[1], sphere.centre[2], sphere.radius};
+  facts.horizon_point = globe.horizon_point(sphere.centre, positions);
+  if (std::isnan(facts.horizon_point[0])) facts.horizon_point = scaled(normalized(sphere.centre), kFarOut);
+  return facts;
+}
+
+}  // namespace
+
+double lattice_step(const PyramidPlan& plan, int z) {
+  const double max_error = plan.levels[static_cast<std::size_t>(z)].max_error;
+  const double side = std::ldexp(3.141592653589793 * plan.ellipsoid.semi_major, -z);
+  // Room for the relief besides; and float32 holds what 16 bits do not.
+  const double short_step = power_of_two_above(1.1 * side / 65535), least_step = power_of_two_above(side / 0x1p21);
+  return std::max(least_step,
+                  std::clamp(short_step, power_of_two_below(max_error / 256), power_of_two_below(max_error / 32)));
+}
+
+double lattice_error(const PyramidPlan& plan, int z) { return std::sqrt(0.75) * lattice_step(plan, z); }
+
+EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan) {
+  const Globe globe(plan.ellipsoid);
+  EarthTile placed;
+  placed.step = lattice_step(plan, tile.id.z);
+  std::vector<std::array<std::int64_t, 3>> points;
+  for (std::size_t v = 0; v < tile.u.size(); ++v)
+    points.push_back(nearest_lattice_point(shared_position(tile, v, globe), placed.step));
+  placed.origin.fill(std::numeric_limits<std::int64_t>::max());
+  for (const auto& point : points) {
+    for (std::size_t k = 0; k < 3; ++k) placed.origin[k] = std::min(placed.origin[k], point[k]);
+  }
+  for (const auto& point : points) {
+    std::array<std::uint32_t, 3> offset{};
+    for (std::size_t k = 0; k < 3; ++k) offset[k] = static_cast<std::uint32_t>(point[k] - placed.origin[k]);
+    placed.offsets.push_back(offset);
+  }
+  for (const auto& normal : tile.normals) placed.normals.push_back(decode_octahedral(normal));
+  placed.triangles = tile.triangles;
+  placed.west = vertices_along(tile.u, 0, tile.v);
+  placed.south = vertices_along(tile.v, 0, tile.u);
+  placed.east = vertices_along(tile.u, 32767, tile.v);
+  placed.north = vertices_along(tile.v, 32767, tile.u);
+  placed.facts = find_facts(tile, placed, globe);
+  return placed;
+}
+
+}  // namespace scarp
