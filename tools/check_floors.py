@@ -51,7 +51,7 @@ ROOMS = {
                "a window worked on alone, borders first: tiles, strips, seams, freezing"),
     "simplify": (6, ["base", "grid", "geom", "mesh", "tin", "metric", "io", "measure", "refine", "fit", "lines", "shape",
                      "features", "pieces"], ANY, "the list: the door, the passes, budgets, the proof, scattered points"),
-    "tiles": (6, ["base", "grid"], ANY, "pyramids of tiles on the globe: levels, edges, each tile, quantized-mesh"),
+    "tiles": (6, ["base", "grid"], ANY, "pyramids of tiles on the globe: levels, edges, each tile, quantized-mesh, places in space"),
     "apps": (7, [], ANY, "the command line; knows `include/scarp` only"),
 }
 

@@ -15,7 +15,7 @@ root_error=$(json globe/tileset.json root children 0 geometricError)
 for z in 11 10 9 8 7 6 5; do
   holds "$(json r.json levels $z node_error) <= $(json r.json levels $z asked)"
   holds "$(json r.json levels $z bound) == $(json globe/tileset.json asset extras scarp levels $z bound)"
-  holds "$root_error / 2**$z >= $(json r.json levels $z bound)"
+  holds "$root_error / 2^$z >= $(json r.json levels $z bound)"
 done
 
 # Threads change nothing; what is there stays.
