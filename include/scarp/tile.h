@@ -116,6 +116,9 @@ struct PyramidSettings {
   Effort effort = Effort::kNormal;
   /// Height of nodes without a height, metres. DEFAULT: 0, the ellipsoid.
   float background = 0;
+  /// Whether each tile with a child has all four, also those without a height: clients of 3D Tiles leave a hole where
+  /// one is missing, those of quantized-mesh cut it out of its parent. DEFAULT: false.
+  bool has_siblings = false;
   Geodetic ellipsoid = {};
 };
 
@@ -135,6 +138,7 @@ struct PyramidPlan {
   std::vector<PyramidLevel> levels;  ///< 0 … the finest
   Effort effort = Effort::kNormal;
   float background = 0;
+  bool has_siblings = false;  ///< as in PyramidSettings
   Geodetic ellipsoid = {};
   DegreeBox covered = {};  ///< by the source
 
@@ -215,7 +219,8 @@ struct BlockReport {
   std::vector<std::uint8_t> reduced;
 };
 
-/// Makes the tiles of one block that have heights, and the block's own in any case. A tile's bytes are those of
+/// Makes the tiles of one block that have heights, their siblings if the plan wants them, and the block's own in any
+/// case. A tile's bytes are those of
 /// make_tile(). REQUIRES: find_blocks() names the block.
 ///
 /// Cost: each node is read once; memory: that of its nodes, 4 · (32 · cells)² bytes. Progress: pass "tiles". Fails as

@@ -85,6 +85,7 @@ Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSetting
   plan.cells = settings.cells;
   plan.effort = settings.effort;
   plan.background = settings.background;
+  plan.has_siblings = settings.has_siblings;
   plan.ellipsoid = settings.ellipsoid;
   plan.covered = source.covered;
   const int finest = settings.max_zoom >= 0 ? settings.max_zoom : find_max_zoom(source, settings.cells, globe);

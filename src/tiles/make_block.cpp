@@ -39,13 +39,21 @@ std::vector<TileId> tiles_of(const PyramidPlan& plan, TileId block) {
   return tiles;
 }
 
-/// Nothing for a tile without heights, unless it is wanted all the same.
-Result<std::optional<TerrainTile>> make_if_any(const PyramidPlan& plan, TileId id, const NodeSource& source,
-                                               bool is_wanted) {
+Result<TileNodes> read_nodes(const PyramidPlan& plan, TileId id, const NodeSource& source) {
   const std::int32_t steps = steps_of(plan, id.z);
-  const auto nodes = TileNodes::read(id, steps, normal_reach(steps), plan.background, source);
+  return TileNodes::read(id, steps, normal_reach(steps), plan.background, source);
+}
+
+/// Nothing for a tile without heights, unless it is the block's own or a wanted sibling of one that may have some.
+Result<std::optional<TerrainTile>> make_if_any(const PyramidPlan& plan, TileId id, const NodeSource& source) {
+  const auto nodes = read_nodes(plan, id, source);
   if (!nodes) return tl::unexpected(nodes.error());
-  if (!nodes->has_heights() && !is_wanted) return std::optional<TerrainTile>();
+  if (!nodes->has_heights() && id.z > plan.block_level) {
+    if (!plan.has_siblings) return std::optional<TerrainTile>();
+    const auto parent = read_nodes(plan, {id.z - 1, id.x / 2, id.y / 2}, source);
+    if (!parent) return tl::unexpected(parent.error());
+    if (!parent->has_heights()) return std::optional<TerrainTile>();
+  }
   auto tile = nodes->is_flat() ? make_flat_tile(plan, id) : make_tile_of(plan, id, *nodes);
   if (!tile) return tl::unexpected(tile.error());
   return std::optional(std::move(*tile));
@@ -71,7 +79,7 @@ Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const Node
     made.report = output.take_report();
     return made;
   }
-  const auto make = [&](TileId id) { return make_if_any(plan, id, *nodes, id.z == plan.block_level); };
+  const auto make = [&](TileId id) { return make_if_any(plan, id, *nodes); };
   if (auto put = output.make(tiles_of(plan, block), make); !put) return tl::unexpected(put.error());
   made.report = output.take_report();
   made.report.has_heights = true;

@@ -184,6 +184,7 @@ PyramidPlan plan_of(const DegreeBox& covered, int finest, int cells) {
   PyramidSettings settings;
   settings.cells = cells;
   settings.max_zoom = finest;
+  settings.has_siblings = true;
   const Result<PyramidPlan> plan = plan_pyramid({covered, 1, -1000, 1200}, settings);
   EXPECT_TRUE(plan) << plan.error().message;
   return *plan;
@@ -237,6 +238,20 @@ TEST(tiles3d_laws, neighbours_share_vertices_to_the_bit) { expect_same_edges(kIs
 TEST(tiles3d_laws, neighbours_share_vertices_around_the_antimeridian_and_at_poles) {
   expect_same_edges({170, -90, 180, -80}, 50);
   expect_same_edges({-180, 80, 180, 90}, 300);
+}
+
+TEST(tiles3d_laws, a_tile_has_four_children_or_none) {
+  const Made made = make_set(kIsland, 2);
+  std::map<Key, int> children;
+  for (const auto& [key, bytes] : made.set.tiles) {
+    const auto [z, y, x] = key;
+    if (z > 0) ++children[{z - 1, y / 2, x / 2}];
+  }
+  for (const auto& [key, count] : children) {
+    EXPECT_EQ(count, 4);
+    EXPECT_EQ(made.set.tiles.count(key), 1u);
+  }
+  EXPECT_GT(children.size(), 50u);
 }
 
 TEST(tiles3d_laws, threads_change_nothing) {
