@@ -43,10 +43,10 @@ std::size_t GlbBuilder::add_view(std::uint64_t size, int target, std::size_t str
 
 std::size_t GlbBuilder::add_packed(std::vector<std::uint8_t> stream, int target, std::uint64_t count,
                                    std::size_t stride, const char* mode, const char* filter) {
-  const std::uint64_t size = count * stride;
-  Json packed = {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", stream.size()}};
+  const std::uint64_t size = count * stride, packed_size = stream.size();
+  Json packed = {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", packed_size}};
   packed["byteOffset"] = add_piece(
-      stream.size(), [stream = std::move(stream)](std::uint8_t* at) { std::memcpy(at, stream.data(), stream.size()); });
+      packed_size, [stream = std::move(stream)](std::uint8_t* at) { std::memcpy(at, stream.data(), stream.size()); });
   packed["byteStride"] = stride;
   packed["count"] = count;
   packed["mode"] = mode;
