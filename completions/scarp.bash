@@ -169,8 +169,8 @@ _scarp() {
         ;;
       tile)
         options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --report'
-        options+=' --overwrite --effort --max-error --quality --zoom --cells --nodata --background'
-        options+=' --num-threads --quiet --json-progress --help --help-all --version'
+        options+=' --overwrite --of --effort --max-error --quality --zoom --cells --nodata'
+        options+=' --background --num-threads --quiet --json-progress --help --help-all --version'
         ;;
       tile-plan)
         options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --overwrite'
