@@ -4,10 +4,10 @@ _scarp() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command='' options='' word
   COMPREPLY=()
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
-    case $word in simplify | measure | tile | tile-plan | tile-run | tile-finish | info | generate | paper | help | version) command=$word && break ;; esac
+    case $word in simplify | measure | tile | tile-plan | tile-run | tile-finish | serve | info | generate | paper | help | version) command=$word && break ;; esac
   done
   if [[ -z $command ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure tile tile-plan tile-run tile-finish info generate paper help version --help --version' -- "$current"))
+    COMPREPLY=($(compgen -W 'simplify measure tile tile-plan tile-run tile-finish serve info generate paper help version --help --version' -- "$current"))
     return
   fi
 
@@ -32,9 +32,10 @@ _scarp() {
       "tile-plan --resolution" | "tile-plan --z-scale" | "tile-plan --z-offset" | "tile-plan --shards" | \
       "tile-plan -e" | "tile-plan --max-error" | "tile-plan --quality" | "tile-plan --zoom" | "tile-plan --nodata" | \
       "tile-plan --background" | "tile-run --shard" | "tile-run --memory" | "tile-run -j" | \
-      "tile-run --num-threads" | "tile-finish -j" | "tile-finish --num-threads" | "info --band" | "info --te" | \
-      "info --resolution" | "info --z-scale" | "info --z-offset" | "info --cell-size" | "info --nodata" | \
-      "info --layer" | "info --z-field" | "generate --seed" | "generate --range" | "generate --size")
+      "tile-run --num-threads" | "tile-finish -j" | "tile-finish --num-threads" | "serve --port" | "info --band" | \
+      "info --te" | "info --resolution" | "info --z-scale" | "info --z-offset" | "info --cell-size" | \
+      "info --nodata" | "info --layer" | "info --z-field" | "generate --seed" | "generate --range" | \
+      "generate --size")
       return
       ;;
     "simplify --objective")
@@ -126,6 +127,10 @@ _scarp() {
       COMPREPLY=($(compgen -W 'auto egm96 ellipsoid' -- "$current"))
       return
       ;;
+    "tile --of" | "tile-plan --of")
+      COMPREPLY=($(compgen -W 'qm 3dtiles' -- "$current"))
+      return
+      ;;
     "tile --effort" | "tile-plan --effort")
       COMPREPLY=($(compgen -W 'fast normal high' -- "$current"))
       return
@@ -136,6 +141,10 @@ _scarp() {
       ;;
     "tile-run --parts" | "tile-finish --parts" | "paper --data" | "paper --out")
       COMPREPLY=($(compgen -d -- "$current"))
+      return
+      ;;
+    "serve --host")
+      COMPREPLY=($(compgen -W '127.0.0.1 0.0.0.0 ::1 ::' -- "$current"))
       return
       ;;
     "generate --of")
@@ -174,8 +183,8 @@ _scarp() {
         ;;
       tile-plan)
         options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --overwrite'
-        options+=' --shards --slurm --effort --max-error --quality --zoom --cells --nodata'
-        options+=' --background --quiet --json-progress --help --help-all --version'
+        options+=' --of --shards --slurm --effort --max-error --quality --zoom --cells'
+        options+=' --nodata --background --quiet --json-progress --help --help-all --version'
         ;;
       tile-run)
         options+=' --shard --parts --memory --num-threads --quiet --json-progress --help --help-all'
@@ -184,6 +193,9 @@ _scarp() {
       tile-finish)
         options+=' --report --overwrite --parts --num-threads --quiet --json-progress --help --help-all'
         options+=' --version'
+        ;;
+      serve)
+        options+=' --port --host --quiet --help --help-all --version'
         ;;
       info)
         options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --crs'
@@ -212,7 +224,7 @@ _scarp() {
     return
   fi
   if [[ $command == help && $COMP_CWORD -eq 2 ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure tile tile-plan tile-run tile-finish info generate paper help version' -- "$current"))
+    COMPREPLY=($(compgen -W 'simplify measure tile tile-plan tile-run tile-finish serve info generate paper help version' -- "$current"))
     return
   fi
   COMPREPLY=($(compgen -f -- "$current"))

@@ -77,45 +77,51 @@ class TileSetReader {
 /// Memory: 8 bytes a tile, PMTiles 32, .3tz some 150; never more than a multiple of the set's size.
 Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path);
 
-/// The bytes that are kept of a tile. Several threads call it at once.
+/// The bytes that are kept of a tile. Several threads call it at once. Borrows the plan.
 using TileEncoder = std::function<Result<std::vector<std::uint8_t>>(const TerrainTile&)>;
 
-/// Of a format. quantized-mesh is in gzip: servers must send "Content-Encoding: gzip" with such tiles.
-TileEncoder make_tile_encoder(TileFormat format, const Geodetic& ellipsoid = {});
-
-/// Tiles by an encoder into a set.
-class TileSetSink final : public TileSink {
- public:
-  /// Borrows the writer.
-  TileSetSink(TileSetWriter& writer, TileEncoder encoder);
-
-  Result<std::vector<std::uint8_t>> encode(const TerrainTile& tile) const override;
-  Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override;
-  /// A hash of all tiles put so far, whatever their order: 16 hexadecimal digits.
-  std::string version() const;
-
- private:
-  TileSetWriter* writer_;
-  TileEncoder encoder_;
-  std::uint64_t hash_ = 0;
-};
-
-/// What layer.json says besides the tiles.
+/// What a set says of itself besides the tiles.
 struct LayerFacts {
   std::string name = "terrain";
   std::string description;
   std::string attribution;
-  std::string version;  ///< changes when a tile does: clients ask for tiles with it, past old copies
+  std::string version;  ///< changes when a tile does: clients ask for tiles with it, past old copies; sinks find it
 };
 
 /// The bytes of layer.json, for "quantized-mesh-1.0": the file that clients ask for first.
 std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const PyramidReport& report,
                                             const LayerFacts& facts);
 
-/// Puts the files that tell clients of the tiles, and finishes the set. `facts.version` is taken from the sink. Fails
-/// with kOutput.
-Result<void> finish_tile_set(TileSetWriter& set, const TileSetSink& sink, const PyramidPlan& plan,
-                             const PyramidReport& report, LayerFacts facts);
+/// Of a format. quantized-mesh is in gzip: servers must send "Content-Encoding: gzip" with such tiles.
+TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan);
+
+/// Tiles of a format into a set.
+class TileSetSink : public TileSink {
+ public:
+  /// Borrows both.
+  TileSetSink(TileSetWriter& writer, TileFormat format, const PyramidPlan& plan);
+
+  Result<std::vector<std::uint8_t>> encode(const TerrainTile& tile) const override;
+  Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override;
+  /// A hash of all tiles put so far, whatever their order: 16 hexadecimal digits.
+  std::string version() const;
+  /// Puts the files that tell clients of the tiles: layer.json. Once, after all tiles. Fails with kOutput. Adds to the
+  /// report's bounds what the format adds to the tiles'.
+  virtual Result<void> put_files(PyramidReport& report, LayerFacts facts);
+
+ protected:
+  TileSetWriter& writer() { return *writer_; }
+  const PyramidPlan& plan() const { return *plan_; }
+
+ private:
+  TileSetWriter* writer_;
+  const PyramidPlan* plan_;
+  TileEncoder encoder_;
+  std::uint64_t hash_ = 0;
+};
+
+/// The sink of a format. Borrows both.
+std::unique_ptr<TileSetSink> make_tile_sink(TileFormat format, TileSetWriter& writer, const PyramidPlan& plan);
 
 }  // namespace scarp
 

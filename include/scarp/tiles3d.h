@@ -73,14 +73,6 @@ Result<TileFacts> read_tile_facts(std::span<const std::uint8_t> glb);
 /// A set's tiles, by level, row and column.
 using FactsByTile = std::map<std::tuple<int, std::uint32_t, std::uint32_t>, TileFacts>;
 
-/// What tileset.json says besides the tiles.
-struct TilesetFacts {
-  std::string name = "terrain";
-  std::string description;
-  std::string copyright;
-  std::string version;  ///< changes when a tile does
-};
-
 struct NamedFile {
   std::string name;
   std::vector<std::uint8_t> bytes;
@@ -90,23 +82,19 @@ struct NamedFile {
 /// says. A tile's geometric error is a power of two below its root's, and no less than what is proven of its level.
 /// REQUIRES: both roots are there, and each other tile's parent.
 std::vector<NamedFile> encode_tileset(const PyramidPlan& plan, const PyramidReport& report, const FactsByTile& tiles,
-                                      const TilesetFacts& facts = {});
+                                      const LayerFacts& facts = {});
 
 /// Tiles into a set of 3D Tiles.
-class TerrainTilesetSink final : public TileSink {
+class TerrainTilesetSink final : public TileSetSink {
  public:
   /// Borrows both.
-  TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan, const TileGlbOptions& options = {});
+  TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan);
 
-  Result<std::vector<std::uint8_t>> encode(const TerrainTile& tile) const override;
   Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override;
-  /// The files of encode_tileset(), with a version of the tiles. Once, after all tiles.
-  Result<void> put_files(const PyramidReport& report, TilesetFacts facts = {});
+  /// The files of encode_tileset(). Adds lattice_error() to the bounds.
+  Result<void> put_files(PyramidReport& report, LayerFacts facts) override;
 
  private:
-  TileSetWriter* writer_;
-  const PyramidPlan* plan_;
-  TileSetSink tiles_;
   FactsByTile facts_;
 };
 

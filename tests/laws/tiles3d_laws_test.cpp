@@ -199,7 +199,10 @@ Made make_set(const DegreeBox& covered, int threads) {
   const auto report = make_pyramid(made.plan, Land(covered), sink, run);
   EXPECT_TRUE(report) << report.error().message;
   made.report = *report;
-  EXPECT_TRUE(sink.put_files(made.report));
+  PyramidReport told = made.report;
+  EXPECT_TRUE(sink.put_files(told, {}));
+  for (std::size_t z = 0; z < told.levels.size(); ++z)
+    EXPECT_EQ(told.levels[z].bound, made.report.levels[z].bound + lattice_error(made.plan, static_cast<int>(z)));
   return made;
 }
 

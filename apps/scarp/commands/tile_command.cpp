@@ -38,14 +38,15 @@ Result<void> TileCommand::run(const std::string& command_line) const {
   const TileJob& job = opened->job;
   auto set = create_tile_set(output_, job.format, overwrite_);
   if (!set) return tl::unexpected(set.error());
-  TileSetSink sink(**set, make_tile_encoder(job.format, job.plan.ellipsoid));
+  const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, **set, job.plan);
   Run run;
   run.threads = *threads;
   run.progress = display.callback();
-  const Result<PyramidReport> report = make_pyramid(job.plan, opened->raster->nodes(), sink, run);
+  Result<PyramidReport> report = make_pyramid(job.plan, opened->raster->nodes(), *sink, run);
   if (!report) return tl::unexpected(report.error());
   if (auto checked = check_heights(job, *report); !checked) return checked;
-  if (auto finished = finish_tile_set(**set, sink, job.plan, *report, job.facts); !finished) return finished;
+  if (auto put = sink->put_files(*report, job.facts); !put) return put;
+  if (auto finished = (*set)->finish(); !finished) return finished;
   display.finish();
   if (!quiet_) {
     print_warnings(warnings_of_raster(opened->raster->info()));

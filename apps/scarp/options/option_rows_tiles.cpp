@@ -10,7 +10,7 @@ using enum OptionType;
 constexpr OptionRow kTileRows[] = {
     {.id = kOf,
      .name = "--of",
-     .commands = kTile,
+     .commands = kTile | kTilePlan,
      .group = OptionGroup::kOutput,
      .type = kChoice,
      .value = "FORMAT",

@@ -11,14 +11,18 @@
 namespace scarp::cli {
 namespace {
 
-constexpr Choice<Effort> kTileEfforts[] = {{"fast", Effort::kFast}, {"normal", Effort::kNormal}, {"high", Effort::kHigh}};
+constexpr Choice<Effort> kTileEfforts[] = {
+    {"fast", Effort::kFast}, {"normal", Effort::kNormal}, {"high", Effort::kHigh}};
 constexpr Choice<int> kCells[] = {{"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}};
 constexpr Choice<Vertical> kVerticals[] = {
     {"auto", Vertical::kAuto}, {"egm96", Vertical::kEgm96}, {"ellipsoid", Vertical::kEllipsoid}};
 
+constexpr Choice<TileFormat> kTileFormats[] = {{"qm", TileFormat::kQuantizedMesh}, {"3dtiles", TileFormat::kGlb}};
+
 }  // namespace
 
 void TileArguments::add_to(CLI::App& command) {
+  add_option(command, OptionId::kOf, format);
   add_option(command, OptionId::kBand, raster.band);
   add_numbers(command, OptionId::kExtent, raster.extent, 4);
   add_option(command, OptionId::kResolution, raster.resolution);
@@ -78,8 +82,12 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress) const {
   if (!above) return tl::unexpected(above.error());
   Result<ReadOptions> options = raster.parse();
   if (!options) return tl::unexpected(options.error());
+  const Result<TileFormat> kept = choose("--of", format.value_or("qm"), kTileFormats);
+  if (!kept) return tl::unexpected(kept.error());
   OpenedJob opened;
   TileJob& job = opened.job;
+  job.format = *kept;
+  settings->has_siblings = *kept == TileFormat::kGlb;
   job.reading = *options;
   job.vertical = *above;
   options->with_range = true;

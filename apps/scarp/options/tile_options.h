@@ -21,7 +21,7 @@ struct OpenedJob {
 
 struct TileArguments {
   RasterArguments raster;  ///< the paths are arguments of their own
-  Given max_error, quality, zoom, cells, effort, vertical, background;
+  Given max_error, quality, zoom, cells, effort, vertical, background, format;
 
   void add_to(CLI::App& command);
   /// Fails as the options, GlobeRaster::open() and plan_pyramid() do.

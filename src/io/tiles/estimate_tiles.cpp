@@ -53,7 +53,7 @@ Result<bool> has_heights(const PyramidPlan& plan, TileId id, const NodeSource& n
 
 Result<TileEstimate> estimate_tiles(const TileJob& job, const NodeSource& nodes, int samples) {
   const PyramidPlan& plan = job.plan;
-  const TileEncoder encode = make_tile_encoder(job.format, plan.ellipsoid);
+  const TileEncoder encode = make_tile_encoder(job.format, plan);
   TileEstimate estimate;
   std::vector<TileId> blocks;
   for (const TileId block : find_blocks(plan)) {

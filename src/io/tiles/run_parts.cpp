@@ -72,7 +72,7 @@ Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, cons
   const double share = 1 / static_cast<double>(blocks.size() - report.there);
   for (const TileId block : blocks) {
     if ((*parts)->has(block)) continue;
-    BlockSink sink(make_tile_encoder(job.format, job.plan.ellipsoid));
+    BlockSink sink(make_tile_encoder(job.format, job.plan));
     part.progress = part_of(run.progress, static_cast<double>(report.blocks) * share, share);
     auto made = make_block(job.plan, block, nodes, sink, part);
     if (!made) return tl::unexpected(made.error());
@@ -93,17 +93,18 @@ Result<PyramidReport> finish_parts(const TileJob& job, const std::string& folder
     return fail(ErrorKind::kInput, fmt::format("{} of {} blocks are not in {}: run their shares with scarp tile run, "
                                                "which makes only what is missing",
                                                missing, blocks.size(), folder));
-  TileSetSink sink(set, make_tile_encoder(job.format, job.plan.ellipsoid));
+  const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, set, job.plan);
   std::vector<BlockReport> made;
   for (const TileId block : blocks) {
     auto one =
-        (*parts)->read(block, [&](TileId id, std::span<const std::uint8_t> bytes) { return sink.put(id, bytes); });
+        (*parts)->read(block, [&](TileId id, std::span<const std::uint8_t> bytes) { return sink->put(id, bytes); });
     if (!one) return tl::unexpected(one.error());
     made.push_back(std::move(*one));
   }
-  auto report = finish_pyramid(job.plan, std::move(made), sink, run);
+  auto report = finish_pyramid(job.plan, std::move(made), *sink, run);
   if (!report) return report;
-  if (auto done = finish_tile_set(set, sink, job.plan, *report, job.facts); !done) return tl::unexpected(done.error());
+  if (auto put = sink->put_files(*report, job.facts); !put) return tl::unexpected(put.error());
+  if (auto finished = set.finish(); !finished) return tl::unexpected(finished.error());
   return report;
 }
 

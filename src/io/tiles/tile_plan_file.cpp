@@ -77,6 +77,7 @@ Json describe_plan(const PyramidPlan& plan) {
           {"block_level", plan.block_level},
           {"effort", word_of(plan.effort, kEfforts)},
           {"background", plan.background},
+          {"has_siblings", plan.has_siblings},
           {"ellipsoid", {plan.ellipsoid.semi_major, plan.ellipsoid.inverse_flattening}},
           {"covered", {plan.covered.west, plan.covered.south, plan.covered.east, plan.covered.north}},
           {"levels", std::move(levels)}};
@@ -88,6 +89,7 @@ PyramidPlan parse_plan(const Json& json) {
   plan.block_level = json.at("block_level");
   plan.effort = value_of(json.at("effort"), kEfforts);
   plan.background = json.at("background");
+  plan.has_siblings = json.at("has_siblings");
   plan.ellipsoid.semi_major = json.at("ellipsoid").at(0);
   plan.ellipsoid.inverse_flattening = json.at("ellipsoid").at(1);
   const Json& covered = json.at("covered");

@@ -8,6 +8,7 @@
 #include "io/tiles/folder_set.h"
 #include "io/tiles/set_archive.h"
 #include "scarp/gzip.h"
+#include "scarp/tiles3d.h"
 
 namespace scarp {
 
@@ -27,11 +28,19 @@ Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path) {
               fmt::format("{} is no set of tiles: neither a folder nor a .pmtiles, .mbtiles or .3tz", path));
 }
 
-TileEncoder make_tile_encoder([[maybe_unused]] TileFormat format, const Geodetic& ellipsoid) {
-  return [ellipsoid](const TerrainTile& tile) { return compress_gzip(encode_quantized_mesh(tile, ellipsoid)); };
+TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan) {
+  if (format == TileFormat::kGlb)
+    return [&plan](const TerrainTile& tile) { return encode_tile_glb(place_on_earth(tile, plan)); };
+  return [&plan](const TerrainTile& tile) { return compress_gzip(encode_quantized_mesh(tile, plan.ellipsoid)); };
 }
 
-TileSetSink::TileSetSink(TileSetWriter& writer, TileEncoder encoder) : writer_(&writer), encoder_(std::move(encoder)) {}
+std::unique_ptr<TileSetSink> make_tile_sink(TileFormat format, TileSetWriter& writer, const PyramidPlan& plan) {
+  if (format == TileFormat::kGlb) return std::make_unique<TerrainTilesetSink>(writer, plan);
+  return std::make_unique<TileSetSink>(writer, format, plan);
+}
+
+TileSetSink::TileSetSink(TileSetWriter& writer, TileFormat format, const PyramidPlan& plan)
+    : writer_(&writer), plan_(&plan), encoder_(make_tile_encoder(format, plan)) {}
 
 Result<std::vector<std::uint8_t>> TileSetSink::encode(const TerrainTile& tile) const { return encoder_(tile); }
 
@@ -47,11 +56,9 @@ Result<void> TileSetSink::put(TileId id, std::span<const std::uint8_t> bytes) {
 
 std::string TileSetSink::version() const { return fmt::format("{:016x}", hash_); }
 
-Result<void> finish_tile_set(TileSetWriter& set, const TileSetSink& sink, const PyramidPlan& plan,
-                             const PyramidReport& report, LayerFacts facts) {
-  facts.version = sink.version();
-  if (auto put = set.put_file("layer.json", encode_layer_json(plan, report, facts)); !put) return put;
-  return set.finish();
+Result<void> TileSetSink::put_files(PyramidReport& report, LayerFacts facts) {
+  facts.version = version();
+  return writer_->put_file("layer.json", encode_layer_json(*plan_, report, facts));
 }
 
 }  // namespace scarp

@@ -153,7 +153,7 @@ Json describe_classes() {
 }
 
 std::vector<std::uint8_t> encode_tileset_json(const PyramidPlan& plan, const PyramidReport& report,
-                                              const FactsByTile& tiles, const TilesetFacts& facts) {
+                                              const FactsByTile& tiles, const LayerFacts& facts) {
   double low = 0, high = 0, root_error = 0;
   for (const auto& [id, tile] : tiles) {
     low = std::min(low, tile.min_height);
@@ -174,7 +174,7 @@ std::vector<std::uint8_t> encode_tileset_json(const PyramidPlan& plan, const Pyr
   };
   Json asset = {{"version", "1.1"}};
   if (!facts.version.empty()) asset["tilesetVersion"] = facts.version;
-  if (!facts.copyright.empty()) asset["copyright"] = facts.copyright;
+  if (!facts.attribution.empty()) asset["copyright"] = facts.attribution;
   asset["extras"]["scarp"] = {
       {"generator", std::string("scarp ") + version()},
       {"maximumScreenSpaceError", 2},
@@ -207,7 +207,7 @@ std::vector<std::uint8_t> encode_tileset_json(const PyramidPlan& plan, const Pyr
 }  // namespace
 
 std::vector<NamedFile> encode_tileset(const PyramidPlan& plan, const PyramidReport& report, const FactsByTile& tiles,
-                                      const TilesetFacts& facts) {
+                                      const LayerFacts& facts) {
   std::vector<NamedFile> files;
   files.push_back({"tileset.json", encode_tileset_json(plan, report, tiles, facts)});
   for (const auto& [key, tile] : tiles) {
@@ -220,27 +220,23 @@ std::vector<NamedFile> encode_tileset(const PyramidPlan& plan, const PyramidRepo
   return files;
 }
 
-TerrainTilesetSink::TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan, const TileGlbOptions& options)
-    : writer_(&writer), plan_(&plan), tiles_(writer, [&plan, options](const TerrainTile& tile) {
-        return encode_tile_glb(place_on_earth(tile, plan), options);
-      }) {}
-
-Result<std::vector<std::uint8_t>> TerrainTilesetSink::encode(const TerrainTile& tile) const {
-  return tiles_.encode(tile);
-}
+TerrainTilesetSink::TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan)
+    : TileSetSink(writer, TileFormat::kGlb, plan) {}
 
 Result<void> TerrainTilesetSink::put(TileId id, std::span<const std::uint8_t> bytes) {
   const Result<TileFacts> facts = read_tile_facts(bytes);
   if (!facts) return tl::unexpected(facts.error());
   facts_[{id.z, id.y, id.x}] = *facts;
-  return tiles_.put(id, bytes);
+  return TileSetSink::put(id, bytes);
 }
 
-Result<void> TerrainTilesetSink::put_files(const PyramidReport& report, TilesetFacts facts) {
-  facts.version = tiles_.version();
-  for (const NamedFile& file : encode_tileset(*plan_, report, facts_, facts)) {
-    if (auto put = writer_->put_file(file.name, file.bytes); !put) return put;
+Result<void> TerrainTilesetSink::put_files(PyramidReport& report, LayerFacts facts) {
+  facts.version = version();
+  for (const NamedFile& file : encode_tileset(plan(), report, facts_, facts)) {
+    if (auto put = writer().put_file(file.name, file.bytes); !put) return put;
   }
+  for (std::size_t z = 0; z < report.levels.size(); ++z)
+    report.levels[z].bound += lattice_error(plan(), static_cast<int>(z));
   return {};
 }
 
