@@ -23,7 +23,7 @@ succeeds "$scarp" tile "$dem" again --vertical egm96 --of 3dtiles -j 3 -q
 diff -r globe again || fail "3 threads make other tiles"
 refuses 4 "--overwrite" "$scarp" tile "$dem" globe --vertical egm96 --of 3dtiles
 succeeds "$scarp" tile "$dem" again --vertical ellipsoid --zoom 8 --of 3dtiles --overwrite -q
-[ -z "$(find again -path '*/9/*')" ] || fail "old tiles are left"
+[ ! -e again/0/9 ] && [ -e again/0/8 ] || fail "old tiles are left"
 refuses 1 "--of" "$scarp" tile "$dem" no --vertical egm96 --of glb
 
 # Around the antimeridian and a pole.
