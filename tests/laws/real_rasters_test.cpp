@@ -7,6 +7,7 @@
 
 #include "../../bench/quality/files.h"
 #include "scarp/scarp.h"
+#include "source_dir.h"
 
 // After scarp/io.h: Decode::kNone would shadow kNone.
 #include "fit/fit.h"
@@ -41,7 +42,7 @@ constexpr int kSanitizedSide = 150;
 class RealRasters : public ::testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    const auto path = bench::find_raster(SCARP_SOURCE_DIR, GetParam());
+    const auto path = bench::find_raster(source_dir(), GetParam());
     if (!path) GTEST_SKIP() << GetParam() << " is not in ../shared/data";
     auto read = read_height_field(*path);
     ASSERT_TRUE(read) << read.error().message;

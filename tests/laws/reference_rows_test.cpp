@@ -10,6 +10,7 @@
 #include "../../bench/quality/files.h"
 #include "laws/sanitized.h"
 #include "scarp/scarp.h"
+#include "source_dir.h"
 
 namespace {
 
@@ -19,7 +20,7 @@ class ReferenceRows : public testing::TestWithParam<const char*> {};
 /// meshes are alike, not equal.
 TEST_P(ReferenceRows, HaveScapesErrorAndTriangles) {
   const std::string file = std::string("scape_") + GetParam() + ".stm";
-  const auto path = bench::find_raster(SCARP_SOURCE_DIR, file);
+  const auto path = bench::find_raster(scarp::source_dir(), file);
   if (!path) GTEST_SKIP() << file << " is not in ../shared/data";
   auto field = scarp::read_height_field(*path);
   ASSERT_TRUE(field) << field.error().message;

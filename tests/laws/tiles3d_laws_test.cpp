@@ -94,8 +94,8 @@ class TileReader {
     for (std::size_t v = 0; v < positions["count"]; ++v) {
       Point at{};
       for (std::size_t k = 0; k < 3; ++k) {
-        const double number = is_short ? double{load_number<std::uint16_t>(&items[8 * v + 2 * k])}
-                                       : double{load_number<float>(&items[12 * v + 4 * k])};
+        const double number = is_short ? static_cast<double>(load_number<std::uint16_t>(&items[8 * v + 2 * k]))
+                                       : static_cast<double>(load_number<float>(&items[12 * v + 4 * k]));
         EXPECT_GE(number, positions["min"][k].get<double>());
         EXPECT_LE(number, positions["max"][k].get<double>());
         at[k] = matrix[12 + k].get<double>() + step * number;

@@ -9,11 +9,12 @@
 
 #include "options/field_options.h"
 #include "scarp/conflicts.h"
+#include "source_dir.h"
 
 namespace scarp::conflicts_docs_test {
 namespace {
 
-constexpr const char* kPath = SCARP_SOURCE_DIR "/docs/conflicts.md";
+const std::string kPath = source_dir() + "/docs/conflicts.md";
 
 /// The option where there is one, else the library's word; what only a value of an option tells stands behind it.
 std::string word_of(Field field) {

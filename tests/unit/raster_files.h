@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scarp/io.h"
+#include "source_dir.h"
 
 namespace scarp::testing {
 
@@ -134,7 +135,7 @@ inline bool warns(const RasterInfo& info, const std::string& part) {
 inline std::string reference_folder() {
   const char* given = std::getenv("SCARP_SHARED");
   const std::string folder =
-      (given != nullptr ? std::string(given) : std::string(SCARP_SOURCE_DIR) + "/../shared") + "/data/";
+      (given != nullptr ? std::string(given) : source_dir() + "/../shared") + "/data/";
   return std::filesystem::is_directory(folder) ? folder : "";
 }
 

@@ -19,6 +19,7 @@
 #include "base/parallel.h"
 #include "scarp/io.h"
 #include "scarp/simplify.h"
+#include "source_dir.h"
 
 // After scarp/io.h: Decode::kNone would shadow kNone.
 #include "fit/fit.h"
@@ -377,7 +378,7 @@ TEST(Threads, FilesWrittenAtOnceAreEachWhole) {
 }
 
 TEST(Threads, ReadersMayRunAtOnce) {
-  const std::string path = SCARP_SOURCE_DIR "/data/jacksboro_fault.tif";
+  const std::string path = source_dir() + "/data/jacksboro_fault.tif";
   const auto read = [&] { return read_height_field(path, {.crs = "EPSG:32616"}); };
   auto first = std::async(std::launch::async, read), second = std::async(std::launch::async, read);
   const Result<OwnedHeightField> a = first.get(), b = second.get();

@@ -66,7 +66,7 @@ std::uint32_t mark_nodata(std::span<float> heights, const NodataTest<float>& is_
   for (float& z : heights) {
     const bool is_missing = is_nodata(z), is_finite = std::abs(z) <= kLargest;
     infinities += static_cast<std::uint32_t>(!is_missing & !is_finite & (z == z));
-    z = is_missing | !is_finite ? kNodataSample : z;
+    z = (is_missing | !is_finite) ? kNodataSample : z;
   }
   return infinities;
 }
