@@ -1,9 +1,8 @@
 // Tile pyramids of terrain on the globe: which tiles there are, how each is made, and the bytes of quantized-mesh.
 //
-// The grid is geographic TMS: level z has 2^(z+1) × 2^z tiles, each 180° / 2^z wide and high; x counts from 180° W
-// eastwards, y from the south. A tile is a function of (its id, the plan, the heights of its nodes and a few nodes
-// around it). No neighbour enters it, so tiles may be made in any order, on any machine; two neighbours still have the
-// same vertices, heights and normals on the edge that they share.
+// The grid (tile_grid.h) tells which tiles there are. A tile is a function of (its id, the plan, the heights of its
+// nodes and a few nodes around it). No neighbour enters it, so tiles may be made in any order, on any machine; two
+// neighbours still have the same vertices, heights and normals on the edge that they share.
 //
 // NODES. The source is sampled on a lattice: `cells` cells a side for tiles of the finest level. Coarser tiles use all
 // nodes below them, down to the plan's level of blocks. The max error of a tile counts all of them.
@@ -26,38 +25,11 @@
 #include "scarp/quality.h"
 #include "scarp/result.h"
 #include "scarp/run.h"
+#include "scarp/tile_grid.h"
 
 #pragma GCC visibility push(default)
 
 namespace scarp {
-
-/// A tile of the geographic grid.
-struct TileId {
-  int z = 0;
-  std::uint32_t x = 0, y = 0;  ///< y from the south
-
-  friend bool operator==(const TileId&, const TileId&) = default;
-};
-
-inline constexpr int kMaxTileLevel = 23;
-
-/// Degrees.
-struct DegreeBox {
-  double west = 0, south = 0, east = 0, north = 0;
-};
-DegreeBox bounds_of(TileId id);
-
-/// The error in metres that clients assume for a level of quantized-mesh: of an ellipsoid's `semi_major` axis, 65
-/// samples a tile, two roots (CesiumJS, cesium-native).
-double geometric_error(int z, double semi_major = 6378137);
-
-/// A rectangle of nodes. Nodes divide each parallel into `per_turn` steps, and each meridian into half as many.
-struct NodeWindow {
-  std::int64_t per_turn = 0;
-  std::int64_t col = 0;  ///< from 180° W; any number, for columns repeat after a turn
-  std::int64_t row = 0;  ///< from the north pole, southwards; 0 … per_turn / 2
-  int cols = 0, rows = 0;
-};
 
 /// Heights by place.
 class NodeSource {
@@ -120,6 +92,7 @@ struct PyramidSettings {
   /// one is missing, those of quantized-mesh cut it out of its parent. DEFAULT: false.
   bool has_siblings = false;
   Geodetic ellipsoid = {};
+  TileGrid grid = {};  ///< DEFAULT: geographic.
 };
 
 /// A level of a pyramid.
@@ -140,6 +113,7 @@ struct PyramidPlan {
   float background = 0;
   bool has_siblings = false;  ///< as in PyramidSettings
   Geodetic ellipsoid = {};
+  TileGrid grid = {};
   DegreeBox covered = {};  ///< by the source
 
   int max_zoom() const { return static_cast<int>(levels.size()) - 1; }
@@ -235,14 +209,15 @@ Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockR
                                      const Run& run = {});
 
 /// Makes all tiles of a pyramid: those with heights; of levels up to plan.block_level also the others that clients need
-/// to reach them: both roots, and the siblings of each tile. The same as make_block() for each of find_blocks() in
+/// to reach them: all roots, and the siblings of each tile. The same as make_block() for each of find_blocks() in
 /// their order, and then finish_pyramid().
 Result<PyramidReport> make_pyramid(const PyramidPlan& plan, const NodeSource& source, TileSink& sink,
                                    const Run& run = {});
 
 /// The bytes of a quantized-mesh 1.0 file, not compressed. With normals (extension 1). Deterministic: no function of
 /// the machine's mathematics library is called.
-std::vector<std::uint8_t> encode_quantized_mesh(const TerrainTile& tile, const Geodetic& ellipsoid = {});
+std::vector<std::uint8_t> encode_quantized_mesh(const TerrainTile& tile, const Geodetic& ellipsoid = {},
+                                                const TileGrid& grid = {});
 
 /// A quantized-mesh file, as clients read it.
 struct QuantizedMesh {

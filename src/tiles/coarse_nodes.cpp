@@ -201,11 +201,10 @@ const CoarseTile& CoarseLevel::at(std::uint32_t x, std::uint32_t y) const {
 }
 
 Result<void> CoarseLevel::read(const NodeWindow& window, std::span<float> out) const {
-  const std::int64_t across = std::int64_t{2} << z_, down = std::int64_t{1} << z_;
+  const std::int64_t down = window.grid.rows(z_), turn = std::int64_t{window.grid.columns(z_)} * kCoarseCells;
   for (int j = 0; j < window.rows; ++j) {
     const std::int64_t row = window.row + j, tile_row = std::min(row / kCoarseCells, down - 1);
     for (int i = 0; i < window.cols; ++i) {
-      const std::int64_t turn = across * kCoarseCells;
       const std::int64_t col = (((window.col + i) % turn) + turn) % turn;
       out[static_cast<std::size_t>(j) * static_cast<std::size_t>(window.cols) + static_cast<std::size_t>(i)] =
           at(static_cast<std::uint32_t>(col / kCoarseCells), static_cast<std::uint32_t>(down - 1 - tile_row))

@@ -21,11 +21,10 @@ std::array<std::int64_t, 3> nearest_lattice_point(const Space& at, double step) 
 }
 
 /// The degrees of shared vertices, the same bits on both sides of an edge, around the antimeridian too.
-Space shared_position(const TerrainTile& tile, std::size_t v, const Globe& globe) {
-  const DegreeBox box = bounds_of(tile.id);
-  const double side = box.north - box.south;
-  const double longitude = tile.u[v] == 32767 ? box.east : box.west + side * (tile.u[v] / 32767.0);
-  double latitude = tile.v[v] == 32767 ? box.north : box.south + side * (tile.v[v] / 32767.0);
+Space shared_position(const TerrainTile& tile, std::size_t v, const TileGrid& grid, const Globe& globe) {
+  const DegreeBox box = grid.bounds_of(tile.id);
+  const double longitude = tile.u[v] == 32767 ? box.east : box.west + (box.east - box.west) * (tile.u[v] / 32767.0);
+  const double latitude = tile.v[v] == 32767 ? box.north : box.south + (box.north - box.south) * (tile.v[v] / 32767.0);
   return globe.position(longitude == 180 ? -180 : longitude, latitude, tile.quantum * tile.heights[v]);
 }
 
@@ -62,7 +61,7 @@ TileFacts find_facts(const TerrainTile& tile, const EarthTile& placed, const Glo
 
 double lattice_step(const PyramidPlan& plan, int z) {
   const double max_error = plan.levels[static_cast<std::size_t>(z)].max_error;
-  const double side = std::ldexp(3.141592653589793 * plan.ellipsoid.semi_major, -z);
+  const double side = plan.grid.tile_width(z, plan.ellipsoid.semi_major);
   // Room for the relief besides; and float32 holds what 16 bits do not.
   const double short_step = power_of_two_above(1.1 * side / 65535), least_step = power_of_two_above(side / 0x1p21);
   return std::max(least_step,
@@ -77,7 +76,7 @@ EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan) {
   placed.step = lattice_step(plan, tile.id.z);
   std::vector<std::array<std::int64_t, 3>> points;
   for (std::size_t v = 0; v < tile.u.size(); ++v)
-    points.push_back(nearest_lattice_point(shared_position(tile, v, globe), placed.step));
+    points.push_back(nearest_lattice_point(shared_position(tile, v, plan.grid, globe), placed.step));
   placed.origin.fill(std::numeric_limits<std::int64_t>::max());
   for (const auto& point : points) {
     for (std::size_t k = 0; k < 3; ++k) placed.origin[k] = std::min(placed.origin[k], point[k]);

@@ -51,13 +51,6 @@ int find_max_zoom(const SourceFacts& source, int cells, const Globe& globe) {
 
 }  // namespace
 
-DegreeBox bounds_of(TileId id) {
-  const double side = std::ldexp(180.0, -id.z);
-  return {-180 + id.x * side, -90 + id.y * side, -180 + (id.x + 1.0) * side, -90 + (id.y + 1.0) * side};
-}
-
-double geometric_error(int z, double semi_major) { return std::ldexp(semi_major * 2 * kPi * 0.25 / (65 * 2), -z); }
-
 Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSettings& settings) {
   if (settings.cells < 16 || settings.cells > 256 || !std::has_single_bit(static_cast<unsigned>(settings.cells)))
     return fail(ErrorKind::kUsage, fmt::format("{} cells a tile: give 16, 32, 64, 128 or 256", settings.cells));
@@ -87,6 +80,7 @@ Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSetting
   plan.background = settings.background;
   plan.has_siblings = settings.has_siblings;
   plan.ellipsoid = settings.ellipsoid;
+  plan.grid = settings.grid;
   plan.covered = source.covered;
   const int finest = settings.max_zoom >= 0 ? settings.max_zoom : find_max_zoom(source, settings.cells, globe);
   plan.block_level = std::max(0, finest - kBlockDepth);
@@ -95,10 +89,10 @@ Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSetting
   const double least_quantum = std::max(kLeastQuantum, room > 0 ? 2 * power_of_two_below(room) : 0);
   const double least = settings.max_error > 0
                            ? settings.max_error
-                           : std::max(geometric_error(finest, globe.semi_major()) / 4, 4 * least_quantum);
+                           : std::max(settings.grid.geometric_error(finest, globe.semi_major()) / 4, 4 * least_quantum);
   for (int z = 0; z <= finest; ++z) {
     PyramidLevel level;
-    level.geometric_error = geometric_error(z, globe.semi_major());
+    level.geometric_error = settings.grid.geometric_error(z, globe.semi_major());
     level.max_error = std::max(least, level.geometric_error / settings.quality);
     if (z == finest) level.max_error = least;
     level.quantum = std::max(power_of_two_below(level.max_error / kQuantaOfError), least_quantum);

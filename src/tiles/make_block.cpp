@@ -1,5 +1,4 @@
 // A block: the tile of the block level and all below it, of nodes that are read once.
-#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -17,13 +16,8 @@ namespace {
 
 /// All nodes of a block and around it, read by all threads.
 Result<HeldNodes> read_block(const PyramidPlan& plan, TileId block, const NodeSource& source, int threads) {
-  const std::int32_t steps = steps_of(plan, block.z), halo = normal_reach(steps);
-  const std::int64_t per_turn = std::int64_t{steps} << (block.z + 1);
-  const std::int64_t row = (((std::int64_t{1} << block.z) - 1) - block.y) * steps;
-  const std::int64_t first = std::max<std::int64_t>(row - halo, 0), last = std::min(row + steps + halo, per_turn / 2);
-  return HeldNodes::read(
-      {per_turn, std::int64_t{block.x} * steps - halo, first, steps + 1 + 2 * halo, static_cast<int>(last - first + 1)},
-      source, threads);
+  const std::int32_t steps = steps_of(plan, block.z);
+  return HeldNodes::read(plan.grid.window_of(block, steps, normal_reach(steps)), source, threads);
 }
 
 /// The block's tile, then level by level those below it, by rows.
@@ -41,7 +35,7 @@ std::vector<TileId> tiles_of(const PyramidPlan& plan, TileId block) {
 
 Result<TileNodes> read_nodes(const PyramidPlan& plan, TileId id, const NodeSource& source) {
   const std::int32_t steps = steps_of(plan, id.z);
-  return TileNodes::read(id, steps, normal_reach(steps), plan.background, source);
+  return TileNodes::read(plan, id, steps, normal_reach(steps), source);
 }
 
 /// Nothing for a tile without heights, unless it is the block's own or a wanted sibling of one that may have some.
@@ -85,7 +79,7 @@ Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const Node
   made.report.has_heights = true;
   if (plan.block_level == 0) return made;
   const std::int32_t steps = steps_of(plan, block.z);
-  const auto whole = TileNodes::read(block, steps, 0, plan.background, *nodes);
+  const auto whole = TileNodes::read(plan, block, steps, 0, *nodes);
   if (!whole) return tl::unexpected(whole.error());
   made.reduced =
       CoarseTile::reduce(steps, [&](std::int32_t col, std::int32_t row) { return whole->at(col, row); }).to_bytes();

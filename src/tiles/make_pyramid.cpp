@@ -18,7 +18,7 @@ namespace {
 
 Result<std::optional<TerrainTile>> make_coarse(const PyramidPlan& plan, TileId id, const CoarseLevel& below) {
   const std::int32_t steps = 2 * kCoarseCells;
-  const auto nodes = TileNodes::read(id, steps, normal_reach(steps), plan.background, below);
+  const auto nodes = TileNodes::read(plan, id, steps, normal_reach(steps), below);
   if (!nodes) return tl::unexpected(nodes.error());
   auto tile = nodes->is_flat() ? make_flat_tile(plan, id)
                                : make_tile_of(plan, id, *nodes, [&](const TerrainTile& made) -> Result<TileVerdict> {

@@ -171,8 +171,8 @@ class TileMaker {
 
   void finish(TerrainTile& tile) const {
     const Globe globe(plan_.ellipsoid);
-    tile.sag = largest_sag(tile, globe);
-    tile.normals = node_normals(tile, nodes_, globe);
+    tile.sag = largest_sag(tile, plan_.grid, globe);
+    tile.normals = node_normals(tile, nodes_, plan_.grid, globe);
   }
 
   const PyramidPlan& plan_;
@@ -228,7 +228,7 @@ Result<TerrainTile> make_flat_tile(const PyramidPlan& plan, TileId id) {
 
 Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source) {
   const std::int32_t steps = steps_of(plan, id.z);
-  const auto nodes = TileNodes::read(id, steps, normal_reach(steps), plan.background, source);
+  const auto nodes = TileNodes::read(plan, id, steps, normal_reach(steps), source);
   if (!nodes) return tl::unexpected(nodes.error());
   if (nodes->is_flat()) return make_flat_tile(plan, id);
   return make_tile_of(plan, id, *nodes);

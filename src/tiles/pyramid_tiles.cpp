@@ -1,7 +1,6 @@
 #include "tiles/pyramid_tiles.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "tiles/tile_maker.h"
 #include "tiles/tile_mesh_parts.h"
@@ -9,7 +8,7 @@
 namespace scarp {
 namespace {
 
-/// Where a tile lies on Hilbert's curves through the two roots, each from its south-western to its south-eastern
+/// Where a tile lies on Hilbert's curves through the roots, each from its south-western to its south-eastern
 /// corner.
 std::uint64_t place_on_curve(TileId id) {
   const std::uint32_t last = (std::uint32_t{1} << id.z) - 1;
@@ -32,11 +31,11 @@ std::uint64_t place_on_curve(TileId id) {
 
 bool is_covered(const PyramidPlan& plan, TileId id) {
   // More on each side, so that heights on a border, or as near as normals reach, count on both of its sides.
-  const double node =
-      (normal_reach(steps_of(plan, plan.block_level)) + 1) * std::ldexp(180.0 / plan.cells, -plan.max_zoom());
-  const DegreeBox box = bounds_of(id), &covered = plan.covered;
+  const double node = (normal_reach(steps_of(plan, plan.block_level)) + 1) *
+                      plan.grid.largest_step(plan.grid.per_turn(plan.max_zoom(), plan.cells));
+  const DegreeBox box = plan.grid.bounds_of(id), &covered = plan.covered;
   if (box.south > covered.north + node || box.north < covered.south - node) return false;
-  for (const double turn : {-720.0, -360.0, 0.0, 360.0, 720.0}) {
+  for (const double turn : plan.grid.turns()) {
     if (box.west + turn <= covered.east + node && box.east + turn >= covered.west - node) return true;
   }
   return false;
@@ -51,7 +50,8 @@ std::array<TileId, 4> children_of(TileId id) {
 }
 
 std::vector<TileSet> choose_tiles(const PyramidPlan& plan) {
-  std::vector<TileSet> chosen{{{0, 0}, {0, 1}}};
+  std::vector<TileSet> chosen(1);
+  for (std::uint32_t x = 0; x < plan.grid.roots(); ++x) chosen.front().insert({0, x});
   for (int z = 1; z <= plan.block_level; ++z) {
     TileSet level;
     for (const auto& [y, x] : chosen.back()) {

@@ -190,9 +190,10 @@ bool take_indices(Reader& reader, QuantizedMesh& mesh) {
 
 }  // namespace
 
-std::vector<std::uint8_t> encode_quantized_mesh(const TerrainTile& tile, const Geodetic& ellipsoid) {
+std::vector<std::uint8_t> encode_quantized_mesh(const TerrainTile& tile, const Geodetic& ellipsoid,
+                                                const TileGrid& grid) {
   const Globe globe(ellipsoid);
-  const std::vector<Space> positions = positions_in_space(tile, globe);
+  const std::vector<Space> positions = positions_in_space(tile, grid, globe);
   const Globe::Sphere sphere = Globe::sphere_around(positions);
   const HeightSteps steps = choose_steps(tile);
   Writer writer;

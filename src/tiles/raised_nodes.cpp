@@ -21,7 +21,7 @@ class RaisedNodes final : public NodeSource {
   Result<void> read(const NodeWindow& window, std::span<float> out) const override {
     if (auto read = source_.read(window, out); !read) return read;
     std::int64_t step = 1;
-    while (360.0 * static_cast<double>(2 * step) / static_cast<double>(window.per_turn) <= kAnchorDegrees) step *= 2;
+    while (window.grid.largest_step(window.per_turn) * static_cast<double>(2 * step) <= kAnchorDegrees) step *= 2;
     const auto before = [&](std::int64_t i) { return i >= 0 ? i / step : -((-i + step - 1) / step); };
     const std::int64_t first_x = before(window.col), first_y = before(window.row);
     const std::int64_t across = before(window.col + window.cols - 1) + 2 - first_x;
@@ -29,12 +29,10 @@ class RaisedNodes final : public NodeSource {
     std::vector<double> xs, ys;
     for (std::int64_t j = 0; j < down; ++j) {
       for (std::int64_t i = 0; i < across; ++i) {
-        const std::int64_t turns = window.per_turn, col = (((first_x + i) * step % turns) + turns) % turns;
-        const std::int64_t row = std::min((first_y + j) * step, turns / 2);
+        const std::int64_t row = std::min((first_y + j) * step, window.last_row());
         // A pole is one place.
-        const bool is_pole = row <= 0 || row == turns / 2;
-        xs.push_back(is_pole ? -180 : -180 + 360 * (static_cast<double>(col) / static_cast<double>(turns)));
-        ys.push_back(90 - 360 * (static_cast<double>(row) / static_cast<double>(turns)));
+        xs.push_back(window.longitude(window.is_pole(row) ? 0 : (first_x + i) * step));
+        ys.push_back(window.latitude(row));
       }
     }
     std::vector<double> zeros(xs.size());
@@ -51,11 +49,9 @@ class RaisedNodes final : public NodeSource {
         if (std::isnan(height)) continue;
         height = static_cast<float>(double{height} + upper + (lower - upper) * ty);
         if (!std::isnan(height)) continue;
-        const double turn = static_cast<double>(window.per_turn);
         return fail(ErrorKind::kInput,
                     fmt::format("nothing is known of the zero of heights at longitude {:.4f}, latitude {:.4f}",
-                                std::remainder(360 * (static_cast<double>(col) / turn) - 180, 360),
-                                90 - 360 * (static_cast<double>(row) / turn)));
+                                window.longitude(col), window.latitude(row)));
       }
     }
     return {};

@@ -125,14 +125,6 @@ class RasterNodes final : public NodeSource {
     int count() const { return static_cast<int>(last - first + 1); }
   };
 
-  static double longitude(const NodeWindow& window, std::int64_t col) {
-    const std::int64_t wrapped = ((col % window.per_turn) + window.per_turn) % window.per_turn;
-    return -180 + 360 * (static_cast<double>(wrapped) / static_cast<double>(window.per_turn));
-  }
-  static double latitude(const NodeWindow& window, std::int64_t row) {
-    return 90 - 360 * (static_cast<double>(row) / static_cast<double>(window.per_turn));
-  }
-
   /// Column of the raster at a longitude: the one of all turns that lies on the raster or nearest behind its start.
   double column_of(double longitude_degrees) const {
     const double cell = place_.affine[1], turn = 360 / std::abs(cell);
@@ -142,9 +134,9 @@ class RasterNodes final : public NodeSource {
 
   Result<void> read_aligned(const NodeWindow& window, std::span<float> out) const {
     Axis x, y;
-    for (int i = 0; i < window.cols; ++i) x.add(column_of(longitude(window, window.col + i)), field_.cols, turn_);
+    for (int i = 0; i < window.cols; ++i) x.add(column_of(window.longitude(window.col + i)), field_.cols, turn_);
     for (int j = 0; j < window.rows; ++j)
-      y.add((latitude(window, window.row + j) - place_.affine[3]) / place_.affine[5], field_.rows, false);
+      y.add((window.latitude(window.row + j) - place_.affine[3]) / place_.affine[5], field_.rows, false);
     if (x.is_empty() || y.is_empty()) {
       std::fill(out.begin(), out.end(), kNone);
       return {};
@@ -199,7 +191,7 @@ class RasterNodes final : public NodeSource {
 
   /// Samples a node's step spans, along a parallel.
   double spacing(const NodeWindow& window) const {
-    return 360 / static_cast<double>(window.per_turn) / std::abs(place_.affine[1]);
+    return window.grid.largest_step(window.per_turn) / std::abs(place_.affine[1]);
   }
 
   /// A window across the seam of a raster that goes all round reaches its first and its last columns.
@@ -243,9 +235,9 @@ class RasterNodes final : public NodeSource {
       for (std::int64_t j = 0; j < down; ++j) {
         for (std::size_t i = 0; i < across_; ++i) {
           // Beyond the pole the pole's own place: no node lies there.
-          const std::int64_t row = std::min((first_y_ + j) * kAnchorSteps, window.per_turn / 2);
-          xs_.push_back(longitude(window, (first_x_ + static_cast<std::int64_t>(i)) * kAnchorSteps));
-          ys_.push_back(latitude(window, row));
+          const std::int64_t row = std::min((first_y_ + j) * kAnchorSteps, window.last_row());
+          xs_.push_back(window.longitude((first_x_ + static_cast<std::int64_t>(i)) * kAnchorSteps));
+          ys_.push_back(window.latitude(row));
         }
       }
       nodes.place_.from_degrees->apply(xs_, ys_);
@@ -254,8 +246,8 @@ class RasterNodes final : public NodeSource {
     At at(int i, int j) const {
       const std::int64_t x = window_.col + i, y = window_.row + j;
       if (xs_.empty()) {
-        const double degrees = longitude(window_, x);
-        return nodes_.to_raster(degrees + 360 * std::floor((middle_ - degrees) / 360 + 0.5), latitude(window_, y));
+        const double degrees = window_.longitude(x);
+        return nodes_.to_raster(degrees + 360 * std::floor((middle_ - degrees) / 360 + 0.5), window_.latitude(y));
       }
       const std::int64_t ax = before(x), ay = before(y);
       const double tx = static_cast<double>(x - ax * kAnchorSteps) / kAnchorSteps;
@@ -337,8 +329,8 @@ class RasterNodes final : public NodeSource {
   Result<void> level_poles(const NodeWindow& window, std::span<float> out) const {
     for (int j = 0; j < window.rows; ++j) {
       const std::int64_t row = window.row + j;
-      if (row != 0 && row != window.per_turn / 2) continue;
-      NodeWindow pole{window.per_turn, 0, row, 1, 1};
+      if (!window.is_pole(row)) continue;
+      NodeWindow pole{window.per_turn, 0, row, 1, 1, window.grid};
       float height = kNone;
       const bool is_aligned = place_.from_degrees == nullptr && place_.affine[2] == 0 && place_.affine[4] == 0;
       auto read = is_aligned ? read_aligned(pole, {&height, 1}) : read_placed(pole, {&height, 1});

@@ -14,8 +14,7 @@ struct Degrees {
   double longitude = 0, latitude = 0;
 };
 
-Degrees degrees_at(const TerrainTile& tile, double u, double v) {
-  const DegreeBox box = bounds_of(tile.id);
+Degrees degrees_at(const DegreeBox& box, double u, double v) {
   return {box.west + (box.east - box.west) * (u / 32767), box.south + (box.north - box.south) * (v / 32767)};
 }
 
@@ -24,23 +23,18 @@ Degrees degrees_at(const TerrainTile& tile, double u, double v) {
 std::int32_t normal_reach(std::int32_t steps) { return std::max(1, steps / 256); }
 
 std::vector<std::array<std::uint8_t, 2>> node_normals(const TerrainTile& tile, const TileNodes& nodes,
-                                                      const Globe& globe) {
+                                                      const TileGrid& grid, const Globe& globe) {
   const std::int32_t steps = nodes.steps(), reach = normal_reach(steps);
-  const DegreeBox box = bounds_of(tile.id);
-  const std::int64_t rows_of_globe = std::int64_t{steps} << tile.id.z;
-  const std::int64_t first_row = ((std::int64_t{1} << tile.id.z) - 1 - tile.id.y) * steps;
-  const std::int64_t cols_of_globe = 2 * rows_of_globe;
+  const DegreeBox box = grid.bounds_of(tile.id);
+  const NodeWindow window = grid.window_of(tile.id, steps);
   std::vector<std::array<std::uint8_t, 2>> normals;
   for (std::size_t k = 0; k < tile.u.size(); ++k) {
     const std::int32_t col = nearest_node(tile.u[k], steps), row = steps - nearest_node(tile.v[k], steps);
     // The node's degrees by its place on the globe, so that tiles on either side of an edge have the same bits.
-    const std::int64_t globe_col = (std::int64_t{tile.id.x} * steps + col) % cols_of_globe;
-    const double longitude = -180 + 360 * (static_cast<double>(globe_col) / static_cast<double>(cols_of_globe));
-    const double latitude = 90 - 180 * (static_cast<double>(first_row + row) / static_cast<double>(rows_of_globe));
+    const double longitude = window.longitude(window.col + col), latitude = window.latitude(window.row + row);
     const Space up = Globe::up(longitude, latitude);
-    const bool is_pole = first_row + row == 0 || first_row + row == rows_of_globe;
     Space normal = up;
-    if (!is_pole) {
+    if (!window.is_pole(window.row + row)) {
       const Globe::Radii radii = globe.radii(latitude);
       const double step = (box.north - box.south) / steps * kRadians, both = 2 * reach * step;
       const double rise_east =
@@ -57,17 +51,18 @@ std::vector<std::array<std::uint8_t, 2>> node_normals(const TerrainTile& tile, c
   return normals;
 }
 
-std::vector<Space> positions_in_space(const TerrainTile& tile, const Globe& globe) {
+std::vector<Space> positions_in_space(const TerrainTile& tile, const TileGrid& grid, const Globe& globe) {
+  const DegreeBox box = grid.bounds_of(tile.id);
   std::vector<Space> positions;
   for (std::size_t k = 0; k < tile.u.size(); ++k) {
-    const Degrees at = degrees_at(tile, tile.u[k], tile.v[k]);
+    const Degrees at = degrees_at(box, tile.u[k], tile.v[k]);
     positions.push_back(globe.position(at.longitude, at.latitude, tile.quantum * tile.heights[k]));
   }
   return positions;
 }
 
-double largest_sag(const TerrainTile& tile, const Globe& globe) {
-  const std::vector<Space> positions = positions_in_space(tile, globe);
+double largest_sag(const TerrainTile& tile, const TileGrid& grid, const Globe& globe) {
+  const std::vector<Space> positions = positions_in_space(tile, grid, globe);
   const auto square = [&](std::uint32_t a, std::uint32_t b) {
     const Space way = sum(positions[a], scaled(positions[b], -1));
     return dot(way, way);

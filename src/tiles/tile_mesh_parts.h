@@ -23,16 +23,16 @@ std::int32_t normal_reach(std::int32_t steps);
 /// Central differences at the nearest node of each vertex: a function of node and level, so equal in all tiles there.
 /// At a pole away from the earth.
 std::vector<std::array<std::uint8_t, 2>> node_normals(const TerrainTile& tile, const TileNodes& nodes,
-                                                      const Globe& globe);
+                                                      const TileGrid& grid, const Globe& globe);
 
 /// How far the ellipsoid's curve rises above the flat triangles at most: r² / 2R, r the radius of the smallest circle
 /// around a triangle, R the smallest radius of curvature.
-double largest_sag(const TerrainTile& tile, const Globe& globe);
+double largest_sag(const TerrainTile& tile, const TileGrid& grid, const Globe& globe);
 
 /// The mesh that clients decode, x and y in steps from the south-western node, heights in metres as float32.
 Mesh decoded(const TerrainTile& tile, std::int32_t steps);
 
 /// Earth-centred positions of the vertices.
-std::vector<Space> positions_in_space(const TerrainTile& tile, const Globe& globe);
+std::vector<Space> positions_in_space(const TerrainTile& tile, const TileGrid& grid, const Globe& globe);
 
 }  // namespace scarp

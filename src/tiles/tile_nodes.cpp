@@ -13,20 +13,19 @@ constexpr int kRowsTogether = 256;
 
 }  // namespace
 
-Result<TileNodes> TileNodes::read(TileId id, std::int32_t steps, std::int32_t halo, float background,
+Result<TileNodes> TileNodes::read(const PyramidPlan& plan, TileId id, std::int32_t steps, std::int32_t halo,
                                   const NodeSource& source) {
   TileNodes nodes;
   nodes.steps_ = steps;
   nodes.halo_ = halo;
-  const std::int64_t per_turn = std::int64_t{steps} << (id.z + 1), last_row = per_turn / 2;
-  const std::int64_t first_row = (((std::int64_t{1} << id.z) - 1) - id.y) * steps - halo;
+  const NodeWindow window = plan.grid.window_of(id, steps, halo);
+  const std::int64_t first_row = plan.grid.window_of(id, steps).row - halo;
   const std::int32_t side = nodes.side();
-  const std::int64_t from = std::max<std::int64_t>(first_row, 0), to = std::min(first_row + side - 1, last_row);
+  const std::int64_t from = window.row, to = window.row + window.rows - 1;
   nodes.heights_.resize(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
   const auto row_of = [&](std::int64_t row) {
     return nodes.heights_.begin() + static_cast<std::ptrdiff_t>((row - first_row) * side);
   };
-  const NodeWindow window{per_turn, std::int64_t{id.x} * steps - halo, from, side, static_cast<int>(to - from + 1)};
   auto read = source.read(window, std::span(nodes.heights_)
                                       .subspan(static_cast<std::size_t>((from - first_row) * side),
                                                static_cast<std::size_t>(side) * static_cast<std::size_t>(window.rows)));
@@ -37,8 +36,8 @@ Result<TileNodes> TileNodes::read(TileId id, std::int32_t steps, std::int32_t ha
     for (std::int32_t col = 0; col <= steps; ++col) nodes.has_heights_ |= !std::isnan(nodes.at(col, row));
   }
   for (float& height : nodes.heights_) {
-    if (std::isnan(height)) height = background;
-    nodes.is_flat_ &= height == background;
+    if (std::isnan(height)) height = plan.background;
+    nodes.is_flat_ &= height == plan.background;
   }
   return nodes;
 }

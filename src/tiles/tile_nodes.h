@@ -9,11 +9,11 @@
 
 namespace scarp {
 
-/// steps + 1 nodes a side, and `halo` more on each side; beyond the poles the pole's own.
+/// steps + 1 nodes a side, and `halo` more on each side; beyond the grid's ends the last row's own.
 class TileNodes {
  public:
   /// `steps`: of the tile's sides. Nodes without a height get the background's.
-  static Result<TileNodes> read(TileId id, std::int32_t steps, std::int32_t halo, float background,
+  static Result<TileNodes> read(const PyramidPlan& plan, TileId id, std::int32_t steps, std::int32_t halo,
                                 const NodeSource& source);
 
   /// All of one height, with one more around.

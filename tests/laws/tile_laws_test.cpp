@@ -75,7 +75,7 @@ PyramidPlan plan_of(double relief, double noise, int finest, int cells, Effort e
   settings.cells = cells;
   settings.max_zoom = finest;
   settings.effort = effort;
-  settings.max_error = share * geometric_error(finest);
+  settings.max_error = share * TileGrid{}.geometric_error(finest);
   const Result<PyramidPlan> plan = plan_pyramid(source, settings);
   EXPECT_TRUE(plan) << plan.error().message;
   return *plan;
@@ -302,7 +302,7 @@ TEST(pyramid_laws, every_tile_with_heights_is_there_with_its_ancestors_and_sibli
   for (int z = 0; z <= made->plan.max_zoom(); ++z) {
     for (std::uint32_t y = 0; y < std::uint32_t{1} << z; ++y) {
       for (std::uint32_t x = 0; x < std::uint32_t{2} << z; ++x) {
-        const DegreeBox box = bounds_of({z, x, y});
+        const DegreeBox box = TileGrid{}.bounds_of({z, x, y});
         const bool meets = box.west < kIsland.east && box.east > kIsland.west && box.south < kIsland.north &&
                            box.north > kIsland.south;
         if (!meets) continue;
@@ -396,7 +396,7 @@ TEST(globe_laws, triangles_lie_below_the_ellipsoid_by_no_more_than_the_sag) {
     const auto tile = make_tile(plan, id, sea);
     ASSERT_TRUE(tile) << tile.error().message;
     EXPECT_LE(tile->sag, plan.levels[static_cast<std::size_t>(id.z)].geometric_error / 8);
-    const DegreeBox box = bounds_of(id);
+    const DegreeBox box = TileGrid{}.bounds_of(id);
     double deepest = 0;
     for (std::size_t k = 0; k < tile->triangles.size(); k += 3) {
       std::array<Space, 3> corners;

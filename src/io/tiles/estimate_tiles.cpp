@@ -1,6 +1,5 @@
 // What a set of tiles will take.
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <vector>
@@ -19,11 +18,11 @@ constexpr std::uint64_t kReducedBytes = 330'000;
 /// The program, without nodes.
 constexpr std::uint64_t kProgramBytes = 90'000'000;
 
-bool overlaps(const DegreeBox& box, const DegreeBox& covered) {
+bool overlaps(const PyramidPlan& plan, TileId id) {
+  const DegreeBox box = plan.grid.bounds_of(id), &covered = plan.covered;
   if (box.south >= covered.north || box.north <= covered.south) return false;
-  return std::ranges::any_of(std::array{-720.0, -360.0, 0.0, 360.0, 720.0}, [&](double turn) {
-    return box.west + turn < covered.east && box.east + turn > covered.west;
-  });
+  return std::ranges::any_of(
+      plan.grid.turns(), [&](double turn) { return box.west + turn < covered.east && box.east + turn > covered.west; });
 }
 
 /// Tiles of the finest level below a block that may have heights.
@@ -34,17 +33,15 @@ std::vector<TileId> finest_tiles(const PyramidPlan& plan, TileId block) {
   for (std::uint32_t y = 0; y < side; ++y) {
     for (std::uint32_t x = 0; x < side; ++x) {
       const TileId id{plan.max_zoom(), (block.x << deeper) + x, (block.y << deeper) + y};
-      if (overlaps(bounds_of(id), plan.covered)) tiles.push_back(id);
+      if (overlaps(plan, id)) tiles.push_back(id);
     }
   }
   return tiles;
 }
 
 Result<bool> has_heights(const PyramidPlan& plan, TileId id, const NodeSource& nodes) {
-  const std::int64_t cells = plan.cells, per_turn = cells << (id.z + 1);
-  const int side = plan.cells + 1;
-  std::vector<float> heights(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
-  const NodeWindow window{per_turn, id.x * cells, ((std::int64_t{1} << id.z) - 1 - id.y) * cells, side, side};
+  const NodeWindow window = plan.grid.window_of(id, plan.cells);
+  std::vector<float> heights(static_cast<std::size_t>(window.cols) * static_cast<std::size_t>(window.rows));
   if (auto read = nodes.read(window, heights); !read) return tl::unexpected(read.error());
   return std::any_of(heights.begin(), heights.end(), [](float height) { return !std::isnan(height); });
 }
@@ -88,7 +85,8 @@ Result<TileEstimate> estimate_tiles(const TileJob& job, const NodeSource& nodes,
   estimate.core_seconds = kPyramidTime * finest * seconds / each;
   estimate.bytes = static_cast<std::uint64_t>(kPyramidBytes * finest * bytes / each);
   estimate.finest_tiles = static_cast<std::uint64_t>(finest);
-  estimate.tiles = static_cast<std::uint64_t>(finest * 4 / 3) + 4 * static_cast<std::uint64_t>(plan.block_level) + 2;
+  estimate.tiles =
+      static_cast<std::uint64_t>(finest * 4 / 3) + 4 * static_cast<std::uint64_t>(plan.block_level) + plan.grid.roots();
   estimate.parts = estimate.bytes + kReducedBytes * estimate.blocks;
   const auto side = static_cast<std::uint64_t>(plan.cells) << (plan.max_zoom() - plan.block_level);
   estimate.memory = kProgramBytes + 3 * sizeof(float) * side * side;

@@ -30,13 +30,13 @@ class BlockSink final : public TileSink {
 
 /// What a block takes, about: by how much of it the source may cover.
 std::uint64_t cost_of(const PyramidPlan& plan, TileId block) {
-  const DegreeBox box = bounds_of(block), &covered = plan.covered;
-  const double side = box.north - box.south,
-               down = std::min(box.north, covered.north) - std::max(box.south, covered.south);
+  const DegreeBox box = plan.grid.bounds_of(block), &covered = plan.covered;
+  const double width = box.east - box.west, height = box.north - box.south;
+  const double down = std::min(box.north, covered.north) - std::max(box.south, covered.south);
   double across = 0;
-  for (const double turn : {-720.0, -360.0, 0.0, 360.0, 720.0})
+  for (const double turn : plan.grid.turns())
     across += std::max(0.0, std::min(box.east + turn, covered.east) - std::max(box.west + turn, covered.west));
-  return 1 + static_cast<std::uint64_t>(1000 * std::max(0.0, down) * std::min(across, side) / (side * side));
+  return 1 + static_cast<std::uint64_t>(1000 * std::max(0.0, down) * std::min(across, width) / (width * height));
 }
 
 /// The blocks of a share: consecutive ones, of about the same cost in all shares.

@@ -25,6 +25,7 @@ constexpr std::pair<Decode, const char*> kDecodes[] = {
     {Decode::kNone, "none"}, {Decode::kTerrarium, "terrarium"}, {Decode::kMapbox, "mapbox"}};
 constexpr std::pair<Vertical, const char*> kVerticals[] = {
     {Vertical::kAuto, "auto"}, {Vertical::kEllipsoid, "ellipsoid"}, {Vertical::kEgm96, "egm96"}};
+constexpr std::pair<GridKind, const char*> kGrids[] = {{GridKind::kGeographic, "geographic"}};
 constexpr std::pair<TileFormat, const char*> kFormats[] = {{TileFormat::kQuantizedMesh, "quantized-mesh"},
                                                            {TileFormat::kGlb, "glb"}};
 
@@ -79,6 +80,7 @@ Json describe_plan(const PyramidPlan& plan) {
           {"background", plan.background},
           {"has_siblings", plan.has_siblings},
           {"ellipsoid", {plan.ellipsoid.semi_major, plan.ellipsoid.inverse_flattening}},
+          {"grid", {{"kind", word_of(plan.grid.kind, kGrids)}}},
           {"covered", {plan.covered.west, plan.covered.south, plan.covered.east, plan.covered.north}},
           {"levels", std::move(levels)}};
 }
@@ -92,6 +94,7 @@ PyramidPlan parse_plan(const Json& json) {
   plan.has_siblings = json.at("has_siblings");
   plan.ellipsoid.semi_major = json.at("ellipsoid").at(0);
   plan.ellipsoid.inverse_flattening = json.at("ellipsoid").at(1);
+  plan.grid.kind = value_of(json.at("grid").at("kind"), kGrids);
   const Json& covered = json.at("covered");
   plan.covered = {covered.at(0), covered.at(1), covered.at(2), covered.at(3)};
   for (const Json& level : json.at("levels"))
