@@ -32,17 +32,20 @@ _scarp() {
       "tile-plan --resolution" | "tile-plan --z-scale" | "tile-plan --z-offset" | "tile-plan --shards" | \
       "tile-plan -e" | "tile-plan --max-error" | "tile-plan --quality" | "tile-plan --zoom" | "tile-plan --nodata" | \
       "tile-plan --background" | "tile-run --shard" | "tile-run --memory" | "tile-run -j" | \
-      "tile-run --num-threads" | "tile-finish -j" | "tile-finish --num-threads" | "serve --port" | "info --band" | \
-      "info --te" | "info --resolution" | "info --z-scale" | "info --z-offset" | "info --cell-size" | \
-      "info --nodata" | "info --layer" | "info --z-field" | "generate --seed" | "generate --range" | \
-      "generate --size")
+      "tile-run --num-threads" | "tile-finish -j" | "tile-finish --num-threads" | "serve --band" | "serve --te" | \
+      "serve --resolution" | "serve --z-scale" | "serve --z-offset" | "serve -e" | "serve --max-error" | \
+      "serve --quality" | "serve --zoom" | "serve --nodata" | "serve --background" | "serve --memory" | \
+      "serve --port" | "serve -j" | "serve --num-threads" | "info --band" | "info --te" | "info --resolution" | \
+      "info --z-scale" | "info --z-offset" | "info --cell-size" | "info --nodata" | "info --layer" | \
+      "info --z-field" | "generate --seed" | "generate --range" | "generate --size")
       return
       ;;
     "simplify --objective")
       COMPREPLY=($(compgen -W 'max rms' -- "$current"))
       return
       ;;
-    "simplify --decode" | "measure --decode" | "tile --decode" | "tile-plan --decode" | "info --decode")
+    "simplify --decode" | "measure --decode" | "tile --decode" | "tile-plan --decode" | "serve --decode" | \
+      "info --decode")
       COMPREPLY=($(compgen -W 'terrarium mapbox' -- "$current"))
       return
       ;;
@@ -123,7 +126,7 @@ _scarp() {
       COMPREPLY=($(compgen -W 'sum max sqerr abn tight' -- "$current"))
       return
       ;;
-    "tile --vertical" | "tile-plan --vertical")
+    "tile --vertical" | "tile-plan --vertical" | "serve --vertical")
       COMPREPLY=($(compgen -W 'auto egm96 ellipsoid' -- "$current"))
       return
       ;;
@@ -131,11 +134,11 @@ _scarp() {
       COMPREPLY=($(compgen -W 'qm 3dtiles' -- "$current"))
       return
       ;;
-    "tile --effort" | "tile-plan --effort")
+    "tile --effort" | "tile-plan --effort" | "serve --effort")
       COMPREPLY=($(compgen -W 'fast normal high' -- "$current"))
       return
       ;;
-    "tile --cells" | "tile-plan --cells")
+    "tile --cells" | "tile-plan --cells" | "serve --cells")
       COMPREPLY=($(compgen -W '16 32 64 128 256' -- "$current"))
       return
       ;;
@@ -195,7 +198,9 @@ _scarp() {
         options+=' --version'
         ;;
       serve)
-        options+=' --port --host --quiet --help --help-all --version'
+        options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --effort'
+        options+=' --max-error --quality --zoom --cells --nodata --background --memory --port'
+        options+=' --host --num-threads --quiet --json-progress --help --help-all --version'
         ;;
       info)
         options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --crs'

@@ -30,7 +30,7 @@ ROOMS = {
                ["goals", "height_field", "lines", "paper", "points", "progress", "regions", "result", "simplify", "strategy", "tolerances"],
                "how far a triangle is from its samples, and how far it may be: tolerances, regions, importance"),
     "io": (2, ["base", "grid", "mesh"],
-           ["cutline", "degrees", "drape", "frame", "glb", "globe_place", "gzip", "height_field", "io", "lines", "mesh", "points", "progress", "result", "solid", "strategy", "tile", "tile_job", "tile_set", "tiles3d", "version", "zones"],
+           ["cutline", "degrees", "drape", "frame", "glb", "globe_place", "gzip", "height_field", "io", "lines", "live_tiles", "mesh", "points", "progress", "result", "solid", "strategy", "tile", "tile_job", "tile_set", "tiles3d", "version", "zones"],
            "bytes to values and back: `mesh/`, `raster/`, `points/`, `tiles/`, `gdal/`"),
     "measure": (3, ["base", "grid", "mesh"],
                 ["cutline", "frame", "height_field", "judge", "measure", "mesh", "points", "progress", "result", "strategy"],
@@ -59,9 +59,9 @@ ROOMS = {
 RESERVED = [
     (r"(gdal|ogr|cpl|osr|vrt)[a-z_0-9]*\.h$|gdal/.*", [r"src/io/gdal/"], "GDAL is known to src/io/gdal only"),
     (r"(thread|mutex|shared_mutex|condition_variable|future|semaphore|latch|barrier|stop_token)$",
-     [r"src/base/parallel\.(h|cpp)$", r"src/io/gdal/", r"src/io/spool\.cpp$"],
-     "threads belong to src/base/parallel, locks besides to src/io/gdal where a transform serves several threads, and "
-     "to src/io/spool.cpp, whose input all threads share"),
+     [r"src/base/parallel\.(h|cpp)$", r"src/io/gdal/", r"src/io/spool\.cpp$", r"apps/scarp/serve/answer_queue\.(h|cpp)$"],
+     "threads belong to src/base/parallel, locks besides to src/io/gdal where a transform serves several threads, "
+     "to src/io/spool.cpp, whose input all threads share, and to what makes the answers of scarp serve"),
     (r"atomic$",
      [r"src/base/parallel\.(h|cpp)$", r"src/io/gdal/", r"src/io/temporary_file\.cpp$", r"apps/"],
      "atomics belong to src/base/parallel, src/io/gdal and what a signal handler reads (src/io/temporary_file.cpp, apps)"),

@@ -152,6 +152,17 @@ struct TerrainTile {
 /// the land, next to a cliff. REQUIRES: plan.block_level <= id.z <= plan.max_zoom(). Fails as the source does.
 Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
 
+/// A tile above the plan's block level, of the nodes that its mesh needs and no others: the mesh of finish_pyramid(),
+/// but without its proof. node_error is NaN, for nobody has looked between these nodes. REQUIRES: id.z <
+/// plan.block_level. Cost: some 70,000 nodes, each read alone where they are far apart. Fails as the source does.
+Result<TerrainTile> make_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
+
+/// The tiles of make_pyramid(), without making one: by level, rows and columns, y · 2^32 + x, sorted. Reads each node
+/// once; without a source no node, and then tiles below the blocks count as soon as the plan's source may cover them.
+/// Progress: pass "look". Fails as the source does, and with kCancelled.
+Result<std::vector<std::vector<std::uint64_t>>> find_tiles(const PyramidPlan& plan, const NodeSource* source,
+                                                           const Run& run = {});
+
 /// Where the tiles of a pyramid go.
 class TileSink {
  public:

@@ -88,7 +88,8 @@ struct LayerFacts {
   std::string version;  ///< changes when a tile does: clients ask for tiles with it, past old copies; sinks find it
 };
 
-/// The bytes of layer.json, for "quantized-mesh-1.0": the file that clients ask for first.
+/// The bytes of layer.json, for "quantized-mesh-1.0": the file that clients ask for first. Without report.levels it
+/// says nothing of errors that tiles have: those of tiles that are not made yet.
 std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const PyramidReport& report,
                                             const LayerFacts& facts);
 

@@ -1,5 +1,6 @@
 // All tiles: block by block, then the levels above, of what the blocks handed upwards.
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "base/reporter.h"
 #include "scarp/tile.h"
 #include "tiles/coarse_nodes.h"
+#include "tiles/decimated_nodes.h"
 #include "tiles/pyramid_tiles.h"
 #include "tiles/tile_maker.h"
 #include "tiles/tile_mesh_parts.h"
@@ -42,6 +44,20 @@ CoarseLevel join_level(const PyramidPlan& plan, const std::vector<TileId>& tiles
 }
 
 }  // namespace
+
+Result<TerrainTile> make_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source) {
+  const std::int32_t steps = 2 * kCoarseCells;
+  const DecimatedNodes few(source, std::int64_t{plan.cells} << (plan.max_zoom() + 1));
+  const auto nodes = TileNodes::read(id, steps, normal_reach(steps), plan.background, few);
+  if (!nodes) return tl::unexpected(nodes.error());
+  // As in make_coarse(): the first mesh that does not fold is the tile, whatever its error.
+  auto tile = nodes->is_flat() ? make_flat_tile(plan, id)
+                               : make_tile_of(plan, id, *nodes, [](const TerrainTile&) -> Result<TileVerdict> {
+                                   return TileVerdict{0, {}};
+                                 });
+  if (tile) tile->node_error = std::numeric_limits<double>::quiet_NaN();
+  return tile;
+}
 
 Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockReport> blocks, TileSink& sink,
                                      const Run& run) {

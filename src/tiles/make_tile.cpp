@@ -22,7 +22,7 @@ namespace scarp {
 namespace {
 
 /// Meshes that are made at most, until what clients decode satisfies the level's max error.
-constexpr int kTrials = 12;
+constexpr int kMeshTrials = 12;
 /// Free vertices lie on eighths of a step.
 constexpr std::int64_t kParts = 8;
 
@@ -34,7 +34,7 @@ class TileMaker {
   Result<TerrainTile> make() {
     lay_edges();
     std::optional<TerrainTile> best;
-    for (int trial = 0; trial < kTrials; ++trial) {
+    for (int trial = 0; trial < kMeshTrials; ++trial) {
       // A little less each time: the rounding of a forced vertex may break the bound elsewhere.
       auto mesh = refine((level_.max_error - level_.quantum / 2) * (1 - trial / 128.0));
       if (!mesh) return tl::unexpected(mesh.error());

@@ -54,7 +54,7 @@ done
 
 # A user's mistakes.
 refuses 2 "no such file" "$scarp" serve missing.pmtiles
-refuses 2 "is no set of tiles" "$scarp" serve "$dem"
+refuses 1 "nobody says what the heights" "$scarp" serve "$dem"
 cp secret bad.pmtiles
 refuses 2 "is no PMTiles" "$scarp" serve bad.pmtiles
 head -c 3000 world.pmtiles > cut.pmtiles

@@ -254,6 +254,32 @@ TEST(pyramid_laws, a_tile_of_a_pyramid_is_the_one_made_alone_and_threads_change_
   EXPECT_GT(alone, 200u);
 }
 
+TEST(pyramid_laws, a_tile_above_the_blocks_is_the_same_without_its_proof_and_tiles_are_known_before_they_are_made) {
+  for (const bool has_voids : {false, true}) {
+    const AnyLand land(21, 900, 50, has_voids, kIsland);
+    const auto made = make_small_pyramid(land, kIsland, 2);
+    std::size_t above = 0;
+    for (const auto& [key, bytes] : made->kept.files) {
+      const auto [z, x, y] = key;
+      if (z >= made->plan.block_level) continue;
+      const auto tile = make_unproven_tile(made->plan, {z, x, y}, land);
+      ASSERT_TRUE(tile) << tile.error().message;
+      EXPECT_TRUE(std::isnan(tile->node_error));
+      EXPECT_EQ(encode_quantized_mesh(*tile), bytes) << z << "/" << x << "/" << y;
+      ++above;
+    }
+    EXPECT_GE(above, 6u);
+    const auto tiles = find_tiles(made->plan, &land);
+    ASSERT_TRUE(tiles) << tiles.error().message;
+    EXPECT_EQ(*tiles, made->report.tiles);
+    // Without a look at nodes: at least these.
+    const auto perhaps = find_tiles(made->plan, nullptr);
+    ASSERT_TRUE(perhaps);
+    for (std::size_t z = 0; z < tiles->size(); ++z)
+      EXPECT_TRUE(std::includes((*perhaps)[z].begin(), (*perhaps)[z].end(), (*tiles)[z].begin(), (*tiles)[z].end()));
+  }
+}
+
 TEST(pyramid_laws, blocks_made_by_different_processes_in_any_order_make_the_same_pyramid) {
   const AnyLand land(13, 900, 50, true, kIsland);
   const auto whole = make_small_pyramid(land, kIsland, 2);

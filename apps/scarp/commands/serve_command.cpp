@@ -2,9 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "options/memory.h"
 #include "options/option_table.h"
+#include "reports/tile_report.h"
+#include "scarp/live_tiles.h"
 #include "serve/http_server.h"
-#include "serve/tile_answers.h"
+#include "terminal/progress_display.h"
 #include "terminal/signals.h"
 #include "terminal/text.h"
 
@@ -13,13 +22,22 @@ namespace {
 
 constexpr const char* kPort = "8080";
 constexpr const char* kHost = "127.0.0.1";
+constexpr const char* kMemory = "1G";
 constexpr std::uint64_t kMostPort = 65535;
 
-std::string describe(const std::string& input, const TileSetReader& set, const std::string& url) {
+bool is_set(const std::string& path) {
+  std::error_code error;
+  const std::string ending = lower_extension(path);
+  return ending == ".pmtiles" || ending == ".mbtiles" || ending == ".3tz" || std::filesystem::is_directory(path, error);
+}
+
+std::string describe(const std::string& input, const TileSetReader& set, const LiveTileSet* live,
+                     const std::string& heights_above, const std::string& url) {
   std::uint64_t tiles = 0;
   for (const auto& level : set.tiles()) tiles += level.size();
-  std::string text =
-      fmt::format("{}: {}, levels 0 to {}\n", input, format_plural(tiles, "tile"), set.tiles().size() - 1);
+  std::string text = fmt::format("{}: {}, levels 0 to {}{}\n", input, format_plural(tiles, "tile"),
+                                 set.tiles().size() - 1, live != nullptr ? ", made when asked for" : "");
+  if (!heights_above.empty()) text += fmt::format("  heights   above {}\n", heights_above);
   text += fmt::format("  at        {}\n", url);
   text += set.format() == TileFormat::kGlb
               ? fmt::format("  CesiumJS  await Cesium.Cesium3DTileset.fromUrl(\"{}tileset.json\")\n", url)
@@ -32,24 +50,90 @@ std::string describe(const std::string& input, const TileSetReader& set, const s
 }  // namespace
 
 ServeCommand::ServeCommand(CLI::App& program) : command_(add_command(program, kServe)) {
-  add_option(*command_, OptionId::kInput, input_);
+  tiles_.default_effort = Effort::kFast;
+  add_arguments(*command_, OptionId::kInput, tiles_.raster.paths);
+  tiles_.add_to(*command_);
+  add_option(*command_, OptionId::kMemory, memory_);
   add_option(*command_, OptionId::kPort, port_);
   add_option(*command_, OptionId::kHost, host_);
+  add_option(*command_, OptionId::kThreads, threads_);
   add_flag(*command_, OptionId::kQuiet, quiet_);
+  add_flag(*command_, OptionId::kJsonProgress, json_progress_);
+}
+
+Result<void> ServeCommand::check_alone() const {
+  const bool is_plan = lower_extension(tiles_.raster.path()) == ".json";
+  for (const CLI::Option* option : command_->get_options()) {
+    const std::string name = option->get_name();
+    constexpr std::array kFree{"--port", "--host", "--num-threads", "--quiet", "--json-progress"};
+    if (option->count() == 0 || name.rfind("--", 0) != 0 || std::ranges::count(kFree, name) > 0) continue;
+    if (is_plan && name == "--memory") continue;
+    return fail(ErrorKind::kUsage, fmt::format("{} is for rasters, whose tiles are made when they are asked for: {} is "
+                                               "finished, or a plan that has decided it",
+                                               name, tiles_.raster.path()));
+  }
+  if (tiles_.raster.paths.size() > 1)
+    return fail(ErrorKind::kUsage,
+                fmt::format("{} is no raster: one set or plan is served at a time", tiles_.raster.path()));
+  return {};
+}
+
+Result<ServeCommand::Served> ServeCommand::open(int threads) const {
+  Served served;
+  const std::string& path = tiles_.raster.path();
+  const bool is_plan = lower_extension(path) == ".json";
+  if (is_plan || is_set(path)) {
+    if (auto alone = check_alone(); !alone) return tl::unexpected(alone.error());
+  }
+  if (!is_plan && is_set(path)) {
+    auto answers = TileAnswers::open(path);
+    if (!answers) return tl::unexpected(answers.error());
+    served.answers = std::make_unique<TileAnswers>(std::move(*answers));
+    return served;
+  }
+  const Result<std::uint64_t> memory = parse_bytes("--memory", memory_.value_or(kMemory));
+  if (!memory) return tl::unexpected(memory.error());
+  ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
+  if (is_plan) {
+    auto job = read_tile_job(path);
+    if (!job) return tl::unexpected(job.error());
+    auto opened = open_job(std::move(*job), *memory / 2, threads);
+    if (!opened) return tl::unexpected(opened.error());
+    served.job = std::move(*opened);
+  } else {
+    auto opened = tiles_.open(display.callback(), *memory / 2);
+    if (!opened) return tl::unexpected(opened.error());
+    served.job = std::move(*opened);
+  }
+  Run run;
+  run.threads = threads;
+  run.progress = display.callback();
+  auto set = LiveTileSet::open(served.job.job, served.job.raster->nodes(), *memory / 2, run);
+  if (!set) return tl::unexpected(set.error());
+  display.finish();
+  served.live = set->get();
+  served.answers = std::make_unique<TileAnswers>(std::move(*set));
+  return served;
 }
 
 Result<void> ServeCommand::run() const {
   const Result<std::uint64_t> port = parse_count("--port", port_.value_or(kPort), 0);
   if (!port) return tl::unexpected(port.error());
   if (*port > kMostPort) return fail(ErrorKind::kUsage, fmt::format("--port {} must be at most {}", *port, kMostPort));
-  const auto answers = TileAnswers::open(input_);
-  if (!answers) return tl::unexpected(answers.error());
+  const Result<int> threads = parse_threads(threads_);
+  if (!threads) return tl::unexpected(threads.error());
+  const Result<Served> served = open(*threads);
+  if (!served) return tl::unexpected(served.error());
+  const TileAnswers& answers = *served->answers;
   auto server = HttpServer::listen(host_.value_or(kHost), static_cast<int>(*port));
   if (!server) return tl::unexpected(server.error());
   if (!quiet_) {
-    if (auto printed = print_summary(describe(input_, answers->set(), server->url())); !printed) return printed;
+    if (served->job.raster) print_warnings(warnings_of_raster(served->job.raster->info()));
+    auto printed = print_summary(
+        describe(tiles_.raster.path(), answers.set(), served->live, served->job.job.heights_above, server->url()));
+    if (!printed) return printed;
   }
-  return server->run([&](const Request& request) { return answers->answer(request); }, interrupted);
+  return server->run([&](const Request& request) { return answers.answer(request); }, *threads, interrupted);
 }
 
 }  // namespace scarp::cli

@@ -1,10 +1,12 @@
-// scarp serve: a set of tiles over HTTP.
+// scarp serve: a set of tiles over HTTP, or the tiles of a raster as they are asked for.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <string>
 
-#include "options/options.h"
+#include "options/tile_options.h"
+#include "serve/tile_answers.h"
 
 namespace scarp::cli {
 
@@ -20,10 +22,19 @@ class ServeCommand {
   Result<void> run() const;
 
  private:
+  struct Served {
+    OpenedJob job;  ///< of a raster or a plan
+    const LiveTileSet* live = nullptr;
+    std::unique_ptr<TileAnswers> answers;
+  };
+  /// Fails where options are given that a finished set or a plan has decided.
+  Result<void> check_alone() const;
+  Result<Served> open(int threads) const;
+
   CLI::App* command_;
-  std::string input_;
-  Given port_, host_;
-  bool quiet_ = false;
+  TileArguments tiles_;
+  Given port_, host_, memory_, threads_;
+  bool quiet_ = false, json_progress_ = false;
 };
 
 }  // namespace scarp::cli

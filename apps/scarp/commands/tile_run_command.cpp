@@ -7,6 +7,7 @@
 #include "options/memory.h"
 #include "options/option_table.h"
 #include "options/plan_options.h"
+#include "options/tile_options.h"
 #include "scarp/tile_job.h"
 #include "terminal/clock.h"
 #include "terminal/progress_display.h"
@@ -50,24 +51,20 @@ Result<void> TileRunCommand::run() const {
   const Result<int> threads = parse_threads(threads_);
   if (!threads) return tl::unexpected(threads.error());
   run.threads = *threads;
-  ReadOptions options;
   std::uint64_t memory = kShareRasterBytes;
   if (memory_) {
     const Result<std::uint64_t> bytes = parse_bytes("--memory", *memory_);
     if (!bytes) return tl::unexpected(bytes.error());
     memory = *bytes;
   }
-  const Result<TileJob> job = read_tile_job(plan_);
+  Result<TileJob> job = read_tile_job(plan_);
   if (!job) return tl::unexpected(job.error());
-  if (auto same = check_rasters(*job); !same) return same;
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
-  options = job->reading;
-  options.run.memory.limit = memory;
-  options.run.threads = *threads;
-  const auto raster = GlobeRaster::open(job->rasters.front().path, options, job->vertical);
-  if (!raster) return tl::unexpected(raster.error());
+  const Result<OpenedJob> opened = open_job(std::move(*job), memory, *threads);
+  if (!opened) return tl::unexpected(opened.error());
   run.progress = display.callback();
-  const Result<PartsReport> made = make_parts(*job, (*raster)->nodes(), parts_folder(plan_, parts_), *shard, run);
+  const Result<PartsReport> made =
+      make_parts(opened->job, opened->raster->nodes(), parts_folder(plan_, parts_), *shard, run);
   if (!made) {
     if (made.error().kind != ErrorKind::kCancelled) return tl::unexpected(made.error());
     display.finish();

@@ -61,15 +61,17 @@ constexpr CommandRow kCommandRows[] = {
      "Examples:\n"
      "  scarp tile finish world.json world\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
-    {kServe, "serve", "Serve a set of tiles over HTTP, to this machine alone unless --host says otherwise",
-     "SET [OPTIONS]",
+    {kServe, "serve",
+     "Serve tiles over HTTP, of a set or made of a raster, to this machine alone unless --host says otherwise",
+     "INPUT [OPTIONS]",
      "Tiles are sent with the headers that clients need, and of a set in one file ranges of bytes, too.\n"
-     "Ctrl-C ends it.\n"
+     "Of a raster, or of a plan, tiles are made when they are asked for. Ctrl-C ends it.\n"
      "Examples:\n"
      "  scarp serve globe                                    at http://127.0.0.1:8080/\n"
+     "  scarp serve dem.tif --vertical egm96                 tiles that nobody has made yet\n"
      "  scarp serve world.pmtiles --port 0                   at a free port, which is printed\n"
      "  scarp serve world.mbtiles --host 0.0.0.0             to other machines\n"
-     "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 70 internal error.\n"},
+     "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
     {kInfo, "info", "Describe a raster, points or a mesh, and suggest errors for a raster", "FILE [OPTIONS]",
      "The facts come at once, the suggestions when they are found, by running the engine: on the whole\n"
      "raster up to 2 million samples, on windows of it beyond that (an estimate).\n"

@@ -21,8 +21,18 @@ constexpr Choice<TileFormat> kTileFormats[] = {{"qm", TileFormat::kQuantizedMesh
 
 }  // namespace
 
+Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads) {
+  if (auto same = check_rasters(job); !same) return tl::unexpected(same.error());
+  ReadOptions options = job.reading;
+  options.run.memory.limit = memory;
+  options.run.threads = threads;
+  auto raster = GlobeRaster::open(job.rasters.front().path, options, job.vertical);
+  if (!raster) return tl::unexpected(raster.error());
+  return OpenedJob{std::move(*raster), std::move(job)};
+}
+
 void TileArguments::add_to(CLI::App& command) {
-  add_option(command, OptionId::kOf, format);
+  if (command.get_name() != "serve") add_option(command, OptionId::kOf, format);
   add_option(command, OptionId::kBand, raster.band);
   add_numbers(command, OptionId::kExtent, raster.extent, 4);
   add_option(command, OptionId::kResolution, raster.resolution);
@@ -41,6 +51,7 @@ void TileArguments::add_to(CLI::App& command) {
 
 Result<PyramidSettings> TileArguments::parse_settings() const {
   PyramidSettings settings;
+  settings.effort = default_effort;
   if (max_error) {
     const Result<double> error = parse_number("--max-error", *max_error);
     if (!error) return tl::unexpected(error.error());
@@ -75,7 +86,7 @@ Result<PyramidSettings> TileArguments::parse_settings() const {
   return settings;
 }
 
-Result<OpenedJob> TileArguments::open(const ProgressCallback& progress) const {
+Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uint64_t memory) const {
   Result<PyramidSettings> settings = parse_settings();
   if (!settings) return tl::unexpected(settings.error());
   const Result<Vertical> above = choose("--vertical", vertical.value_or("auto"), kVerticals);
@@ -92,6 +103,7 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress) const {
   job.vertical = *above;
   options->with_range = true;
   options->run.progress = progress;
+  options->run.memory.limit = memory;
   auto globe = GlobeRaster::open(raster.path(), *options, *above);
   if (!globe) return tl::unexpected(raster.explain(globe.error()));
   opened.raster = std::move(*globe);

@@ -19,13 +19,18 @@ struct OpenedJob {
   TileJob job;
 };
 
+/// The job's rasters. Fails as check_rasters() and GlobeRaster::open() do.
+Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads);
+
 struct TileArguments {
   RasterArguments raster;  ///< the paths are arguments of their own
   Given max_error, quality, zoom, cells, effort, vertical, background, format;
+  Effort default_effort = Effort::kNormal;
 
+  /// All that the command's rows name.
   void add_to(CLI::App& command);
-  /// Fails as the options, GlobeRaster::open() and plan_pyramid() do.
-  Result<OpenedJob> open(const ProgressCallback& progress) const;
+  /// `memory`: bytes for the raster, 0 for any. Fails as the options, GlobeRaster::open() and plan_pyramid() do.
+  Result<OpenedJob> open(const ProgressCallback& progress, std::uint64_t memory = 0) const;
 
  private:
   Result<PyramidSettings> parse_settings() const;

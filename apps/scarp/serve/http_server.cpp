@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -15,6 +17,7 @@
 #include <memory>
 #include <utility>
 
+#include "serve/answer_queue.h"
 #include "terminal/clock.h"
 #include "terminal/text.h"
 
@@ -28,35 +31,47 @@ constexpr int kPollMilliseconds = 400;
 
 bool would_wait(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
 
-/// One client: it asks, then takes the answer, then asks again.
+/// One client: it asks, waits, takes the answer, and asks again.
 class Connection {
  public:
-  explicit Connection(int fd) : fd_(fd), deadline_(Clock::now() + kToAsk) {}
+  Connection(int fd, std::uint64_t number, AnswerQueue& queue)
+      : fd_(fd), number_(number), queue_(queue), deadline_(Clock::now() + kToAsk) {}
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
-  ~Connection() { ::close(fd_); }
+  ~Connection() {
+    if (waits_) queue_.forget(number_);
+    ::close(fd_);
+  }
 
   int fd() const { return fd_; }
-  short events() const { return is_answering() ? POLLOUT : POLLIN; }
-  bool is_late(Clock::time_point now) const { return now > deadline_; }
+  std::uint64_t number() const { return number_; }
+  short events() const { return waits_ ? 0 : is_answering() ? POLLOUT : POLLIN; }
+  bool is_late(Clock::time_point now) const { return !waits_ && now > deadline_; }
 
-  /// Both return false once the connection is to be closed.
-  bool receive(const std::function<Response(const Request&)>& answer) {
+  /// All return false once the connection is to be closed.
+  bool receive() {
     std::array<char, 4096> bytes;
     const ssize_t got = ::recv(fd_, bytes.data(), bytes.size(), 0);
     if (got < 0) return would_wait(errno);
     if (got == 0) return false;
     if (lingers_) return true;
     asked_.append(bytes.data(), static_cast<std::size_t>(got));
-    return answer_next(answer);
+    ask_next();
+    return true;
   }
-  bool send(const std::function<Response(const Request&)>& answer) {
+  void take(AnswerQueue::Done done) {
+    waits_ = false;
+    begin(done.request, std::move(done.response));
+  }
+  bool send() {
     while (is_answering()) {
       if (sent_ == waiting_.size() && !refill()) return false;
       const ssize_t sent = ::send(fd_, waiting_.data() + sent_, waiting_.size() - sent_, MSG_NOSIGNAL);
       if (sent < 0) return would_wait(errno);
       sent_ += static_cast<std::size_t>(sent);
     }
+    waiting_ = {};
+    sent_ = 0;
     if (closes_) {
       // Closed with something unread, the answer could be lost on its way: the client closes first.
       lingers_ = true;
@@ -64,26 +79,27 @@ class Connection {
       return ::shutdown(fd_, SHUT_WR) == 0;
     }
     deadline_ = Clock::now() + kToAsk;
-    return answer_next(answer);
+    ask_next();
+    return true;
   }
 
  private:
   bool is_answering() const { return sent_ < waiting_.size() || file_.length > 0; }
 
-  bool answer_next(const std::function<Response(const Request&)>& answer) {
+  void ask_next() {
     const auto end = find_request_end(asked_);
     if (!end) {
       if (asked_.size() > kLongestHead) begin({}, text_response(431, "the request is too long"));
-      return true;
+      return;
     }
-    const auto request = parse_request(std::string_view(asked_).substr(0, *end));
+    auto request = parse_request(std::string_view(asked_).substr(0, *end));
     asked_.erase(0, *end);
     if (!request) {
       begin({}, text_response(400, "this is no request that this server understands"));
-    } else {
-      begin(request, answer(*request));
+      return;
     }
-    return true;
+    waits_ = true;
+    queue_.ask(number_, std::move(*request));
   }
 
   /// Without a request the connection ends after the answer.
@@ -113,12 +129,14 @@ class Connection {
   }
 
   int fd_;
+  std::uint64_t number_;
+  AnswerQueue& queue_;
   Clock::time_point deadline_;
   std::string asked_;
   std::vector<std::uint8_t> waiting_;
   std::size_t sent_ = 0;
   FilePart file_;
-  bool closes_ = false, lingers_ = false;
+  bool waits_ = false, closes_ = false, lingers_ = false;
 };
 
 /// "127.0.0.1", and "[::1]" as URLs have it.
@@ -172,13 +190,16 @@ HttpServer::~HttpServer() {
   if (fd_ >= 0) ::close(fd_);
 }
 
-Result<void> HttpServer::run(const std::function<Response(const Request&)>& answer,
+Result<void> HttpServer::run(const std::function<Response(const Request&)>& answer, int threads,
                              const std::function<bool()>& is_over) {
+  AnswerQueue queue(threads, answer);
   std::vector<std::unique_ptr<Connection>> connections;
   std::vector<pollfd> watched;
+  std::uint64_t accepted = 0;
   while (!is_over()) {
     watched.clear();
     for (const auto& connection : connections) watched.push_back({connection->fd(), connection->events(), 0});
+    watched.push_back({queue.wake_fd(), POLLIN, 0});
     const bool has_room = connections.size() < kMostConnections;
     if (has_room) watched.push_back({fd_, POLLIN, 0});
     if (::poll(watched.data(), watched.size(), kPollMilliseconds) < 0) {
@@ -188,18 +209,28 @@ Result<void> HttpServer::run(const std::function<Response(const Request&)>& answ
     const Clock::time_point now = Clock::now();
     for (std::size_t k = 0; k < connections.size(); ++k) {
       Connection& one = *connections[k];
-      const short seen = watched[k].revents;
+      const short seen = watched[k].revents, wanted = one.events();
       bool stays = !one.is_late(now) && (seen & (POLLERR | POLLNVAL)) == 0;
-      if (stays && (seen & (POLLIN | POLLHUP)) != 0 && one.events() == POLLIN) stays = one.receive(answer);
-      if (stays && (seen & POLLOUT) != 0) stays = one.send(answer);
+      if (stays && (seen & POLLHUP) != 0 && wanted == 0) stays = false;
+      if (stays && (seen & (POLLIN | POLLHUP)) != 0 && wanted == POLLIN) stays = one.receive();
+      if (stays && (seen & POLLOUT) != 0) stays = one.send();
       if (!stays) connections[k].reset();
     }
     std::erase(connections, nullptr);
+    for (AnswerQueue::Done& done : queue.take()) {
+      // Connections are in the order of their numbers.
+      const auto found = std::lower_bound(
+          connections.begin(), connections.end(), done.client,
+          [](const std::unique_ptr<Connection>& one, std::uint64_t number) { return one->number() < number; });
+      if (found != connections.end() && (*found)->number() == done.client) (*found)->take(std::move(done));
+    }
     if (!has_room || (watched.back().revents & POLLIN) == 0) continue;
     while (connections.size() < kMostConnections) {
       const int fd = ::accept4(fd_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
       if (fd < 0) break;
-      connections.push_back(std::make_unique<Connection>(fd));
+      const int on = 1;
+      ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+      connections.push_back(std::make_unique<Connection>(fd, ++accepted, queue));
     }
   }
   return {};

@@ -1,4 +1,4 @@
-// A small server: one thread, many connections, none of which can hold up the others.
+// A small server: one thread for many connections, and a few that make answers. No client can hold up the others.
 #pragma once
 
 #include <functional>
@@ -19,9 +19,11 @@ class HttpServer {
 
   /// "http://127.0.0.1:8080/"
   const std::string& url() const { return url_; }
-  /// Serves until is_over(), which is asked at least twice a second. At most 256 connections are open; others wait. A
-  /// request has 10 seconds to come, and an answer 30, and one more for each 10 kB, to be taken. Fails with kOutput.
-  Result<void> run(const std::function<Response(const Request&)>& answer, const std::function<bool()>& is_over);
+  /// Serves until is_over(), which is asked at least twice a second. `answer` is called on `threads` threads, for one
+  /// path on one of them at a time. At most 256 connections are open, each with one request; others wait. A request has
+  /// 10 seconds to come, and an answer that is made 30, and one more for each 10 kB, to be taken. Fails with kOutput.
+  Result<void> run(const std::function<Response(const Request&)>& answer, int threads,
+                   const std::function<bool()>& is_over);
 
  private:
   HttpServer(int fd, std::string url) : fd_(fd), url_(std::move(url)) {}

@@ -34,7 +34,7 @@ std::string media_type_of(const std::string& name) {
 
 Response add_common(Response response) {
   response.headers.push_back({"Access-Control-Allow-Origin", "*"});
-  response.headers.push_back({"Access-Control-Expose-Headers", "ETag, Content-Range, Accept-Ranges"});
+  response.headers.push_back({"Access-Control-Expose-Headers", "ETag, Content-Range, Accept-Ranges, X-Scarp-Bound"});
   response.headers.push_back({"X-Content-Type-Options", "nosniff"});
   return response;
 }
@@ -53,6 +53,8 @@ TileAnswers::OpenFile::~OpenFile() {
 }
 
 TileAnswers::~TileAnswers() = default;
+
+TileAnswers::TileAnswers(std::unique_ptr<LiveTileSet> set) : live_(set.get()) { reader_ = std::move(set); }
 
 Result<TileAnswers> TileAnswers::open(const std::string& path) {
   TileAnswers answers;
@@ -106,6 +108,7 @@ Response TileAnswers::answer(const Request& request) const {
     is_there = std::binary_search(files.begin(), files.end(), name);
     if (!is_there) return add_common(text_response(404, "this set has no such file; its list is at /"));
   }
+  if (id && live_ != nullptr) return add_common(answer_live(request, name, *id));
   auto bytes = id ? reader_->read_tile(*id) : reader_->read_file(name);
   if (!bytes) return add_common(text_response(500, bytes.error().message));
   return add_common(answer_kept(request, name, std::move(*bytes)));
@@ -119,6 +122,15 @@ Response TileAnswers::answer_root() const {
   text += reader_->format() == TileFormat::kGlb ? "/{root}/{z}/{x}/{y}.glb\n" : "/{z}/{x}/{y}.terrain\n";
   text += file_url();
   return text_response(200, text);
+}
+
+Response TileAnswers::answer_live(const Request& request, const std::string& name, TileId id) const {
+  const auto tile = live_->make(id);
+  if (!tile) return text_response(500, tile.error().message);
+  Response response = answer_kept(request, name, (*tile)->bytes);
+  const std::optional<double> bound = (*tile)->bound;
+  response.headers.push_back({"X-Scarp-Bound", bound ? fmt::format("{:.4g}", *bound) : "estimated"});
+  return response;
 }
 
 Response TileAnswers::answer_kept(const Request& request, const std::string& name,

@@ -70,12 +70,15 @@ std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const Pyram
       ranges.push_back({{"startX", range.x}, {"startY", range.y}, {"endX", range.end_x}, {"endY", range.end_y}});
     }
     available.push_back(std::move(ranges));
-    levels.push_back({{"geometric_error", plan.levels[z].geometric_error},
-                      {"max_error", plan.levels[z].max_error},
-                      {"quantum", plan.levels[z].quantum},
-                      {"node_error", report.levels[z].node_error},
-                      {"bound", report.levels[z].bound},
-                      {"tiles", report.levels[z].tiles}});
+    Json level{{"geometric_error", plan.levels[z].geometric_error},
+               {"max_error", plan.levels[z].max_error},
+               {"quantum", plan.levels[z].quantum},
+               {"tiles", report.tiles[z].size()}};
+    if (!report.levels.empty()) {
+      level["node_error"] = report.levels[z].node_error;
+      level["bound"] = report.levels[z].bound;
+    }
+    levels.push_back(std::move(level));
   }
   layer["available"] = std::move(available);
   layer["scarp"] = Json{{"generator", std::string("scarp ") + version()}, {"levels", std::move(levels)}};

@@ -1,0 +1,63 @@
+// Answers made by a few threads, so that one that takes long holds up no other client.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "serve/http_message.h"
+
+namespace scarp::cli {
+
+class AnswerQueue {
+ public:
+  using Answer = std::function<Response(const Request&)>;
+  struct Done {
+    std::uint64_t client = 0;
+    Request request;
+    Response response;
+  };
+
+  /// `threads`: 0 for all cores. `answer` is called on several threads at once, but for one path on one at a time: who
+  /// asks for what is being made finds it made. What it throws becomes an answer of status 500.
+  AnswerQueue(int threads, Answer answer);
+  AnswerQueue(const AnswerQueue&) = delete;
+  AnswerQueue& operator=(const AnswerQueue&) = delete;
+  /// Waits for the answers that are being made, and leaves the others.
+  ~AnswerQueue();
+
+  /// Becomes readable when there is an answer to take.
+  int wake_fd() const { return wake_[0]; }
+  /// REQUIRES: one request of a client at a time.
+  void ask(std::uint64_t client, Request request);
+  /// Its request is not answered if nobody has begun to.
+  void forget(std::uint64_t client);
+  std::vector<Done> take();
+
+ private:
+  struct Asked {
+    std::uint64_t client = 0;
+    Request request;
+  };
+  void work();
+  /// The first request whose path nobody works at.
+  std::list<Asked>::iterator find_next();
+
+  Answer answer_;
+  int wake_[2] = {-1, -1};
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::list<Asked> asked_;
+  std::set<std::string> paths_at_work_;
+  std::vector<Done> done_;
+  bool is_over_ = false;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace scarp::cli

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""Asks a server that makes tiles when they are asked for.
+
+  serve_raster.py PORT FOLDER [PID]: the folder holds the finished set of the same options. With the server's PID many
+  clients ask at once, too.
+"""
+
+import http.client
+import json
+import pathlib
+import random
+import re
+import socket
+import sys
+import threading
+
+port, folder = int(sys.argv[1]), pathlib.Path(sys.argv[2])
+server = int(sys.argv[3]) if len(sys.argv) > 3 else None
+
+
+def connect():
+    return http.client.HTTPConnection("127.0.0.1", port, timeout=60)
+
+
+def ask(connection, path):
+    connection.request("GET", path, headers={"Accept-Encoding": "gzip"})
+    answer = connection.getresponse()
+    answer.data = answer.read()
+    return answer
+
+
+def of_server(field):
+    return int(re.search(rf"{field}:\s+(\d+)", pathlib.Path(f"/proc/{server}/status").read_text()).group(1))
+
+
+names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*.terrain"))
+kept = {name: (folder / name).read_bytes() for name in names}
+finished = json.loads((folder / "layer.json").read_text())
+
+# The same tiles, and the bound of each where all nodes were looked at.
+connection = connect()
+layer = json.loads(ask(connection, "/layer.json").data)
+assert layer["available"] == finished["available"] and layer["bounds"] == finished["bounds"]
+assert layer["description"] == finished["description"]
+blocks = max(layer["maxzoom"] - 5, 0)
+bounds = {}
+for name in names:
+    answer = ask(connection, f"/{name}?v={layer['version']}")
+    assert answer.status == 200 and answer.data == kept[name], name
+    z, bound = int(name.split("/")[0]), answer.getheader("X-Scarp-Bound")
+    if z < blocks:
+        assert bound == "estimated", name
+    else:
+        bounds[z] = max(bounds.get(z, 0), float(bound))
+for z, bound in bounds.items():
+    assert abs(bound / finished["scarp"]["levels"][z]["bound"] - 1) < 1e-3, z
+assert ask(connection, f"/{layer['maxzoom']}/0/0.terrain").status == 404
+assert ask(connection, f"/{layer['maxzoom'] + 1}/0/0.terrain").status == 404
+answer = ask(connection, "/" + names[0])
+connection.request("GET", "/" + names[0], headers={"If-None-Match": answer.getheader("ETag"), "Accept-Encoding": "gzip"})
+assert connection.getresponse().status == 304
+connection.close()
+
+print(len(names))
+if server is None:
+    sys.exit()
+
+# Many who ask at once, who dawdle, who go away before the answer, and who send nonsense.
+before = of_server("VmHWM")
+wrong = []
+
+
+def stroll(seed):
+    draw = random.Random(seed)
+    try:
+        one = connect()
+        for _ in range(40):
+            name = draw.choice(names)
+            if ask(one, "/" + name).data != kept[name]:
+                wrong.append(name)
+        one.close()
+    except OSError as error:
+        wrong.append(error)
+
+
+slow = [socket.create_connection(("127.0.0.1", port), timeout=60) for _ in range(100)]
+for one in slow:
+    one.sendall(b"GET /" + names[-1].encode() + b" HTTP/1.1\r\nX: ")
+strollers = [threading.Thread(target=stroll, args=(k,)) for k in range(50)]
+for one in strollers:
+    one.start()
+for k in range(1500):
+    with socket.create_connection(("127.0.0.1", port), timeout=60) as one:
+        one.sendall((b"GET /" + names[k % len(names)].encode() + b" HTTP/1.1\r\n\r\n", b"GET /", b"\0\xff\r\n\r\n")[k % 3])
+for one in strollers:
+    one.join()
+assert not wrong, wrong[:3]
+for one in slow:
+    one.close()
+assert of_server("Threads") <= 3, "threads grow with clients"
+assert of_server("VmHWM") - before < 60000, "memory grows with clients"

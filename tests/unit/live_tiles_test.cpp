@@ -1,0 +1,133 @@
+// Tiles made when they are read: those of the finished set, whatever is kept of them.
+#include "scarp/live_tiles.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+
+namespace scarp::live_tiles_test {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+/// Land on a part of the globe, with voids; none around it.
+class Land final : public NodeSource {
+ public:
+  Result<void> read(const NodeWindow& window, std::span<float> out) const override {
+    std::size_t k = 0;
+    for (int j = 0; j < window.rows; ++j) {
+      for (int i = 0; i < window.cols; ++i) out[k++] = at(window.per_turn, window.col + i, window.row + j);
+    }
+    return {};
+  }
+
+ private:
+  static float at(std::int64_t per_turn, std::int64_t col, std::int64_t row) {
+    col = ((col % per_turn) + per_turn) % per_turn;
+    const double lon = -180 + 360.0 * static_cast<double>(col) / static_cast<double>(per_turn);
+    const double lat = 90 - 360.0 * static_cast<double>(row) / static_cast<double>(per_turn);
+    if (lon < 10 || lon > 19 || lat < 41 || lat > 47 || (col / 8 + row / 8) % 17 == 0)
+      return std::numeric_limits<float>::quiet_NaN();
+    return static_cast<float>((col * 37 + row * 91) % 701);
+  }
+};
+
+class Kept final : public TileSink {
+ public:
+  explicit Kept(TileEncoder encode) : encode_(std::move(encode)) {}
+  Result<Bytes> encode(const TerrainTile& tile) const override { return encode_(tile); }
+  Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override {
+    files[{id.z, id.x, id.y}].assign(bytes.begin(), bytes.end());
+    return {};
+  }
+  std::map<std::tuple<int, std::uint32_t, std::uint32_t>, Bytes> files;
+
+ private:
+  TileEncoder encode_;
+};
+
+TileJob make_job() {
+  PyramidSettings settings;
+  settings.cells = 16;
+  settings.max_zoom = 7;
+  TileJob job;
+  job.plan = *plan_pyramid({{10, 41, 19, 47}, 1000, 0, 700}, settings);
+  job.rasters = {{"land", 0, 0}};
+  job.facts.name = "land";
+  return job;
+}
+
+TEST(live_tiles, are_those_of_the_finished_set_for_any_cache_and_several_readers) {
+  const Land land;
+  const TileJob job = make_job();
+  Kept kept(make_tile_encoder(job.format, job.plan));
+  const auto report = make_pyramid(job.plan, land, kept);
+  ASSERT_TRUE(report) << report.error().message;
+  std::vector<std::pair<TileId, const Bytes*>> wanted;
+  for (const auto& [key, bytes] : kept.files)
+    wanted.push_back({{std::get<0>(key), std::get<1>(key), std::get<2>(key)}, &bytes});
+  for (const std::uint64_t cache : {0ull, 30'000ull, 100'000'000ull}) {
+    const auto live = LiveTileSet::open(job, land, cache);
+    ASSERT_TRUE(live) << live.error().message;
+    EXPECT_EQ((*live)->tiles(), report->tiles);
+    std::vector<int> wrong(2 * wanted.size());
+    parallel_for(wrong.size(), 4, [&](std::size_t k) {
+      const auto& [id, bytes] = wanted[k % wanted.size()];
+      const auto tile = (*live)->make(id);
+      wrong[k] = !tile || (*tile)->bytes != *bytes || (*tile)->bound.has_value() != (id.z >= job.plan.block_level);
+    });
+    EXPECT_EQ(std::count(wrong.begin(), wrong.end(), 1), 0);
+    EXPECT_FALSE((*live)->make({7, 0, 0}));
+    EXPECT_FALSE((*live)->make({8, 0, 0}));
+    EXPECT_FALSE((*live)->read_file("tileset.json"));
+  }
+}
+
+TEST(live_tiles, layer_json_says_what_there_is_and_nothing_of_errors_that_nobody_knows) {
+  const Land land;
+  TileJob job = make_job();
+  const auto live = LiveTileSet::open(job, land, 0);
+  ASSERT_TRUE(live) << live.error().message;
+  const auto bytes = (*live)->read_file("layer.json");
+  ASSERT_TRUE(bytes);
+  const nlohmann::json layer = nlohmann::json::parse(bytes->begin(), bytes->end());
+  EXPECT_EQ(layer.at("available").size(), 8u);
+  EXPECT_FALSE(layer.at("scarp").at("levels").at(0).contains("bound"));
+  EXPECT_EQ(layer.at("scarp").at("levels").at(7).at("tiles"), (*live)->tiles()[7].size());
+  // Another raster is another version, so that clients ask again.
+  job.rasters[0].changed = 1;
+  const auto later = LiveTileSet::open(job, land, 0);
+  ASSERT_TRUE(later);
+  EXPECT_NE(*(*later)->read_file("layer.json"), *bytes);
+}
+
+TEST(live_tiles, too_many_nodes_to_look_at_are_taken_for_heights) {
+  const Land land;
+  const TileJob job = make_job();
+  const auto looked = LiveTileSet::open(job, land, 0), not_looked = LiveTileSet::open(job, land, 0, {}, 1);
+  ASSERT_TRUE(looked && not_looked);
+  EXPECT_GE((*not_looked)->tiles()[7].size(), (*looked)->tiles()[7].size());
+  for (const std::uint64_t key : (*not_looked)->tiles()[7])
+    EXPECT_TRUE((*not_looked)->make({7, static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)}));
+}
+
+TEST(live_tiles, three_d_tiles_are_refused) {
+  const Land land;
+  TileJob job = make_job();
+  job.format = TileFormat::kGlb;
+  const auto live = LiveTileSet::open(job, land, 0);
+  ASSERT_FALSE(live);
+  EXPECT_EQ(live.error().kind, ErrorKind::kUsage);
+}
+
+}  // namespace
+}  // namespace scarp::live_tiles_test
