@@ -48,7 +48,7 @@ CoarseLevel join_level(const PyramidPlan& plan, const std::vector<TileId>& tiles
 Result<TerrainTile> make_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source) {
   const std::int32_t steps = 2 * kCoarseCells;
   const DecimatedNodes few(source, std::int64_t{plan.cells} << (plan.max_zoom() + 1));
-  const auto nodes = TileNodes::read(id, steps, normal_reach(steps), plan.background, few);
+  const auto nodes = TileNodes::read(plan, id, steps, normal_reach(steps), few);
   if (!nodes) return tl::unexpected(nodes.error());
   // As in make_coarse(): the first mesh that does not fold is the tile, whatever its error.
   auto tile = nodes->is_flat() ? make_flat_tile(plan, id)
