@@ -37,17 +37,32 @@ void Histogram::carry() {
 }
 
 void Histogram::add(const Buckets& buckets) {
-  if (recent_ + buckets.count > std::numeric_limits<std::uint32_t>::max()) carry();
-  recent_ += buckets.count;
-  if (dense_size_ == 0 && buckets.count > 0)
-    make_first_pages(*std::max_element(buckets.values, buckets.values + buckets.count) >> kPageBits);
+  const std::span<const std::uint32_t> values(buckets.values, buckets.count);
+  if (!has_pages() && few_.size() + values.size() <= kFew) {
+    few_.insert(few_.end(), values.begin(), values.end());
+  } else {
+    count(values);
+  }
+  zeros_ += buckets.zeros;
+  count_ += static_cast<std::uint64_t>(static_cast<std::int64_t>(buckets.count) + buckets.zeros);
+}
+
+/// From here on there are pages, if anything was counted.
+void Histogram::turn_pages() {
+  if (!few_.empty()) count(std::exchange(few_, {}));
+}
+
+void Histogram::count(std::span<const std::uint32_t> buckets) {
+  if (buckets.empty()) return;
+  turn_pages();
+  if (recent_ + buckets.size() > std::numeric_limits<std::uint32_t>::max()) carry();
+  recent_ += buckets.size();
+  if (!has_pages()) make_first_pages(*std::max_element(buckets.begin(), buckets.end()) >> kPageBits);
   constexpr std::uint32_t kSmallRoom = 1 << 16;
   std::uint32_t* counts = counts_.data();
   std::uint16_t* const small = small_.data();
-  const std::uint32_t *value = buckets.values, *const end = value + buckets.count;
   const std::uint32_t dense_from = dense_from_, dense_size = dense_size_;
-  for (; value != end; ++value) {
-    const std::uint32_t bucket = *value;
+  for (const std::uint32_t bucket : buckets) {
     if (bucket - dense_from < dense_size) {
       if (++small[bucket - dense_from] == 0) counts[bucket - dense_from] += kSmallRoom;
       continue;
@@ -59,11 +74,15 @@ void Histogram::add(const Buckets& buckets) {
     }
     ++counts[pages_[index] + (bucket & (kPageSize - 1))];
   }
-  zeros_ += buckets.zeros;
-  count_ += static_cast<std::uint64_t>(static_cast<std::int64_t>(buckets.count) + buckets.zeros);
 }
 
 void Histogram::merge(const Histogram& other) {
+  if (!other.has_pages() && !has_pages() && few_.size() + other.few_.size() <= kFew) {
+    few_.insert(few_.end(), other.few_.begin(), other.few_.end());
+  } else {
+    turn_pages();
+    count(other.few_);
+  }
   if (recent_ + other.recent_ > std::numeric_limits<std::uint32_t>::max() || !other.carried_.empty()) carry();
   for (std::uint32_t p = 0; p < kPages; ++p) {
     if (other.pages_[p] == kNone) continue;
@@ -86,10 +105,39 @@ std::uint64_t Histogram::count_in(std::size_t first, std::size_t end) const {
   return count;
 }
 
+namespace {
+
+/// The last finite bucket ends at infinity; there is none above it.
+double end_of(std::uint32_t bucket) { return static_cast<double>(bit_cast<float>((bucket + 1) << kBucketShift)); }
+
+}  // namespace
+
+/// Of ascending ranks, each at least 1 and at most as many as were counted.
+void Histogram::find_among_few(std::span<const std::uint64_t> ranks, std::span<double> found) const {
+  std::vector<std::uint32_t> buckets = few_;
+  const auto larger = std::partition(buckets.begin(), buckets.end(), [](std::uint32_t bucket) { return bucket == 0; });
+  const auto lowest = static_cast<std::uint64_t>(zeros_ + (larger - buckets.begin()));
+  auto from = larger;
+  for (std::size_t i = 0; i < ranks.size(); ++i) {
+    if (ranks[i] <= lowest) continue;
+    const auto at = larger + static_cast<std::ptrdiff_t>(ranks[i] - lowest - 1);
+    std::nth_element(from, at, buckets.end());
+    found[i] = end_of(*at);
+    from = at;
+  }
+}
+
 void Histogram::find(std::span<const unsigned> permilles, std::span<double> found) const {
   const auto rank = [this](unsigned permille) {
     return count_ / 1000 * permille + (count_ % 1000 * permille + 999) / 1000;
   };
+  if (count_ == 0) return;
+  if (!has_pages()) {
+    std::vector<std::uint64_t> ranks;
+    for (const unsigned permille : permilles) ranks.push_back(rank(permille));
+    find_among_few(ranks, found);
+    return;
+  }
   std::size_t next = 0;
   std::uint64_t passed = static_cast<std::uint64_t>(zeros_);
   const auto settle = [&](double value) {
@@ -108,9 +156,7 @@ void Histogram::find(std::span<const unsigned> permilles, std::span<double> foun
     for (std::size_t at = first; at < end; ++at) {
       if (recent_in(at) == 0 && at >= carried_.size()) continue;
       passed += count_in(at, at + 1);
-      // The last finite bucket ends at infinity; there is none above it.
-      const auto bucket = static_cast<std::uint32_t>((std::size_t{p} << kPageBits) + (at - pages_[p]));
-      settle(static_cast<double>(bit_cast<float>((bucket + 1) << kBucketShift)));
+      settle(end_of(static_cast<std::uint32_t>((std::size_t{p} << kPageBits) + (at - pages_[p]))));
     }
   }
 }

@@ -23,7 +23,8 @@ struct Buckets {
   std::int64_t zeros = 0;  ///< to be added to the count of bucket 0
 };
 
-/// Counts |error| by bucket.
+/// Counts |error| by bucket: the first kFew one by one, more in pages, which small rasters would clear for longer than
+/// they are judged.
 class Histogram {
  public:
   void add(const Buckets& buckets);
@@ -46,6 +47,11 @@ class Histogram {
     none.fill(kNone);
     return none;
   }
+  static constexpr std::size_t kFew = 1 << 14;
+  bool has_pages() const { return counts_.size() > 0; }
+  void turn_pages();
+  void count(std::span<const std::uint32_t> buckets);
+  void find_among_few(std::span<const std::uint64_t> ranks, std::span<double> found) const;
   void make_page(std::uint32_t index);
   void make_first_pages(std::uint32_t index);
   void carry();
@@ -53,6 +59,8 @@ class Histogram {
   std::uint32_t recent_in(std::size_t at) const { return counts_[at] + (at < dense_size_ ? small_[at] : 0u); }
   std::uint64_t count_in(std::size_t first, std::size_t end) const;
   void find(std::span<const unsigned> permilles, std::span<double> found) const;
+
+  std::vector<std::uint32_t> few_;  ///< buckets, as long as there are no pages
 
   /// Pages of counts, one for each exponent of the float, made when first needed. The first ones are neighbours, so
   /// that most errors need no look at pages_: those of `dense_size_` buckets from `dense_from_` on. What is counted
