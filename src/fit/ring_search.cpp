@@ -97,14 +97,12 @@ void RingSearch::look_from(Point sample) {
   }
   for (std::size_t i = 0; i < size_; ++i) {
     const double x = x_[i], y = y_[i];
-    Set left = 0, right = 0;
+    Set right = 0;
     for (std::size_t j = i + 1; j < size_; ++j) {
       const double cross = x * y_[j] - x_[j] * y;
       cross_[i][j] = cross;
-      left |= static_cast<Set>(cross >= 0) << j;
       right |= static_cast<Set>(cross <= 0) << j;
     }
-    left_of_[i] = left;
     right_of_[i] = right;
   }
 }
@@ -114,7 +112,7 @@ void RingSearch::keep_positive() {
     for (std::size_t j = i + 2; j < size_; ++j) {
       Set set = 0;
       for (std::size_t q = i + 1; q < j; ++q) {
-        if (cross_[i][q] + cross_[q][j] > cross_[i][j]) set |= only(q);
+        set |= static_cast<Set>(cross_[i][q] + cross_[q][j] > cross_[i][j]) << q;
       }
       allowed_[i][j] = set;
     }
@@ -142,31 +140,40 @@ void RingSearch::keep_shapely(const FitCorner& hub) {
   }
 }
 
-/// Whether a triangle breaks the bound at the sample that is looked from, which it holds.
-inline bool RingSearch::breaks(std::size_t i, std::size_t q, std::size_t j) const {
-  const double wi = cross_[q][j], wq = -cross_[i][j], wj = cross_[i][q];
-  double error = std::abs(wi * z_[i] + wq * z_[q] + wj * z_[j]);
-  for (const auto& z : more_z_)
-    error = add_to_norm_of(error_.norm(), error, std::abs(wi * z[i] + wq * z[q] + wj * z[j]));
-  return error > limit_ * (wi + wq + wj);
-}
-
 /// Forbids the triangles that hold the sample that is looked from and break the threshold there; whether there are any.
-/// Rounding may forbid one at the threshold itself, never allow one: what is allowed is scanned.
-bool RingSearch::cross_out() {
-  bool any = false;
+/// Rounding may forbid one at the threshold itself, never allow one: what is allowed is scanned. Without branches
+/// inside, as nobody could predict which triangles hold the sample.
+template <class AddMore>
+bool RingSearch::cross_out_by(const AddMore& add_more) {
+  Set any = 0;
   for (std::size_t i = 0; i + 2 < size_; ++i) {
-    for (Set middles = left_of_[i]; middles != 0; middles &= middles - 1) {
-      const std::size_t q = lowest(middles);
-      for (Set lasts = left_of_[q] & right_of_[i]; lasts != 0; lasts &= lasts - 1) {
-        const std::size_t j = lowest(lasts);
-        if ((allowed_[i][j] & only(q)) == 0 || !breaks(i, q, j)) continue;
-        allowed_[i][j] &= ~only(q);
-        any = true;
+    const Set far = ~Set{0} << (i + 2);
+    for (Set lasts = right_of_[i] & far; lasts != 0; lasts &= lasts - 1) {
+      const std::size_t j = lowest(lasts);
+      const double wq = -cross_[i][j];
+      Set broken = 0;
+      for (std::size_t q = i + 1; q < j; ++q) {
+        const double wi = cross_[q][j], wj = cross_[i][q];
+        const double error = add_more(std::abs(wi * z_[i] + wq * z_[q] + wj * z_[j]), i, q, j);
+        broken |= (Set{wi >= 0} & Set{wj >= 0} & Set{error > limit_ * (wi + wq + wj)}) << q;
       }
+      broken &= allowed_[i][j];
+      allowed_[i][j] ^= broken;
+      any |= broken;
     }
   }
-  return any;
+  return any != 0;
+}
+
+bool RingSearch::cross_out() {
+  if (more_z_.empty()) return cross_out_by([](double error, std::size_t, std::size_t, std::size_t) { return error; });
+  return cross_out_by([this](double error, std::size_t i, std::size_t q, std::size_t j) {
+    const double wi = cross_[q][j], wq = -cross_[i][j], wj = cross_[i][q];
+    if (wi < 0 || wj < 0) return error;
+    for (const auto& z : more_z_)
+      error = add_to_norm_of(error_.norm(), error, std::abs(wi * z[i] + wq * z[q] + wj * z[j]));
+    return error;
+  });
 }
 
 /// Finds the intervals that can be triangulated, then those that a triangulation of the whole needs; false if the whole

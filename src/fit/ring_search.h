@@ -60,8 +60,9 @@ class RingSearch {
   void look_from(Point sample);
   void keep_positive();
   void keep_shapely(const FitCorner& hub);
+  template <class AddMore>
+  bool cross_out_by(const AddMore& add_more);
   bool cross_out();
-  bool breaks(std::size_t i, std::size_t q, std::size_t j) const;
   bool connect();
   bool is_needed(std::size_t first, std::size_t last) const {
     return ((needed_from_[first] >> last | needed_to_[last] >> first) & 1) != 0;
@@ -77,7 +78,7 @@ class RingSearch {
   double limit_ = 0;                                      // of that sample
   Table<double> cross_;                                   // products of them
   Table<double> square_;                                  // of edges and diagonals, where there is a floor of shapes
-  std::array<Set, kMostCorners> left_of_, right_of_;      // last by first: where they are not negative, not positive
+  std::array<Set, kMostCorners> right_of_;                // last by first: where they are not positive
   Table<Set> allowed_;                                    // middles of triangles that are not crossed out
   Table<Set> choices_;  // those that leave intervals with triangulations on both sides
   std::array<Set, kMostCorners> needed_from_, needed_to_;
