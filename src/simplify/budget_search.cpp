@@ -15,15 +15,15 @@ namespace scarp {
 
 namespace {
 
-constexpr double kAim = 0.995;        // share of the budget: below it by about what a run scatters
 constexpr double kFull = 0.99;        // enough to stop at once
 constexpr double kNearlyFull = 0.97;  // enough after some patience
-constexpr double kClosed = 0.002;     // logarithm of the ratio of two numbers on both sides of the budget
 constexpr double kNearFloor = 0.02;   // logarithm: so near a goal it is tried itself
 constexpr double kLeast = std::numeric_limits<double>::min();
 
-/// Of so few triangles a mesh of a smaller budget may be the better one, where triangles jump.
+/// So few triangles scatter from run to run by more than a percent; and where they jump, a mesh of a smaller budget may
+/// be the better one.
 constexpr std::size_t kFewTriangles = 500;
+constexpr double kJump = 0.9;  // less of the budget is used
 
 /// How a search goes on from where it begins.
 struct Pace {
@@ -31,11 +31,14 @@ struct Pace {
   double farthest;   ///< step, as a ratio, while all meshes fit
   double far_below;  ///< as a ratio to the first mesh's number: below it an exact mesh is likely to fit
   double near;       ///< logarithm: nearer runs tell no power
+  double aim;        ///< share of the budget: below it by about what a run scatters
+  double closed;     ///< logarithm of the ratio of two numbers on both sides of the budget, which end the search
   int patience;      ///< runs before nearly full will do
   int most_runs;
 };
-constexpr Pace kFromInsertion{1.3, 2, 1.0 / 64, 0.03, 4, kMostRuns};
-constexpr Pace kFromLeastMesh{1, 32, 0x1p-20, 0.02, 5, kMostRunsFromLeast};
+constexpr Pace kFromInsertion{1.3, 2, 1.0 / 64, 0.03, 0.995, 0.002, 4, kMostRuns};
+constexpr Pace kFromFew{1.3, 2, 1.0 / 64, 0.03, 0.99, 0.005, 2, kMostRuns};
+constexpr Pace kFromLeastMesh{1, 32, 0x1p-20, 0.02, 0.995, 0.002, 5, kMostRunsFromLeast};
 
 /// A number, and what share of the budget its mesh takes; logarithms.
 struct Sight {
@@ -127,7 +130,7 @@ class BudgetSearch {
 
   /// Whether triangles jump over the budget, which leaves much of it.
   bool has_jumped() const {
-    return fits_ && exceeds_ && highest() - exceeds_->number < kClosed && fits_->used < std::log(kNearlyFull);
+    return fits_ && exceeds_ && highest() - exceeds_->number < pace_.closed && fits_->used < std::log(kJump);
   }
 
  private:
@@ -149,6 +152,7 @@ class BudgetSearch {
     if (!made) return tl::unexpected(made.error());
     best_ = std::move(*made);
     first_ = best_.judged_max_error;
+    if (best_.mesh.triangle_count() < kFewTriangles) pace_ = kFromFew;
     has_room_ = best_.stop == StopReason::kMaxError || best_.stop == StopReason::kExact || first_ <= floor_;
     // No factor helps a sample whose tolerance is 0: what can be reached is seen from the least mesh on.
     if (std::isinf(first_)) pace_ = kFromLeastMesh, power_ = pace_.power;
@@ -202,13 +206,13 @@ class BudgetSearch {
   bool has_ended() const {
     const double enough = std::log(runs_ < pace_.patience ? kFull : kNearlyFull);
     return runs_ == pace_.most_runs || is_at_floor_ || (fits_ && fits_->used >= enough) ||
-           (!fits_ && std::isinf(first_)) || (exceeds_ && highest() - exceeds_->number < kClosed);
+           (!fits_ && std::isinf(first_)) || (exceeds_ && highest() - exceeds_->number < pace_.closed);
   }
 
   /// Refinement alone tells how triangles grow as the bounds fall, and about what share of them effort leaves.
   Result<double> guess_by_refinement() {
     Sight last{highest(), expected_after(best_)};
-    double step = (last.used - std::log(kAim)) / power_;
+    double step = (last.used - std::log(pace_.aim)) / power_;
     for (int look = 0; look < 2 && std::abs(step) > 0.1; ++look) {
       const double number = last.number + step;
       if (is_near_floor(number)) return floor_;
@@ -217,7 +221,7 @@ class BudgetSearch {
       const Sight here{number, *used};
       power_ = power_between(last, here, pace_.power);
       last = here;
-      step = (last.used - std::log(kAim)) / power_;
+      step = (last.used - std::log(pace_.aim)) / power_;
     }
     const double number = std::min(last.number + step, highest());
     return is_near_floor(number) ? floor_ : std::exp(number);
@@ -227,7 +231,7 @@ class BudgetSearch {
     SimplifyOptions refine = without_effort(number_.towards(number));
     refine.output.normals = refine.output.uvs = false;
     const auto made = run(std::move(refine), number_.factor_of(number), 0.05, Budget(0, 0));
-    if (!made && made.error().kind == ErrorKind::kPromise) return std::log(kAim);
+    if (!made && made.error().kind == ErrorKind::kPromise) return std::log(pace_.aim);
     if (!made) return tl::unexpected(made.error());
     add_work(*made, others_);
     return expected_after(*made);
@@ -255,9 +259,9 @@ class BudgetSearch {
   /// those that fit and those that do not.
   double guess() const {
     const Sight& known = fits_ ? *fits_ : *exceeds_;
-    double number = known.number + (known.used - std::log(kAim)) / power_;
+    double number = known.number + (known.used - std::log(pace_.aim)) / power_;
     if (!exceeds_) {
-      number = std::clamp(number, known.number - std::log(pace_.farthest), known.number - kClosed);
+      number = std::clamp(number, known.number - std::log(pace_.farthest), known.number - pace_.closed);
       return is_near_floor(number) ? floor_ : std::exp(number);
     }
     const double width = highest() - exceeds_->number;
@@ -274,7 +278,7 @@ class BudgetSearch {
   /// that steep counts, too, are closed in from both sides. REQUIRES: fits_, exceeds_, finite.
   double cross_aim() const {
     const double weight = std::pow(0.5, std::max(0, stays_ - 1));
-    double below = fits_->used - std::log(kAim), above = exceeds_->used - std::log(kAim);
+    double below = fits_->used - std::log(pace_.aim), above = exceeds_->used - std::log(pace_.aim);
     (last_fits_ ? above : below) *= weight;
     if (below >= 0) return fits_->number;
     return (exceeds_->number * -below + fits_->number * above) / (above - below);

@@ -52,13 +52,14 @@ struct BudgetTask {
 ///
 /// Guarantees: no budget is exceeded; what is minimised is not larger than in the mesh of fast effort for the same
 /// budgets; the result is a function of what `run` returns. The search ends with at least 99 % of a budget used (97 %
-/// after some runs), or when two numbers 0.2 % apart lie on both sides of the budget: then triangles jump there, as
-/// with errors that many samples share, and of a few hundred triangles the half of the budget is tried too, where
-/// chance may have found a better mesh; or, with effort, when options.is_time_up says so, with the best mesh so far. At
-/// most kMostRuns runs with the whole effort, mostly two or three, or kMostRunsFromLeast from the least mesh on.
-/// Memory: the best mesh so far beside a run. Progress is that of one pass, "search". Fails as `run` does, and with
-/// kUsage, and the least number that would do, where the least mesh exceeds a budget; a bound that cannot be kept
-/// (kPromise) only ends what lies below it. REQUIRES: a budget.
+/// after some runs), or when two numbers 0.2 % apart (0.5 % where there are but a few hundred triangles) lie on both
+/// sides of the budget: then triangles jump there, as with errors that many samples share, and where a tenth of a few
+/// hundred triangles is left, the half of the budget is tried too: chance may have found a better mesh there; or, with
+/// effort, when options.is_time_up says so, with the best mesh so far. At most kMostRuns runs with the whole effort,
+/// mostly two or three, or kMostRunsFromLeast from the least mesh on. Memory: the best mesh so far beside a run.
+/// Progress is that of one pass, "search". Fails as `run` does, and with kUsage, and the least number that would do,
+/// where the least mesh exceeds a budget; a bound that cannot be kept (kPromise) only ends what lies below it.
+/// REQUIRES: a budget.
 Result<Simplified> search_budget(const SimplifyOptions& options, const BudgetTask& task);
 
 inline constexpr int kMostRuns = 12, kMostRunsFromLeast = 20;
