@@ -220,6 +220,12 @@ def order_table(rows):
     return markdown(["kept %", "meshes", "lowest", "median", "highest", "above 1.01"], lines)
 
 
+def goal_table(rows):
+    """Of goals.py."""
+    return markdown(["goal", "case", "ratio, or ms", "of", "peer"],
+                    [[row["goal"], row["case"], row["value"], row["how"], row["peer"] or "–"] for row in rows])
+
+
 def bullet(words):
     """Lines of an item of a list."""
     return textwrap.wrap(words, 118, initial_indent="- ", subsequent_indent="  ", break_on_hyphens=False)
@@ -256,7 +262,7 @@ def tables():
     for name, file, make in (("kernels", "kernels.csv", kernel_table), ("threads", "threads.csv", thread_table),
                              ("calls", "calls.csv", call_table),
                               ("programs", "programs.csv", program_table), ("borders", "tiles.csv", border_table),
-                             ("starts", "tiles.csv", start_table)):
+                             ("starts", "tiles.csv", start_table), ("goals", "goals.csv", goal_table)):
         rows = read_table(HERE / file)
         if rows:
             found[name] = make(rows)
@@ -282,6 +288,7 @@ SECTIONS = (
      "By side of the tiles, each started from two triangles; against the raster as one tile (last column, vertices)."),
     ("starts", "Starts: coarse starts against two triangles",
      "By side of the tiles: vertices more or less, and how many times faster (one run)."),
+    ("goals", "Goals", "What `goals.py` measured, and from which times: its functions of these names tell what each is."),
 )
 
 
