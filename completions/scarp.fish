@@ -6,7 +6,7 @@ complete -c scarp -n __fish_use_subcommand -f -a tile -d 'Make a pyramid of terr
 complete -c scarp -n __fish_use_subcommand -f -a tile-plan -d 'Plan tiles that many processes make, on one machine or a cluster'
 complete -c scarp -n __fish_use_subcommand -f -a tile-run -d 'Make a share of the tiles of a plan'
 complete -c scarp -n __fish_use_subcommand -f -a tile-finish -d 'Join the parts of a plan into a set of tiles'
-complete -c scarp -n __fish_use_subcommand -f -a serve -d 'Serve tiles over HTTP, of a set or made of a raster, to this machine alone unless --host says otherwise'
+complete -c scarp -n __fish_use_subcommand -f -a serve -d 'Serve tiles over HTTP, of a set or made of a raster, to this machine alone without --host'
 complete -c scarp -n __fish_use_subcommand -f -a info -d 'Describe a raster, points or a mesh, and suggest errors for a raster'
 complete -c scarp -n __fish_use_subcommand -f -a generate -d 'Make a synthetic raster of heights'
 complete -c scarp -n __fish_use_subcommand -f -a paper -d 'Repeat the experiments of the 1995 paper'

@@ -61,8 +61,7 @@ constexpr CommandRow kCommandRows[] = {
      "Examples:\n"
      "  scarp tile finish world.json world\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
-    {kServe, "serve",
-     "Serve tiles over HTTP, of a set or made of a raster, to this machine alone unless --host says otherwise",
+    {kServe, "serve", "Serve tiles over HTTP, of a set or made of a raster, on this machine alone by default",
      "INPUT [OPTIONS]",
      "Tiles are sent with the headers that clients need, and of a set in one file ranges of bytes, too.\n"
      "Of a raster, or of a plan, tiles are made when they are asked for. Ctrl-C ends it.\n"
