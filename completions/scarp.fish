@@ -129,7 +129,7 @@ complete -c scarp -n '__fish_seen_subcommand_from tile-run' -l shard -x -d 'Whic
 complete -c scarp -n '__fish_seen_subcommand_from tile-run tile-finish' -l parts -x -a '(__fish_complete_directories)' -d 'Folder of the finished blocks, which all processes share'
 complete -c scarp -n '__fish_seen_subcommand_from tile-run' -l memory -x -d 'Memory of the raster: one whose samples need more stays in its file, and the blocks\' parts of it are read'
 complete -c scarp -n '__fish_seen_subcommand_from serve' -l effort -x -a 'fast normal high' -d 'How much work to do for fewer triangles of the tiles that are made'
-complete -c scarp -n '__fish_seen_subcommand_from serve' -l memory -x -d 'Memory of what is kept, where tiles are made: one half for the raster, which stays in its file if it is larger, with its blocks read last; the other for the tiles asked for last'
+complete -c scarp -n '__fish_seen_subcommand_from serve' -l memory -x -d 'Memory of what is kept, where tiles are made'
 complete -c scarp -n '__fish_seen_subcommand_from serve' -l port -x -d 'Port to serve at'
 complete -c scarp -n '__fish_seen_subcommand_from serve' -l host -x -a '127.0.0.1 0.0.0.0 ::1 ::' -d 'Address of this machine to serve at'
 complete -c scarp -n '__fish_seen_subcommand_from info' -l crs -x -a 'source local enu grid EPSG:' -d 'Coordinates that a mesh would have: source, local, enu, grid or a CRS such as EPSG:32611'

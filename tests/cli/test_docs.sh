@@ -117,6 +117,7 @@ END
       simplify*) try "$scarp" simplify "$dem" out.obj -e 1 "$option" nonsense ;;
       measure*) try "$scarp" measure "$dem" out.obj "$option" nonsense ;;
       tile*) try "$scarp" tile "$dem" out "$option" nonsense ;;
+      serve*) try "$scarp" serve "$dem" "$option" nonsense ;;
       info*) try "$scarp" info "$dem" "$option" nonsense ;;
       generate*) try "$scarp" generate cliff 9 9 out.tif "$option" nonsense ;;
     esac

@@ -168,8 +168,8 @@ constexpr OptionRow kTileRows[] = {
      .value = "SIZE",
      .unit = "bytes, or with k M G T Ki Mi Gi Ti",
      .by_default = "1G",
-     .help = "Memory of what is kept, where tiles are made: one half for the raster, which stays in its file if it is "
-             "larger, with its blocks read last; the other for the tiles asked for last. Making a tile takes up to "
+     .help = "Memory of what is kept, where tiles are made. One half is for the raster, which stays in its file if it "
+             "is larger, with its blocks read last; the other for the tiles asked for last. Making a tile takes up to "
              "300 MB a thread beside it."},
     {.id = kPort,
      .name = "--port",
