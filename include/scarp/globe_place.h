@@ -18,7 +18,7 @@ namespace scarp {
 enum class Vertical {
   kAuto,       ///< what the raster's CRS says
   kEllipsoid,  ///< the ellipsoid, as GPS gives them
-  kEgm96,      ///< the geoid EGM96: the sea
+  kEgm96,      ///< the geoid EGM96: the sea, as egm96() has it
 };
 
 /// Where a raster lies on the globe.

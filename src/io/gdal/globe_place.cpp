@@ -1,4 +1,6 @@
 // Where a raster lies on the globe: the ways to longitude, latitude and heights above the ellipsoid.
+#include "scarp/globe_place.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +10,7 @@
 
 #include "io/gdal/crs.h"
 #include "io/gdal/session.h"
-#include "scarp/globe_place.h"
+#include "scarp/geoid.h"
 
 namespace scarp {
 namespace {
@@ -93,24 +95,22 @@ bool is_found_again(int cols, int rows, const RasterOnGlobe& globe) {
   return true;
 }
 
+/// As PROJ calls them: EPSG:5773.
+constexpr const char* kEgm96Heights = "EGM96 height";
+
 constexpr const char* kWaysOut =
     "give --vertical egm96 for heights above the sea, or --vertical ellipsoid for heights above the ellipsoid, as GPS "
     "gives them";
 
 /// Where heights above the sea or another surface begin.
 Result<void> find_zero(const RasterInfo& info, Vertical vertical, const std::string& path, RasterOnGlobe& globe) {
-  std::shared_ptr<const PointTransform> to_xy;
-  Crs heights;
-  if (vertical == Vertical::kEgm96) {
-    globe.vertical = "EGM96 height";
-    heights = find_space_crs("EPSG:4326+5773");
-  } else {
-    globe.vertical = info.vertical;
-    heights = find_space_crs(info.crs_with_heights);
-    to_xy = globe.place.from_degrees;
+  globe.vertical = vertical == Vertical::kEgm96 ? kEgm96Heights : info.vertical;
+  if (globe.vertical == kEgm96Heights) {
+    globe.zero = egm96();
+    return {};
   }
-  const Crs ellipsoid = find_space_crs("EPSG:4979");
-  auto zero = heights && ellipsoid ? std::make_shared<ProjZero>(to_xy, heights, ellipsoid) : nullptr;
+  const Crs heights = find_space_crs(info.crs_with_heights), ellipsoid = find_space_crs("EPSG:4979");
+  auto zero = heights && ellipsoid ? std::make_shared<ProjZero>(globe.place.from_degrees, heights, ellipsoid) : nullptr;
   const std::array<double, 6>& gt = info.geotransform;
   double x = gt[0], y = gt[3];
   if (globe.to_degrees != nullptr) globe.to_degrees->apply({&x, 1}, {&y, 1});
