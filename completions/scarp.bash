@@ -27,17 +27,18 @@ _scarp() {
       "measure --nodata" | "measure --falloff" | "measure --inset" | "measure --memory" | "measure -j" | \
       "measure --num-threads" | "measure --texture-weight" | "measure --channel-weights" | "measure --layer" | \
       "measure --z-field" | "tile --band" | "tile --te" | "tile --resolution" | "tile --z-scale" | \
-      "tile --z-offset" | "tile -e" | "tile --max-error" | "tile --quality" | "tile --zoom" | "tile --nodata" | \
-      "tile --background" | "tile -j" | "tile --num-threads" | "tile-plan --band" | "tile-plan --te" | \
-      "tile-plan --resolution" | "tile-plan --z-scale" | "tile-plan --z-offset" | "tile-plan --shards" | \
-      "tile-plan -e" | "tile-plan --max-error" | "tile-plan --quality" | "tile-plan --zoom" | "tile-plan --nodata" | \
-      "tile-plan --background" | "tile-run --shard" | "tile-run --memory" | "tile-run -j" | \
-      "tile-run --num-threads" | "tile-finish -j" | "tile-finish --num-threads" | "serve --band" | "serve --te" | \
-      "serve --resolution" | "serve --z-scale" | "serve --z-offset" | "serve -e" | "serve --max-error" | \
-      "serve --quality" | "serve --zoom" | "serve --nodata" | "serve --background" | "serve --memory" | \
-      "serve --port" | "serve -j" | "serve --num-threads" | "info --band" | "info --te" | "info --resolution" | \
-      "info --z-scale" | "info --z-offset" | "info --cell-size" | "info --nodata" | "info --layer" | \
-      "info --z-field" | "generate --seed" | "generate --range" | "generate --size")
+      "tile --z-offset" | "tile --ellipsoid" | "tile -e" | "tile --max-error" | "tile --quality" | "tile --zoom" | \
+      "tile --nodata" | "tile --background" | "tile -j" | "tile --num-threads" | "tile-plan --band" | \
+      "tile-plan --te" | "tile-plan --resolution" | "tile-plan --z-scale" | "tile-plan --z-offset" | \
+      "tile-plan --ellipsoid" | "tile-plan --shards" | "tile-plan -e" | "tile-plan --max-error" | \
+      "tile-plan --quality" | "tile-plan --zoom" | "tile-plan --nodata" | "tile-plan --background" | \
+      "tile-run --shard" | "tile-run --memory" | "tile-run -j" | "tile-run --num-threads" | "tile-finish -j" | \
+      "tile-finish --num-threads" | "serve --band" | "serve --te" | "serve --resolution" | "serve --z-scale" | \
+      "serve --z-offset" | "serve --ellipsoid" | "serve -e" | "serve --max-error" | "serve --quality" | \
+      "serve --zoom" | "serve --nodata" | "serve --background" | "serve --memory" | "serve --port" | "serve -j" | \
+      "serve --num-threads" | "info --band" | "info --te" | "info --resolution" | "info --z-scale" | \
+      "info --z-offset" | "info --cell-size" | "info --nodata" | "info --layer" | "info --z-field" | \
+      "generate --seed" | "generate --range" | "generate --size")
       return
       ;;
     "simplify --objective")
@@ -66,7 +67,8 @@ _scarp() {
       "simplify --breaklines" | "simplify --cutline" | "simplify --materials" | "simplify --node-strings" | \
       "simplify --water" | "simplify --rivers" | "simplify --texture" | "measure --map" | "measure --error-raster" | \
       "measure --mask" | "measure --tolerance" | "measure --roi" | "measure --script" | "measure --cutline" | \
-      "measure --texture" | "tile --report" | "tile-plan --slurm" | "tile-finish --report")
+      "measure --texture" | "tile --geoid" | "tile --report" | "tile-plan --geoid" | "tile-plan --slurm" | \
+      "tile-finish --report" | "serve --geoid")
       COMPREPLY=($(compgen -f -- "$current"))
       return
       ;;
@@ -127,7 +129,7 @@ _scarp() {
       return
       ;;
     "tile --vertical" | "tile-plan --vertical" | "serve --vertical")
-      COMPREPLY=($(compgen -W 'auto egm96 ellipsoid' -- "$current"))
+      COMPREPLY=($(compgen -W 'auto egm96 egm2008 ellipsoid none' -- "$current"))
       return
       ;;
     "tile --of" | "tile-plan --of")
@@ -180,14 +182,16 @@ _scarp() {
         options+=' --image --norm --channel-weights --points --duplicates --layer --z-field'
         ;;
       tile)
-        options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --report'
-        options+=' --overwrite --of --effort --max-error --quality --zoom --cells --nodata'
-        options+=' --background --num-threads --quiet --json-progress --help --help-all --version'
+        options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --geoid'
+        options+=' --ellipsoid --report --overwrite --of --effort --max-error --quality --zoom'
+        options+=' --cells --nodata --background --num-threads --quiet --json-progress --help --help-all'
+        options+=' --version'
         ;;
       tile-plan)
-        options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --overwrite'
-        options+=' --of --shards --slurm --effort --max-error --quality --zoom --cells'
-        options+=' --nodata --background --quiet --json-progress --help --help-all --version'
+        options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --geoid'
+        options+=' --ellipsoid --overwrite --of --shards --slurm --effort --max-error --quality'
+        options+=' --zoom --cells --nodata --background --quiet --json-progress --help --help-all'
+        options+=' --version'
         ;;
       tile-run)
         options+=' --shard --parts --memory --num-threads --quiet --json-progress --help --help-all'
@@ -198,9 +202,10 @@ _scarp() {
         options+=' --version'
         ;;
       serve)
-        options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --effort'
-        options+=' --max-error --quality --zoom --cells --nodata --background --memory --port'
-        options+=' --host --num-threads --quiet --json-progress --help --help-all --version'
+        options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --geoid'
+        options+=' --ellipsoid --effort --max-error --quality --zoom --cells --nodata --background'
+        options+=' --memory --port --host --num-threads --quiet --json-progress --help --help-all'
+        options+=' --version'
         ;;
       info)
         options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --crs'

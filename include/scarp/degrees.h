@@ -18,6 +18,12 @@ struct Geodetic {
   double radians_per_unit = 0.017453292519943295;
 };
 
+/// Metres from the centre to a pole.
+inline double semi_minor(const Geodetic& geodetic) {
+  return geodetic.inverse_flattening == 0 ? geodetic.semi_major
+                                          : geodetic.semi_major * (1 - 1 / geodetic.inverse_flattening);
+}
+
 /// Metres along the ground for one unit of x and one of y at a latitude (in units of y); 0, 0 at or beyond a pole.
 std::array<double, 2> metres_of_unit(double latitude, const Geodetic& geodetic = {});
 

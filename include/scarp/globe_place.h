@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "scarp/degrees.h"
@@ -19,6 +20,18 @@ enum class Vertical {
   kAuto,       ///< what the raster's CRS says
   kEllipsoid,  ///< the ellipsoid, as GPS gives them
   kEgm96,      ///< the geoid EGM96: the sea, as egm96() has it
+  kEpsg,       ///< a vertical CRS of EPSG's, by PROJ and its grids
+  kGeoid,      ///< a surface that a raster holds
+  kNone,       ///< nobody knows: taken as they are, as if above the ellipsoid
+};
+
+/// What the user says of a raster's heights and of its globe.
+struct Datum {
+  Vertical vertical = Vertical::kAuto;
+  int epsg = 0;       ///< of kEpsg: 3855 is EGM2008
+  std::string geoid;  ///< of kGeoid: a raster of the surface's heights above the ellipsoid, in metres (GTX, GeoTIFF, …)
+  /// In place of the CRS's: longitude and latitude are the raster's own, on this one.
+  std::optional<Geodetic> ellipsoid = std::nullopt;
 };
 
 /// Where a raster lies on the globe.
@@ -26,15 +39,28 @@ struct RasterOnGlobe {
   RasterPlace place;
   std::shared_ptr<const PointTransform> to_degrees;  ///< null where place.from_degrees is
   Geodetic ellipsoid;
+  std::string body;                        ///< whose ellipsoid, in the CRS's words; empty for WGS 84
   std::shared_ptr<const HeightZero> zero;  ///< of the heights; null where they are above the ellipsoid
+  double zero_reach = 0;                   ///< metres that the zero is from the ellipsoid, at most
   std::string vertical;                    ///< what the heights are above, in words
 };
 
 /// `path`: the raster's, for sentences. Fails with kInput without a georeference or a CRS, for heights that are not in
 /// metres, where PROJ knows no way to longitude and latitude, and beyond 180° of a cylindrical projection; with kUsage
-/// where nobody says what the heights are above, and where the geoid is not on this machine.
-Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows, Vertical vertical,
+/// where nobody says what the heights are above, where PROJ's grid of the zero is not on this machine, and for a zero
+/// of another planet's; and as read_geoid() does. Without `datum.ellipsoid` the ellipsoid is that of WGS 84, or the
+/// CRS's own if it is another planet's: more than 1 % larger or smaller.
+Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows, const Datum& datum,
                                      const std::string& path);
+
+/// A surface that heights are above.
+struct Zero {
+  std::shared_ptr<const HeightZero> heights;
+  double reach = 0;  ///< metres from the ellipsoid, at most
+};
+/// The whole raster: 4 bytes a node. Fails with kInput for what cannot be read, with kUsage for one of another globe
+/// than `globe`'s, and on the earth for heights that no geoid has.
+Result<Zero> read_geoid(const Datum& datum, const RasterOnGlobe& globe);
 
 }  // namespace scarp
 

@@ -31,7 +31,7 @@ class GlobeRaster {
  public:
   /// Reads it, or leaves it in its file where memory does not hold it, as open_height_field(); options.crs is not read.
   /// Fails as that and place_on_globe() do.
-  static Result<std::unique_ptr<GlobeRaster>> open(const std::string& path, ReadOptions options, Vertical vertical);
+  static Result<std::unique_ptr<GlobeRaster>> open(const std::string& path, ReadOptions options, const Datum& datum);
   GlobeRaster(const GlobeRaster&) = delete;
   GlobeRaster& operator=(const GlobeRaster&) = delete;
   ~GlobeRaster();
@@ -63,11 +63,11 @@ FileStamp stamp_of(const std::string& path);
 struct TileJob {
   std::vector<FileStamp> rasters;  ///< the first, then those that make a mosaic with it
   ReadOptions reading;             ///< band, nodata, decode, z_scale, z_offset and view
-  Vertical vertical = Vertical::kAuto;
+  Datum datum;
+  FileStamp geoid;  ///< of datum.geoid, where that is given
   TileFormat format = TileFormat::kQuantizedMesh;
   PyramidPlan plan;
-  LayerFacts facts;           ///< but for the version
-  std::string heights_above;  ///< the datum, in words
+  LayerFacts facts;  ///< but for the version
 };
 
 /// The text of a plan file: JSON. Numbers are read back exactly.
@@ -78,7 +78,7 @@ Result<TileJob> decode_tile_job(std::span<const std::uint8_t> bytes, const std::
 Result<TileJob> read_tile_job(const std::string& path);
 /// A hash of all of it: parts of another plan are not taken.
 std::uint64_t key_of(const TileJob& job);
-/// Fails with kInput if a raster is not what it was when the plan was made.
+/// Fails with kInput if a raster, or the geoid's, is not what it was when the plan was made.
 Result<void> check_rasters(const TileJob& job);
 
 /// What making a set will take, of a few tiles that were made to see.

@@ -85,6 +85,8 @@ struct LayerFacts {
   std::string name = "terrain";
   std::string description;
   std::string attribution;
+  std::string heights_above;  ///< what the source's heights are above, in words; those of tiles: the ellipsoid
+  std::string body;           ///< whose ellipsoid, as RasterOnGlobe::body
   std::string version;  ///< changes when a tile does: clients ask for tiles with it, past old copies; sinks find it
 };
 

@@ -35,7 +35,7 @@ Result<std::unique_ptr<GeoTiff>> create_geotiff(const std::string&, int, int, co
   return fail(ErrorKind::kOutput, "GeoTIFF cannot be written: this build of Scarp has no GDAL, which encodes it");
 }
 
-Result<RasterOnGlobe> place_on_globe(const RasterInfo&, int, int, Vertical, const std::string& path) {
+Result<RasterOnGlobe> place_on_globe(const RasterInfo&, int, int, const Datum&, const std::string& path) {
   return fail(ErrorKind::kInput, path + ": this build of Scarp knows no place on the globe: it was built without GDAL");
 }
 

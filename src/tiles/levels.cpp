@@ -23,6 +23,9 @@ constexpr double kLeastQuantum = 0x1p-10;
 constexpr double kOvershoot = 0.3;
 /// The finest level's nodes may be this many cells of the source apart.
 constexpr double kSpacing = 1.1;
+/// Metres that heights lie from the ellipsoid at most: on the earth, where larger ones are undeclared nodata, and on
+/// planets with higher mountains.
+constexpr double kHighestOnEarth = 20000, kHighest = 60000;
 
 /// Edges between grid points are so short that the sag is at most an eighth of the geometric error.
 int segments_of(int z) { return z < 10 ? 32 >> (z / 2) : 1; }
@@ -67,11 +70,13 @@ Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSetting
   const double overshoot = kOvershoot * (source.max - source.min);
   const double low = std::min<double>(source.min - overshoot, settings.background);
   const double high = std::max<double>(source.max + overshoot, settings.background);
-  if (!(source.cell > 0) || !(high - low <= 40000) || std::max(std::abs(low), std::abs(high)) > 20000)
+  const bool is_earth = std::abs(settings.ellipsoid.semi_major / Geodetic{}.semi_major - 1) <= 0.01;
+  const double highest = is_earth ? kHighestOnEarth : kHighest;
+  if (!(source.cell > 0) || !(high - low <= 2 * highest) || std::max(std::abs(low), std::abs(high)) > highest)
     return fail(ErrorKind::kUsage,
-                fmt::format("heights of {} to {} are not metres of a planet: give them in metres, within 20000 (is "
+                fmt::format("heights of {} to {} are not metres of a planet: give them in metres, within {} (is "
                             "nodata undeclared?)",
-                            source.min, source.max));
+                            source.min, source.max, highest));
 
   const Globe globe(settings.ellipsoid);
   PyramidPlan plan;

@@ -130,7 +130,7 @@ Result<void> ServeCommand::run() const {
   if (!quiet_) {
     if (served->job.raster) print_warnings(warnings_of_raster(served->job.raster->info()));
     auto printed = print_summary(
-        describe(tiles_.raster.path(), answers.set(), served->live, served->job.job.heights_above, server->url()));
+        describe(tiles_.raster.path(), answers.set(), served->live, served->job.job.facts.heights_above, server->url()));
     if (!printed) return printed;
   }
   return server->run([&](const Request& request) { return answers.answer(request); }, *threads, interrupted);

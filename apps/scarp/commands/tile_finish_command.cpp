@@ -50,7 +50,8 @@ Result<void> TileFinishCommand::run(const std::string& command_line) const {
     const Json json{{"command", command_line},
                     {"plan", plan_},
                     {"output", output_},
-                    {"vertical", job->heights_above},
+                    {"vertical", job->facts.heights_above},
+                    {"ellipsoid", {job->plan.ellipsoid.semi_major, semi_minor(job->plan.ellipsoid)}},
                     {"max_zoom", job->plan.max_zoom()},
                     {"levels", describe_levels(job->plan, *report)},
                     {"seconds", seconds}};

@@ -27,7 +27,7 @@ std::string format_hours(double seconds) {
 std::string make_summary(const TileJob& job, const std::string& plan, const TileEstimate& estimate,
                          std::uint64_t shards) {
   std::string text = fmt::format("{} -> {}\n", job.facts.name, plan);
-  text += fmt::format("  heights above  {}\n", job.heights_above);
+  text += fmt::format("  heights above  {}\n", job.facts.heights_above);
   text += fmt::format("  levels         0 to {}, {} of level {}\n", job.plan.max_zoom(),
                       format_plural(estimate.blocks, "block"), job.plan.block_level);
   text += fmt::format("  max error      {} m, level {}; {} m, level {}\n",

@@ -123,6 +123,8 @@ enum class OptionId {
   kZoom,
   kCells,
   kVertical,
+  kGeoid,
+  kEllipsoid,
   kPlan,
   kShard,
   kShards,

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include "options/option_table.h"
@@ -14,10 +15,61 @@ namespace {
 constexpr Choice<Effort> kTileEfforts[] = {
     {"fast", Effort::kFast}, {"normal", Effort::kNormal}, {"high", Effort::kHigh}};
 constexpr Choice<int> kCells[] = {{"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}};
-constexpr Choice<Vertical> kVerticals[] = {
-    {"auto", Vertical::kAuto}, {"egm96", Vertical::kEgm96}, {"ellipsoid", Vertical::kEllipsoid}};
+constexpr int kEgm2008 = 3855;
+struct DatumWord {
+  const char* word;
+  Vertical vertical;
+  int epsg = 0;
+};
+constexpr DatumWord kDatums[] = {{"auto", Vertical::kAuto},
+                                 {"egm96", Vertical::kEgm96},
+                                 {"egm2008", Vertical::kEpsg, kEgm2008},
+                                 {"ellipsoid", Vertical::kEllipsoid},
+                                 {"none", Vertical::kNone}};
 
 constexpr Choice<TileFormat> kTileFormats[] = {{"qm", TileFormat::kQuantizedMesh}, {"3dtiles", TileFormat::kGlb}};
+
+Result<Datum> parse_vertical(const std::string& text) {
+  Datum datum;
+  for (const DatumWord& one : kDatums) {
+    if (text != one.word) continue;
+    datum.vertical = one.vertical;
+    datum.epsg = one.epsg;
+    return datum;
+  }
+  constexpr std::string_view kEpsg = "EPSG:";
+  if (text.starts_with(kEpsg)) {
+    const Result<std::uint64_t> code = parse_count("--vertical EPSG:", text.substr(kEpsg.size()), 1);
+    if (code && *code < 1'000'000) {
+      datum.vertical = Vertical::kEpsg;
+      datum.epsg = static_cast<int>(*code);
+      return datum;
+    }
+  }
+  return fail(ErrorKind::kUsage,
+              fmt::format("--vertical {}: give auto, egm96, egm2008, ellipsoid, none, or EPSG: and the number of a "
+                          "vertical CRS",
+                          text));
+}
+
+/// "1737400,1737400".
+Result<Geodetic> parse_ellipsoid(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  const Result<double> a = parse_number("--ellipsoid", text.substr(0, comma));
+  if (!a) return tl::unexpected(a.error());
+  const Result<double> b = comma == std::string::npos ? *a : parse_number("--ellipsoid", text.substr(comma + 1));
+  if (!b) return tl::unexpected(b.error());
+  if (!(*a >= 10'000) || !(*a <= 1e9) || !(*b <= *a) || !(*b >= *a / 2))
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("--ellipsoid {} is no ellipsoid of a planet: give its radius at the equator and that to the "
+                    "poles in metres, as 3396190,3376200",
+                    text));
+  Geodetic ellipsoid;
+  ellipsoid.semi_major = *a;
+  ellipsoid.inverse_flattening = *a == *b ? 0 : *a / (*a - *b);
+  return ellipsoid;
+}
 
 }  // namespace
 
@@ -26,7 +78,7 @@ Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads) {
   ReadOptions options = job.reading;
   options.run.memory.limit = memory;
   options.run.threads = threads;
-  auto raster = GlobeRaster::open(job.rasters.front().path, options, job.vertical);
+  auto raster = GlobeRaster::open(job.rasters.front().path, options, job.datum);
   if (!raster) return tl::unexpected(raster.error());
   return OpenedJob{std::move(*raster), std::move(job)};
 }
@@ -40,6 +92,8 @@ void TileArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kZScale, raster.z_scale);
   add_option(command, OptionId::kZOffset, raster.z_offset);
   add_option(command, OptionId::kVertical, vertical);
+  add_option(command, OptionId::kGeoid, geoid);
+  add_option(command, OptionId::kEllipsoid, ellipsoid);
   add_option(command, OptionId::kEffort, effort);
   add_option(command, OptionId::kMaxError, max_error);
   add_option(command, OptionId::kQuality, quality);
@@ -86,11 +140,28 @@ Result<PyramidSettings> TileArguments::parse_settings() const {
   return settings;
 }
 
+Result<Datum> TileArguments::parse_datum() const {
+  Result<Datum> datum = parse_vertical(vertical.value_or("auto"));
+  if (!datum) return datum;
+  if (geoid && vertical)
+    return fail(ErrorKind::kUsage, "--geoid says what the heights are above: give it without --vertical");
+  if (geoid) {
+    datum->vertical = Vertical::kGeoid;
+    datum->geoid = *geoid;
+  }
+  if (ellipsoid) {
+    const Result<Geodetic> axes = parse_ellipsoid(*ellipsoid);
+    if (!axes) return tl::unexpected(axes.error());
+    datum->ellipsoid = *axes;
+  }
+  return datum;
+}
+
 Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uint64_t memory) const {
   Result<PyramidSettings> settings = parse_settings();
   if (!settings) return tl::unexpected(settings.error());
-  const Result<Vertical> above = choose("--vertical", vertical.value_or("auto"), kVerticals);
-  if (!above) return tl::unexpected(above.error());
+  const Result<Datum> datum = parse_datum();
+  if (!datum) return tl::unexpected(datum.error());
   Result<ReadOptions> options = raster.parse();
   if (!options) return tl::unexpected(options.error());
   const Result<TileFormat> kept = choose("--of", format.value_or("qm"), kTileFormats);
@@ -100,11 +171,12 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   job.format = *kept;
   settings->has_siblings = *kept == TileFormat::kGlb;
   job.reading = *options;
-  job.vertical = *above;
+  job.datum = *datum;
+  if (geoid) job.geoid = stamp_of(*geoid);
   options->with_range = true;
   options->run.progress = progress;
   options->run.memory.limit = memory;
-  auto globe = GlobeRaster::open(raster.path(), *options, *above);
+  auto globe = GlobeRaster::open(raster.path(), *options, *datum);
   if (!globe) return tl::unexpected(raster.explain(globe.error()));
   opened.raster = std::move(*globe);
   settings->ellipsoid = opened.raster->place().ellipsoid;
@@ -112,9 +184,10 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   if (!plan) return tl::unexpected(plan.error());
   job.plan = std::move(*plan);
   for (const std::string& path : raster.paths) job.rasters.push_back(stamp_of(path));
-  job.heights_above = opened.raster->place().vertical;
+  job.facts.heights_above = opened.raster->place().vertical;
+  job.facts.body = opened.raster->place().body;
   job.facts.name = base_name(raster.path());
-  job.facts.description = fmt::format("heights above {}", job.heights_above);
+  job.facts.description = fmt::format("heights above {}", job.facts.heights_above);
   return opened;
 }
 

@@ -24,7 +24,7 @@ Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads);
 
 struct TileArguments {
   RasterArguments raster;  ///< the paths are arguments of their own
-  Given max_error, quality, zoom, cells, effort, vertical, background, format;
+  Given max_error, quality, zoom, cells, effort, vertical, geoid, ellipsoid, background, format;
   Effort default_effort = Effort::kNormal;
 
   /// All that the command's rows name.
@@ -34,6 +34,7 @@ struct TileArguments {
 
  private:
   Result<PyramidSettings> parse_settings() const;
+  Result<Datum> parse_datum() const;
 };
 
 }  // namespace scarp::cli

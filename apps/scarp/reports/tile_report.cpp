@@ -41,7 +41,7 @@ std::string make_tile_summary(const TileJob& job, const std::string& output, con
     all.bytes += level.bytes;
   }
   std::string text = fmt::format("{} -> {}\n", job.facts.name, output);
-  text += fmt::format("  heights above  {}\n", job.heights_above);
+  text += fmt::format("  heights above  {}\n", job.facts.heights_above);
   text += fmt::format("  tiles          {}, levels 0 to {}, {}, {}\n", format_count(all.tiles), plan.max_zoom(),
                       format_plural(all.triangles, "triangle"), format_bytes(all.bytes));
   text += "  level      tiles  triangles/tile  bytes/tile      asked   at nodes  with the earth's curve\n";

@@ -1,11 +1,14 @@
 // Where a raster lies on the globe: the ways to longitude, latitude and heights above the ellipsoid.
 #include "scarp/globe_place.h"
 
+#include <cpl_conv.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "io/gdal/crs.h"
@@ -54,17 +57,21 @@ class ProjZero final : public HeightZero {
 struct Degrees {
   Crs crs;
   Geodetic ellipsoid;
+  std::string body;
 };
 
-Degrees choose_degrees(const Crs& source) {
+bool is_earth(const Geodetic& ellipsoid) { return std::abs(ellipsoid.semi_major / Geodetic{}.semi_major - 1) <= 0.01; }
+
+Degrees choose_degrees(const Crs& source, const std::optional<Geodetic>& given) {
   OGRErr error = OGRERR_NONE;
   Geodetic own;
   own.semi_major = OSRGetSemiMajor(source.get(), &error);
   own.inverse_flattening = OSRGetInvFlattening(source.get(), &error);
-  const Geodetic earth;
-  if (error == OGRERR_NONE && std::abs(own.semi_major / earth.semi_major - 1) > 0.01)
-    return {gdal::copy_crs(Crs(OSRCloneGeogCS(source.get())).get()), own};
-  return {gdal::find_crs("EPSG:4326"), earth};
+  if (error != OGRERR_NONE) own = {};
+  if (!given && is_earth(own)) return {gdal::find_crs("EPSG:4326"), {}, ""};
+  const Crs degrees(OSRCloneGeogCS(source.get()));
+  const char* name = given ? nullptr : OSRGetAttrValue(degrees.get(), "SPHEROID", 0);
+  return {gdal::copy_crs(degrees.get()), given.value_or(own), name != nullptr ? name : "none"};
 }
 
 bool is_same_point(const PointTransform& transform, double x, double y) {
@@ -95,22 +102,39 @@ bool is_found_again(int cols, int rows, const RasterOnGlobe& globe) {
   return true;
 }
 
-/// As PROJ calls them: EPSG:5773.
+/// As PROJ calls them.
 constexpr const char* kEgm96Heights = "EGM96 height";
+constexpr int kEgm96Epsg = 5773;
+/// Metres between a geoid of the earth and the ellipsoid, at most.
+constexpr double kGeoidReach = 110;
 
 constexpr const char* kWaysOut =
-    "give --vertical egm96 for heights above the sea, or --vertical ellipsoid for heights above the ellipsoid, as GPS "
-    "gives them";
+    "give --vertical egm96 for heights above the sea, --vertical ellipsoid for heights above the ellipsoid, as GPS "
+    "gives "
+    "them, or --geoid FILE, a grid of the surface that they are above";
+constexpr const char* kWaysOutElsewhere =
+    "give --vertical ellipsoid for heights above its ellipsoid, or --geoid FILE, a grid of the surface that they are "
+    "above";
 
-/// Where heights above the sea or another surface begin.
-Result<void> find_zero(const RasterInfo& info, Vertical vertical, const std::string& path, RasterOnGlobe& globe) {
-  globe.vertical = vertical == Vertical::kEgm96 ? kEgm96Heights : info.vertical;
-  if (globe.vertical == kEgm96Heights) {
-    globe.zero = egm96();
-    return {};
+/// Of heights above a surface that PROJ knows the way from.
+Result<void> find_zero_by_proj(const RasterInfo& info, const Datum& datum, const std::string& path,
+                               RasterOnGlobe& globe) {
+  std::shared_ptr<const PointTransform> to_xy;
+  std::string definition = info.crs_with_heights;
+  if (datum.vertical == Vertical::kEpsg) {
+    const Crs alone(OSRNewSpatialReference(nullptr));
+    if (OSRImportFromEPSG(alone.get(), datum.epsg) != OGRERR_NONE || OSRIsVertical(alone.get()) == 0 ||
+        OSRIsCompound(alone.get()) != 0)
+      return fail(ErrorKind::kUsage,
+                  fmt::format("EPSG:{} is no vertical CRS: give one, such as EPSG:5703 (NAVD88)", datum.epsg));
+    globe.vertical = OSRGetName(alone.get());
+    definition = fmt::format("EPSG:4326+{}", datum.epsg);
+  } else {
+    globe.vertical = info.vertical;
+    to_xy = globe.place.from_degrees;
   }
-  const Crs heights = find_space_crs(info.crs_with_heights), ellipsoid = find_space_crs("EPSG:4979");
-  auto zero = heights && ellipsoid ? std::make_shared<ProjZero>(globe.place.from_degrees, heights, ellipsoid) : nullptr;
+  const Crs heights = find_space_crs(definition), ellipsoid = find_space_crs("EPSG:4979");
+  auto zero = heights && ellipsoid ? std::make_shared<ProjZero>(to_xy, heights, ellipsoid) : nullptr;
   const std::array<double, 6>& gt = info.geotransform;
   double x = gt[0], y = gt[3];
   if (globe.to_degrees != nullptr) globe.to_degrees->apply({&x, 1}, {&y, 1});
@@ -119,15 +143,59 @@ Result<void> find_zero(const RasterInfo& info, Vertical vertical, const std::str
   if (!std::isfinite(height))
     return fail(ErrorKind::kUsage,
                 fmt::format("{}: the way from {} to heights above the ellipsoid is not on this machine: install its "
-                            "grid for PROJ (Debian: proj-data), or {}",
+                            "grid for PROJ (projsync, or Debian's proj-data), or {}",
                             path, globe.vertical, kWaysOut));
   globe.zero = std::move(zero);
+  globe.zero_reach = kGeoidReach;
   return {};
+}
+
+/// What the heights are above.
+Result<void> find_zero(const RasterInfo& info, const Datum& datum, const std::string& path, RasterOnGlobe& globe) {
+  switch (datum.vertical) {
+    case Vertical::kNone:
+      globe.vertical = "a surface that nobody names, taken for the ellipsoid";
+      return {};
+    case Vertical::kGeoid: {
+      auto zero = read_geoid(datum, globe);
+      if (!zero) return tl::unexpected(zero.error());
+      globe.vertical = fmt::format("the surface in {}", CPLGetFilename(datum.geoid.c_str()));
+      globe.zero = std::move(zero->heights);
+      globe.zero_reach = zero->reach;
+      return {};
+    }
+    case Vertical::kAuto:
+      if (!info.is_ellipsoidal && info.vertical.empty())
+        return fail(ErrorKind::kUsage, fmt::format("nobody says what the heights of {} are above{}: {}", path,
+                                                   is_earth(globe.ellipsoid) ? ", which may be 100 m apart" : "",
+                                                   is_earth(globe.ellipsoid) ? kWaysOut : kWaysOutElsewhere));
+      break;
+    default:
+      break;
+  }
+  if (datum.vertical == Vertical::kEllipsoid || (datum.vertical == Vertical::kAuto && info.is_ellipsoidal)) {
+    globe.vertical = "the ellipsoid";
+    return {};
+  }
+  if (!is_earth(globe.ellipsoid))
+    return fail(
+        ErrorKind::kUsage,
+        fmt::format("{} lies on an ellipsoid of {:.0f} m, which is not the earth's: its heights are not above a "
+                    "surface of the earth: {}",
+                    path, globe.ellipsoid.semi_major, kWaysOutElsewhere));
+  if (datum.vertical == Vertical::kEgm96 || (datum.vertical == Vertical::kEpsg && datum.epsg == kEgm96Epsg) ||
+      (datum.vertical == Vertical::kAuto && info.vertical == kEgm96Heights)) {
+    globe.vertical = kEgm96Heights;
+    globe.zero = egm96();
+    globe.zero_reach = kGeoidReach;
+    return {};
+  }
+  return find_zero_by_proj(info, datum, path, globe);
 }
 
 }  // namespace
 
-Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows, Vertical vertical,
+Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows, const Datum& datum,
                                      const std::string& path) {
   gdal::Session quiet;
   const Crs source = info.crs.empty() ? nullptr : gdal::find_crs(info.crs);
@@ -141,8 +209,9 @@ Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows,
                                                "for feet",
                                                path, info.unit));
   RasterOnGlobe globe;
-  const Degrees degrees = choose_degrees(source);
+  const Degrees degrees = choose_degrees(source, datum.ellipsoid);
   globe.ellipsoid = degrees.ellipsoid;
+  globe.body = degrees.body;
   const std::array<double, 6>& gt = info.geotransform;
   globe.place.affine = {gt[0] + (gt[1] + gt[2]) / 2, gt[1], gt[2], gt[3] + (gt[4] + gt[5]) / 2, gt[4], gt[5]};
   auto forth = degrees.crs ? gdal::build_transform(source, degrees.crs) : nullptr;
@@ -161,15 +230,7 @@ Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows,
                               path));
   }
 
-  if (vertical == Vertical::kEllipsoid || (vertical == Vertical::kAuto && info.is_ellipsoidal)) {
-    globe.vertical = "the ellipsoid";
-    return globe;
-  }
-  if (vertical == Vertical::kAuto && info.vertical.empty())
-    return fail(
-        ErrorKind::kUsage,
-        fmt::format("nobody says what the heights of {} are above, which may be 100 m apart: {}", path, kWaysOut));
-  if (auto found = find_zero(info, vertical, path, globe); !found) return tl::unexpected(found.error());
+  if (auto found = find_zero(info, datum, path, globe); !found) return tl::unexpected(found.error());
   return globe;
 }
 

@@ -5,13 +5,6 @@
 #include "scarp/tile_job.h"
 
 namespace scarp {
-namespace {
-
-/// Metres between the geoid and the ellipsoid, at most.
-constexpr double kGeoid = 110;
-
-}  // namespace
-
 struct GlobeRaster::Impl {
   OwnedHeightField field;
   RasterOnGlobe globe;
@@ -24,14 +17,14 @@ GlobeRaster::GlobeRaster(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 GlobeRaster::~GlobeRaster() = default;
 
 Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::string& path, ReadOptions options,
-                                                       Vertical vertical) {
+                                                       const Datum& datum) {
   auto impl = std::make_unique<Impl>();
   options.crs = "source";
   auto field = open_height_field(path, options);
   if (!field) return tl::unexpected(field.error());
   impl->field = std::move(*field);
   const OwnedHeightField& raster = impl->field;
-  auto globe = place_on_globe(raster.info, raster.cols, raster.rows, vertical, path);
+  auto globe = place_on_globe(raster.info, raster.cols, raster.rows, datum, path);
   if (!globe) return tl::unexpected(globe.error());
   impl->globe = std::move(*globe);
   const auto covered = degrees_covered(raster, impl->globe.place.affine, impl->globe.to_degrees.get());
@@ -48,7 +41,7 @@ const NodeSource& GlobeRaster::nodes() const { return impl_->raised ? *impl_->ra
 
 SourceFacts GlobeRaster::facts() const {
   const RasterInfo& raster = info();
-  const double reserve = impl_->globe.zero ? kGeoid : 0;
+  const double reserve = impl_->globe.zero_reach;
   const bool are_degrees = impl_->globe.to_degrees == nullptr;
   return {impl_->covered, std::sqrt(raster.cell_x_m * raster.cell_y_m), raster.min - reserve, raster.max + reserve,
           are_degrees ? std::sqrt(raster.cell_x * raster.cell_y) : 0};

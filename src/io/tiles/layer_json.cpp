@@ -81,7 +81,10 @@ std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const Pyram
     levels.push_back(std::move(level));
   }
   layer["available"] = std::move(available);
-  layer["scarp"] = Json{{"generator", std::string("scarp ") + version()}, {"levels", std::move(levels)}};
+  layer["scarp"] = Json{{"generator", std::string("scarp ") + version()},
+                        {"heights_above", facts.heights_above},
+                        {"ellipsoid", {plan.ellipsoid.semi_major, semi_minor(plan.ellipsoid)}},
+                        {"levels", std::move(levels)}};
   const std::string text = layer.dump(1) + "\n";
   return {text.begin(), text.end()};
 }

@@ -24,7 +24,8 @@ constexpr std::pair<Effort, const char*> kEfforts[] = {
 constexpr std::pair<Decode, const char*> kDecodes[] = {
     {Decode::kNone, "none"}, {Decode::kTerrarium, "terrarium"}, {Decode::kMapbox, "mapbox"}};
 constexpr std::pair<Vertical, const char*> kVerticals[] = {
-    {Vertical::kAuto, "auto"}, {Vertical::kEllipsoid, "ellipsoid"}, {Vertical::kEgm96, "egm96"}};
+    {Vertical::kAuto, "auto"}, {Vertical::kEllipsoid, "ellipsoid"}, {Vertical::kEgm96, "egm96"},
+    {Vertical::kEpsg, "epsg"}, {Vertical::kGeoid, "geoid"},         {Vertical::kNone, "none"}};
 constexpr std::pair<GridKind, const char*> kGrids[] = {{GridKind::kGeographic, "geographic"}};
 constexpr std::pair<TileFormat, const char*> kFormats[] = {{TileFormat::kQuantizedMesh, "quantized-mesh"},
                                                            {TileFormat::kGlb, "glb"}};
@@ -85,6 +86,35 @@ Json describe_plan(const PyramidPlan& plan) {
           {"levels", std::move(levels)}};
 }
 
+Json describe_stamp(const FileStamp& file) {
+  return {{"path", file.path}, {"size", file.size}, {"changed", file.changed}};
+}
+
+FileStamp parse_stamp(const Json& json) { return {json.at("path"), json.at("size"), json.at("changed")}; }
+
+Json describe_datum(const TileJob& job) {
+  const Datum& datum = job.datum;
+  Json json{{"vertical", word_of(datum.vertical, kVerticals)}};
+  if (datum.vertical == Vertical::kEpsg) json["epsg"] = datum.epsg;
+  if (datum.vertical == Vertical::kGeoid) json["geoid"] = describe_stamp(job.geoid);
+  if (datum.ellipsoid) json["ellipsoid"] = {datum.ellipsoid->semi_major, datum.ellipsoid->inverse_flattening};
+  return json;
+}
+
+void parse_datum(const Json& json, TileJob& job) {
+  Datum& datum = job.datum;
+  datum.vertical = value_of(json.at("vertical"), kVerticals);
+  if (datum.vertical == Vertical::kEpsg) datum.epsg = json.at("epsg");
+  if (datum.vertical == Vertical::kGeoid) {
+    job.geoid = parse_stamp(json.at("geoid"));
+    datum.geoid = job.geoid.path;
+  }
+  if (!json.contains("ellipsoid")) return;
+  datum.ellipsoid.emplace();
+  datum.ellipsoid->semi_major = json["ellipsoid"].at(0);
+  datum.ellipsoid->inverse_flattening = json["ellipsoid"].at(1);
+}
+
 PyramidPlan parse_plan(const Json& json) {
   PyramidPlan plan;
   plan.cells = json.at("cells");
@@ -117,9 +147,7 @@ bool is_sound(const PyramidPlan& plan) {
 
 TileJob parse_job(const Json& json) {
   TileJob job;
-  for (const Json& raster : json.at("rasters")) {
-    job.rasters.push_back({raster.at("path"), raster.at("size"), raster.at("changed")});
-  }
+  for (const Json& raster : json.at("rasters")) job.rasters.push_back(parse_stamp(raster));
   const Json& reading = json.at("reading");
   job.reading.band = reading.at("band");
   job.reading.nodata = optional_of<double>(reading.at("nodata"));
@@ -129,10 +157,10 @@ TileJob parse_job(const Json& json) {
   job.reading.view.extent = optional_of<std::array<double, 4>>(reading.at("extent"));
   job.reading.view.resolution = optional_of<double>(reading.at("resolution"));
   for (std::size_t k = 1; k < job.rasters.size(); ++k) job.reading.view.more.push_back(job.rasters[k].path);
-  job.vertical = value_of(json.at("vertical"), kVerticals);
+  parse_datum(json.at("datum"), job);
   job.format = value_of(json.at("format"), kFormats);
-  job.facts = {json.at("name"), json.at("description"), json.at("attribution"), ""};
-  job.heights_above = json.at("heights_above");
+  job.facts = {json.at("name"),          json.at("description"), json.at("attribution"),
+               json.at("heights_above"), json.at("body"),        ""};
   job.plan = parse_plan(json.at("pyramid"));
   return job;
 }
@@ -149,14 +177,14 @@ FileStamp stamp_of(const std::string& path) {
 
 std::vector<std::uint8_t> encode_tile_job(const TileJob& job) {
   Json rasters = Json::array();
-  for (const FileStamp& raster : job.rasters)
-    rasters.push_back({{"path", raster.path}, {"size", raster.size}, {"changed", raster.changed}});
+  for (const FileStamp& raster : job.rasters) rasters.push_back(describe_stamp(raster));
   const Json json{{"scarp_tile_plan", kPlanVersion},
                   {"generator", std::string("scarp ") + version()},
                   {"rasters", std::move(rasters)},
                   {"reading", describe_reading(job.reading)},
-                  {"vertical", word_of(job.vertical, kVerticals)},
-                  {"heights_above", job.heights_above},
+                  {"datum", describe_datum(job)},
+                  {"heights_above", job.facts.heights_above},
+                  {"body", job.facts.body},
                   {"format", word_of(job.format, kFormats)},
                   {"name", job.facts.name},
                   {"description", job.facts.description},
@@ -195,13 +223,19 @@ std::uint64_t key_of(const TileJob& job) {
 }
 
 Result<void> check_rasters(const TileJob& job) {
-  for (const FileStamp& raster : job.rasters) {
-    const FileStamp now = stamp_of(raster.path);
-    if (now.size != raster.size || now.changed != raster.changed)
+  const auto check = [](const FileStamp& file) -> Result<void> {
+    const FileStamp now = stamp_of(file.path);
+    if (now.size == file.size && now.changed == file.changed) return {};
+    if (now.size == 0 && now.changed == 0)
       return fail(ErrorKind::kInput,
-                  fmt::format("{} is not the file that it was when the plan was made: plan again", raster.path));
+                  fmt::format("{} is not there any more: put it back as it was, or plan again", file.path));
+    return fail(ErrorKind::kInput,
+                fmt::format("{} is not the file that it was when the plan was made: plan again", file.path));
+  };
+  for (const FileStamp& raster : job.rasters) {
+    if (auto same = check(raster); !same) return same;
   }
-  return {};
+  return job.datum.vertical == Vertical::kGeoid ? check(job.geoid) : Result<void>();
 }
 
 }  // namespace scarp

@@ -172,12 +172,15 @@ std::vector<std::uint8_t> encode_tileset_json(const PyramidPlan& plan, const Pyr
   const auto region = [&](double west, double east) {
     return Json{{"region", {west, -kPi / 2, east, kPi / 2, low, high}}};
   };
+  const double a = plan.ellipsoid.semi_major, b = semi_minor(plan.ellipsoid);
   Json asset = {{"version", "1.1"}};
   if (!facts.version.empty()) asset["tilesetVersion"] = facts.version;
   if (!facts.attribution.empty()) asset["copyright"] = facts.attribution;
   asset["extras"]["scarp"] = {
       {"generator", std::string("scarp ") + version()},
       {"maximumScreenSpaceError", 2},
+      {"heights_above", facts.heights_above},
+      {"ellipsoid", {a, b}},
       {"bounds", {plan.covered.west, plan.covered.south, plan.covered.east, plan.covered.north}},
       {"levels", std::move(levels)}};
   Json children = Json::array();
@@ -192,14 +195,18 @@ std::vector<std::uint8_t> encode_tileset_json(const PyramidPlan& plan, const Pyr
                           {"availableLevels", plan.max_zoom() + 1},
                           {"subtrees", {{"uri", subtree_name(root)}}}}}});
   }
-  const Json tileset = {{"asset", std::move(asset)},
-                        {"schema", describe_classes()},
-                        {"geometricError", 2 * root_error},
-                        {"root",
-                         {{"boundingVolume", region(-kPi, kPi)},
-                          {"geometricError", 2 * root_error},
-                          {"refine", "REPLACE"},
-                          {"children", std::move(children)}}}};
+  Json tileset = {{"asset", std::move(asset)},
+                  {"schema", describe_classes()},
+                  {"geometricError", 2 * root_error},
+                  {"root",
+                   {{"boundingVolume", region(-kPi, kPi)},
+                    {"geometricError", 2 * root_error},
+                    {"refine", "REPLACE"},
+                    {"children", std::move(children)}}}};
+  if (!facts.body.empty()) {
+    tileset["extensionsUsed"] = {"3DTILES_ellipsoid"};
+    tileset["extensions"]["3DTILES_ellipsoid"] = {{"body", facts.body}, {"radii", {a, a, b}}};
+  }
   const std::string text = tileset.dump(1) + "\n";
   return {text.begin(), text.end()};
 }
