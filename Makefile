@@ -9,7 +9,7 @@ CMAKE_FLAGS ?=
 DATA ?= $(or $(SCARP_SHARED),../shared)/data
 export BUILD JOBS DATA
 
-.PHONY: build demo globe check test soak wasm-check bench paper install clean format tidy help
+.PHONY: build demo globe qgis check test soak wasm-check bench paper install clean format tidy help
 
 build:
 	@tools/install_packages.sh build
@@ -38,6 +38,10 @@ test:
 	@tools/install_packages.sh build run test
 	@tools/test.sh
 
+qgis: build
+	@python3 bindings/qgis/make_plugin.py $(BUILD)/bin/scarp dist/scarp_processing.zip
+	@echo "Install it in QGIS: Plugins, Manage and Install Plugins, Install from ZIP."
+
 soak:
 	@tools/install_packages.sh build test
 	@tools/soak.sh
@@ -61,7 +65,7 @@ install: build
 	DESTDIR="$(DESTDIR)" cmake --install $(BUILD) --prefix "$(PREFIX)"
 
 clean:
-	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz $(BUILD)-debug $(BUILD)-core $(BUILD)-wasm $(BUILD)-tidy demo globe
+	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz $(BUILD)-debug $(BUILD)-core $(BUILD)-wasm $(BUILD)-tidy demo globe dist
 
 format:
 	@tools/install_packages.sh lint
@@ -76,6 +80,7 @@ help:
 	@echo 'make          build $(BUILD)/bin/scarp (Release), installing missing packages'
 	@echo 'make demo     build, simplify a bundled DEM into demo/, check the result'
 	@echo 'make globe    build, make tiles of a bundled DEM and a page with CesiumJS in globe/, and serve it on this machine'
+	@echo 'make qgis     build, pack the plugin for QGIS into dist/'
 	@echo 'make check    what to run before every commit: the fast tests'
 	@echo 'make test     everything: tests, sanitizers, a short run of the fuzzers'
 	@echo 'make soak     the files in DATA, then laws and fuzzers from fresh random seeds for SOAK_MINUTES (10)'
@@ -85,4 +90,4 @@ help:
 	@echo 'make install  program, library, headers, man page into PREFIX (now $(PREFIX)); DESTDIR is honoured'
 	@echo 'make format   clang-format on all sources'
 	@echo 'make tidy     clang-tidy on src/ and apps/'
-	@echo 'make clean    remove the build folders, demo/ and globe/'
+	@echo 'make clean    remove the build folders, demo/, globe/ and dist/'

@@ -94,6 +94,12 @@ job.renderedImage().save(sys.argv[1])
 program.exitQgis()
 PYTHON
 shrink "$out/gis_qgis.png" 900
+mkdir plugins
+python3 "$tree/bindings/qgis/make_plugin.py" "$scarp" plugins.zip
+(cd plugins && python3 -m zipfile -e ../plugins.zip .)
+QT_QPA_PLATFORM=offscreen /usr/bin/python3 "$tree/tools/draw_qgis.py" plugins "$scarp" "$PWD/dem.tif" "$out"
+shrink "$out/qgis_dialog.png" 900
+shrink "$out/qgis_layer.png" 700
 
 simplify dem.tif flow.2dm -e 20 --crs local --breaklines dikes.geojson --min-angle 25 --max-edge 1500 --grade 0.3 \
   --preview "$out/simulation_lines.png"

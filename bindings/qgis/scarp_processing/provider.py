@@ -1,0 +1,36 @@
+"""The provider: Scarp's algorithms, and the setting that tells where the program is."""
+
+from processing.core.ProcessingConfig import ProcessingConfig, Setting
+from qgis.core import QgsProcessingProvider
+
+from .algorithms import MakeTiles, MeasureMesh, PointsToMesh, RasterToMesh
+from .program import SETTING
+
+
+class ScarpProvider(QgsProcessingProvider):
+    def id(self):
+        return "scarp"
+
+    def name(self):
+        return "Scarp"
+
+    def longName(self):
+        return "Scarp: terrain meshes with a proven error"
+
+    def load(self):
+        ProcessingConfig.addSetting(
+            Setting(self.name(), SETTING, "Program scarp (empty: the one on the PATH)", "", valuetype=Setting.FILE)
+        )
+        ProcessingConfig.readSettings()
+        self.refreshAlgorithms()
+        return True
+
+    def unload(self):
+        ProcessingConfig.removeSetting(SETTING)
+
+    def loadAlgorithms(self):
+        for algorithm in (RasterToMesh, PointsToMesh, MeasureMesh, MakeTiles):
+            self.addAlgorithm(algorithm())
+
+    def defaultRasterFileExtension(self):
+        return "tif"

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# The plugin for QGIS: packed, loaded by QGIS without a screen, and by qgis_process.
+source "$(dirname "$0")/lib.sh"
+need unzip qgis_process
+for with_qgis in /usr/bin/python3 python3; do
+  "$with_qgis" -c 'import qgis.core, processing' 2> /dev/null && break
+  PYTHONPATH=/usr/share/qgis/python/plugins "$with_qgis" -c 'import qgis.core, processing' 2> /dev/null && break
+  with_qgis=
+done
+[ -n "$with_qgis" ] || skip "no python here has PyQGIS"
+export QT_QPA_PLATFORM=offscreen HOME=$PWD/home XDG_RUNTIME_DIR=$PWD/runtime
+mkdir -m 700 home runtime
+
+pack="$SCARP_SOURCE/bindings/qgis/make_plugin.py"
+succeeds "$with_qgis" "$pack" "$scarp" dist/scarp_processing.zip
+succeeds "$with_qgis" "$pack" "$scarp" again.zip
+cmp dist/scarp_processing.zip again.zip || fail "two packings differ"
+mkdir plugins && (cd plugins && unzip -q ../dist/scarp_processing.zip)
+grep -q '^version=[0-9]' plugins/scarp_processing/metadata.txt || fail "metadata.txt tells no version"
+succeeds "$with_qgis" "$SCARP_SOURCE/tests/cli/qgis_algorithms.py" plugins "$data" "$scarp"
+grep -q "do what they say" "$logs/out" || fail "the algorithms did not run to their end: $(tail -n 3 "$logs/out")"
+
+# Debian's wrapper passes a switch that its program does not know, so the program itself is called.
+qgis_process=$(command -v qgis_process.bin || command -v qgis_process)
+export QGIS_PLUGINPATH=$PWD/plugins SCARP=$scarp
+succeeds "$qgis_process" plugins enable scarp_processing
+succeeds "$qgis_process" run scarp:rastertomesh -- INPUT="$dem" MAX_ERROR=20 EFFORT=fast OUTPUT=by_process.2dm
+succeeds "$scarp" simplify "$dem" by_program.2dm -e 20 --effort fast
+cmp by_process.2dm by_program.2dm || fail "qgis_process and the program make different files"
+echo "QGIS makes the program's meshes"
