@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -31,6 +32,14 @@
 
 namespace scarp {
 
+/// Samples of a source side by side on a straight line, at equal steps of degrees; NaN where there is none.
+struct SampleRow {
+  double longitude = 0, latitude = 0;            ///< of the first
+  double step_longitude = 0, step_latitude = 0;  ///< to the next
+  std::span<const float> heights;                ///< metres, as NodeSource::read() has them
+};
+using SampleVisitor = std::function<void(const SampleRow&)>;
+
 /// Heights by place.
 class NodeSource {
  public:
@@ -38,6 +47,12 @@ class NodeSource {
   /// Writes cols × rows heights in metres to `out`, the northern row first, NaN where there is none. A node's height is
   /// a function of its place alone. Several threads may call it at once. Fails as the samples' source does.
   virtual Result<void> read(const NodeWindow& window, std::span<float> out) const = 0;
+  /// Whether nodes are made of samples that visit_samples() shows. DEFAULT: false.
+  virtual bool has_samples() const { return false; }
+  /// Shows all samples that lie in the box, and others around it, some perhaps twice; longitudes go on beyond 180°
+  /// where the box does. A row is valid during its visit. Several threads may call it at once. Fails as the samples'
+  /// source does. DEFAULT: shows none.
+  virtual Result<void> visit_samples(const DegreeBox& box, const SampleVisitor& visit) const;
 };
 
 /// Where a raster lies on the globe, and what its samples are.
@@ -46,12 +61,14 @@ struct RasterPlace {
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};
   /// From longitude and latitude in degrees to x and y. Null: x and y are longitude and latitude.
   std::shared_ptr<const PointTransform> from_degrees = nullptr;
+  /// The inverse. Null where from_degrees is; without it nobody sees the samples.
+  std::shared_ptr<const PointTransform> to_degrees = nullptr;
 };
 
 /// Nodes by interpolation between the samples of a raster: cubic (Catmull-Rom) where all 16 samples around a node are
 /// heights, else bilinear between those of four that are. No height where the nearest sample has none. The raster's
-/// place of a node is exact at each 16th node and interpolated between where `from_degrees` is given. Borrows the
-/// field's samples. Fails with kUsage for an affine map without an inverse.
+/// place of a node is exact at each 16th node and interpolated between where `from_degrees` is given; so is the place
+/// of a sample on the globe. Borrows the field's samples. Fails with kUsage for an affine map without an inverse.
 Result<std::unique_ptr<NodeSource>> make_node_source(const HeightField& field, const RasterPlace& place);
 
 /// The surface that heights are above, such as the sea: itself above the ellipsoid.
@@ -146,6 +163,11 @@ struct TerrainTile {
   double sag = 0;
 
   double bound() const { return node_error + sag; }
+
+  /// Largest |mesh − sample| over the source's samples in the tile, each at its own place, as node_error else; above
+  /// the plan's block level an upper bound. Samples beside a node without a height, where the mesh goes down to the
+  /// background, do not count. NaN where it is not known: the source has no samples to show, or nobody has looked.
+  double source_error = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// The tile. Its node_error is at most the level's max error, but where positions in 32767ths of the tile cannot follow
@@ -177,6 +199,7 @@ class TileSink {
 struct LevelSummary {
   std::uint64_t tiles = 0, triangles = 0, bytes = 0;
   double node_error = 0, bound = 0;  ///< the largest of its tiles
+  double source_error = 0;           ///< the same; NaN where one of them is
   /// Tiles whose node_error is above the level's max error: those with cliffs that rounded positions cannot follow, and
   /// above the block level those whose reduced nodes let no less be proven.
   std::uint64_t over = 0;
@@ -199,7 +222,7 @@ std::vector<TileId> find_blocks(const PyramidPlan& plan);
 struct BlockReport {
   TileId block;
   PyramidReport report;
-  /// For finish_pyramid(): its nodes reduced to 128 cells a side, and bounds of what the reduction lost, 330 kB. The
+  /// For finish_pyramid(): its nodes reduced to 128 cells a side, and bounds of what the reduction lost, 390 kB. The
   /// same bytes on every machine. Empty for a block without heights.
   std::vector<std::uint8_t> reduced;
 };

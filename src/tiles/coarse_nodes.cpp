@@ -6,6 +6,8 @@
 #include <cstring>
 #include <limits>
 
+#include "tiles/larger.h"
+#include "tiles/row_range.h"
 #include "tiles/tile_mesh_parts.h"
 
 namespace scarp {
@@ -18,16 +20,6 @@ float rounded_down(double value) {
 float rounded_up(double value) {
   return std::nextafter(static_cast<float>(value), std::numeric_limits<float>::infinity());
 }
-
-/// Heights at the corners of a cell, from its north-western corner.
-struct Corners {
-  double nw = 0, ne = 0, sw = 0, se = 0;
-
-  double at(double x, double y) const {
-    const double north = nw + (ne - nw) * x, south = sw + (se - sw) * x;
-    return north + (south - north) * y;
-  }
-};
 
 /// A corner of a piece of a triangle, in cells from the tile's north-western corner, and the mesh's height there.
 struct Corner {
@@ -87,38 +79,71 @@ Extremes extremes(const Piece& piece, const Corners& surface, std::int32_t col, 
 
 }  // namespace
 
-CoarseTile CoarseTile::reduce(std::int32_t steps, const std::function<float(std::int32_t, std::int32_t)>& node) {
+Result<CoarseTile> CoarseTile::reduce(const PyramidPlan& plan, TileId id, const TileNodes& nodes,
+                                      const NodeSource& source) {
   CoarseTile tile;
-  const std::int32_t step = steps / kCoarseCells;
+  const std::int32_t step = nodes.steps() / kCoarseCells;
   for (std::int32_t row = 0; row <= kCoarseCells; ++row) {
-    for (std::int32_t col = 0; col <= kCoarseCells; ++col) tile.nodes_.push_back(node(col * step, row * step));
+    for (std::int32_t col = 0; col <= kCoarseCells; ++col) tile.nodes_.push_back(nodes.at(col * step, row * step));
   }
   for (std::int32_t row = 0; row < kCoarseCells; ++row) {
     for (std::int32_t col = 0; col < kCoarseCells; ++col) {
-      const Corners surface{tile.node(col, row), tile.node(col + 1, row), tile.node(col, row + 1),
-                            tile.node(col + 1, row + 1)};
+      const Corners surface = tile.corners(col, row);
       double low = 0, high = 0;
       Extremes heights;
       for (std::int32_t y = 0; y <= step; ++y) {
+        const float* const from = nodes.from(col * step, row * step + y);
         for (std::int32_t x = 0; x <= step; ++x) {
-          const float height = node(col * step + x, row * step + y);
-          const double off = double{height} - surface.at(static_cast<double>(x) / step, static_cast<double>(y) / step);
+          const double height = from[x];
+          const double off = height - surface.at(static_cast<double>(x) / step, static_cast<double>(y) / step);
           low = std::min(low, off);
           high = std::max(high, off);
-          heights.add(double{height});
+          heights.add(height);
         }
       }
       tile.cells_.push_back(
-          {rounded_down(low), rounded_up(high), static_cast<float>(heights.low), static_cast<float>(heights.high)});
+          {rounded_down(low), rounded_up(high), static_cast<float>(heights.low), static_cast<float>(heights.high), 0});
     }
   }
+  if (auto looked = tile.look_at_samples(plan, id, nodes, source); !looked) return tl::unexpected(looked.error());
   return tile;
+}
+
+Result<void> CoarseTile::look_at_samples(const PyramidPlan& plan, TileId id, const TileNodes& nodes,
+                                         const NodeSource& source) {
+  if (!source.has_samples()) {
+    for (CoarseCell& cell : cells_) cell.apart = std::numeric_limits<float>::quiet_NaN();
+    return {};
+  }
+  const DegreeBox box = plan.grid.bounds_of(id);
+  const double per_x = kCoarseCells / (box.east - box.west), per_y = kCoarseCells / (box.north - box.south);
+  const double finer = static_cast<double>(nodes.steps()) / kCoarseCells;
+  return source.visit_samples(box, [&](const SampleRow& row) {
+    const auto [first, end] =
+        range_within(row.longitude, row.step_longitude, row.latitude, row.step_latitude, row.heights.size(), box);
+    for (std::size_t i = first; i < end; ++i) {
+      const double height = row.heights[i];
+      const double x = (row.longitude + row.step_longitude * static_cast<double>(i) - box.west) * per_x;
+      const double y = (box.north - row.latitude - row.step_latitude * static_cast<double>(i)) * per_y;
+      const auto within = [](double place) {
+        return std::clamp(static_cast<std::int32_t>(place), 0, kCoarseCells - 1);
+      };
+      const std::int32_t at_col = within(x), at_row = within(y);
+      CoarseCell& cell = cells_[static_cast<std::size_t>(at_row * kCoarseCells + at_col)];
+      const double off = height - corners(at_col, at_row).at(x - at_col, y - at_row);
+      const double apart = std::max(
+          {off - double{cell.high}, double{cell.low} - off, height - double{cell.max}, double{cell.min} - height});
+      if (!(apart > double{cell.apart})) continue;
+      if (nodes.has_voids() && !nodes.has_heights_around(x * finer, y * finer)) continue;
+      cell.apart = rounded_up(apart);
+    }
+  });
 }
 
 CoarseTile CoarseTile::flat(float height) {
   CoarseTile tile;
   tile.nodes_.assign((kCoarseCells + 1) * (kCoarseCells + 1), height);
-  tile.cells_.assign(kCoarseCells * kCoarseCells, {0, 0, height, height});
+  tile.cells_.assign(kCoarseCells * kCoarseCells, {0, 0, height, height, 0});
   tile.has_heights = false;
   return tile;
 }
@@ -150,9 +175,9 @@ CoarseTile CoarseTile::join(const std::array<const CoarseTile*, 4>& children) {
   }
   for (std::int32_t row = 0; row < kCoarseCells; ++row) {
     for (std::int32_t col = 0; col < kCoarseCells; ++col) {
-      const Corners surface{tile.node(col, row), tile.node(col + 1, row), tile.node(col, row + 1),
-                            tile.node(col + 1, row + 1)};
+      const Corners surface = tile.corners(col, row);
       double low = 0, high = 0;
+      float samples_apart = 0;
       Extremes heights;
       for (std::int32_t y = 0; y < 2; ++y) {
         for (std::int32_t x = 0; x < 2; ++x) {
@@ -165,10 +190,11 @@ CoarseTile CoarseTile::join(const std::array<const CoarseTile*, 4>& children) {
           high = std::max(high, apart.high + double{fine.high});
           heights.add(double{fine.min});
           heights.add(double{fine.max});
+          samples_apart = larger(samples_apart, fine.apart);
         }
       }
-      tile.cells_.push_back(
-          {rounded_down(low), rounded_up(high), static_cast<float>(heights.low), static_cast<float>(heights.high)});
+      tile.cells_.push_back({rounded_down(low), rounded_up(high), static_cast<float>(heights.low),
+                             static_cast<float>(heights.high), samples_apart});
     }
   }
   tile.has_heights =
@@ -215,14 +241,14 @@ Result<void> CoarseLevel::read(const NodeWindow& window, std::span<float> out) c
   return {};
 }
 
-double bound_error(const TerrainTile& tile, const CoarseLevel& level) {
+CoarseVerdict bound_errors(const TerrainTile& tile, const CoarseLevel& level) {
   constexpr std::int32_t kSide = 2 * kCoarseCells;
   const Mesh mesh = decoded(tile, kSide);
   const auto corner = [&](std::uint32_t vertex) {
     const std::array<double, 3> at = mesh.vertex(vertex);
     return Corner{at[0], kSide - at[1], at[2]};
   };
-  double worst = 0;
+  CoarseVerdict worst;
   Piece strip, piece, scratch;
   for (std::size_t k = 0; k < mesh.triangles.size(); k += 3) {
     const Piece triangle{corner(mesh.triangles[k]), corner(mesh.triangles[k + 1]), corner(mesh.triangles[k + 2])};
@@ -252,20 +278,22 @@ double bound_error(const TerrainTile& tile, const CoarseLevel& level) {
         const bool is_east = col >= kCoarseCells, is_south = row >= kCoarseCells;
         const CoarseTile& coarse = level.at(2 * tile.id.x + is_east, 2 * tile.id.y + !is_south);
         const std::int32_t x = col - is_east * kCoarseCells, y = row - is_south * kCoarseCells;
-        const Corners surface{coarse.node(x, y), coarse.node(x + 1, y), coarse.node(x, y + 1),
-                              coarse.node(x + 1, y + 1)};
+        const Corners surface = coarse.corners(x, y);
         const Extremes apart = extremes(piece, surface, col, row);
         const CoarseCell nodes = coarse.cell(x, y);
         const double from_surface = std::max(double{nodes.high} - apart.low, apart.high - double{nodes.low});
         Extremes flat;
         for (const Corner& at : piece) flat.add(at.z);
         const double from_range = std::max(double{nodes.max} - flat.low, flat.high - double{nodes.min});
-        worst = std::max(worst, std::min(from_surface, from_range));
+        const double of_nodes = std::min(from_surface, from_range);
+        worst.node_error = std::max(worst.node_error, of_nodes);
+        worst.source_error = larger(worst.source_error, of_nodes + double{nodes.apart});
       }
     }
   }
   // What the arithmetic of pieces may round away.
-  return worst * (1 + 1e-9) + 1e-6;
+  for (double* const error : {&worst.node_error, &worst.source_error}) *error = *error * (1 + 1e-9) + 1e-6;
+  return worst;
 }
 
 }  // namespace scarp

@@ -5,16 +5,19 @@
 // above, every second node left out: the bilinear surfaces of both differ by one that is bilinear too, so that its
 // extremes are at corners, and bounds add up. Where they add up to more than the heights in the cell allow, these
 // count.
+//
+// The source's samples lie between the nodes, and may lie outside the bounds of a cell's nodes. One number says by how
+// much at most, be it from the surface or from the range of heights; of a joined cell it is the largest of its parts.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <span>
 #include <vector>
 
 #include "scarp/tile.h"
+#include "tiles/tile_nodes.h"
 
 namespace scarp {
 
@@ -24,12 +27,25 @@ inline constexpr std::int32_t kCoarseCells = 128;
 struct CoarseCell {
   float low = 0, high = 0;
   float min = 0, max = 0;
+  float apart = 0;  ///< of the samples in it from both; NaN where they are not known
+};
+
+/// Heights at the corners of a cell, from its north-western corner.
+struct Corners {
+  double nw = 0, ne = 0, sw = 0, se = 0;
+
+  double at(double x, double y) const {
+    const double north = nw + (ne - nw) * x, south = sw + (se - sw) * x;
+    return north + (south - north) * y;
+  }
 };
 
 class CoarseTile {
  public:
-  /// Of `steps` × `steps` cells' nodes, the northern row first; `steps` a multiple of kCoarseCells.
-  static CoarseTile reduce(std::int32_t steps, const std::function<float(std::int32_t col, std::int32_t row)>& node);
+  /// Of the nodes of a tile, a multiple of kCoarseCells a side, and the samples that `source` shows there. Fails as it
+  /// does.
+  static Result<CoarseTile> reduce(const PyramidPlan& plan, TileId id, const TileNodes& nodes,
+                                   const NodeSource& source);
   /// Without heights.
   static CoarseTile flat(float height);
   /// Of the level above. `children`: north-west, north-east, south-west, south-east.
@@ -46,9 +62,14 @@ class CoarseTile {
   CoarseCell cell(std::int32_t col, std::int32_t row) const {
     return cells_[static_cast<std::size_t>(row * kCoarseCells + col)];
   }
+  Corners corners(std::int32_t col, std::int32_t row) const {
+    return {node(col, row), node(col + 1, row), node(col, row + 1), node(col + 1, row + 1)};
+  }
   bool has_heights = true;
 
  private:
+  Result<void> look_at_samples(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const NodeSource& source);
+
   std::vector<float> nodes_;
   std::vector<CoarseCell> cells_;
 };
@@ -70,7 +91,12 @@ class CoarseLevel final : public NodeSource {
   std::map<std::uint64_t, CoarseTile> tiles_;
 };
 
-/// Bounds |mesh − node| over all nodes of the source under a tile of the level above `level`.
-double bound_error(const TerrainTile& tile, const CoarseLevel& level);
+struct CoarseVerdict {
+  double node_error = 0;
+  double source_error = 0;  ///< NaN where it is not known
+};
+
+/// Bounds |mesh − node| over all nodes of the source under a tile of the level above `level`, and |mesh − sample|.
+CoarseVerdict bound_errors(const TerrainTile& tile, const CoarseLevel& level);
 
 }  // namespace scarp

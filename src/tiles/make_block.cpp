@@ -48,7 +48,7 @@ Result<std::optional<TerrainTile>> make_if_any(const PyramidPlan& plan, TileId i
     if (!parent) return tl::unexpected(parent.error());
     if (!parent->has_heights()) return std::optional<TerrainTile>();
   }
-  auto tile = nodes->is_flat() ? make_flat_tile(plan, id) : make_tile_of(plan, id, *nodes);
+  auto tile = make_proven_tile(plan, id, *nodes, source);
   if (!tile) return tl::unexpected(tile.error());
   return std::optional(std::move(*tile));
 }
@@ -67,8 +67,9 @@ Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const Node
     if (read->has_heights()) nodes = std::move(*read);
   }
   if (!nodes) {
-    const Result<TerrainTile> flat = make_flat_tile(plan, block);
+    Result<TerrainTile> flat = make_flat_tile(plan, block);
     if (!flat) return tl::unexpected(flat.error());
+    flat->source_error = 0;
     if (auto put = output.put(*flat); !put) return tl::unexpected(put.error());
     made.report = output.take_report();
     return made;
@@ -81,8 +82,9 @@ Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const Node
   const std::int32_t steps = steps_of(plan, block.z);
   const auto whole = TileNodes::read(plan, block, steps, 0, *nodes);
   if (!whole) return tl::unexpected(whole.error());
-  made.reduced =
-      CoarseTile::reduce(steps, [&](std::int32_t col, std::int32_t row) { return whole->at(col, row); }).to_bytes();
+  const auto reduced = CoarseTile::reduce(plan, block, *whole, source);
+  if (!reduced) return tl::unexpected(reduced.error());
+  made.reduced = reduced->to_bytes();
   return made;
 }
 

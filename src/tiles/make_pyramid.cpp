@@ -22,11 +22,20 @@ Result<std::optional<TerrainTile>> make_coarse(const PyramidPlan& plan, TileId i
   const std::int32_t steps = 2 * kCoarseCells;
   const auto nodes = TileNodes::read(plan, id, steps, normal_reach(steps), below);
   if (!nodes) return tl::unexpected(nodes.error());
-  auto tile = nodes->is_flat() ? make_flat_tile(plan, id)
-                               : make_tile_of(plan, id, *nodes, [&](const TerrainTile& made) -> Result<TileVerdict> {
-                                   return TileVerdict{bound_error(made, below), {}};
-                                 });
+  double source_error = 0;
+  const auto judge = [&](const TerrainTile& made) -> Result<TileVerdict> {
+    const CoarseVerdict verdict = bound_errors(made, below);
+    source_error = verdict.source_error;
+    return TileVerdict{verdict.node_error, {}};
+  };
+  auto tile = nodes->is_flat() ? make_flat_tile(plan, id) : make_tile_of(plan, id, *nodes, judge);
   if (!tile) return tl::unexpected(tile.error());
+  // Between flat nodes there may be land.
+  const std::array<TileId, 4> children = children_of(id);
+  const bool has_land = std::any_of(children.begin(), children.end(),
+                                    [&](TileId child) { return below.at(child.x, child.y).has_heights; });
+  if (nodes->is_flat() && has_land) tile->node_error = judge(*tile)->error;
+  tile->source_error = source_error;
   return std::optional(std::move(*tile));
 }
 

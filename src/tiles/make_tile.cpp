@@ -13,6 +13,7 @@
 #include "scarp/simplify.h"
 #include "scarp/tile.h"
 #include "tiles/globe.h"
+#include "tiles/source_samples.h"
 #include "tiles/tile_edges.h"
 #include "tiles/tile_maker.h"
 #include "tiles/tile_mesh_parts.h"
@@ -226,12 +227,21 @@ Result<TerrainTile> make_flat_tile(const PyramidPlan& plan, TileId id) {
   return make_tile_of(plan, id, nodes);
 }
 
+Result<TerrainTile> make_proven_tile(const PyramidPlan& plan, TileId id, const TileNodes& nodes,
+                                     const NodeSource& source) {
+  auto tile = nodes.is_flat() ? make_flat_tile(plan, id) : make_tile_of(plan, id, nodes);
+  if (!tile) return tile;
+  const Result<SampleVerdict> verdict = judge_at_samples(*tile, plan.grid, nodes, source);
+  if (!verdict) return tl::unexpected(verdict.error());
+  tile->source_error = verdict->error;
+  return tile;
+}
+
 Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source) {
   const std::int32_t steps = steps_of(plan, id.z);
   const auto nodes = TileNodes::read(plan, id, steps, normal_reach(steps), source);
   if (!nodes) return tl::unexpected(nodes.error());
-  if (nodes->is_flat()) return make_flat_tile(plan, id);
-  return make_tile_of(plan, id, *nodes);
+  return make_proven_tile(plan, id, *nodes, source);
 }
 
 }  // namespace scarp

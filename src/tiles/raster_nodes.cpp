@@ -7,6 +7,7 @@
 
 #include "grid/window.h"
 #include "scarp/tile.h"
+#include "tiles/sample_rows.h"
 
 namespace scarp {
 namespace {
@@ -105,6 +106,17 @@ class RasterNodes final : public NodeSource {
     auto read = is_aligned ? read_aligned(window, out) : read_placed(window, out);
     if (!read) return read;
     return level_poles(window, out);
+  }
+
+  bool has_samples() const override { return place_.from_degrees == nullptr || place_.to_degrees != nullptr; }
+
+  Result<void> visit_samples(const DegreeBox& box, const SampleVisitor& visit) const override {
+    const SampleRows rows(field_, place_);
+    if (place_.from_degrees != nullptr) return rows.visit_placed(box, visit);
+    for (const double turn : {-720, -360, 0, 360, 720}) {
+      if (auto visited = rows.visit_in_degrees(box, turn, visit); !visited) return visited;
+    }
+    return {};
   }
 
  private:

@@ -24,6 +24,10 @@ Result<TerrainTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileN
 /// The same, judged at its nodes.
 Result<TerrainTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes);
 
+/// A tile at or below the plan's block level, judged at the samples of its source, too.
+Result<TerrainTile> make_proven_tile(const PyramidPlan& plan, TileId id, const TileNodes& nodes,
+                                     const NodeSource& source);
+
 /// Nodes of a side of a tile at or below the plan's block level.
 inline std::int32_t steps_of(const PyramidPlan& plan, int z) { return plan.cells << (plan.max_zoom() - z); }
 

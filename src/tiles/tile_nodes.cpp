@@ -32,14 +32,39 @@ Result<TileNodes> TileNodes::read(const PyramidPlan& plan, TileId id, std::int32
   if (!read) return tl::unexpected(read.error());
   for (std::int64_t row = first_row; row < from; ++row) std::copy_n(row_of(from), side, row_of(row));
   for (std::int64_t row = to + 1; row < first_row + side; ++row) std::copy_n(row_of(to), side, row_of(row));
-  for (std::int32_t row = 0; row <= steps && !nodes.has_heights_; ++row) {
-    for (std::int32_t col = 0; col <= steps; ++col) nodes.has_heights_ |= !std::isnan(nodes.at(col, row));
-  }
-  for (float& height : nodes.heights_) {
-    if (std::isnan(height)) height = plan.background;
-    nodes.is_flat_ &= height == plan.background;
-  }
+  nodes.fill_voids(plan.background);
   return nodes;
+}
+
+void TileNodes::fill_voids(float background) {
+  std::size_t missing = 0;
+  for (std::int32_t row = 0; row <= steps_; ++row) {
+    const float* const heights = &heights_[index(0, row)];
+    for (std::int32_t col = 0; col <= steps_; ++col) missing += std::isnan(heights[col]);
+  }
+  const auto side = static_cast<std::size_t>(steps_) + 1;
+  has_heights_ = missing < side * side;
+  if (missing > 0) {
+    voids_.reserve(side * side);
+    for (std::int32_t row = 0; row <= steps_; ++row) {
+      for (std::int32_t col = 0; col <= steps_; ++col) voids_.push_back(std::isnan(at(col, row)));
+    }
+  }
+  std::size_t others = 0;
+  for (float& height : heights_) {
+    height = std::isnan(height) ? background : height;
+    others += height != background;
+  }
+  is_flat_ = others == 0;
+}
+
+bool TileNodes::has_heights_around(double col, double row) const {
+  const auto before = [&](double place) {
+    return std::clamp(static_cast<std::int32_t>(std::floor(place)), 0, steps_ - 1);
+  };
+  const std::size_t side = static_cast<std::size_t>(steps_) + 1,
+                    first = static_cast<std::size_t>(before(row)) * side + static_cast<std::size_t>(before(col));
+  return !voids_[first] && !voids_[first + 1] && !voids_[first + side] && !voids_[first + side + 1];
 }
 
 TileNodes TileNodes::flat(std::int32_t steps, float height) {
@@ -52,6 +77,7 @@ TileNodes TileNodes::flat(std::int32_t steps, float height) {
 
 Result<HeldNodes> HeldNodes::read(const NodeWindow& window, const NodeSource& source, int threads) {
   HeldNodes held;
+  held.source_ = &source;
   held.window_ = window;
   const auto cols = static_cast<std::size_t>(window.cols);
   held.heights_.resize(cols * static_cast<std::size_t>(window.rows));

@@ -21,19 +21,29 @@ class TileNodes {
 
   std::int32_t steps() const { return steps_; }
   bool has_heights() const { return has_heights_; }  ///< of its own nodes at least one
+  /// Of its own nodes some got the background's height.
+  bool has_voids() const { return !voids_.empty(); }
+  /// Whether the four of its own nodes around a place between them had heights. REQUIRES: 0 <= col, row <= steps.
+  bool has_heights_around(double col, double row) const;
   /// All nodes, those around it too, have the background's height.
   bool is_flat() const { return is_flat_; }
   /// REQUIRES: −halo <= col, row <= steps + halo. Rows go south.
-  float at(std::int32_t col, std::int32_t row) const {
-    return heights_[static_cast<std::size_t>(row + halo_) * static_cast<std::size_t>(side()) +
-                    static_cast<std::size_t>(col + halo_)];
-  }
+  float at(std::int32_t col, std::int32_t row) const { return heights_[index(col, row)]; }
+  /// The heights of a row from a column on, side by side.
+  const float* from(std::int32_t col, std::int32_t row) const { return &heights_[index(col, row)]; }
 
  private:
+  std::size_t index(std::int32_t col, std::int32_t row) const {
+    return static_cast<std::size_t>(row + halo_) * static_cast<std::size_t>(side()) +
+           static_cast<std::size_t>(col + halo_);
+  }
+  /// Nodes without a height get the background's.
+  void fill_voids(float background);
   std::int32_t side() const { return steps_ + 1 + 2 * halo_; }
 
   std::int32_t steps_ = 0, halo_ = 0;
   std::vector<float> heights_;
+  std::vector<bool> voids_;  ///< of its own nodes; empty without any
   bool has_heights_ = false, is_flat_ = true;
 };
 
@@ -45,8 +55,14 @@ class HeldNodes final : public NodeSource {
   bool has_heights() const;
   /// REQUIRES: the window lies in the one that is held, with columns of the same turn.
   Result<void> read(const NodeWindow& window, std::span<float> out) const override;
+  /// Of the source, which is borrowed: samples are not held.
+  bool has_samples() const override { return source_->has_samples(); }
+  Result<void> visit_samples(const DegreeBox& box, const SampleVisitor& visit) const override {
+    return source_->visit_samples(box, visit);
+  }
 
  private:
+  const NodeSource* source_ = nullptr;
   NodeWindow window_;
   std::vector<float> heights_;
 };

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "tiles/larger.h"
 
 namespace scarp {
 
@@ -68,6 +69,7 @@ Result<void> TileOutput::put(const TerrainTile& tile, const std::vector<std::uin
   level.bytes += bytes.size();
   level.node_error = std::max(level.node_error, tile.node_error);
   level.bound = std::max(level.bound, tile.bound());
+  level.source_error = larger(level.source_error, tile.source_error);
   level.over += tile.node_error > plan_.levels[z].max_error;
   report_.tiles[z].push_back(std::uint64_t{tile.id.y} << 32 | tile.id.x);
   return sink_.put(tile.id, bytes);
@@ -91,6 +93,7 @@ void PyramidReport::add(const PyramidReport& more) {
     level.over += other.over;
     level.node_error = std::max(level.node_error, other.node_error);
     level.bound = std::max(level.bound, other.bound);
+    level.source_error = larger(level.source_error, other.source_error);
     const auto before = static_cast<std::ptrdiff_t>(tiles[z].size());
     tiles[z].insert(tiles[z].end(), more.tiles[z].begin(), more.tiles[z].end());
     std::inplace_merge(tiles[z].begin(), tiles[z].begin() + before, tiles[z].end());

@@ -19,6 +19,9 @@ holds "$low == 0 && $high > 1030 && $high < 1055"
 for z in 11 10 9 8 7 6; do
   holds "$(json r.json levels $z node_error) <= $(json r.json levels $z asked)"
   holds "$(json r.json levels $z bound) == $(json globe/layer.json scarp levels $z bound)"
+  # Apart from it, what the raster's own samples are from the mesh.
+  holds "$(json r.json levels $z node_error) / 2 < $(json r.json levels $z source_error)"
+  holds "$(json r.json levels $z source_error) == $(json globe/layer.json scarp levels $z source_error)"
 done
 [ -z "$(find . -name '.scarp*')" ] || fail "something temporary is left"
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "reports/report.h"
 #include "terminal/text.h"
@@ -26,7 +27,8 @@ Json describe_levels(const PyramidPlan& plan, const PyramidReport& report) {
                       {"asked", plan.levels[z].max_error},
                       {"tiles_over", level.over},
                       {"node_error", level.node_error},
-                      {"bound", level.bound}});
+                      {"bound", level.bound},
+                      {"source_error", level.source_error}});
   }
   return levels;
 }
@@ -44,14 +46,15 @@ std::string make_tile_summary(const TileJob& job, const std::string& output, con
   text += fmt::format("  heights above  {}\n", job.facts.heights_above);
   text += fmt::format("  tiles          {}, levels 0 to {}, {}, {}\n", format_count(all.tiles), plan.max_zoom(),
                       format_plural(all.triangles, "triangle"), format_bytes(all.bytes));
-  text += "  level      tiles  triangles/tile  bytes/tile      asked   at nodes  with the earth's curve\n";
+  text += "  level      tiles  triangles/tile  bytes/tile      asked   at nodes  with the earth's curve  at samples\n";
   for (std::size_t z = 0; z < plan.levels.size(); ++z) {
     const LevelSummary& level = report.levels[z];
     const std::uint64_t tiles = std::max<std::uint64_t>(level.tiles, 1);
-    text += fmt::format("  {:5} {:>10} {:>15} {:>11} {:>10} {:>10} {:>23}\n", z, format_count(level.tiles),
+    text += fmt::format("  {:5} {:>10} {:>15} {:>11} {:>10} {:>10} {:>23} {:>11}\n", z, format_count(level.tiles),
                         format_count(level.triangles / tiles), format_count(level.bytes / tiles),
                         format_metres(plan.levels[z].max_error), format_metres(level.node_error),
-                        format_metres(level.bound));
+                        format_metres(level.bound),
+                        std::isnan(level.source_error) ? "not known" : format_metres(level.source_error));
   }
   text += fmt::format("  time           {} s\n", format_seconds(seconds));
   return text;

@@ -223,6 +223,7 @@ Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows,
   if (!are_degrees) {
     globe.place.from_degrees = std::move(back);
     globe.to_degrees = std::move(forth);
+    globe.place.to_degrees = globe.to_degrees;
     if (!is_found_again(cols, rows, globe))
       return fail(ErrorKind::kInput,
                   fmt::format("{} reaches beyond 180 degrees of its projection, where places are not found again from "

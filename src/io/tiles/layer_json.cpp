@@ -77,6 +77,7 @@ std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const Pyram
     if (!report.levels.empty()) {
       level["node_error"] = report.levels[z].node_error;
       level["bound"] = report.levels[z].bound;
+      level["source_error"] = report.levels[z].source_error;
     }
     levels.push_back(std::move(level));
   }

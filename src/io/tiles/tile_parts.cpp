@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kPartMark[] = "SCARPTIL";
-constexpr std::uint64_t kPartVersion = 1;
+constexpr std::uint64_t kPartVersion = 2;
 constexpr std::uint64_t kFileHead = 24, kRecordHead = 16, kBlockName = 12;
 
 static_assert(std::endian::native == std::endian::little);
@@ -105,6 +105,7 @@ std::vector<std::uint8_t> pack(const BlockReport& block, const std::vector<Packe
     for (const std::uint64_t count : {level.tiles, level.triangles, level.bytes, level.over}) packer.add(count);
     packer.add(level.node_error);
     packer.add(level.bound);
+    packer.add(level.source_error);
   }
   packer.add_bytes(block.reduced);
   packer.add(std::uint64_t{tiles.size()});
@@ -212,6 +213,7 @@ Result<BlockReport> TileParts::read(
       *count = unpacker.take<std::uint64_t>();
     level.node_error = unpacker.take<double>();
     level.bound = unpacker.take<double>();
+    level.source_error = unpacker.take<double>();
     made.report.levels.push_back(level);
   }
   made.report.tiles.resize(levels);

@@ -167,6 +167,7 @@ std::vector<std::uint8_t> encode_tileset_json(const PyramidPlan& plan, const Pyr
                       {"lattice_step", lattice_step(plan, static_cast<int>(z))},
                       {"node_error", report.levels[z].node_error},
                       {"bound", bound},
+                      {"source_error", report.levels[z].source_error},
                       {"tiles", report.levels[z].tiles}});
   }
   const auto region = [&](double west, double east) {

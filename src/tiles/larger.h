@@ -1,0 +1,16 @@
+// The larger of two errors.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace scarp {
+
+/// NaN, not known, if one of them is.
+template <class T>
+T larger(T a, T b) {
+  return std::isnan(a) || std::isnan(b) ? std::numeric_limits<T>::quiet_NaN() : std::max(a, b);
+}
+
+}  // namespace scarp

@@ -1,0 +1,29 @@
+#include "tiles/source_samples.h"
+
+#include <cmath>
+
+namespace scarp {
+
+Result<void> NodeSource::visit_samples(const DegreeBox&, const SampleVisitor&) const { return {}; }
+
+Result<SampleVerdict> judge_at_samples(const TerrainTile& tile, const TileGrid& grid, const TileNodes& nodes,
+                                       const NodeSource& source, double limit) {
+  if (!source.has_samples()) return SampleVerdict{std::numeric_limits<double>::quiet_NaN(), {}};
+  const DegreeBox box = grid.bounds_of(tile.id);
+  const double per_u = 32767 / (box.east - box.west), per_v = 32767 / (box.north - box.south);
+  TileSurface::Counts counts;
+  if (nodes.has_voids()) {
+    counts = [&](double u, double v) {
+      return nodes.has_heights_around(u / 32767 * nodes.steps(), (1 - v / 32767) * nodes.steps());
+    };
+  }
+  TileSurface surface(tile, limit, counts);
+  auto visited = source.visit_samples(box, [&](const SampleRow& row) {
+    surface.judge({(row.longitude - box.west) * per_u, (row.latitude - box.south) * per_v, row.step_longitude * per_u,
+                   row.step_latitude * per_v, row.heights});
+  });
+  if (!visited) return tl::unexpected(visited.error());
+  return SampleVerdict{surface.largest_error(), surface.far_points()};
+}
+
+}  // namespace scarp
