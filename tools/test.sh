@@ -88,16 +88,8 @@ run_gtest() {
   add "$passed" "$failed" "$skipped"
 }
 
-install_validator() {
-  [ -f tests/js/package.json ] && [ ! -d tests/js/node_modules ] || return 0
-  if ! command -v npm >/dev/null || ! (cd tests/js && npm ci --no-audit --no-fund --silent); then
-    echo "npm could not install tests/js: the tests that need the Khronos glTF validator will be skipped"
-  fi
-}
-
 start=$(date +%s)
 announce "1/4 Release: all tests"
-install_validator
 if build_stage "$build" release all; then
   run_gtest "$build/bin/scarp_tests" 40
   run_ctest "$build" -E '^(few_cases|all_cases)[.]'  # what has just run

@@ -38,6 +38,27 @@ need() {
   done
 }
 
+# npm_judges PACKAGE...: the foreign readers of tests/js, which npm installs into $js once for all tests; false, and a line
+# that says so, where they cannot be had.
+js=$SCARP_BUILD/js
+npm_judges() {
+  local package
+  mkdir -p "$js"
+  (
+    flock 9
+    for file in "$SCARP_SOURCE"/tests/js/*.*; do cmp -s "$file" "$js/$(basename "$file")" || cp "$file" "$js/"; done
+    if ! cmp -s "$js/package-lock.json" "$js/node_modules/installed" && command -v npm > /dev/null; then
+      cd "$js" && npm ci --ignore-scripts --no-audit --no-fund > npm.log 2>&1 && cp package-lock.json node_modules/installed
+    fi
+  ) 9> "$js.lock" || true
+  for package in "$@"; do
+    if [ ! -d "$js/node_modules/$package" ] || ! command -v node > /dev/null; then
+      echo "left out: $package (needs node and npm)"
+      return 1
+    fi
+  done
+}
+
 # Runs a command; its exit code goes to $code, its output to $logs.
 try() {
   code=0

@@ -1,11 +1,8 @@
 #!/usr/bin/env bash
 # Programs that are not ours read every format that we write, and count what our report counted: the Khronos glTF
 # validator, assimp, meshio, and admesh for closed solids. A judge that is not installed is named and left out.
-set -euo pipefail
-scarp=$SCARP_BUILD/bin/scarp
-dem=$SCARP_SOURCE/data/jacksboro_fault.tif
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+source "$(dirname "$0")/lib.sh"
+work=$scratch
 judges=0
 
 complain() { echo "FAILED: $*"; exit 1; }
@@ -33,13 +30,7 @@ echo "open: $open_vertices vertices, $open_triangles triangles; solid: $solid_ve
 read -r attribute_vertices attribute_triangles < <("$SCARP_BUILD/bin/scarp_attribute_meshes" "$work")
 
 # --- Khronos glTF validator -------------------------------------------------------------------------------------------
-js=$SCARP_BUILD/js
-mkdir -p "$js"
-cp "$SCARP_SOURCE"/tests/js/package.json "$SCARP_SOURCE"/tests/js/package-lock.json "$SCARP_SOURCE"/tests/js/validate_glb.cjs "$js/"
-if [ ! -d "$js/node_modules/gltf-validator" ] && command -v npm >/dev/null; then
-  (cd "$js" && npm ci --no-audit --no-fund >npm.log 2>&1) || echo "left out: npm could not fetch gltf-validator"
-fi
-if [ -d "$js/node_modules/gltf-validator" ] && command -v node >/dev/null; then
+if npm_judges gltf-validator; then
   judges=$((judges + 1))
   node "$js/validate_glb.cjs" "$work/open.glb" "$work/solid.glb" "$work/plain.glb" >"$work/validator.txt" ||
     { cat "$work/validator.txt"; complain "the glTF validator has objections"; }
@@ -53,8 +44,6 @@ if [ -d "$js/node_modules/gltf-validator" ] && command -v node >/dev/null; then
   # A judge that never objects is none: it must notice an accessor that does not exist.
   LC_ALL=C sed 's/"POSITION":0/"POSITION":9/' "$work/open.glb" >"$work/bad.glb"
   if node "$js/validate_glb.cjs" "$work/bad.glb" >/dev/null; then complain "the glTF validator accepts a broken file"; fi
-else
-  echo "left out: gltf-validator (needs node and npm)"
 fi
 
 # --- assimp -----------------------------------------------------------------------------------------------------------

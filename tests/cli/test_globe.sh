@@ -2,11 +2,7 @@
 # The page of make globe in a browser: CesiumJS sees heights within the bounds of three levels.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate node chromium
-js=$SCARP_SOURCE/tests/js
-if [ ! -d "$js/node_modules/cesium" ] && command -v npm > /dev/null; then
-  (cd "$js" && npm ci --no-audit --no-fund > npm.log 2>&1) || true
-fi
-[ -d "$js/node_modules/cesium" ] || skip "npm could not fetch CesiumJS"
+npm_judges cesium playwright-core || skip "npm could not fetch CesiumJS"
 
 # Samples that lie on the nodes of level 11: nothing is interpolated, so the bounds at nodes hold for them.
 python3 - > corners << 'E2'

@@ -48,15 +48,7 @@ for output in killed killed.pmtiles killed.mbtiles killed.3tz kept.pmtiles; do
 done
 
 # The reference reader of PMTiles.
-js=$SCARP_BUILD/js_of_sets
-mkdir -p "$js"
-cp "$SCARP_SOURCE"/tests/js/package.json "$SCARP_SOURCE"/tests/js/package-lock.json "$SCARP_SOURCE"/tests/js/compare_pmtiles.mjs "$js/"
-if [ ! -d "$js/node_modules/pmtiles" ] && command -v npm > /dev/null; then
-  (cd "$js" && npm ci --no-audit --no-fund > npm.log 2>&1) || echo "left out: npm could not fetch pmtiles"
-fi
-if [ -d "$js/node_modules/pmtiles" ] && command -v node > /dev/null; then
+if npm_judges pmtiles; then
   succeeds node "$js/compare_pmtiles.mjs" world.pmtiles globe
   [ "$(cat "$logs/out")" = $((files - 1)) ] || fail "the reference reader finds other tiles"
-else
-  echo "left out: the reference reader of PMTiles (needs node and npm)"
 fi

@@ -34,15 +34,7 @@ for place in "179.9 10.2 180.24 9.9" "12 90 12.34 89.71"; do
 done
 
 # The Khronos glTF validator, of every tile.
-js=$SCARP_BUILD/js
-mkdir -p "$js"
-cp "$SCARP_SOURCE"/tests/js/package.json "$SCARP_SOURCE"/tests/js/package-lock.json "$SCARP_SOURCE"/tests/js/validate_glb.cjs "$js/"
-if [ ! -d "$js/node_modules/gltf-validator" ] && command -v npm > /dev/null; then
-  (cd "$js" && npm ci --no-audit --no-fund > npm.log 2>&1) || echo "left out: npm could not fetch gltf-validator"
-fi
-if [ -d "$js/node_modules/gltf-validator" ] && command -v node > /dev/null; then
+if npm_judges gltf-validator; then
   find globe placed -name '*.glb' -exec node "$js/validate_glb.cjs" {} + > judged.txt || { grep -v ": 0 errors" judged.txt | head -20; fail "the glTF validator has objections"; }
   [ "$(grep -c ': 0 errors, 0 warnings' judged.txt)" = "$(find globe placed -name '*.glb' | wc -l)" ] || fail "not every tile was judged"
-else
-  echo "left out: gltf-validator (needs node and npm)"
 fi

@@ -3,24 +3,11 @@
 // POINTS.json: a list of [longitude, latitude, height]. Prints JSON: of each level of the set with heights there the largest
 // |height that CesiumJS samples - height|, what the page says, errors of the console, and what was asked of elsewhere.
 import { readFileSync } from "node:fs";
-import { chromium } from "playwright-core";
+import { open_page } from "./browser.mjs";
 
-const [address, points_file, shot, program = "/usr/bin/chromium"] = process.argv.slice(2);
+const [address, points_file, shot, program] = process.argv.slice(2);
 const points = JSON.parse(readFileSync(points_file, "utf8"));
-const browser = await chromium.launch({
-  executablePath: program,
-  args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-sync",
-    "--disable-component-update", "--disable-dev-shm-usage", "--use-gl=angle", "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader"],
-});
-const page = await browser.newPage({ viewport: { width: 900, height: 600 } });
-const errors = [], elsewhere = [];
-page.on("console", message => { if (message.type() === "error") errors.push(message.text()); });
-page.on("pageerror", error => errors.push(String(error)));
-page.on("request", request => {
-  const url = request.url();
-  if (!url.startsWith(address) && !url.startsWith("data:") && !url.startsWith("blob:")) elsewhere.push(url);
-});
+const { browser, page, errors, elsewhere } = await open_page(address, { width: 900, height: 600 }, program);
 await page.goto(address);
 await page.waitForFunction(() => window.viewer !== undefined, null, { timeout: 120000 });
 const result = await page.evaluate(async points => {

@@ -1,0 +1,21 @@
+// A page of headless Chromium that draws WebGL by software and tells what went wrong.
+import { chromium } from "playwright-core";
+
+/// `errors`: those of the console. `elsewhere`: what was asked of other addresses.
+export async function open_page(address, viewport, program = "/usr/bin/chromium") {
+  const browser = await chromium.launch({
+    executablePath: program,
+    args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-sync",
+      "--disable-component-update", "--disable-dev-shm-usage", "--use-gl=angle", "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader"],
+  });
+  const page = await browser.newPage({ viewport });
+  const errors = [], elsewhere = [];
+  page.on("console", message => { if (message.type() === "error") errors.push(message.text()); });
+  page.on("pageerror", error => errors.push(String(error)));
+  page.on("request", request => {
+    const url = request.url();
+    if (!url.startsWith(address) && !url.startsWith("data:") && !url.startsWith("blob:")) elsewhere.push(url);
+  });
+  return { browser, page, errors, elsewhere };
+}
