@@ -11,6 +11,8 @@ holds "$tiles > 50 && $subtrees >= 4"
 holds "$low < 0 && $high > 1030 && $high < 1200"
 [ "$(find globe -name '*.glb' | wc -l)" = "$tiles" ] || fail "files and tiles differ"
 # What is told of each level is proven, and asked of clients, too.
+# Nothing is a bad drawing of a planet, from whatever distance.
+holds "$(json globe/tileset.json geometricError) > 6e6 && $(json globe/tileset.json root geometricError) > 6e6"
 root_error=$(json globe/tileset.json root children 0 geometricError)
 for z in 11 10 9 8 7 6 5; do
   holds "$(json r.json levels $z node_error) <= $(json r.json levels $z asked)"

@@ -196,12 +196,14 @@ std::vector<std::uint8_t> encode_tileset_json(const PyramidPlan& plan, const Pyr
                           {"availableLevels", plan.max_zoom() + 1},
                           {"subtrees", {{"uri", subtree_name(root)}}}}}});
   }
+  // The root has no triangles: who draws it alone misses the whole planet.
+  const double nothing = std::max(plan.ellipsoid.semi_major, 2 * root_error);
   Json tileset = {{"asset", std::move(asset)},
                   {"schema", describe_classes()},
-                  {"geometricError", 2 * root_error},
+                  {"geometricError", nothing},
                   {"root",
                    {{"boundingVolume", region(-kPi, kPi)},
-                    {"geometricError", 2 * root_error},
+                    {"geometricError", nothing},
                     {"refine", "REPLACE"},
                     {"children", std::move(children)}}}};
   if (!facts.body.empty()) {
