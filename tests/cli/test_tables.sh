@@ -1,12 +1,13 @@
 #!/bin/bash
-# The tables of docs/performance.md, bench/speed/results.md and docs/quality.md are those of the numbers that are kept,
-# and the pictures of the latter are there.
+# The tables of docs/performance.md, bench/speed/results.md, docs/quality.md and docs/tiles-benchmark.md are those of the
+# numbers that are kept, and the pictures of docs/quality.md are there.
 set -euo pipefail
 source_tree=${SCARP_SOURCE:?}
 python=$(command -pv python3 || command -v python3) || { echo "skipped: python3 is missing"; exit 77; }
 export PYTHONDONTWRITEBYTECODE=1
 "$python" "$source_tree/bench/speed/report.py" --check
 "$python" "$source_tree/bench/quality/report.py" --check
+"$python" "$source_tree/bench/tiles/report.py" --check
 grep -o 'images/[a-z_]*\.png' "$source_tree/docs/quality.md" | sort -u | while read -r picture; do
   [ -s "$source_tree/docs/$picture" ] || { echo "docs/$picture is missing"; exit 1; }
 done
