@@ -30,7 +30,7 @@ ROOMS = {
                ["goals", "height_field", "lines", "paper", "points", "progress", "regions", "result", "simplify", "strategy", "tolerances"],
                "how far a triangle is from its samples, and how far it may be: tolerances, regions, importance"),
     "io": (2, ["base", "grid", "mesh"],
-           ["cutline", "degrees", "drape", "frame", "geoid", "glb", "globe_place", "gzip", "height_field", "io", "lines", "live_tiles", "mesh", "points", "progress", "result", "solid", "strategy", "tile", "tile_job", "tile_set", "tiles3d", "version", "zones"],
+           ["cutline", "degrees", "drape", "frame", "geoid", "glb", "globe_place", "gzip", "height_field", "io", "lent", "lines", "live_tiles", "mesh", "points", "progress", "result", "solid", "strategy", "tile", "tile_job", "tile_set", "tiles3d", "version", "zones"],
            "bytes to values and back: `mesh/`, `raster/`, `points/`, `tiles/`, `gdal/`"),
     "measure": (3, ["base", "grid", "mesh"],
                 ["cutline", "frame", "height_field", "judge", "measure", "mesh", "points", "progress", "result", "strategy"],
@@ -71,6 +71,8 @@ RESERVED = [
      "instruction sets are known to src/geom/scan_kernels*, src/measure/judge_kernels_vector.cpp and "
      "src/fit/triangle_kernels_vector.cpp only"),
     (r"CLI/.*", [r"apps/"], "command lines are known to apps only"),
+    (r"terminal/(signals|progress_display)\.h$", [r"apps/scarp/(main|(terminal|serve|paper)/.*|commands/[a-z_]*_command)\.(h|cpp)$"],
+     "the terminal is known to the program's own files only: all else in apps is in the C library, too"),
     (r"(format|ranges)$", [r"src/io/gdal/", r"apps/"], "the core builds without std::format and range views"),
 ]
 

@@ -119,10 +119,19 @@ struct OwnedHeightField {
   double sample_rounding = 0;
   RasterInfo info;
   std::shared_ptr<const SampleSource> source = nullptr;  ///< see open_height_field(). DEFAULT: none.
+  /// The samples of a caller who lent them (lent.h), in place of `samples`; nobody changes them. DEFAULT: none.
+  const float* lent = nullptr;
 
   /// Borrows this object's samples: valid while it is alive and `samples` is not resized.
   HeightField view() const {
-    return {source ? nullptr : samples.data(), cols, rows, std::nullopt, frame, sample_rounding, {}, 1, source.get()};
+    const float* const held = lent != nullptr ? lent : samples.data();
+    return {source ? nullptr : held, cols, rows, std::nullopt, frame, sample_rounding, {}, 1, source.get()};
+  }
+  /// Copies samples that are lent, so that they can be changed.
+  void own() {
+    if (lent == nullptr) return;
+    samples.assign(lent, lent + static_cast<std::size_t>(cols) * static_cast<std::size_t>(rows));
+    lent = nullptr;
   }
   operator HeightField() const { return view(); }  // NOLINT: the door takes both
 };

@@ -17,6 +17,7 @@
 #include "scarp/height_field.h"
 #include "scarp/io.h"
 #include "scarp/judge.h"
+#include "scarp/lent.h"
 #include "scarp/levels.h"
 #include "scarp/lines.h"
 #include "scarp/measure.h"

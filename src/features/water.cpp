@@ -278,6 +278,7 @@ Result<void> flatten_field(std::span<const LakeRun> runs, const WaterOptions& op
   std::optional<RowReader> reader;
   std::vector<LevelRun> levels;
   if (field.source) reader.emplace(field.view());
+  field.own();
   for (auto row = flattening.next_row(0); row && *row < field.rows; row = flattening.next_row(*row + 1)) {
     if (reporter.due() && !reporter.report("water", static_cast<double>(*row) / field.rows, 0, 0))
       return fail(ErrorKind::kCancelled, "cancelled while making lakes flat");

@@ -104,6 +104,7 @@ class Sweeper {
 }  // namespace
 
 std::uint64_t fill_nodata(OwnedHeightField& field, double max_distance) {
+  field.own();
   std::size_t nodata = 0;
   for (const float z : field.samples) nodata += std::isfinite(z) ? 0 : 1;
   if (nodata == 0) return 0;
@@ -126,6 +127,7 @@ std::uint64_t fill_nodata(OwnedHeightField& field, double max_distance) {
 }
 
 std::uint64_t fill_background(OwnedHeightField& field, float value) {
+  field.own();
   std::uint64_t filled = 0;
   for (float& z : field.samples) {
     if (std::isfinite(z)) continue;

@@ -1,14 +1,18 @@
 // The doors that GDAL stands behind, in a build without it.
 #ifndef SCARP_WITH_GDAL
 
+#include "grid/local_frame.h"
+#include "io/lent.h"
 #include "io/mesh/mesh_file.h"
 #include "io/points/point_source.h"
 #include "io/raster/crs_description.h"
+#include "io/raster/raster_finish.h"
 #include "io/raster/raster_source.h"
 #include "scarp/cutline.h"
+#include "scarp/degrees.h"
 #include "scarp/drape.h"
-#include "scarp/lines.h"
 #include "scarp/globe_place.h"
+#include "scarp/lines.h"
 
 namespace scarp {
 namespace {
@@ -37,6 +41,33 @@ Result<std::unique_ptr<GeoTiff>> create_geotiff(const std::string&, int, int, co
 
 Result<RasterOnGlobe> place_on_globe(const RasterInfo&, int, int, const Datum&, const std::string& path) {
   return fail(ErrorKind::kInput, path + ": this build of Scarp knows no place on the globe: it was built without GDAL");
+}
+
+Result<Frame> place_lent_raster(const LentRaster& raster, const ReadOptions& options, RasterInfo& info) {
+  const std::string& wanted = options.crs;
+  const int cols = raster.cols, rows = raster.rows;
+  if (wanted == "grid") return grid_or_cells(info.path, cols, rows, options);
+  if (!wanted.empty() && wanted != "local" && wanted != "source") {
+    return fail(ErrorKind::kUsage, info.path + ": this build of Scarp knows no CRS such as '" + wanted +
+                                       "': it was built without GDAL; ask for the frame 'source', 'local' or 'grid'");
+  }
+  const auto& gt = *raster.geotransform;
+  const std::array<double, 6> samples{gt[0] + gt[1] / 2 + gt[2] / 2, gt[1], gt[2],
+                                      gt[3] + gt[4] / 2 + gt[5] / 2, gt[4], gt[5]};
+  const bool is_local =
+      wanted == "local" || (wanted.empty() && (options.default_frame == DefaultFrame::kLocal ||
+                                               (options.default_frame == DefaultFrame::kMetric && info.is_geographic)));
+  if (is_local && info.is_geographic) return frame_of_degrees(samples, cols, rows);
+  if (is_local) {
+    const LocalUnit unit = raster.crs.empty() ? LocalUnit{"units", ""} : LocalUnit{};
+    return local_frame(samples, {1, 1}, cols, rows, raster.crs.empty() ? "no CRS" : raster.crs, unit);
+  }
+  Frame frame;
+  frame.kind = Frame::Kind::kSource;
+  frame.affine = samples;
+  frame.crs = raster.crs;
+  frame.description = raster.crs.empty() ? "the raster's own coordinates (no CRS)" : "coordinates in " + raster.crs;
+  return frame;
 }
 
 std::optional<CrsDescription> describe_crs(const std::string&) { return {}; }

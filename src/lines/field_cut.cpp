@@ -172,6 +172,7 @@ Result<MaskedOutside> mask_outside(OwnedHeightField& field, const Cutline& cutli
   runs.add_polygons(cutline.rings);
   const auto within = std::make_shared<const SampleSet>(runs.runs(), field.rows);
   OutsideCount count;
+  field.own();
   if (!field.source) {
     for (std::int32_t row = 0; row < field.rows; ++row) {
       float* samples = &field.samples[static_cast<std::size_t>(row) * static_cast<std::size_t>(field.cols)];

@@ -41,6 +41,7 @@ void apply_edits(const std::vector<SampleEdit>& edits, OwnedHeightField& field) 
     if (!edits.empty()) field.source = edit_source(field.source, edits);
     return;
   }
+  if (!edits.empty()) field.own();
   for (const SampleEdit& edit : edits)
     field.samples[static_cast<std::size_t>(edit.row) * static_cast<std::size_t>(field.cols) +
                   static_cast<std::size_t>(edit.col)] = edit.after;

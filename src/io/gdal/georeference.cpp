@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "grid/local_frame.h"
@@ -167,26 +168,35 @@ std::array<double, 2> Georeference::centre() const {
 
 bool Georeference::is_in_feet() const { return !geographic && is_foot(unit_name); }
 
-Result<Georeference> read_georeference(GDALDatasetH dataset, const std::string& path) {
+Georeference make_georeference(int cols, int rows, const std::optional<std::array<double, 6>>& pixels, Crs crs,
+                               SpaceCrs space) {
   Georeference geo;
-  geo.cols = GDALGetRasterXSize(dataset);
-  geo.rows = GDALGetRasterYSize(dataset);
-  geo.located = GDALGetGeoTransform(dataset, geo.pixels.data()) == CE_None;
-  if (!geo.located) geo.pixels = {0, 1, 0, 0, 0, 1};
+  geo.cols = cols;
+  geo.rows = rows;
+  geo.located = pixels.has_value();
+  if (pixels) geo.pixels = *pixels;
   geo.samples = at_centres(geo.pixels);
-  if (geo.located && is_degenerate(geo.samples)) {
-    return fail(ErrorKind::kInput, path +
-                                       ": its geotransform maps the raster to a line or to infinity; repair it with "
-                                       "gdal_edit -a_ullr");
-  }
-  geo.crs = crs_of(dataset);
-  geo.in_space = space_crs_of(dataset);
+  geo.crs = std::move(crs);
+  geo.in_space = std::move(space);
   if (geo.crs) {
     char* name = nullptr;  // owned by the CRS
     geo.geographic = OSRIsGeographic(geo.crs.get()) != 0;
     geo.unit_in_metres =
         geo.geographic ? OSRGetAngularUnits(geo.crs.get(), &name) : OSRGetLinearUnits(geo.crs.get(), &name);
     geo.unit_name = name != nullptr ? name : "unknown unit";
+  }
+  return geo;
+}
+
+Result<Georeference> read_georeference(GDALDatasetH dataset, const std::string& path) {
+  std::optional<std::array<double, 6>> pixels(std::in_place);
+  if (GDALGetGeoTransform(dataset, pixels->data()) != CE_None) pixels.reset();
+  Georeference geo = make_georeference(GDALGetRasterXSize(dataset), GDALGetRasterYSize(dataset), pixels,
+                                       crs_of(dataset), space_crs_of(dataset));
+  if (geo.located && is_degenerate(geo.samples)) {
+    return fail(ErrorKind::kInput, path +
+                                       ": its geotransform maps the raster to a line or to infinity; repair it with "
+                                       "gdal_edit -a_ullr");
   }
   return geo;
 }

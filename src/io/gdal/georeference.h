@@ -1,6 +1,8 @@
 // From a raster's geotransform and CRS to the frame of its mesh.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 
 #include "io/gdal/crs.h"
@@ -27,6 +29,10 @@ struct Georeference {
   /// A projected CRS in feet, whose heights mostly are in feet too.
   bool is_in_feet() const;
 };
+
+/// `space`: the CRS with heights, if that is known.
+Georeference make_georeference(int cols, int rows, const std::optional<std::array<double, 6>>& pixels, Crs crs,
+                               SpaceCrs space);
 
 /// Fails with kInput if the geotransform maps all samples to a line or is not finite.
 Result<Georeference> read_georeference(GDALDatasetH dataset, const std::string& path);

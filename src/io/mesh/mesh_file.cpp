@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/caught.h"
+#include "io/lent.h"
 #include "io/mesh/mesh_file_text.h"
 #include "io/mesh/xml_reader.h"
 #include "scarp/height_field.h"
@@ -348,6 +349,7 @@ Result<void> write_mesh(const Mesh& mesh, const std::string& path, std::optional
 }
 
 Result<Mesh> read_mesh(const std::string& path, MeshFileAxes* axes) {
+  if (const Mesh* lent = find_lent_mesh(path)) return *lent;
   auto bytes = read_file(path);
   if (!bytes) return tl::unexpected<Error>(bytes.error());
   return decode_mesh(*bytes, path, axes);

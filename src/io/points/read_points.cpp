@@ -16,6 +16,7 @@
 
 #include "base/caught.h"
 #include "grid/height_range.h"
+#include "io/lent.h"
 #include "io/mesh/mesh_file_text.h"
 #include "io/points/point_source.h"
 #include "io/spool.h"
@@ -113,6 +114,7 @@ void warn_of_missing_heights(PointSet& points) {
 }  // namespace
 
 Result<PointSet> read_points(const std::string& path, const ReadPointsOptions& options) try {
+  if (const PointSet* lent = find_lent_points(path)) return *lent;
   auto points = read_by_content(path, options);
   if (points) warn_of_missing_heights(*points);
   return points;

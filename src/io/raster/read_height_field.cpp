@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "base/caught.h"
+#include "io/lent.h"
 #include "io/raster/pgm.h"
 #include "io/raster/raster_finish.h"
 #include "io/raster/raster_source.h"
@@ -50,6 +51,7 @@ Result<void> check_whole_file(const std::string& path, const ReadOptions& option
 }  // namespace
 
 Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOptions& options) try {
+  if (const LentRaster* lent = find_lent_raster(path)) return read_lent_raster(*lent, path, options);
   const auto reader = find_reader(path, options.view);
   if (!reader) return tl::unexpected(reader.error());
   if (*reader == Reader::kGdal) return open_gdal_raster(path, options);
@@ -62,6 +64,7 @@ Result<OwnedHeightField> open_height_field(const std::string& path, const ReadOp
 }
 
 Result<OwnedHeightField> read_height_field(const std::string& path, const ReadOptions& options) try {
+  if (const LentRaster* lent = find_lent_raster(path)) return read_lent_raster(*lent, path, options);
   const auto reader = find_reader(path, options.view);
   if (!reader) return tl::unexpected(reader.error());
   if (*reader == Reader::kGdal) return read_gdal_raster(path, options);

@@ -1,0 +1,24 @@
+#include <fmt/format.h>
+
+#include "io/gdal/georeference.h"
+#include "io/gdal/session.h"
+#include "io/lent.h"
+
+namespace scarp {
+
+Result<Frame> place_lent_raster(const LentRaster& raster, const ReadOptions& options, RasterInfo& info) {
+  gdal::Session session;
+  const std::string definition = raster.crs.empty() && raster.is_geographic ? "EPSG:4326" : raster.crs;
+  gdal::Crs crs = definition.empty() ? gdal::Crs() : gdal::find_crs(definition);
+  if (!definition.empty() && !crs) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("the CRS of {}, '{}', is none that GDAL knows: give a code such as EPSG:32633, WKT or a "
+                            "PROJ string",
+                            info.path, definition));
+  }
+  const auto geo = gdal::make_georeference(raster.cols, raster.rows, *raster.geotransform, std::move(crs), {});
+  gdal::describe_georeference(geo, info);
+  return gdal::choose_frame(geo, options, info);
+}
+
+}  // namespace scarp

@@ -1,0 +1,112 @@
+#include "io/lent.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "grid/local_frame.h"
+#include "io/raster/raster_finish.h"
+
+namespace scarp {
+namespace {
+
+using LentThing = std::variant<const LentRaster*, const Mesh*, const PointSet*>;
+
+std::vector<std::pair<std::string, LentThing>>& lent_things() {
+  thread_local std::vector<std::pair<std::string, LentThing>> things;
+  return things;
+}
+
+template <class T>
+const T* find_lent(const std::string& name) {
+  const auto& things = lent_things();
+  for (auto thing = things.rbegin(); thing != things.rend(); ++thing) {
+    if (thing->first != name) continue;
+    if (const T* const* found = std::get_if<const T*>(&thing->second)) return *found;
+  }
+  return nullptr;
+}
+
+struct Unfit {
+  std::uint64_t nodata = 0, infinities = 0;
+};
+
+Unfit count_unfit(const LentRaster& raster) {
+  Unfit unfit;
+  const std::size_t count = static_cast<std::size_t>(raster.cols) * static_cast<std::size_t>(raster.rows);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float z = raster.samples[i];
+    unfit.nodata += raster.nodata && z == *raster.nodata ? 1 : 0;
+    unfit.infinities += std::isinf(z) ? 1 : 0;
+  }
+  return unfit;
+}
+
+/// Copies the samples where one of them is no height as it stands.
+std::uint64_t clean_samples(const LentRaster& raster, const ReadOptions& options, OwnedHeightField& field) {
+  const Unfit unfit = count_unfit(raster);
+  const bool is_changed = scales_heights(options) || options.as_values;  // values are changed by who asks for them
+  if (unfit.nodata == 0 && unfit.infinities == 0 && !is_changed) return 0;
+  field.own();
+  for (float& z : field.samples) {
+    if (std::isinf(z) || (raster.nodata && z == *raster.nodata)) z = std::numeric_limits<float>::quiet_NaN();
+  }
+  return unfit.infinities;
+}
+
+}  // namespace
+
+Lent::Lent(std::string name, const LentRaster& raster) { lent_things().emplace_back(std::move(name), &raster); }
+Lent::Lent(std::string name, const Mesh& mesh) { lent_things().emplace_back(std::move(name), &mesh); }
+Lent::Lent(std::string name, const PointSet& points) { lent_things().emplace_back(std::move(name), &points); }
+Lent::~Lent() { lent_things().pop_back(); }
+
+const LentRaster* find_lent_raster(const std::string& name) { return find_lent<LentRaster>(name); }
+const Mesh* find_lent_mesh(const std::string& name) { return find_lent<Mesh>(name); }
+const PointSet* find_lent_points(const std::string& name) { return find_lent<PointSet>(name); }
+
+Result<OwnedHeightField> read_lent_raster(const LentRaster& raster, const std::string& name,
+                                          const ReadOptions& options) {
+  if (options.band != 1) return fail(ErrorKind::kInput, name + " has 1 band: leave the band out");
+  if (options.decode != Decode::kNone || !options.view.is_whole())
+    return fail(ErrorKind::kUsage, name + " is in memory: decode it, and cut or join it, before it is given");
+  const auto size = [](int side) { return static_cast<std::uint64_t>(std::max(side, 0)); };
+  if (auto sides = check_raster_sides(name, size(raster.cols), size(raster.rows)); !sides)
+    return tl::unexpected(sides.error());
+  if (raster.samples == nullptr) return fail(ErrorKind::kUsage, name + " has no samples: its pointer is null");
+  OwnedHeightField field;
+  field.cols = raster.cols;
+  field.rows = raster.rows;
+  field.lent = raster.samples;
+  field.sample_rounding = raster.sample_rounding;
+  field.info.path = name;
+  field.info.format = "memory";
+  field.info.sample_type = "Float32";
+  field.info.crs = raster.crs;
+  field.info.is_geographic = raster.is_geographic;
+  field.info.nodata = options.nodata;
+  LentRaster read = raster;
+  if (options.nodata) read.nodata = static_cast<float>(*options.nodata);
+  if (read.nodata) field.info.nodata = *read.nodata;
+  if (raster.geotransform) {
+    const auto& gt = *raster.geotransform;
+    field.info.geotransform = gt;
+    field.info.has_georeference = true;
+    field.info.cell_x = std::sqrt(gt[1] * gt[1] + gt[4] * gt[4]);
+    field.info.cell_y = std::sqrt(gt[2] * gt[2] + gt[5] * gt[5]);
+    if (is_degenerate(gt))
+      return fail(ErrorKind::kInput, name + ": its transform maps the samples to a line or to infinity");
+  }
+  auto frame = raster.geotransform ? place_lent_raster(raster, options, field.info)
+                                   : ungeoreferenced_frame(name, raster.cols, raster.rows, options);
+  if (!frame) return tl::unexpected(frame.error());
+  field.frame = std::move(*frame);
+  const std::uint64_t infinities = clean_samples(read, options, field);
+  scale_values(options, field);
+  if (auto done = finish_raster(field, infinities, options); !done) return tl::unexpected(done.error());
+  return field;
+}
+
+}  // namespace scarp

@@ -1,0 +1,25 @@
+// The readers behind what is lent.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "scarp/io.h"
+#include "scarp/lent.h"
+
+namespace scarp {
+
+/// Null where this thread has lent nothing of that kind under the name.
+const LentRaster* find_lent_raster(const std::string& name);
+const Mesh* find_lent_mesh(const std::string& name);
+const PointSet* find_lent_points(const std::string& name);
+
+/// read_height_field() of a raster that is lent.
+Result<OwnedHeightField> read_lent_raster(const LentRaster& raster, const std::string& name,
+                                          const ReadOptions& options);
+
+/// Fills in what `info` tells of the place of a raster with a geotransform, and finds the frame that the options ask
+/// for. A build without GDAL knows no CRS: it refuses those that the options name.
+Result<Frame> place_lent_raster(const LentRaster& raster, const ReadOptions& options, RasterInfo& info);
+
+}  // namespace scarp
