@@ -5,6 +5,7 @@ make_big_raster big.tif
 
 # start COMMAND...: in the background, with the number $pid.
 start() {
+  : > "$logs/err"  # what the last run said is not this one's
   # A background job of a script ignores SIGINT unless job control is on.
   set -m
   "$@" > "$logs/out" 2> "$logs/err" &

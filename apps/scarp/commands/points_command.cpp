@@ -1,17 +1,10 @@
 #include "commands/points_command.h"
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <array>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "inputs/mesh_place.h"
-#include "options/option_table.h"
-#include "reports/points_report.h"
+#include "commands/points_work.h"
 #include "reports/report.h"
 #include "terminal/clock.h"
 #include "terminal/progress_display.h"
@@ -21,96 +14,9 @@
 namespace scarp::cli {
 namespace {
 
-/// Points have no use for many of the command's options; silence would be a lie.
-Result<void> refuse_raster_options(const CLI::App& command, const std::string& path) {
-  constexpr std::array<std::string_view, 20> kMeant{
-      "--max-error",     "--max-triangles", "--max-points",  "--crs",        "--of",     "--base",    "--up",
-      "--report",        "--overwrite",     "--num-threads", "--quiet",      "--points", "--layer",   "--double",
-      "--json-progress", "--duplicates",    "--z-field",     "--fail-above", "--json",   "--compress"};
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_name();
-    const bool is_meant = option->get_positional() || std::find(kMeant.begin(), kMeant.end(), name) != kMeant.end();
-    if (option->count() > 0 && !is_meant)
-      return fail(ErrorKind::kUsage, fmt::format("{} is for rasters, and {} holds points: leave it out", name,
-                                                 shell_word(base_name(path))));
-  }
-  return {};
-}
-
-Result<PointSet> read(const std::string& path, const PointsArguments& arguments, const Given& crs,
-                      const ProgressCallback& progress) {
-  if (path.empty()) return fail(ErrorKind::kUsage, "the name of the points is empty");
-  for (const auto& [name, value] :
-       {std::pair{"--crs", &crs}, std::pair{"--layer", &arguments.layer}, std::pair{"--z-field", &arguments.z_field}}) {
-    if (*value && (*value)->empty()) return fail(ErrorKind::kUsage, fmt::format("{} is empty: leave it out", name));
-  }
-  return read_points(path, {.layer = arguments.layer.value_or(""),
-                            .z_field = arguments.z_field.value_or(""),
-                            .crs = crs.value_or(""),
-                            .progress = progress});
-}
-
-/// As --crs; empty: local for degrees, else the points' own.
-std::string crs_option(const SimplifyPlan& plan) {
-  if (!plan.read.crs.empty()) return plan.read.crs;
-  return plan.read.default_frame == DefaultFrame::kSource ? "source" : "";
-}
-
-std::string canonical_command(const SimplifyPlan& plan, const PointsArguments& arguments) {
-  return plan.canonical_command + (arguments.points ? " --points" : "") +
-         canonical_option("--duplicates", arguments.duplicates) + canonical_option("--layer", arguments.layer) +
-         canonical_option("--z-field", arguments.z_field);
-}
-
-void move(double sign, const std::array<double, 2>& way, Mesh& mesh) {
-  for (std::size_t k = 0; k < 2; ++k) mesh.origin[k] += sign * way[k];
-}
-
-/// How far a mesh was moved from the source's coordinates, if it says so, and that nothing else was done to it.
-std::optional<std::array<double, 2>> way_to_source(const Mesh& mesh) {
-  const auto said = mesh.metadata.find("to_source");
-  if (said == mesh.metadata.end()) return std::nullopt;
-  const Json affine = Json::parse(said->second, nullptr, false);
-  if (!affine.is_array() || affine.size() != 6 || !affine[0].is_number() || !affine[3].is_number()) return std::nullopt;
-  if (affine[1] != 1 || affine[2] != 0 || affine[4] != 0 || affine[5] != 1) return std::nullopt;
-  return std::array{affine[0].get<double>(), affine[3].get<double>()};
-}
-
-/// Puts a mesh in a local frame back to where the points lie: by what it says of itself, or, where a format has no
-/// place for that, where they do not meet otherwise.
-void put_back(const PointSet& points, Mesh& mesh) {
-  if (const auto way = way_to_source(mesh)) return move(1, *way, mesh);
-  if (points.is_local || mesh.metadata.contains("frame")) return;
-  Mesh moved = mesh;
-  move(1, local_origin(points), moved);
-  const Extent extent = extent_of(points);
-  if (extent.overlap(extent_of(moved)) > extent.overlap(extent_of(mesh))) mesh.origin = moved.origin;
-}
-
-void add_metadata(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
-  Mesh& mesh = outcome.simplified.mesh;
-  // The judge puts the mesh back and reads the points in their own coordinates.
-  add_origin(canonical_command(plan, arguments), outcome.frame(), outcome.centre ? "" : outcome.points.crs,
-             outcome.centre ? "source" : crs_option(plan), mesh);
-  if (outcome.centre) {
-    const auto [x, y] = *outcome.centre;
-    mesh.metadata["origin"] = Json(*outcome.centre).dump();
-    if (!outcome.points.crs.empty()) mesh.metadata["origin_crs"] = outcome.points.crs;
-    mesh.metadata["to_source"] = Json(std::array<double, 6>{x, 1, 0, y, 0, 1}).dump();
-  }
-  mesh.metadata["duplicates"] = policy_name(outcome.policy);
-  const Measurement& measured = outcome.simplified.measurement;
-  const Json error{{"asked", or_null(outcome.asked)},
-                   {"max_error", measured.max_error},
-                   {"rmse", measured.rmse},
-                   {"samples", measured.samples}};
-  mesh.metadata["error"] = error.dump();
-}
-
 Result<ReadyFile> encode(const SimplifyPlan& plan, const PointsArguments& arguments, PointsOutcome& outcome) {
-  if (auto finished = finish_mesh(plan, outcome); !finished) return tl::unexpected(std::move(finished.error()));
-  if (outcome.centre) move(-1, *outcome.centre, outcome.simplified.mesh);
-  add_metadata(plan, arguments, outcome);
+  if (auto completed = complete_mesh(plan, arguments, outcome); !completed)
+    return tl::unexpected(std::move(completed.error()));
   turn_as_planned(plan, outcome.simplified.mesh);
   auto bytes = encode_as(plan.format, outcome.simplified.mesh,
                          {.compress = plan.compress, .threads = plan.simplify.run.threads}, plan.doubles);
@@ -118,129 +24,39 @@ Result<ReadyFile> encode(const SimplifyPlan& plan, const PointsArguments& argume
   return ReadyFile{plan.output, plan.format.name(), std::move(*bytes)};
 }
 
-/// A frame that the mesh file names and the points cannot have.
-Error explain_frame(Error error, const std::string& crs, const std::string& mesh, const std::string& path) {
-  if (error.kind != ErrorKind::kUsage || error.message.find(crs) == std::string::npos) return error;
-  if (crs != "grid") {
-    error.message += fmt::format("; {} names that CRS as its own, --crs overrides it", mesh);
-    return error;
-  }
-  error.message = fmt::format(
-      "{} says of itself that its coordinates are the columns and rows of a raster ('grid'), which the points of {} do "
-      "not have: judge it by its raster, or say with --crs source that x and y of the points count the same",
-      mesh, path);
-  return error;
-}
-
-/// Library errors about the points themselves do not know the file.
-Error with_path(Error error, const std::string& path) {
-  if (error.kind == ErrorKind::kInput && !error.message.starts_with(path))
-    error.message = fmt::format("{}: {}", path, error.message);
-  return error;
-}
-
 }  // namespace
 
 Result<void> run_simplify_points(const CLI::App& command, const SimplifyArguments& given,
                                  const PointsArguments& arguments, const std::string& command_line) {
   const Clock::time_point start = Clock::now();
-  if (auto meant = refuse_raster_options(command, given.raster.path()); !meant) return meant;
-  if (!given.max_error && !given.max_triangles && !given.max_points)
-    return fail(ErrorKind::kUsage,
-                "no goal is given: say how good the mesh must be, such as -e 1 for heights within 1 unit, or how small "
-                "with -t or -p");
-  Result<SimplifyPlan> plan = plan_simplify(given, files_read(command));
-  if (!plan) return tl::unexpected(std::move(plan.error()));
-  if (plan->format.kind == OutputKind::kDem)
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} is a raster, and {} holds points, which lie on no grid: choose a mesh format, "
-                            "such as .glb or .ply",
-                            given.output, shell_word(base_name(given.raster.path()))));
-  const auto policy = parse_policy(arguments.duplicates);
-  if (!policy) return tl::unexpected(policy.error());
-
-  PointsOutcome outcome;
-  outcome.policy = *policy;
   ProgressDisplay display(ProgressDisplay::choose(given.json_progress, given.quiet));
-  const std::string crs = crs_option(*plan);
-  Result<PointSet> points =
-      read(given.raster.path(), arguments, crs.empty() ? Given() : Given(crs), display.callback());
-  if (!points) return tl::unexpected(std::move(points.error()));
-  outcome.points = std::move(*points);
-  if (!outcome.points.lines.empty() && (given.max_triangles || given.max_points))
-    return fail(ErrorKind::kUsage,
-                fmt::format("{} cannot be combined with lines, and {} holds them: they need vertices of their own, "
-                            "beyond any budget; ask for an error with -e",
-                            given.max_triangles ? "--max-triangles" : "--max-points",
-                            shell_word(base_name(given.raster.path()))));
-  if (auto checked = check_crs_of(plan->format, outcome.points.crs, ""); !checked) return checked;
-  if (plan->read.crs.empty() && plan->read.default_frame == DefaultFrame::kLocal && !outcome.points.is_local)
-    outcome.centre = local_origin(outcome.points);
-  auto projections = plan_projection_files(*plan, outcome.points.crs);
-  if (!projections) return tl::unexpected(std::move(projections.error()));
-  outcome.projections = std::move(*projections);
-  outcome.warnings = plan->warnings;
-  outcome.warnings.insert(outcome.warnings.end(), outcome.points.warnings.begin(), outcome.points.warnings.end());
-  const HeightRange heights = height_range(outcome.points);
-  if (plan->error_goal) {
-    if (auto fits = refuse_print("--max-error", *plan->error_goal); !fits) return fits;
-    if (auto fits = check_unit("--max-error", *plan->error_goal, "", outcome.warnings); !fits) return fits;
-  }
-  if (plan->error_goal) outcome.asked = plan->error_goal->absolute(heights.max - heights.min);
-  outcome.seconds_read = seconds_since(start);
-
-  PointOptions options;
-  options.max_error = outcome.asked;
-  options.max_triangles = plan->simplify.goals.max_triangles;
-  options.max_vertices = plan->simplify.goals.max_vertices;
-  options.float32_positions = plan->format.is_float32();  // points do not lie where float32 is exact
-  options.duplicates = outcome.policy;
-  options.run.threads = plan->simplify.run.threads;
-  options.run.progress = display.callback();
-  Result<SimplifiedPoints> simplified = simplify_points(outcome.points, options);
-  if (!simplified) return tl::unexpected(with_path(std::move(simplified.error()), given.raster.path()));
-  outcome.simplified = std::move(simplified->simplified);
-  outcome.duplicates = simplified->duplicates;
-  outcome.on_hull = simplified->on_hull;
-  outcome.lattice_step = simplified->lattice_step;
-  outcome.flat = simplified->flat;
-  outcome.loose = simplified->loose;
-  if (outcome.loose > 0)
-    outcome.warnings.push_back(
-        fmt::format("{} of lines are no edges of the mesh, since other lines of their height "
-                    "cross them",
-                    format_plural(outcome.loose, "piece")));
-  // The engine proves its own result; a mesh whose proof does not hold is never written.
-  const bool has_bound = outcome.simplified.stop == StopReason::kMaxError;
-  const auto broken = find_broken(outcome.points, outcome.simplified.measurement,
-                                  has_bound ? *outcome.asked : outcome.simplified.measurement.max_error);
-  if (broken)
-    return fail(ErrorKind::kPromise,
-                "the mesh does not keep its promise and was not written; this is a bug in Scarp: " + *broken);
+  SimplifyPlan plan;
+  PointsOutcome outcome;
+  if (auto made = make_points_mesh(command, given, arguments, {display.callback()}, plan, outcome); !made) return made;
 
   const Clock::time_point write_start = Clock::now();
-  Result<ReadyFile> file = encode(*plan, arguments, outcome);
+  Result<ReadyFile> file = encode(plan, arguments, outcome);
   if (!file) return tl::unexpected(std::move(file.error()));
   std::vector<ReadyFile> files{std::move(*file)};
   for (const ProjectionFile& projection : outcome.projections) files.push_back(ready(projection));
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
   std::vector<FileBytes> named;
   for (const ReadyFile& each : files) named.push_back({each.path, each.bytes});
-  const Result<void> written = write_files(named, plan->overwrite);
+  const Result<void> written = write_files(named, plan.overwrite);
   if (!written) return written;
   outcome.seconds_write = seconds_since(write_start);
   outcome.seconds_total = seconds_since(start);
-  if (plan->report) {
-    const Json report = make_report(*plan, outcome, files, command_line);
-    const Result<void> reported = write_report(report, *plan->report, plan->overwrite, plan->output);
+  if (plan.report) {
+    const Json report = make_report(plan, outcome, files, command_line);
+    const Result<void> reported = write_report(report, *plan.report, plan.overwrite, plan.output);
     if (!reported) return reported;
   }
   display.finish();
 
   if (given.quiet) return {};
   print_warnings(outcome.warnings);
-  const std::string summary = make_summary(*plan, outcome, files);
-  if (!is_stdout(plan->output) && !is_stdout(plan->report.value_or(""))) return print_summary(summary);
+  const std::string summary = make_summary(plan, outcome, files);
+  if (!is_stdout(plan.output) && !is_stdout(plan.report.value_or(""))) return print_summary(summary);
   print_to_stderr(summary);
   return {};
 }
@@ -248,55 +64,9 @@ Result<void> run_simplify_points(const CLI::App& command, const SimplifyArgument
 Result<void> run_measure_points(const CLI::App& command, const MeasurePointsArguments& given,
                                 const PointsArguments& arguments, const std::string& command_line) {
   const Clock::time_point start = Clock::now();
-  if (auto meant = refuse_raster_options(command, given.path); !meant) return meant;
-  const Result<int> threads = parse_threads(given.threads);
-  if (!threads) return tl::unexpected(threads.error());
-  JudgedPoints judged;
-  std::optional<ErrorGoal> goal;
-  if (given.fail_above) {
-    Result<ErrorGoal> parsed = parse_error_goal("--fail-above", *given.fail_above);
-    if (!parsed) return tl::unexpected(std::move(parsed.error()));
-    if (auto fits = refuse_print("--fail-above", *parsed); !fits) return fits;
-    goal = std::move(*parsed);
-  }
   ProgressDisplay display(ProgressDisplay::choose(given.json_progress, given.quiet));
-  Result<Mesh> mesh = read_mesh(given.mesh);
-  if (!mesh) return tl::unexpected(std::move(mesh.error()));
-  judged.mesh = std::move(*mesh);
-  // What was asked of the mesh holds for its judge, unless it is told otherwise.
-  const auto remembered = [&](const Given& option, const char* key) -> Given {
-    const auto entry = judged.mesh.metadata.find(key);
-    return option || entry == judged.mesh.metadata.end() ? option : Given(entry->second);
-  };
-  const auto policy = parse_policy(remembered(arguments.duplicates, "duplicates"));
-  if (!policy) return tl::unexpected(policy.error());
-  judged.policy = *policy;
-  Given crs = remembered(given.crs, "crs_option");
-  if (!given.crs && crs == Given("local") && way_to_source(judged.mesh)) crs = "source";
-  Result<PointSet> points = read(given.path, arguments, crs, display.callback());
-  if (!points && !given.crs && crs)
-    return tl::unexpected(explain_frame(std::move(points.error()), *crs, given.mesh, given.path));
-  if (!points) return tl::unexpected(std::move(points.error()));
-  judged.points = std::move(*points);
-  if (!given.crs) put_back(judged.points, judged.mesh);
-  if (goal) {
-    if (auto fits = check_unit("--fail-above", *goal, "", judged.points.warnings); !fits) return fits;
-    const HeightRange heights = height_range(judged.points);
-    judged.fail_above = goal->absolute(heights.max - heights.min);
-  }
-  judged.seconds_read = seconds_since(start);
-
-  const Clock::time_point measure_start = Clock::now();
-  MeasureOptions options;
-  options.run.threads = *threads;
-  options.run.progress = display.callback();
-  Result<Measurement> measured = measure_points(judged.points, judged.mesh, judged.policy, options);
-  if (!measured) return tl::unexpected(std::move(measured.error()));
-  judged.measured = std::move(*measured);
-  judged.seconds_measure = seconds_since(measure_start);
-  if (judged.fail_above) judged.broken = find_broken(judged.points, judged.measured, *judged.fail_above);
-  if (judged.measured.samples == 0)
-    judged.broken = describe_elsewhere(extent_of(judged.mesh), extent_of(judged.points), given.path);
+  JudgedPoints judged;
+  if (auto done = judge_points(command, given, arguments, {display.callback()}, judged); !done) return done;
   if (interrupted()) return fail(ErrorKind::kCancelled, "interrupted");
   display.finish();
   judged.seconds_total = seconds_since(start);

@@ -167,25 +167,6 @@ Result<std::vector<std::uint8_t>> encode_dem(const SimplifyPlan& plan, const Out
   return encode_raster({*heights, outcome.field.cols, outcome.field.rows, &outcome.as_read}, plan.format.raster);
 }
 
-/// Compression, and the images that the file holds.
-Result<GlbOptions> glb_options(const SimplifyPlan& plan, const Outcome& outcome) {
-  const std::array<double, 6>& affine = outcome.field.frame.affine;
-  GlbOptions glb{.compress = plan.compress, .cell = {affine[1], affine[5]}, .threads = plan.simplify.run.threads};
-  if (plan.images.drape) {
-    auto bytes = encode_image(outcome.drape, plan.images.drape_format);
-    if (!bytes) return tl::unexpected(bytes.error());
-    glb.base_color = {std::move(*bytes), mime_type_of(plan.images.drape_format)};
-  }
-  if (plan.images.normal_map) {
-    const auto normals = draw_normal_map(outcome.field, *plan.images.normal_map);
-    if (!normals) return tl::unexpected(normals.error());
-    auto bytes = encode_png(*normals);
-    if (!bytes) return tl::unexpected(bytes.error());
-    glb.normal_map = {std::move(*bytes), "image/png"};
-  }
-  return glb;
-}
-
 /// Whether OUTPUT is made from the samples as well as from the mesh.
 bool reads_samples(const SimplifyPlan& plan) {
   return plan.format.kind == OutputKind::kDem || plan.images.normal_map.has_value();
@@ -243,6 +224,30 @@ Result<void> encode_levels(const SimplifyPlan& plan, Outcome& outcome, std::vect
 
 }  // namespace
 
+Result<GlbOptions> glb_options(const SimplifyPlan& plan, const Outcome& outcome) {
+  const std::array<double, 6>& affine = outcome.field.frame.affine;
+  GlbOptions glb{.compress = plan.compress, .cell = {affine[1], affine[5]}, .threads = plan.simplify.run.threads};
+  if (plan.images.drape) {
+    auto bytes = encode_image(outcome.drape, plan.images.drape_format);
+    if (!bytes) return tl::unexpected(bytes.error());
+    glb.base_color = {std::move(*bytes), mime_type_of(plan.images.drape_format)};
+  }
+  if (plan.images.normal_map) {
+    const auto normals = draw_normal_map(outcome.field, *plan.images.normal_map);
+    if (!normals) return tl::unexpected(normals.error());
+    auto bytes = encode_png(*normals);
+    if (!bytes) return tl::unexpected(bytes.error());
+    glb.normal_map = {std::move(*bytes), "image/png"};
+  }
+  return glb;
+}
+
+Result<void> complete_mesh(const SimplifyPlan& plan, Outcome& outcome) {
+  if (auto finished = finish_mesh(plan, outcome); !finished) return finished;
+  add_metadata(plan, outcome);
+  return {};
+}
+
 Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const ProgressCallback& progress,
                                             Outcome& outcome) {
   std::vector<ReadyFile> files{{plan.output, plan.format.name(), {}}};
@@ -253,9 +258,8 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
   if (plan.preview) added = add_preview(plan, outcome, files);
   if (added && plan.render) added = add_render(plan, outcome, files);
   if (added && plan.error_raster) added = add_error_raster(plan, progress, outcome, files);
-  if (added) added = finish_mesh(plan, outcome);
+  if (added) added = complete_mesh(plan, outcome);
   if (!added) return tl::unexpected(std::move(added.error()));
-  add_metadata(plan, outcome);
   if (outcome.print && plan.format.mesh != MeshFormat::k3mf) {
     if (auto encoded = encode_print_tiles(plan, outcome, files); !encoded)
       return tl::unexpected(std::move(encoded.error()));

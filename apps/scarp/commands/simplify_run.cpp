@@ -4,7 +4,6 @@
 
 #include "reports/report.h"
 #include "scarp/version.h"
-#include "terminal/signals.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -17,8 +16,6 @@ std::vector<Pass> list_passes(const SimplifyRun& run) {
   passes.push_back({"write", run.seconds_write});
   return passes;
 }
-
-const char* end_of_effort() { return content_with_interrupt() ? "the interrupt" : "the time limit"; }
 
 }  // namespace
 
@@ -153,7 +150,8 @@ std::string describe_end(const SimplifyPlan& plan, const SimplifyRun& run, const
     switch (run.simplified.stop) {
       case StopReason::kMaxError:
         return run.simplified.is_cut_short
-                   ? fmt::format("Reached the error goal, when {} ended the effort", end_of_effort())
+                   ? fmt::format("Reached the error goal, when {} ended the effort",
+                                 run.was_ended ? "the interrupt" : "the time limit")
                    : "Reached the error goal";
       case StopReason::kMaxTriangles:
         return fmt::format("Reached the triangle budget of {}",

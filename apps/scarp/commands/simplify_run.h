@@ -36,6 +36,7 @@ struct SimplifyRun {
   std::optional<Print> print;                             ///< with --solid
   std::vector<ProjectionFile> projections;                ///< beside OUTPUT, or each level
   std::vector<std::string> warnings;
+  bool was_ended = false;  ///< a run that is cut short, by who waited for it
   double seconds_read = 0, seconds_write = 0, seconds_total = 0;
 };
 

@@ -11,6 +11,7 @@
 #include "options/cutline_options.h"
 #include "options/memory.h"
 #include "scarp/features.h"
+#include "scarp/glb.h"
 #include "scarp/height_field.h"
 #include "scarp/judge.h"
 
@@ -58,6 +59,11 @@ GoalError find_goal_error(const Outcome& outcome);
 
 /// What the process may take, and has taken beside the mesh; of no limit: zeros.
 MemoryShare memory_of(const SimplifyPlan& plan, const Outcome& outcome);
+
+/// Compression, and the images that a GLB file holds.
+Result<GlbOptions> glb_options(const SimplifyPlan& plan, const Outcome& outcome);
+/// Closes the mesh into a solid where that was asked for, and writes into it who made it and where it lies.
+Result<void> complete_mesh(const SimplifyPlan& plan, Outcome& outcome);
 
 /// Every file but the report, OUTPUT first. Closes the mesh into a solid where that was asked for. The field's samples
 /// are given back before OUTPUT is encoded, unless it is made from them.
