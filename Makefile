@@ -7,14 +7,15 @@ PREFIX ?= /usr/local
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 CMAKE_FLAGS ?=
 DATA ?= $(or $(SCARP_SHARED),../shared)/data
+C_TARGETS = $(if $(filter -DSCARP_BUILD_C=OFF,$(CMAKE_FLAGS)),,scarp_c scarp_c_static)
 export BUILD JOBS DATA
 
-.PHONY: build demo globe qgis check test soak wasm-check bench paper install clean format tidy help
+.PHONY: build demo globe qgis python check test soak wasm-check bench paper install clean format tidy help
 
 build:
 	@tools/install_packages.sh build
 	@tools/configure.sh $(BUILD) $(CMAKE_FLAGS)
-	@cmake --build $(BUILD) -j $(JOBS) --target scarp scarp_program
+	@cmake --build $(BUILD) -j $(JOBS) --target scarp scarp_program $(C_TARGETS)
 
 demo:
 	@tools/install_packages.sh build run
@@ -27,6 +28,12 @@ globe:
 	@tools/globe.sh $(BUILD)/bin/scarp data/jacksboro_fault.tif globe --vertical egm96
 	@echo "Open the address below; Ctrl-C ends."
 	@python3 tools/globe/serve.py globe
+
+python:
+	@tools/install_packages.sh build run
+	@tools/configure.sh $(BUILD) $(CMAKE_FLAGS)
+	@cmake --build $(BUILD) -j $(JOBS) --target scarp_c_alone
+	@tools/build_python.sh $(BUILD) dist
 
 check:
 	@tools/install_packages.sh build run test
@@ -81,6 +88,7 @@ help:
 	@echo 'make demo     build, simplify a bundled DEM into demo/, check the result'
 	@echo 'make globe    build, make tiles of a bundled DEM and a page with CesiumJS in globe/, and serve it on this machine'
 	@echo 'make qgis     build, pack the plugin for QGIS into dist/'
+	@echo 'make python   the wheel and the sdist of Scarp for Python, into dist/'
 	@echo 'make check    what to run before every commit: the fast tests'
 	@echo 'make test     everything: tests, sanitizers, a short run of the fuzzers'
 	@echo 'make soak     the files in DATA, then laws and fuzzers from fresh random seeds for SOAK_MINUTES (10)'

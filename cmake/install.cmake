@@ -5,6 +5,12 @@ install(TARGETS scarp EXPORT scarpTargets)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/scarp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
+if(SCARP_BUILD_C)
+  install(TARGETS scarp_c EXPORT scarpTargets)
+  install(TARGETS scarp_c_static)
+  install(FILES ${PROJECT_SOURCE_DIR}/bindings/c/scarp_c.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endif()
+
 # find_package(scarp): the library's dependencies are looked for again on the consumer's side.
 set(scarp_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/scarp)
 get_target_property(scarp_type scarp TYPE)
@@ -44,6 +50,12 @@ else()
 endif()
 configure_file(${CMAKE_CURRENT_LIST_DIR}/scarp.pc.in ${PROJECT_BINARY_DIR}/scarp.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/scarp.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+if(SCARP_BUILD_C)
+  set(scarp_c_requires_fields
+      "Requires.private: ${scarp_requires}\nLibs: -L\${libdir} -lscarp_c\nLibs.private: ${scarp_libs} -lstdc++ -lm")
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/scarp_c.pc.in ${PROJECT_BINARY_DIR}/scarp_c.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/scarp_c.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endif()
 
 if(SCARP_BUILD_APPS)
   # The program finds a shared library beside it, wherever the prefix is moved to.

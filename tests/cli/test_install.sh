@@ -52,6 +52,17 @@ if command -v pkg-config >/dev/null; then
   # shellcheck disable=SC2046
   c++ -std=c++20 "$source_tree/docs/guide/library.cpp" -o "$scratch/guide" $(pkg-config --cflags --libs scarp)
   (cd "$scratch" && LD_LIBRARY_PATH="$prefix/lib" ./guide) || fail "the program of docs/guide/library.md"
+  if [ -e "$prefix/include/scarp_c.h" ]; then
+    # shellcheck disable=SC2046
+    cc -std=c99 "$source_tree/examples/c/client.c" -o "$scratch/c_client" $(pkg-config --cflags --libs scarp_c)
+    (cd "$scratch" && LD_LIBRARY_PATH="$prefix/lib" ./c_client >c_client.out) || fail "a client of the C library"
+    # shellcheck disable=SC2046
+    cc -std=c99 "$source_tree/examples/c/client.c" -o "$scratch/static_client" -I"$prefix/include" \
+      "$prefix/lib/libscarp_c.a" $(pkg-config --libs --static scarp_c | sed 's/-lscarp_c //')
+    (cd "$scratch" && ./static_client | cmp - c_client.out) || fail "a client of the static C library"
+  else
+    echo "the C library is not built: that part is skipped"
+  fi
   [ "$(pkg-config --modversion scarp)" = "$("$prefix/bin/scarp" --version | grep -o '[0-9][0-9.]*' | head -n 1)" ] ||
     fail "scarp.pc and the program disagree about the version"
 else

@@ -1,0 +1,52 @@
+// What every function of the C door shares: statuses, sentences, structs of any age, and no exception that leaves.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "scarp/progress.h"
+#include "scarp/result.h"
+#include "scarp_c.h"
+
+namespace scarp::door {
+
+/// Keeps the sentence, in the words of the door: an option by its name there.
+scarp_status report(const Error& error);
+scarp_status report(ErrorKind kind, const std::string& sentence);
+/// Of the exception that is being handled.
+scarp_status report_exception();
+
+/// Runs `work`, which returns a scarp_status.
+template <class Work>
+scarp_status guarded(Work&& work) noexcept {
+  try {
+    return work();
+  } catch (...) {
+    return report_exception();
+  }
+}
+
+/// What the caller knows of a struct; the rest as init leaves it.
+template <class T>
+T known(const T* given, void (*init)(T*, std::uint32_t)) {
+  T all;
+  init(&all, sizeof all);
+  if (given != nullptr) std::memcpy(&all, given, std::min<std::size_t>(given->struct_size, sizeof all));
+  return all;
+}
+
+/// Fills in as much of the caller's struct as it has.
+template <class T>
+void hand_out(const T& all, T* out) {
+  const std::uint32_t size = out->struct_size;
+  std::memcpy(out, &all, std::min<std::size_t>(size, sizeof all));
+  out->struct_size = size;
+}
+
+ProgressCallback progress_of(const scarp_options& asked);
+
+}  // namespace scarp::door

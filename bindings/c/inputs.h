@@ -1,0 +1,30 @@
+// The structs of the door as what readers take for files.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "scarp/lent.h"
+#include "scarp_c.h"
+
+namespace scarp::door {
+
+/// Lends a field, and with it the arrays of the options, by their names.
+class LentInputs {
+ public:
+  LentInputs(const scarp_field* field, const scarp_options& asked);
+  LentInputs(const scarp_points* points);
+
+  /// kUsage where a pointer that is needed is null, or a number out of range.
+  Result<void> check() const;
+  const std::string& name() const { return name_; }
+
+ private:
+  std::string name_;
+  const char* missing_ = nullptr;
+  LentRaster raster_, mask_, tolerance_;
+  PointSet points_;
+  std::optional<Lent> lent_, lent_mask_, lent_tolerance_;
+};
+
+}  // namespace scarp::door

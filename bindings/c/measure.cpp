@@ -1,0 +1,89 @@
+// measure() by the program's own plans.
+#include <CLI/CLI.hpp>
+
+#include "commands/measure_command.h"
+#include "commands/points_work.h"
+#include "door.h"
+#include "inputs.h"
+#include "mesh.h"
+#include "options/option_table.h"
+#include "settings.h"
+
+namespace scarp::door {
+namespace {
+
+constexpr const char* kMeshName = "the mesh";
+
+scarp_status finish(const Measurement& measured, std::uint64_t over, double seconds,
+                    const std::optional<std::string>& broken, scarp_report* out) {
+  scarp_report all = describe_measurement(measured);
+  all.over = over;
+  all.seconds = seconds;
+  hand_out(all, out);
+  return broken ? report(ErrorKind::kPromise, *broken) : SCARP_OK;
+}
+
+scarp_status judge(const std::string& input, bool are_points, const Mesh& mesh, const scarp_options& asked,
+                   scarp_report* out) {
+  const Lent lent(kMeshName, mesh);
+  CLI::App program;
+  cli::MeasureCommand command(program);
+  std::vector<std::string> words{"measure", input, kMeshName};
+  if (are_points) words.emplace_back("--points");
+  if (auto parsed = parse_words(program, cli::kMeasure, std::move(words), asked); !parsed)
+    return report(parsed.error());
+  const cli::Runner runner{progress_of(asked)};
+  if (command.are_points()) {
+    cli::JudgedPoints judged;
+    if (auto done = command.judge_points_inputs(runner, judged); !done) return report(done.error());
+    return finish(judged.measured, judged.measured.over_tolerance, judged.seconds_measure, judged.broken, out);
+  }
+  cli::Judged judged;
+  cli::MeasureCommand::StreamedErrors errors;
+  if (auto done = command.judge_inputs(runner, judged, errors); !done) return report(done.error());
+  const std::uint64_t over = judged.judgement.weighted ? judged.judgement.weighted->over : 0;
+  return finish(judged.judgement.heights, over, judged.seconds_measure, judged.broken, out);
+}
+
+scarp_status refuse_null_mesh() {
+  return report(ErrorKind::kUsage, "the mesh, or the place for its report, is a null pointer");
+}
+
+}  // namespace
+}  // namespace scarp::door
+
+using namespace scarp::door;
+
+extern "C" {
+
+scarp_status scarp_measure(const scarp_field* field, const scarp_mesh* mesh, const scarp_options* options,
+                           scarp_report* out) {
+  return guarded([&]() -> scarp_status {
+    if (mesh == nullptr || out == nullptr) return refuse_null_mesh();
+    const scarp_options asked = known(options, scarp_options_init);
+    const LentInputs inputs(field, asked);
+    if (auto checked = inputs.check(); !checked) return report(checked.error());
+    return judge(inputs.name(), false, mesh->mesh, asked, out);
+  });
+}
+
+scarp_status scarp_measure_file(const char* path, const scarp_mesh* mesh, const scarp_options* options,
+                                scarp_report* out) {
+  return guarded([&]() -> scarp_status {
+    if (mesh == nullptr || out == nullptr) return refuse_null_mesh();
+    if (path == nullptr || *path == '\0') return report(scarp::ErrorKind::kUsage, "the path is empty");
+    return judge(path, false, mesh->mesh, known(options, scarp_options_init), out);
+  });
+}
+
+scarp_status scarp_measure_points(const scarp_points* points, const scarp_mesh* mesh, const scarp_options* options,
+                                  scarp_report* out) {
+  return guarded([&]() -> scarp_status {
+    if (mesh == nullptr || out == nullptr) return refuse_null_mesh();
+    const LentInputs inputs(points);
+    if (auto checked = inputs.check(); !checked) return report(checked.error());
+    return judge(inputs.name(), true, mesh->mesh, known(options, scarp_options_init), out);
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,46 @@
+// What a scarp_mesh holds.
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "options/options.h"
+#include "options/output_kind.h"
+#include "reports/simplify_outcome.h"
+#include "scarp/glb.h"
+#include "scarp/measure.h"
+#include "scarp/mesh.h"
+#include "scarp_c.h"
+
+struct scarp_bytes {
+  std::vector<std::uint8_t> bytes;
+};
+
+struct scarp_mesh {
+  scarp::Mesh mesh;  ///< z up
+  std::optional<scarp_report> report;
+  scarp::cli::OutputFormat format;  ///< that it was made for
+  scarp::cli::Given up;
+  std::string crs;  ///< that was asked for
+  bool is_print = false, doubles = false;
+  scarp::GlbOptions glb;
+  std::string warnings;
+
+  const float* rounded() const;
+
+ private:
+  mutable std::once_flag once_;
+  mutable std::vector<float> rounded_;
+};
+
+namespace scarp::door {
+
+scarp_report describe_measurement(const Measurement& measured);
+scarp_report describe_run(const Simplified& simplified);
+std::string join_lines(const std::vector<std::string>& sentences);
+/// Copies all but the positions in float32.
+std::unique_ptr<scarp_mesh> copy_mesh(const scarp_mesh& mesh);
+
+}  // namespace scarp::door

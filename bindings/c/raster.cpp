@@ -1,0 +1,61 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "door.h"
+#include "options/simplify_plan.h"
+#include "scarp/io.h"
+#include "settings.h"
+
+struct scarp_raster {
+  scarp::OwnedHeightField field;
+};
+
+using namespace scarp::door;
+using scarp::ErrorKind;
+
+extern "C" {
+
+scarp_status scarp_raster_read(const char* path, const scarp_options* options, scarp_raster** out) {
+  return guarded([&]() -> scarp_status {
+    if (out == nullptr) return report(ErrorKind::kUsage, "the place for the raster is a null pointer");
+    *out = nullptr;
+    if (path == nullptr || *path == '\0') return report(ErrorKind::kUsage, "the path is empty");
+    const scarp_options asked = known(options, scarp_options_init);
+    CLI::App program;
+    CLI::App* const command = scarp::cli::add_command(program, scarp::cli::kSimplify);
+    scarp::cli::SimplifyArguments given;
+    given.add_to(*command);
+    if (auto parsed = parse_words(program, scarp::cli::kSimplify, {"simplify", path, "-"}, asked); !parsed)
+      return report(parsed.error());
+    auto read = given.raster.parse();
+    if (!read) return report(read.error());
+    read->run.progress = progress_of(asked);
+    read->run.threads = asked.threads;
+    auto field = scarp::read_height_field(path, *read);
+    if (!field) return report(field.error());
+    *out = new scarp_raster{std::move(*field)};
+    return SCARP_OK;
+  });
+}
+
+void scarp_raster_field(const scarp_raster* raster, scarp_field* out) {
+  scarp_field all;
+  scarp_field_init(&all, sizeof all);
+  const scarp::OwnedHeightField& field = raster->field;
+  all.cols = field.cols;
+  all.rows = field.rows;
+  all.samples = field.samples.data();
+  all.sample_rounding = field.sample_rounding;
+  const scarp::RasterInfo& info = field.info;
+  all.frame = !info.has_georeference ? SCARP_FRAME_GRID : info.is_geographic ? SCARP_FRAME_DEGREES : SCARP_FRAME_SOURCE;
+  std::copy(info.geotransform.begin(), info.geotransform.end(), all.geotransform);
+  all.crs = info.crs.empty() ? nullptr : info.crs.c_str();
+  all.name = info.path.c_str();
+  hand_out(all, out);
+}
+
+void scarp_raster_free(scarp_raster* raster) { delete raster; }
+
+}  // extern "C"

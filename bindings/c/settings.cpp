@@ -1,0 +1,179 @@
+#include "settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+#include <sstream>
+
+#include "door.h"
+#include "options/unknown_words.h"
+
+namespace scarp::door {
+namespace {
+
+using cli::Commands;
+using cli::OptionId;
+using cli::OptionRow;
+using cli::OptionType;
+
+constexpr Commands kDoorCommands = cli::kSimplify | cli::kMeasure | cli::kTile;
+
+/// What only a program has a use for: its terminal, its files, more than one mesh.
+bool is_of_program(const OptionRow& row) {
+  constexpr OptionId kOfProgram[] = {OptionId::kOverwrite, OptionId::kQuiet,    OptionId::kTiming,
+                                     OptionId::kJson,      OptionId::kPoints,   OptionId::kJsonProgress,
+                                     OptionId::kLods,      OptionId::kLodsInOne};
+  return row.is_argument() || row.type == OptionType::kOutputFile || row.type == OptionType::kFolder ||
+         std::find(std::begin(kOfProgram), std::end(kOfProgram), row.id) != std::end(kOfProgram);
+}
+
+const OptionRow* find_row(Commands command, const std::string& name) {
+  for (const OptionRow* row : cli::rows_of(command)) {
+    if (row->name == name) return row;
+  }
+  return nullptr;
+}
+
+/// "max_error", "max-error" and "--max-error" are one.
+std::string name_in_program(const char* name) {
+  std::string text(name);
+  text.erase(0, std::min(text.find_first_not_of('-'), text.size()));
+  std::replace(text.begin(), text.end(), '_', '-');
+  return "--" + text;
+}
+
+std::string without_dashes(std::string name) {
+  name.erase(0, 2);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
+Result<void> check_name(const std::string& name) {
+  const OptionRow* const row = find_row(kDoorCommands, name);
+  if (row != nullptr && !is_of_program(*row)) return {};
+  if (row != nullptr) {
+    return fail(ErrorKind::kUsage, fmt::format("option {} is the program's alone: it is about its terminal, its files, "
+                                               "or several meshes",
+                                               without_dashes(name)));
+  }
+  CLI::App program;
+  for (const Commands command : {cli::kSimplify, cli::kMeasure, cli::kTile}) {
+    const std::string sentence = cli::describe_unknown_option(cli::add_command(program, command), name);
+    if (command == cli::kTile || sentence.ends_with(")"))
+      return fail(ErrorKind::kUsage, "option " + without_dashes(name) + sentence.substr(sentence.find(" is unknown")));
+  }
+  return {};
+}
+
+std::optional<bool> find_truth(const std::string& value) {
+  for (const char* yes : {"", "true", "True", "1", "yes", "on"}) {
+    if (value == yes) return true;
+  }
+  for (const char* no : {"false", "False", "0", "no", "off"}) {
+    if (value == no) return false;
+  }
+  return std::nullopt;
+}
+
+/// The words that a command line would have for the option.
+Result<void> add_words(const OptionRow& row, const std::string& value, std::vector<std::string>& words) {
+  const std::string name = row.name;
+  if (row.type == OptionType::kFlag) {
+    const std::optional<bool> truth = find_truth(value);
+    if (!truth) return fail(ErrorKind::kUsage, fmt::format("{} '{}' is neither true nor false", name, value));
+    if (*truth) words.push_back(name);
+    return {};
+  }
+  if (value.empty()) return fail(ErrorKind::kUsage, name + " has no value");
+  if (std::string_view(row.value).find(' ') == std::string_view::npos) {
+    words.push_back(name + "=" + value);
+    return {};
+  }
+  words.push_back(name);
+  std::istringstream parts(value);
+  std::copy(std::istream_iterator<std::string>(parts), {}, std::back_inserter(words));
+  return {};
+}
+
+/// The members of the struct, as options by name.
+std::vector<std::pair<std::string, std::string>> common_settings(const scarp_options& asked) {
+  std::vector<std::pair<std::string, std::string>> settings;
+  if (!std::isnan(asked.max_error)) settings.emplace_back("--max-error", fmt::format("{}", asked.max_error));
+  if (asked.max_triangles != 0) settings.emplace_back("--max-triangles", fmt::format("{}", asked.max_triangles));
+  if (asked.max_points != 0) settings.emplace_back("--max-points", fmt::format("{}", asked.max_points));
+  if (asked.threads != 0) settings.emplace_back("--num-threads", fmt::format("{}", asked.threads));
+  if (asked.mask != nullptr) settings.emplace_back("--mask", "mask");
+  if (asked.tolerance != nullptr) settings.emplace_back("--tolerance", "tolerance");
+  return settings;
+}
+
+}  // namespace
+
+bool has_setting(const scarp_options& asked, const char* name) {
+  if (asked.named == nullptr) return false;
+  const auto& values = asked.named->values;
+  return std::any_of(values.begin(), values.end(), [&](const auto& setting) { return setting.first == name; });
+}
+
+Result<void> parse_words(CLI::App& program, Commands command, std::vector<std::string> arguments,
+                         const scarp_options& asked) {
+  std::vector<std::string> words = std::move(arguments);
+  const auto add = [&](const std::string& name, const std::string& value) -> Result<void> {
+    const OptionRow* const row = find_row(command, name);
+    if (row == nullptr)
+      return fail(ErrorKind::kUsage,
+                  fmt::format("option {} has no meaning here: no such option of 'scarp {}'", without_dashes(name),
+                              program.get_subcommands([](const CLI::App*) { return true; }).front()->get_name()));
+    return add_words(*row, value, words);
+  };
+  for (const auto& [name, value] : common_settings(asked)) {
+    if (has_setting(asked, name.c_str())) continue;
+    if (auto added = add(name, value); !added) return added;
+  }
+  if (asked.named != nullptr) {
+    for (const auto& [name, value] : asked.named->values) {
+      if (auto added = add(name, value); !added) return added;
+    }
+  }
+  std::reverse(words.begin(), words.end());  // as CLI11 takes them
+  try {
+    program.parse(words);
+  } catch (const CLI::ParseError& error) {
+    return fail(ErrorKind::kUsage, error.what());
+  }
+  return {};
+}
+
+}  // namespace scarp::door
+
+using namespace scarp::door;
+
+extern "C" {
+
+scarp_status scarp_options_set(scarp_options* options, const char* name, const char* value) {
+  return guarded([&]() -> scarp_status {
+    if (options == nullptr || name == nullptr)
+      return report(scarp::ErrorKind::kUsage, "the options, or the name of one, are a null pointer");
+    if (options->struct_size < offsetof(scarp_options, named) + sizeof options->named)
+      return report(scarp::ErrorKind::kUsage, "the options are not initialised: call scarp_options_init() first");
+    const std::string word = name_in_program(name);
+    if (auto checked = check_name(word); !checked) return report(checked.error());
+    if (options->named == nullptr) options->named = new scarp_settings;
+    auto& values = options->named->values;
+    const bool adds = value != nullptr && find_row(kDoorCommands, word)->is_repeatable;
+    if (!adds) std::erase_if(values, [&](const auto& setting) { return setting.first == word; });
+    if (value != nullptr) values.emplace_back(word, value);
+    return SCARP_OK;
+  });
+}
+
+void scarp_options_clear(scarp_options* options) {
+  if (options == nullptr || options->struct_size < offsetof(scarp_options, named) + sizeof options->named) return;
+  delete options->named;
+  options->named = nullptr;
+}
+
+}  // extern "C"

@@ -1,0 +1,28 @@
+// Options by name: the words of a command line, read by the program's own table and parsers.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "options/option_table.h"
+#include "scarp/result.h"
+#include "scarp_c.h"
+
+struct scarp_settings {
+  /// Names as the program has them ("--max-error"), in the order in which they were set.
+  std::vector<std::pair<std::string, std::string>> values;
+};
+
+namespace scarp::door {
+
+/// An option of a call.
+bool has_setting(const scarp_options& asked, const char* name);
+
+/// Has `program`, to which the command was added, parse the inputs and outputs `arguments` and the options: the
+/// struct's members where no option by name goes before them, then those by name. Fails with kUsage, in one sentence.
+Result<void> parse_words(CLI::App& program, cli::Commands command, std::vector<std::string> arguments,
+                         const scarp_options& asked);
+
+}  // namespace scarp::door

@@ -1,0 +1,175 @@
+// simplify() by the program's own plans, on what is in memory and on files.
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <utility>
+
+#include "commands/points_work.h"
+#include "commands/simplify_work.h"
+#include "door.h"
+#include "inputs.h"
+#include "mesh.h"
+#include "options/option_table.h"
+#include "scarp/picture.h"
+#include "settings.h"
+
+namespace scarp::door {
+namespace {
+
+/// The command's options, as a run of the program would hold them. A thread keeps them: to make them anew takes longer
+/// than to simplify a small field.
+struct SimplifyWords {
+  CLI::App program;
+  CLI::App* command = cli::add_command(program, cli::kSimplify);
+  cli::SimplifyArguments given;
+  cli::PointsArguments points;
+
+  SimplifyWords() {
+    given.add_to(*command);
+    points.add_to(*command);
+  }
+  Result<void> parse(const std::string& input, const scarp_options& asked) {
+    given = {};
+    points = {};
+    std::vector<std::string> words{"simplify", input, "-"};
+    if (!has_setting(asked, "--of")) words.push_back("--of=glb");
+    return parse_words(program, cli::kSimplify, std::move(words), asked);
+  }
+};
+
+SimplifyWords& words_of_thread() {
+  thread_local SimplifyWords words;
+  return words;
+}
+
+/// Whoever does not say what the mesh is for gets the raster's own coordinates, in which arrays are compared.
+void choose_frame(const scarp_options& asked, ReadOptions& read) {
+  if (!has_setting(asked, "--of")) read.default_frame = DefaultFrame::kMetric;
+}
+
+Result<void> check_goal(const cli::SimplifyArguments& given) {
+  if (given.max_error || given.max_triangles || given.max_points || given.companions.find_tolerance() != nullptr)
+    return {};
+  return fail(ErrorKind::kUsage,
+              "no goal is given: say how good the mesh must be with max_error, or how small with max_triangles or "
+              "max_points");
+}
+
+std::unique_ptr<scarp_mesh> hand_over(const cli::SimplifyPlan& plan, const cli::SimplifyArguments& given,
+                                      cli::SimplifyRun& run) {
+  auto mesh = std::make_unique<scarp_mesh>();
+  mesh->report = describe_run(run.simplified);
+  mesh->mesh = std::move(run.simplified.mesh);
+  mesh->format = plan.format;
+  mesh->up = given.up;
+  mesh->crs = plan.read.crs;
+  mesh->is_print = plan.solid.has_value();
+  mesh->doubles = plan.doubles;
+  mesh->glb.compress = plan.compress;
+  mesh->glb.threads = plan.simplify.run.threads;
+  mesh->warnings = join_lines(run.warnings);
+  return mesh;
+}
+
+/// A print's mesh is that of its one tile.
+Result<void> take_print(cli::Outcome& outcome, scarp_mesh& mesh) {
+  if (!outcome.print) return {};
+  if (outcome.print->tiles.size() != 1)
+    return fail(ErrorKind::kUsage, "a print that is split is several meshes: leave split out");
+  Mesh solid = std::move(outcome.print->tiles.front().mesh);
+  solid.metadata.insert(mesh.mesh.metadata.begin(), mesh.mesh.metadata.end());
+  solid.metadata["name"] = "terrain";
+  mesh.mesh = std::move(solid);
+  mesh.report->vertices = mesh.mesh.vertex_count();
+  mesh.report->triangles = mesh.mesh.triangle_count();
+  return {};
+}
+
+Result<std::unique_ptr<scarp_mesh>> simplify_points_of(SimplifyWords& words, const scarp_options& asked) {
+  cli::Runner runner{progress_of(asked)};
+  runner.on_plan = [&](ReadOptions& read) { choose_frame(asked, read); };
+  cli::SimplifyPlan plan;
+  cli::PointsOutcome outcome;
+  if (auto made = cli::make_points_mesh(*words.command, words.given, words.points, runner, plan, outcome); !made)
+    return tl::unexpected(made.error());
+  if (auto completed = cli::complete_mesh(plan, words.points, outcome); !completed)
+    return tl::unexpected(completed.error());
+  return hand_over(plan, words.given, outcome);
+}
+
+Result<std::unique_ptr<scarp_mesh>> simplify_input(const std::string& input, bool are_points,
+                                                   const scarp_options& asked) {
+  SimplifyWords& words = words_of_thread();
+  if (auto parsed = words.parse(input, asked); !parsed) return tl::unexpected(parsed.error());
+  const cli::SimplifyArguments& given = words.given;
+  if (auto goal = check_goal(given); !goal) return tl::unexpected(goal.error());
+  words.points.points = are_points;
+  if (words.points.are_meant(input)) return simplify_points_of(words, asked);
+  if (auto unused = words.points.check_unused(input); !unused) return tl::unexpected(unused.error());
+  auto plan = cli::plan_simplify(given, {});  // no file is written that could be one of those that are read
+  if (!plan) return tl::unexpected(plan.error());
+  if (plan->format.kind == cli::OutputKind::kDem)
+    return fail(ErrorKind::kUsage, "of dem is a raster, and a mesh is asked for: choose glb, obj, ply, stl ...");
+  choose_frame(asked, plan->read);
+  cli::Outcome outcome;
+  if (auto made = cli::make_mesh(given, *plan, {progress_of(asked)}, outcome); !made)
+    return tl::unexpected(made.error());
+  if (!outcome.channels.empty()) color_by_channels(outcome.simplified.mesh, outcome.channels.bands);
+  auto glb = cli::glb_options(*plan, outcome);
+  if (!glb) return tl::unexpected(glb.error());
+  if (auto completed = cli::complete_mesh(*plan, outcome); !completed) return tl::unexpected(completed.error());
+  auto mesh = hand_over(*plan, given, outcome);
+  mesh->glb = std::move(*glb);
+  if (auto taken = take_print(outcome, *mesh); !taken) return tl::unexpected(taken.error());
+  return mesh;
+}
+
+scarp_status hand_out_mesh(Result<std::unique_ptr<scarp_mesh>> made, scarp_mesh** out) {
+  if (!made) return report(made.error());
+  *out = made->release();
+  return SCARP_OK;
+}
+
+scarp_status refuse_null_out() { return report(ErrorKind::kUsage, "the place for the mesh is a null pointer"); }
+
+}  // namespace
+}  // namespace scarp::door
+
+using namespace scarp::door;
+
+extern "C" {
+
+scarp_status scarp_simplify(const scarp_field* field, const scarp_options* options, scarp_mesh** out) {
+  return guarded([&]() -> scarp_status {
+    if (out == nullptr) return refuse_null_out();
+    *out = nullptr;
+    const scarp_options asked = known(options, scarp_options_init);
+    const LentInputs inputs(field, asked);
+    if (auto checked = inputs.check(); !checked) return report(checked.error());
+    return hand_out_mesh(simplify_input(inputs.name(), false, asked), out);
+  });
+}
+
+scarp_status scarp_simplify_file(const char* path, const scarp_options* options, scarp_mesh** out) {
+  return guarded([&]() -> scarp_status {
+    if (out == nullptr) return refuse_null_out();
+    *out = nullptr;
+    if (path == nullptr || *path == '\0') return report(scarp::ErrorKind::kUsage, "the path is empty");
+    const scarp_options asked = known(options, scarp_options_init);
+    if (asked.mask != nullptr || asked.tolerance != nullptr)
+      return report(scarp::ErrorKind::kUsage,
+                    "mask and tolerance are arrays on the grid of a field: beside a file they are files, set by name");
+    return hand_out_mesh(simplify_input(path, false, asked), out);
+  });
+}
+
+scarp_status scarp_simplify_points(const scarp_points* points, const scarp_options* options, scarp_mesh** out) {
+  return guarded([&]() -> scarp_status {
+    if (out == nullptr) return refuse_null_out();
+    *out = nullptr;
+    const LentInputs inputs(points);
+    if (auto checked = inputs.check(); !checked) return report(checked.error());
+    return hand_out_mesh(simplify_input(inputs.name(), true, known(options, scarp_options_init)), out);
+  });
+}
+
+}  // extern "C"

@@ -1,0 +1,136 @@
+// Tiles that are made as they are asked for, by the program's own plans.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "door.h"
+#include "inputs.h"
+#include "mesh.h"
+#include "options/option_table.h"
+#include "options/tile_options.h"
+#include "scarp/live_tiles.h"
+#include "settings.h"
+
+struct scarp_tiles {
+  scarp::cli::OpenedJob opened;
+  std::unique_ptr<scarp::LiveTileSet> set;
+  std::vector<std::vector<std::uint32_t>> lists;  ///< by level: column and row of each tile
+  std::string layer = {};
+};
+
+namespace scarp::door {
+namespace {
+
+constexpr std::uint64_t kCacheBytes = std::uint64_t{64} << 20;
+
+std::vector<std::vector<std::uint32_t>> list_tiles(const LiveTileSet& set) {
+  std::vector<std::vector<std::uint32_t>> lists;
+  for (const auto& level : set.tiles()) {
+    lists.emplace_back();
+    for (const std::uint64_t tile : level) {
+      lists.back().push_back(static_cast<std::uint32_t>(tile));
+      lists.back().push_back(static_cast<std::uint32_t>(tile >> 32));
+    }
+  }
+  return lists;
+}
+
+scarp_status open_tiles(const std::string& input, const scarp_options& asked, scarp_tiles** out) {
+  CLI::App program;
+  CLI::App* const command = cli::add_command(program, cli::kTile);
+  cli::TileArguments given;
+  std::string output, threads;
+  cli::add_arguments(*command, cli::OptionId::kInput, given.raster.paths, cli::OptionId::kOutput, output);
+  given.add_to(*command);
+  cli::Given count;
+  cli::add_option(*command, cli::OptionId::kThreads, count);
+  if (auto parsed = parse_words(program, cli::kTile, {"tile", input, "-"}, asked); !parsed)
+    return report(parsed.error());
+  if (given.format && *given.format != "qm")
+    return report(ErrorKind::kUsage, "tiles that are made as they are asked for are quantized-mesh: leave of out");
+  const ProgressCallback progress = progress_of(asked);
+  auto opened = given.open(progress);
+  if (!opened) return report(opened.error());
+  Run run;
+  run.threads = asked.threads;
+  run.progress = progress;
+  auto set = LiveTileSet::open(opened->job, opened->raster->nodes(), kCacheBytes, run);
+  if (!set) return report(set.error());
+  auto tiles = std::make_unique<scarp_tiles>();
+  tiles->opened = std::move(*opened);
+  tiles->set = std::move(*set);
+  tiles->lists = list_tiles(*tiles->set);
+  *out = tiles.release();
+  return SCARP_OK;
+}
+
+}  // namespace
+}  // namespace scarp::door
+
+using namespace scarp::door;
+using scarp::ErrorKind;
+
+extern "C" {
+
+scarp_status scarp_tiles_open(const char* path, const scarp_options* options, scarp_tiles** out) {
+  return guarded([&]() -> scarp_status {
+    if (out == nullptr) return report(ErrorKind::kUsage, "the place for the tiles is a null pointer");
+    *out = nullptr;
+    if (path == nullptr || *path == '\0') return report(ErrorKind::kUsage, "the path is empty");
+    return open_tiles(path, known(options, scarp_options_init), out);
+  });
+}
+
+scarp_status scarp_tiles_open_field(const scarp_field* field, const scarp_options* options, scarp_tiles** out) {
+  return guarded([&]() -> scarp_status {
+    if (out == nullptr) return report(ErrorKind::kUsage, "the place for the tiles is a null pointer");
+    *out = nullptr;
+    const scarp_options asked = known(options, scarp_options_init);
+    const LentInputs inputs(field, asked);
+    if (auto checked = inputs.check(); !checked) return report(checked.error());
+    return open_tiles(inputs.name(), asked, out);
+  });
+}
+
+int32_t scarp_tiles_max_level(const scarp_tiles* tiles) { return static_cast<int32_t>(tiles->lists.size()) - 1; }
+
+uint64_t scarp_tiles_count(const scarp_tiles* tiles, int32_t level) {
+  if (level < 0 || level > scarp_tiles_max_level(tiles)) return 0;
+  return tiles->lists[static_cast<std::size_t>(level)].size() / 2;
+}
+
+const uint32_t* scarp_tiles_list(const scarp_tiles* tiles, int32_t level) {
+  return scarp_tiles_count(tiles, level) == 0 ? nullptr : tiles->lists[static_cast<std::size_t>(level)].data();
+}
+
+scarp_status scarp_tiles_read(const scarp_tiles* tiles, int32_t level, uint32_t x, uint32_t y, scarp_bytes** out,
+                              double* bound) {
+  return guarded([&]() -> scarp_status {
+    if (tiles == nullptr || out == nullptr)
+      return report(ErrorKind::kUsage, "the tiles, or the place for the bytes, are a null pointer");
+    *out = nullptr;
+    auto tile = tiles->set->make({level, x, y});
+    if (!tile) return report(tile.error());
+    if (bound != nullptr) *bound = (*tile)->bound.value_or(std::numeric_limits<double>::quiet_NaN());
+    *out = new scarp_bytes{(*tile)->bytes};
+    return SCARP_OK;
+  });
+}
+
+scarp_status scarp_tiles_read_file(const scarp_tiles* tiles, const char* name, scarp_bytes** out) {
+  return guarded([&]() -> scarp_status {
+    if (tiles == nullptr || name == nullptr || out == nullptr)
+      return report(ErrorKind::kUsage, "the tiles, the name or the place for the bytes is a null pointer");
+    *out = nullptr;
+    auto bytes = tiles->set->read_file(name);
+    if (!bytes) return report(bytes.error());
+    *out = new scarp_bytes{std::move(*bytes)};
+    return SCARP_OK;
+  });
+}
+
+void scarp_tiles_free(scarp_tiles* tiles) { delete tiles; }
+
+}  // extern "C"

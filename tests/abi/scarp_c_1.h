@@ -1,0 +1,237 @@
+/* Scarp for C and all that calls C: height fields to triangle meshes with a proven error bound.
+ *
+ *   scarp_field field;
+ *   scarp_field_init(&field, sizeof field);
+ *   field.samples = heights; field.cols = 512; field.rows = 512;
+ *   scarp_options options;
+ *   scarp_options_init(&options, sizeof options);
+ *   options.max_error = 1.5;
+ *   scarp_mesh* mesh = NULL;
+ *   if (scarp_simplify(&field, &options, &mesh) != SCARP_OK) fprintf(stderr, "%s\n", scarp_last_error());
+ *   scarp_options_clear(&options);
+ *   scarp_mesh_free(mesh);
+ *
+ * Rules that hold for all of it:
+ *   - A function that can fail returns a scarp_status, and its output is NULL or untouched then. scarp_last_error() has
+ *     one sentence, which names the culprit and the way out. No exception leaves the library, and it prints nothing.
+ *   - Structs begin with their own size, which scarp_..._init() sets. A later library reads what an earlier caller
+ *     knows of a struct; the rest has its default. Structs only grow at their end. Handles are opaque.
+ *   - What a pointer in a struct points to is borrowed for the call; a Refiner's samples for its life.
+ *   - A pointer that a handle hands out is valid until the handle is freed. Freeing NULL does nothing.
+ *   - Several threads may call at once; a handle may be read by several, and changed by one. Text is UTF-8.
+ *   - The same input and options give the same bytes, on every machine, for any number of threads. */
+#ifndef SCARP_C_H
+#define SCARP_C_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#pragma GCC visibility push(default)
+#endif
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Grows by one where an old caller would break; the shared library's SOVERSION. */
+#define SCARP_ABI_VERSION 1
+
+/* How a call ended: the exit codes of the program. */
+typedef int32_t scarp_status;
+#define SCARP_OK 0
+#define SCARP_USAGE 1     /* options that do not go together, or are out of range; a null pointer */
+#define SCARP_INPUT 2     /* a raster or mesh that holds nothing usable, or a file that cannot be read */
+#define SCARP_PROMISE 3   /* the error that was asked for cannot be kept, or is not */
+#define SCARP_OUTPUT 4    /* a file that cannot be written, a format that cannot hold the mesh */
+#define SCARP_CANCELLED 5 /* the progress function said so */
+#define SCARP_INTERNAL 70 /* a bug in Scarp */
+
+typedef struct scarp_mesh scarp_mesh;         /* a mesh, what it was made for, and its measured error */
+typedef struct scarp_refiner scarp_refiner;   /* a mesh that grows by one vertex at a time */
+typedef struct scarp_raster scarp_raster;     /* a raster that was read from a file */
+typedef struct scarp_tiles scarp_tiles;       /* terrain tiles for globes, made as they are asked for */
+typedef struct scarp_bytes scarp_bytes;       /* the bytes of a file */
+typedef struct scarp_settings scarp_settings; /* options by name */
+
+/* A snapshot of a running pass. */
+typedef struct scarp_progress {
+  uint32_t struct_size;
+  int32_t reserved;
+  const char* pass;  /* "read", "refine", "fit", "search", "measure" ...; valid during the call only */
+  double fraction;   /* 0 to 1 of this pass */
+  uint64_t vertices; /* so far; 0: not known */
+  double max_error;  /* so far, in z units; 0: not known */
+} scarp_progress;
+/* Called in the thread of the call, a few times a second at most. Other than 0: cancel. Must not throw or jump. */
+typedef int32_t (*scarp_progress_fn)(const scarp_progress* progress, void* user);
+
+/* Where samples lie. */
+#define SCARP_FRAME_GRID 0    /* x = column, y = rows - 1 - row; the geotransform is not looked at */
+#define SCARP_FRAME_SOURCE 1  /* as the geotransform and the CRS say; degrees become metres if the CRS says so */
+#define SCARP_FRAME_DEGREES 2 /* the geotransform is in degrees (of WGS 84 without a CRS): metres around the centre */
+
+/* Samples of heights on a grid, row-major, the first row in the north. NaN and infinities are no heights. */
+typedef struct scarp_field {
+  uint32_t struct_size;
+  int32_t cols, rows; /* at least 2 */
+  int32_t frame;      /* DEFAULT: SCARP_FRAME_GRID. The option "crs" asks for another. */
+  const float* samples;
+  double nodata;          /* no height either; samples that have it cost one copy of all. DEFAULT: NaN, none. */
+  double geotransform[6]; /* GDAL's, of pixel corners: x = g[0] + g[1] col + g[2] row, y = g[3] + g[4] col + g[5] row */
+  double
+      sample_rounding; /* largest |value - float32 sample| where values were rounded; a promise keeps it in reserve */
+  const char* crs;     /* "EPSG:32611", WKT; DEFAULT: NULL. A library without GDAL takes it for a name. */
+  const char* name;    /* for sentences and the mesh's metadata. DEFAULT: NULL, "heights". */
+} scarp_field;
+
+/* Scattered points: z over x, y. */
+typedef struct scarp_points {
+  uint32_t struct_size;
+  int32_t reserved;
+  const double *x, *y, *z;
+  uint64_t count;
+  uint64_t stride;  /* doubles from one x to the next; 3 where points are x, y, z in turn. DEFAULT: 1. */
+  const char* crs;  /* DEFAULT: NULL */
+  const char* name; /* DEFAULT: NULL, "points" */
+} scarp_points;
+
+/* What is asked for most; all else by name. */
+typedef struct scarp_options {
+  uint32_t struct_size;
+  int32_t threads;        /* 0: all cores. Never changes the result. */
+  double max_error;       /* in z units. DEFAULT: NaN, none. */
+  uint64_t max_triangles; /* 0: none */
+  uint64_t max_points;    /* vertices; 0: none */
+  const float* mask;      /* NULL, or a weight for each sample: weight * |error| is bounded; 0 and NaN: no bound */
+  const float* tolerance; /* NULL, or a bound of its own for each sample; NaN: none */
+  scarp_progress_fn progress;
+  void* user;
+  scarp_settings* named; /* of scarp_options_set() */
+} scarp_options;
+
+/* What a mesh is measured to be. Errors are vertical, mesh minus sample, in z units. */
+typedef struct scarp_report {
+  uint32_t struct_size;
+  int32_t stop;          /* why the run ended: 0 max_error, 1 max_triangles, 2 max_points, 3 every sample is exact */
+  int32_t effort;        /* 0 fast, 1 normal, 2 high, 3 max; -1 where a mesh was only measured */
+  int32_t is_cut_short;  /* a time limit ended the effort */
+  int32_t max_error_col; /* the sample with the largest error; -1: none */
+  int32_t max_error_row;
+  uint64_t vertices, triangles;
+  uint64_t samples;   /* judged */
+  uint64_t uncovered; /* valid samples without a triangle */
+  uint64_t stray;     /* valid samples outside every valid cell */
+  uint64_t over;      /* above their tolerance, or above "fail_above" */
+  double max_error, rmse, mean_error, mean_abs_error, p50, p95, p99;
+  double seconds;
+} scarp_report;
+
+/* The library. */
+uint32_t scarp_abi_version(void);
+const char* scarp_version(void);
+int32_t scarp_has_gdal(void); /* 1: reads what GDAL reads, and knows CRSs; 0: PGM and STM, and points as text */
+/* Every struct, a line each: its name, its size, and its members with their offsets, "scarp_field 104 struct_size:0
+ * cols:4 ...". Bindings that write the structs anew compare themselves with it. */
+const char* scarp_abi_layout(void);
+/* The sentence of this thread's last call that failed; valid until its next call. */
+const char* scarp_last_error(void);
+
+void scarp_field_init(scarp_field* field, uint32_t struct_size);
+void scarp_points_init(scarp_points* points, uint32_t struct_size);
+void scarp_options_init(scarp_options* options, uint32_t struct_size);
+/* Any option of the program that is not about its terminal and its files, by its long name with _ for -, and its value
+ * as the program takes it: ("max_error", "0.5%"), ("effort", "high"), ("breaklines", "dikes.gpkg"), ("normals",
+ * "true"). Of an option that may be given several times each call adds a value; else the last one counts. A NULL value
+ * takes the option back. An option that is set by name goes before the member of the struct. `scarp help --json` lists
+ * all; "of" is the format that the mesh is for: it settles, as the program's OUTPUT does, whether positions are
+ * float32, and the frame. SCARP_USAGE for a name that no command has, with the one that was probably meant. */
+scarp_status scarp_options_set(scarp_options* options, const char* name, const char* value);
+/* Frees what scarp_options_set() made; the struct may be used again. */
+void scarp_options_clear(scarp_options* options);
+
+/* Simplifies a field in memory: as `scarp simplify` would a raster of these samples. Float32 samples are not copied,
+ * but see scarp_field::nodata. */
+scarp_status scarp_simplify(const scarp_field* field, const scarp_options* options, scarp_mesh** out);
+/* The same of a file, raster or points, with all that it says of itself: exactly as the program. */
+scarp_status scarp_simplify_file(const char* path, const scarp_options* options, scarp_mesh** out);
+scarp_status scarp_simplify_points(const scarp_points* points, const scarp_options* options, scarp_mesh** out);
+
+/* Judges a mesh by brute force, as `scarp measure`. Options of that command count: "fail_above", "mask", "tolerance",
+ * "cutline" ... `out` is filled in with SCARP_OK, and with SCARP_PROMISE where the mesh breaks what was asked. */
+scarp_status scarp_measure(const scarp_field* field, const scarp_mesh* mesh, const scarp_options* options,
+                           scarp_report* out);
+scarp_status scarp_measure_file(const char* path, const scarp_mesh* mesh, const scarp_options* options,
+                                scarp_report* out);
+scarp_status scarp_measure_points(const scarp_points* points, const scarp_mesh* mesh, const scarp_options* options,
+                                  scarp_report* out);
+
+/* Meshes. Vertex v lies at origin + positions[3v .. 3v + 2], x east, y north, z up. */
+scarp_status scarp_mesh_from_arrays(const double* positions, uint64_t vertices, const uint32_t* triangles,
+                                    uint64_t triangle_count, scarp_mesh** out);
+scarp_status scarp_mesh_read(const char* path, scarp_mesh** out);
+uint64_t scarp_mesh_vertex_count(const scarp_mesh* mesh);
+uint64_t scarp_mesh_triangle_count(const scarp_mesh* mesh);
+const double* scarp_mesh_origin(const scarp_mesh* mesh);       /* 3 */
+const double* scarp_mesh_positions(const scarp_mesh* mesh);    /* 3 a vertex, offsets from the origin */
+const uint32_t* scarp_mesh_triangles(const scarp_mesh* mesh);  /* 3 a triangle, counter-clockwise from above */
+const float* scarp_mesh_normals(const scarp_mesh* mesh);       /* 3 a vertex; NULL without the option "normals" */
+const float* scarp_mesh_uvs(const scarp_mesh* mesh);           /* 2 a vertex; NULL without the option "uvs" */
+const float* scarp_mesh_positions_f32(const scarp_mesh* mesh); /* as positions, rounded; made at the first call */
+/* "crs", "frame", "command", "error" ...; NULL where the mesh does not say. */
+const char* scarp_mesh_metadata(const scarp_mesh* mesh, const char* key);
+const char* scarp_mesh_warnings(const scarp_mesh* mesh); /* a sentence a line; "" without any */
+/* Of a mesh that Scarp made; SCARP_USAGE for one that was not: scarp_measure() tells of those. */
+scarp_status scarp_mesh_report(const scarp_mesh* mesh, scarp_report* out);
+/* Another mesh, closed into a solid by walls and a flat base at z, which is below all vertices. */
+scarp_status scarp_mesh_add_base(const scarp_mesh* mesh, double z, scarp_mesh** out);
+/* "glb", "obj", "ply", "stl", "tin", "2dm", "vtu", "vtp", "landxml", "dxf", "gpkg", "3mf", "svg", "eps". NULL: the
+ * format that the mesh was made for. */
+scarp_status scarp_mesh_encode(const scarp_mesh* mesh, const char* format, scarp_bytes** out);
+/* The same into a file, by the ending of its name: a temporary name first, then renamed. */
+scarp_status scarp_mesh_write(const scarp_mesh* mesh, const char* path, int32_t overwrite);
+void scarp_mesh_free(scarp_mesh* mesh);
+
+const uint8_t* scarp_bytes_data(const scarp_bytes* bytes);
+uint64_t scarp_bytes_size(const scarp_bytes* bytes);
+void scarp_bytes_free(scarp_bytes* bytes);
+
+/* One vertex at a time, the worst sample first. It borrows the field's samples until it is freed. */
+scarp_status scarp_refiner_create(const scarp_field* field, scarp_refiner** out);
+/* 1: inserted; 0: every sample is exact; -1: failed, see scarp_last_error(). */
+int32_t scarp_refiner_insert_worst(scarp_refiner* refiner);
+/* Inserts until the max error is at most max_error, or there are max_vertices (0: any number). Returns how many were
+ * inserted; -1: failed. */
+int64_t scarp_refiner_run(scarp_refiner* refiner, double max_error, uint64_t max_vertices);
+double scarp_refiner_max_error(const scarp_refiner* refiner);
+uint64_t scarp_refiner_vertex_count(const scarp_refiner* refiner);
+uint64_t scarp_refiner_triangle_count(const scarp_refiner* refiner);
+scarp_status scarp_refiner_mesh(const scarp_refiner* refiner, scarp_mesh** out);
+void scarp_refiner_free(scarp_refiner* refiner);
+
+/* Reads a raster as the options say ("band", "nodata", "crs", "z_scale" ...). */
+scarp_status scarp_raster_read(const char* path, const scarp_options* options, scarp_raster** out);
+/* The field of the raster, which it borrows. REQUIRES: init was called. */
+void scarp_raster_field(const scarp_raster* raster, scarp_field* field);
+void scarp_raster_free(scarp_raster* raster);
+
+/* Tiles of quantized-mesh, by the options of `scarp tile` ("zoom", "vertical", "effort" ...). Needs GDAL. */
+scarp_status scarp_tiles_open(const char* path, const scarp_options* options, scarp_tiles** out);
+scarp_status scarp_tiles_open_field(const scarp_field* field, const scarp_options* options, scarp_tiles** out);
+int32_t scarp_tiles_max_level(const scarp_tiles* tiles);
+/* Columns and rows of the tiles of a level, two numbers a tile, sorted; NULL and 0 where there are none. */
+uint64_t scarp_tiles_count(const scarp_tiles* tiles, int32_t level);
+const uint32_t* scarp_tiles_list(const scarp_tiles* tiles, int32_t level);
+/* The tile's bytes, as they are kept (gzip); `bound`, if not NULL: its proven error in metres, NaN where nobody knows
+ * it. May be called by several threads. */
+scarp_status scarp_tiles_read(const scarp_tiles* tiles, int32_t level, uint32_t x, uint32_t y, scarp_bytes** out,
+                              double* bound);
+scarp_status scarp_tiles_read_file(const scarp_tiles* tiles, const char* name, scarp_bytes** out); /* "layer.json" */
+void scarp_tiles_free(scarp_tiles* tiles);
+
+#ifdef __cplusplus
+}
+#endif
+#if defined(__GNUC__)
+#pragma GCC visibility pop
+#endif
+#endif
