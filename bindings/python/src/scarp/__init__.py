@@ -1,0 +1,224 @@
+"""Height fields to triangle meshes with a proven error bound.
+
+>>> import numpy as np, scarp
+>>> y, x = np.mgrid[0:200, 0:300]
+>>> z = 50 * np.sin(x / 30) * np.cos(y / 40)
+>>> mesh = scarp.simplify(z, 0.5)             # every sample within 0.5 of the mesh: proven, not hoped
+>>> mesh.vertices.shape, mesh.triangles.dtype, mesh.max_error <= 0.5
+>>> mesh.write("hills.glb")
+
+What the functions take as `source`:
+  - an array (rows, columns), the first row in the north. float32 is not copied. float64 and integers are rounded to
+    float32, and the promise is about the values that were given. NaN, infinities and masked samples are voids.
+  - an xarray.DataArray, with its transform, CRS and nodata (rioxarray), or its regular coordinates x and y
+  - a rasterio dataset that is open
+  - the path of a raster or of points
+"""
+from __future__ import annotations
+
+import ctypes as C
+import os
+from typing import TYPE_CHECKING, Any, Optional
+
+from . import _abi, _call, _inputs
+from ._call import Progress
+from .errors import (Cancelled, InputError, InternalError, OutputError, PromiseError, ScarpError, ScarpWarning,
+                     UsageError)
+from .mesh import Mesh, Report, read_mesh, report_of
+from .refiner import Refiner
+from .tiles import Tiles
+
+if TYPE_CHECKING:
+    from ._call import ProgressArgument
+
+__version__: str = _abi.lib.scarp_version().decode()
+#: Whether the library reads what GDAL reads and knows CRSs. Without it paths are read by rasterio or GDAL's own Python.
+has_gdal: bool = bool(_abi.lib.scarp_has_gdal())
+
+__all__ = ["simplify", "simplify_points", "measure", "read_mesh", "Mesh", "Report", "Refiner", "Tiles", "Progress",
+           "ScarpError", "UsageError", "InputError", "PromiseError", "OutputError", "Cancelled", "InternalError",
+           "ScarpWarning", "has_gdal", "__version__"]
+
+
+def _finish(handle: Optional[int]) -> Mesh:
+    assert handle is not None
+    mesh = Mesh(handle)
+    _call.warn(handle, 3)
+    return mesh
+
+
+def _goals(settings: _call.Settings, max_error: float | str | None, max_triangles: Optional[int],
+           max_points: Optional[int], threads: int) -> None:
+    struct = settings.struct
+    if max_error is not None and not isinstance(max_error, str):
+        struct.max_error = float(max_error)
+    for name, count in (("max_triangles", max_triangles), ("max_points", max_points)):
+        if count is None:
+            continue
+        if count < 1:
+            raise UsageError("%s is %s: at least 1 is needed" % (name, count))
+        setattr(struct, name, int(count))
+    struct.threads = threads
+
+
+def _lend(settings: _call.Settings, source: _inputs.Input, mask: Any, tolerance: Any,
+          named: dict[str, Any]) -> None:
+    """Arrays beside the heights; paths are options by name."""
+    for name, values in (("mask", mask), ("tolerance", tolerance)):
+        if values is None or name in named:
+            continue
+        if source.field is None:
+            raise UsageError("%s is an array, and the heights are a file: give both as arrays, or both as files" % name)
+        array = _inputs.grid_values(values, source.field.rows, source.field.cols, name)
+        settings.keep.append(array)
+        setattr(settings.struct, name, array.ctypes.data)
+
+
+def _by_name(source: _inputs.Input, frame: str, band: int, nodata: Optional[float], mask: Any, tolerance: Any,
+             max_error: float | str | None, options: dict[str, Any]) -> dict[str, Any]:
+    named = dict(options)
+    if frame != "auto":
+        named["crs"] = frame
+    if source.path is not None:
+        named.update({"band": None if band == 1 else band, "nodata": nodata})
+    for name, value in (("mask", mask), ("tolerance", tolerance)):
+        if isinstance(value, (str, os.PathLike)):
+            named[name] = value
+    if isinstance(max_error, str):
+        named["max_error"] = max_error
+    return {name: value for name, value in named.items() if value is not None and value is not False}
+
+
+def simplify(source: Any, max_error: float | str | None = None, *, max_triangles: Optional[int] = None,
+             max_points: Optional[int] = None, effort: Optional[str] = None, band: int = 1, transform: Any = None,
+             crs: Any = None, nodata: Optional[float] = None, frame: str = "auto", mask: Any = None,
+             tolerance: Any = None, normals: bool = False, threads: int = 0,
+             progress: ProgressArgument = None, **options: Any) -> Mesh:
+    """Turns heights into the smallest mesh that keeps a bound, or the best of a size.
+
+    source         see the module's help
+    max_error      every sample is within this of the mesh, vertically, in the units of the heights; "0.5%" of the
+                   relief; "1m", "3ft" where the file tells its unit
+    max_triangles, max_points   upper bounds; the first goal that is reached ends the run. At least one goal is needed.
+    effort         "fast", "normal" (DEFAULT), "high" or "max": fewer triangles for more time
+    band           of a file or dataset, from 1
+    transform      where pixels lie: rasterio's Affine, or GDAL's six numbers; of pixel corners, as both say
+    crs            of the transform: "EPSG:32611", a number of EPSG, WKT, a CRS of rasterio or pyproj
+    nodata         a value that is no height (NaN and infinities never are)
+    frame          x and y of the mesh. "auto": as the transform says, degrees become metres around the centre; "source":
+                   as it says, degrees too; "local": around the centre; "grid": columns and rows; or a CRS (with GDAL)
+    mask           (rows, columns) weights: weight * |error| is bounded; 0 and NaN: no bound. Or a file.
+    tolerance      (rows, columns) bounds of their own for the samples; NaN: none. Or a file.
+    normals        Mesh.normals from all samples
+    threads        0: all cores; never changes the mesh
+    progress       True: a bar; or a function of a Progress: where it returns False, Cancelled is raised
+    options        every other option of `scarp simplify` that is not about its terminal, with _ for -: `vertices="free"`,
+                   `breaklines="dikes.gpkg"`, `min_angle=25`, `nodata_policy="fill"`, `of="obj"` (the format that the
+                   mesh is for, which settles rounding and frame as the program's OUTPUT does) ...
+
+    Returns a Mesh. Raises UsageError, InputError, PromiseError, OutputError, Cancelled; warns with ScarpWarning. Runs
+    without Python's lock. The same samples and options give the same bytes, here, in C and from the program.
+    """
+    read = _inputs.read(source, band=band, transform=transform, crs=crs, nodata=nodata)
+    out = C.c_void_p()
+    lib = _abi.lib
+    named = _by_name(read, frame, band, nodata, mask, tolerance, max_error,
+                     {"effort": effort, "normals": normals, **options})
+    with _call.Settings(named) as settings:
+        _goals(settings, max_error, max_triangles, max_points, threads)
+        _lend(settings, read, mask, tolerance, named)
+
+        def work(pointer: Any) -> int:
+            if read.path is not None:
+                return lib.scarp_simplify_file(read.path, pointer, C.byref(out))  # type: ignore[no-any-return]
+            return lib.scarp_simplify(C.byref(read.field), pointer, C.byref(out))  # type: ignore[no-any-return]
+
+        _abi.check(_call.run(settings, progress, work))
+    return _finish(out.value)
+
+
+def simplify_points(points: Any, max_error: float | str | None = None, *, max_triangles: Optional[int] = None,
+                    max_points: Optional[int] = None, crs: Any = None, threads: int = 0,
+                    progress: ProgressArgument = None, **options: Any) -> Mesh:
+    """The same for scattered points: (N, 3) float64 of x, y, z, not copied by Python where they are that; or a path.
+
+    The mesh covers their convex hull, its vertices are points, and every point is within max_error of it. `duplicates`:
+    which of several points at one place counts: "first" (DEFAULT), "last", "highest", "lowest", "mean".
+    """
+    out = C.c_void_p()
+    lib = _abi.lib
+    named = {**options, "max_error": max_error if isinstance(max_error, str) else None}
+    path = None
+    struct: Any = None
+    array: Any = None
+    if isinstance(points, (str, os.PathLike)):
+        path = os.fspath(points).encode()
+    else:
+        struct, array = _points_of(points)
+        if crs is not None:
+            struct.crs = _inputs._crs_text(crs).encode()
+    with _call.Settings(named) as settings:
+        settings.keep.append(array)
+        _goals(settings, max_error, max_triangles, max_points, threads)
+
+        def work(pointer: Any) -> int:
+            if path is not None:
+                return lib.scarp_simplify_file(path, pointer, C.byref(out))  # type: ignore[no-any-return]
+            return lib.scarp_simplify_points(C.byref(struct), pointer, C.byref(out))  # type: ignore[no-any-return]
+
+        _abi.check(_call.run(settings, progress, work))
+    return _finish(out.value)
+
+
+def _points_of(points: Any) -> tuple[Any, Any]:
+    import numpy as np
+    given = np.asarray(points)
+    if given.dtype.kind not in "iuf":
+        raise UsageError("points are numbers, and their dtype is %s" % given.dtype)
+    array = np.ascontiguousarray(given, dtype=np.float64)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise UsageError("points are an array of (N, 3): x, y, z; not of %s" % (array.shape,))
+    struct = _abi.new_points()
+    base = array.ctypes.data
+    struct.x, struct.y, struct.z = base, base + 8, base + 16
+    struct.count, struct.stride = len(array), 3
+    return struct, array
+
+
+def measure(source: Any, mesh: Any, triangles: Any = None, *, band: int = 1, transform: Any = None, crs: Any = None,
+            nodata: Optional[float] = None, frame: str = "auto", mask: Any = None, tolerance: Any = None,
+            threads: int = 0, progress: ProgressArgument = None, **options: Any) -> Report:
+    """Judges a mesh against every sample, by brute force, without knowing how it was made.
+
+    `source` and what places it: as in simplify(), (N, 3) points included. `mesh`: a Mesh, or (N, 3) vertices beside
+    (M, 3) triangles. `fail_above=1.5` raises PromiseError where a sample is farther off. Other options as those of
+    `scarp measure`: `cutline`, `script` ... Returns a Report.
+    """
+    if triangles is not None:
+        mesh = Mesh.from_arrays(mesh, triangles)
+    if not isinstance(mesh, Mesh):
+        raise UsageError("a Mesh, or vertices and triangles, not %s" % type(mesh).__name__)
+    lib = _abi.lib
+    struct = _abi.new_report()
+    is_points = getattr(source, "ndim", 0) == 2 and getattr(source, "shape", (0, 0))[1] == 3 and transform is None \
+        and source.shape[0] > 3 and options.pop("points", False)
+    if is_points:
+        field, keep = _points_of(source)
+        read = _inputs.Input(None, field, keep)
+    else:
+        read = _inputs.read(source, band=band, transform=transform, crs=crs, nodata=nodata)
+    named = _by_name(read, frame, band, nodata, mask, tolerance, None, options)
+    with _call.Settings(named) as settings:
+        settings.struct.threads = threads
+        if not is_points:
+            _lend(settings, read, mask, tolerance, named)
+        handle = mesh._handle.value
+
+        def work(pointer: Any) -> int:
+            if read.path is not None:
+                return lib.scarp_measure_file(read.path, handle, pointer, C.byref(struct))  # type: ignore[no-any-return]
+            call = lib.scarp_measure_points if is_points else lib.scarp_measure
+            return call(C.byref(read.field), handle, pointer, C.byref(struct))  # type: ignore[no-any-return]
+
+        _abi.check(_call.run(settings, progress, work))
+    return report_of(struct)

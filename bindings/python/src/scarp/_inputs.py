@@ -1,0 +1,289 @@
+"""Arrays, datasets and paths as fields of the library."""
+from __future__ import annotations
+
+import ctypes as C
+import os
+from typing import Any, NamedTuple, Optional
+
+from . import _abi
+from .errors import InputError, UsageError
+
+_GRID, _SOURCE, _DEGREES = 0, 1, 2
+_LARGEST_SIDE = 2**31 - 1
+
+
+class Input(NamedTuple):
+    """What a call reads: a path, or a struct with what it points to."""
+
+    path: Optional[bytes]
+    field: Any
+    keep: Any
+
+
+class _Raster(NamedTuple):
+    samples: Any
+    transform: Any = None
+    crs: Any = None
+    nodata: Optional[float] = None
+    name: str = "heights"
+
+
+def _numpy() -> Any:
+    try:
+        import numpy
+    except ImportError:
+        return None
+    return numpy
+
+
+def _is_path(source: object) -> bool:
+    return isinstance(source, (str, os.PathLike))
+
+
+def _has_file_reader(path: str) -> bool:
+    """Whether the library itself reads the file: PGM, STM and text of points always, all else with GDAL."""
+    own = (".pgm", ".stm", ".csv", ".tsv", ".xyz", ".txt")
+    return bool(_abi.lib.scarp_has_gdal()) or path.lower().endswith(own)
+
+
+def _read_dataset(dataset: Any, band: int, name: str) -> _Raster:
+    """A rasterio dataset."""
+    if getattr(dataset, "closed", False):
+        raise InputError("the dataset %s is closed: open it again, or simplify within its `with`" % name)
+    if not 1 <= band <= dataset.count:
+        raise InputError("%s has %d band%s; there is no band %d"
+                         % (name, dataset.count, "" if dataset.count == 1 else "s", band))
+    transform = dataset.transform
+    located = dataset.crs is not None or not getattr(transform, "is_identity", False)
+    return _Raster(dataset.read(band), transform if located else None, dataset.crs,
+                   dataset.nodatavals[band - 1], name)
+
+
+def _read_path(path: str, band: int) -> _Raster:
+    """By rasterio, else by GDAL's own Python."""
+    try:
+        import rasterio
+    except ImportError:
+        pass
+    else:
+        try:
+            with rasterio.open(path) as dataset:
+                return _read_dataset(dataset, band, os.path.basename(path))
+        except (rasterio.errors.RasterioError, OSError) as error:
+            raise InputError("%s: %s" % (path, error)) from error
+    try:
+        from osgeo import gdal
+    except ImportError:
+        raise InputError("%s: this build of Scarp has no GDAL, and neither rasterio nor osgeo.gdal is installed: "
+                         "pip install rasterio" % path) from None
+    gdal.UseExceptions()
+    try:
+        dataset = gdal.Open(path)
+        gdal_band = dataset.GetRasterBand(band)
+        transform = dataset.GetGeoTransform(can_return_null=True)
+        return _Raster(gdal_band.ReadAsArray(), transform, dataset.GetProjection() or None,
+                       gdal_band.GetNoDataValue(), os.path.basename(path))
+    except RuntimeError as error:
+        raise InputError("%s: %s" % (path, error)) from error
+
+
+def _read_xarray(array: Any) -> _Raster:
+    """A DataArray: by rioxarray's accessor where it is there, else by regular coordinates x and y."""
+    values = array
+    if values.ndim == 3 and values.shape[0] == 1:
+        values = values[0]
+    if values.ndim != 2:
+        raise UsageError("the DataArray has %d dimensions %s: pick one band, as in array.isel(band=0)"
+                         % (array.ndim, array.dims))
+    name = str(array.name) if array.name is not None else "heights"
+    transform = crs = nodata = None
+    rio = getattr(array, "rio", None)
+    if rio is not None:
+        crs, nodata = rio.crs, rio.nodata
+    y_name, x_name = values.dims
+    if x_name in values.coords and y_name in values.coords and min(values.shape) >= 2:
+        x, y = values.coords[x_name].values, values.coords[y_name].values
+        dx, dy = (x[-1] - x[0]) / (len(x) - 1), (y[-1] - y[0]) / (len(y) - 1)
+        if abs(x[0] + dx * (len(x) // 2) - x[len(x) // 2]) > 1e-3 * abs(dx) or \
+                abs(y[0] + dy * (len(y) // 2) - y[len(y) // 2]) > 1e-3 * abs(dy):
+            raise InputError("the coordinates of %s are not regular: Scarp's rasters have cells of one size" % name)
+        transform = (x[0] - dx / 2, dx, 0.0, y[0] - dy / 2, 0.0, dy)
+        if rio is not None and rio.transform() is not None:
+            transform = rio.transform()
+    samples = values.values
+    if transform is not None and _geotransform(transform)[5] > 0:
+        # Rows from south to north: Scarp's first row is the northernmost.
+        gt = _geotransform(transform)
+        samples = samples[::-1]
+        transform = (gt[0] + gt[2] * len(samples), gt[1], -gt[2], gt[3] + gt[5] * len(samples), gt[4], -gt[5])
+    return _Raster(samples, transform, crs, nodata, name)
+
+
+def _geotransform(transform: Any) -> tuple[float, ...]:
+    """GDAL's six numbers of pixel corners, of an Affine (rasterio's) or of six numbers in GDAL's order."""
+    if all(hasattr(transform, letter) for letter in "abcdef"):
+        t = transform
+        numbers: tuple[Any, ...] = (t.c, t.a, t.b, t.f, t.d, t.e)
+    else:
+        numbers = tuple(transform)
+    if len(numbers) != 6:
+        raise UsageError("transform is an Affine, or GDAL's six numbers x0, dx, rx, y0, ry, dy: %d were given"
+                         % len(numbers))
+    return tuple(float(number) for number in numbers)
+
+
+def _is_geographic(crs: Any) -> bool:
+    if hasattr(crs, "is_geographic"):
+        return bool(crs.is_geographic)
+    text = _crs_text(crs)
+    if text.startswith(("GEOGCS", "GEOGCRS", "+proj=longlat")):
+        return True
+    if text.upper() in ("EPSG:4326", "EPSG:4258", "EPSG:4269", "OGC:CRS84", "WGS84"):
+        return True
+    for module, maker in (("rasterio.crs", "from_user_input"), ("pyproj", "from_user_input")):
+        try:
+            crs_class = getattr(__import__(module, fromlist=["CRS"]), "CRS")
+            return bool(getattr(crs_class, maker)(crs).is_geographic)
+        except ImportError:
+            continue
+    return False
+
+
+def _crs_text(crs: Any) -> str:
+    if isinstance(crs, int):
+        return "EPSG:%d" % crs
+    for name in ("to_epsg", "to_wkt", "to_string"):
+        if not isinstance(crs, str) and hasattr(crs, name):
+            text = getattr(crs, name)()
+            if text:
+                return "EPSG:%d" % text if isinstance(text, int) else str(text)
+    return str(crs)
+
+
+def _check_shape(shape: tuple[int, ...]) -> None:
+    if len(shape) != 2:
+        raise UsageError("heights are an array of (rows, columns), not of %d dimension%s%s"
+                         % (len(shape), "" if len(shape) == 1 else "s",
+                            ": pick one band, as in z[0]" if len(shape) == 3 else ""))
+    if max(shape) > _LARGEST_SIDE:
+        raise InputError("%d x %d samples: a side may have at most %d" % (shape[1], shape[0], _LARGEST_SIDE))
+
+
+def _as_float32(np: Any, z: Any) -> tuple[Any, float]:
+    """The samples as C-contiguous float32, the same memory where they are that already, and the largest rounding."""
+    mask = np.ma.getmask(z) if isinstance(z, np.ma.MaskedArray) else np.ma.nomask
+    if isinstance(z, np.ma.MaskedArray):
+        z = z.data
+    z = np.asarray(z)
+    if z.dtype.kind not in "iuf":
+        raise UsageError("heights are numbers, and the array's dtype is %s: convert it, as in z.astype('float32')"
+                         % z.dtype)
+    _check_shape(z.shape)
+    native = z.dtype.newbyteorder("=")
+    samples = np.ascontiguousarray(z, dtype=np.float32)
+    if mask is not np.ma.nomask and mask.any():
+        if samples is z or np.may_share_memory(samples, z):
+            samples = samples.copy()
+        samples[mask] = np.nan
+    rounding = 0.0
+    if native in (np.dtype(np.float64), np.dtype(np.int64), np.dtype(np.uint64), np.dtype(np.int32),
+                  np.dtype(np.uint32), np.dtype(np.longdouble)):
+        with np.errstate(invalid="ignore", over="ignore"):
+            for row, given in zip(samples, z):
+                difference = np.abs(given.astype(np.float64) - row)
+                difference = difference[np.isfinite(difference)]
+                if difference.size:
+                    rounding = max(rounding, float(difference.max()))
+    return samples, rounding
+
+
+def _from_buffer(z: Any) -> tuple[int, int, int, Any]:
+    """Rows, columns and the address of float32 in an object with the buffer protocol, where numpy is not there."""
+    try:
+        view = memoryview(z)
+    except TypeError:
+        raise UsageError("heights are a two-dimensional array of float32, not %s" % type(z).__name__) from None
+    _check_shape(view.shape or ())
+    if view.format not in ("f", "<f", "=f") or not view.c_contiguous:
+        raise UsageError("without numpy heights are C-contiguous float32 ('f'), not '%s': install numpy" % view.format)
+    flat = view.cast("B")
+    keep = (C.c_char * len(flat)).from_buffer(flat) if not view.readonly else \
+        (C.c_char * len(flat)).from_buffer_copy(flat)
+    assert view.shape is not None
+    return view.shape[0], view.shape[1], C.addressof(keep), keep
+
+
+def grid_values(values: Any, rows: int, cols: int, name: str) -> Any:
+    """A mask or tolerances on the grid of the heights, as float32."""
+    np = _numpy()
+    if np is None:
+        raise UsageError("%s needs numpy" % name)
+    if isinstance(values, np.ma.MaskedArray):
+        values = values.astype(np.float32).filled(np.nan)
+    array = np.ascontiguousarray(values, dtype=np.float32)
+    if array.shape != (rows, cols):
+        raise UsageError("%s has the shape %s, and the heights have (%d, %d)" % (name, array.shape, rows, cols))
+    return array
+
+
+def read(source: Any, *, band: int = 1, transform: Any = None, crs: Any = None, nodata: Optional[float] = None,
+         wants_array: bool = False) -> Input:
+    """The source as the library takes it. Arguments go before what the source says of itself."""
+    if _is_path(source):
+        path = os.fspath(source)
+        path = path.decode() if isinstance(path, bytes) else path
+        if _has_file_reader(path) and not wants_array and transform is None and crs is None:
+            return Input(path.encode(), None, None)
+        raster = _read_path(path, band)
+    elif hasattr(source, "read") and hasattr(source, "transform") and hasattr(source, "crs"):
+        raster = _read_dataset(source, band, os.path.basename(str(getattr(source, "name", "dataset"))))
+    elif hasattr(source, "dims") and hasattr(source, "coords") and hasattr(source, "values"):
+        raster = _read_xarray(source)
+    else:
+        raster = _Raster(source)
+    if transform is not None:
+        raster = raster._replace(transform=transform)
+    if crs is not None:
+        raster = raster._replace(crs=crs)
+    if nodata is not None:
+        raster = raster._replace(nodata=nodata)
+    return _as_input(raster)
+
+
+def _as_input(raster: _Raster) -> Input:
+    np = _numpy()
+    field = _abi.new_field()
+    keep: Any
+    if np is not None:
+        if isinstance(raster.samples, (list, tuple)):
+            try:
+                array = np.array(raster.samples, dtype=np.float64)
+            except (TypeError, ValueError):
+                raise UsageError("heights are rows of equal length of numbers") from None
+            raster = raster._replace(samples=array)
+        elif not hasattr(raster.samples, "__array__") and not hasattr(raster.samples, "__array_interface__"):
+            try:
+                memoryview(raster.samples)
+            except TypeError:
+                raise UsageError("heights are a two-dimensional array, a raster's path, an xarray.DataArray or a "
+                                 "rasterio dataset, not %s" % type(raster.samples).__name__) from None
+        samples, rounding = _as_float32(np, raster.samples)
+        field.rows, field.cols = samples.shape
+        field.samples = samples.ctypes.data
+        field.sample_rounding = rounding
+        keep = samples
+    else:
+        field.rows, field.cols, field.samples, keep = _from_buffer(raster.samples)
+    if raster.nodata is not None:
+        field.nodata = float(raster.nodata)
+    texts = [raster.name.encode()]
+    field.name = texts[0]
+    if raster.transform is not None:
+        field.geotransform[:] = _geotransform(raster.transform)
+        field.frame = _SOURCE
+        if raster.crs is not None:
+            texts.append(_crs_text(raster.crs).encode())
+            field.crs = texts[1]
+            if not _abi.lib.scarp_has_gdal() and _is_geographic(raster.crs):
+                field.frame = _DEGREES
+    return Input(None, field, (keep, texts))

@@ -1,0 +1,270 @@
+"""Meshes: what simplify() makes and measure() judges."""
+from __future__ import annotations
+
+import ctypes as C
+import json
+import os
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional
+
+from . import _abi
+from .errors import InputError, UsageError
+
+if TYPE_CHECKING:
+    from numpy import float32, float64, uint32
+    from numpy.typing import NDArray
+
+_STOPS = ("max_error", "max_triangles", "max_points", "exact")
+_EFFORTS = {0: "fast", 1: "normal", 2: "high", 3: "max"}
+
+
+class Report(NamedTuple):
+    """What a mesh is measured to be, by brute force, against every sample. Errors are vertical, mesh minus sample, in
+    the units of the heights."""
+
+    max_error: float  #: the largest |error|
+    max_error_at: Optional[tuple[int, int]]  #: its (row, column); None: there is none
+    rmse: float
+    mean_error: float
+    mean_abs_error: float
+    p50: float  #: |error| below which half of the samples lie; p95, p99 likewise
+    p95: float
+    p99: float
+    vertices: int
+    triangles: int
+    samples: int  #: judged
+    uncovered: int  #: valid samples without a triangle
+    stray: int  #: valid samples outside every valid cell
+    over: int  #: above their tolerance, or above fail_above
+    stop: Optional[str]  #: why the run ended: "max_error", "max_triangles", "max_points", "exact"; None: measured only
+    effort: Optional[str]  #: "fast", "normal", "high", "max"; None: measured only
+    is_cut_short: bool  #: a time limit ended the effort
+    seconds: float
+
+
+def report_of(struct: Any) -> Report:
+    made = struct.effort in _EFFORTS
+    at = (struct.max_error_row, struct.max_error_col) if struct.max_error_row >= 0 else None
+    return Report(struct.max_error, at, struct.rmse, struct.mean_error, struct.mean_abs_error, struct.p50, struct.p95,
+                  struct.p99, struct.vertices, struct.triangles, struct.samples, struct.uncovered, struct.stray,
+                  struct.over, _STOPS[struct.stop] if made else None, _EFFORTS.get(struct.effort),
+                  bool(struct.is_cut_short), struct.seconds)
+
+
+class _Memory:
+    """A pointer into a mesh, for numpy: keeps the mesh alive."""
+
+    def __init__(self, owner: object, address: int, shape: tuple[int, ...], kind: str) -> None:
+        self.owner = owner
+        self.__array_interface__ = {"version": 3, "data": (address, True), "shape": shape, "typestr": kind}
+
+
+class _Handle:
+    """A mesh of the library, freed with the last view of it."""
+
+    def __init__(self, value: int) -> None:
+        self.value = value
+
+    def __del__(self, free: Any = _abi.lib.scarp_mesh_free) -> None:
+        free(self.value)
+
+
+class Mesh:
+    """A triangle mesh with its proven error. Made by simplify(), Refiner.mesh(), Mesh.from_arrays() and read_mesh()."""
+
+    def __init__(self, handle: int) -> None:
+        """Takes a handle of the library; for this package alone."""
+        self._handle = _Handle(handle)
+        self._vertices: Any = None
+        lib = _abi.lib
+        #: Number of vertices and triangles.
+        self.vertex_count: int = lib.scarp_mesh_vertex_count(handle)
+        self.triangle_count: int = lib.scarp_mesh_triangle_count(handle)
+        x, y, z = (C.c_double * 3).from_address(lib.scarp_mesh_origin(handle))
+        #: What `offsets` are relative to: x, y, z in the mesh's frame.
+        self.origin: tuple[float, float, float] = (x, y, z)
+
+    @classmethod
+    def from_arrays(cls, vertices: Any, triangles: Any) -> Mesh:
+        """A mesh of (N, 3) absolute positions, float64, and (M, 3) indices, uint32, counter-clockwise from above.
+
+        Both are copied. Raises InputError for an index out of range, UsageError for other shapes."""
+        import numpy as np
+        positions = np.ascontiguousarray(vertices, dtype=np.float64)
+        given = np.asarray(triangles)
+        for name, array in (("vertices", positions), ("triangles", given)):
+            if array.ndim != 2 or array.shape[1] != 3:
+                raise UsageError("%s are an array of (N, 3), not of %s" % (name, array.shape))
+        if given.dtype.kind not in "iu":
+            raise UsageError("triangles are indices, and their dtype is %s" % given.dtype)
+        if given.size and (given.min() < 0 or given.max() >= len(positions)):
+            raise InputError("the triangles name vertices from %d to %d, and there are %d"
+                             % (given.min(), given.max(), len(positions)))
+        indices = np.ascontiguousarray(given, dtype=np.uint32)
+        out = C.c_void_p()
+        _abi.check(_abi.lib.scarp_mesh_from_arrays(positions.ctypes.data, len(positions), indices.ctypes.data,
+                                                   len(indices), C.byref(out)))
+        assert out.value is not None
+        return cls(out.value)
+
+    def _view(self, address: Optional[int], rows: int, columns: int, kind: str) -> Any:
+        if not address:
+            return None
+        try:
+            import numpy as np
+        except ImportError:
+            item: Any = {"<f8": C.c_double, "<f4": C.c_float, "<u4": C.c_uint32}[kind]
+            array = (item * (rows * columns)).from_address(address)
+            setattr(array, "_keep", self._handle)
+            code = {"<f8": "d", "<f4": "f", "<u4": "I"}[kind]
+            return memoryview(array).toreadonly().cast("B").cast(code, (rows, columns))
+        return np.asarray(_Memory(self._handle, address, (rows, columns), kind))
+
+    @property
+    def offsets(self) -> NDArray[float64]:
+        """(N, 3) float64: x, y, z from `origin`. The library's own memory, read-only; it lives as long as the array."""
+        return self._view(_abi.lib.scarp_mesh_positions(self._handle.value), self.vertex_count, 3, "<f8")  # type: ignore
+
+    @property
+    def vertices(self) -> NDArray[float64]:
+        """(N, 3) float64: absolute x, y, z; z in the units of the heights. One copy, made at the first use, unless the
+        origin is 0."""
+        if self._vertices is None:
+            self._vertices = self.offsets if self.origin == (0.0, 0.0, 0.0) else self.offsets + self.origin
+            self._vertices.flags.writeable = False
+        return self._vertices  # type: ignore[no-any-return]
+
+    @property
+    def triangles(self) -> NDArray[uint32]:
+        """(M, 3) uint32: vertices of each triangle, counter-clockwise from above. The library's own memory,
+        read-only."""
+        return self._view(_abi.lib.scarp_mesh_triangles(self._handle.value), self.triangle_count, 3, "<u4")  # type: ignore
+
+    @property
+    def normals(self) -> Optional[NDArray[float32]]:
+        """(N, 3) float32, of unit length; None unless they were asked for (`normals=True`)."""
+        return self._view(_abi.lib.scarp_mesh_normals(self._handle.value), self.vertex_count, 3, "<f4")  # type: ignore
+
+    @property
+    def uvs(self) -> Optional[NDArray[float32]]:
+        """(N, 2) float32, (0, 0) top left of the raster; None unless they were asked for (`uvs=True`)."""
+        return self._view(_abi.lib.scarp_mesh_uvs(self._handle.value), self.vertex_count, 2, "<f4")  # type: ignore
+
+    @property
+    def report(self) -> Report:
+        """The proof that the mesh was made with. UsageError for a mesh that nobody has measured: see measure()."""
+        struct = _abi.new_report()
+        _abi.check(_abi.lib.scarp_mesh_report(self._handle.value, C.byref(struct)))
+        return report_of(struct)
+
+    @property
+    def max_error(self) -> float:
+        """The largest |mesh - sample| of all samples, in the units of the heights."""
+        return self.report.max_error
+
+    @property
+    def rmse(self) -> float:
+        """The root of the mean square error."""
+        return self.report.rmse
+
+    @property
+    def crs(self) -> Optional[str]:
+        """Of x and y: "EPSG:32611", WKT; None where there is none."""
+        return self.metadata("crs")
+
+    @property
+    def frame(self) -> Optional[str]:
+        """What x and y are, in words."""
+        return self.metadata("frame")
+
+    def metadata(self, key: str) -> Optional[str]:
+        """What the mesh says of itself: "command", "frame", "crs", "origin", "error" ..., as in every file of it."""
+        text: Optional[bytes] = _abi.lib.scarp_mesh_metadata(self._handle.value, key.encode())
+        return None if text is None else text.decode()
+
+    def encode(self, format: Optional[str] = None) -> bytes:
+        """The bytes of a file: "glb", "obj", "ply", "stl", "2dm", "vtu", "dxf", "landxml", "3mf", "svg" ... DEFAULT:
+        the format that the mesh was made for (`of`), else GLB. OutputError where the format cannot hold it."""
+        out = C.c_void_p()
+        _abi.check(_abi.lib.scarp_mesh_encode(self._handle.value, None if format is None else format.encode(),
+                                              C.byref(out)))
+        return _abi.take_bytes(out.value)
+
+    def write(self, path: str | os.PathLike[str], *, overwrite: bool = True) -> None:
+        """Writes a file in the format of its ending: to a temporary name first, then renamed."""
+        _abi.check(_abi.lib.scarp_mesh_write(self._handle.value, os.fspath(path).encode(), int(overwrite)))
+
+    def measure(self, source: Any, **options: Any) -> Report:
+        """scarp.measure(source, self, ...)."""
+        from . import measure
+        return measure(source, self, **options)
+
+    def add_base(self, z: float) -> Mesh:
+        """A solid: walls along every border, and a flat base at z, below all vertices. UsageError if it is not."""
+        out = C.c_void_p()
+        _abi.check(_abi.lib.scarp_mesh_add_base(self._handle.value, z, C.byref(out)))
+        assert out.value is not None
+        return Mesh(out.value)
+
+    def to_trimesh(self, **options: Any) -> Any:
+        """A trimesh.Trimesh with the same vertices and triangles."""
+        import trimesh
+        return trimesh.Trimesh(self.vertices, self.triangles, process=options.pop("process", False), **options)
+
+    def to_pyvista(self) -> Any:
+        """A pyvista.PolyData."""
+        import numpy as np
+        import pyvista
+        faces = np.empty((self.triangle_count, 4), dtype=np.int64)
+        faces[:, 0] = 3
+        faces[:, 1:] = self.triangles
+        return pyvista.PolyData(np.array(self.vertices), faces.ravel())
+
+    def to_meshio(self) -> Any:
+        """A meshio.Mesh of one block of triangles."""
+        import meshio
+        return meshio.Mesh(self.vertices, [("triangle", self.triangles)])
+
+    def to_geopandas(self) -> Any:
+        """A geopandas.GeoDataFrame: a polygon with heights for each triangle, in the mesh's CRS."""
+        import geopandas
+        import shapely.geometry
+        corners = self.vertices[self.triangles]
+        polygons = [shapely.geometry.Polygon(triangle) for triangle in corners]
+        return geopandas.GeoDataFrame(geometry=polygons, crs=self.crs)
+
+    def plot(self, ax: Any = None, *, wireframe: bool = True, cmap: str = "viridis", **options: Any) -> Any:
+        """Draws the mesh from above with matplotlib, coloured by height; returns the axes."""
+        import matplotlib.pyplot as plt
+        if ax is None:
+            ax = plt.gca()
+        x, y, z = self.vertices.T
+        heights = z[self.triangles].mean(axis=1)
+        edges = {"edgecolors": "0.25", "linewidth": 0.25} if wireframe else {}
+        drawn = ax.tripcolor(x, y, self.triangles, facecolors=heights, cmap=cmap, **{**edges, **options})
+        ax.set_aspect("equal")
+        ax.figure.colorbar(drawn, ax=ax, label="height")
+        return ax
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a scarp.Mesh is not pickled: send its vertices and triangles, or encode()")
+
+    def __repr__(self) -> str:
+        counts = "%d vertices, %d triangles" % (self.vertex_count, self.triangle_count)
+        try:
+            return "<scarp.Mesh: %s, max error %.4g, RMSE %.4g>" % (counts, self.max_error, self.rmse)
+        except UsageError:
+            return "<scarp.Mesh: %s>" % counts
+
+    def error_facts(self) -> dict[str, Any]:
+        """What the file says of the mesh's error: "asked", "max_error", "rmse", "samples"."""
+        text = self.metadata("error")
+        facts: dict[str, Any] = json.loads(text) if text else {}
+        return facts
+
+
+def read_mesh(path: str | os.PathLike[str]) -> Mesh:
+    """Reads a mesh file: GLB, OBJ, PLY, STL, 2DM, VTU ..., told by its content. InputError if it is none."""
+    out = C.c_void_p()
+    _abi.check(_abi.lib.scarp_mesh_read(os.fspath(path).encode(), C.byref(out)))
+    assert out.value is not None
+    return Mesh(out.value)

@@ -1,0 +1,82 @@
+"""One vertex at a time."""
+from __future__ import annotations
+
+import ctypes as C
+from typing import Any, Iterator, Optional
+
+from . import _abi, _inputs
+from .errors import UsageError
+from .mesh import Mesh
+
+
+class Refiner:
+    """A mesh that grows by the sample with the largest error, one at a time, towards ever smaller errors.
+
+    `source` as in simplify(), but no path. It borrows the samples of a float32 array: do not change them meanwhile.
+
+    >>> refiner = Refiner(z)
+    >>> refiner.run(max_error=10)       # inserted vertices
+    >>> for error in refiner:           # one vertex at a time
+    ...     if error < 5: break
+    >>> mesh = refiner.mesh()
+    """
+
+    def __init__(self, source: Any, *, band: int = 1, transform: Any = None, crs: Any = None,
+                 nodata: Optional[float] = None) -> None:
+        self._handle: Optional[int] = None
+        self._input = _inputs.read(source, band=band, transform=transform, crs=crs, nodata=nodata, wants_array=True)
+        out = C.c_void_p()
+        _abi.check(_abi.lib.scarp_refiner_create(C.byref(self._input.field), C.byref(out)))
+        self._handle = out.value
+
+    def __del__(self, free: Any = _abi.lib.scarp_refiner_free) -> None:
+        if self._handle:
+            free(self._handle)
+            self._handle = None
+
+    def insert_worst(self) -> bool:
+        """Inserts the sample with the largest error; False once every sample is exact."""
+        inserted: int = _abi.lib.scarp_refiner_insert_worst(self._handle)
+        if inserted < 0:
+            raise MemoryError(_abi.last_error())
+        return inserted == 1
+
+    def run(self, max_error: float = 0.0, max_vertices: Optional[int] = None) -> int:
+        """Inserts until the error is at most max_error, or there are max_vertices; returns how many were inserted."""
+        if max_vertices is not None and max_vertices < 0:
+            raise UsageError("max_vertices is %d, and a mesh cannot have less than none" % max_vertices)
+        inserted: int = _abi.lib.scarp_refiner_run(self._handle, max_error, max_vertices or 0)
+        if inserted < 0:
+            raise MemoryError(_abi.last_error())
+        return inserted
+
+    def __iter__(self) -> Iterator[float]:
+        """Inserts, and yields the error that is left."""
+        while self.insert_worst():
+            yield self.max_error
+
+    @property
+    def max_error(self) -> float:
+        """The largest error over all samples, in the units of the heights."""
+        error: float = _abi.lib.scarp_refiner_max_error(self._handle)
+        return error
+
+    @property
+    def vertex_count(self) -> int:
+        count: int = _abi.lib.scarp_refiner_vertex_count(self._handle)
+        return count
+
+    @property
+    def triangle_count(self) -> int:
+        count: int = _abi.lib.scarp_refiner_triangle_count(self._handle)
+        return count
+
+    def mesh(self) -> Mesh:
+        """The mesh as it is now. It has no report: measure() tells of it."""
+        out = C.c_void_p()
+        _abi.check(_abi.lib.scarp_refiner_mesh(self._handle, C.byref(out)))
+        assert out.value is not None
+        return Mesh(out.value)
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a scarp.Refiner is not pickled")

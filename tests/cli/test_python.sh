@@ -1,0 +1,69 @@
+#!/bin/bash
+# Scarp for Python: one wheel is installed into a fresh environment of every Python that is here, and its tests run
+# there; the package is typed; the sdist is whole; the guide's code runs.
+. "$(dirname "$0")/lib.sh"
+need python3 cc
+alone=$SCARP_BUILD/bindings/python/libscarp_c.so
+with_gdal=$SCARP_BUILD/bindings/c/libscarp_c.so
+[ -e "$alone" ] && [ -e "$with_gdal" ] || skip "needs the C library: -DSCARP_BUILD_C=ON"
+package=$SCARP_SOURCE/bindings/python
+export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_INPUT=1 PYTHONDONTWRITEBYTECODE=1
+
+# 1. The wheel and the sdist: the same bytes each time, no folder of this machine in them.
+succeeds "$SCARP_SOURCE/tools/build_python.sh" "$SCARP_BUILD" dist
+succeeds "$SCARP_SOURCE/tools/build_python.sh" "$SCARP_BUILD" dist2
+for file in dist/*; do cmp -s "$file" "dist2/${file#dist/}" || fail "$file differs from one build to the next"; done
+wheel=$(echo dist/*-py3-none-*.whl)
+[ -s "$wheel" ] || fail "no wheel for every Python"
+mkdir sdist
+tar -xzf dist/scarp-*.tar.gz -C sdist --strip-components=1
+[ -s sdist/PKG-INFO ] && [ -s sdist/source/bindings/c/scarp_c.h ] || fail "the sdist is not whole"
+diff -rq "$SCARP_SOURCE/src" sdist/source/src > "$logs/err" || fail "the sdist has other sources"
+
+# 2. Every Python: an environment of its own, the tests there. Those without numpy run what needs none.
+tested=0
+pythons() {
+  ls /usr/bin/python3 /usr/local/bin/python3 "$HOME"/.pyenv/versions/*/bin/python3 2> /dev/null | sort -u
+}
+for python in $(pythons); do
+  version=$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])') || continue
+  case $version in 3.[0-7] | 2.*) continue ;; esac
+  environment=env-$tested
+  if ! "$python" -m venv --system-site-packages "$environment" > "$logs/out" 2>&1; then
+    echo "Python $version: skipped, it makes no environment"
+    continue
+  fi
+  succeeds "$environment/bin/python" -m pip install --quiet --no-index --no-deps "$wheel"
+  begin=$(date +%s%N)
+  succeeds "$environment/bin/python" -c 'import scarp'
+  echo "Python $version: started and imported scarp in $((($(date +%s%N) - begin) / 1000000)) ms"
+  (cd "$SCARP_SOURCE/tests/python" && SCARP_SHARE=$((tested == 0 ? 1 : 20)) SCARP_PROGRAM=$scarp SCARP_DEM=$dem try "$scratch/$environment/bin/python" test_scarp.py
+    [ "$code" = 0 ] || fail "Python $version: the tests fail"
+    tail -n 1 "$logs/err" | sed "s/^/Python $version: /"
+    grep -oE "skipped '.*'" "$logs/err" | sort | uniq -c || true)
+  tested=$((tested + 1))
+done
+[ $tested -gt 0 ] || fail "no Python was tested"
+
+# 3. With the library that has GDAL: files are the program's, byte by byte.
+if /usr/bin/python3 -c 'import numpy' 2> /dev/null; then
+  export PYTHONPATH=$package/src
+  (cd "$SCARP_SOURCE/tests/python" && SCARP_LIBRARY=$with_gdal SCARP_PROGRAM=$scarp SCARP_DEM=$dem \
+    try /usr/bin/python3 test_scarp.py Files Arrays
+    [ "$code" = 0 ] || fail "the tests fail with GDAL")
+  if /usr/bin/python3 -c 'import matplotlib' 2> /dev/null; then
+    SCARP_LIBRARY=$with_gdal succeeds /usr/bin/python3 "$SCARP_SOURCE/tools/python_guide.py"
+    cat "$logs/out"
+  else
+    echo "the guide: skipped, no matplotlib"
+  fi
+  unset PYTHONPATH
+fi
+
+# 4. It is typed.
+if command -v mypy > /dev/null; then
+  (cd "$package" && try mypy --cache-dir "$scratch/mypy" --python-version 3.9
+    [ "$code" = 0 ] || { cat "$logs/out" >&2; fail "mypy complains"; })
+else
+  echo "mypy: skipped, it is not there"
+fi

@@ -1,0 +1,16 @@
+#!/bin/bash
+# The wheel and the sdist of Scarp for Python, into a folder: the library is that of a build folder, without GDAL.
+#
+# usage: tools/build_python.sh BUILD FOLDER
+set -euo pipefail
+source_tree=$(cd "$(dirname "$0")/.." && pwd)
+library=$(realpath "$1/bindings/python/libscarp_c.so")
+mkdir -p "$2"
+folder=$(realpath "$2")
+cd "$source_tree/bindings/python"
+SCARP_C_LIBRARY=$library python3 -B -c '
+import sys
+import backend
+for build in (backend.build_wheel, backend.build_sdist):
+    print(sys.argv[1] + "/" + build(sys.argv[1]))
+' "$folder"
