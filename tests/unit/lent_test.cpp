@@ -62,7 +62,7 @@ TEST(Lent, SamplesThatAreNoHeightsCostOneCopy) {
   EXPECT_TRUE(std::isnan(field->samples[2]) && std::isnan(field->samples[5]));
   EXPECT_EQ(field->info.valid, 10u);
   EXPECT_EQ(lender.samples[2], 3);
-  EXPECT_THAT(field->info.warnings, testing::ElementsAre(testing::HasSubstr("infinite")));
+  EXPECT_THAT(field->info.warnings, ::testing::ElementsAre(::testing::HasSubstr("infinite")));
 }
 
 TEST(Lent, WhoeverChangesSamplesOwnsThemFirst) {
@@ -102,16 +102,16 @@ TEST(Lent, WhatCannotBeReadIsRefusedInOneSentence) {
     const auto field = read_height_field("heights", options);
     return field ? std::string() : field.error().message;
   };
-  EXPECT_THAT(sentence({.band = 2}), testing::HasSubstr("heights has 1 band"));
-  EXPECT_THAT(sentence({.crs = "source"}), testing::HasSubstr("no georeference"));
+  EXPECT_THAT(sentence({.band = 2}), ::testing::HasSubstr("heights has 1 band"));
+  EXPECT_THAT(sentence({.crs = "source"}), ::testing::HasSubstr("no georeference"));
   lender.raster.geotransform = {0, 0, 0, 0, 0, 0};
-  EXPECT_THAT(sentence(), testing::HasSubstr("to a line"));
+  EXPECT_THAT(sentence(), ::testing::HasSubstr("to a line"));
   lender.raster.geotransform.reset();
   lender.raster.rows = 1;
-  EXPECT_THAT(sentence(), testing::HasSubstr("at least 2 x 2"));
+  EXPECT_THAT(sentence(), ::testing::HasSubstr("at least 2 x 2"));
   lender.raster.rows = 3;
   lender.raster.samples = nullptr;
-  EXPECT_THAT(sentence(), testing::HasSubstr("null"));
+  EXPECT_THAT(sentence(), ::testing::HasSubstr("null"));
 }
 
 TEST(Lent, MeshesAndPointsToo) {
