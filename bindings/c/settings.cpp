@@ -93,8 +93,14 @@ Result<void> add_words(const OptionRow& row, const std::string& value, std::vect
     return {};
   }
   words.push_back(name);
-  std::istringstream parts(value);
-  std::copy(std::istream_iterator<std::string>(parts), {}, std::back_inserter(words));
+  const auto split = [](const std::string& text) {
+    std::istringstream parts(text);
+    return std::vector<std::string>(std::istream_iterator<std::string>(parts), {});
+  };
+  const std::vector<std::string> given = split(value);
+  if (given.size() != split(row.value).size())
+    return fail(ErrorKind::kUsage, fmt::format("{} takes {}, and '{}' was given", name, row.value, value));
+  words.insert(words.end(), given.begin(), given.end());
   return {};
 }
 

@@ -60,7 +60,8 @@ if /usr/bin/python3 -c 'import numpy' 2> /dev/null; then
   unset PYTHONPATH
 fi
 
-# 4. It is typed.
+# 4. It is typed, and its reference is what the docstrings say.
+succeeds python3 "$SCARP_SOURCE/tools/python_reference.py" --check
 if command -v mypy > /dev/null; then
   (cd "$package" && try mypy --cache-dir "$scratch/mypy" --python-version 3.9
     [ "$code" = 0 ] || { cat "$logs/out" >&2; fail "mypy complains"; })

@@ -89,6 +89,7 @@ class Library(unittest.TestCase):
             (scarp.UsageError, "did you mean effort", lambda: scarp.simplify(z, 1, efort="high")),
             (scarp.UsageError, "choose", lambda: scarp.simplify(z, 1, effort="hgih")),
             (scarp.UsageError, "is negative", lambda: scarp.simplify(z, -1)),
+            (scarp.UsageError, "max_error", lambda: scarp.simplify(z, [1])),
             (scarp.UsageError, "at least 1", lambda: scarp.simplify(z, max_triangles=0)),
             (scarp.UsageError, "the program's alone", lambda: scarp.simplify(z, 1, report="r.json")),
             (scarp.UsageError, "fill_distance needs nodata_policy fill", lambda: scarp.simplify(z, 1, fill_distance=3)),
@@ -536,6 +537,26 @@ class Files(unittest.TestCase):
                 self.by_program(DEM, path, *arguments)
                 with open(path, "rb") as file:
                     self.assertEqual(scarp.simplify(DEM, of=ending, **options).encode(), file.read())
+
+    @unittest.skipUnless(scarp.has_gdal, "needs a library with GDAL")
+    @need("rasterio")
+    def test_files_beside_an_array_are_read_as_beside_a_file(self):
+        import rasterio
+        examples = os.path.join(os.path.dirname(DEM), "examples")
+        with rasterio.open(DEM) as dataset:
+            z, transform, crs = dataset.read(1), dataset.transform, dataset.crs
+        for options in ({"breaklines": "dikes.geojson"}, {"cutline": "parcel.geojson"}, {"water": "lakes.geojson"},
+                        {"nodata_policy": "fill"}, {"solid": "size=120mm", "of": "stl"}):
+            named = {name: os.path.join(examples, value) if value.endswith("json") else value
+                     for name, value in options.items()}
+            expected = scarp.simplify(DEM, 30, **named)
+            mesh = scarp.simplify(z, 30, transform=transform, crs=crs, **named)
+            self.assertTrue(is_same(mesh, expected) and mesh.origin == expected.origin, options)
+        with self.assertRaises(scarp.UsageError):
+            scarp.simplify(z, 30, transform=transform, crs="EPSG:99999")
+        with self.assertRaises(scarp.UsageError) as caught:
+            scarp.simplify(DEM, 30, te=[1, 2, 3])
+        self.assertIn("XMIN", str(caught.exception))
 
     @unittest.skipUnless(scarp.has_gdal, "needs a library with GDAL")
     def test_tiles(self):

@@ -51,7 +51,11 @@ def _goals(settings: _call.Settings, max_error: float | str | None, max_triangle
            max_points: Optional[int], threads: int) -> None:
     struct = settings.struct
     if max_error is not None and not isinstance(max_error, str):
-        struct.max_error = float(max_error)
+        try:
+            struct.max_error = float(max_error)
+        except TypeError:
+            raise UsageError("max_error is a number or a text such as '1%%', not %s"
+                             % type(max_error).__name__) from None
     for name, count in (("max_triangles", max_triangles), ("max_points", max_points)):
         if count is None:
             continue
@@ -94,7 +98,7 @@ def simplify(source: Any, max_error: float | str | None = None, *, max_triangles
              crs: Any = None, nodata: Optional[float] = None, frame: str = "auto", mask: Any = None,
              tolerance: Any = None, normals: bool = False, threads: int = 0,
              progress: ProgressArgument = None, **options: Any) -> Mesh:
-    """Turns heights into the smallest mesh that keeps a bound, or the best of a size.
+    """Turns heights into a small mesh that keeps a bound, or a good one of a size.
 
     source         see the module's help
     max_error      every sample is within this of the mesh, vertically, in the units of the heights; "0.5%" of the
