@@ -85,6 +85,15 @@ class HeightZero {
 /// Its read() fails with kInput for a height whose zero is not known. Borrows the source.
 std::unique_ptr<NodeSource> make_raised_source(const NodeSource& source, std::shared_ptr<const HeightZero> zero);
 
+/// A source of a stack.
+struct StackedSource {
+  const NodeSource* nodes = nullptr;  ///< borrowed
+  DegreeBox covered = {};             ///< it has no heights elsewhere
+};
+/// Several sources as one: a node has the height of the first that has one there. Cost: each source reads what those
+/// before it left open, as a rectangle.
+std::unique_ptr<NodeSource> make_stacked_source(std::vector<StackedSource> sources);
+
 /// Degrees that the raster covers, half a cell around the outer samples included. Fails with kInput where its outline
 /// has no longitude or latitude. `to_degrees`: from x and y to degrees, null as in RasterPlace.
 Result<DegreeBox> degrees_covered(const HeightField& field, const std::array<double, 6>& affine,
@@ -120,6 +129,12 @@ struct PyramidLevel {
   int segments = 1;            ///< edges of triangles span at most 1/segments of a tile, for the earth's curvature
 };
 
+/// A source of a stack, as the plan knows it.
+struct PlannedSource {
+  DegreeBox covered = {};
+  int max_zoom = 0;  ///< the finest level that it asks for
+};
+
 /// The settings, resolved: all that a tile depends on besides its nodes.
 struct PyramidPlan {
   int cells = 128;
@@ -132,6 +147,8 @@ struct PyramidPlan {
   Geodetic ellipsoid = {};
   TileGrid grid = {};
   DegreeBox covered = {};  ///< by the source
+  /// Of a stack, else empty. Tiles below the block level are made only where a source asks for their level.
+  std::vector<PlannedSource> sources = {};
 
   int max_zoom() const { return static_cast<int>(levels.size()) - 1; }
 };
@@ -146,6 +163,13 @@ struct SourceFacts {
 
 /// Fails with kUsage for settings out of range.
 Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSettings& settings = {});
+/// Of a stack, at least one: the finest level is that of the source that asks for the finest, and so are the nodes
+/// everywhere.
+Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> stack, const PyramidSettings& settings = {});
+
+/// The finest level that a source asks for in a tile, or so near that the tile's normals reach it; −1 where none has
+/// heights there.
+int finest_level(const PyramidPlan& plan, TileId id);
 
 /// A tile's mesh, as clients decode it.
 struct TerrainTile {

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,12 +27,16 @@
 
 namespace scarp {
 
-/// A raster, open as nodes on the globe.
+/// Rasters in the order of their priority, open as one source of nodes on the globe: a node has the height of the first
+/// that has one there. Each has a CRS, cells, a nodata value and a datum of its own.
 class GlobeRaster {
  public:
-  /// Reads it, or leaves it in its file where memory does not hold it, as open_height_field(); options.crs is not read.
-  /// Fails as that and place_on_globe() do.
-  static Result<std::unique_ptr<GlobeRaster>> open(const std::string& path, ReadOptions options, const Datum& datum);
+  /// `mosaics`: at least one; the rasters of each lie on one grid, as find_mosaics() puts them together. Reads them, or
+  /// leaves them in their files where memory does not hold them, as open_height_field(); options.crs and
+  /// options.view.more are not read. Fails as that and place_on_globe() do; with kUsage for options.view of several
+  /// mosaics, and where the datum is another one than a raster's CRS says; with kInput for several planets.
+  static Result<std::unique_ptr<GlobeRaster>> open(const std::vector<std::vector<std::string>>& mosaics,
+                                                   const ReadOptions& options, const Datum& datum);
   GlobeRaster(const GlobeRaster&) = delete;
   GlobeRaster& operator=(const GlobeRaster&) = delete;
   ~GlobeRaster();
@@ -39,15 +44,22 @@ class GlobeRaster {
   /// Heights above the ellipsoid. Lives as long as this.
   const NodeSource& nodes() const;
   /// For plan_pyramid(). REQUIRES: opened with options.with_range.
-  SourceFacts facts() const;
-  const RasterInfo& info() const;
-  const RasterOnGlobe& place() const;
+  std::vector<SourceFacts> facts() const;
+  const RasterInfo& info() const;             ///< of the first
+  const RasterOnGlobe& place() const;         ///< of the first
+  std::string heights_above() const;          ///< RasterOnGlobe::vertical of all, each once
+  std::vector<std::string> warnings() const;  ///< RasterInfo::warnings of all
 
  private:
   struct Impl;
   explicit GlobeRaster(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
+
+/// The rasters, those of folders in place of these, put together to mosaics: neighbours in the list that lie on one
+/// grid, have one type and one nodata value, and one CRS, its datum of heights included. What cannot be opened stands
+/// alone.
+std::vector<std::vector<std::string>> find_mosaics(const std::vector<std::string>& paths);
 
 /// What tells a file from a later one of the same name.
 struct FileStamp {
@@ -61,8 +73,9 @@ FileStamp stamp_of(const std::string& path);
 
 /// All that a set depends on.
 struct TileJob {
-  std::vector<FileStamp> rasters;  ///< the first, then those that make a mosaic with it
-  ReadOptions reading;             ///< band, nodata, decode, z_scale, z_offset and view
+  std::vector<FileStamp> rasters;      ///< in the order of their priority
+  std::vector<std::uint32_t> mosaics;  ///< how many of them, one after the other, make each mosaic
+  ReadOptions reading;                 ///< band, nodata, decode, z_scale, z_offset and view
   Datum datum;
   FileStamp geoid;  ///< of datum.geoid, where that is given
   TileFormat format = TileFormat::kQuantizedMesh;
@@ -76,9 +89,14 @@ std::vector<std::uint8_t> encode_tile_job(const TileJob& job);
 Result<TileJob> decode_tile_job(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
 /// decode_tile_job() of a file. Fails with kInput where it cannot be read, too.
 Result<TileJob> read_tile_job(const std::string& path);
+/// The rasters by mosaics, as GlobeRaster::open() takes them.
+std::vector<std::vector<std::string>> mosaics_of(const TileJob& job);
 /// A hash of all of it: parts of another plan are not taken.
 std::uint64_t key_of(const TileJob& job);
-/// Fails with kInput if a raster, or the geoid's, is not what it was when the plan was made.
+/// The first raster, or the geoid's, that is not what it was when the plan was made, and what became of it: "a.tif is
+/// not there any more". Nothing if all are.
+std::optional<std::string> find_changed(const TileJob& job);
+/// Fails with kInput for find_changed().
 Result<void> check_rasters(const TileJob& job);
 
 /// What making a set will take, of a few tiles that were made to see.
@@ -133,7 +151,8 @@ struct PartsReport {
 
 /// Makes the blocks of a share that no part has, and appends them to a new file of the folder, which is made if needed.
 /// Each block is on the disk before the next is begun. Progress: pass "tiles". Fails as make_block(), with kOutput
-/// where the file cannot be written, and with kCancelled; blocks that were made stay.
+/// where the file cannot be written, with kCancelled, and as check_rasters() does after each block: one of a raster
+/// that changed meanwhile is not kept. Blocks that were made stay.
 Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, const std::string& folder, Shard shard,
                                const Run& run = {});
 

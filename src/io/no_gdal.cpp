@@ -13,6 +13,7 @@
 #include "scarp/drape.h"
 #include "scarp/globe_place.h"
 #include "scarp/lines.h"
+#include "scarp/tile_job.h"
 
 namespace scarp {
 namespace {
@@ -99,6 +100,12 @@ Result<std::vector<Line>> inset_polygons(std::span<const Line>, double, const st
 }
 
 bool opens_as_raster(const std::string&) { return false; }
+
+std::vector<std::vector<std::string>> find_mosaics(const std::vector<std::string>& paths) {
+  std::vector<std::vector<std::string>> alone;
+  for (const std::string& path : paths) alone.push_back({path});
+  return alone;
+}
 
 std::vector<std::string> list_files(const std::string&) { return {}; }
 

@@ -67,9 +67,9 @@ void add_below(const PyramidPlan& plan, TileId block, Flags has, std::vector<std
     }
     for (std::uint32_t y = 0; y < side; ++y) {
       for (std::uint32_t x = 0; x < side; ++x) {
-        if (has[std::size_t{y} * side + x] || (plan.has_siblings && parents[parent(x, y)]))
-          levels[static_cast<std::size_t>(z)].push_back(std::uint64_t{(block.y << deeper) + y} << 32 |
-                                                        ((block.x << deeper) + x));
+        const TileId id{z, (block.x << deeper) + x, (block.y << deeper) + y};
+        if ((has[std::size_t{y} * side + x] || (plan.has_siblings && parents[parent(x, y)])) && is_wanted(plan, id))
+          levels[static_cast<std::size_t>(z)].push_back(std::uint64_t{id.y} << 32 | id.x);
       }
     }
     has = std::move(parents);

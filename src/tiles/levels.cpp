@@ -52,9 +52,31 @@ int find_max_zoom(const SourceFacts& source, int cells, const Globe& globe) {
   return z;
 }
 
+/// The range of all, around all.
+SourceFacts join_facts(std::span<const SourceFacts> stack) {
+  SourceFacts all = stack.front();
+  for (const SourceFacts& one : stack) {
+    all.covered = {std::min(all.covered.west, one.covered.west), std::min(all.covered.south, one.covered.south),
+                   std::max(all.covered.east, one.covered.east), std::max(all.covered.north, one.covered.north)};
+    all.cell = std::min(all.cell, one.cell);
+    all.min = std::min(all.min, one.min);
+    all.max = std::max(all.max, one.max);
+  }
+  if (all.covered.east - all.covered.west >= 360) {
+    all.covered.west = -180;
+    all.covered.east = 180;
+  }
+  return all;
+}
+
 }  // namespace
 
 Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSettings& settings) {
+  return plan_pyramid(std::span(&source, 1), settings);
+}
+
+Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> stack, const PyramidSettings& settings) {
+  const SourceFacts source = join_facts(stack);
   if (settings.cells < 16 || settings.cells > 256 || !std::has_single_bit(static_cast<unsigned>(settings.cells)))
     return fail(ErrorKind::kUsage, fmt::format("{} cells a tile: give 16, 32, 64, 128 or 256", settings.cells));
   if (settings.max_zoom < -1 || settings.max_zoom > kMaxTileLevel)
@@ -87,7 +109,12 @@ Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSetting
   plan.ellipsoid = settings.ellipsoid;
   plan.grid = settings.grid;
   plan.covered = source.covered;
-  const int finest = settings.max_zoom >= 0 ? settings.max_zoom : find_max_zoom(source, settings.cells, globe);
+  std::vector<int> asked;
+  for (const SourceFacts& one : stack) asked.push_back(find_max_zoom(one, settings.cells, globe));
+  const int most = *std::max_element(asked.begin(), asked.end());
+  const int finest = settings.max_zoom >= 0 ? settings.max_zoom : most;
+  for (std::size_t k = 0; stack.size() > 1 && k < stack.size(); ++k)
+    plan.sources.push_back({stack[k].covered, asked[k] == most ? finest : std::min(asked[k], finest)});
   plan.block_level = std::max(0, finest - kBlockDepth);
   // A tile's 32767 steps must hold its relief, here that of the whole source.
   const double room = (high - low) / 32767;

@@ -40,6 +40,7 @@ Result<TileNodes> read_nodes(const PyramidPlan& plan, TileId id, const NodeSourc
 
 /// Nothing for a tile without heights, unless it is the block's own or a wanted sibling of one that may have some.
 Result<std::optional<TerrainTile>> make_if_any(const PyramidPlan& plan, TileId id, const NodeSource& source) {
+  if (!is_wanted(plan, id)) return std::optional<TerrainTile>();
   const auto nodes = read_nodes(plan, id, source);
   if (!nodes) return tl::unexpected(nodes.error());
   if (!nodes->has_heights() && id.z > plan.block_level) {

@@ -8,6 +8,14 @@
 namespace scarp {
 namespace {
 
+bool overlap(const PyramidPlan& plan, const DegreeBox& box, const DegreeBox& covered, double more) {
+  if (box.south > covered.north + more || box.north < covered.south - more) return false;
+  for (const double turn : plan.grid.turns()) {
+    if (box.west + turn <= covered.east + more && box.east + turn >= covered.west - more) return true;
+  }
+  return false;
+}
+
 /// Where a tile lies on Hilbert's curves through the roots, each from its south-western to its south-eastern
 /// corner.
 std::uint64_t place_on_curve(TileId id) {
@@ -29,16 +37,26 @@ std::uint64_t place_on_curve(TileId id) {
 
 }  // namespace
 
-bool is_covered(const PyramidPlan& plan, TileId id) {
+int finest_level(const PyramidPlan& plan, TileId id) {
   // More on each side, so that heights on a border, or as near as normals reach, count on both of its sides.
   const double node = (normal_reach(steps_of(plan, plan.block_level)) + 1) *
                       plan.grid.largest_step(plan.grid.per_turn(plan.max_zoom(), plan.cells));
-  const DegreeBox box = plan.grid.bounds_of(id), &covered = plan.covered;
-  if (box.south > covered.north + node || box.north < covered.south - node) return false;
-  for (const double turn : plan.grid.turns()) {
-    if (box.west + turn <= covered.east + node && box.east + turn >= covered.west - node) return true;
+  const DegreeBox box = plan.grid.bounds_of(id);
+  if (plan.sources.empty()) return overlap(plan, box, plan.covered, node) ? plan.max_zoom() : -1;
+  int finest = -1;
+  for (const PlannedSource& source : plan.sources) {
+    if (source.max_zoom > finest && overlap(plan, box, source.covered, node)) finest = source.max_zoom;
   }
-  return false;
+  return finest;
+}
+
+bool is_covered(const PyramidPlan& plan, TileId id) { return finest_level(plan, id) >= 0; }
+
+bool is_wanted(const PyramidPlan& plan, TileId id) {
+  if (id.z <= plan.block_level || plan.sources.empty()) return true;
+  if (!plan.has_siblings) return finest_level(plan, id) >= id.z;
+  const std::array<TileId, 4> siblings = children_of({id.z - 1, id.x / 2, id.y / 2});
+  return std::any_of(siblings.begin(), siblings.end(), [&](TileId one) { return finest_level(plan, one) >= id.z; });
 }
 
 std::array<TileId, 4> children_of(TileId id) {

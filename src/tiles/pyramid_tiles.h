@@ -17,6 +17,9 @@ using TileSet = std::set<std::pair<std::uint32_t, std::uint32_t>>;
 /// Whether the source may have a height in the tile, or so near that its normals reach it.
 bool is_covered(const PyramidPlan& plan, TileId id);
 
+/// Whether the level is one that a source asks for there, or the tile is a wanted sibling of such a tile.
+bool is_wanted(const PyramidPlan& plan, TileId id);
+
 /// The four tiles of the next level: south-west, south-east, north-west, north-east.
 std::array<TileId, 4> children_of(TileId id);
 

@@ -66,7 +66,7 @@ succeeds "$scarp" tile run plan.json -q
 succeeds "$scarp" tile finish plan.json planned -q
 diff -r raised planned || fail "a plan makes other tiles"
 touch forty.tif
-refuses 2 "forty.tif is not the file" "$scarp" tile run plan.json --parts others
+refuses 2 "forty.tif has changed" "$scarp" tile run plan.json --parts others
 rm forty.tif
 refuses 2 "forty.tif is not there any more" "$scarp" tile run plan.json --parts others
 

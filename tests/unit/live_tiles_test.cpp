@@ -62,6 +62,7 @@ TileJob make_job() {
   TileJob job;
   job.plan = *plan_pyramid({{10, 41, 19, 47}, 1000, 0, 700}, settings);
   job.rasters = {{"land", 0, 0}};
+  job.mosaics = {1};
   job.facts.name = "land";
   return job;
 }

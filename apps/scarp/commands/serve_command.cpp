@@ -128,7 +128,7 @@ Result<void> ServeCommand::run() const {
   auto server = HttpServer::listen(host_.value_or(kHost), static_cast<int>(*port));
   if (!server) return tl::unexpected(server.error());
   if (!quiet_) {
-    if (served->job.raster) print_warnings(warnings_of_raster(served->job.raster->info()));
+    if (served->job.raster) print_warnings(warnings_of_raster(*served->job.raster));
     auto printed = print_summary(
         describe(tiles_.raster.path(), answers.set(), served->live, served->job.job.facts.heights_above, server->url()));
     if (!printed) return printed;

@@ -44,12 +44,13 @@ Result<void> TileCommand::run(const std::string& command_line) const {
   run.progress = display.callback();
   Result<PyramidReport> report = make_pyramid(job.plan, opened->raster->nodes(), *sink, run);
   if (!report) return tl::unexpected(report.error());
+  if (auto same = check_rasters(job); !same) return same;
   if (auto checked = check_heights(job, *report); !checked) return checked;
   if (auto put = sink->put_files(*report, job.facts); !put) return put;
   if (auto finished = (*set)->finish(); !finished) return finished;
   display.finish();
   if (!quiet_) {
-    print_warnings(warnings_of_raster(opened->raster->info()));
+    print_warnings(warnings_of_raster(*opened->raster));
     print_warnings(warnings_of_levels(job.plan, *report));
   }
   const double seconds = seconds_since(start);

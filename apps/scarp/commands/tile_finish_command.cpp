@@ -44,7 +44,10 @@ Result<void> TileFinishCommand::run(const std::string& command_line) const {
   const Result<PyramidReport> report = finish_parts(*job, parts_folder(plan_, parts_), **set, run);
   if (!report) return tl::unexpected(report.error());
   display.finish();
-  if (!quiet_) print_warnings(warnings_of_levels(job->plan, *report));
+  if (!quiet_) {
+    print_warnings(warnings_of_levels(job->plan, *report));
+    if (const auto changed = find_changed(*job)) print_warnings({*changed + ": the set shows it as it was then"});
+  }
   const double seconds = seconds_since(start);
   if (report_) {
     const Json json{{"command", command_line},

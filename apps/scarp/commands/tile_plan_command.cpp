@@ -84,7 +84,7 @@ Result<void> TilePlanCommand::run() const {
   if (auto written = write_files(files, overwrite_); !written) return written;
   display.finish();
   if (quiet_) return {};
-  print_warnings(warnings_of_raster(opened->raster->info()));
+  print_warnings(warnings_of_raster(*opened->raster));
   return print_summary(make_summary(opened->job, plan_, *estimate, shards));
 }
 

@@ -104,7 +104,9 @@ constexpr OptionRow kFileRows[] = {
      .type = kInputFile,
      .is_repeatable = true,
      .is_required = true,
-     .help = "Raster of heights in metres, with a CRS: a file or URL that GDAL opens. Several make one mosaic."},
+     .help = "Raster of heights in metres, with a CRS: a file or URL that GDAL opens. Of several, in any CRS and "
+             "resolution, "
+             "the first that has a height at a place wins."},
     {.id = kOutput,
      .name = "OUTPUT",
      .commands = kTile | kTileFinish,
@@ -121,7 +123,7 @@ constexpr OptionRow kFileRows[] = {
      .is_repeatable = true,
      .is_required = true,
      .help = "Set of tiles: a folder, .pmtiles, .mbtiles or .3tz. Or what they are to be made of: a raster, several "
-             "that make one mosaic, or a plan of scarp tile plan (.json)."},
+             "of which the first that has a height wins, or a plan of scarp tile plan (.json)."},
     {.id = kCommand,
      .name = "COMMAND",
      .commands = kHelpCommand,

@@ -78,7 +78,7 @@ Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads) {
   ReadOptions options = job.reading;
   options.run.memory.limit = memory;
   options.run.threads = threads;
-  auto raster = GlobeRaster::open(job.rasters.front().path, options, job.datum);
+  auto raster = GlobeRaster::open(mosaics_of(job), options, job.datum);
   if (!raster) return tl::unexpected(raster.error());
   return OpenedJob{std::move(*raster), std::move(job)};
 }
@@ -176,15 +176,19 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   options->with_range = true;
   options->run.progress = progress;
   options->run.memory.limit = memory;
-  auto globe = GlobeRaster::open(raster.path(), *options, *datum);
+  const std::vector<std::vector<std::string>> mosaics = find_mosaics(raster.paths);
+  auto globe = GlobeRaster::open(mosaics, *options, *datum);
   if (!globe) return tl::unexpected(raster.explain(globe.error()));
   opened.raster = std::move(*globe);
   settings->ellipsoid = opened.raster->place().ellipsoid;
   auto plan = plan_pyramid(opened.raster->facts(), *settings);
   if (!plan) return tl::unexpected(plan.error());
   job.plan = std::move(*plan);
-  for (const std::string& path : raster.paths) job.rasters.push_back(stamp_of(path));
-  job.facts.heights_above = opened.raster->place().vertical;
+  for (const std::vector<std::string>& mosaic : mosaics) {
+    job.mosaics.push_back(static_cast<std::uint32_t>(mosaic.size()));
+    for (const std::string& path : mosaic) job.rasters.push_back(stamp_of(path));
+  }
+  job.facts.heights_above = opened.raster->heights_above();
   job.facts.body = opened.raster->place().body;
   job.facts.name = base_name(raster.path());
   job.facts.description = fmt::format("heights above {}", job.facts.heights_above);

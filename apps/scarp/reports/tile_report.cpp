@@ -60,8 +60,8 @@ std::string make_tile_summary(const TileJob& job, const std::string& output, con
   return text;
 }
 
-std::vector<std::string> warnings_of_raster(const RasterInfo& raster) {
-  std::vector<std::string> warnings = raster.warnings;
+std::vector<std::string> warnings_of_raster(const GlobeRaster& raster) {
+  std::vector<std::string> warnings = raster.warnings();
   // Degrees are what tiles are made in.
   std::erase_if(warnings, [](const std::string& one) { return one.find("x and y are degrees") != std::string::npos; });
   return warnings;

@@ -15,7 +15,7 @@ Json describe_levels(const PyramidPlan& plan, const PyramidReport& report);
 std::string make_tile_summary(const TileJob& job, const std::string& output, const PyramidReport& report,
                               double seconds);
 /// Of a raster, but for those about frames that tiles do not have.
-std::vector<std::string> warnings_of_raster(const RasterInfo& raster);
+std::vector<std::string> warnings_of_raster(const GlobeRaster& raster);
 /// Of levels whose tiles do not keep the max error.
 std::vector<std::string> warnings_of_levels(const PyramidPlan& plan, const PyramidReport& report);
 /// Fails with kUsage where no node has a height.

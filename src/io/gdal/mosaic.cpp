@@ -9,9 +9,12 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "io/gdal/crs.h"
+#include "io/gdal/earth_frame.h"
+#include "scarp/tile_job.h"
 
 namespace scarp::gdal {
 namespace {
@@ -26,6 +29,7 @@ struct Tile {
   int cols = 0, rows = 0, bands = 0;
   GDALDataType type = GDT_Unknown;
   std::string nodata, scale;  // words, to compare and to say
+  std::string heights;        // what they are above, as the CRS says
   bool has_holes = false;     // an alpha band, a mask or a nodata value tells where it has no value
 };
 
@@ -41,6 +45,8 @@ Result<Tile> look_at(Session& session, const std::string& path) {
   tile.path = path;
   tile.name = GDALGetDescription(raster);
   tile.crs = crs_of(raster);
+  const SpaceCrs space = space_crs_of(raster);
+  tile.heights = space.is_ellipsoidal ? "the ellipsoid" : space.vertical;
   tile.cols = GDALGetRasterXSize(raster);
   tile.rows = GDALGetRasterYSize(raster);
   tile.bands = GDALGetRasterCount(raster);
@@ -230,3 +236,28 @@ Result<Dataset> open_mosaic(Session& session, const std::vector<std::string>& pa
 }
 
 }  // namespace scarp::gdal
+
+namespace scarp {
+
+std::vector<std::vector<std::string>> find_mosaics(const std::vector<std::string>& paths) {
+  gdal::Session session;
+  std::vector<std::string> left_out;
+  const auto rasters = gdal::expand_folders(session, paths, left_out);
+  if (!rasters) return {paths};
+  if (rasters->size() < 2) return {*rasters};
+  std::vector<std::vector<std::string>> mosaics;
+  std::optional<gdal::Tile> first;  // of the last mosaic
+  for (const std::string& path : *rasters) {
+    auto tile = gdal::look_at(session, path);
+    if (first && tile && first->heights == tile->heights && gdal::find_difference(*first, *tile).empty()) {
+      mosaics.back().push_back(path);
+      continue;
+    }
+    mosaics.push_back({path});
+    first.reset();
+    if (tile) first = std::move(*tile);
+  }
+  return mosaics;
+}
+
+}  // namespace scarp

@@ -18,11 +18,19 @@ constexpr std::uint64_t kReducedBytes = 330'000;
 /// The program, without nodes.
 constexpr std::uint64_t kProgramBytes = 90'000'000;
 
-bool overlaps(const PyramidPlan& plan, TileId id) {
-  const DegreeBox box = plan.grid.bounds_of(id), &covered = plan.covered;
+bool overlap(const PyramidPlan& plan, const DegreeBox& box, const DegreeBox& covered) {
   if (box.south >= covered.north || box.north <= covered.south) return false;
   return std::ranges::any_of(
       plan.grid.turns(), [&](double turn) { return box.west + turn < covered.east && box.east + turn > covered.west; });
+}
+
+/// Whether a tile of the finest level may be made.
+bool is_expected(const PyramidPlan& plan, TileId id) {
+  const DegreeBox box = plan.grid.bounds_of(id);
+  if (plan.sources.empty()) return overlap(plan, box, plan.covered);
+  return std::ranges::any_of(plan.sources, [&](const PlannedSource& source) {
+    return source.max_zoom >= id.z && overlap(plan, box, source.covered);
+  });
 }
 
 /// Tiles of the finest level below a block that may have heights.
@@ -33,7 +41,7 @@ std::vector<TileId> finest_tiles(const PyramidPlan& plan, TileId block) {
   for (std::uint32_t y = 0; y < side; ++y) {
     for (std::uint32_t x = 0; x < side; ++x) {
       const TileId id{plan.max_zoom(), (block.x << deeper) + x, (block.y << deeper) + y};
-      if (overlaps(plan, id)) tiles.push_back(id);
+      if (is_expected(plan, id)) tiles.push_back(id);
     }
   }
   return tiles;

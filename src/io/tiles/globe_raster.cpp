@@ -1,54 +1,157 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
+#include "scarp/io.h"
 #include "scarp/tile_job.h"
 
 namespace scarp {
-struct GlobeRaster::Impl {
+namespace {
+
+/// What max_samples() counts a sample for.
+constexpr std::uint64_t kBytesPerSample = 5;
+constexpr std::uint64_t kLeastMemory = 4'000'000;
+
+/// One mosaic of the stack.
+struct GlobeSource {
   OwnedHeightField field;
   RasterOnGlobe globe;
   DegreeBox covered;
   std::unique_ptr<NodeSource> samples, raised;
+
+  const NodeSource& nodes() const { return raised ? *raised : *samples; }
+  /// Of its samples in memory.
+  std::uint64_t bytes() const {
+    const std::uint64_t codes = field.source && field.source->is_in_memory() ? sizeof(std::uint16_t) : 0;
+    return field.samples.size() * sizeof(float) +
+           codes * static_cast<std::uint64_t>(field.cols) * static_cast<std::uint64_t>(field.rows);
+  }
+};
+
+Result<std::unique_ptr<GlobeSource>> open_source(const std::vector<std::string>& mosaic, ReadOptions options,
+                                                 const Datum& datum) {
+  auto source = std::make_unique<GlobeSource>();
+  options.crs = "source";
+  // The last of a mosaic lies on top.
+  const std::string& path = mosaic.back();
+  options.view.more.assign(mosaic.rbegin() + 1, mosaic.rend());
+  auto field = open_height_field(path, options);
+  if (!field) return tl::unexpected(field.error());
+  source->field = std::move(*field);
+  source->field.info.path = mosaic.front();
+  const OwnedHeightField& raster = source->field;
+  auto globe = place_on_globe(raster.info, raster.cols, raster.rows, datum, mosaic.front());
+  if (!globe) return tl::unexpected(globe.error());
+  source->globe = std::move(*globe);
+  const auto covered = degrees_covered(raster, source->globe.place.affine, source->globe.to_degrees.get());
+  if (!covered) return tl::unexpected(covered.error());
+  source->covered = *covered;
+  auto nodes = make_node_source(raster, source->globe.place);
+  if (!nodes) return tl::unexpected(nodes.error());
+  source->samples = std::move(*nodes);
+  if (source->globe.zero) source->raised = make_raised_source(*source->samples, source->globe.zero);
+  return source;
+}
+
+/// Sources of one stack lie on one globe, and what is said of all must not be what one of them denies.
+Result<void> check_stack(const GlobeSource& first, const GlobeSource& source, const Datum& datum) {
+  const RasterInfo& info = source.field.info;
+  const Geodetic &one = first.globe.ellipsoid, &other = source.globe.ellipsoid;
+  if (one.semi_major != other.semi_major || one.inverse_flattening != other.inverse_flattening)
+    return fail(
+        ErrorKind::kInput,
+        fmt::format("{} lies on an ellipsoid of {:.0f} m, and {} on one of {:.0f} m: give rasters of one planet, "
+                    "or --ellipsoid",
+                    info.path, other.semi_major, first.field.info.path, one.semi_major));
+  const std::string says = info.is_ellipsoidal ? "the ellipsoid" : info.vertical;
+  if (datum.vertical == Vertical::kAuto || says.empty() || says == source.globe.vertical) return {};
+  return fail(
+      ErrorKind::kUsage,
+      fmt::format("the heights of {} are above {}, as its CRS says, and not above {}: leave --vertical and "
+                  "--geoid out, and say in each other raster's CRS what its heights are above (gdal_edit.py -a_srs "
+                  "EPSG:4326+5773 for the sea)",
+                  info.path, says, source.globe.vertical));
+}
+
+}  // namespace
+
+struct GlobeRaster::Impl {
+  std::vector<std::unique_ptr<GlobeSource>> sources;
+  std::unique_ptr<NodeSource> stack;  ///< of more than one
 };
 
 GlobeRaster::GlobeRaster(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 GlobeRaster::~GlobeRaster() = default;
 
-Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::string& path, ReadOptions options,
-                                                       const Datum& datum) {
+Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::vector<std::string>>& mosaics,
+                                                       const ReadOptions& options, const Datum& datum) {
+  if (mosaics.size() > 1 && (options.view.extent || options.view.resolution))
+    return fail(ErrorKind::kUsage,
+                fmt::format("--te and --resolution are for one raster or mosaic, and {} is no mosaic with {}: cut them "
+                            "first (gdalwarp -te … -tr …)",
+                            mosaics[1].front(), mosaics[0].front()));
   auto impl = std::make_unique<Impl>();
-  options.crs = "source";
-  auto field = open_height_field(path, options);
-  if (!field) return tl::unexpected(field.error());
-  impl->field = std::move(*field);
-  const OwnedHeightField& raster = impl->field;
-  auto globe = place_on_globe(raster.info, raster.cols, raster.rows, datum, path);
-  if (!globe) return tl::unexpected(globe.error());
-  impl->globe = std::move(*globe);
-  const auto covered = degrees_covered(raster, impl->globe.place.affine, impl->globe.to_degrees.get());
-  if (!covered) return tl::unexpected(covered.error());
-  impl->covered = *covered;
-  auto nodes = make_node_source(raster, impl->globe.place);
-  if (!nodes) return tl::unexpected(nodes.error());
-  impl->samples = std::move(*nodes);
-  if (impl->globe.zero) impl->raised = make_raised_source(*impl->samples, impl->globe.zero);
+  ReadOptions reading = options;
+  std::uint64_t& memory = reading.run.memory.limit;
+  if (mosaics.size() > 1 && memory == 0) memory = kBytesPerSample * max_samples(0);
+  for (const std::vector<std::string>& mosaic : mosaics) {
+    auto source = open_source(mosaic, reading, datum);
+    if (!source) return tl::unexpected(source.error());
+    // What is in memory is not there for those behind it, down to a little for windows of files.
+    if (mosaics.size() > 1) memory -= std::min((*source)->bytes(), memory - std::min(memory, kLeastMemory));
+    if (mosaics.size() > 1) {
+      const GlobeSource& first = impl->sources.empty() ? **source : *impl->sources.front();
+      if (auto fits = check_stack(first, **source, datum); !fits) return tl::unexpected(fits.error());
+    }
+    impl->sources.push_back(std::move(*source));
+  }
+  if (mosaics.size() > 1) {
+    std::vector<StackedSource> stack;
+    for (const auto& source : impl->sources) stack.push_back({&source->nodes(), source->covered});
+    impl->stack = make_stacked_source(std::move(stack));
+  }
   return std::unique_ptr<GlobeRaster>(new GlobeRaster(std::move(impl)));
 }
 
-const NodeSource& GlobeRaster::nodes() const { return impl_->raised ? *impl_->raised : *impl_->samples; }
+const NodeSource& GlobeRaster::nodes() const { return impl_->stack ? *impl_->stack : impl_->sources.front()->nodes(); }
 
-SourceFacts GlobeRaster::facts() const {
-  const RasterInfo& raster = info();
-  const double reserve = impl_->globe.zero_reach;
-  const bool are_degrees = impl_->globe.to_degrees == nullptr;
-  return {impl_->covered, std::sqrt(raster.cell_x_m * raster.cell_y_m), raster.min - reserve, raster.max + reserve,
-          are_degrees ? std::sqrt(raster.cell_x * raster.cell_y) : 0};
+std::vector<SourceFacts> GlobeRaster::facts() const {
+  std::vector<SourceFacts> facts;
+  for (const auto& source : impl_->sources) {
+    const RasterInfo& raster = source->field.info;
+    const double reserve = source->globe.zero_reach;
+    const bool are_degrees = source->globe.to_degrees == nullptr;
+    facts.push_back({source->covered, std::sqrt(raster.cell_x_m * raster.cell_y_m), raster.min - reserve,
+                     raster.max + reserve, are_degrees ? std::sqrt(raster.cell_x * raster.cell_y) : 0});
+  }
+  return facts;
 }
 
-const RasterInfo& GlobeRaster::info() const { return impl_->field.info; }
+const RasterInfo& GlobeRaster::info() const { return impl_->sources.front()->field.info; }
 
-const RasterOnGlobe& GlobeRaster::place() const { return impl_->globe; }
+const RasterOnGlobe& GlobeRaster::place() const { return impl_->sources.front()->globe; }
+
+std::string GlobeRaster::heights_above() const {
+  std::vector<std::string> different;
+  for (const auto& source : impl_->sources) {
+    const std::string& one = source->globe.vertical;
+    if (std::find(different.begin(), different.end(), one) == different.end()) different.push_back(one);
+  }
+  return fmt::format("{}", fmt::join(different, ", "));
+}
+
+std::vector<std::string> GlobeRaster::warnings() const {
+  std::vector<std::string> warnings;
+  for (const auto& source : impl_->sources) {
+    const RasterInfo& raster = source->field.info;
+    for (const std::string& one : raster.warnings)
+      warnings.push_back(impl_->stack ? fmt::format("{}: {}", raster.path, one) : one);
+  }
+  return warnings;
+}
 
 }  // namespace scarp

@@ -76,6 +76,8 @@ Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, cons
     part.progress = part_of(run.progress, static_cast<double>(report.blocks) * share, share);
     auto made = make_block(job.plan, block, nodes, sink, part);
     if (!made) return tl::unexpected(made.error());
+    // A block of a raster that changed meanwhile is not kept; those before it are.
+    if (auto same = check_rasters(job); !same) return tl::unexpected(same.error());
     if (auto kept = (*writer)->add(*made, sink.tiles); !kept) return tl::unexpected(kept.error());
     ++report.blocks;
     report.tiles += sink.tiles.size();

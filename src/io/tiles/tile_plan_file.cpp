@@ -67,6 +67,10 @@ Json describe_reading(const ReadOptions& reading) {
           {"resolution", or_null(reading.view.resolution)}};
 }
 
+Json describe_box(const DegreeBox& box) { return {box.west, box.south, box.east, box.north}; }
+
+DegreeBox parse_box(const Json& json) { return {json.at(0), json.at(1), json.at(2), json.at(3)}; }
+
 Json describe_plan(const PyramidPlan& plan) {
   Json levels = Json::array();
   for (const PyramidLevel& level : plan.levels) {
@@ -75,6 +79,9 @@ Json describe_plan(const PyramidPlan& plan) {
                       {"quantum", level.quantum},
                       {"segments", level.segments}});
   }
+  Json sources = Json::array();
+  for (const PlannedSource& source : plan.sources)
+    sources.push_back({{"covered", describe_box(source.covered)}, {"max_zoom", source.max_zoom}});
   return {{"cells", plan.cells},
           {"block_level", plan.block_level},
           {"effort", word_of(plan.effort, kEfforts)},
@@ -82,7 +89,8 @@ Json describe_plan(const PyramidPlan& plan) {
           {"has_siblings", plan.has_siblings},
           {"ellipsoid", {plan.ellipsoid.semi_major, plan.ellipsoid.inverse_flattening}},
           {"grid", {{"kind", word_of(plan.grid.kind, kGrids)}}},
-          {"covered", {plan.covered.west, plan.covered.south, plan.covered.east, plan.covered.north}},
+          {"covered", describe_box(plan.covered)},
+          {"sources", std::move(sources)},
           {"levels", std::move(levels)}};
 }
 
@@ -125,8 +133,9 @@ PyramidPlan parse_plan(const Json& json) {
   plan.ellipsoid.semi_major = json.at("ellipsoid").at(0);
   plan.ellipsoid.inverse_flattening = json.at("ellipsoid").at(1);
   plan.grid.kind = value_of(json.at("grid").at("kind"), kGrids);
-  const Json& covered = json.at("covered");
-  plan.covered = {covered.at(0), covered.at(1), covered.at(2), covered.at(3)};
+  plan.covered = parse_box(json.at("covered"));
+  for (const Json& source : json.at("sources"))
+    plan.sources.push_back({parse_box(source.at("covered")), source.at("max_zoom")});
   for (const Json& level : json.at("levels"))
     plan.levels.push_back(
         {level.at("geometric_error"), level.at("max_error"), level.at("quantum"), level.at("segments")});
@@ -148,6 +157,7 @@ bool is_sound(const PyramidPlan& plan) {
 TileJob parse_job(const Json& json) {
   TileJob job;
   for (const Json& raster : json.at("rasters")) job.rasters.push_back(parse_stamp(raster));
+  job.mosaics = json.at("mosaics").get<std::vector<std::uint32_t>>();
   const Json& reading = json.at("reading");
   job.reading.band = reading.at("band");
   job.reading.nodata = optional_of<double>(reading.at("nodata"));
@@ -156,7 +166,6 @@ TileJob parse_job(const Json& json) {
   job.reading.z_offset = reading.at("z_offset");
   job.reading.view.extent = optional_of<std::array<double, 4>>(reading.at("extent"));
   job.reading.view.resolution = optional_of<double>(reading.at("resolution"));
-  for (std::size_t k = 1; k < job.rasters.size(); ++k) job.reading.view.more.push_back(job.rasters[k].path);
   parse_datum(json.at("datum"), job);
   job.format = value_of(json.at("format"), kFormats);
   job.facts = {json.at("name"),          json.at("description"), json.at("attribution"),
@@ -165,7 +174,27 @@ TileJob parse_job(const Json& json) {
   return job;
 }
 
+/// Whether each raster is in one mosaic.
+bool has_sound_mosaics(const TileJob& job) {
+  std::uint64_t rasters = 0;
+  for (const std::uint32_t count : job.mosaics) {
+    if (count == 0) return false;
+    rasters += count;
+  }
+  return rasters > 0 && rasters == job.rasters.size();
+}
+
 }  // namespace
+
+std::vector<std::vector<std::string>> mosaics_of(const TileJob& job) {
+  std::vector<std::vector<std::string>> mosaics;
+  auto raster = job.rasters.begin();
+  for (const std::uint32_t count : job.mosaics) {
+    mosaics.emplace_back();
+    for (std::uint32_t k = 0; k < count; ++k) mosaics.back().push_back((raster++)->path);
+  }
+  return mosaics;
+}
 
 FileStamp stamp_of(const std::string& path) {
   std::error_code error;
@@ -181,6 +210,7 @@ std::vector<std::uint8_t> encode_tile_job(const TileJob& job) {
   const Json json{{"scarp_tile_plan", kPlanVersion},
                   {"generator", std::string("scarp ") + version()},
                   {"rasters", std::move(rasters)},
+                  {"mosaics", job.mosaics},
                   {"reading", describe_reading(job.reading)},
                   {"datum", describe_datum(job)},
                   {"heights_above", job.facts.heights_above},
@@ -199,7 +229,7 @@ Result<TileJob> decode_tile_job(std::span<const std::uint8_t> bytes, const std::
     const Json json = Json::parse(bytes.begin(), bytes.end());
     if (json.at("scarp_tile_plan") == kPlanVersion) {
       TileJob job = parse_job(json);
-      if (is_sound(job.plan) && !job.rasters.empty()) return job;
+      if (is_sound(job.plan) && has_sound_mosaics(job)) return job;
     }
   } catch (const std::exception&) {
     // Said below.
@@ -222,20 +252,23 @@ std::uint64_t key_of(const TileJob& job) {
   return key;
 }
 
-Result<void> check_rasters(const TileJob& job) {
-  const auto check = [](const FileStamp& file) -> Result<void> {
+std::optional<std::string> find_changed(const TileJob& job) {
+  std::vector<FileStamp> files = job.rasters;
+  if (job.datum.vertical == Vertical::kGeoid) files.push_back(job.geoid);
+  for (const FileStamp& file : files) {
     const FileStamp now = stamp_of(file.path);
-    if (now.size == file.size && now.changed == file.changed) return {};
-    if (now.size == 0 && now.changed == 0)
-      return fail(ErrorKind::kInput,
-                  fmt::format("{} is not there any more: put it back as it was, or plan again", file.path));
-    return fail(ErrorKind::kInput,
-                fmt::format("{} is not the file that it was when the plan was made: plan again", file.path));
-  };
-  for (const FileStamp& raster : job.rasters) {
-    if (auto same = check(raster); !same) return same;
+    if (now.size == file.size && now.changed == file.changed) continue;
+    const bool is_gone = now.size == 0 && now.changed == 0;
+    return fmt::format("{} {}", file.path,
+                       is_gone ? "is not there any more" : "has changed since its tiles were planned");
   }
-  return job.datum.vertical == Vertical::kGeoid ? check(job.geoid) : Result<void>();
+  return std::nullopt;
+}
+
+Result<void> check_rasters(const TileJob& job) {
+  const std::optional<std::string> changed = find_changed(job);
+  if (!changed) return {};
+  return fail(ErrorKind::kInput, *changed + ": put it back as it was, or plan again");
 }
 
 }  // namespace scarp
