@@ -128,6 +128,18 @@ class _Wheel:
         return self.name
 
 
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """Without this pip compiles the library twice."""
+    info = "scarp-%s.dist-info" % _version()
+    os.makedirs(os.path.join(metadata_directory, info), exist_ok=True)
+    with open(os.path.join(metadata_directory, info, "METADATA"), "w") as file:
+        file.write(_metadata())
+    return info
+
+
+prepare_metadata_for_build_editable = prepare_metadata_for_build_wheel
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     library, build = _compile(config_settings or {})
     try:
