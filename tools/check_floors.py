@@ -52,6 +52,7 @@ ROOMS = {
     "simplify": (6, ["base", "grid", "geom", "mesh", "tin", "metric", "io", "measure", "refine", "fit", "lines", "shape",
                      "features", "pieces"], ANY, "the list: the door, the passes, budgets, the proof, scattered points"),
     "tiles": (6, ["base", "grid"], ANY, "pyramids of tiles on the globe: levels, edges, each tile, quantized-mesh, places in space"),
+    "check": (6, ["base", "grid", "io"], ANY, "finished sets of tiles, judged without knowing how they were made"),
     "apps": (7, [], ANY, "the command line; knows `include/scarp` only"),
 }
 

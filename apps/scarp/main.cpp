@@ -18,6 +18,7 @@
 #include "commands/paper_command.h"
 #include "commands/serve_command.h"
 #include "commands/simplify_command.h"
+#include "commands/tile_check_command.h"
 #include "commands/tile_command.h"
 #include "commands/tile_finish_command.h"
 #include "commands/tile_plan_command.h"
@@ -122,6 +123,7 @@ int run_program(int count, char** words) {
   TilePlanCommand tile_plan(program);
   TileRunCommand tile_run(program);
   TileFinishCommand tile_finish(program);
+  TileCheckCommand tile_check(program);
   ServeCommand serve(program);
   InfoCommand info(program);
   GenerateCommand generate(program);
@@ -153,6 +155,7 @@ int run_program(int count, char** words) {
                     : tile_plan.is_chosen()   ? tile_plan.run()
                     : tile_run.is_chosen()    ? tile_run.run()
                     : tile_finish.is_chosen() ? tile_finish.run(command_line)
+                    : tile_check.is_chosen()  ? tile_check.run(command_line)
                     : serve.is_chosen()       ? serve.run()
                     : info.is_chosen()        ? info.run(command_line)
                     : generate.is_chosen()    ? generate.run()

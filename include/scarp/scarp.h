@@ -39,6 +39,7 @@
 #include "scarp/strategy.h"
 #include "scarp/suggest.h"
 #include "scarp/tile.h"
+#include "scarp/tile_check.h"
 #include "scarp/tile_grid.h"
 #include "scarp/tile_job.h"
 #include "scarp/tile_set.h"

@@ -70,6 +70,11 @@ class TileSetReader {
   /// As they are kept, compressed or not. Fails with kInput where there is no such tile, or the container is damaged.
   virtual Result<std::vector<std::uint8_t>> read_tile(TileId id) const = 0;
   virtual Result<std::vector<std::uint8_t>> read_file(const std::string& name) const = 0;
+  /// Whether the container says that all tiles are in gzip; nothing where it says nothing of that.
+  virtual std::optional<bool> says_gzip() const { return std::nullopt; }
+  /// Sentences: what the container says of itself, for other readers than this one, and is not so. Reads its indexes
+  /// whole.
+  virtual std::vector<std::string> find_faults() const { return {}; }
 };
 
 /// Sets of other programs open as well: folders of "z/x/y.terrain", whether compressed or not, and with tiles missing.

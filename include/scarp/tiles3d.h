@@ -70,6 +70,19 @@ Result<std::vector<std::uint8_t>> encode_tile_glb(const EarthTile& tile, const T
 /// The facts of a tile that encode_tile_glb() wrote. Fails with kInput for other files.
 Result<TileFacts> read_tile_facts(std::span<const std::uint8_t> glb);
 
+/// A tile of terrain in a GLB file, as clients of 3D Tiles take it: turned back to the earth's axes.
+struct TileGlb {
+  std::vector<std::array<double, 3>> positions;  ///< metres; shared vertices are the same doubles in Scarp's tiles
+  std::vector<std::array<double, 3>> normals;    ///< empty, or one a vertex
+  std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> west, south, east, north;  ///< of CESIUM_tile_edges
+  double step = 0;  ///< metres between the positions that the file can tell apart; 0 for single precision
+  TileFacts facts;
+};
+
+/// Fails with kInput for what is no such file of Scarp's; believes nothing in it.
+Result<TileGlb> decode_tile_glb(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
+
 /// A set's tiles, by level, row and column.
 using FactsByTile = std::map<std::tuple<int, std::uint32_t, std::uint32_t>, TileFacts>;
 

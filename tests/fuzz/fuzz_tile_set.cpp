@@ -1,5 +1,5 @@
-// Any bytes as a set of tiles in one file: a set that can be read and written again, or an error with words. The first
-// byte chooses the container.
+// Any bytes as a set of tiles in one file: a set that can be checked, read and written again, or an error with words.
+// The first byte chooses the container.
 #include <unistd.h>
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "scarp/tile_check.h"
 #include "scarp/tile_set.h"
 
 namespace {
@@ -37,6 +38,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check(reader.error());
     return 0;
   }
+  std::size_t tiles = 0;
+  for (const auto& level : (*reader)->tiles()) tiles += level.size();
+  constexpr std::size_t kMostChecked = 4096;
+  scarp::TileCheckOptions options;
+  options.run.threads = 1;
+  if (tiles <= kMostChecked && !scarp::check_tiles(**reader, options)) std::abort();
   const std::string copy = scratch.folder + "/copy." + ending;
   auto writer = scarp::create_tile_set(copy, (*reader)->format(), false);
   if (!writer) std::abort();

@@ -61,6 +61,16 @@ constexpr CommandRow kCommandRows[] = {
      "Examples:\n"
      "  scarp tile finish world.json world\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
+    {kTileCheck, "tile-check", "Prove a finished set of tiles: borders, bounds, coverage, headers, availability",
+     "SET [OPTIONS]",
+     "Also: scarp tile check. SET is a folder, .pmtiles, .mbtiles or .3tz, of Scarp or another program.\n"
+     "With --source each tile is compared with all nodes below it; give the options of the raster as they\n"
+     "were given to scarp tile.\n"
+     "Examples:\n"
+     "  scarp tile check globe                                     exit code 3 on any fault\n"
+     "  scarp tile check globe --source dem.tif --vertical egm96   bounds, too\n"
+     "  scarp tile check world.pmtiles --source world.json --json\n"
+     "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
     {kServe, "serve", "Serve tiles over HTTP, of a set or made of a raster, on this machine alone by default",
      "INPUT [OPTIONS]",
      "Tiles are sent with the headers that clients need, and of a set in one file ranges of bytes, too.\n"

@@ -130,6 +130,7 @@ enum class OptionId {
   kShards,
   kParts,
   kSlurm,
+  kSource,
   kPort,
   kHost,
   kMemory,
@@ -180,8 +181,9 @@ enum class OptionType {
 /// Commands as bits, so that a row can belong to several.
 using Commands = unsigned;
 inline constexpr Commands kSimplify = 1, kMeasure = 2, kInfo = 4, kGenerate = 8, kPaper = 16, kHelpCommand = 32,
-                          kVersionCommand = 64, kTile = 128, kServe = 256, kTilePlan = 512, kTileRun = 1024, kTileFinish = 2048;
-inline constexpr Commands kEveryCommand = 4095;
+                          kVersionCommand = 64, kTile = 128, kServe = 256, kTilePlan = 512, kTileRun = 1024, kTileFinish = 2048,
+                          kTileCheck = 4096;
+inline constexpr Commands kEveryCommand = 8191;
 
 struct OptionRow {
   OptionId id;

@@ -83,8 +83,7 @@ Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads) {
   return OpenedJob{std::move(*raster), std::move(job)};
 }
 
-void TileArguments::add_to(CLI::App& command) {
-  if (command.get_name() != "serve") add_option(command, OptionId::kOf, format);
+void TileArguments::add_nodes_to(CLI::App& command) {
   add_option(command, OptionId::kBand, raster.band);
   add_numbers(command, OptionId::kExtent, raster.extent, 4);
   add_option(command, OptionId::kResolution, raster.resolution);
@@ -94,13 +93,18 @@ void TileArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kVertical, vertical);
   add_option(command, OptionId::kGeoid, geoid);
   add_option(command, OptionId::kEllipsoid, ellipsoid);
+  add_option(command, OptionId::kCells, cells);
+  add_option(command, OptionId::kNodata, raster.nodata);
+  add_option(command, OptionId::kBackground, background);
+}
+
+void TileArguments::add_to(CLI::App& command) {
+  if (command.get_name() != "serve") add_option(command, OptionId::kOf, format);
+  add_nodes_to(command);
   add_option(command, OptionId::kEffort, effort);
   add_option(command, OptionId::kMaxError, max_error);
   add_option(command, OptionId::kQuality, quality);
   add_option(command, OptionId::kZoom, zoom);
-  add_option(command, OptionId::kCells, cells);
-  add_option(command, OptionId::kNodata, raster.nodata);
-  add_option(command, OptionId::kBackground, background);
 }
 
 Result<PyramidSettings> TileArguments::parse_settings() const {

@@ -27,6 +27,8 @@ struct TileArguments {
   Given max_error, quality, zoom, cells, effort, vertical, geoid, ellipsoid, background, format;
   Effort default_effort = Effort::kNormal;
 
+  /// What the nodes are: how the raster is read, what its heights are above, and the lattice.
+  void add_nodes_to(CLI::App& command);
   /// All that the command's rows name.
   void add_to(CLI::App& command);
   /// `memory`: bytes for the raster, 0 for any. Fails as the options, GlobeRaster::open() and plan_pyramid() do.

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
+#include "io/mesh/file_bytes.h"
+#include "io/tiles/md5.h"
 #include "io/tiles/set_archive.h"
 #include "io/tiles/tile_levels.h"
 #include "io/tiles/tile_names.h"
@@ -42,6 +45,37 @@ class ReaderOf3tz final : public TileSetReader {
     auto bytes = unpack_zip_entry(*found, *packed);
     if (!bytes) return refuse(fmt::format("cannot be read: {}", bytes.error().message));
     return bytes;
+  }
+  std::vector<std::string> find_faults() const override {
+    const auto because = [&](const std::string& why) {
+      return std::vector<std::string>{fmt::format("{}: {}", source_->path(), why)};
+    };
+    const auto bytes = read_file(std::string(kIndexOf3tz));
+    if (!bytes) return because("its index, by which clients find tiles, is missing or damaged");
+    using Key = std::pair<std::uint64_t, std::uint64_t>;
+    std::map<Key, std::uint64_t> places;
+    const auto key_of = [](const std::uint8_t* at) {
+      return Key{load_number<std::uint64_t>(at), load_number<std::uint64_t>(at + 8)};
+    };
+    constexpr std::size_t kEntry = 24;
+    Key last;
+    for (std::size_t at = 0; at + kEntry <= bytes->size(); at += kEntry) {
+      const Key key = key_of(bytes->data() + at);
+      if (at > 0 && !(last < key)) return because("its index is not in order, so that clients do not find tiles in it");
+      last = key;
+      places[key] = load_number<std::uint64_t>(bytes->data() + at + 16);
+    }
+    std::uint64_t others = 0;
+    for (const ZipRecord& record : records_) {
+      if (record.name == kIndexOf3tz) continue;
+      ++others;
+      const auto found = places.find(key_of(md5_of(record.name).data()));
+      if (found == places.end()) return because(fmt::format("its index does not list {}", record.name));
+      if (found->second != record.offset)
+        return because(fmt::format("its index tells a wrong place of {}", record.name));
+    }
+    if (others * kEntry != bytes->size()) return because("its index lists more than it holds");
+    return {};
   }
 
  private:

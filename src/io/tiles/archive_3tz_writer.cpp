@@ -15,8 +15,6 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::string_view kIndexName = "@3dtilesIndex1@";
-
 /// An archive on its way.
 class ArchiveOf3tz {
  public:
@@ -48,7 +46,7 @@ class ArchiveOf3tz {
       store_number(at, place.offset);
     }
     const std::uint64_t count = index_.size() + 1;
-    if (auto added = add(kIndexName, index); !added) return added;
+    if (auto added = add(kIndexOf3tz, index); !added) return added;
     const std::uint64_t start = output_.position(), size = directory_.size();
     append_zip_end(directory_, count, start, size);
     if (auto added = output_.add(directory_); !added) return added;

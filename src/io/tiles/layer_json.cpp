@@ -85,6 +85,8 @@ std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const Pyram
   layer["scarp"] = Json{{"generator", std::string("scarp ") + version()},
                         {"heights_above", facts.heights_above},
                         {"ellipsoid", {plan.ellipsoid.semi_major, semi_minor(plan.ellipsoid)}},
+                        {"cells", plan.cells},
+                        {"background", plan.background},
                         {"levels", std::move(levels)}};
   const std::string text = layer.dump(1) + "\n";
   return {text.begin(), text.end()};

@@ -74,6 +74,26 @@ class MbtilesReader final : public TileSetReader {
     bind_text(select.get(), 1, name);
     return read_blob(select.get());
   }
+  std::vector<std::string> find_faults() const override {
+    std::vector<std::string> faults;
+    const Question question(database_.get(), size_);
+    const auto check = prepare(database_.get(), "PRAGMA integrity_check(1)");
+    if (!check || sqlite3_step(check.get()) != SQLITE_ROW || column_text(check.get(), 0) != "ok")
+      faults.push_back(fmt::format("{}: SQLite finds it damaged: {}", path_,
+                                   check ? column_text(check.get(), 0) : sqlite3_errmsg(database_.get())));
+    const auto& levels = levels_.levels();
+    const auto first = std::find_if(levels.begin(), levels.end(), [](const auto& level) { return !level.empty(); });
+    for (const auto& [key, level] : {std::pair{"minzoom", first - levels.begin()},
+                                     std::pair{"maxzoom", static_cast<std::ptrdiff_t>(levels.size()) - 1}}) {
+      const auto select = prepare(database_.get(), "SELECT value FROM metadata WHERE name = ?");
+      if (!select) continue;
+      bind_text(select.get(), 1, key);
+      if (sqlite3_step(select.get()) == SQLITE_ROW && column_text(select.get(), 0) != std::to_string(level))
+        faults.push_back(fmt::format("{}: its metadata say that {} is {}, and it is {}", path_, key,
+                                     column_text(select.get(), 0), level));
+    }
+    return faults;
+  }
 
  private:
   MbtilesReader(std::string path, std::uint64_t size) : path_(std::move(path)), size_(size) {}

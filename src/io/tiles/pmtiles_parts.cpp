@@ -141,7 +141,7 @@ std::array<std::uint8_t, kPmtilesHeaderSize> encode_pmtiles_header(const Pmtiles
   }
   for (const std::uint64_t count : {header.tile_count, header.entry_count, header.content_count})
     store_number(at, count);
-  store_number(at, std::uint8_t{1});  // clustered
+  store_number(at, std::uint8_t{header.is_clustered});
   store_number(at, static_cast<std::uint8_t>(header.inner));
   store_number(at, static_cast<std::uint8_t>(header.tile));
   store_number(at, std::uint8_t{0});  // the type of the tiles
@@ -173,6 +173,7 @@ Result<PmtilesHeader> decode_pmtiles_header(std::span<const std::uint8_t> bytes)
   }
   if (at[1] != 1 && at[1] != 2)
     return fail(ErrorKind::kInput, "is a PMTiles archive whose directories are compressed otherwise than by gzip");
+  header.is_clustered = at[0] == 1;
   header.inner = static_cast<PmtilesCompression>(at[1]);
   header.tile = at[2] <= 2 ? static_cast<PmtilesCompression>(at[2]) : PmtilesCompression::kUnknown;
   header.min_zoom = at[4];

@@ -42,6 +42,7 @@ struct PmtilesHeader {
   std::uint64_t tile_count = 0, entry_count = 0, content_count = 0;
   PmtilesCompression inner = PmtilesCompression::kGzip, tile = PmtilesCompression::kUnknown;
   int min_zoom = 0, max_zoom = 0;
+  bool is_clustered = true;
   DegreeBox bounds;
 };
 /// Of a clustered archive whose tiles have a type that PMTiles does not know.

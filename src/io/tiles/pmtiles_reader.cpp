@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
 #include "io/base64.h"
@@ -41,6 +42,37 @@ class PmtilesReader final : public TileSetReader {
         std::upper_bound(entries_.begin(), entries_.end(), number,
                          [](std::uint64_t one, const PmtilesEntry& entry) { return one < entry.number; });
     return source_->read(header_.tiles.offset + after[-1].offset, after[-1].length);
+  }
+  std::optional<bool> says_gzip() const override {
+    if (header_.tile == PmtilesCompression::kUnknown) return std::nullopt;
+    return header_.tile == PmtilesCompression::kGzip;
+  }
+  std::vector<std::string> find_faults() const override {
+    std::vector<std::string> faults;
+    const auto compare = [&](const char* what, std::uint64_t said, std::uint64_t found) {
+      if (said != found && said != 0)
+        faults.push_back(fmt::format("{}: its header says {} {}, and it has {}", source_->path(), said, what, found));
+    };
+    std::uint64_t end = 0;
+    std::set<std::uint64_t> contents;
+    bool is_clustered = true;
+    for (const PmtilesEntry& entry : entries_) {
+      if (!contents.insert(entry.offset).second) continue;
+      is_clustered &= entry.offset >= end;
+      end = entry.offset + entry.length;
+    }
+    compare("tiles", header_.tile_count, levels_.count());
+    compare("entries", header_.entry_count, entries_.size());
+    compare("different tiles", header_.content_count, contents.size());
+    if (header_.is_clustered && !is_clustered)
+      faults.push_back(
+          fmt::format("{}: its header says that tiles lie in their order, which they do not", source_->path()));
+    const auto& levels = levels_.levels();
+    const auto first = std::find_if(levels.begin(), levels.end(), [](const auto& level) { return !level.empty(); });
+    if (header_.min_zoom != first - levels.begin() + 1 || header_.max_zoom != static_cast<int>(levels.size()))
+      faults.push_back(fmt::format("{}: its header says zooms {} to {}, and it has {} to {}", source_->path(),
+                                   header_.min_zoom, header_.max_zoom, first - levels.begin() + 1, levels.size()));
+    return faults;
   }
   Result<Bytes> read_file(const std::string& name) const override {
     const auto file = files_.find(name);

@@ -54,6 +54,8 @@ Result<void> write_pmtiles(TileSpool& spool, TileFormat format, StagedFile& file
 Result<std::unique_ptr<TileSetReader>> open_pmtiles(const std::string& path);
 Result<void> write_mbtiles(TileSpool& spool, TileFormat format, StagedFile& file);
 Result<std::unique_ptr<TileSetReader>> open_mbtiles(const std::string& path);
+/// The last entry of a .3tz: where the others are.
+inline constexpr std::string_view kIndexOf3tz = "@3dtilesIndex1@";
 Result<void> write_3tz(TileSpool& spool, TileFormat format, StagedFile& file);
 Result<std::unique_ptr<TileSetReader>> open_3tz(const std::string& path);
 

@@ -12,6 +12,7 @@
 #include "io/mesh/glb_builder.h"
 #include "io/mesh/glb_numbers.h"
 #include "io/mesh/meshopt_codec.h"
+#include "io/tiles/json_members.h"
 #include "scarp/tiles3d.h"
 #include "scarp/version.h"
 
@@ -36,9 +37,9 @@ std::array<std::int8_t, 4> to_octahedral(const std::array<double, 3>& normal) {
   return {byte(x), byte(y), 127, 0};
 }
 
-class TileGlb {
+class TileGlbWriter {
  public:
-  TileGlb(const EarthTile& tile, const TileGlbOptions& options)
+  TileGlbWriter(const EarthTile& tile, const TileGlbOptions& options)
       : tile_(tile), options_(options), is_packed_(options.compress && kHasMeshoptCodec) {
     for (const auto& offset : tile.offsets) {
       for (std::size_t k = 0; k < 3; ++k) size_[k] = std::max(size_[k], offset[k]);
@@ -248,24 +249,11 @@ bool read_numbers(const Json& object, const char* key, std::array<double, N>& nu
   return true;
 }
 
-bool read_number(const Json& object, const char* key, double& number) {
-  const auto found = object.find(key);
-  if (found == object.end() || !found->is_number()) return false;
-  number = found->get<double>();
-  return true;
-}
-
-const Json* find_member(const Json* object, const char* key) {
-  if (object == nullptr || !object->is_object()) return nullptr;
-  const auto found = object->find(key);
-  return found == object->end() ? nullptr : &*found;
-}
-
 }  // namespace
 
 Result<std::vector<std::uint8_t>> encode_tile_glb(const EarthTile& tile, const TileGlbOptions& options) {
   try {
-    return TileGlb(tile, options).encode();
+    return TileGlbWriter(tile, options).encode();
   } catch (...) {
     return caught(ErrorKind::kInput, "encode the tile");
   }
@@ -281,10 +269,12 @@ Result<TileFacts> read_tile_facts(std::span<const std::uint8_t> glb) {
   if (!json) return refuse();
   const Json* const scarp = find_member(find_member(find_member(&*json, "asset"), "extras"), "scarp");
   TileFacts facts;
-  if (scarp == nullptr || !scarp->is_object() || !read_number(*scarp, "min_height", facts.min_height) ||
-      !read_number(*scarp, "max_height", facts.max_height) || !read_numbers(*scarp, "sphere", facts.sphere) ||
+  const auto low = find_number(scarp, "min_height"), high = find_number(scarp, "max_height");
+  if (!low || !high || !read_numbers(*scarp, "sphere", facts.sphere) ||
       !read_numbers(*scarp, "horizon_point", facts.horizon_point))
     return refuse();
+  facts.min_height = *low;
+  facts.max_height = *high;
   return facts;
 }
 

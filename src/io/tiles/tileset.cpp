@@ -182,6 +182,8 @@ std::vector<std::uint8_t> encode_tileset_json(const PyramidPlan& plan, const Pyr
       {"maximumScreenSpaceError", 2},
       {"heights_above", facts.heights_above},
       {"ellipsoid", {a, b}},
+      {"cells", plan.cells},
+      {"background", plan.background},
       {"bounds", {plan.covered.west, plan.covered.south, plan.covered.east, plan.covered.north}},
       {"levels", std::move(levels)}};
   Json children = Json::array();

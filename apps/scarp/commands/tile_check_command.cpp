@@ -1,0 +1,96 @@
+#include "commands/tile_check_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "options/option_table.h"
+#include "reports/report.h"
+#include "reports/tile_check_report.h"
+#include "terminal/clock.h"
+#include "terminal/progress_display.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+/// Of the source: one that is larger stays in its file.
+constexpr std::uint64_t kSourceBytes = std::uint64_t{1} << 30;
+
+}  // namespace
+
+TileCheckCommand::TileCheckCommand(CLI::App& program) : command_(add_command(program, kTileCheck)) {
+  add_option(*command_, OptionId::kInput, set_);
+  add_option(*command_, OptionId::kSource, source_);
+  tiles_.add_nodes_to(*command_);
+  add_flag(*command_, OptionId::kJson, json_);
+  add_option(*command_, OptionId::kThreads, threads_);
+  add_flag(*command_, OptionId::kQuiet, quiet_);
+  add_flag(*command_, OptionId::kJsonProgress, json_progress_);
+}
+
+Result<void> TileCheckCommand::check_unused() const {
+  if (source_ && lower_extension(*source_) != ".json") return {};
+  for (const CLI::Option* option : command_->get_options()) {
+    const std::string name = option->get_name();
+    constexpr std::array kFree{"--source", "--json", "--num-threads", "--quiet", "--json-progress"};
+    if (option->count() == 0 || name.rfind("--", 0) != 0 || std::ranges::count(kFree, name) > 0) continue;
+    return fail(ErrorKind::kUsage, source_ ? fmt::format("{} is for rasters: {} has decided it", name, *source_)
+                                           : fmt::format("{} is for the raster of --source: give that too", name));
+  }
+  return {};
+}
+
+Result<OpenedJob> TileCheckCommand::open_source(const ProgressCallback& progress, int threads) const {
+  if (lower_extension(*source_) == ".json") {
+    auto job = read_tile_job(*source_);
+    if (!job) return tl::unexpected(job.error());
+    return open_job(std::move(*job), kSourceBytes, threads);
+  }
+  TileArguments tiles = tiles_;
+  tiles.raster.paths = {*source_};
+  return tiles.open(progress, kSourceBytes);
+}
+
+Result<void> TileCheckCommand::run(const std::string& command_line) const {
+  const Clock::time_point start = Clock::now();
+  TileCheckOptions options;
+  const Result<int> threads = parse_threads(threads_);
+  if (!threads) return tl::unexpected(threads.error());
+  options.run.threads = *threads;
+  if (auto unused = check_unused(); !unused) return unused;
+  const auto set = open_tile_set(set_);
+  if (!set) return tl::unexpected(set.error());
+  ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
+  OpenedJob opened;
+  if (source_) {
+    auto source = open_source(display.callback(), *threads);
+    if (!source) return tl::unexpected(source.error());
+    opened = std::move(*source);
+    const PyramidPlan& plan = opened.job.plan;
+    options.nodes.source = &opened.raster->nodes();
+    options.nodes.covered = plan.covered;
+    options.ellipsoid = plan.ellipsoid;
+    const bool is_plan = lower_extension(*source_) == ".json";
+    if (is_plan || tiles_.cells) options.nodes.cells = plan.cells;
+    if (is_plan || tiles_.background) options.nodes.background = plan.background;
+  }
+  options.run.progress = display.callback();
+  const Result<TileCheck> check = check_tiles(**set, options);
+  if (!check) return tl::unexpected(check.error());
+  display.finish();
+  if (json_) {
+    Json report{{"command", command_line}, {"set", set_}};
+    add_tile_check(report, *check);
+    report["seconds"] = seconds_since(start);
+    if (auto printed = print_to_stdout(to_text(report)); !printed) return printed;
+  } else if (!quiet_) {
+    if (auto printed = print_to_stdout(make_check_summary(set_, *check, seconds_since(start))); !printed)
+      return printed;
+  }
+  if (check->holds()) return {};
+  return fail(ErrorKind::kPromise, describe_faults(set_, *check));
+}
+
+}  // namespace scarp::cli

@@ -1,0 +1,64 @@
+// Edges of tiles, compared as tiles come by rows.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "check/client_tile.h"
+#include "scarp/tile_check.h"
+
+namespace scarp {
+
+/// A vertex on an edge. Two are the same if `key` and `normal` are.
+struct EdgeVertex {
+  double along = 0, height = 0;  ///< 0 … 32767; metres
+  Place key{};                   ///< what neighbours must decode alike
+  std::array<float, 3> normal{};
+};
+using TileEdge = std::vector<EdgeVertex>;
+
+/// The four edges, each in its order from south or west, by TileSide.
+struct TileEdges {
+  TileId id;
+  std::array<TileEdge, 4> sides;
+};
+TileEdges take_edges(const ClientTile& tile);
+
+/// The largest height between two edges, metres.
+double largest_gap(const TileEdge& one, const TileEdge& other);
+
+/// Compares the tiles of one level, which come by rows from the south and in each from the west. Holds a row of edges.
+class BorderWatch {
+ public:
+  /// Borrows both; adds counts and faults to them.
+  BorderWatch(TileFormat format, const TileGrid& grid, int z, CheckedLevel& level, std::vector<TileFault>& faults)
+      : format_(format), grid_(grid), z_(z), level_(level), faults_(faults) {}
+
+  void add(TileEdges tile);
+  /// After the last tile.
+  void finish() { end_row(); }
+
+ private:
+  struct Row {
+    std::int64_t y = -2;
+    std::map<std::uint32_t, TileEdges> tiles;
+  };
+  void end_row();
+  void compare(const TileEdges& here, TileSide side, const TileEdges& there, TileSide other);
+  void compare_corner(const TileEdges& here, const EdgeVertex& mine, const TileEdges& there, const EdgeVertex& theirs);
+  void check_pole(const TileEdges& tile, TileSide side);
+  bool wraps() const { return grid_.turns().size() > 1; }
+
+  TileFormat format_;
+  TileGrid grid_;
+  int z_;
+  CheckedLevel& level_;
+  std::vector<TileFault>& faults_;
+  Row row_, below_;
+  std::map<TileSide, EdgeVertex> poles_;  ///< the first vertex at each
+};
+
+}  // namespace scarp

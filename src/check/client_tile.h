@@ -1,0 +1,50 @@
+// A tile as clients decode it, whatever its format.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "check/space.h"
+#include "scarp/tile.h"
+#include "scarp/tile_set.h"
+#include "scarp/tiles3d.h"
+
+namespace scarp {
+
+/// 0 … 32767 of a tile's side.
+inline constexpr double kWholeTile = 32767;
+
+enum TileSide : std::size_t { kWest, kSouth, kEast, kNorth };
+
+struct ClientTile {
+  TileId id;
+  TileFormat format = TileFormat::kQuantizedMesh;
+  DegreeBox box;
+  /// Of 0 … 32767 from west, from south; whole numbers but in GLB files, which hold places in space.
+  std::vector<double> u, v;
+  std::vector<double> heights;  ///< metres above the ellipsoid
+  std::vector<Place> places;
+  std::vector<std::array<float, 3>> normals;  ///< empty, or of each vertex what the file holds, as numbers
+  std::vector<std::uint32_t> triangles;
+  std::array<std::vector<std::uint32_t>, 4> edges;  ///< by TileSide: vertices as the file lists them
+
+  std::optional<Place> centre;
+  double low = 0, high = 0;  ///< heights that its header tells
+  Place sphere_centre{};
+  double radius = 0;
+  Place horizon{};        ///< in units of the axes; NaN where there is none
+  double resolution = 0;  ///< metres between the positions that a GLB file can tell apart
+};
+
+/// `facts`: what a subtree says of it; without them the file's own count. Fails with kInput.
+Result<ClientTile> decode_client_tile(TileFormat format, std::span<const std::uint8_t> bytes, TileId id,
+                                      const TileGrid& grid, const Ellipsoid& ellipsoid, const TileFacts* facts);
+
+/// Degrees of a place in a tile.
+Geographic geographic_at(const DegreeBox& box, double u, double v, double height);
+
+}  // namespace scarp

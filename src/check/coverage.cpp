@@ -1,0 +1,182 @@
+// Triangles cover a tile once if each faces up, each edge has its reverse in another triangle or lies on the tile's own
+// edge, and, where places are whole numbers, all areas add up to the square. For then the number of triangles above a
+// place changes nowhere but on the outline, and it is 1 on average.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "check/tile_faults.h"
+
+namespace scarp {
+namespace {
+
+constexpr unsigned side_bit(std::size_t side) { return 1u << side; }
+
+/// On which sides of the tile each vertex lies: by its place, where that is exact, else by the lists.
+std::vector<unsigned> find_sides(const ClientTile& tile) {
+  std::vector<unsigned> sides(tile.u.size());
+  if (tile.format == TileFormat::kGlb) {
+    for (std::size_t side = 0; side < tile.edges.size(); ++side) {
+      for (const std::uint32_t v : tile.edges[side]) sides[v] |= side_bit(side);
+    }
+    return sides;
+  }
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    if (tile.u[k] == 0) sides[k] |= side_bit(kWest);
+    if (tile.v[k] == 0) sides[k] |= side_bit(kSouth);
+    if (tile.u[k] == kWholeTile) sides[k] |= side_bit(kEast);
+    if (tile.v[k] == kWholeTile) sides[k] |= side_bit(kNorth);
+  }
+  return sides;
+}
+
+/// Vertices at one place get one number, where places are exact.
+std::vector<std::uint32_t> number_places(const ClientTile& tile) {
+  std::vector<std::uint32_t> numbers;
+  for (std::size_t k = 0; k < tile.u.size(); ++k) {
+    numbers.push_back(tile.format == TileFormat::kGlb
+                          ? static_cast<std::uint32_t>(k)
+                          : static_cast<std::uint32_t>(tile.u[k]) << 16 | static_cast<std::uint32_t>(tile.v[k]));
+  }
+  return numbers;
+}
+
+constexpr double kAlmostPole = 89.9999;
+
+double latitude(const ClientTile& tile, std::uint32_t vertex) {
+  return geographic_at(tile.box, tile.u[vertex], tile.v[vertex], 0).latitude;
+}
+
+/// Whether a triangle is turned over, as far as positions can tell.
+bool faces_down(const ClientTile& tile, std::size_t k) {
+  const std::uint32_t a = tile.triangles[k], b = tile.triangles[k + 1], c = tile.triangles[k + 2];
+  if (tile.format != TileFormat::kGlb)
+    return (tile.u[b] - tile.u[a]) * (tile.v[c] - tile.v[a]) <= (tile.u[c] - tile.u[a]) * (tile.v[b] - tile.v[a]);
+  // On the map: a needle along a parallel may face down in space, where its long side is straight.
+  const Place ab = tile.places[b] - tile.places[a], ac = tile.places[c] - tile.places[a];
+  const double longest = std::max({length(ab), length(ac), length(ac - ab)});
+  const double polar =
+      std::max({std::abs(latitude(tile, a)), std::abs(latitude(tile, b)), std::abs(latitude(tile, c))});
+  if (polar > kAlmostPole) return false;  // all longitudes
+  constexpr double kMetresOfDegree = 111320;
+  const double east = (tile.box.east - tile.box.west) / kWholeTile * kMetresOfDegree *
+                      std::cos(latitude(tile, a) * 0.017453292519943295),
+               north = (tile.box.north - tile.box.south) / kWholeTile * kMetresOfDegree;
+  const double area =
+      ((tile.u[b] - tile.u[a]) * (tile.v[c] - tile.v[a]) - (tile.u[c] - tile.u[a]) * (tile.v[b] - tile.v[a])) * east *
+      north;
+  // Rounding moves each of the three corners by up to √3/2 steps: needles may turn by it.
+  return area < -3 * tile.resolution * longest;
+}
+
+std::string describe_place(const ClientTile& tile, std::uint32_t vertex) {
+  return fmt::format("u {:.6g}, v {:.6g}", tile.u[vertex], tile.v[vertex]);
+}
+
+}  // namespace
+
+void check_coverage(const ClientTile& tile, std::vector<TileFault>& faults) {
+  const std::string name = tile_name(tile.format, tile.id);
+  const auto add = [&](const std::string& what) {
+    faults.push_back({TileFaultKind::kCoverage, fmt::format("{} {}", name, what)});
+  };
+  if (tile.triangles.empty()) return add("has no triangles");
+  std::size_t down = 0, first_down = 0;
+  for (std::size_t k = 0; k < tile.triangles.size(); k += 3) {
+    if (faces_down(tile, k) && down++ == 0) first_down = k;
+  }
+  if (down > 0)
+    add(fmt::format("has a triangle that faces down or has no area, at {}",
+                    describe_place(tile, tile.triangles[first_down])));
+
+  const std::vector<std::uint32_t> numbers = number_places(tile);
+  const std::vector<unsigned> sides = find_sides(tile);
+  std::vector<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>> edges;  // places, then vertices
+  std::vector<bool> is_used(tile.u.size());
+  for (std::size_t k = 0; k < tile.triangles.size(); ++k) {
+    const std::uint32_t from = tile.triangles[k], to = tile.triangles[k % 3 == 2 ? k - 2 : k + 1];
+    edges.emplace_back(numbers[from], numbers[to], from, to);
+    is_used[from] = true;
+  }
+  std::sort(edges.begin(), edges.end());
+  std::size_t on_outline = 0, twice = 0, open = 0;
+  std::uint32_t at_twice = 0, at_open = 0;
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const auto& [place, end, from, to] = edges[k];
+    if (k > 0 && std::get<0>(edges[k - 1]) == place && std::get<1>(edges[k - 1]) == end && twice++ == 0)
+      at_twice = from;
+    const auto reverse = std::lower_bound(edges.begin(), edges.end(), std::tuple{end, place, 0u, 0u});
+    if (reverse != edges.end() && std::get<0>(*reverse) == end && std::get<1>(*reverse) == place) continue;
+    if ((sides[from] & sides[to]) != 0) {
+      ++on_outline;
+    } else if (open++ == 0) {
+      at_open = from;
+    }
+  }
+  if (twice > 0) add(fmt::format("has two triangles on one side of an edge, at {}", describe_place(tile, at_twice)));
+  if (open > 0)
+    add(fmt::format("has a gap or a vertex in the middle of an edge, at {}", describe_place(tile, at_open)));
+  const auto unused = std::find(is_used.begin(), is_used.end(), false);
+  if (unused != is_used.end())
+    add(fmt::format("has a vertex without a triangle, at {}",
+                    describe_place(tile, static_cast<std::uint32_t>(unused - is_used.begin()))));
+
+  if (tile.format == TileFormat::kGlb) {
+    std::size_t listed = 0;
+    for (const auto& edge : tile.edges) listed += edge.empty() ? 0 : edge.size() - 1;
+    if (open == 0 && on_outline != listed)
+      add(fmt::format("has {} edges on its outline where its lists have {}", on_outline, listed));
+    return;
+  }
+  std::vector<std::pair<std::uint32_t, double>> heights;
+  for (std::size_t k = 0; k < numbers.size(); ++k) heights.emplace_back(numbers[k], tile.heights[k]);
+  std::sort(heights.begin(), heights.end());
+  const auto wall = std::adjacent_find(heights.begin(), heights.end(), [](const auto& a, const auto& b) {
+    return a.first == b.first && a.second != b.second;
+  });
+  if (wall != heights.end())
+    add(fmt::format("has two heights at one place, u {}, v {}", wall->first >> 16, wall->first & 0xffff));
+  // Whole numbers below 2^53: exact.
+  double area = 0;
+  for (std::size_t k = 0; k < tile.triangles.size(); k += 3) {
+    const std::uint32_t a = tile.triangles[k], b = tile.triangles[k + 1], c = tile.triangles[k + 2];
+    area += (tile.u[b] - tile.u[a]) * (tile.v[c] - tile.v[a]) - (tile.u[c] - tile.u[a]) * (tile.v[b] - tile.v[a]);
+  }
+  const double whole = 2 * kWholeTile * kWholeTile;
+  if (area != whole) add(fmt::format("covers {:.9g} times its area", area / whole));
+}
+
+void check_edge_lists(const ClientTile& tile, std::vector<TileFault>& faults) {
+  constexpr const char* kNames[] = {"western", "southern", "eastern", "northern"};
+  const auto add = [&](std::size_t side, const char* what) {
+    faults.push_back({TileFaultKind::kEdgeList, fmt::format("{}: the list of its {} edge {}",
+                                                            tile_name(tile.format, tile.id), kNames[side], what)});
+  };
+  const std::vector<unsigned> sides = find_sides(tile);
+  for (std::size_t side = 0; side < tile.edges.size(); ++side) {
+    std::vector<std::uint32_t> listed = tile.edges[side];
+    std::sort(listed.begin(), listed.end());
+    if (std::adjacent_find(listed.begin(), listed.end()) != listed.end()) {
+      add(side, "names a vertex twice");
+      continue;
+    }
+    if (listed.size() < 2) {
+      add(side, "has less than two vertices");
+      continue;
+    }
+    std::vector<std::uint32_t> there;
+    for (std::uint32_t v = 0; v < sides.size(); ++v) {
+      if ((sides[v] & side_bit(side)) != 0) there.push_back(v);
+    }
+    if (!std::includes(listed.begin(), listed.end(), there.begin(), there.end())) {
+      add(side, "leaves out a vertex");
+    } else if (listed != there) {
+      add(side, "names a vertex that is not there");
+    }
+  }
+}
+
+}  // namespace scarp

@@ -1,0 +1,27 @@
+// How far a tile is from the source's own samples, each at its own place.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "check/client_tile.h"
+
+namespace scarp {
+
+class SampleJudge {
+ public:
+  /// Borrows the tile.
+  explicit SampleJudge(const ClientTile& tile);
+
+  /// |mesh − height| at a place of 0 … 32767 each way; 0 where no triangle is.
+  double error_at(double u, double v, double height) const;
+
+ private:
+  static constexpr std::size_t kBuckets = 64;  ///< each way
+  static std::size_t bucket_of(double place);
+
+  const ClientTile& tile_;
+  std::vector<std::vector<std::uint32_t>> buckets_;  ///< first corners of the triangles that may be there
+};
+
+}  // namespace scarp

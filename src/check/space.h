@@ -1,0 +1,58 @@
+// The ellipsoid, for who judges tiles: not the arithmetic that they were made with.
+#pragma once
+
+#include <array>
+
+#include "scarp/degrees.h"
+
+namespace scarp {
+
+/// Earth-centred metres, or a way.
+using Place = std::array<double, 3>;
+
+Place operator+(const Place& a, const Place& b);
+Place operator-(const Place& a, const Place& b);
+Place operator*(double factor, const Place& a);
+double inner(const Place& a, const Place& b);
+Place cross(const Place& a, const Place& b);
+double length(const Place& a);
+
+/// Degrees, and metres above the ellipsoid.
+struct Geographic {
+  double longitude = 0, latitude = 0, height = 0;
+};
+
+class Ellipsoid {
+ public:
+  explicit Ellipsoid(const Geodetic& geodetic);
+
+  /// What a row of places with one latitude shares.
+  struct Parallel {
+    double sine = 0, cosine = 0;
+    double normal = 0;  ///< metres from the surface to the axis, along the vertical
+  };
+  Parallel parallel(double latitude) const;
+  Place place(const Parallel& parallel, double sine, double cosine, double height) const {
+    const double out = (parallel.normal + height) * parallel.cosine;
+    return {out * cosine, out * sine, (parallel.normal * (1 - e2_) + height) * parallel.sine};
+  }
+  Place place(const Geographic& at) const;
+  /// The reverse, to 10⁻⁸ m; longitudes of −180 … 180.
+  Geographic find(const Place& at) const;
+  /// Of unit length, away from the earth.
+  static Place up(double longitude, double latitude);
+
+  /// In units of the axes: the ellipsoid becomes the sphere of radius 1.
+  Place scaled(const Place& at) const { return {at[0] / a_, at[1] / a_, at[2] / b_}; }
+  double semi_major() const { return a_; }
+  /// The least radius of curvature anywhere.
+  double least_radius() const { return a_ * (1 - e2_); }
+
+ private:
+  double a_, b_, e2_;
+};
+
+/// From a point to a triangle.
+double distance_to_triangle(const Place& point, const Place& a, const Place& b, const Place& c);
+
+}  // namespace scarp

@@ -1,0 +1,21 @@
+// The laws that a tile keeps or breaks by itself.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "check/client_tile.h"
+#include "scarp/tile_check.h"
+
+namespace scarp {
+
+/// Adds what is wrong to `faults`, one sentence for each law.
+void check_coverage(const ClientTile& tile, std::vector<TileFault>& faults);
+void check_edge_lists(const ClientTile& tile, std::vector<TileFault>& faults);
+void check_header(const ClientTile& tile, std::vector<TileFault>& faults);
+void check_horizon(const ClientTile& tile, const Ellipsoid& ellipsoid, std::vector<TileFault>& faults);
+
+/// What the flat triangles lie below the curve between their corners at most, in metres.
+double measure_sag(const ClientTile& tile, const Ellipsoid& ellipsoid);
+
+}  // namespace scarp

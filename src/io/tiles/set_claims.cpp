@@ -1,0 +1,141 @@
+#include "io/tiles/set_claims.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+
+#include "io/tiles/json_members.h"
+#include "io/tiles/subtree_claims.h"
+
+namespace scarp {
+namespace {
+
+std::optional<Json> read_json(const TileSetReader& set, const std::string& name, SetClaims& claims) {
+  const std::vector<std::string> files = set.files();
+  if (!std::binary_search(files.begin(), files.end(), name)) {
+    claims.faults.push_back(fmt::format("{} is missing: clients ask for it first", name));
+    return {};
+  }
+  const auto bytes = set.read_file(name);
+  if (!bytes) {
+    claims.faults.push_back(bytes.error().message);
+    return {};
+  }
+  auto json = parse_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  if (json && json->is_object()) return json;
+  claims.faults.push_back(fmt::format("{} is no JSON object", name));
+  return {};
+}
+
+/// What Scarp wrote of its levels and nodes.
+void read_own(const Json* scarp, SetClaims& claims) {
+  if (const auto cells = find_number(scarp, "cells"); cells && *cells >= 1 && *cells <= 65536)
+    claims.cells = static_cast<int>(*cells);
+  claims.background = find_number(scarp, "background");
+  const Json* const axes = find_member(scarp, "ellipsoid");
+  if (axes != nullptr && axes->is_array() && axes->size() == 2 && (*axes)[0].is_number() && (*axes)[1].is_number()) {
+    const double a = (*axes)[0].get<double>(), b = (*axes)[1].get<double>();
+    if (a >= 1 && a <= 1e9 && b > a / 2 && b <= a) {
+      claims.ellipsoid.emplace();
+      claims.ellipsoid->semi_major = a;
+      claims.ellipsoid->inverse_flattening = a == b ? 0 : a / (a - b);
+    }
+  }
+  const Json* const levels = find_member(scarp, "levels");
+  if (levels == nullptr || !levels->is_array()) return;
+  for (const Json& level : *levels) {
+    claims.node_errors.push_back(find_number(&level, "node_error"));
+    claims.bounds.push_back(find_number(&level, "bound"));
+    claims.source_errors.push_back(find_number(&level, "source_error"));
+  }
+}
+
+std::optional<std::uint32_t> find_place(const Json& range, const char* key) {
+  const auto count = find_count(&range, key);
+  return count && *count < std::numeric_limits<std::uint32_t>::max() ? std::optional(static_cast<std::uint32_t>(*count))
+                                                                     : std::nullopt;
+}
+
+void read_ranges(const Json& available, const TileGrid& grid, SetClaims& claims) {
+  for (std::size_t z = 0; z < available.size(); ++z) {
+    claims.levels.emplace_back();
+    const auto refuse = [&] {
+      claims.faults.push_back(
+          fmt::format("layer.json announces tiles of level {} that make no sense or that the grid has not", z));
+    };
+    if (z > static_cast<std::size_t>(kMaxTileLevel) || !available[z].is_array()) {
+      if (!available[z].empty()) refuse();
+      continue;
+    }
+    for (const Json& range : available[z]) {
+      const auto x = find_place(range, "startX"), y = find_place(range, "startY"), end_x = find_place(range, "endX"),
+                 end_y = find_place(range, "endY");
+      const int level = static_cast<int>(z);
+      if (!x || !y || !end_x || !end_y || *x > *end_x || *y > *end_y || !grid.has({level, *end_x, *end_y})) {
+        refuse();
+      } else {
+        claims.levels.back().push_back({*x, *y, *end_x, *end_y});
+      }
+    }
+  }
+}
+
+void read_layer(const TileSetReader& set, SetClaims& claims) {
+  const auto layer = read_json(set, "layer.json", claims);
+  if (!layer) {
+    claims.announces_all = false;
+    return;
+  }
+  const Json* const format = find_member(&*layer, "format");
+  if (format == nullptr || *format != "quantized-mesh-1.0")
+    claims.faults.push_back("layer.json does not name the format \"quantized-mesh-1.0\"");
+  const Json* const available = find_member(&*layer, "available");
+  if (find_member(&*layer, "metadataAvailability") != nullptr) claims.announces_all = false;
+  if (available != nullptr && available->is_array()) {
+    read_ranges(*available, {}, claims);
+  } else {
+    if (claims.announces_all) claims.faults.push_back("layer.json announces no tiles: it has no \"available\"");
+    claims.announces_all = false;
+  }
+  read_own(find_member(&*layer, "scarp"), claims);
+}
+
+void read_tileset(const TileSetReader& set, SetClaims& claims) {
+  const auto tileset = read_json(set, "tileset.json", claims);
+  if (!tileset) {
+    claims.announces_all = false;
+    return;
+  }
+  read_own(find_member(find_member(find_member(&*tileset, "asset"), "extras"), "scarp"), claims);
+  read_subtrees(set, *tileset, claims);
+  // A level's geometric error is what clients take for its error.
+  double error = 0;
+  if (const auto* const root = find_member(&*tileset, "root")) {
+    error = find_number(root, "geometricError").value_or(0);
+    const Json* const children = find_member(root, "children");
+    if (children != nullptr && children->is_array() && !children->empty())
+      error = find_number(&children->front(), "geometricError").value_or(0);
+  }
+  for (std::size_t z = 0; z < claims.bounds.size(); ++z, error /= 2) {
+    if (claims.bounds[z] && *claims.bounds[z] > error)
+      claims.faults.push_back(
+          fmt::format("tileset.json: clients take {} m for the error of level {}, whose bound is {} m", error, z,
+                      *claims.bounds[z]));
+  }
+}
+
+}  // namespace
+
+SetClaims read_set_claims(const TileSetReader& set) {
+  SetClaims claims;
+  if (set.format() == TileFormat::kGlb) {
+    read_tileset(set, claims);
+  } else {
+    read_layer(set, claims);
+  }
+  return claims;
+}
+
+}  // namespace scarp
