@@ -4,10 +4,10 @@ _scarp() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command='' options='' word
   COMPREPLY=()
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
-    case $word in simplify | measure | tile | tile-plan | tile-run | tile-finish | tile-check | serve | info | generate | paper | help | version) command=$word && break ;; esac
+    case $word in simplify | measure | tile | tile-plan | tile-run | tile-finish | serve | info | generate | paper | help | version) command=$word && break ;; esac
   done
   if [[ -z $command ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure tile tile-plan tile-run tile-finish tile-check serve info generate paper help version --help --version' -- "$current"))
+    COMPREPLY=($(compgen -W 'simplify measure tile tile-plan tile-run tile-finish serve info generate paper help version --help --version' -- "$current"))
     return
   fi
 
@@ -27,15 +27,13 @@ _scarp() {
       "measure --nodata" | "measure --falloff" | "measure --inset" | "measure --memory" | "measure -j" | \
       "measure --num-threads" | "measure --texture-weight" | "measure --channel-weights" | "measure --layer" | \
       "measure --z-field" | "tile --band" | "tile --te" | "tile --resolution" | "tile --z-scale" | \
-      "tile --z-offset" | "tile --ellipsoid" | "tile -e" | "tile --max-error" | "tile --quality" | "tile --zoom" | \
-      "tile --nodata" | "tile --background" | "tile -j" | "tile --num-threads" | "tile-plan --band" | \
+      "tile --z-offset" | "tile --ellipsoid" | "tile --only" | "tile -e" | "tile --max-error" | "tile --quality" | \
+      "tile --zoom" | "tile --nodata" | "tile --background" | "tile -j" | "tile --num-threads" | "tile-plan --band" | \
       "tile-plan --te" | "tile-plan --resolution" | "tile-plan --z-scale" | "tile-plan --z-offset" | \
-      "tile-plan --ellipsoid" | "tile-plan --shards" | "tile-plan -e" | "tile-plan --max-error" | \
-      "tile-plan --quality" | "tile-plan --zoom" | "tile-plan --nodata" | "tile-plan --background" | \
-      "tile-run --shard" | "tile-run --memory" | "tile-run -j" | "tile-run --num-threads" | "tile-finish -j" | \
-      "tile-finish --num-threads" | "tile-check --band" | "tile-check --te" | "tile-check --resolution" | \
-      "tile-check --z-scale" | "tile-check --z-offset" | "tile-check --ellipsoid" | "tile-check --nodata" | \
-      "tile-check --background" | "tile-check -j" | "tile-check --num-threads" | "serve --band" | "serve --te" | \
+      "tile-plan --ellipsoid" | "tile-plan --only" | "tile-plan --shards" | "tile-plan -e" | \
+      "tile-plan --max-error" | "tile-plan --quality" | "tile-plan --zoom" | "tile-plan --nodata" | \
+      "tile-plan --background" | "tile-run --shard" | "tile-run --only" | "tile-run --memory" | "tile-run -j" | \
+      "tile-run --num-threads" | "tile-finish -j" | "tile-finish --num-threads" | "serve --band" | "serve --te" | \
       "serve --resolution" | "serve --z-scale" | "serve --z-offset" | "serve --ellipsoid" | "serve -e" | \
       "serve --max-error" | "serve --quality" | "serve --zoom" | "serve --nodata" | "serve --background" | \
       "serve --memory" | "serve --port" | "serve -j" | "serve --num-threads" | "info --band" | "info --te" | \
@@ -47,8 +45,8 @@ _scarp() {
       COMPREPLY=($(compgen -W 'max rms' -- "$current"))
       return
       ;;
-    "simplify --decode" | "measure --decode" | "tile --decode" | "tile-plan --decode" | "tile-check --decode" | \
-      "serve --decode" | "info --decode")
+    "simplify --decode" | "measure --decode" | "tile --decode" | "tile-plan --decode" | "serve --decode" | \
+      "info --decode")
       COMPREPLY=($(compgen -W 'terrarium mapbox' -- "$current"))
       return
       ;;
@@ -69,8 +67,8 @@ _scarp() {
       "simplify --breaklines" | "simplify --cutline" | "simplify --materials" | "simplify --node-strings" | \
       "simplify --water" | "simplify --rivers" | "simplify --texture" | "measure --map" | "measure --error-raster" | \
       "measure --mask" | "measure --tolerance" | "measure --roi" | "measure --script" | "measure --cutline" | \
-      "measure --texture" | "tile --geoid" | "tile --report" | "tile-plan --geoid" | "tile-plan --slurm" | \
-      "tile-finish --report" | "tile-check --source" | "tile-check --geoid" | "serve --geoid")
+      "measure --texture" | "tile --geoid" | "tile --report" | "tile-plan --geoid" | "tile-plan --changed-since" | \
+      "tile-plan --slurm" | "tile-finish --report" | "serve --geoid")
       COMPREPLY=($(compgen -f -- "$current"))
       return
       ;;
@@ -130,7 +128,7 @@ _scarp() {
       COMPREPLY=($(compgen -W 'sum max sqerr abn tight' -- "$current"))
       return
       ;;
-    "tile --vertical" | "tile-plan --vertical" | "tile-check --vertical" | "serve --vertical")
+    "tile --vertical" | "tile-plan --vertical" | "serve --vertical")
       COMPREPLY=($(compgen -W 'auto egm96 egm2008 ellipsoid none' -- "$current"))
       return
       ;;
@@ -142,8 +140,12 @@ _scarp() {
       COMPREPLY=($(compgen -W 'fast normal high' -- "$current"))
       return
       ;;
-    "tile --cells" | "tile-plan --cells" | "tile-check --cells" | "serve --cells")
+    "tile --cells" | "tile-plan --cells" | "serve --cells")
       COMPREPLY=($(compgen -W '16 32 64 128 256' -- "$current"))
+      return
+      ;;
+    "tile-plan --hash")
+      COMPREPLY=($(compgen -W 'stamp content' -- "$current"))
       return
       ;;
     "tile-run --parts" | "tile-finish --parts" | "paper --data" | "paper --out")
@@ -185,28 +187,23 @@ _scarp() {
         ;;
       tile)
         options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --geoid'
-        options+=' --ellipsoid --report --overwrite --of --effort --max-error --quality --zoom'
-        options+=' --cells --nodata --background --num-threads --quiet --json-progress --help --help-all'
-        options+=' --version'
+        options+=' --ellipsoid --only --report --overwrite --of --effort --max-error --quality'
+        options+=' --zoom --cells --nodata --background --num-threads --quiet --json-progress --help'
+        options+=' --help-all --version'
         ;;
       tile-plan)
         options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --geoid'
-        options+=' --ellipsoid --overwrite --of --shards --slurm --effort --max-error --quality'
-        options+=' --zoom --cells --nodata --background --quiet --json-progress --help --help-all'
-        options+=' --version'
+        options+=' --ellipsoid --only --changed-since --hash --overwrite --of --shards --slurm'
+        options+=' --effort --max-error --quality --zoom --cells --nodata --background --survey'
+        options+=' --quiet --json-progress --help --help-all --version'
         ;;
       tile-run)
-        options+=' --shard --parts --memory --num-threads --quiet --json-progress --help --help-all'
-        options+=' --version'
+        options+=' --shard --only --parts --memory --num-threads --quiet --json-progress --help'
+        options+=' --help-all --version'
         ;;
       tile-finish)
         options+=' --report --overwrite --parts --num-threads --quiet --json-progress --help --help-all'
         options+=' --version'
-        ;;
-      tile-check)
-        options+=' --source --band --te --resolution --decode --z-scale --z-offset --vertical'
-        options+=' --geoid --ellipsoid --json --cells --nodata --background --num-threads --quiet'
-        options+=' --json-progress --help --help-all --version'
         ;;
       serve)
         options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --geoid'
@@ -241,7 +238,7 @@ _scarp() {
     return
   fi
   if [[ $command == help && $COMP_CWORD -eq 2 ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure tile tile-plan tile-run tile-finish tile-check serve info generate paper help version' -- "$current"))
+    COMPREPLY=($(compgen -W 'simplify measure tile tile-plan tile-run tile-finish serve info generate paper help version' -- "$current"))
     return
   fi
   COMPREPLY=($(compgen -f -- "$current"))

@@ -16,6 +16,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -119,6 +120,9 @@ struct PyramidSettings {
   bool has_siblings = false;
   Geodetic ellipsoid = {};
   TileGrid grid = {};  ///< DEFAULT: geographic.
+  /// Blocks that do not touch it are taken for places without heights. The others' tiles are those of the whole
+  /// pyramid. DEFAULT: all.
+  std::optional<DegreeBox> only = {};
 };
 
 /// A level of a pyramid.
@@ -242,6 +246,9 @@ struct PyramidReport {
 /// neighbours on the globe. All tiles below a block are made with it; any process may make any block.
 std::vector<TileId> find_blocks(const PyramidPlan& plan);
 
+/// What a block takes beside others, about: 1, and 1000 times the share of it that the source may cover.
+std::uint64_t block_cost(const PyramidPlan& plan, TileId block);
+
 /// What is known of a block that was made.
 struct BlockReport {
   TileId block;
@@ -249,6 +256,10 @@ struct BlockReport {
   /// For finish_pyramid(): its nodes reduced to 128 cells a side, and bounds of what the reduction lost, 390 kB. The
   /// same bytes on every machine. Empty for a block without heights.
   std::vector<std::uint8_t> reduced;
+  std::uint64_t hash = 0;  ///< as hash_block()
+  /// What making it took: CPU time, and the most memory that the process had until then. Set by whoever measures it.
+  double core_seconds = 0;
+  std::uint64_t memory = 0;
 };
 
 /// Makes the tiles of one block that have heights, their siblings if the plan wants them, and the block's own in any
@@ -259,6 +270,11 @@ struct BlockReport {
 /// make_tile() and the sink do, and with kCancelled.
 Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const NodeSource& source, TileSink& sink,
                                const Run& run = {});
+
+/// A hash of all that make_block() takes from the source, nodes and samples: blocks of one hash and one plan have the
+/// same tiles and errors. 0 for a block without heights. Cost: the nodes are read; memory as make_block(). Fails as the
+/// source does.
+Result<std::uint64_t> hash_block(const PyramidPlan& plan, TileId block, const NodeSource& source, int threads = 0);
 
 /// Makes the tiles above the blocks, of nodes reduced to 256 cells a side. Their node_error is an upper bound for all
 /// nodes below, which the reduction carries upwards. REQUIRES: `blocks` are those of find_blocks(), in any order.

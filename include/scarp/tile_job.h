@@ -6,6 +6,9 @@
 //
 // Nothing but the plan and the parts passes between processes. A block that is in a part is never made again, so a run
 // that was interrupted goes on where it was. The set is that of make_pyramid(), byte for byte, whoever made its blocks.
+//
+// After a change of the sources a new plan with the settings of the one before takes its parts: blocks whose nodes are
+// what they were are kept.
 #pragma once
 
 #include <cstdint>
@@ -65,39 +68,13 @@ std::vector<std::vector<std::string>> find_mosaics(const std::vector<std::string
 struct FileStamp {
   std::string path;  ///< absolute, where it names a file
   std::uint64_t size = 0;
-  std::int64_t changed = 0;  ///< nanoseconds since 1970; both 0 for what is no file, such as a URL
+  std::int64_t changed = 0;   ///< nanoseconds since 1970; both 0 for what is no file, such as a URL
+  std::uint64_t content = 0;  ///< a hash of its bytes; 0: nobody has looked at them
 
   friend bool operator==(const FileStamp&, const FileStamp&) = default;
 };
+/// Of a file that is there; else the path alone.
 FileStamp stamp_of(const std::string& path);
-
-/// All that a set depends on.
-struct TileJob {
-  std::vector<FileStamp> rasters;      ///< in the order of their priority
-  std::vector<std::uint32_t> mosaics;  ///< how many of them, one after the other, make each mosaic
-  ReadOptions reading;                 ///< band, nodata, decode, z_scale, z_offset and view
-  Datum datum;
-  FileStamp geoid;  ///< of datum.geoid, where that is given
-  TileFormat format = TileFormat::kQuantizedMesh;
-  PyramidPlan plan;
-  LayerFacts facts;  ///< but for the version
-};
-
-/// The text of a plan file: JSON. Numbers are read back exactly.
-std::vector<std::uint8_t> encode_tile_job(const TileJob& job);
-/// Fails with kInput for what is no plan of this version of Scarp's.
-Result<TileJob> decode_tile_job(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
-/// decode_tile_job() of a file. Fails with kInput where it cannot be read, too.
-Result<TileJob> read_tile_job(const std::string& path);
-/// The rasters by mosaics, as GlobeRaster::open() takes them.
-std::vector<std::vector<std::string>> mosaics_of(const TileJob& job);
-/// A hash of all of it: parts of another plan are not taken.
-std::uint64_t key_of(const TileJob& job);
-/// The first raster, or the geoid's, that is not what it was when the plan was made, and what became of it: "a.tif is
-/// not there any more". Nothing if all are.
-std::optional<std::string> find_changed(const TileJob& job);
-/// Fails with kInput for find_changed().
-Result<void> check_rasters(const TileJob& job);
 
 /// What making a set will take, of a few tiles that were made to see.
 struct TileEstimate {
@@ -109,22 +86,87 @@ struct TileEstimate {
   std::uint64_t memory = 0;        ///< bytes of a process with one thread, without the raster
   std::uint64_t parts = 0;         ///< bytes of the parts, until the set is finished
 };
+
+/// All that a set depends on.
+struct TileJob {
+  std::vector<FileStamp> rasters;      ///< in the order of their priority
+  std::vector<std::uint32_t> mosaics;  ///< how many of them, one after the other, make each mosaic
+  std::vector<FileStamp> files;        ///< others that they are made of, such as those that a VRT names
+  ReadOptions reading;             ///< band, nodata, decode, z_scale, z_offset and view
+  Datum datum;
+  FileStamp geoid;  ///< of datum.geoid, where that is given
+  TileFormat format = TileFormat::kQuantizedMesh;
+  PyramidPlan plan;
+  LayerFacts facts;                      ///< but for the version
+  std::string parts;                     ///< folder of the parts of the plan before; empty for a plan that follows none
+  /// What each of find_blocks() takes, as survey_blocks() found; empty: nobody has looked.
+  std::vector<std::uint32_t> costs;
+  std::optional<TileEstimate> estimate;  ///< no part of any key
+};
+
+/// Sets job.rasters and job.files: what these rasters are made of, as list_files() tells.
+void stamp_rasters(TileJob& job, const std::vector<std::string>& paths);
+
+/// The text of a plan file: JSON. Numbers are read back exactly.
+std::vector<std::uint8_t> encode_tile_job(const TileJob& job);
+/// Fails with kInput for what is no plan of this version of Scarp's.
+Result<TileJob> decode_tile_job(std::span<const std::uint8_t> bytes, const std::string& name_for_errors);
+/// decode_tile_job() of a file. Fails with kInput where it cannot be read, too.
+Result<TileJob> read_tile_job(const std::string& path);
+/// The rasters by mosaics, as GlobeRaster::open() takes them.
+std::vector<std::vector<std::string>> mosaics_of(const TileJob& job);
+/// A hash of all of it.
+std::uint64_t key_of(const TileJob& job);
+/// A hash of what makes tiles of nodes: parts of other settings are not taken.
+std::uint64_t settings_key_of(const TileJob& job);
+/// A hash of the files' stamps: of their content alone where that is known.
+std::uint64_t sources_key_of(const TileJob& job);
+/// Reads all files for their content. Fails with kInput.
+Result<void> add_contents(TileJob& job);
+/// The first file, the geoid's included, that is not what it was when the plan was made, and what became of it: "a.tif is
+/// not there any more". Nothing if all are.
+std::optional<std::string> find_changed(const TileJob& job);
+/// Fails with kInput for find_changed().
+Result<void> check_rasters(const TileJob& job);
+
+/// A job for rasters that have changed, or for others, with the levels and settings of an earlier one, so that what did
+/// not change keeps its bytes. `now`: of these rasters, with the earlier's finest level and max error. Fails with
+/// kUsage where their heights need coarser steps than the earlier levels have.
+Result<TileJob> follow_job(const TileJob& earlier, TileJob now);
+
 /// Makes `samples` tiles of the finest level, evenly over the blocks, on one thread. Fails as make_tile() does.
 Result<TileEstimate> estimate_tiles(const TileJob& job, const NodeSource& nodes, int samples = 24);
 
+/// Reads all nodes once and sets job.costs: 1 for a block, and 1000 times the share of its nodes that have heights; shares
+/// are then of equal cost. Memory: some rows of a block's nodes a thread. Progress: pass "survey". Fails as the source
+/// does, and with kCancelled.
+Result<void> survey_blocks(TileJob& job, const NodeSource& nodes, const Run& run = {});
+
+/// One of n shares of the blocks: consecutive ones of find_blocks(), 1 … of, of about the same cost.
+struct Shard {
+  std::uint32_t number = 1, of = 1;
+};
+
 /// The blocks that processes made so far: files in a folder. Each process that makes some writes a file of its own,
-/// which it only ever appends to; a record that was cut off is not looked at.
+/// which it only ever appends to; a record that was cut off is not looked at. A record tells of which files' stamps and
+/// of which nodes a block was made, or that a block of these nodes is right for other stamps, too.
 class TileParts {
  public:
-  /// Looks at all parts in the folder, which need not be there. Fails with kInput for parts of another plan, and where
-  /// they cannot be read.
-  static Result<std::unique_ptr<TileParts>> open(const std::string& folder, std::uint64_t key);
+  /// Looks at all parts in the folder, which need not be there. Fails with kInput for parts of other settings, and
+  /// where they cannot be read.
+  static Result<std::unique_ptr<TileParts>> open(const std::string& folder, const TileJob& job);
   TileParts(const TileParts&) = delete;
   TileParts& operator=(const TileParts&) = delete;
   ~TileParts();
 
+  /// The block, of the job's sources.
   bool has(TileId block) const;
-  std::size_t count() const;
+  /// The block, of any sources.
+  bool has_any(TileId block) const;
+  /// The block, of these nodes.
+  bool has_nodes(TileId block, std::uint64_t nodes) const;
+  /// Looks again at the parts of one share. Fails as open().
+  Result<void> look_again(Shard shard);
   /// What make_block() returned, and the block's tiles in their order, each handed to `put`. Fails with kInput for a
   /// damaged part, with the file's name, and as `put` does.
   Result<BlockReport> read(TileId block,
@@ -137,29 +179,36 @@ class TileParts {
   std::unique_ptr<Impl> impl_;
 };
 
-/// One of n shares of the blocks: consecutive ones of find_blocks(), 1 … of.
-struct Shard {
-  std::uint32_t number = 1, of = 1;
-};
-
 /// What a process made.
 struct PartsReport {
-  std::uint64_t blocks = 0;  ///< made now
-  std::uint64_t there = 0;   ///< of its share, made before
+  std::uint64_t blocks = 0;     ///< made now
+  std::uint64_t there = 0;      ///< of its share, made before, or meanwhile by another process
+  std::uint64_t unchanged = 0;  ///< made before of other files, whose nodes are the same
   std::uint64_t tiles = 0, bytes = 0;
+  bool has_company = false;  ///< another process made the same share when this one began
 };
 
 /// Makes the blocks of a share that no part has, and appends them to a new file of the folder, which is made if needed.
-/// Each block is on the disk before the next is begun. Progress: pass "tiles". Fails as make_block(), with kOutput
-/// where the file cannot be written, with kCancelled, and as check_rasters() does after each block: one of a raster
-/// that changed meanwhile is not kept. Blocks that were made stay.
+/// Each block is on the disk before the next is begun. `only`: leaves out blocks that do not touch it. Of a block that
+/// is there of other sources the nodes are read, and it is made if they are others. Two processes may make one share at
+/// once: the second begins at its end. Progress: pass "tiles"; `tell` hears of the report after each block. Fails as
+/// make_block(), as check_rasters() after each block, which is not kept then, with kOutput where the file cannot be written, and with
+/// kCancelled; blocks that were made stay.
 Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, const std::string& folder, Shard shard,
-                               const Run& run = {});
+                               const Run& run = {}, const std::optional<DegreeBox>& only = {},
+                               const std::function<void(const PartsReport&)>& tell = {});
+
+/// What making the blocks of a set took.
+struct PartsCost {
+  double core_seconds = 0;   ///< of all blocks, with the levels above
+  std::uint64_t memory = 0;  ///< the most that a process had, its raster included
+  std::uint64_t parts = 0;   ///< bytes of the parts' records
+};
 
 /// Puts all tiles of the parts and the levels above them into the set, and finishes it. Fails with
 /// kInput where blocks are missing, telling how many, and as finish_pyramid() and the set do.
 Result<PyramidReport> finish_parts(const TileJob& job, const std::string& folder, TileSetWriter& set,
-                                   const Run& run = {});
+                                   const Run& run = {}, PartsCost* cost = nullptr);
 
 }  // namespace scarp
 

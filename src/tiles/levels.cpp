@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "scarp/tile.h"
 #include "tiles/globe.h"
@@ -69,6 +70,22 @@ SourceFacts join_facts(std::span<const SourceFacts> stack) {
   return all;
 }
 
+/// What two boxes share; where they meet in two places, the larger. A source that goes all round covers any box.
+std::optional<DegreeBox> intersection_of(const TileGrid& grid, const DegreeBox& covered, const DegreeBox& only) {
+  std::optional<DegreeBox> best;
+  if (covered.east - covered.west >= 360) best = {only.west, covered.south, only.east, covered.north};
+  for (const double turn : grid.turns()) {
+    const DegreeBox shared{std::max(covered.west, only.west + turn), covered.south,
+                           std::min(covered.east, only.east + turn), covered.north};
+    if (shared.east >= shared.west && (!best || shared.east - shared.west > best->east - best->west)) best = shared;
+  }
+  if (!best) return {};
+  best->south = std::max(covered.south, only.south);
+  best->north = std::min(covered.north, only.north);
+  if (best->north < best->south) return {};
+  return best;
+}
+
 }  // namespace
 
 Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSettings& settings) {
@@ -109,6 +126,11 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> stack, const Pyram
   plan.ellipsoid = settings.ellipsoid;
   plan.grid = settings.grid;
   plan.covered = source.covered;
+  if (settings.only) {
+    const std::optional<DegreeBox> shared = intersection_of(settings.grid, source.covered, *settings.only);
+    if (!shared) return fail(ErrorKind::kUsage, "the raster has nothing in that box");
+    plan.covered = *shared;
+  }
   std::vector<int> asked;
   for (const SourceFacts& one : stack) asked.push_back(find_max_zoom(one, settings.cells, globe));
   const int most = *std::max_element(asked.begin(), asked.end());

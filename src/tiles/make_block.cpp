@@ -1,4 +1,7 @@
 // A block: the tile of the block level and all below it, of nodes that are read once.
+#include <algorithm>
+#include <bit>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -6,6 +9,7 @@
 #include "scarp/tile.h"
 #include "tiles/coarse_nodes.h"
 #include "tiles/pyramid_tiles.h"
+#include "tiles/row_range.h"
 #include "tiles/tile_maker.h"
 #include "tiles/tile_mesh_parts.h"
 #include "tiles/tile_nodes.h"
@@ -14,10 +18,39 @@
 namespace scarp {
 namespace {
 
-/// All nodes of a block and around it, read by all threads.
-Result<HeldNodes> read_block(const PyramidPlan& plan, TileId block, const NodeSource& source, int threads) {
+/// All nodes of a block and around it, read by all threads; nothing where none has a height.
+Result<std::optional<HeldNodes>> read_block(const PyramidPlan& plan, TileId block, const NodeSource& source,
+                                            int threads) {
+  if (!is_covered(plan, block)) return std::optional<HeldNodes>();
   const std::int32_t steps = steps_of(plan, block.z);
-  return HeldNodes::read(plan.grid.window_of(block, steps, normal_reach(steps)), source, threads);
+  auto nodes = HeldNodes::read(plan.grid.window_of(block, steps, normal_reach(steps)), source, threads);
+  if (!nodes) return tl::unexpected(nodes.error());
+  if (!nodes->has_heights()) return std::optional<HeldNodes>();
+  return std::optional(std::move(*nodes));
+}
+
+std::uint64_t mixed(std::uint64_t hash, double value) {
+  hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0xff51afd7ed558ccd;
+  return hash ^ (hash >> 32);
+}
+
+/// Of the nodes, and of each sample with its place, whatever the order in which the source shows them.
+Result<std::uint64_t> hash_of(const PyramidPlan& plan, TileId block, const HeldNodes& nodes) {
+  const DegreeBox box = plan.grid.bounds_of(block);
+  std::uint64_t sum = nodes.hash();
+  auto visited = nodes.visit_samples(box, [&](const SampleRow& row) {
+    const auto [first, end] =
+        range_within(row.longitude, row.step_longitude, row.latitude, row.step_latitude, row.heights.size(), box);
+    for (std::size_t i = first; i < end; ++i) {
+      if (std::isnan(row.heights[i])) continue;
+      const auto steps = static_cast<double>(i);
+      sum +=
+          mixed(mixed(mixed(0, row.longitude + steps * row.step_longitude), row.latitude + steps * row.step_latitude),
+                double{row.heights[i]});
+    }
+  });
+  if (!visited) return tl::unexpected(visited.error());
+  return std::max<std::uint64_t>(sum, 1);
 }
 
 /// The block's tile, then level by level those below it, by rows.
@@ -56,17 +89,20 @@ Result<std::optional<TerrainTile>> make_if_any(const PyramidPlan& plan, TileId i
 
 }  // namespace
 
+Result<std::uint64_t> hash_block(const PyramidPlan& plan, TileId block, const NodeSource& source, int threads) {
+  const auto nodes = read_block(plan, block, source, threads);
+  if (!nodes) return tl::unexpected(nodes.error());
+  return *nodes ? hash_of(plan, block, **nodes) : 0;
+}
+
 Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const NodeSource& source, TileSink& sink,
                                const Run& run) {
   TileOutput output(plan, sink, run);
   BlockReport made;
   made.block = block;
-  std::optional<HeldNodes> nodes;
-  if (is_covered(plan, block)) {
-    auto read = read_block(plan, block, source, run.threads);
-    if (!read) return tl::unexpected(read.error());
-    if (read->has_heights()) nodes = std::move(*read);
-  }
+  const auto read = read_block(plan, block, source, run.threads);
+  if (!read) return tl::unexpected(read.error());
+  const std::optional<HeldNodes>& nodes = *read;
   if (!nodes) {
     Result<TerrainTile> flat = make_flat_tile(plan, block);
     if (!flat) return tl::unexpected(flat.error());
@@ -79,6 +115,9 @@ Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const Node
   if (auto put = output.make(tiles_of(plan, block), make); !put) return tl::unexpected(put.error());
   made.report = output.take_report();
   made.report.has_heights = true;
+  const auto hash = hash_of(plan, block, *nodes);
+  if (!hash) return tl::unexpected(hash.error());
+  made.hash = *hash;
   if (plan.block_level == 0) return made;
   const std::int32_t steps = steps_of(plan, block.z);
   const auto whole = TileNodes::read(plan, block, steps, 0, *nodes);

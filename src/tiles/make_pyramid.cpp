@@ -98,17 +98,21 @@ Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockR
 
 Result<PyramidReport> make_pyramid(const PyramidPlan& plan, const NodeSource& source, TileSink& sink, const Run& run) {
   const std::vector<TileId> blocks = find_blocks(plan);
-  // The levels above the blocks take about a block's time for each thousand of their tiles.
-  const double share = 1 / (static_cast<double>(blocks.size()) + 1);
+  // A tile above the blocks takes about a thousandth of a block's time, or a unit of its cost.
+  std::uint64_t cost = blocks.size(), done = 0;
+  for (const TileId block : blocks) cost += block_cost(plan, block);
+  const auto share_of = [&](std::uint64_t part) { return static_cast<double>(part) / static_cast<double>(cost); };
   std::vector<BlockReport> made;
   Run part = run;
   for (const TileId block : blocks) {
-    part.progress = part_of(run.progress, static_cast<double>(made.size()) * share, share);
+    const std::uint64_t one_cost = block_cost(plan, block);
+    part.progress = part_of(run.progress, share_of(done), share_of(one_cost));
+    done += one_cost;
     auto one = make_block(plan, block, source, sink, part);
     if (!one) return tl::unexpected(one.error());
     made.push_back(std::move(*one));
   }
-  part.progress = part_of(run.progress, 1 - share, share);
+  part.progress = part_of(run.progress, share_of(done), share_of(cost - done));
   return finish_pyramid(plan, std::move(made), sink, part);
 }
 

@@ -82,6 +82,16 @@ std::vector<TileSet> choose_tiles(const PyramidPlan& plan) {
   return chosen;
 }
 
+std::uint64_t block_cost(const PyramidPlan& plan, TileId block) {
+  const DegreeBox box = plan.grid.bounds_of(block), &covered = plan.covered;
+  const double width = box.east - box.west, height = box.north - box.south;
+  const double down = std::min(box.north, covered.north) - std::max(box.south, covered.south);
+  double across = 0;
+  for (const double turn : plan.grid.turns())
+    across += std::max(0.0, std::min(box.east + turn, covered.east) - std::max(box.west + turn, covered.west));
+  return 1 + static_cast<std::uint64_t>(1000 * std::max(0.0, down) * std::min(across, width) / (width * height));
+}
+
 std::vector<TileId> find_blocks(const PyramidPlan& plan) {
   std::vector<TileId> blocks;
   const std::vector<TileSet> chosen = choose_tiles(plan);

@@ -1,6 +1,7 @@
 #include "tiles/tile_nodes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -100,6 +101,18 @@ Result<HeldNodes> HeldNodes::read(const NodeWindow& window, const NodeSource& so
 
 bool HeldNodes::has_heights() const {
   return std::any_of(heights_.begin(), heights_.end(), [](float z) { return !std::isnan(z); });
+}
+
+std::uint64_t HeldNodes::hash() const {
+  if (!has_heights()) return 0;
+  std::uint64_t hash = 0x9e3779b97f4a7c15;
+  for (const float height : heights_) {
+    // One pattern of bits for all that are no height.
+    const std::uint32_t bits = std::isnan(height) ? 0x7fc00000 : std::bit_cast<std::uint32_t>(height);
+    hash = (hash ^ bits) * 0xff51afd7ed558ccd;
+    hash ^= hash >> 32;
+  }
+  return std::max<std::uint64_t>(hash, 1);
 }
 
 Result<void> HeldNodes::read(const NodeWindow& window, std::span<float> out) const {

@@ -53,6 +53,8 @@ class HeldNodes final : public NodeSource {
   /// `threads` read bands of rows.
   static Result<HeldNodes> read(const NodeWindow& window, const NodeSource& source, int threads);
   bool has_heights() const;
+  /// Of all heights, in their order; 0 without any.
+  std::uint64_t hash() const;
   /// REQUIRES: the window lies in the one that is held, with columns of the same turn.
   Result<void> read(const NodeWindow& window, std::span<float> out) const override;
   /// Of the source, which is borrowed: samples are not held.

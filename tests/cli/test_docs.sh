@@ -116,6 +116,7 @@ END
       "measure --norm") try "$scarp" measure "$dem" out.obj --image "$option" nonsense ;;
       simplify*) try "$scarp" simplify "$dem" out.obj -e 1 "$option" nonsense ;;
       measure*) try "$scarp" measure "$dem" out.obj "$option" nonsense ;;
+      "tile-plan --hash") try "$scarp" tile-plan "$dem" out.json "$option" nonsense ;;
       tile*) try "$scarp" tile "$dem" out "$option" nonsense ;;
       serve*) try "$scarp" serve "$dem" "$option" nonsense ;;
       info*) try "$scarp" info "$dem" "$option" nonsense ;;

@@ -16,6 +16,8 @@ echo mine > linked/.hidden
 # start ARGUMENT...: a server in the background, with the number $server, at $port.
 start() {
   # A background job of a script ignores SIGINT unless job control is on.
+  # The one before may have left its port there.
+  : > served
   set -m
   "$scarp" serve "$@" --port 0 > served 2> complaints &
   server=$!

@@ -6,6 +6,8 @@ client=$SCARP_SOURCE/tests/cli/serve_raster.py
 
 # start ARGUMENT...: a server in the background, with the number $server, at $port.
 start() {
+  # The one before may have left its port there.
+  : > served
   set -m
   "$scarp" serve "$@" --port 0 > served 2> complaints &
   server=$!

@@ -129,8 +129,8 @@ Result<void> ServeCommand::run() const {
   if (!server) return tl::unexpected(server.error());
   if (!quiet_) {
     if (served->job.raster) print_warnings(warnings_of_raster(*served->job.raster));
-    auto printed = print_summary(
-        describe(tiles_.raster.path(), answers.set(), served->live, served->job.job.facts.heights_above, server->url()));
+    auto printed = print_summary(describe(tiles_.raster.path(), answers.set(), served->live,
+                                          served->job.job.facts.heights_above, server->url()));
     if (!printed) return printed;
   }
   return server->run([&](const Request& request) { return answers.answer(request); }, *threads, interrupted);

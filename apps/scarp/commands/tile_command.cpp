@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "commands/counted_set.h"
 #include "options/option_table.h"
 #include "reports/report.h"
 #include "reports/tile_report.h"
@@ -36,9 +37,12 @@ Result<void> TileCommand::run(const std::string& command_line) const {
   const Result<OpenedJob> opened = tiles_.open(display.callback());
   if (!opened) return tl::unexpected(opened.error());
   const TileJob& job = opened->job;
-  auto set = create_tile_set(output_, job.format, overwrite_);
-  if (!set) return tl::unexpected(set.error());
-  const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, **set, job.plan);
+  auto container = create_tile_set(output_, job.format, overwrite_);
+  if (!container) return tl::unexpected(container.error());
+  TileCounts counts;
+  display.show_tiles(counts);
+  CountedSet set(std::move(*container), counts);
+  const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, set, job.plan);
   Run run;
   run.threads = *threads;
   run.progress = display.callback();
@@ -47,7 +51,7 @@ Result<void> TileCommand::run(const std::string& command_line) const {
   if (auto same = check_rasters(job); !same) return same;
   if (auto checked = check_heights(job, *report); !checked) return checked;
   if (auto put = sink->put_files(*report, job.facts); !put) return put;
-  if (auto finished = (*set)->finish(); !finished) return finished;
+  if (auto finished = set.finish(); !finished) return finished;
   display.finish();
   if (!quiet_) {
     print_warnings(warnings_of_raster(*opened->raster));

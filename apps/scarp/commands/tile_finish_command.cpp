@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "commands/counted_set.h"
 #include "options/option_table.h"
 #include "options/plan_options.h"
 #include "reports/report.h"
@@ -37,11 +38,15 @@ Result<void> TileFinishCommand::run(const std::string& command_line) const {
   if (auto checked = check_outputs(outputs, files_read(*command_), overwrite_); !checked) return checked;
   const Result<TileJob> job = read_tile_job(plan_);
   if (!job) return tl::unexpected(job.error());
-  auto set = create_tile_set(output_, job->format, overwrite_);
-  if (!set) return tl::unexpected(set.error());
+  auto container = create_tile_set(output_, job->format, overwrite_);
+  if (!container) return tl::unexpected(container.error());
+  TileCounts counts;
+  CountedSet set(std::move(*container), counts);
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
+  display.show_tiles(counts);
   run.progress = display.callback();
-  const Result<PyramidReport> report = finish_parts(*job, parts_folder(plan_, parts_), **set, run);
+  PartsCost cost;
+  const Result<PyramidReport> report = finish_parts(*job, parts_folder(plan_, parts_, *job), set, run, &cost);
   if (!report) return tl::unexpected(report.error());
   display.finish();
   if (!quiet_) {
@@ -57,11 +62,12 @@ Result<void> TileFinishCommand::run(const std::string& command_line) const {
                     {"ellipsoid", {job->plan.ellipsoid.semi_major, semi_minor(job->plan.ellipsoid)}},
                     {"max_zoom", job->plan.max_zoom()},
                     {"levels", describe_levels(job->plan, *report)},
+                    {"model", compare_model(*job, *report, cost)},
                     {"seconds", seconds}};
     if (auto written = write_report(json, *report_, overwrite_, output_); !written) return written;
   }
   if (quiet_) return {};
-  return print_summary(make_tile_summary(*job, output_, *report, seconds));
+  return print_summary(make_tile_summary(*job, output_, *report, seconds) + summarize_model(*job, *report, cost));
 }
 
 }  // namespace scarp::cli

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -30,6 +32,11 @@ std::string make_summary(const TileJob& job, const std::string& plan, const Tile
   text += fmt::format("  heights above  {}\n", job.facts.heights_above);
   text += fmt::format("  levels         0 to {}, {} of level {}\n", job.plan.max_zoom(),
                       format_plural(estimate.blocks, "block"), job.plan.block_level);
+  if (!job.costs.empty()) {
+    const auto empty = static_cast<std::uint64_t>(std::ranges::count(job.costs, 1u));
+    text += fmt::format("  survey         {} with heights, {} without\n",
+                        format_plural(job.costs.size() - empty, "block"), empty);
+  }
   text += fmt::format("  max error      {} m, level {}; {} m, level {}\n",
                       format_number(job.plan.levels.back().max_error), job.plan.max_zoom(),
                       format_number(job.plan.levels[static_cast<std::size_t>(job.plan.block_level)].max_error),
@@ -53,6 +60,9 @@ std::string make_summary(const TileJob& job, const std::string& plan, const Tile
 TilePlanCommand::TilePlanCommand(CLI::App& program) : command_(add_command(program, kTilePlan)) {
   add_arguments(*command_, OptionId::kInput, tiles_.raster.paths, OptionId::kPlan, plan_);
   tiles_.add_to(*command_);
+  add_option(*command_, OptionId::kChangedSince, changed_since_);
+  add_option(*command_, OptionId::kHash, hash_);
+  add_flag(*command_, OptionId::kSurvey, survey_);
   add_option(*command_, OptionId::kShards, shards_);
   add_option(*command_, OptionId::kSlurm, slurm_);
   add_flag(*command_, OptionId::kOverwrite, overwrite_);
@@ -60,15 +70,51 @@ TilePlanCommand::TilePlanCommand(CLI::App& program) : command_(add_command(progr
   add_flag(*command_, OptionId::kJsonProgress, json_progress_);
 }
 
+Result<OpenedJob> TilePlanCommand::open(const ProgressCallback& progress) const {
+  constexpr Choice<bool> kHashes[] = {{"stamp", false}, {"content", true}};
+  const Result<bool> reads_all = choose("--hash", hash_.value_or("stamp"), kHashes);
+  if (!reads_all) return tl::unexpected(reads_all.error());
+  Result<OpenedJob> opened = changed_since_ ? follow(progress) : tiles_.open(progress);
+  if (opened && *reads_all) {
+    if (auto added = add_contents(opened->job); !added) return tl::unexpected(added.error());
+  }
+  return opened;
+}
+
+Result<OpenedJob> TilePlanCommand::follow(const ProgressCallback& progress) const {
+  constexpr std::array kFree{"--changed-since", "--hash",      "--survey", "--shards",
+                             "--slurm",         "--overwrite", "--quiet",  "--json-progress"};
+  for (const CLI::Option* option : command_->get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && name.starts_with("--") && std::ranges::count(kFree, name) == 0)
+      return fail(ErrorKind::kUsage,
+                  fmt::format("{} does not go with --changed-since: {} has decided it", name, *changed_since_));
+  }
+  const Result<TileJob> earlier = read_tile_job(*changed_since_);
+  if (!earlier) return tl::unexpected(earlier.error());
+  auto opened = tiles_.follow(*earlier, progress);
+  if (!opened) return opened;
+  std::error_code error;
+  opened->job.parts =
+      std::filesystem::absolute(parts_folder(*changed_since_, {}, *earlier), error).lexically_normal().string();
+  return opened;
+}
+
 Result<void> TilePlanCommand::run() const {
   std::vector<PlannedOutput> outputs{{"PLAN", plan_}};
   if (slurm_) outputs.push_back({"--slurm", *slurm_});
   if (auto checked = check_outputs(outputs, files_read(*command_), overwrite_); !checked) return checked;
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
-  const Result<OpenedJob> opened = tiles_.open(display.callback());
+  Result<OpenedJob> opened = open(display.callback());
   if (!opened) return tl::unexpected(opened.error());
   const Result<TileEstimate> estimate = estimate_tiles(opened->job, opened->raster->nodes());
   if (!estimate) return tl::unexpected(estimate.error());
+  opened->job.estimate = *estimate;
+  if (survey_) {
+    Run run;
+    run.progress = display.callback();
+    if (auto surveyed = survey_blocks(opened->job, opened->raster->nodes(), run); !surveyed) return surveyed;
+  }
   const std::uint64_t blocks = std::max<std::uint64_t>(estimate->blocks, 1);
   std::uint64_t shards = std::min(blocks, kMostShards);
   if (shards_) {

@@ -19,11 +19,15 @@ class TilePlanCommand {
   Result<void> run() const;
 
  private:
+  Result<OpenedJob> open(const ProgressCallback& progress) const;
+  /// By --changed-since.
+  Result<OpenedJob> follow(const ProgressCallback& progress) const;
+
   CLI::App* command_;
   TileArguments tiles_;
   std::string plan_;
-  Given slurm_, shards_;
-  bool overwrite_ = false, quiet_ = false, json_progress_ = false;
+  Given slurm_, shards_, changed_since_, hash_;
+  bool survey_ = false, overwrite_ = false, quiet_ = false, json_progress_ = false;
 };
 
 }  // namespace scarp::cli

@@ -36,6 +36,7 @@ Result<Shard> parse_shard(const Given& text) {
 TileRunCommand::TileRunCommand(CLI::App& program) : command_(add_command(program, kTileRun)) {
   add_option(*command_, OptionId::kPlan, plan_);
   add_option(*command_, OptionId::kShard, shard_);
+  add_option(*command_, OptionId::kOnly, only_);
   add_option(*command_, OptionId::kParts, parts_);
   add_option(*command_, OptionId::kMemory, memory_);
   add_option(*command_, OptionId::kThreads, threads_);
@@ -47,6 +48,8 @@ Result<void> TileRunCommand::run() const {
   const Clock::time_point start = Clock::now();
   const Result<Shard> shard = parse_shard(shard_);
   if (!shard) return tl::unexpected(shard.error());
+  const Result<std::optional<DegreeBox>> only = parse_box(only_);
+  if (!only) return tl::unexpected(only.error());
   Run run;
   const Result<int> threads = parse_threads(threads_);
   if (!threads) return tl::unexpected(threads.error());
@@ -62,9 +65,14 @@ Result<void> TileRunCommand::run() const {
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
   const Result<OpenedJob> opened = open_job(std::move(*job), memory, *threads);
   if (!opened) return tl::unexpected(opened.error());
+  TileCounts counts;
+  display.show_tiles(counts);
   run.progress = display.callback();
   const Result<PartsReport> made =
-      make_parts(opened->job, opened->raster->nodes(), parts_folder(plan_, parts_), *shard, run);
+      make_parts(opened->job, opened->raster->nodes(), parts_folder(plan_, parts_, opened->job), *shard, run, *only,
+                 [&](const PartsReport& so_far) {
+                   counts = {so_far.tiles, so_far.bytes};
+                 });
   if (!made) {
     if (made.error().kind != ErrorKind::kCancelled) return tl::unexpected(made.error());
     display.finish();
@@ -72,9 +80,14 @@ Result<void> TileRunCommand::run() const {
   }
   display.finish();
   if (quiet_) return {};
-  return print_summary(fmt::format("{}, share {} of {}: {} made, {} there before; {}, {}; {} s\n", plan_, shard->number,
-                                   shard->of, format_plural(made->blocks, "block"), made->there,
-                                   format_plural(made->tiles, "tile"), format_bytes(made->bytes),
+  if (made->has_company)
+    print_warnings({fmt::format("another process made share {} of {} at the same time: each block is kept once",
+                                shard->number, shard->of)});
+  const std::string unchanged =
+      made->unchanged == 0 ? "" : fmt::format(", {} of the same nodes as before", made->unchanged);
+  return print_summary(fmt::format("{}, share {} of {}: {} made, {} there before{}; {}, {}; {} s\n", plan_,
+                                   shard->number, shard->of, format_plural(made->blocks, "block"), made->there,
+                                   unchanged, format_plural(made->tiles, "tile"), format_bytes(made->bytes),
                                    format_seconds(seconds_since(start))));
 }
 

@@ -21,7 +21,7 @@ class TileRunCommand {
  private:
   CLI::App* command_;
   std::string plan_;
-  Given shard_, parts_, memory_, threads_;
+  Given shard_, only_, parts_, memory_, threads_;
   bool quiet_ = false, json_progress_ = false;
 };
 

@@ -47,6 +47,7 @@ constexpr CommandRow kCommandRows[] = {
      "Examples:\n"
      "  scarp tile plan dem.tif world.json --vertical egm96\n"
      "  scarp tile plan dem.tif world.json --slurm run.sh    then: bash run.sh world\n"
+     "  scarp tile plan dem.tif new.json --changed-since world.json    its blocks that changed\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 5 interrupted, 70 internal error.\n"},
     {kTileRun, "tile-run", "Make a share of the tiles of a plan", "PLAN [OPTIONS]",
      "Also: scarp tile run. Any process may make any share; the tiles are the same. Each finished block is\n"

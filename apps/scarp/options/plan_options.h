@@ -6,6 +6,7 @@
 #include <string>
 
 #include "options/options.h"
+#include "scarp/tile_job.h"
 
 namespace scarp::cli {
 
@@ -16,6 +17,10 @@ inline constexpr std::uint64_t kShareRasterBytes = 256'000'000;
 /// --parts, or else a folder beside the plan: "world.parts" for "world.json".
 inline std::string parts_folder(const std::string& plan, const Given& parts) {
   return parts ? *parts : std::filesystem::path(plan).replace_extension(".parts").string();
+}
+/// The same of a plan that was read: one that follows another uses the other's.
+inline std::string parts_folder(const std::string& plan, const Given& parts, const TileJob& job) {
+  return !parts && !job.parts.empty() ? job.parts : parts_folder(plan, parts);
 }
 
 }  // namespace scarp::cli

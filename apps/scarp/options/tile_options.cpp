@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <utility>
 
@@ -83,6 +84,27 @@ Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads) {
   return OpenedJob{std::move(*raster), std::move(job)};
 }
 
+Result<std::optional<DegreeBox>> parse_box(const Given& text) {
+  if (!text) return std::optional<DegreeBox>();
+  std::array<double, 4> sides{};
+  std::size_t count = 0;
+  for (std::size_t at = 0; at <= text->size(); ++count) {
+    const std::size_t end = std::min(text->find(',', at), text->size());
+    if (count < sides.size()) {
+      const Result<double> side = parse_number("--only", text->substr(at, end - at));
+      if (!side) return tl::unexpected(side.error());
+      sides[count] = *side;
+    }
+    at = end + 1;
+  }
+  DegreeBox box{sides[0], sides[1], sides[2], sides[3]};
+  if (box.east < box.west && box.west <= 180 && box.east >= -180) box.east += 360;
+  if (count != sides.size() || !(box.east >= box.west) || !(box.north >= box.south) || box.east - box.west > 360)
+    return fail(ErrorKind::kUsage,
+                fmt::format("--only {}: give west, south, east and north in degrees, as 8.2,46.5,8.9,47", *text));
+  return std::optional(box);
+}
+
 void TileArguments::add_nodes_to(CLI::App& command) {
   add_option(command, OptionId::kBand, raster.band);
   add_numbers(command, OptionId::kExtent, raster.extent, 4);
@@ -105,6 +127,7 @@ void TileArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kMaxError, max_error);
   add_option(command, OptionId::kQuality, quality);
   add_option(command, OptionId::kZoom, zoom);
+  if (command.get_name() != "serve") add_option(command, OptionId::kOnly, only);
 }
 
 Result<PyramidSettings> TileArguments::parse_settings() const {
@@ -141,6 +164,9 @@ Result<PyramidSettings> TileArguments::parse_settings() const {
     if (!height) return tl::unexpected(height.error());
     settings.background = static_cast<float>(*height);
   }
+  const Result<std::optional<DegreeBox>> box = parse_box(only);
+  if (!box) return tl::unexpected(box.error());
+  settings.only = *box;
   return settings;
 }
 
@@ -188,14 +214,54 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   auto plan = plan_pyramid(opened.raster->facts(), *settings);
   if (!plan) return tl::unexpected(plan.error());
   job.plan = std::move(*plan);
+  std::vector<std::string> paths;
   for (const std::vector<std::string>& mosaic : mosaics) {
     job.mosaics.push_back(static_cast<std::uint32_t>(mosaic.size()));
-    for (const std::string& path : mosaic) job.rasters.push_back(stamp_of(path));
+    paths.insert(paths.end(), mosaic.begin(), mosaic.end());
   }
+  stamp_rasters(job, paths);
   job.facts.heights_above = opened.raster->heights_above();
   job.facts.body = opened.raster->place().body;
   job.facts.name = base_name(raster.path());
   job.facts.description = fmt::format("heights above {}", job.facts.heights_above);
+  return opened;
+}
+
+Result<OpenedJob> TileArguments::follow(const TileJob& earlier, const ProgressCallback& progress) const {
+  ReadOptions options = earlier.reading;
+  TileJob now;
+  options.with_range = true;
+  options.run.progress = progress;
+  const std::vector<std::vector<std::string>> mosaics = find_mosaics(raster.paths);
+  auto globe = GlobeRaster::open(mosaics, options, earlier.datum);
+  if (!globe) return tl::unexpected(raster.explain(globe.error()));
+  OpenedJob opened;
+  opened.raster = std::move(*globe);
+  PyramidSettings settings;
+  settings.cells = earlier.plan.cells;
+  settings.max_zoom = earlier.plan.max_zoom();
+  settings.max_error = earlier.plan.levels.back().max_error;
+  settings.background = earlier.plan.background;
+  settings.ellipsoid = earlier.plan.ellipsoid;
+  settings.grid = earlier.plan.grid;
+  auto plan = plan_pyramid(opened.raster->facts(), settings);
+  if (!plan) return tl::unexpected(plan.error());
+  now.plan = std::move(*plan);
+  std::vector<std::string> paths;
+  for (const std::vector<std::string>& mosaic : mosaics) {
+    now.mosaics.push_back(static_cast<std::uint32_t>(mosaic.size()));
+    paths.insert(paths.end(), mosaic.begin(), mosaic.end());
+  }
+  stamp_rasters(now, paths);
+  if (!earlier.geoid.path.empty()) now.geoid = stamp_of(earlier.geoid.path);
+  now.facts = earlier.facts;
+  now.facts.heights_above = opened.raster->heights_above();
+  now.facts.body = opened.raster->place().body;
+  now.facts.name = base_name(raster.path());
+  now.facts.description = fmt::format("heights above {}", now.facts.heights_above);
+  auto job = follow_job(earlier, std::move(now));
+  if (!job) return tl::unexpected(job.error());
+  opened.job = std::move(*job);
   return opened;
 }
 

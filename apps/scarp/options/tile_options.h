@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "options/options.h"
@@ -22,15 +23,20 @@ struct OpenedJob {
 /// The job's rasters. Fails as check_rasters() and GlobeRaster::open() do.
 Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads);
 
+/// "WEST,SOUTH,EAST,NORTH" in degrees. East of a box across the antimeridian is beyond 180. Fails with kUsage.
+Result<std::optional<DegreeBox>> parse_box(const Given& text);
+
 struct TileArguments {
   RasterArguments raster;  ///< the paths are arguments of their own
-  Given max_error, quality, zoom, cells, effort, vertical, geoid, ellipsoid, background, format;
+  Given max_error, quality, zoom, cells, effort, vertical, geoid, ellipsoid, background, format, only;
   Effort default_effort = Effort::kNormal;
 
   /// What the nodes are: how the raster is read, what its heights are above, and the lattice.
   void add_nodes_to(CLI::App& command);
   /// All that the command's rows name.
   void add_to(CLI::App& command);
+  /// Rasters that follow those of an earlier plan, with its settings. Fails as follow_job() and open() do.
+  Result<OpenedJob> follow(const TileJob& earlier, const ProgressCallback& progress) const;
   /// `memory`: bytes for the raster, 0 for any. Fails as the options, GlobeRaster::open() and plan_pyramid() do.
   Result<OpenedJob> open(const ProgressCallback& progress, std::uint64_t memory = 0) const;
 

@@ -60,6 +60,51 @@ std::string make_tile_summary(const TileJob& job, const std::string& output, con
   return text;
 }
 
+namespace {
+
+struct Compared {
+  const char* name;
+  double planned, took;
+};
+
+std::vector<Compared> compare(const TileEstimate& estimate, const PyramidReport& report, const PartsCost& cost) {
+  LevelSummary all;
+  for (const LevelSummary& level : report.levels) {
+    all.tiles += level.tiles;
+    all.bytes += level.bytes;
+  }
+  const auto number = [](std::uint64_t count) { return static_cast<double>(count); };
+  return {{"tiles", number(estimate.tiles), number(all.tiles)},
+          {"bytes", number(estimate.bytes), number(all.bytes)},
+          {"core_seconds", estimate.core_seconds, cost.core_seconds},
+          {"memory", number(estimate.memory), number(cost.memory)},
+          {"parts", number(estimate.parts), number(cost.parts)}};
+}
+
+}  // namespace
+
+Json compare_model(const TileJob& job, const PyramidReport& report, const PartsCost& cost) {
+  if (!job.estimate) return nullptr;
+  Json json;
+  for (const Compared& one : compare(*job.estimate, report, cost)) {
+    json[one.name] = {{"planned", one.planned}, {"took", one.took}};
+    json[one.name]["ratio"] = one.planned > 0 ? Json(one.took / one.planned) : Json(nullptr);
+  }
+  return json;
+}
+
+std::string summarize_model(const TileJob& job, const PyramidReport& report, const PartsCost& cost) {
+  if (!job.estimate) return "";
+  std::string text;
+  for (const Compared& one : compare(*job.estimate, report, cost)) {
+    if (one.planned > 0)
+      text +=
+          fmt::format("{}{} {:.2f}", text.empty() ? "  took/planned   " : ", ",
+                      std::string_view(one.name) == "core_seconds" ? "core time" : one.name, one.took / one.planned);
+  }
+  return text + "\n";
+}
+
 std::vector<std::string> warnings_of_raster(const GlobeRaster& raster) {
   std::vector<std::string> warnings = raster.warnings();
   // Degrees are what tiles are made in.

@@ -17,6 +17,11 @@ std::string make_tile_summary(const TileJob& job, const std::string& output, con
 /// Of a raster, but for those about frames that tiles do not have.
 std::vector<std::string> warnings_of_raster(const GlobeRaster& raster);
 /// Of levels whose tiles do not keep the max error.
+/// What the plan expected, what the set took, and their ratio; null without an expectation.
+Json compare_model(const TileJob& job, const PyramidReport& report, const PartsCost& cost);
+/// The same as a line of the summary; empty without an expectation.
+std::string summarize_model(const TileJob& job, const PyramidReport& report, const PartsCost& cost);
+
 std::vector<std::string> warnings_of_levels(const PyramidPlan& plan, const PyramidReport& report);
 /// Fails with kUsage where no node has a height.
 Result<void> check_heights(const TileJob& job, const PyramidReport& report);

@@ -6,6 +6,7 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -16,6 +17,7 @@
 #include <cstring>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "serve/answer_queue.h"
 #include "terminal/clock.h"
@@ -24,18 +26,30 @@
 namespace scarp::cli {
 namespace {
 
-constexpr std::size_t kMostConnections = 256, kLongestHead = 16384, kChunk = 1 << 16;
+constexpr std::size_t kMostConnections = 4096, kLeastConnections = 16, kLongestHead = 8192, kChunk = 1 << 16;
+constexpr std::size_t kMostWaitingBytes = 64'000'000;
 constexpr std::chrono::seconds kToAsk{10}, kToTake{30}, kToClose{2};
 constexpr std::uint64_t kLeastPerSecond = 10000;  // bytes
 constexpr int kPollMilliseconds = 400;
 
 bool would_wait(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
 
+/// Half of the files that the process may have open, for which it raises its own limit as far as it may.
+std::size_t most_connections() {
+  rlimit files{};
+  if (::getrlimit(RLIMIT_NOFILE, &files) != 0) return kLeastConnections;
+  if (files.rlim_cur < 2 * kMostConnections) {
+    const rlimit more{std::min<rlim_t>(files.rlim_max, 2 * kMostConnections), files.rlim_max};
+    if (::setrlimit(RLIMIT_NOFILE, &more) == 0) files = more;
+  }
+  return std::clamp<std::size_t>(files.rlim_cur / 2, kLeastConnections, kMostConnections);
+}
+
 /// One client: it asks, waits, takes the answer, and asks again.
 class Connection {
  public:
   Connection(int fd, std::uint64_t number, AnswerQueue& queue)
-      : fd_(fd), number_(number), queue_(queue), deadline_(Clock::now() + kToAsk) {}
+      : fd_(fd), number_(number), queue_(queue), since_(Clock::now()), deadline_(since_ + kToAsk) {}
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
   ~Connection() {
@@ -47,6 +61,12 @@ class Connection {
   std::uint64_t number() const { return number_; }
   short events() const { return waits_ ? 0 : is_answering() ? POLLOUT : POLLIN; }
   bool is_late(Clock::time_point now) const { return !waits_ && now > deadline_; }
+  /// No request of its is being answered.
+  bool is_idle() const { return !waits_ && !is_answering(); }
+  /// Its last answer was made, or taken, or it came.
+  Clock::time_point since() const { return since_; }
+  /// Bytes that it keeps the server from forgetting.
+  std::size_t waiting_bytes() const { return waiting_.size(); }
 
   /// All return false once the connection is to be closed.
   bool receive() {
@@ -72,13 +92,14 @@ class Connection {
     }
     waiting_ = {};
     sent_ = 0;
+    since_ = Clock::now();
     if (closes_) {
       // Closed with something unread, the answer could be lost on its way: the client closes first.
       lingers_ = true;
-      deadline_ = Clock::now() + kToClose;
+      deadline_ = since_ + kToClose;
       return ::shutdown(fd_, SHUT_WR) == 0;
     }
-    deadline_ = Clock::now() + kToAsk;
+    deadline_ = since_ + kToAsk;
     ask_next();
     return true;
   }
@@ -110,7 +131,8 @@ class Connection {
     sent_ = 0;
     file_ = {};
     const std::uint64_t length = response.length();
-    deadline_ = Clock::now() + kToTake + std::chrono::seconds(length / kLeastPerSecond);
+    since_ = Clock::now();
+    deadline_ = since_ + kToTake + std::chrono::seconds(length / kLeastPerSecond);
     if (request && request->method == "HEAD") return;
     waiting_.insert(waiting_.end(), response.body.begin(), response.body.end());
     if (response.file.fd >= 0) file_ = response.file;
@@ -131,13 +153,37 @@ class Connection {
   int fd_;
   std::uint64_t number_;
   AnswerQueue& queue_;
-  Clock::time_point deadline_;
+  Clock::time_point since_, deadline_;
   std::string asked_;
   std::vector<std::uint8_t> waiting_;
   std::size_t sent_ = 0;
   FilePart file_;
   bool waits_ = false, closes_ = false, lingers_ = false;
 };
+
+using Connections = std::vector<std::unique_ptr<Connection>>;
+
+/// Closes the one of a kind for which nothing has happened for the longest; false if there is none.
+template <class IsOfKind>
+bool close_oldest(Connections& connections, const IsOfKind& is_of_kind) {
+  auto oldest = connections.end();
+  for (auto one = connections.begin(); one != connections.end(); ++one) {
+    if (is_of_kind(**one) && (oldest == connections.end() || (*one)->since() < (*oldest)->since())) oldest = one;
+  }
+  if (oldest == connections.end()) return false;
+  connections.erase(oldest);
+  return true;
+}
+
+/// Those who do not take their answers may not fill the memory.
+void limit_waiting_bytes(Connections& connections) {
+  const auto waits = [](const Connection& one) { return one.waiting_bytes() > 0; };
+  while (true) {
+    std::size_t waiting = 0;
+    for (const auto& one : connections) waiting += one->waiting_bytes();
+    if (waiting <= kMostWaitingBytes || !close_oldest(connections, waits)) return;
+  }
+}
 
 /// "127.0.0.1", and "[::1]" as URLs have it.
 std::string host_in_url(const std::string& host) {
@@ -193,14 +239,19 @@ HttpServer::~HttpServer() {
 Result<void> HttpServer::run(const std::function<Response(const Request&)>& answer, int threads,
                              const std::function<bool()>& is_over) {
   AnswerQueue queue(threads, answer);
-  std::vector<std::unique_ptr<Connection>> connections;
+  const std::size_t most = most_connections();
+  const auto is_idle = [](const Connection& one) { return one.is_idle(); };
+  Connections connections;
+  const auto has_idle = [&] {
+    return std::ranges::any_of(connections, [](const auto& one) { return one->is_idle(); });
+  };
   std::vector<pollfd> watched;
   std::uint64_t accepted = 0;
   while (!is_over()) {
     watched.clear();
     for (const auto& connection : connections) watched.push_back({connection->fd(), connection->events(), 0});
     watched.push_back({queue.wake_fd(), POLLIN, 0});
-    const bool has_room = connections.size() < kMostConnections;
+    const bool has_room = connections.size() < most || has_idle();
     if (has_room) watched.push_back({fd_, POLLIN, 0});
     if (::poll(watched.data(), watched.size(), kPollMilliseconds) < 0) {
       if (errno == EINTR) continue;
@@ -224,10 +275,16 @@ Result<void> HttpServer::run(const std::function<Response(const Request&)>& answ
           [](const std::unique_ptr<Connection>& one, std::uint64_t number) { return one->number() < number; });
       if (found != connections.end() && (*found)->number() == done.client) (*found)->take(std::move(done));
     }
+    limit_waiting_bytes(connections);
     if (!has_room || (watched.back().revents & POLLIN) == 0) continue;
-    while (connections.size() < kMostConnections) {
+    while (connections.size() < most || has_idle()) {
       const int fd = ::accept4(fd_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-      if (fd < 0) break;
+      if (fd < 0) {
+        // The process has no file left.
+        if (errno == EMFILE || errno == ENFILE) close_oldest(connections, is_idle);
+        break;
+      }
+      if (connections.size() == most) close_oldest(connections, is_idle);
       const int on = 1;
       ::setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
       connections.push_back(std::make_unique<Connection>(fd, ++accepted, queue));

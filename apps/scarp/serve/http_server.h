@@ -20,8 +20,10 @@ class HttpServer {
   /// "http://127.0.0.1:8080/"
   const std::string& url() const { return url_; }
   /// Serves until is_over(), which is asked at least twice a second. `answer` is called on `threads` threads, for one
-  /// path on one of them at a time. At most 256 connections are open, each with one request; others wait. A request has
-  /// 10 seconds to come, and an answer that is made 30, and one more for each 10 kB, to be taken. Fails with kOutput.
+  /// path on one of them at a time. At most 4096 connections are open, or half as many as the process may have files,
+  /// each with one request. Where all are taken, the one that has asked nothing for the longest goes. A request has
+  /// 8 kB, and 10 seconds to come; an answer 30 seconds, and one more for each 10 kB, to be taken. Where answers of
+  /// more than 64 MB wait to be taken, those go that have waited the longest. Fails with kOutput.
   Result<void> run(const std::function<Response(const Request&)>& answer, int threads,
                    const std::function<bool()>& is_over);
 

@@ -70,7 +70,7 @@ bool ProgressDisplay::show(const Progress& progress) {
     print_json(fraction_);
   } else {
     if (seconds_between(start_, now) < kQuietSeconds) return true;
-    print_line(seconds_between(pass_start_, now));
+    print_line();
   }
   last_shown_ = now;
   return true;
@@ -86,13 +86,21 @@ void ProgressDisplay::finish() {
   erase_line();
 }
 
-void ProgressDisplay::print_line(double pass_seconds) {
+std::optional<double> ProgressDisplay::seconds_left() const {
+  const double seconds = seconds_between(pass_start_, Clock::now());
+  if (!(fraction_ > 0.01) || !(seconds > 0.5)) return {};
+  return seconds * (1 - fraction_) / fraction_;
+}
+
+void ProgressDisplay::print_line() {
   std::string line = fmt::format("{} {:3.0f} %", pass_, 100 * fraction_);
-  if (vertices_ > 0) line += fmt::format("  {} vertices", format_count(vertices_));
+  if (counts_tiles())
+    line +=
+        fmt::format("  {}  {:.1f} MB", format_plural(tiles_->tiles, "tile"), static_cast<double>(tiles_->bytes) / 1e6);
+  else if (vertices_ > 0)
+    line += fmt::format("  {} vertices", format_count(vertices_));
   if (max_error_ > 0) line += fmt::format("  error {:.4g}", max_error_);
-  if (fraction_ > 0.01 && pass_seconds > 0.5) {
-    line += fmt::format("  {} left", format_duration(pass_seconds * (1 - fraction_) / fraction_));
-  }
+  if (const auto left = seconds_left()) line += fmt::format("  {} left", format_duration(*left));
   line.resize(std::min(line.size(), terminal_width() - 1));
   print_to_stderr(fmt::format("\r{}\x1b[K", line));
   line_shown_ = true;
@@ -102,9 +110,18 @@ void ProgressDisplay::print_json(double fraction) const {
   nlohmann::ordered_json line;
   line["pass"] = pass_;
   line["fraction"] = fraction;
-  line["vertices"] = vertices_;
-  line["max_error"] = max_error_;
+  if (counts_tiles()) {
+    line["tiles"] = tiles_->tiles;
+    line["bytes"] = tiles_->bytes;
+  } else {
+    line["vertices"] = vertices_;
+    line["max_error"] = max_error_;
+  }
   line["seconds"] = seconds_between(start_, Clock::now());
+  if (counts_tiles()) {
+    const auto left = fraction >= 1 ? 0 : seconds_left();
+    line["seconds_left"] = left ? nlohmann::ordered_json(*left) : nlohmann::ordered_json(nullptr);
+  }
   print_to_stderr(line.dump() + "\n");
 }
 

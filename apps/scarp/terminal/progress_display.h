@@ -3,17 +3,24 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "scarp/progress.h"
 
 namespace scarp::cli {
 
+/// What a command that makes tiles has made so far.
+struct TileCounts {
+  std::uint64_t tiles = 0, bytes = 0;
+};
+
 /// Shows a run's progress on stderr and turns Ctrl-C into cancellation.
 ///
 /// kLine: one line that is rewritten, from one second into the run on: pass, percent, vertices, current error, time
 /// left in this pass. kJson: one object a line, at most five a second plus one at the end of each pass; keys pass,
-/// fraction, vertices, max_error, seconds (since the display was made).
+/// fraction, vertices, max_error, seconds (since the display was made). In the pass "tiles": tiles, bytes and
+/// seconds_left (null before it can be told) in place of vertices and max_error.
 class ProgressDisplay {
  public:
   enum class Style { kSilent, kLine, kJson };
@@ -26,6 +33,8 @@ class ProgressDisplay {
 
   /// From now on an interrupt in the pass of that name is content_with_interrupt(), instead of an end.
   void let_interrupt_finish(std::string_view pass) { finished_by_interrupt_ = pass; }
+  /// Tiles and their bytes so far, to be shown in the pass "tiles". Must outlive the display's last pass.
+  void show_tiles(const TileCounts& counts) { tiles_ = &counts; }
   /// For the library's options. The display must outlive the call that uses it.
   ProgressCallback callback();
   /// Ends the last pass and erases the line. Call when the work has succeeded; nothing is shown afterwards.
@@ -39,7 +48,10 @@ class ProgressDisplay {
 
   bool show(const Progress& progress);
   void end_pass();
-  void print_line(double pass_seconds);
+  bool counts_tiles() const { return tiles_ != nullptr && pass_ == "tiles"; }
+  /// Of this pass.
+  std::optional<double> seconds_left() const;
+  void print_line();
   void print_json(double fraction) const;
   void erase_line();
 
@@ -53,6 +65,7 @@ class ProgressDisplay {
   double fraction_ = 0;
   std::uint64_t vertices_ = 0;
   double max_error_ = 0;
+  const TileCounts* tiles_ = nullptr;
 };
 
 }  // namespace scarp::cli

@@ -19,23 +19,31 @@ struct PackedTile {
 
 class PartWriter {
  public:
+  /// What the names of a share's parts begin with.
+  static std::string name_of(Shard shard);
   /// A new file in the folder, which is made if needed. Fails with kOutput.
-  static Result<std::unique_ptr<PartWriter>> create(const std::string& folder, Shard shard, std::uint64_t key);
+  static Result<std::unique_ptr<PartWriter>> create(const std::string& folder, Shard shard, const TileJob& job);
   PartWriter(const PartWriter&) = delete;
   PartWriter& operator=(const PartWriter&) = delete;
-  /// A file without a block goes away.
+  /// A file without a record goes away.
   ~PartWriter();
 
+  /// Another process wrote to a part of the share when this one was made.
+  bool has_company() const { return has_company_; }
   /// The block is on the disk when this returns. Fails with kOutput.
   Result<void> add(const BlockReport& block, const std::vector<PackedTile>& tiles);
+  /// A block that is there has these nodes in the job's sources, too. Fails with kOutput.
+  Result<void> confirm(TileId block, std::uint64_t nodes);
 
  private:
   PartWriter(std::string path, int fd) : path_(std::move(path)), fd_(fd) {}
+  Result<void> add_record(std::span<const std::uint8_t> payload);
   Result<void> append(std::span<const std::uint8_t> bytes);
 
   std::string path_;
   int fd_;
-  std::uint64_t blocks_ = 0;
+  std::uint64_t sources_ = 0, records_ = 0;
+  bool has_company_ = false;
 };
 
 }  // namespace scarp

@@ -1,5 +1,7 @@
 // A share of the blocks into a part, and all parts into a set.
 #include <fmt/format.h>
+#include <sys/resource.h>
+#include <time.h>
 
 #include <algorithm>
 #include <utility>
@@ -28,21 +30,32 @@ class BlockSink final : public TileSink {
   TileEncoder encoder_;
 };
 
-/// What a block takes, about: by how much of it the source may cover.
-std::uint64_t cost_of(const PyramidPlan& plan, TileId block) {
-  const DegreeBox box = plan.grid.bounds_of(block), &covered = plan.covered;
-  const double width = box.east - box.west, height = box.north - box.south;
-  const double down = std::min(box.north, covered.north) - std::max(box.south, covered.south);
-  double across = 0;
-  for (const double turn : plan.grid.turns())
-    across += std::max(0.0, std::min(box.east + turn, covered.east) - std::max(box.west + turn, covered.west));
-  return 1 + static_cast<std::uint64_t>(1000 * std::max(0.0, down) * std::min(across, width) / (width * height));
+/// CPU time of the process.
+double core_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) / 1e9;
+}
+
+std::uint64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::uint64_t{1024} * static_cast<std::uint64_t>(usage.ru_maxrss);
+}
+
+bool touches(const TileGrid& grid, TileId id, const DegreeBox& box) {
+  const DegreeBox tile = grid.bounds_of(id);
+  if (tile.south > box.north || tile.north < box.south) return false;
+  return std::ranges::any_of(grid.turns(),
+                             [&](double turn) { return tile.west + turn <= box.east && tile.east + turn >= box.west; });
 }
 
 /// The blocks of a share: consecutive ones, of about the same cost in all shares.
-std::span<const TileId> share_of(const PyramidPlan& plan, const std::vector<TileId>& blocks, Shard shard) {
+std::span<const TileId> share_of(const TileJob& job, const std::vector<TileId>& blocks, Shard shard) {
   std::vector<std::uint64_t> before{0};  // of each block, and of all
-  for (const TileId block : blocks) before.push_back(before.back() + cost_of(plan, block));
+  const bool is_surveyed = job.costs.size() == blocks.size();
+  for (std::size_t k = 0; k < blocks.size(); ++k)
+    before.push_back(before.back() + (is_surveyed ? job.costs[k] : block_cost(job.plan, blocks[k])));
   const auto start_of = [&](std::uint64_t number) {
     const std::uint64_t cost = before.back() / shard.of * number + before.back() % shard.of * number / shard.of;
     return static_cast<std::size_t>(std::lower_bound(before.begin(), before.end(), cost) - before.begin());
@@ -54,40 +67,71 @@ std::span<const TileId> share_of(const PyramidPlan& plan, const std::vector<Tile
 }  // namespace
 
 Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, const std::string& folder, Shard shard,
-                               const Run& run) {
+                               const Run& run, const std::optional<DegreeBox>& only,
+                               const std::function<void(const PartsReport&)>& tell) {
   if (shard.of < 1 || shard.number < 1 || shard.number > shard.of)
     return fail(ErrorKind::kUsage, fmt::format("there is no share {} of {}", shard.number, shard.of));
-  const std::uint64_t key = key_of(job);
-  const auto parts = TileParts::open(folder, key);
+  const auto parts = TileParts::open(folder, job);
   if (!parts) return tl::unexpected(parts.error());
   const std::vector<TileId> all = find_blocks(job.plan);
-  const std::span<const TileId> blocks = share_of(job.plan, all, shard);
   PartsReport report;
-  report.there = static_cast<std::uint64_t>(
-      std::count_if(blocks.begin(), blocks.end(), [&](TileId id) { return (*parts)->has(id); }));
-  if (report.there == blocks.size()) return report;
-  auto writer = PartWriter::create(folder, shard, key);
+  std::vector<TileId> blocks;
+  for (const TileId block : share_of(job, all, shard)) {
+    if (only && !touches(job.plan.grid, block, *only)) continue;
+    if ((*parts)->has(block))
+      ++report.there;
+    else
+      blocks.push_back(block);
+  }
+  if (blocks.empty()) return report;
+  auto writer = PartWriter::create(folder, shard, job);
   if (!writer) return tl::unexpected(writer.error());
+  report.has_company = (*writer)->has_company();
+  if (report.has_company) std::reverse(blocks.begin(), blocks.end());
   Run part = run;
-  const double share = 1 / static_cast<double>(blocks.size() - report.there);
+  std::uint64_t cost = 0, done = 0;
+  for (const TileId block : blocks) cost += block_cost(job.plan, block);
   for (const TileId block : blocks) {
-    if ((*parts)->has(block)) continue;
+    const std::uint64_t one = block_cost(job.plan, block);
+    part.progress = part_of(run.progress, static_cast<double>(done) / static_cast<double>(cost),
+                            static_cast<double>(one) / static_cast<double>(cost));
+    done += one;
+    // What another process has made of this share meanwhile.
+    if (auto looked = (*parts)->look_again(shard); !looked) return tl::unexpected(looked.error());
+    if ((*parts)->has(block)) {
+      ++report.there;
+      continue;
+    }
+    if ((*parts)->has_any(block)) {
+      const auto now = hash_block(job.plan, block, nodes, run.threads);
+      if (!now) return tl::unexpected(now.error());
+      if ((*parts)->has_nodes(block, *now)) {
+        if (auto same = check_rasters(job); !same) return tl::unexpected(same.error());
+        if (auto kept = (*writer)->confirm(block, *now); !kept) return tl::unexpected(kept.error());
+        ++report.unchanged;
+        continue;
+      }
+    }
     BlockSink sink(make_tile_encoder(job.format, job.plan));
-    part.progress = part_of(run.progress, static_cast<double>(report.blocks) * share, share);
+    const double start = core_seconds();
     auto made = make_block(job.plan, block, nodes, sink, part);
     if (!made) return tl::unexpected(made.error());
+    made->core_seconds = core_seconds() - start;
+    made->memory = peak_memory();
     // A block of a raster that changed meanwhile is not kept; those before it are.
     if (auto same = check_rasters(job); !same) return tl::unexpected(same.error());
     if (auto kept = (*writer)->add(*made, sink.tiles); !kept) return tl::unexpected(kept.error());
     ++report.blocks;
     report.tiles += sink.tiles.size();
     for (const PackedTile& tile : sink.tiles) report.bytes += tile.bytes.size();
+    if (tell) tell(report);
   }
   return report;
 }
 
-Result<PyramidReport> finish_parts(const TileJob& job, const std::string& folder, TileSetWriter& set, const Run& run) {
-  const auto parts = TileParts::open(folder, key_of(job));
+Result<PyramidReport> finish_parts(const TileJob& job, const std::string& folder, TileSetWriter& set, const Run& run,
+                                   PartsCost* cost) {
+  const auto parts = TileParts::open(folder, job);
   if (!parts) return tl::unexpected(parts.error());
   const std::vector<TileId> blocks = find_blocks(job.plan);
   const auto missing = std::count_if(blocks.begin(), blocks.end(), [&](TileId id) { return !(*parts)->has(id); });
@@ -97,14 +141,29 @@ Result<PyramidReport> finish_parts(const TileJob& job, const std::string& folder
                                                missing, blocks.size(), folder));
   const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, set, job.plan);
   std::vector<BlockReport> made;
+  PartsCost taken;
+  // Putting the blocks' tiles takes most of the time.
+  constexpr double kPutting = 0.9;
+  Reporter reporter(run.progress);
   for (const TileId block : blocks) {
+    const double share = kPutting * static_cast<double>(made.size()) / static_cast<double>(blocks.size());
+    if (reporter.due() && !reporter.report("tiles", share, 0, 0)) return fail(ErrorKind::kCancelled, "cancelled");
     auto one =
         (*parts)->read(block, [&](TileId id, std::span<const std::uint8_t> bytes) { return sink->put(id, bytes); });
     if (!one) return tl::unexpected(one.error());
+    taken.core_seconds += one->core_seconds;
+    taken.memory = std::max(taken.memory, one->memory);
+    taken.parts += one->reduced.size();
+    for (const LevelSummary& level : one->report.levels) taken.parts += level.bytes;
     made.push_back(std::move(*one));
   }
-  auto report = finish_pyramid(job.plan, std::move(made), *sink, run);
+  const double start = core_seconds();
+  Run top = run;
+  top.progress = part_of(run.progress, kPutting, 1 - kPutting);
+  auto report = finish_pyramid(job.plan, std::move(made), *sink, top);
   if (!report) return report;
+  taken.core_seconds += core_seconds() - start;
+  if (cost != nullptr) *cost = taken;
   if (auto put = sink->put_files(*report, job.facts); !put) return tl::unexpected(put.error());
   if (auto finished = set.finish(); !finished) return tl::unexpected(finished.error());
   return report;

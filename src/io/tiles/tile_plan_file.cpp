@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -18,6 +19,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// FNV-1a.
+constexpr std::uint64_t kFnvStart = 0xcbf29ce484222325, kFnvPrime = 0x100000001b3;
 constexpr int kPlanVersion = 1;
 constexpr std::pair<Effort, const char*> kEfforts[] = {
     {Effort::kFast, "fast"}, {Effort::kNormal, "normal"}, {Effort::kHigh, "high"}};
@@ -95,10 +98,14 @@ Json describe_plan(const PyramidPlan& plan) {
 }
 
 Json describe_stamp(const FileStamp& file) {
-  return {{"path", file.path}, {"size", file.size}, {"changed", file.changed}};
+  Json stamp{{"path", file.path}, {"size", file.size}, {"changed", file.changed}};
+  if (file.content != 0) stamp["content"] = file.content;
+  return stamp;
 }
 
-FileStamp parse_stamp(const Json& json) { return {json.at("path"), json.at("size"), json.at("changed")}; }
+FileStamp parse_stamp(const Json& json) {
+  return {json.at("path"), json.at("size"), json.at("changed"), json.value("content", std::uint64_t{0})};
+}
 
 Json describe_datum(const TileJob& job) {
   const Datum& datum = job.datum;
@@ -154,10 +161,23 @@ bool is_sound(const PyramidPlan& plan) {
   });
 }
 
+Json describe_stamps(const std::vector<FileStamp>& files) {
+  Json stamps = Json::array();
+  for (const FileStamp& file : files) stamps.push_back(describe_stamp(file));
+  return stamps;
+}
+
+std::vector<FileStamp> parse_stamps(const Json& json) {
+  std::vector<FileStamp> files;
+  for (const Json& file : json) files.push_back(parse_stamp(file));
+  return files;
+}
+
 TileJob parse_job(const Json& json) {
   TileJob job;
-  for (const Json& raster : json.at("rasters")) job.rasters.push_back(parse_stamp(raster));
+  job.rasters = parse_stamps(json.at("rasters"));
   job.mosaics = json.at("mosaics").get<std::vector<std::uint32_t>>();
+  job.files = parse_stamps(json.at("files"));
   const Json& reading = json.at("reading");
   job.reading.band = reading.at("band");
   job.reading.nodata = optional_of<double>(reading.at("nodata"));
@@ -170,6 +190,14 @@ TileJob parse_job(const Json& json) {
   job.format = value_of(json.at("format"), kFormats);
   job.facts = {json.at("name"),          json.at("description"), json.at("attribution"),
                json.at("heights_above"), json.at("body"),        ""};
+  job.parts = json.value("parts", "");
+  job.costs = json.value("costs", std::vector<std::uint32_t>());
+  if (json.contains("estimate")) {
+    const Json& estimate = json["estimate"];
+    job.estimate = {estimate.at("blocks"), estimate.at("finest_tiles"), estimate.at("tiles"),
+                    estimate.at("bytes"),  estimate.at("core_seconds"), estimate.at("memory"),
+                    estimate.at("parts")};
+  }
   job.plan = parse_plan(json.at("pyramid"));
   return job;
 }
@@ -182,6 +210,40 @@ bool has_sound_mosaics(const TileJob& job) {
     rasters += count;
   }
   return rasters > 0 && rasters == job.rasters.size();
+}
+
+Json describe_job(const TileJob& job) {
+  Json json{{"scarp_tile_plan", kPlanVersion},
+            {"generator", std::string("scarp ") + version()},
+            {"rasters", describe_stamps(job.rasters)},
+            {"mosaics", job.mosaics},
+            {"files", describe_stamps(job.files)},
+            {"reading", describe_reading(job.reading)},
+            {"datum", describe_datum(job)},
+            {"heights_above", job.facts.heights_above},
+            {"body", job.facts.body},
+            {"format", word_of(job.format, kFormats)},
+            {"name", job.facts.name},
+            {"description", job.facts.description},
+            {"attribution", job.facts.attribution},
+            {"pyramid", describe_plan(job.plan)}};
+  if (!job.parts.empty()) json["parts"] = job.parts;
+  if (!job.costs.empty()) json["costs"] = job.costs;
+  if (job.estimate) {
+    const TileEstimate& estimate = *job.estimate;
+    json["estimate"] = {
+        {"blocks", estimate.blocks}, {"finest_tiles", estimate.finest_tiles}, {"tiles", estimate.tiles},
+        {"bytes", estimate.bytes},   {"core_seconds", estimate.core_seconds}, {"memory", estimate.memory},
+        {"parts", estimate.parts}};
+  }
+  return json;
+}
+
+std::uint64_t hash_of(const Json& json) {
+  std::uint64_t key = kFnvStart;
+  for (const char byte : json.dump(1, ' ', false, Json::error_handler_t::replace))
+    key = (key ^ static_cast<std::uint8_t>(byte)) * kFnvPrime;
+  return key;
 }
 
 }  // namespace
@@ -204,23 +266,21 @@ FileStamp stamp_of(const std::string& path) {
           std::int64_t{facts.st_mtim.tv_sec} * 1000000000 + facts.st_mtim.tv_nsec};
 }
 
+void stamp_rasters(TileJob& job, const std::vector<std::string>& paths) {
+  std::set<std::string> others;
+  for (const std::string& path : paths) {
+    job.rasters.push_back(stamp_of(path));
+    for (const std::string& file : list_files(path)) others.insert(stamp_of(file).path);
+  }
+  for (const FileStamp& raster : job.rasters) others.erase(raster.path);
+  for (const std::string& file : others) {
+    const FileStamp stamp = stamp_of(file);
+    if (stamp.size > 0) job.files.push_back(stamp);
+  }
+}
+
 std::vector<std::uint8_t> encode_tile_job(const TileJob& job) {
-  Json rasters = Json::array();
-  for (const FileStamp& raster : job.rasters) rasters.push_back(describe_stamp(raster));
-  const Json json{{"scarp_tile_plan", kPlanVersion},
-                  {"generator", std::string("scarp ") + version()},
-                  {"rasters", std::move(rasters)},
-                  {"mosaics", job.mosaics},
-                  {"reading", describe_reading(job.reading)},
-                  {"datum", describe_datum(job)},
-                  {"heights_above", job.facts.heights_above},
-                  {"body", job.facts.body},
-                  {"format", word_of(job.format, kFormats)},
-                  {"name", job.facts.name},
-                  {"description", job.facts.description},
-                  {"attribution", job.facts.attribution},
-                  {"pyramid", describe_plan(job.plan)}};
-  const std::string text = json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string text = describe_job(job).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
   return {text.begin(), text.end()};
 }
 
@@ -247,13 +307,62 @@ Result<TileJob> read_tile_job(const std::string& path) {
 }
 
 std::uint64_t key_of(const TileJob& job) {
-  std::uint64_t key = 0xcbf29ce484222325;  // FNV-1a
-  for (const std::uint8_t byte : encode_tile_job(job)) key = (key ^ byte) * 0x100000001b3;
-  return key;
+  Json json = describe_job(job);
+  json.erase("estimate");
+  json.erase("costs");
+  return hash_of(json);
+}
+
+std::uint64_t settings_key_of(const TileJob& job) {
+  Json json = describe_job(job);
+  for (const char* other : {"estimate", "costs", "rasters", "files", "parts", "heights_above", "body", "name",
+                            "description", "attribution"})
+    json.erase(other);
+  json["datum"].erase("geoid");
+  json["pyramid"].erase("covered");
+  return hash_of(json);
+}
+
+std::uint64_t sources_key_of(const TileJob& job) {
+  Json stamps = Json::array();
+  const auto add = [&](const FileStamp& file) {
+    if (file.content != 0)
+      stamps.push_back(file.content);
+    else
+      stamps.push_back(describe_stamp(file));
+  };
+  std::ranges::for_each(job.rasters, add);
+  std::ranges::for_each(job.files, add);
+  if (job.datum.vertical == Vertical::kGeoid) add(job.geoid);
+  return hash_of(stamps);
+}
+
+Result<void> add_contents(TileJob& job) {
+  const auto add = [](FileStamp& file) -> Result<void> {
+    if (file.size == 0) return {};
+    const auto source = ByteSource::open(file.path);
+    if (!source) return tl::unexpected(source.error());
+    constexpr std::uint64_t kAtOnce = 1 << 22;
+    std::uint64_t hash = kFnvStart;
+    for (std::uint64_t at = 0; at < (*source)->size(); at += kAtOnce) {
+      const auto bytes = (*source)->read(at, std::min(kAtOnce, (*source)->size() - at));
+      if (!bytes) return tl::unexpected(bytes.error());
+      for (const std::uint8_t byte : *bytes) hash = (hash ^ byte) * kFnvPrime;
+    }
+    file.content = std::max<std::uint64_t>(hash, 1);
+    return {};
+  };
+  for (auto* files : {&job.rasters, &job.files}) {
+    for (FileStamp& file : *files) {
+      if (auto added = add(file); !added) return added;
+    }
+  }
+  return job.datum.vertical == Vertical::kGeoid ? add(job.geoid) : Result<void>();
 }
 
 std::optional<std::string> find_changed(const TileJob& job) {
   std::vector<FileStamp> files = job.rasters;
+  files.insert(files.end(), job.files.begin(), job.files.end());
   if (job.datum.vertical == Vertical::kGeoid) files.push_back(job.geoid);
   for (const FileStamp& file : files) {
     const FileStamp now = stamp_of(file.path);
@@ -269,6 +378,26 @@ Result<void> check_rasters(const TileJob& job) {
   const std::optional<std::string> changed = find_changed(job);
   if (!changed) return {};
   return fail(ErrorKind::kInput, *changed + ": put it back as it was, or plan again");
+}
+
+Result<TileJob> follow_job(const TileJob& earlier, TileJob now) {
+  // Coarser levels have steps as coarse or coarser.
+  const double needed = now.plan.levels.back().quantum, has = earlier.plan.levels.back().quantum;
+  if (needed > has)
+    return fail(ErrorKind::kUsage,
+                fmt::format("the relief of {} needs steps of {} m where the earlier plan has {} m: make the set anew",
+                            now.rasters.front().path, needed, has));
+  TileJob job = earlier;
+  job.rasters = std::move(now.rasters);
+  job.files = std::move(now.files);
+  job.facts = std::move(now.facts);
+  job.geoid = std::move(now.geoid);
+  job.costs = {};
+  job.estimate = {};
+  job.mosaics = std::move(now.mosaics);
+  job.plan.covered = now.plan.covered;
+  job.plan.sources = std::move(now.plan.sources);
+  return job;
 }
 
 }  // namespace scarp
