@@ -17,6 +17,21 @@ for line in text.split("\n"):
 PYTHON
 }
 
+# serves COMMAND: a server says its address, and ends without a word when it is told to.
+serves() {
+  local server address= code=0
+  bash -c "exec $1 --port 0" > "$logs/out" 2> "$logs/err" &
+  server=$!
+  for _ in $(seq 400); do
+    address=$(sed -n 's#^  at  *\(http://.*/\)$#\1#p' "$logs/out")
+    [ -z "$address" ] && kill -0 $server 2> /dev/null || break
+    sleep 0.05
+  done
+  kill $server 2> /dev/null || true
+  wait $server || code=$?
+  [ -n "$address" ] && [ $code = 0 ] || fail "it does not serve: $1"
+}
+
 # run_all FILE: in a folder of its own, with the examples.
 run_all() {
   local folder line
@@ -25,6 +40,10 @@ run_all() {
   cd "$folder"
   commands "$1" > "$root/commands"
   while read -r line; do
+    if [[ $line == "scarp serve "* ]]; then
+      serves "$line"
+      continue
+    fi
     try bash -c "$line"
     [ "$code" = 0 ] || fail "exit code $code: $(basename "$1"): $line"
     if grep -Eq 'warning: .* no [a-z ]+ (was|were) found' "$logs/err"; then fail "it finds nothing: $(basename "$1"): $line"; fi

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Serves a folder on this machine alone: serve.py FOLDER [PORT]. PORT 0 takes a free one; the address is printed.
+"""Serves a folder on this machine alone: serve.py FOLDER [PORT]. Where PORT is taken, or 0, a free one; the address is printed.
 
 Tiles of quantized-mesh are compressed files, which clients must be told."""
 
@@ -26,7 +26,11 @@ class Handler(http.server.SimpleHTTPRequestHandler):
 def main():
     folder, port = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 8000
     handler = functools.partial(Handler, directory=folder)
-    with http.server.ThreadingHTTPServer(("127.0.0.1", port), handler) as server:
+    try:
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", port), handler)
+    except OSError:  # somebody else has the port
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
+    with server:
         print(f"http://127.0.0.1:{server.server_address[1]}/", flush=True)
         try:
             server.serve_forever()

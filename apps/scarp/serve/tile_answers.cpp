@@ -29,6 +29,10 @@ std::string media_type_of(const std::string& name) {
   if (ending == ".terrain") return "application/vnd.quantized-mesh";
   if (ending == ".glb") return "model/gltf-binary";
   if (ending == ".json") return "application/json";
+  // A page that is kept beside the tiles.
+  if (ending == ".html") return "text/html; charset=utf-8";
+  if (ending == ".js") return "text/javascript; charset=utf-8";
+  if (ending == ".css") return "text/css; charset=utf-8";
   return "application/octet-stream";
 }
 
