@@ -4,10 +4,10 @@ _scarp() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command='' options='' word
   COMPREPLY=()
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
-    case $word in simplify | measure | tile | tile-plan | tile-run | tile-finish | serve | info | generate | paper | help | version) command=$word && break ;; esac
+    case $word in simplify | measure | tile | tile-plan | tile-run | tile-finish | tile-check | serve | info | generate | paper | help | version) command=$word && break ;; esac
   done
   if [[ -z $command ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure tile tile-plan tile-run tile-finish serve info generate paper help version --help --version' -- "$current"))
+    COMPREPLY=($(compgen -W 'simplify measure tile tile-plan tile-run tile-finish tile-check serve info generate paper help version --help --version' -- "$current"))
     return
   fi
 
@@ -33,20 +33,23 @@ _scarp() {
       "tile-plan --ellipsoid" | "tile-plan --only" | "tile-plan --shards" | "tile-plan -e" | \
       "tile-plan --max-error" | "tile-plan --quality" | "tile-plan --zoom" | "tile-plan --nodata" | \
       "tile-plan --background" | "tile-run --shard" | "tile-run --only" | "tile-run --memory" | "tile-run -j" | \
-      "tile-run --num-threads" | "tile-finish -j" | "tile-finish --num-threads" | "serve --band" | "serve --te" | \
-      "serve --resolution" | "serve --z-scale" | "serve --z-offset" | "serve --ellipsoid" | "serve -e" | \
-      "serve --max-error" | "serve --quality" | "serve --zoom" | "serve --nodata" | "serve --background" | \
-      "serve --memory" | "serve --port" | "serve -j" | "serve --num-threads" | "info --band" | "info --te" | \
-      "info --resolution" | "info --z-scale" | "info --z-offset" | "info --cell-size" | "info --nodata" | \
-      "info --layer" | "info --z-field" | "generate --seed" | "generate --range" | "generate --size")
+      "tile-run --num-threads" | "tile-finish -j" | "tile-finish --num-threads" | "tile-check --band" | \
+      "tile-check --te" | "tile-check --resolution" | "tile-check --z-scale" | "tile-check --z-offset" | \
+      "tile-check --ellipsoid" | "tile-check --nodata" | "tile-check --background" | "tile-check -j" | \
+      "tile-check --num-threads" | "serve --band" | "serve --te" | "serve --resolution" | "serve --z-scale" | \
+      "serve --z-offset" | "serve --ellipsoid" | "serve -e" | "serve --max-error" | "serve --quality" | \
+      "serve --zoom" | "serve --nodata" | "serve --background" | "serve --memory" | "serve --port" | "serve -j" | \
+      "serve --num-threads" | "info --band" | "info --te" | "info --resolution" | "info --z-scale" | \
+      "info --z-offset" | "info --cell-size" | "info --nodata" | "info --layer" | "info --z-field" | \
+      "generate --seed" | "generate --range" | "generate --size")
       return
       ;;
     "simplify --objective")
       COMPREPLY=($(compgen -W 'max rms' -- "$current"))
       return
       ;;
-    "simplify --decode" | "measure --decode" | "tile --decode" | "tile-plan --decode" | "serve --decode" | \
-      "info --decode")
+    "simplify --decode" | "measure --decode" | "tile --decode" | "tile-plan --decode" | "tile-check --decode" | \
+      "serve --decode" | "info --decode")
       COMPREPLY=($(compgen -W 'terrarium mapbox' -- "$current"))
       return
       ;;
@@ -68,7 +71,7 @@ _scarp() {
       "simplify --water" | "simplify --rivers" | "simplify --texture" | "measure --map" | "measure --error-raster" | \
       "measure --mask" | "measure --tolerance" | "measure --roi" | "measure --script" | "measure --cutline" | \
       "measure --texture" | "tile --geoid" | "tile --report" | "tile-plan --geoid" | "tile-plan --changed-since" | \
-      "tile-plan --slurm" | "tile-finish --report" | "serve --geoid")
+      "tile-plan --slurm" | "tile-finish --report" | "tile-check --source" | "tile-check --geoid" | "serve --geoid")
       COMPREPLY=($(compgen -f -- "$current"))
       return
       ;;
@@ -128,7 +131,7 @@ _scarp() {
       COMPREPLY=($(compgen -W 'sum max sqerr abn tight' -- "$current"))
       return
       ;;
-    "tile --vertical" | "tile-plan --vertical" | "serve --vertical")
+    "tile --vertical" | "tile-plan --vertical" | "tile-check --vertical" | "serve --vertical")
       COMPREPLY=($(compgen -W 'auto egm96 egm2008 ellipsoid none' -- "$current"))
       return
       ;;
@@ -140,7 +143,7 @@ _scarp() {
       COMPREPLY=($(compgen -W 'fast normal high' -- "$current"))
       return
       ;;
-    "tile --cells" | "tile-plan --cells" | "serve --cells")
+    "tile --cells" | "tile-plan --cells" | "tile-check --cells" | "serve --cells")
       COMPREPLY=($(compgen -W '16 32 64 128 256' -- "$current"))
       return
       ;;
@@ -205,6 +208,11 @@ _scarp() {
         options+=' --report --overwrite --parts --num-threads --quiet --json-progress --help --help-all'
         options+=' --version'
         ;;
+      tile-check)
+        options+=' --source --band --te --resolution --decode --z-scale --z-offset --vertical'
+        options+=' --geoid --ellipsoid --json --cells --nodata --background --num-threads --quiet'
+        options+=' --json-progress --help --help-all --version'
+        ;;
       serve)
         options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --geoid'
         options+=' --ellipsoid --effort --max-error --quality --zoom --cells --nodata --background'
@@ -238,7 +246,7 @@ _scarp() {
     return
   fi
   if [[ $command == help && $COMP_CWORD -eq 2 ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure tile tile-plan tile-run tile-finish serve info generate paper help version' -- "$current"))
+    COMPREPLY=($(compgen -W 'simplify measure tile tile-plan tile-run tile-finish tile-check serve info generate paper help version' -- "$current"))
     return
   fi
   COMPREPLY=($(compgen -f -- "$current"))
