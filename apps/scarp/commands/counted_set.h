@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "scarp/tile_set.h"
-#include "terminal/progress_display.h"
+#include "terminal/tile_counts.h"
 
 namespace scarp::cli {
 

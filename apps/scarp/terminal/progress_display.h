@@ -7,13 +7,9 @@
 #include <string>
 
 #include "scarp/progress.h"
+#include "terminal/tile_counts.h"
 
 namespace scarp::cli {
-
-/// What a command that makes tiles has made so far.
-struct TileCounts {
-  std::uint64_t tiles = 0, bytes = 0;
-};
 
 /// Shows a run's progress on stderr and turns Ctrl-C into cancellation.
 ///
