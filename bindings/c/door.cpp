@@ -12,6 +12,8 @@
 namespace scarp::door {
 namespace {
 
+constexpr const char* kNoMemory = "out of memory";  // so short that a string holds it without asking for more
+
 std::string& last_sentence() {
   thread_local std::string sentence;
   return sentence;
@@ -53,7 +55,11 @@ void init(T* out, std::uint32_t size, T all) {
 }  // namespace
 
 scarp_status report(const Error& error) {
-  last_sentence() = in_words_of_door(error.message);
+  try {
+    last_sentence() = in_words_of_door(error.message);
+  } catch (...) {
+    last_sentence() = kNoMemory;
+  }
   return cli::exit_code(error.kind);
 }
 
@@ -63,7 +69,7 @@ scarp_status report_exception() {
   try {
     throw;
   } catch (const std::bad_alloc&) {
-    last_sentence() = "not enough memory";
+    last_sentence() = kNoMemory;
     return SCARP_INPUT;
   } catch (const std::exception& error) {
     return report(ErrorKind::kInternal, std::string("internal error: ") + error.what() + "; please report it");

@@ -54,6 +54,10 @@ std::string describe_all() {
 }  // namespace
 
 extern "C" const char* scarp_abi_layout(void) {
-  static const std::string text = describe_all();
-  return text.c_str();
+  try {
+    static const std::string text = describe_all();
+    return text.c_str();
+  } catch (...) {
+    return "";  // no memory for it
+  }
 }

@@ -84,23 +84,25 @@ Result<void> take_print(cli::Outcome& outcome, scarp_mesh& mesh) {
   return {};
 }
 
-Result<std::unique_ptr<scarp_mesh>> simplify_points_of(SimplifyWords& words, const scarp_options& asked) {
+Result<std::unique_ptr<scarp_mesh>> simplify_points_of(const SimplifyWords& words, const scarp_options& asked) {
+  const cli::SimplifyArguments given = words.given;
+  const cli::PointsArguments arguments = words.points;
   cli::Runner runner{progress_of(asked)};
   runner.on_plan = [&](ReadOptions& read) { choose_frame(asked, read); };
   cli::SimplifyPlan plan;
   cli::PointsOutcome outcome;
-  if (auto made = cli::make_points_mesh(*words.command, words.given, words.points, runner, plan, outcome); !made)
+  if (auto made = cli::make_points_mesh(*words.command, given, arguments, runner, plan, outcome); !made)
     return tl::unexpected(made.error());
-  if (auto completed = cli::complete_mesh(plan, words.points, outcome); !completed)
+  if (auto completed = cli::complete_mesh(plan, arguments, outcome); !completed)
     return tl::unexpected(completed.error());
-  return hand_over(plan, words.given, outcome);
+  return hand_over(plan, given, outcome);
 }
 
 Result<std::unique_ptr<scarp_mesh>> simplify_input(const std::string& input, bool are_points,
                                                    const scarp_options& asked) {
   SimplifyWords& words = words_of_thread();
   if (auto parsed = words.parse(input, asked); !parsed) return tl::unexpected(parsed.error());
-  const cli::SimplifyArguments& given = words.given;
+  const cli::SimplifyArguments given = words.given;  // the progress function may simplify, too
   if (auto goal = check_goal(given); !goal) return tl::unexpected(goal.error());
   words.points.points = are_points;
   if (words.points.are_meant(input)) return simplify_points_of(words, asked);

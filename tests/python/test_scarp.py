@@ -118,6 +118,14 @@ class Library(unittest.TestCase):
         self.assertTrue(told)
         self.assertTrue(all(0 <= step.fraction <= 1 and step.name for step in told))
 
+        # A progress function may simplify, too.
+        inner = []
+        z = plain_hills(300, 300)
+        outer = scarp.simplify(z, 0.5, effort="high", of="obj",
+                               progress=lambda _: inner.append(scarp.simplify(plain_hills(30, 30), 5, up="z")))
+        self.assertTrue(inner)
+        self.assertEqual(outer.encode(), scarp.simplify(z, 0.5, effort="high", of="obj").encode())
+
         class Own(BaseException):
             pass
 
