@@ -292,7 +292,9 @@ TEST(tiles3d_laws, uncompressed_tiles_have_the_same_triangles) {
     };
     EXPECT_EQ(triangles_of(one), triangles_of(other));
     EXPECT_EQ(triangles_of(one).size(), tile->triangles.size() / 3);
-    if (kHasMeshoptCodec) EXPECT_LT(2 * packed->size(), unpacked->size());
+    if (kHasMeshoptCodec) {
+      EXPECT_LT(2 * packed->size(), unpacked->size());
+    }
   }
 }
 
