@@ -54,7 +54,8 @@ def read_tile(path):
         return [(along[k], heights[k], normals[2 * k:2 * k + 2]) for k in edges[number]]
 
     assert {k for k in range(count) if u[k] == 0} == set(edges[0])
-    return {"west": edge(0, v), "south": edge(1, u), "east": edge(2, v), "north": edge(3, u), "heights": heights}
+    return {"west": edge(0, v), "south": edge(1, u), "east": edge(2, v), "north": edge(3, u), "heights": heights,
+            "u": u, "v": v, "triangles": indices}
 
 
 def main():
@@ -78,4 +79,5 @@ def main():
     print(len(tiles), edges, min(heights), max(heights))
 
 
-main()
+if __name__ == "__main__":
+    main()
