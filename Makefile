@@ -10,7 +10,7 @@ DATA ?= $(or $(SCARP_SHARED),../shared)/data
 C_TARGETS = $(if $(filter -DSCARP_BUILD_C=OFF,$(CMAKE_FLAGS)),,scarp_c scarp_c_static)
 export BUILD JOBS DATA
 
-.PHONY: build demo globe qgis python check test soak wasm-check bench paper install clean format tidy help
+.PHONY: build demo viewer globe qgis python check test soak wasm-check bench paper install clean format tidy help
 
 build:
 	@tools/install_packages.sh build
@@ -20,7 +20,12 @@ build:
 demo:
 	@tools/install_packages.sh build run
 	@$(MAKE) --no-print-directory build
+	@tools/install_packages.sh viewer && tools/build_viewer.sh $(BUILD) || echo 'The demonstration goes on without the viewer.'
 	@tools/demo.sh $(BUILD)/bin/scarp
+
+viewer:
+	@tools/install_packages.sh viewer
+	@tools/build_viewer.sh $(BUILD)
 
 globe:
 	@tools/install_packages.sh build run globe
@@ -85,7 +90,8 @@ tidy:
 
 help:
 	@echo 'make          build $(BUILD)/bin/scarp (Release), installing missing packages'
-	@echo 'make demo     build, simplify a bundled DEM into demo/, check the result'
+	@echo 'make demo     build, simplify a bundled DEM into demo/, check the result, make a page that shows it'
+	@echo 'make viewer   the page that scarp view fills in, by npm: $(BUILD)/share/scarp/viewer.html'
 	@echo 'make globe    build, make tiles of a bundled DEM and a page with CesiumJS in globe/, and serve it on this machine'
 	@echo 'make qgis     build, pack the plugin for QGIS into dist/'
 	@echo 'make python   the wheel and the sdist of Scarp for Python, into dist/'

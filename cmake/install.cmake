@@ -62,6 +62,8 @@ if(SCARP_BUILD_APPS)
   file(RELATIVE_PATH scarp_bin_to_lib "/${CMAKE_INSTALL_BINDIR}" "/${CMAKE_INSTALL_LIBDIR}")
   set_target_properties(scarp_program PROPERTIES INSTALL_RPATH "$ORIGIN/${scarp_bin_to_lib}")
   install(TARGETS scarp_program)
+  # The viewer's page, where `make viewer` has built it.
+  install(FILES ${PROJECT_BINARY_DIR}/share/scarp/viewer.html DESTINATION ${CMAKE_INSTALL_DATADIR}/scarp OPTIONAL)
   install(FILES ${PROJECT_SOURCE_DIR}/docs/man/scarp.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
   install(FILES ${PROJECT_SOURCE_DIR}/completions/scarp.bash
           DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME scarp)

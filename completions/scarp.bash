@@ -4,10 +4,10 @@ _scarp() {
   local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} command='' options='' word
   COMPREPLY=()
   for word in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
-    case $word in simplify | measure | tile | tile-plan | tile-run | tile-finish | tile-check | serve | info | generate | paper | help | version) command=$word && break ;; esac
+    case $word in simplify | measure | view | tile | tile-plan | tile-run | tile-finish | tile-check | serve | info | generate | paper | help | version) command=$word && break ;; esac
   done
   if [[ -z $command ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure tile tile-plan tile-run tile-finish tile-check serve info generate paper help version --help --version' -- "$current"))
+    COMPREPLY=($(compgen -W 'simplify measure view tile tile-plan tile-run tile-finish tile-check serve info generate paper help version --help --version' -- "$current"))
     return
   fi
 
@@ -26,11 +26,12 @@ _scarp() {
       "measure --te" | "measure --resolution" | "measure --z-scale" | "measure --z-offset" | "measure --cell-size" | \
       "measure --nodata" | "measure --falloff" | "measure --inset" | "measure --memory" | "measure -j" | \
       "measure --num-threads" | "measure --texture-weight" | "measure --channel-weights" | "measure --layer" | \
-      "measure --z-field" | "tile --band" | "tile --te" | "tile --resolution" | "tile --z-scale" | \
-      "tile --z-offset" | "tile --ellipsoid" | "tile --only" | "tile -e" | "tile --max-error" | "tile --quality" | \
-      "tile --zoom" | "tile --nodata" | "tile --background" | "tile -j" | "tile --num-threads" | "tile-plan --band" | \
-      "tile-plan --te" | "tile-plan --resolution" | "tile-plan --z-scale" | "tile-plan --z-offset" | \
-      "tile-plan --ellipsoid" | "tile-plan --only" | "tile-plan --shards" | "tile-plan -e" | \
+      "measure --z-field" | "view --band" | "view --te" | "view --resolution" | "view --z-scale" | \
+      "view --z-offset" | "view --cell-size" | "view --nodata" | "tile --band" | "tile --te" | "tile --resolution" | \
+      "tile --z-scale" | "tile --z-offset" | "tile --ellipsoid" | "tile --only" | "tile -e" | "tile --max-error" | \
+      "tile --quality" | "tile --zoom" | "tile --nodata" | "tile --background" | "tile -j" | "tile --num-threads" | \
+      "tile-plan --band" | "tile-plan --te" | "tile-plan --resolution" | "tile-plan --z-scale" | \
+      "tile-plan --z-offset" | "tile-plan --ellipsoid" | "tile-plan --only" | "tile-plan --shards" | "tile-plan -e" | \
       "tile-plan --max-error" | "tile-plan --quality" | "tile-plan --zoom" | "tile-plan --nodata" | \
       "tile-plan --background" | "tile-run --shard" | "tile-run --only" | "tile-run --memory" | "tile-run -j" | \
       "tile-run --num-threads" | "tile-finish -j" | "tile-finish --num-threads" | "tile-check --band" | \
@@ -48,16 +49,16 @@ _scarp() {
       COMPREPLY=($(compgen -W 'max rms' -- "$current"))
       return
       ;;
-    "simplify --decode" | "measure --decode" | "tile --decode" | "tile-plan --decode" | "tile-check --decode" | \
-      "serve --decode" | "info --decode")
+    "simplify --decode" | "measure --decode" | "view --decode" | "tile --decode" | "tile-plan --decode" | \
+      "tile-check --decode" | "serve --decode" | "info --decode")
       COMPREPLY=($(compgen -W 'terrarium mapbox' -- "$current"))
       return
       ;;
-    "simplify --crs" | "measure --crs" | "info --crs")
+    "simplify --crs" | "measure --crs" | "view --crs" | "info --crs")
       COMPREPLY=($(compgen -W 'source local enu grid EPSG:' -- "$current"))
       return
       ;;
-    "simplify --up" | "measure --up")
+    "simplify --up" | "measure --up" | "view --up")
       COMPREPLY=($(compgen -W 'y z' -- "$current"))
       return
       ;;
@@ -65,13 +66,14 @@ _scarp() {
       COMPREPLY=($(compgen -W 'glb obj ply stl tin 2dm vtu vtp landxml dxf gpkg 3mf svg eps dem' -- "$current"))
       return
       ;;
-    "simplify --drape" | "simplify --preview" | "simplify --render" | "simplify --error-raster" | \
+    "simplify --drape" | "simplify --preview" | "simplify --render" | "simplify --error-raster" | "simplify --html" | \
       "simplify --report" | "simplify --mask" | "simplify --tolerance" | "simplify --roi" | "simplify --script" | \
       "simplify --breaklines" | "simplify --cutline" | "simplify --materials" | "simplify --node-strings" | \
       "simplify --water" | "simplify --rivers" | "simplify --texture" | "measure --map" | "measure --error-raster" | \
       "measure --mask" | "measure --tolerance" | "measure --roi" | "measure --script" | "measure --cutline" | \
-      "measure --texture" | "tile --geoid" | "tile --report" | "tile-plan --geoid" | "tile-plan --changed-since" | \
-      "tile-plan --slurm" | "tile-finish --report" | "tile-check --source" | "tile-check --geoid" | "serve --geoid")
+      "measure --texture" | "view -o" | "view --output" | "tile --geoid" | "tile --report" | "tile-plan --geoid" | \
+      "tile-plan --changed-since" | "tile-plan --slurm" | "tile-finish --report" | "tile-check --source" | \
+      "tile-check --geoid" | "serve --geoid")
       COMPREPLY=($(compgen -f -- "$current"))
       return
       ;;
@@ -171,15 +173,15 @@ _scarp() {
         options+=' --max-error --max-triangles --max-points --objective --band --te --resolution --decode'
         options+=' --z-scale --z-offset --cell-size --crs --up --double --of --normals'
         options+=' --uvs --compress --drape --drape-size --drape-format --normal-map --preview --render'
-        options+=' --error-raster --report --overwrite --effort --vertices --min-shape --time-limit --lods'
-        options+=' --lods-in-one --lock-border --nodata --nodata-policy --fill-distance --background --outline-tolerance --mask'
-        options+=' --tolerance --roi --falloff --script --breaklines --breakline-z --soft-breaklines --line-conflict'
-        options+=' --cutline --inset --mask-outside --cliff --ridges --keep-ridges --materials --material-field'
-        options+=' --node-strings --water --water-percentile --detect-flats --rivers --min-angle --max-edge --min-edge'
-        options+=' --grade --base --solid --split --memory --num-threads --quiet --timing'
-        options+=' --json-progress --help --help-all --version --texture --texture-weight --image --norm'
-        options+=' --channel-weights --points --duplicates --layer --z-field --order --importance --one-pass'
-        options+=' --algorithm --batch --edges --edge-score --shape-threshold --supersample'
+        options+=' --error-raster --html --report --overwrite --effort --vertices --min-shape --time-limit'
+        options+=' --lods --lods-in-one --lock-border --nodata --nodata-policy --fill-distance --background --outline-tolerance'
+        options+=' --mask --tolerance --roi --falloff --script --breaklines --breakline-z --soft-breaklines'
+        options+=' --line-conflict --cutline --inset --mask-outside --cliff --ridges --keep-ridges --materials'
+        options+=' --material-field --node-strings --water --water-percentile --detect-flats --rivers --min-angle --max-edge'
+        options+=' --min-edge --grade --base --solid --split --memory --num-threads --quiet'
+        options+=' --timing --json-progress --help --help-all --version --texture --texture-weight --image'
+        options+=' --norm --channel-weights --points --duplicates --layer --z-field --order --importance'
+        options+=' --one-pass --algorithm --batch --edges --edge-score --shape-threshold --supersample'
         ;;
       measure)
         options+=' --fail-above --band --te --resolution --decode --z-scale --z-offset --cell-size'
@@ -187,6 +189,11 @@ _scarp() {
         options+=' --tolerance --roi --falloff --script --cutline --inset --mask-outside --memory'
         options+=' --num-threads --quiet --json-progress --help --help-all --version --texture --texture-weight'
         options+=' --image --norm --channel-weights --points --duplicates --layer --z-field'
+        ;;
+      view)
+        options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --crs'
+        options+=' --up --output --open --overwrite --nodata --quiet --help --help-all'
+        options+=' --version'
         ;;
       tile)
         options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --geoid'
@@ -246,7 +253,7 @@ _scarp() {
     return
   fi
   if [[ $command == help && $COMP_CWORD -eq 2 ]]; then
-    COMPREPLY=($(compgen -W 'simplify measure tile tile-plan tile-run tile-finish tile-check serve info generate paper help version' -- "$current"))
+    COMPREPLY=($(compgen -W 'simplify measure view tile tile-plan tile-run tile-finish tile-check serve info generate paper help version' -- "$current"))
     return
   fi
   COMPREPLY=($(compgen -f -- "$current"))

@@ -7,6 +7,8 @@ source_tree=$(cd "$(dirname "$0")/.." && pwd)
 library=$(realpath "$1/bindings/python/libscarp_c.so")
 mkdir -p "$2"
 folder=$(realpath "$2")
+page=$(realpath -m "$1/share/scarp/viewer.html")  # where `make viewer` has built it
+if [ -e "$page" ]; then export SCARP_VIEWER_PAGE=$page; fi
 cd "$source_tree/bindings/python"
 SCARP_C_LIBRARY=$library python3 -B -c '
 import sys

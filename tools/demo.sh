@@ -1,6 +1,6 @@
 #!/bin/bash
 # The demonstration: a bundled DEM becomes a mesh in two formats, a picture and a report in demo/; the mesh file is read
-# back and judged; a table tells what came out.
+# back and judged; a table tells what came out, and a page shows it where the viewer could be built.
 #
 # usage: tools/demo.sh PROGRAM
 set -euo pipefail
@@ -22,5 +22,14 @@ run simplify "$dem" demo/jacksboro.obj -e $goal --overwrite
 echo "scarp measure $dem demo/jacksboro.glb --fail-above $goal"
 "$scarp" measure "$dem" demo/jacksboro.glb --fail-above $goal --json --quiet >demo/measured.json
 "$scarp" measure "$dem" demo/jacksboro.obj --fail-above $goal --quiet >/dev/null
-exec "$python" tools/demo_table.py demo/jacksboro.json demo/measured.json demo/jacksboro.glb demo/jacksboro.obj \
+page=$(dirname "$scarp")/../share/scarp/viewer.html
+if [ -e "$page" ]; then
+  run view demo/jacksboro.glb "$dem" -o demo/jacksboro.html --overwrite
+fi
+"$python" tools/demo_table.py demo/jacksboro.json demo/measured.json demo/jacksboro.glb demo/jacksboro.obj \
   demo/jacksboro.png demo/jacksboro.json
+if [ -e "$page" ]; then
+  echo "Look at it, with its errors: open $PWD/demo/jacksboro.html in a browser."
+else
+  echo "'make viewer' builds the page that shows it in a browser; it needs node and npm."
+fi

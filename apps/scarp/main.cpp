@@ -23,6 +23,7 @@
 #include "commands/tile_finish_command.h"
 #include "commands/tile_plan_command.h"
 #include "commands/tile_run_command.h"
+#include "commands/view_command.h"
 #include "options/help.h"
 #include "options/missing_value.h"
 #include "options/unknown_words.h"
@@ -119,6 +120,7 @@ int run_program(int count, char** words) {
   program.require_subcommand(1);
   SimplifyCommand simplify(program);
   MeasureCommand measure(program);
+  ViewCommand view(program);
   TileCommand tile(program);
   TilePlanCommand tile_plan(program);
   TileRunCommand tile_run(program);
@@ -151,6 +153,7 @@ int run_program(int count, char** words) {
   const std::string command_line = join_command_line(count, words);
   return report_end(simplify.is_chosen()      ? simplify.run(command_line)
                     : measure.is_chosen()     ? measure.run(command_line)
+                    : view.is_chosen()        ? view.run()
                     : tile.is_chosen()        ? tile.run(command_line)
                     : tile_plan.is_chosen()   ? tile_plan.run()
                     : tile_run.is_chosen()    ? tile_run.run()

@@ -2,7 +2,8 @@
 
 The library is compiled by CMake from the checkout (or the sdist) that this file lies in, without GDAL, unless
 SCARP_C_LIBRARY, or `--config-settings library=FILE`, names one that is there. `--config-settings gdal=on` compiles it
-with GDAL. Libraries that a machine need not have are put beside it, in the package.
+with GDAL. Libraries that a machine need not have are put beside it, in the package, and so is the page of Mesh.view(),
+if SCARP_VIEWER_PAGE names it.
 """
 import base64
 import csv
@@ -149,6 +150,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         wheel.put_file("scarp/" + LIBRARY, library)
         for name, source in _companions(library):
             wheel.put_file("scarp/" + name, source)
+        if os.environ.get("SCARP_VIEWER_PAGE"):
+            wheel.put_file("scarp/viewer.html", os.environ["SCARP_VIEWER_PAGE"])
         return wheel.finish()
     finally:
         if build:

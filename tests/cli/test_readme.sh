@@ -63,6 +63,10 @@ code = (folder / "library.cpp").read_text()
 assert "```cpp\n" + code[code.index("#include"):] + "```\n" in (folder / "library.md").read_text()
 PYTHON
 for guide in "$SCARP_SOURCE"/docs/guide/*.md; do
+  if [[ $guide == */viewer.md ]] && ! "$SCARP_SOURCE/tools/build_viewer.sh" "$SCARP_BUILD" > /dev/null 2>&1; then
+    echo "left out: viewer.md (its page needs node and npm)"
+    continue
+  fi
   run_all "$guide"
   while read -r picture; do
     [ -s "$SCARP_SOURCE/docs/guide/$picture" ] || fail "$guide shows $picture, which is not there"

@@ -45,10 +45,6 @@ class MeasureCommand {
   Result<void> check_order() const;
   Result<void> check_outputs_of_run() const;
   Result<void> read_inputs(const ProgressCallback& progress, Judged& judged) const;
-  /// The raster's options, with what the mesh says of itself where they were not given.
-  RasterArguments remember(const Mesh& mesh) const;
-  /// Turns a mesh that does not say which axis is up.
-  void turn_up(bool is_y_up, Mesh& mesh) const;
   Result<void> read_field(const ReadOptions& options, Judged& judged) const;
   /// The first option that was given and needs all samples in memory; nothing if there is none.
   std::optional<std::string> find_need_of_samples() const;

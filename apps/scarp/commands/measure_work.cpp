@@ -135,9 +135,9 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
   Result<Mesh> mesh = read_mesh(mesh_);
   if (!mesh) return tl::unexpected(std::move(mesh.error()));
   judged.mesh = std::move(*mesh);
-  turn_up(judged.is_y_up, judged.mesh);
+  turn_up(judged.is_y_up, mesh_, judged.mesh);
   undo_placement(judged.mesh);
-  const RasterArguments asked = remember(judged.mesh);
+  const RasterArguments asked = remember_options(raster_, judged.mesh);
   const bool crs_from_mesh = asked.crs && !raster_.crs;
   Result<ReadOptions> read = asked.parse();
   if (!read) {
@@ -186,26 +186,6 @@ Result<void> MeasureCommand::read_inputs(const ProgressCallback& progress, Judge
   judged.warnings.insert(judged.warnings.begin(), of_raster.begin(), of_raster.end());
   judged.warnings.insert(judged.warnings.end(), judged.companions.warnings.begin(), judged.companions.warnings.end());
   return {};
-}
-
-RasterArguments MeasureCommand::remember(const Mesh& mesh) const {
-  RasterArguments asked = raster_;
-  const std::pair<const char*, Given*> options[] = {{"crs_option", &asked.crs},
-                                                    {"z_scale", &asked.z_scale},
-                                                    {"z_offset", &asked.z_offset},
-                                                    {"cell_size", &asked.cell_size}};
-  for (const auto& [key, option] : options) {
-    const auto entry = mesh.metadata.find(key);
-    if (!*option && entry != mesh.metadata.end()) *option = entry->second;
-  }
-  return asked;
-}
-
-void MeasureCommand::turn_up(bool is_y_up, Mesh& mesh) const {
-  // A file that says which axis is up has been turned as it says.
-  if (!is_y_up || mesh.metadata.contains("up") || find_mesh_format(mesh_) == MeshFormat::kGlb) return;
-  mesh.metadata["up"] = *up_;
-  undo_y_up(mesh);
 }
 
 Result<void> MeasureCommand::read_field(const ReadOptions& options, Judged& judged) const {

@@ -33,7 +33,7 @@ bool needs_none(const fs::path& name) {
 /// none.
 std::string find_owner(const SimplifyPlan& plan, const fs::path& projection) {
   std::vector<fs::path> ours{projection.filename(), fs::path(plan.output).filename()};
-  for (const auto* other : {&plan.preview, &plan.render, &plan.error_raster, &plan.report}) {
+  for (const auto* other : {&plan.preview, &plan.render, &plan.error_raster, &plan.html, &plan.report}) {
     if (*other) ours.push_back(fs::path(**other).filename());
   }
   for (int k = 0; plan.has_file_per_level() && k < plan.levels->count; ++k)

@@ -10,6 +10,7 @@
 #include "reports/pictures.h"
 #include "reports/report.h"
 #include "reports/simplify_outcome.h"
+#include "reports/view_page.h"
 #include "scarp/picture.h"
 
 namespace scarp::cli {
@@ -169,7 +170,7 @@ Result<std::vector<std::uint8_t>> encode_dem(const SimplifyPlan& plan, const Out
 
 /// Whether OUTPUT is made from the samples as well as from the mesh.
 bool reads_samples(const SimplifyPlan& plan) {
-  return plan.format.kind == OutputKind::kDem || plan.images.normal_map.has_value();
+  return plan.format.kind == OutputKind::kDem || plan.images.normal_map.has_value() || plan.html.has_value();
 }
 
 /// Fills in OUTPUT.
@@ -219,6 +220,26 @@ Result<void> encode_levels(const SimplifyPlan& plan, Outcome& outcome, std::vect
     for (std::size_t k = 0; k < levels.size(); ++k) levels[k].path = level_path(plan.output, static_cast<int>(k));
   }
   files.insert(files.begin(), std::make_move_iterator(levels.begin()), std::make_move_iterator(levels.end()));
+  return {};
+}
+
+/// Shows the GLB files of this run, or the mesh as one.
+Result<void> add_page(const SimplifyPlan& plan, Outcome& outcome, std::vector<ReadyFile>& files) {
+  std::vector<PageMesh> meshes;
+  for (const ReadyFile& file : files) {
+    if (std::string_view(file.kind) == "glb") meshes.push_back({file.path, file.size(), file.bytes});
+  }
+  if (meshes.empty()) {
+    Mesh mesh = outcome.simplified.mesh;
+    if (is_y_up(mesh)) undo_y_up(mesh);
+    auto glb = encode_mesh(mesh, MeshFormat::kGlb);
+    if (!glb) return tl::unexpected(std::move(glb.error()));
+    meshes.push_back({plan.output, files.front().size(), std::move(*glb)});
+  }
+  auto page = make_view_page(plan.page_template, meshes, &outcome.field);
+  if (!page) return tl::unexpected(std::move(page.error()));
+  if (page->left_out) outcome.warnings.push_back(*page->left_out);
+  files.push_back({*plan.html, "html", std::move(page->html)});
   return {};
 }
 
@@ -272,6 +293,9 @@ Result<std::vector<ReadyFile>> encode_files(const SimplifyPlan& plan, const Prog
   if (auto encoded = encode_output(plan, outcome, files.front()); !encoded) return tl::unexpected(encoded.error());
   if (plan.levels) {
     if (auto encoded = encode_levels(plan, outcome, files); !encoded) return tl::unexpected(std::move(encoded.error()));
+  }
+  if (plan.html) {
+    if (auto page = add_page(plan, outcome, files); !page) return tl::unexpected(std::move(page.error()));
   }
   for (const ProjectionFile& projection : outcome.projections) files.push_back(ready(projection));
   return files;

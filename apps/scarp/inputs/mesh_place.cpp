@@ -118,6 +118,26 @@ Extent extent_of(const PointSet& points) {
   return extent;
 }
 
+RasterArguments remember_options(const RasterArguments& given, const Mesh& mesh) {
+  RasterArguments asked = given;
+  const std::pair<const char*, Given*> options[] = {{"crs_option", &asked.crs},
+                                                    {"z_scale", &asked.z_scale},
+                                                    {"z_offset", &asked.z_offset},
+                                                    {"cell_size", &asked.cell_size}};
+  for (const auto& [key, option] : options) {
+    const auto entry = mesh.metadata.find(key);
+    if (!*option && entry != mesh.metadata.end()) *option = entry->second;
+  }
+  return asked;
+}
+
+void turn_up(bool is_y_up, const std::string& path, Mesh& mesh) {
+  // A file that says which axis is up has been turned as it says.
+  if (!is_y_up || mesh.metadata.contains("up") || find_mesh_format(path) == MeshFormat::kGlb) return;
+  mesh.metadata["up"] = "y";
+  undo_y_up(mesh);
+}
+
 void fit_frame(const Mesh& mesh, OwnedHeightField& field) {
   if (field.frame.kind != Frame::Kind::kLocal) return;
   HeightField source = field.view();

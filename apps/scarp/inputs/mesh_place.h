@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "options/options.h"
 #include "scarp/height_field.h"
 #include "scarp/mesh.h"
 #include "scarp/points.h"
@@ -26,6 +27,11 @@ struct Extent {
 Extent extent_of(const Mesh& mesh);
 Extent extent_of(const HeightField& field);
 Extent extent_of(const PointSet& points);
+
+/// The raster's options, with what the mesh says of itself where they were not given.
+RasterArguments remember_options(const RasterArguments& given, const Mesh& mesh);
+/// Turns a mesh whose file, `path`, does not say which axis is up, if y is.
+void turn_up(bool is_y_up, const std::string& path, Mesh& mesh);
 
 /// For a mesh that says nothing of its frame: the raster's own coordinates, if it fits the raster there better than in
 /// the frame that was read.

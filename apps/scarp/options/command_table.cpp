@@ -29,6 +29,13 @@ constexpr CommandRow kCommandRows[] = {
      "  scarp measure dem.tif hills.glb --script outliers.txt --fail-above 1\n"
      "  scarp measure photo.png photo.glb --image --fail-above 8\n"
      "Exit codes: 0 ok, 1 usage, 2 input, 3 promise not met, 4 output, 5 interrupted, 70 internal error.\n"},
+    {kView, "view", "Write a page that shows a mesh and its errors in a browser", "MESH [RASTER] [OPTIONS]",
+     "One HTML file, which opens from disk and asks no network: hillshade, wireframe, error map, profile.\n"
+     "Examples:\n"
+     "  scarp view hills.glb dem.tif                         hills.html\n"
+     "  scarp view hills.glb dem.tif -o page.html --open     and opens it\n"
+     "  scarp view hills_lod0.glb dem.tif                    all levels of --lods\n"
+     "Exit codes: 0 ok, 1 usage, 2 input, 4 output, 70 internal error.\n"},
     {kTile, "tile", "Make a pyramid of terrain tiles for globes: quantized-mesh or 3D Tiles, for CesiumJS and others",
      "INPUT OUTPUT [OPTIONS]",
      "Tiles of neighbours have the same edges, and each tells its error bound, the earth's curve included.\n"

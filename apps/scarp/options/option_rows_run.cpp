@@ -46,7 +46,8 @@ constexpr OptionRow kRunRows[] = {
      .name = "--quiet",
      .short_name = "-q",
      .commands =
-         kSimplify | kMeasure | kInfo | kGenerate | kPaper | kTile | kTilePlan | kTileRun | kTileFinish | kTileCheck | kServe,
+         kSimplify | kMeasure | kView | kInfo | kGenerate | kPaper | kTile | kTilePlan | kTileRun | kTileFinish | kTileCheck |
+         kServe,
      .group = OptionGroup::kRun,
      .type = kFlag,
      .help = "Print no summary, no progress and no warnings."},

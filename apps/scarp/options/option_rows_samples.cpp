@@ -10,7 +10,7 @@ using enum OptionType;
 constexpr OptionRow kSampleRows[] = {
     {.id = kNodata,
      .name = "--nodata",
-     .commands = kSimplify | kMeasure | kInfo | kTile | kTilePlan | kTileCheck | kServe,
+     .commands = kSimplify | kMeasure | kView | kInfo | kTile | kTilePlan | kTileCheck | kServe,
      .group = OptionGroup::kNodata,
      .type = kNumber,
      .value = "V",

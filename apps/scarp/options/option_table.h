@@ -49,6 +49,9 @@ enum class OptionId {
   kPreview,
   kRender,
   kErrorRaster,
+  kHtml,
+  kPage,
+  kOpen,
   kMap,
   kReport,
   kJson,
@@ -186,8 +189,8 @@ enum class OptionType {
 using Commands = unsigned;
 inline constexpr Commands kSimplify = 1, kMeasure = 2, kInfo = 4, kGenerate = 8, kPaper = 16, kHelpCommand = 32,
                           kVersionCommand = 64, kTile = 128, kServe = 256, kTilePlan = 512, kTileRun = 1024, kTileFinish = 2048,
-                          kTileCheck = 4096;
-inline constexpr Commands kEveryCommand = 8191;
+                          kTileCheck = 4096, kView = 8192;
+inline constexpr Commands kEveryCommand = 16383;
 
 struct OptionRow {
   OptionId id;

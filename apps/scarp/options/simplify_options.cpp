@@ -36,6 +36,7 @@ void SimplifyArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kPreview, preview);
   add_option(command, OptionId::kRender, render);
   add_option(command, OptionId::kErrorRaster, error_raster);
+  add_option(command, OptionId::kHtml, html);
   add_option(command, OptionId::kReport, report);
   add_flag(command, OptionId::kOverwrite, overwrite);
   add_option(command, OptionId::kThreads, threads);

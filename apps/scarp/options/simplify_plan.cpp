@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "options/conflicts.h"
+#include "reports/view_page.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -357,8 +358,26 @@ Result<void> plan_outputs(const SimplifyArguments& given, SimplifyPlan& plan) {
     const Result<void> named = check_tiff_name(outputs.back());
     if (!named) return named;
   }
+  if (given.html) outputs.push_back({"--html", *given.html});
   if (given.report) outputs.push_back({"--report", *given.report});
   return check_outputs(outputs, plan.files_read, given.overwrite);
+}
+
+Result<void> plan_page(const SimplifyArguments& given, SimplifyPlan& plan) {
+  if (!given.html) return {};
+  const std::pair<const char*, bool> others[] = {{"--base", given.base.has_value()},
+                                                 {"--solid", plan.solid.has_value()},
+                                                 {"--image", plan.channels.image},
+                                                 {"--memory", given.memory.memory.has_value()}};
+  for (const auto& [name, is_given] : others) {
+    if (is_given)
+      return fail(ErrorKind::kUsage, fmt::format("--html cannot be combined with {}: the page holds all samples of a "
+                                                 "terrain of heights", name));
+  }
+  auto page = read_page_template();
+  if (!page) return tl::unexpected(page.error());
+  plan.page_template = std::move(*page);
+  return {};
 }
 
 /// What a mesh does not go with in a frame in space, where z is not the height.
@@ -455,6 +474,7 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given, std::vector<s
   plan.preview = given.preview;
   plan.render = given.render;
   plan.error_raster = given.error_raster;
+  plan.html = given.html;
   plan.report = given.report;
   plan.overwrite = given.overwrite;
   plan.canonical_command = canonical_command(given);
@@ -467,7 +487,7 @@ Result<SimplifyPlan> plan_simplify(const SimplifyArguments& given, std::vector<s
   plan.simplify.run.threads = plan.read.run.threads = *threads;
   for (const auto step :
        {plan_goals, plan_nodata, plan_channels, plan_strategy, plan_solid, plan_lines, plan_shape, plan_levels,
-        plan_objective, plan_conflicts, plan_outputs, plan_zones, plan_space, plan_memory}) {
+        plan_objective, plan_conflicts, plan_outputs, plan_page, plan_zones, plan_space, plan_memory}) {
     const Result<void> planned = step(given, plan);
     if (!planned) return tl::unexpected(planned.error());
   }

@@ -37,7 +37,7 @@ struct SimplifyArguments {
   std::string output;
   Given max_error, max_triangles, max_points;
   Given nodata_policy, fill_distance, background, outline_tolerance;
-  Given format, up, base, preview, render, error_raster, report, threads;
+  Given format, up, base, preview, render, error_raster, html, report, threads;
   LevelArguments levels;
   StrategyArguments strategy;
   CompanionArguments companions;
@@ -82,7 +82,8 @@ struct SimplifyPlan {
   std::optional<PrintOptions> solid;
   std::optional<Levels> levels;
   bool levels_in_one = false;
-  std::optional<std::string> preview, render, error_raster, report;
+  std::optional<std::string> preview, render, error_raster, html, report;
+  std::string page_template;                 ///< of the page, where `html` asks for one
   bool compress = false;
   bool overwrite = false;
   bool is_y_up = false;                      ///< see choose_y_up()

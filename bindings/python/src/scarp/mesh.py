@@ -245,6 +245,22 @@ class Mesh:
         ax.figure.colorbar(drawn, ax=ax, label="height")
         return ax
 
+    def view(self, source: Any = None, path: Optional[str | os.PathLike[str]] = None, *, open: bool = True,
+             **options: Any) -> str:
+        """Writes a page that shows the mesh in a browser, and opens it: one HTML file, to a temporary folder unless
+        `path` says where. With the `source` that the mesh was made of (and its options `transform`, `nodata` ...) the
+        page shows the error of every sample. Returns the path. InputError where the page's template is not there."""
+        import tempfile
+        import webbrowser
+        from pathlib import Path
+
+        from ._view import make_page
+        page = Path(path if path is not None else os.path.join(tempfile.mkdtemp(prefix="scarp-"), "mesh.html"))
+        page.write_text(make_page(self, source, options), encoding="utf-8")
+        if open:
+            webbrowser.open(page.absolute().as_uri())
+        return str(page)
+
     def __reduce__(self) -> Any:
         raise TypeError("a scarp.Mesh is not pickled: send its vertices and triangles, or encode()")
 

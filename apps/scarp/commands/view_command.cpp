@@ -1,0 +1,121 @@
+#include "commands/view_command.h"
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include "inputs/mesh_place.h"
+#include "options/option_table.h"
+#include "options/output_kind.h"
+#include "scarp/io.h"
+#include "scarp/solid.h"
+#include "terminal/text.h"
+
+namespace scarp::cli {
+namespace {
+
+Result<void> open_in_browser(const std::string& path) {
+  std::string program = "xdg-open", file = std::filesystem::absolute(path).string();
+  char* const words[] = {program.data(), file.data(), nullptr};
+  pid_t child = 0;
+  int status = 0;
+  const bool is_open = posix_spawnp(&child, program.c_str(), nullptr, nullptr, words, environ) == 0 &&
+                       waitpid(child, &status, 0) == child && status == 0;
+  if (is_open) return {};
+  return fail(ErrorKind::kOutput, fmt::format("{} is written, but xdg-open cannot open it: open it in a browser", path));
+}
+
+}  // namespace
+
+ViewCommand::ViewCommand(CLI::App& program) : command_(add_command(program, kView)) {
+  add_option(*command_, OptionId::kMesh, mesh_);
+  add_arguments(*command_, OptionId::kRaster, raster_.paths);
+  raster_.add_to(*command_);
+  add_option(*command_, OptionId::kUp, up_);
+  add_option(*command_, OptionId::kPage, page_);
+  add_flag(*command_, OptionId::kOpen, open_);
+  add_flag(*command_, OptionId::kOverwrite, overwrite_);
+  add_flag(*command_, OptionId::kQuiet, quiet_);
+}
+
+std::vector<std::string> ViewCommand::mesh_paths() const {
+  std::vector<std::string> paths{mesh_};
+  const std::size_t at = mesh_.rfind("_lod0.");
+  if (at == std::string::npos) return paths;
+  for (int level = 1;; ++level) {
+    const std::string path = fmt::format("{}_lod{}{}", mesh_.substr(0, at), level, mesh_.substr(at + 5));
+    if (!std::filesystem::exists(path)) return paths;
+    paths.push_back(path);
+  }
+}
+
+Result<std::vector<PageMesh>> ViewCommand::read_meshes(Mesh& first) const {
+  std::vector<PageMesh> meshes;
+  const Result<bool> is_y_up = parse_up(up_);
+  if (!is_y_up) return tl::unexpected(is_y_up.error());
+  for (const std::string& path : mesh_paths()) {
+    auto bytes = read_file(path);
+    if (!bytes) return tl::unexpected(bytes.error());
+    Result<Mesh> mesh = decode_mesh(*bytes, path);
+    if (!mesh) return tl::unexpected(mesh.error());
+    turn_up(*is_y_up, path, *mesh);
+    undo_placement(*mesh);
+    const std::uint64_t size = bytes->size();
+    if (!std::string_view(reinterpret_cast<const char*>(bytes->data()), bytes->size()).starts_with("glTF")) {
+      bytes = encode_mesh(*mesh, MeshFormat::kGlb);
+      if (!bytes) return tl::unexpected(bytes.error());
+    }
+    if (meshes.empty()) first = std::move(*mesh);
+    meshes.push_back({path, size, std::move(*bytes)});
+  }
+  return meshes;
+}
+
+Result<OwnedHeightField> ViewCommand::read_raster(const Mesh& mesh, std::vector<std::string>& warnings) const {
+  const RasterArguments asked = remember_options(raster_, mesh);
+  const Result<ReadOptions> read = asked.parse();
+  if (!read) return tl::unexpected(read.error());
+  Result<OwnedHeightField> field = read_height_field(raster_.path(), *read);
+  if (!field) return tl::unexpected(raster_.explain(std::move(field.error())));
+  if (!asked.crs) fit_frame(mesh, *field);
+  if (!raster_.crs) warnings = place_frame(mesh, *field);
+  return field;
+}
+
+Result<void> ViewCommand::run() const {
+  const auto page_template = read_page_template();
+  if (!page_template) return tl::unexpected(page_template.error());
+  const std::string path = page_.value_or(std::filesystem::path(mesh_).replace_extension(".html").string());
+  if (auto checked = check_outputs({{"--output", path}}, files_read(*command_), overwrite_); !checked) return checked;
+  Mesh mesh;
+  const auto meshes = read_meshes(mesh);
+  if (!meshes) return tl::unexpected(meshes.error());
+  std::optional<OwnedHeightField> field;
+  std::vector<std::string> warnings;
+  if (!raster_.paths.empty()) {
+    auto read = read_raster(mesh, warnings);
+    if (!read) return tl::unexpected(std::move(read.error()));
+    field = std::move(*read);
+  }
+  const auto page = make_view_page(*page_template, *meshes, field ? &*field : nullptr);
+  if (!page) return tl::unexpected(page.error());
+  if (page->left_out) warnings.push_back(*page->left_out);
+  if (auto written = write_file(path, page->html, overwrite_); !written) return written;
+  if (!quiet_) {
+    print_warnings(warnings);
+    const std::string summary = fmt::format("{}: {}; open it in a browser\n", path, format_bytes(page->html.size()));
+    if (is_stdout(path)) {
+      print_to_stderr(summary);
+    } else if (auto printed = print_summary(summary); !printed) {
+      return printed;
+    }
+  }
+  return open_ ? open_in_browser(path) : Result<void>();
+}
+
+}  // namespace scarp::cli

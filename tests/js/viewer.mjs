@@ -1,0 +1,62 @@
+// Looks at pages of the viewer in a real browser, from disk: viewer.mjs JOBS.json SHOTS [CHROMIUM]
+//
+// JOBS.json: a list of {page, width, height, dark, before, steps, axe}. `before` is run in the page before its own script;
+// each step is {drop: [{name, path}], do: JavaScript, keys, clicks, until: JavaScript, read: JavaScript, shot: name, after}. Prints JSON, one answer a job: the
+// values of `do` and `read`, errors of the console, what was asked of elsewhere, and what axe-core objects to.
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { pathToFileURL } from "node:url";
+import { open_page } from "./browser.mjs";
+
+const [jobs_file, shots, program] = process.argv.slice(2);
+const axe_source = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+
+/// Playwright's own function evaluates text in the page, which the page's policy forbids.
+async function wait_for(page, condition) {
+  for (let k = 0; !(await page.evaluate(condition)); ++k) {
+    if (k === 600) throw new Error(`never true: ${condition}`);
+    await page.waitForTimeout(100);
+  }
+}
+
+async function do_job(job) {
+  const address = pathToFileURL(job.page).href;
+  const { browser, page, errors, elsewhere } = await open_page(address, { width: job.width ?? 1100, height: job.height ?? 700 }, program);
+  try {
+    await page.emulateMedia({ colorScheme: job.dark ? "dark" : "light", reducedMotion: "reduce" });
+    if (job.before) await page.addInitScript(job.before);
+    await page.goto(address + (job.fragment ?? ""));
+    const values = [];
+    for (const step of job.steps) {
+      if (step.drop) {
+        const files = step.drop.map(({ name, path }) => ({ name, base64: readFileSync(path).toString("base64") }));
+        await page.evaluate(async files => {
+          const transfer = new DataTransfer();
+          for (const { name, base64 } of files) transfer.items.add(new File([Uint8Array.from(atob(base64), letter => letter.charCodeAt(0))], name));
+          window.dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, cancelable: true }));
+        }, files);
+      }
+      if (step.do) values.push(await page.evaluate(step.do));
+      for (const key of step.keys ?? []) await page.keyboard.press(key);
+      for (const at of step.clicks ?? []) await page.mouse.click(...at);
+      if (step.until) await wait_for(page, step.until);
+      if (step.read) values.push(await page.evaluate(step.read));
+      if (step.shot) await page.screenshot({ path: `${shots}/${step.shot}.png` });
+      if (step.after) await page.evaluate(step.after);
+    }
+    let violations = [];
+    if (job.axe) {
+      await page.evaluate(axe_source);
+      violations = (await page.evaluate(() => axe.run())).violations.map(({ id, nodes }) => `${id}: ${nodes.map(node => node.html).join(" ")}`);
+    }
+    return { values, errors, elsewhere, violations };
+  } catch (error) {
+    return { failed: String(error), errors, elsewhere };
+  } finally {
+    await browser.close();
+  }
+}
+
+const answers = [];
+for (const job of JSON.parse(readFileSync(jobs_file, "utf8"))) answers.push(await do_job(job));
+console.log(JSON.stringify(answers));

@@ -1,0 +1,26 @@
+#!/bin/bash
+# Builds the viewer's page, BUILD/share/scarp/viewer.html, beside BUILD/bin/scarp, which fills it in. npm fetches three.js
+# and esbuild once, into BUILD/viewer. With the npm package of `make npm` in ENGINE the page refines live, too.
+#
+# usage: tools/build_viewer.sh BUILD [ENGINE]      ENGINE: BUILD-wasm/npm if it is there
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=$(mkdir -p "$1" && cd "$1" && pwd)
+engine=${2:-$build-wasm/npm}
+for tool in node npm; do
+  command -v $tool >/dev/null || { echo "The viewer's page needs $tool (Debian: nodejs, npm); it is not built." >&2; exit 1; }
+done
+work=$build/viewer
+mkdir -p "$work"
+exec 9>"$work/lock"
+flock 9
+rm -rf "$work/src"
+cp -r web/viewer/src web/viewer/build.mjs web/viewer/package.json web/viewer/package-lock.json "$work/"
+if ! cmp -s "$work/package-lock.json" "$work/node_modules/installed"; then
+  (cd "$work" && npm ci --ignore-scripts --no-audit --no-fund >npm.log 2>&1) || {
+    echo "The viewer's page needs packages that npm cannot fetch now ($work/npm.log tells why); it is not built." >&2
+    exit 1
+  }
+  cp "$work/package-lock.json" "$work/node_modules/installed"
+fi
+node "$work/build.mjs" "$build/share/scarp/viewer.html" "$engine"

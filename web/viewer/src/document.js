@@ -1,0 +1,44 @@
+// What the page shows: levels of a mesh and, where it is known, their raster.
+import { Field } from './field.js';
+import { read_glb } from './glb.js';
+import { Sentence } from './sentence.js';
+import { Place, Terrain } from './terrain.js';
+
+function decode_base64(text) {
+  const raw = atob(text), bytes = new Uint8Array(raw.length);
+  for (let k = 0; k < raw.length; ++k) bytes[k] = raw.charCodeAt(k);
+  return bytes.buffer;
+}
+
+function read_field({ samples, type, nodata = null, ...rest }) {
+  const bytes = decode_base64(samples), values = type === 'int16' ? Float32Array.from(new Int16Array(bytes)) : new Float32Array(bytes);
+  if (nodata !== null) for (let k = 0; k < values.length; ++k) if (values[k] === nodata) values[k] = NaN;
+  if (values.length !== rest.cols * rest.rows) throw new Sentence('The raster in this page is damaged: it has not as many samples as it says.');
+  return new Field({ ...rest, samples: values });
+}
+
+/** `data`: {meshes: [{name, bytes, glb}], field, metres, unit}, as `scarp view` writes it. */
+export async function read_inline(data) {
+  const files = data.meshes.map(({ name, bytes, glb }) => ({ name, bytes, buffer: decode_base64(glb) }));
+  return make_document(files, data.field ? read_field(data.field) : null, data.metres, data.unit);
+}
+
+/** `metres` a unit of x, y, z; null: as the first file says of itself. */
+export async function make_document(files, field, metres = null, unit = null) {
+  const parts = [];
+  for (const { name, bytes, buffer } of files) {
+    const { levels, extras } = await read_glb(buffer, name);
+    const error = extras.error ?? {};
+    levels.forEach((level, k) => parts.push({ name: levels.length > 1 ? `${name}, level ${k}` : name, bytes: k === 0 ? bytes : null, told: k === 0 ? error : null, extras, ...level }));
+  }
+  const frame = parts[0].extras.crs_option;
+  const known = metres !== null || frame === 'local' || frame === 'enu', place = new Place(parts[0].positions, metres ?? [1, 1, 1]);
+  const terrains = parts.map(part => new Terrain(part, place, field));
+  return { name: files[0].name, levels: terrains, place, field, unit: unit ?? parts[0].extras.unit ?? '', knows_metres: known };
+}
+
+/** Whether a mesh lies where the raster does, so that one can judge the other. */
+export function fits(field, document) {
+  const corners = [field.to_place(0, 0), field.to_place(field.cols - 1, field.rows - 1)], { low, high } = document.place;
+  return [0, 1].every(k => Math.min(corners[0][k], corners[1][k]) <= high[k] && Math.max(corners[0][k], corners[1][k]) >= low[k]);
+}

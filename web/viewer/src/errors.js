@@ -1,0 +1,61 @@
+// The error of every sample, mesh minus sample, by brute force over the triangles.
+const EDGE = 1e-9;  // of a triangle: what rounding moves a sample that lies on an edge
+
+/**
+ * `grid`: column and row of each vertex; `heights`: z of each. Returns errors of all samples (NaN: void or uncovered),
+ * the largest |error|, the root of the mean square, and how many samples were covered and not.
+ */
+export function judge({ samples, cols, rows }, { grid, heights, indices }) {
+  const errors = new Float32Array(cols * rows).fill(NaN);
+  let max_error = 0, squares = 0, covered = 0;
+  for (let t = 0; t < indices.length; t += 3) {
+    const [a, b, c] = [indices[t], indices[t + 1], indices[t + 2]];
+    const ax = grid[2 * a], ay = grid[2 * a + 1], bx = grid[2 * b], by = grid[2 * b + 1], cx = grid[2 * c], cy = grid[2 * c + 1];
+    const area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
+    if (area === 0) continue;
+    const last_row = Math.min(rows - 1, Math.floor(Math.max(ay, by, cy))), last_col = Math.min(cols - 1, Math.floor(Math.max(ax, bx, cx)));
+    const first_col = Math.max(0, Math.ceil(Math.min(ax, bx, cx)));
+    for (let row = Math.max(0, Math.ceil(Math.min(ay, by, cy))); row <= last_row; ++row) {
+      for (let col = first_col; col <= last_col; ++col) {
+        const v = ((col - ax) * (cy - ay) - (row - ay) * (cx - ax)) / area, w = ((bx - ax) * (row - ay) - (by - ay) * (col - ax)) / area;
+        if (v < -EDGE || w < -EDGE || v + w > 1 + EDGE) continue;
+        const at = row * cols + col;
+        if (errors[at] === errors[at]) continue;  // on an edge, judged with the neighbour
+        const error = heights[a] + v * (heights[b] - heights[a]) + w * (heights[c] - heights[a]) - samples[at];
+        if (error !== error) continue;
+        errors[at] = error;
+        ++covered;
+        squares += error * error;
+        max_error = Math.max(max_error, Math.abs(error));
+      }
+    }
+  }
+  let valid = 0, worst = -1;
+  errors.forEach((error, at) => { if (Math.abs(error) > (worst < 0 ? -1 : Math.abs(errors[worst]))) worst = at; });
+  for (const z of samples) if (z === z) ++valid;
+  return { errors, max_error, rmse: Math.sqrt(squares / Math.max(1, covered)), covered, uncovered: valid - covered,
+    worst: worst < 0 ? null : [worst % cols, Math.floor(worst / cols)] };
+}
+
+/** Half the size a step, each value the one of the largest |error| of its four: no spike is lost from afar. */
+export function make_pyramid(errors, cols, rows) {
+  const levels = [{ data: errors, width: cols, height: rows }];
+  for (let { data, width, height } = levels[0]; width > 1 || height > 1; ({ data, width, height } = levels.at(-1))) {
+    const w = Math.max(1, width >> 1), h = Math.max(1, height >> 1), next = new Float32Array(w * h);
+    for (let y = 0; y < h; ++y) {
+      for (let x = 0; x < w; ++x) {
+        let largest = NaN;
+        const right = x === w - 1 ? width : 2 * x + 2, below = y === h - 1 ? height : 2 * y + 2;
+        for (let r = 2 * y; r < below; ++r) {
+          for (let c = 2 * x; c < right; ++c) {
+            const error = data[r * width + c];
+            if (!(Math.abs(error) <= Math.abs(largest))) largest = error === error ? error : largest;
+          }
+        }
+        next[y * w + x] = largest;
+      }
+    }
+    levels.push({ data: next, width: w, height: h });
+  }
+  return levels;
+}

@@ -1,0 +1,45 @@
+// The raster that a mesh was made from: samples on a grid, NaN where there is none.
+export class Field {
+  /** `affine`: from column and row of a sample's centre to x and y of the mesh, in GDAL's order of terms. */
+  constructor({ name, cols, rows, affine, samples, unit = '' }) {
+    Object.assign(this, { name, cols, rows, affine, samples, unit });
+    this.determinant = affine[1] * affine[5] - affine[2] * affine[4];
+    this.low = Infinity;
+    this.high = -Infinity;
+    for (const z of samples) {
+      if (z < this.low) this.low = z;
+      if (z > this.high) this.high = z;
+    }
+  }
+
+  /** Triangles of a mesh of all samples. */
+  get full_triangles() {
+    return 2 * (this.cols - 1) * (this.rows - 1);
+  }
+
+  to_place(col, row) {
+    const a = this.affine;
+    return [a[0] + a[1] * col + a[2] * row, a[3] + a[4] * col + a[5] * row];
+  }
+
+  /** Vertices that a file rounded to float32 lie on their samples again. */
+  to_grid(x, y) {
+    const a = this.affine, dx = x - a[0], dy = y - a[3];
+    return [snap((a[5] * dx - a[2] * dy) / this.determinant), snap((a[1] * dy - a[4] * dx) / this.determinant)];
+  }
+
+  /** Bilinear between samples; NaN outside and beside voids. */
+  height_at(x, y) {
+    const [col, row] = this.to_grid(x, y);
+    if (!(col >= 0 && row >= 0 && col <= this.cols - 1 && row <= this.rows - 1)) return NaN;
+    const c = Math.min(Math.floor(col), this.cols - 2), r = Math.min(Math.floor(row), this.rows - 2), u = col - c, v = row - r;
+    const at = (dc, dr) => this.samples[(r + dr) * this.cols + c + dc];
+    const mix = (a, b, t) => t === 0 ? a : t === 1 ? b : a + t * (b - a);
+    return mix(mix(at(0, 0), at(1, 0), u), mix(at(0, 1), at(1, 1), u), v);
+  }
+}
+
+function snap(value) {
+  const whole = Math.round(value);
+  return Math.abs(value - whole) < 1e-4 ? whole : value;
+}

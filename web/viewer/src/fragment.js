@@ -1,0 +1,22 @@
+// The state of the page in its address, behind #: a link shows the same picture.
+const KEYS = ['errors', 'edges', 'exaggeration', 'azimuth', 'altitude', 'view', 'level', 'error', 'both'];
+
+export function read_fragment() {
+  const state = {};
+  for (const [key, value] of new URLSearchParams(location.hash.slice(1))) {
+    if (!KEYS.includes(key)) continue;
+    const numbers = value.split(',').map(Number);
+    if (numbers.every(Number.isFinite)) state[key] = numbers.length > 1 ? numbers : numbers[0];
+  }
+  return state;
+}
+
+let timer = 0;
+/** Not at each picture while one turns it: browsers refuse that. */
+export function write_fragment(make_state) {
+  clearTimeout(timer);
+  timer = setTimeout(() => {
+    const words = Object.entries(make_state()).map(([key, value]) => `${key}=${[].concat(value).map(part => Number(part.toPrecision(5))).join(',')}`);
+    history.replaceState(null, '', `#${words.join('&')}`);
+  }, 300);
+}

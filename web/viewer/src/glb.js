@@ -1,0 +1,154 @@
+// Reads the meshes of a GLB file: x east, y north, z up, in double precision. Trusts no number in the file.
+import { Sentence } from './sentence.js';
+
+const COMPONENTS = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };
+const SIZES = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 };
+const COMPRESSION = 'EXT_meshopt_compression';
+const KNOWN = [COMPRESSION, 'KHR_mesh_quantization', 'MSFT_lod', 'EXT_texture_webp', 'KHR_materials_unlit'];
+const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
+
+function split(bytes, name) {
+  const view = new DataView(bytes);
+  if (bytes.byteLength < 20 || view.getUint32(0, true) !== 0x46546c67) throw new Sentence(`${name} is no GLB file.`);
+  const chunks = [];
+  for (let at = 12; at + 8 <= bytes.byteLength;) {
+    const length = view.getUint32(at, true);
+    if (at + 8 + length > bytes.byteLength) throw new Sentence(`${name} is cut off: a chunk of ${length} bytes is not all there.`);
+    chunks.push(new Uint8Array(bytes, at + 8, length));
+    at += 8 + length + (4 - length % 4) % 4;
+  }
+  try {
+    return { json: JSON.parse(new TextDecoder().decode(chunks[0])), binary: chunks[1] ?? new Uint8Array() };
+  } catch {
+    throw new Sentence(`${name} is damaged: its JSON cannot be read.`);
+  }
+}
+
+function multiply(a, b) {
+  return a.map((_, k) => [0, 1, 2, 3].reduce((sum, j) => sum + a[4 * j + k % 4] * b[(k & ~3) + j], 0));
+}
+
+function matrix_of(node) {
+  if (node.matrix) return node.matrix;
+  const [x, y, z, w] = node.rotation ?? [0, 0, 0, 1], s = node.scale ?? [1, 1, 1], t = node.translation ?? [0, 0, 0];
+  return [(1 - 2 * (y * y + z * z)) * s[0], 2 * (x * y + z * w) * s[0], 2 * (x * z - y * w) * s[0], 0,
+    2 * (x * y - z * w) * s[1], (1 - 2 * (x * x + z * z)) * s[1], 2 * (y * z + x * w) * s[1], 0,
+    2 * (x * z + y * w) * s[2], 2 * (y * z - x * w) * s[2], (1 - 2 * (x * x + y * y)) * s[2], 0, t[0], t[1], t[2], 1];
+}
+
+class Reader {
+  constructor(json, binary, name) {
+    Object.assign(this, { json, binary, name, views: new Map() });
+  }
+
+  damaged(what) {
+    return new Sentence(`${this.name} is damaged: ${what}.`);
+  }
+
+  async open() {
+    const unknown = (this.json.extensionsRequired ?? []).find(extension => !KNOWN.includes(extension));
+    if (unknown) throw new Sentence(`${this.name} needs the glTF extension ${unknown}, which this page does not know.`);
+    if (!(this.json.bufferViews ?? []).some(view => view.extensions?.[COMPRESSION])) return;
+    const { MeshoptDecoder } = await import('three/addons/libs/meshopt_decoder.module.js');
+    try {
+      if (!MeshoptDecoder.supported) throw new Error();
+      await MeshoptDecoder.ready;
+    } catch {
+      throw new Sentence(`${this.name} is compressed, and this browser refuses WebAssembly, which unpacks it: write it without --compress.`);
+    }
+    this.decoder = MeshoptDecoder;
+  }
+
+  view(index) {
+    const view = this.json.bufferViews?.[index];
+    if (!view) throw this.damaged(`there is no buffer view ${index}`);
+    if (!this.views.has(index)) {
+      const packed = view.extensions?.[COMPRESSION], { byteOffset = 0, byteLength } = packed ?? view;
+      if (!(byteOffset >= 0 && byteLength >= 0 && byteOffset + byteLength <= this.binary.length)) throw this.damaged(`buffer view ${index} lies outside the file`);
+      let bytes = this.binary.subarray(byteOffset, byteOffset + byteLength);
+      if (packed) {
+        const unpacked = packed.count * packed.byteStride;
+        if (!(unpacked < 2 ** 31)) throw this.damaged(`buffer view ${index} is too large`);
+        const target = new Uint8Array(unpacked);
+        try {
+          this.decoder.decodeGltfBuffer(target, packed.count, packed.byteStride, bytes, packed.mode, packed.filter);
+        } catch {
+          throw this.damaged(`buffer view ${index} cannot be unpacked`);
+        }
+        bytes = target;
+      }
+      this.views.set(index, bytes);
+    }
+    return { bytes: this.views.get(index), stride: view.byteStride };
+  }
+
+  /** The numbers of an accessor, normalized ones as fractions. */
+  numbers(index, size) {
+    const accessor = this.json.accessors?.[index], Type = COMPONENTS[accessor?.componentType];
+    if (!Type || SIZES[accessor.type] !== size) throw this.damaged(`accessor ${index} is not what its mesh needs`);
+    const { bytes, stride = Type.BYTES_PER_ELEMENT * size } = this.view(accessor.bufferView), offset = accessor.byteOffset ?? 0;
+    const { count } = accessor, width = Type.BYTES_PER_ELEMENT;
+    if (!(count > 0) || offset + (count - 1) * stride + width * size > bytes.length) throw this.damaged(`accessor ${index} lies outside its buffer`);
+    const out = size === 1 ? new Uint32Array(count) : new Float64Array(count * size);
+    const scale = accessor.normalized && Type !== Float32Array ? 1 / (2 ** (8 * width - (Type.name[0] === 'I' ? 1 : 0)) - 1) : 1;
+    const item = new Type(size), raw = new Uint8Array(item.buffer);
+    for (let k = 0; k < count; ++k) {
+      raw.set(bytes.subarray(offset + k * stride, offset + k * stride + width * size));
+      for (let c = 0; c < size; ++c) out[k * size + c] = item[c] * scale;
+    }
+    return out;
+  }
+
+  /** Adds the triangles of a node and of those below it. */
+  collect(index, above, level, depth = 0) {
+    const node = this.json.nodes?.[index];
+    if (!node || depth > 64) throw this.damaged('its nodes form no tree');
+    const matrix = multiply(above, matrix_of(node));
+    for (const primitive of this.json.meshes?.[node.mesh]?.primitives ?? []) {
+      if ((primitive.mode ?? 4) !== 4) continue;
+      const local = this.numbers(primitive.attributes?.POSITION, 3), vertices = local.length / 3;
+      const positions = new Float64Array(local.length);
+      for (let v = 0; v < vertices; ++v) {
+        const [x, y, z] = local.subarray(3 * v, 3 * v + 3), at = k => matrix[k] * x + matrix[k + 4] * y + matrix[k + 8] * z + matrix[k + 12];
+        positions.set([at(0), -at(2), at(1)], 3 * v);
+        if (!Number.isFinite(positions[3 * v] + positions[3 * v + 1] + positions[3 * v + 2])) throw new Sentence(`Vertex ${v} of ${this.name} has no place: one of its coordinates is no number.`);
+      }
+      const indices = primitive.indices === undefined ? Uint32Array.from({ length: vertices }, (_, k) => k) : this.numbers(primitive.indices, 1);
+      for (const v of indices) if (v >= vertices) throw this.damaged(`a triangle names vertex ${v} of ${vertices}`);
+      level.push({ positions, indices });
+    }
+    for (const child of node.children ?? []) this.collect(child, matrix, level, depth + 1);
+  }
+
+  join(parts) {
+    const count = key => parts.reduce((sum, part) => sum + part[key].length, 0);
+    const positions = new Float64Array(count('positions')), indices = new Uint32Array(count('indices') - count('indices') % 3);
+    let p = 0, i = 0;
+    for (const part of parts) {
+      indices.set(part.indices.map(v => v + p / 3), i);
+      positions.set(part.positions, p);
+      p += part.positions.length;
+      i += part.indices.length;
+    }
+    if (indices.length === 0) throw new Sentence(`${this.name} holds no triangles.`);
+    return { positions, indices };
+  }
+
+  /** Level 0 is the scene; level k what MSFT_lod puts in its place. */
+  levels() {
+    const scene = this.json.scenes?.[this.json.scene ?? 0]?.nodes ?? (this.json.nodes ?? []).map((_, k) => k);
+    const deepest = Math.max(0, ...scene.map(k => this.json.nodes?.[k]?.extensions?.MSFT_lod?.ids?.length ?? 0));
+    return Array.from({ length: deepest + 1 }, (_, level) => {
+      const parts = [];
+      for (const root of scene) this.collect(level === 0 ? root : this.json.nodes[root]?.extensions?.MSFT_lod?.ids?.[level - 1] ?? root, IDENTITY, parts);
+      return this.join(parts);
+    });
+  }
+}
+
+/** {levels: [{positions, indices}], extras}: what the file says of itself is in `extras`. Throws a Sentence. */
+export async function read_glb(bytes, name) {
+  const { json, binary } = split(bytes, name), reader = new Reader(json, binary, name);
+  await reader.open();
+  return { levels: reader.levels(), extras: json.asset?.extras ?? {} };
+}

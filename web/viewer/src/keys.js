@@ -1,0 +1,31 @@
+// What keys do.
+export function listen_to_keys(page) {
+  addEventListener('keydown', event => {
+    const { target, key } = event, is_control = target.matches?.('input, select, button, dialog, [role=slider]');
+    if (event.ctrlKey || event.metaKey || event.altKey || !page.document || document.querySelector('dialog[open]')) return;
+    if (is_control && /^(Arrow|Enter|Page| )/.test(key)) return;
+    const step = event.shiftKey ? 1 : 6;
+    const action = {
+      w: () => page.change({ edges: !page.look.edges }),
+      e: () => page.document.field && page.change({ errors: !page.look.errors }),
+      s: () => page.live.toggle_both(),
+      m: () => page.measuring.turn(!page.measuring.is_on),
+      r: () => page.scene.reset(),
+      '?': () => document.getElementById('help').click(),
+      '+': () => page.live.step(1),
+      '=': () => page.live.step(1),
+      '-': () => page.live.step(-1),
+      ArrowLeft: () => page.scene.turn(step, 0),
+      ArrowRight: () => page.scene.turn(-step, 0),
+      ArrowUp: () => page.scene.turn(0, step),
+      ArrowDown: () => page.scene.turn(0, -step),
+      PageUp: () => page.scene.approach(0.8),
+      PageDown: () => page.scene.approach(1.25),
+      Enter: () => page.measuring.is_on && page.measuring.click(innerWidth / 2, innerHeight / 2, page),
+      Escape: () => page.measuring.turn(false),
+    }[key.length === 1 ? key.toLowerCase() : key];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  });
+}

@@ -1,0 +1,193 @@
+// The engine beside the page: meshes for the slider's max error, and side by side. Without it the controls stay away.
+import SOURCE from 'worker-source';
+import { Terrain } from './terrain.js';
+import { with_unit } from './words.js';
+
+const $ = id => document.getElementById(id);
+const STEPS_AN_OCTAVE = 8;
+
+/** A worker that holds the raster and answers one question at a time; of those that wait, the latest. */
+class Helper {
+  constructor(field) {
+    this.field = field;
+  }
+
+  start() {
+    this.worker = new Worker(this.address ??= URL.createObjectURL(new Blob([SOURCE], { type: 'text/javascript' })));
+    this.worker.onmessage = ({ data }) => this.settle(data);
+    this.worker.onerror = event => {
+      event.preventDefault();
+      this.worker = null;
+      this.settle({ error: `the engine's worker ended (${event.message || 'it was stopped'})` });
+    };
+    const { samples, cols, rows } = this.field;
+    this.worker.postMessage({ field: { samples, cols, rows } });
+  }
+
+  ask(question, answer) {
+    if (this.busy) {
+      this.next = [question, answer];
+      return;
+    }
+    if (!this.worker) this.start();
+    this.busy = answer;
+    this.worker.postMessage(question);
+  }
+
+  settle(data) {
+    const { busy, next } = this;
+    this.busy = this.next = null;
+    if (next) this.ask(...next);
+    busy?.(data, Boolean(next));
+  }
+
+  /** A worker in the middle of a computation hears nothing: it is ended, and a new one begins with the next question. */
+  cancel() {
+    if (this.busy) this.end();
+  }
+
+  end() {
+    this.worker?.terminate();
+    this.worker = this.busy = this.next = null;
+  }
+}
+
+export class Live {
+  constructor(page) {
+    this.page = page;
+    this.is_there = SOURCE !== '';
+    this.meshes = new Map();
+    $('error').addEventListener('input', () => this.choose(Number($('error').value)));
+    $('error').addEventListener('change', () => this.finish());
+    $('both').addEventListener('change', () => this.turn_both($('both').checked));
+    $('same').addEventListener('change', () => this.both && this.finish());
+  }
+
+  get is_usable() {
+    return this.is_there && Boolean(this.page.document?.field);
+  }
+
+  open(document, { error, both }) {
+    for (const helper of [this.quick, this.slow]) helper?.end();
+    this.meshes.clear();
+    this.both = false;
+    this.step_now = null;
+    $('slider-row').hidden = $('both-row').hidden = !this.is_usable;
+    if (!this.is_usable) return;
+    const { field, unit } = document, relief = Math.max(field.high - field.low, 1e-9);
+    this.quick = new Helper(field);
+    this.slow = new Helper(field);
+    this.largest = relief / 2;
+    this.most = Math.ceil(12 * STEPS_AN_OCTAVE);
+    this.unit = unit;
+    $('error').max = String(this.most);
+    const judged = document.levels[0].judged.max_error;
+    $('error').value = String(this.step_of(error ?? judged));
+    this.label(error ?? judged);
+    if (both) this.turn_both(true);
+    else if (error !== undefined) this.choose(this.step_of(error)), this.finish();
+  }
+
+  error_of(step) {
+    return this.largest / 2 ** (step / STEPS_AN_OCTAVE);
+  }
+
+  step_of(error) {
+    return Math.max(0, Math.min(this.most, Math.round(Math.log2(this.largest / Math.max(error, 1e-12)) * STEPS_AN_OCTAVE)));
+  }
+
+  label(error) {
+    $('error-text').textContent = with_unit(Number(error.toPrecision(3)), this.unit);
+    $('error').setAttribute('aria-valuetext', $('error-text').textContent);
+  }
+
+  say(text) {
+    $('progress').textContent = text;
+    $('progress').hidden = !text;
+  }
+
+  state() {
+    return this.step_now === null ? {} : { error: this.error_of(this.step_now), ...(this.both ? { both: 1 } : {}) };
+  }
+
+  /** Positive: a larger error, or the next level where there is no engine. */
+  step(by) {
+    if (!this.is_usable) return this.page.choose_level(this.page.level + by);
+    this.choose(Math.max(0, Math.min(this.most, Number($('error').value) - by)));
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.finish(), 400);
+  }
+
+  toggle_both() {
+    if (this.is_usable) this.turn_both(!this.both);
+  }
+
+  turn_both(both) {
+    this.both = both;
+    $('both').checked = both;
+    if (both) return this.choose(this.step_now ?? Number($('error').value)), this.finish();
+    this.slow.cancel();
+    this.show();
+  }
+
+  /** A mesh of this error at once, by the engine that inserts the worst sample. */
+  choose(step) {
+    this.step_now = step;
+    $('error').value = String(step);
+    const error = this.error_of(step);
+    this.label(error);
+    this.slow.cancel();
+    this.say('');
+    const key = `greedy ${step}`;
+    if (this.meshes.has(key)) return this.show();
+    this.quick.ask({ kind: 'refine', error }, answer => {
+      if (!this.take(answer, key, 'greedy') || step !== this.step_now) return;
+      this.show();
+      if (this.wants_finish) this.finish();
+    });
+  }
+
+  take({ error, mesh, judged }, key, name) {
+    if (error) {
+      this.say(`No mesh: ${error}`);
+      return false;
+    }
+    const { field, place } = this.page.document, { positions, indices, origin } = mesh, inside = new Float64Array(positions.length);
+    for (let v = 0; v < positions.length; v += 3) {
+      const [x, y] = field.to_place(positions[v] + origin[0], field.rows - 1 - positions[v + 1] - origin[1]);
+      inside.set([x, y, positions[v + 2] + origin[2]], v);
+    }
+    this.meshes.set(key, new Terrain({ name, positions: inside, indices: Uint32Array.from(indices), judged }, place, field));
+    return true;
+  }
+
+  keys() {
+    const greedy = `greedy ${this.step_now}`;
+    return [greedy, this.both && $('same').value === 'count' ? `high, same triangles as ${greedy}` : `high ${this.step_now}`];
+  }
+
+  /** Effort high, in the background. */
+  finish() {
+    if (this.step_now === null) return;
+    const [greedy, high] = this.keys(), step = this.step_now;
+    this.wants_finish = !this.meshes.has(greedy);
+    if (this.wants_finish) return;
+    if (this.meshes.has(high)) return this.show();
+    this.say('Preview; effort high is at work …');
+    this.show();
+    const goal = this.both && $('same').value === 'count' ? { maxTriangles: this.meshes.get(greedy).triangles } : { maxError: this.error_of(step) };
+    this.slow.cancel();
+    this.slow.ask({ kind: 'finish', goal, effort: 'high' }, answer => {
+      if (!this.take(answer, high, 'high') || this.keys()[1] !== high) return;
+      this.say('');
+      this.show();
+    });
+  }
+
+  show() {
+    if (this.step_now === null) return;
+    const [greedy, high] = this.keys().map(key => this.meshes.get(key));
+    if (this.both && greedy) this.page.show([greedy, high ?? greedy]);
+    else if (high ?? greedy) this.page.show([high ?? greedy]);
+  }
+}

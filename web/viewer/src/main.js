@@ -1,0 +1,184 @@
+// The page: what is shown, and how its controls change that.
+import { read_inline } from './document.js';
+import { accept_drops } from './drop.js';
+import { read_fragment, write_fragment } from './fragment.js';
+import { listen_to_keys } from './keys.js';
+import { Live } from './live.js';
+import { Measuring } from './measuring.js';
+import { draw_bar, draw_compass, draw_legend, draw_map } from './overlay.js';
+import { fill_readout, summarize } from './readout.js';
+import { Scene } from './scene.js';
+import { Sentence } from './sentence.js';
+import { number } from './words.js';
+
+const $ = id => document.getElementById(id);
+
+function complain(error) {
+  if (!(error instanceof Sentence)) console.error(error);
+  $('notice').textContent = error instanceof Sentence ? error.message : `This page failed: ${error.message}`;
+  $('notice').hidden = false;
+}
+
+class Page {
+  constructor() {
+    this.look = { errors: false, edges: false, exaggeration: 1, sun: { azimuth: 315, altitude: 40 }, scale: 1, divider: 0.5, covered: () => $('panel').getBoundingClientRect() };
+    this.scene = new Scene($('canvas'), this.look);
+    this.measuring = new Measuring(this.scene);
+    this.live = new Live(this);
+    this.scene.on_draw(() => this.draw_overlay());
+    this.wire();
+    listen_to_keys(this);
+    accept_drops(this, complain);
+  }
+
+  /** Shows another document; `state` as in the address. */
+  open(document_, state = {}) {
+    this.document = document_;
+    this.level = Math.min(state.level ?? 0, document_.levels.length - 1);
+    $('name').textContent = document.title = document_.name;
+    $('level').max = String(document_.levels.length - 1);
+    $('level-row').hidden = document_.levels.length < 2;
+    $('errors').disabled = !document_.field;
+    this.look.errors = Boolean(state.errors) && Boolean(document_.field);
+    this.look.edges = Boolean(state.edges ?? this.look.edges);
+    this.look.exaggeration = Math.min(10, Math.max(0.1, state.exaggeration ?? 1));
+    this.look.sun = { azimuth: state.azimuth ?? 315, altitude: state.altitude ?? 40 };
+    this.measuring.clear();
+    this.show([document_.levels[this.level]]);
+    this.scene.draw();
+    if (state.view?.length === 6) {
+      const [azimuth, altitude, distance, ...target] = state.view;
+      this.scene.set_orbit({ azimuth, altitude, distance, target });
+    } else {
+      this.scene.reset();
+    }
+    this.live.open(document_, state);
+    this.update();
+  }
+
+  /** One mesh, or two beside each other. */
+  show(terrains) {
+    this.shown = terrains;
+    this.scene.show(terrains);
+    this.update();
+    this.measuring.tell(this);
+  }
+
+  choose_level(level) {
+    this.level = Math.max(0, Math.min(this.document.levels.length - 1, level));
+    this.show([this.document.levels[this.level]]);
+  }
+
+  /** Makes the controls and the readout agree with the state. */
+  update() {
+    const { look, shown, document: { field, unit, levels, place, knows_metres } } = this, [terrain] = shown;
+    $('errors').checked = look.errors;
+    $('edges').checked = look.edges;
+    $('exaggeration').value = String(Math.round(Math.log10(look.exaggeration) * 100));
+    $('exaggeration-text').textContent = look.exaggeration === 1 ? (knows_metres ? '1 (true)' : '1') : `${Number(look.exaggeration.toPrecision(2))} ×`;
+    $('azimuth').value = String(look.sun.azimuth);
+    $('azimuth-text').textContent = `${look.sun.azimuth}°`;
+    $('altitude').value = String(look.sun.altitude);
+    $('altitude-text').textContent = `${look.sun.altitude}°`;
+    $('level').value = String(this.level);
+    $('level-text').textContent = `${this.level + 1} of ${levels.length}`;
+    look.scale = field ? Math.max(...shown.map(t => t.judged.max_error)) : 1;
+    fill_readout($('readout'), terrain, unit, levels.includes(terrain) && levels.length === 1 ? null : terrain.name);
+    [$('side-left'), $('side-right')].forEach((line, k) => {
+      line.hidden = shown.length < 2;
+      if (shown.length > 1) line.textContent = summarize(shown[k], unit);
+    });
+    $('divider').hidden = shown.length < 2;
+    draw_legend({ errors: look.errors, scale: look.scale, low: place.low[2], high: place.high[2], unit });
+    $('map').hidden = !look.errors;
+    if (look.errors && (this.mapped !== terrain || this.mapped_scale !== look.scale)) draw_map(terrain.judged, field, look.scale);
+    [this.mapped, this.mapped_scale] = look.errors ? [terrain, look.scale] : [];
+    const notes = [];
+    if (!field) notes.push('Without its raster nothing can be judged here: scarp view MESH RASTER.');
+    if (!knows_metres) notes.push('The units of x and y are not known: the exaggeration is true if they are those of the heights.');
+    if (field && !this.live.is_there) notes.push('This page was built without the engine: the mesh is as in its file.');
+    $('notes').textContent = notes.join(' ');
+    $('canvas').setAttribute('aria-label', `Terrain: ${summarize(terrain, unit)}${look.errors ? `; coloured by error, blue ${number(look.scale)} below to red above` : ''}`);
+    this.scene.invalidate();
+  }
+
+  change(look) {
+    Object.assign(this.look, look);
+    this.update();
+  }
+
+  draw_overlay() {
+    const { scene, look } = this, { azimuth, altitude, distance, target } = scene.orbit();
+    draw_compass(azimuth);
+    draw_bar(scene.metres_per_pixel(), this.document.knows_metres ? 'm' : 'units');
+    this.measuring.draw_marks();
+    if (scene.count > 1) {
+      const [left] = scene.part(1), width = scene.canvas.clientWidth;
+      $('divider').style.left = `${left}px`;
+      $('divider').setAttribute('aria-valuenow', String(Math.round(look.divider * 100)));
+      $('side-right').style.left = `${left + 20}px`;
+      $('side-left').style.left = `${scene.free(0)[0] + 12}px`;
+      $('side-left').style.maxWidth = `${left - scene.free(0)[0] - 40}px`;
+      $('side-right').style.maxWidth = `${width - left - (innerWidth > 640 ? 90 : 30)}px`;
+    }
+    write_fragment(() => ({ errors: Number(look.errors), edges: Number(look.edges), exaggeration: look.exaggeration, azimuth: look.sun.azimuth, altitude: look.sun.altitude,
+      ...(this.level ? { level: this.level } : {}), ...this.live.state(), view: [azimuth, altitude, distance, ...target] }));
+    this.drawn = (this.drawn ?? 0) + 1;
+  }
+
+  async save_picture() {
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(await this.scene.png());
+    link.download = `${this.document.name.replace(/\.[^.]*$/, '')}.png`;
+    link.click();
+    URL.revokeObjectURL(link.href);
+  }
+
+  wire() {
+    const on = (id, event, action) => $(id).addEventListener(event, action);
+    on('errors', 'change', () => this.change({ errors: $('errors').checked }));
+    on('edges', 'change', () => this.change({ edges: $('edges').checked }));
+    on('exaggeration', 'input', () => this.change({ exaggeration: Number((10 ** ($('exaggeration').value / 100)).toPrecision(2)) }));
+    for (const id of ['azimuth', 'altitude']) on(id, 'input', () => this.change({ sun: { ...this.look.sun, [id]: Number($(id).value) } }));
+    on('level', 'input', () => this.choose_level(Number($('level').value)));
+    on('measure', 'click', () => this.measuring.turn(!this.measuring.is_on));
+    on('measured-close', 'click', () => this.measuring.turn(false));
+    on('reset', 'click', () => this.scene.reset());
+    on('picture', 'click', () => this.save_picture().catch(complain));
+    on('full', 'click', () => document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen());
+    on('help', 'click', () => $('keys').showModal());
+    on('fold', 'click', () => {
+      const folded = document.body.classList.toggle('folded');
+      $('fold').setAttribute('aria-expanded', String(!folded));
+      this.scene.invalidate();
+    });
+    if (matchMedia('(max-width: 640px)').matches) $('fold').click();
+    let pressed = null;
+    on('canvas', 'pointerdown', event => { pressed = [event.clientX, event.clientY]; });
+    on('canvas', 'pointerup', event => {
+      const still = pressed && Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) < 4;
+      if (still && this.measuring.is_on) this.measuring.click(event.clientX, event.clientY, this);
+    });
+    const divide = x => this.change({ divider: Math.min(0.95, Math.max(0.05, x)) });
+    on('divider', 'pointerdown', event => $('divider').setPointerCapture(event.pointerId));
+    on('divider', 'pointermove', event => { if ($('divider').hasPointerCapture(event.pointerId)) divide(event.clientX / innerWidth); });
+    on('divider', 'keydown', event => {
+      const step = { ArrowLeft: -0.02, ArrowRight: 0.02 }[event.key];
+      if (!step) return;
+      event.stopPropagation();
+      divide(this.look.divider + step);
+    });
+  }
+}
+
+async function start() {
+  const data = $('scarp-data');
+  const page = new Page();
+  if (!data) throw new Sentence('This page holds no mesh: scarp view MESH RASTER makes one that does. Or drop a GLB file here.');
+  page.open(await read_inline(JSON.parse(data.textContent)), read_fragment());
+  window.scarp_page = page;
+}
+
+addEventListener('error', event => complain(event.error ?? new Error(event.message)));
+addEventListener('unhandledrejection', event => complain(event.reason));
+start().catch(complain);

@@ -1,0 +1,26 @@
+// The numbers of a mesh, judged here against every sample of the raster.
+import { bytes, count, number, share, with_unit } from './words.js';
+
+/** `shown`: which mesh these are of, where there are several. */
+export function fill_readout(list, terrain, unit, shown) {
+  const { field, judged, told } = terrain, rows = shown ? [['shown', shown]] : [];
+  rows.push(['triangles', count(terrain.triangles)]);
+  if (field) rows.push(['of the full grid', share(terrain.triangles, field.full_triangles)]);
+  if (terrain.bytes !== null) rows.push(['file', bytes(terrain.bytes)]);
+  if (judged && judged.covered === 0) rows.push(['max error', 'none: no sample is covered']);
+  else if (judged) rows.push(['max error', with_unit(judged.max_error, unit)], ['at column, row', judged.worst.join(', ')], ['RMSE', with_unit(judged.rmse, unit)]);
+  else if (told?.max_error !== undefined) rows.push(['max error, its file says', with_unit(told.max_error, unit)]);
+  if (judged) rows.push(['samples judged', count(judged.covered)]);
+  if (judged?.uncovered) rows.push(['samples uncovered', count(judged.uncovered)]);
+  list.replaceChildren(...rows.flatMap(([name, value]) => [['dt', name], ['dd', value]]).map(([kind, text]) => {
+    const item = document.createElement(kind);
+    item.textContent = text;
+    return item;
+  }));
+}
+
+/** The same in one line. */
+export function summarize(terrain, unit) {
+  const { judged } = terrain, words = `${terrain.name}: ${count(terrain.triangles)} triangles`;
+  return judged ? `${words}, max error ${with_unit(judged.max_error, unit)}, RMSE ${number(judged.rmse)}` : words;
+}

@@ -1,0 +1,251 @@
+// The terrain on the canvas: one view or two beside each other, drawn when something has changed.
+import * as THREE from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { make_pyramid } from './errors.js';
+import { EDGE_FRAGMENT, EDGE_VERTEX, SURFACE_FRAGMENT, SURFACE_VERTEX } from './shaders.js';
+import { Sentence } from './sentence.js';
+
+THREE.ColorManagement.enabled = false;  // colours go to the screen as they are
+const UNCOVERED = 1e30;
+const MOST_TEXELS = 4096;  // a side; what is larger is reduced by largest errors
+
+function error_texture(judged, { cols, rows }) {
+  let levels = make_pyramid(judged.errors, cols, rows);
+  while (levels[0].width > MOST_TEXELS || levels[0].height > MOST_TEXELS) levels = levels.slice(1);
+  const mipmaps = levels.map(({ data, width, height }) => ({ data: data.map(error => error === error ? error : UNCOVERED), width, height }));
+  const texture = new THREE.DataTexture(mipmaps[0].data, mipmaps[0].width, mipmaps[0].height, THREE.RedFormat, THREE.FloatType);
+  texture.mipmaps = mipmaps;
+  texture.minFilter = THREE.NearestMipmapNearestFilter;
+  texture.magFilter = THREE.NearestFilter;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** One terrain and its edges. */
+class View {
+  constructor(shared) {
+    this.scene = new THREE.Scene();
+    this.group = new THREE.Group();
+    this.scene.add(this.group);
+    this.uniforms = { ...shared, errors: { value: null } };
+    this.surface = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.ShaderMaterial({
+      uniforms: this.uniforms, vertexShader: SURFACE_VERTEX, fragmentShader: SURFACE_FRAGMENT, side: THREE.DoubleSide,
+      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+    }));
+    this.edges = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.ShaderMaterial({
+      uniforms: { pixels: shared.pixels, ink: shared.ink, weight: shared.weight }, vertexShader: EDGE_VERTEX, fragmentShader: EDGE_FRAGMENT,
+      transparent: true, depthWrite: false,
+    }));
+    this.group.add(this.surface, this.edges);
+  }
+
+  show(terrain) {
+    if (terrain === this.terrain) return;
+    this.terrain = terrain;
+    this.surface.geometry.dispose();
+    this.edges.geometry.dispose();
+    this.uniforms.errors.value?.dispose();
+    this.uniforms.errors.value = null;
+    this.has_edges = false;
+    const geometry = new THREE.BufferGeometry(), { field, grid } = terrain;
+    geometry.setAttribute('position', new THREE.BufferAttribute(terrain.scene, 3));
+    const sampled = new Float32Array(terrain.heights.length * 2);
+    if (field) for (let k = 0; k < sampled.length; ++k) sampled[k] = (grid[k] + 0.5) / (k % 2 ? field.rows : field.cols);
+    geometry.setAttribute('sampled', new THREE.BufferAttribute(sampled, 2));
+    geometry.setIndex(new THREE.BufferAttribute(terrain.indices, 1));
+    geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), terrain.place.radius * 2);
+    this.surface.geometry = geometry;
+  }
+
+  /** Made when they are first looked at. */
+  prepare(shows_errors, shows_edges) {
+    const { terrain } = this;
+    if (shows_errors && !this.uniforms.errors.value && terrain.judged) this.uniforms.errors.value = error_texture(terrain.judged, terrain.field);
+    this.edges.visible = shows_edges;
+    if (!shows_edges || this.has_edges) return;
+    this.has_edges = true;
+    const pairs = terrain.edges(), here = new Float32Array(pairs.length * 3), there = new Float32Array(pairs.length * 3);
+    for (let k = 0; k < pairs.length; ++k) {
+      here.set(terrain.scene.subarray(3 * pairs[k], 3 * pairs[k] + 3), 3 * k);
+      there.set(terrain.scene.subarray(3 * pairs[k ^ 1], 3 * pairs[k ^ 1] + 3), 3 * k);
+    }
+    this.edges.geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.BufferAttribute(here, 3)).setAttribute('other', new THREE.BufferAttribute(there, 3));
+    this.edges.geometry.boundingSphere = this.surface.geometry.boundingSphere;
+  }
+}
+
+export class Scene {
+  /** `look`: {errors, edges, exaggeration, sun: {azimuth, altitude}, scale, divider}, which the caller changes. */
+  constructor(canvas, look) {
+    Object.assign(this, { canvas, look, listeners: [], views: [] });
+    try {
+      this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    } catch {
+      throw new Sentence('This browser cannot draw WebGL 2: update it, or turn on its hardware acceleration.');
+    }
+    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
+    this.renderer.setScissorTest(true);
+    this.camera = new THREE.PerspectiveCamera(35, 1, 1, 1e5);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.zoomToCursor = true;
+    this.controls.maxPolarAngle = Math.PI * 0.52;
+    this.controls.addEventListener('change', () => this.invalidate());
+    this.shared = { shows_errors: { value: false }, scale: { value: 1 }, range: { value: new THREE.Vector2() }, sun: { value: new THREE.Vector3() },
+      pixels: { value: new THREE.Vector2() }, ink: { value: new THREE.Color() }, weight: { value: 0.5 } };
+    new ResizeObserver(() => this.invalidate()).observe(canvas);
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.invalidate());
+    canvas.addEventListener('webglcontextrestored', () => this.invalidate());
+  }
+
+  on_draw(listener) {
+    this.listeners.push(listener);
+  }
+
+  /** One terrain or two. */
+  show(terrains) {
+    while (this.views.length < terrains.length) this.views.push(new View(this.shared));
+    terrains.forEach((terrain, k) => this.views[k].show(terrain));
+    if (this.count !== terrains.length) this.divide(terrains.length);
+    this.invalidate();
+  }
+
+  /** As much of the terrain stays in sight when one view becomes two, which what is free has room for equally. */
+  divide(count) {
+    const before = this.count && Math.tan(this.fov() / 2), { right, top } = this.look.covered(), { clientWidth: width, clientHeight: height } = this.canvas;
+    this.count = count;
+    this.look.divider = top > 0.3 * height ? 0.5 : Math.min(0.8, (1 + right / width) / 2);
+    if (before) this.approach(before / Math.tan(this.fov() / 2));
+  }
+
+  invalidate() {
+    if (this.asked) return;
+    this.asked = true;
+    requestAnimationFrame(() => this.draw());
+  }
+
+  /** As it is at first: from the south-south-west, all of it in sight. */
+  reset() {
+    const { place } = this.views[0].terrain;
+    this.controls.target.set(0, 0, 0);
+    this.set_orbit({ azimuth: -20, altitude: 38, distance: place.radius / Math.sin(this.fov() / 2) * 0.92, target: [0, 0, 0] });
+  }
+
+  /** The smallest angle that is free, of a view's width or height. */
+  fov() {
+    const half = Math.tan(this.camera.fov * Math.PI / 360) / Math.max(1, this.canvas.clientHeight);
+    const sides = [...Array(this.count).keys()].flatMap(k => this.free(k).slice(2));
+    return 2 * Math.atan(half * Math.min(...sides));
+  }
+
+  /** Degrees clockwise from north to where the camera looks, degrees above the horizon, metres. */
+  orbit() {
+    const { target } = this.controls, away = this.camera.position.clone().sub(target), distance = away.length();
+    return { azimuth: Math.atan2(-away.x, -away.y) * 180 / Math.PI, altitude: Math.asin(away.z / distance) * 180 / Math.PI, distance, target: target.toArray() };
+  }
+
+  set_orbit({ azimuth, altitude, distance, target }) {
+    const a = azimuth * Math.PI / 180, h = Math.max(0.5, Math.min(89.9, altitude)) * Math.PI / 180;
+    this.controls.target.fromArray(target);
+    this.camera.position.set(-Math.sin(a) * Math.cos(h), -Math.cos(a) * Math.cos(h), Math.sin(h)).multiplyScalar(distance).add(this.controls.target);
+    this.controls.update();
+    this.invalidate();
+  }
+
+  turn(azimuth, altitude) {
+    const orbit = this.orbit();
+    this.set_orbit({ ...orbit, azimuth: orbit.azimuth + azimuth, altitude: orbit.altitude + altitude });
+  }
+
+  approach(factor) {
+    const orbit = this.orbit();
+    this.set_orbit({ ...orbit, distance: orbit.distance * factor });
+  }
+
+  /** Left edge and width of a view, in CSS pixels. */
+  part(k) {
+    const width = this.canvas.clientWidth, middle = Math.round(width * this.look.divider);
+    return this.count < 2 ? [0, width] : k === 0 ? [0, middle] : [middle, width - middle];
+  }
+
+  /** What the panel leaves of a view: left, top, width and height. */
+  free(k) {
+    const [left, width] = this.part(k), height = this.canvas.clientHeight, panel = this.look.covered();
+    if (panel.top > 0.3 * height) return [0, 0, width, Math.max(1, panel.top)];
+    const hidden = Math.min(Math.max(0, panel.right - left), width * 0.6);
+    return [hidden, 0, Math.max(1, width - hidden), height];
+  }
+
+  /** The camera's target is in the middle of what is free. */
+  aim(k) {
+    const width = Math.max(1, this.part(k)[1]), height = Math.max(1, this.canvas.clientHeight), [left, top, wide, high] = this.free(k);
+    this.camera.aspect = width / height;
+    this.camera.setViewOffset(width, height, width / 2 - left - wide / 2, height / 2 - top - high / 2, width, height);
+    this.camera.updateProjectionMatrix();
+    this.camera.updateMatrixWorld();
+  }
+
+  draw() {
+    this.asked = false;
+    if (!this.count) return;
+    const { canvas, renderer, camera, look, shared } = this, { place } = this.views[0].terrain, width = canvas.clientWidth, height = canvas.clientHeight;
+    const ratio = Math.min(devicePixelRatio, 2);
+    if (renderer.getPixelRatio() !== ratio || this.drawn_size !== `${width} ${height}`) {
+      renderer.setPixelRatio(ratio);
+      renderer.setSize(width, height, false);
+      this.drawn_size = `${width} ${height}`;
+    }
+    const style = getComputedStyle(document.documentElement), azimuth = look.sun.azimuth * Math.PI / 180, altitude = look.sun.altitude * Math.PI / 180;
+    renderer.setClearColor(style.getPropertyValue('--sky').trim());
+    shared.shows_errors.value = look.errors;
+    shared.scale.value = Math.max(look.scale, 1e-12);
+    shared.sun.value.set(Math.sin(azimuth) * Math.cos(altitude), Math.cos(azimuth) * Math.cos(altitude), Math.sin(altitude));
+    shared.range.value.set(place.to_scene(0, 0, place.low[2])[2], place.to_scene(0, 0, place.high[2])[2]);
+    shared.ink.value.setRGB(0.05, 0.06, 0.08);
+    shared.weight.value = look.errors ? 0.3 : 0.5;
+    const radius = place.radius * Math.max(1, look.exaggeration), away = camera.position.length();
+    camera.near = Math.max(away - radius * 1.1, radius * 1e-4);
+    camera.far = away + radius * 1.1;
+    for (let k = 0; k < this.count; ++k) {
+      const view = this.views[k], [left, wide] = this.part(k);
+      if (wide < 1) continue;
+      view.prepare(look.errors, look.edges);
+      view.group.scale.z = look.exaggeration;
+      this.aim(k);
+      shared.pixels.value.set(wide, height);
+      renderer.setViewport(left, 0, wide, height);
+      renderer.setScissor(left, 0, wide, height);
+      renderer.render(view.scene, camera);
+    }
+    for (const listener of this.listeners) listener();
+  }
+
+  /** Of a place in the scene, exaggerated as drawn: CSS pixels in view `k`; null behind the camera. */
+  project(point, k = 0) {
+    this.aim(k);
+    const [left, width] = this.part(k), at = new THREE.Vector3(point[0], point[1], point[2] * this.look.exaggeration).project(this.camera);
+    return Math.abs(at.z) > 1 ? null : [left + (at.x + 1) / 2 * width, (1 - at.y) / 2 * this.canvas.clientHeight];
+  }
+
+  /** What lies below a pixel: the scene's coordinates without exaggeration; null for the sky. */
+  pick(x, y) {
+    const k = this.count > 1 && x >= this.part(1)[0] ? 1 : 0, [left, width] = this.part(k);
+    this.aim(k);
+    const ray = new THREE.Raycaster();
+    ray.setFromCamera(new THREE.Vector2((x - left) / width * 2 - 1, 1 - y / this.canvas.clientHeight * 2), this.camera);
+    this.views[k].group.updateMatrixWorld();
+    const [hit] = ray.intersectObject(this.views[k].surface);
+    return hit ? [hit.point.x, hit.point.y, hit.point.z / this.look.exaggeration] : null;
+  }
+
+  /** Metres of a pixel in the middle of the scene. */
+  metres_per_pixel() {
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    return 2 * distance * Math.tan(this.camera.fov * Math.PI / 360) / this.canvas.clientHeight;
+  }
+
+  png() {
+    this.draw();
+    return new Promise(done => this.canvas.toBlob(done, 'image/png'));
+  }
+}

@@ -1,0 +1,114 @@
+// A mesh in place: in metres around the page's centre for drawing, in columns and rows for judging.
+import { judge } from './errors.js';
+
+/** Where the page's scene lies: `metres` a unit of x, y and z. */
+export class Place {
+  constructor(positions, metres) {
+    this.metres = metres;
+    this.low = [Infinity, Infinity, Infinity];
+    this.high = [-Infinity, -Infinity, -Infinity];
+    for (let k = 0; k < positions.length; ++k) {
+      this.low[k % 3] = Math.min(this.low[k % 3], positions[k]);
+      this.high[k % 3] = Math.max(this.high[k % 3], positions[k]);
+    }
+    this.center = this.low.map((low, k) => (low + this.high[k]) / 2);
+    this.radius = Math.max(1e-9, Math.hypot(...[0, 1, 2].map(k => (this.high[k] - this.low[k]) / 2 * metres[k])));
+  }
+
+  to_scene(x, y, z) {
+    const [cx, cy, cz] = this.center, [mx, my, mz] = this.metres;
+    return [(x - cx) * mx, (y - cy) * my, (z - cz) * mz];
+  }
+
+  from_scene(x, y, z) {
+    const [cx, cy, cz] = this.center, [mx, my, mz] = this.metres;
+    return [x / mx + cx, y / my + cy, z / mz + cz];
+  }
+}
+
+export class Terrain {
+  /** `positions`: x, y, z of the mesh's own frame; `field` may be null. `judged`: what judge() found, if it is known. */
+  constructor({ name, positions, indices, bytes = null, told = null, judged = null }, place, field) {
+    Object.assign(this, { name, positions, indices, bytes, told, place, field, known: judged });
+    const vertices = positions.length / 3;
+    this.scene = new Float32Array(positions.length);
+    this.grid = field ? new Float64Array(2 * vertices) : null;
+    this.heights = new Float64Array(vertices);
+    for (let v = 0; v < vertices; ++v) {
+      const [x, y, z] = [positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]];
+      this.scene.set(place.to_scene(x, y, z), 3 * v);
+      this.heights[v] = z;
+      if (field) this.grid.set(field.to_grid(x, y), 2 * v);
+    }
+  }
+
+  get triangles() {
+    return this.indices.length / 3;
+  }
+
+  /** Of every sample; null without a raster. */
+  get judged() {
+    if (!this.field) return null;
+    this.known ??= judge(this.field, this);
+    return this.known;
+  }
+
+  /** Each edge once, as pairs of vertices. */
+  edges() {
+    const vertices = this.heights.length, seen = new Set(), pairs = [];
+    for (let t = 0; t < this.indices.length; t += 3) {
+      for (let k = 0; k < 3; ++k) {
+        const a = this.indices[t + k], b = this.indices[t + (k + 1) % 3], key = Math.min(a, b) * vertices + Math.max(a, b);
+        if (seen.has(key)) continue;
+        seen.add(key);
+        pairs.push(a, b);
+      }
+    }
+    return pairs;
+  }
+
+  /** Height of the mesh over a place of its frame; NaN where it has none. */
+  height_at(x, y) {
+    this.cells ??= new Cells(this);
+    return this.cells.height_at(x, y);
+  }
+}
+
+/** Triangles by square cells, to find the one over a place. */
+class Cells {
+  constructor({ positions, indices, place }) {
+    Object.assign(this, { positions, indices, place });
+    this.side = Math.max(1, Math.min(1024, Math.ceil(Math.sqrt(indices.length / 6))));
+    this.lists = new Map();
+    for (let t = 0; t < indices.length; t += 3) {
+      const corners = [0, 1, 2].map(k => this.cell_of(positions[3 * indices[t + k]], positions[3 * indices[t + k] + 1]));
+      const [x0, x1] = [Math.min(...corners.map(c => c[0])), Math.max(...corners.map(c => c[0]))];
+      const [y0, y1] = [Math.min(...corners.map(c => c[1])), Math.max(...corners.map(c => c[1]))];
+      for (let y = y0; y <= y1; ++y) {
+        for (let x = x0; x <= x1; ++x) {
+          const key = y * this.side + x, list = this.lists.get(key);
+          if (list) list.push(t);
+          else this.lists.set(key, [t]);
+        }
+      }
+    }
+  }
+
+  cell_of(x, y) {
+    const { low, high } = this.place;
+    return [[x, 0], [y, 1]].map(([value, k]) => Math.min(this.side - 1, Math.max(0, Math.floor((value - low[k]) / (high[k] - low[k] || 1) * this.side))));
+  }
+
+  height_at(x, y) {
+    const [cx, cy] = this.cell_of(x, y), p = this.positions;
+    for (const t of this.lists.get(cy * this.side + cx) ?? []) {
+      const [a, b, c] = [0, 1, 2].map(k => 3 * this.indices[t + k]);
+      const area = (p[b] - p[a]) * (p[c + 1] - p[a + 1]) - (p[b + 1] - p[a + 1]) * (p[c] - p[a]);
+      if (area === 0) continue;
+      const v = ((x - p[a]) * (p[c + 1] - p[a + 1]) - (y - p[a + 1]) * (p[c] - p[a])) / area;
+      const w = ((p[b] - p[a]) * (y - p[a + 1]) - (p[b + 1] - p[a + 1]) * (x - p[a])) / area;
+      if (v > -1e-9 && w > -1e-9 && v + w < 1 + 1e-9) return p[a + 2] + v * (p[b + 2] - p[a + 2]) + w * (p[c + 2] - p[a + 2]);
+    }
+    return NaN;
+  }
+}
