@@ -10,7 +10,7 @@ DATA ?= $(or $(SCARP_SHARED),../shared)/data
 C_TARGETS = $(if $(filter -DSCARP_BUILD_C=OFF,$(CMAKE_FLAGS)),,scarp_c scarp_c_static)
 export BUILD JOBS DATA
 
-.PHONY: build demo viewer globe qgis python check test soak wasm-check bench paper install clean format tidy help
+.PHONY: build demo viewer site globe qgis python check test soak wasm-check bench paper install clean format tidy help
 
 build:
 	@tools/install_packages.sh build
@@ -26,6 +26,10 @@ demo:
 viewer:
 	@tools/install_packages.sh viewer
 	@tools/build_viewer.sh $(BUILD)
+
+site: build
+	@tools/install_packages.sh viewer
+	@tools/build_site.sh $(BUILD) dist/site
 
 globe:
 	@tools/install_packages.sh build run globe
@@ -92,6 +96,7 @@ help:
 	@echo 'make          build $(BUILD)/bin/scarp (Release), installing missing packages'
 	@echo 'make demo     build, simplify a bundled DEM into demo/, check the result, make a page that shows it'
 	@echo 'make viewer   the page that scarp view fills in, by npm: $(BUILD)/share/scarp/viewer.html'
+	@echo 'make site     the documents, an example and the viewer to try with a file of your own, into dist/site'
 	@echo 'make globe    build, make tiles of a bundled DEM and a page with CesiumJS in globe/, and serve it on this machine'
 	@echo 'make qgis     build, pack the plugin for QGIS into dist/'
 	@echo 'make python   the wheel and the sdist of Scarp for Python, into dist/'

@@ -4,8 +4,8 @@
 #
 # usage: tools/build_viewer.sh BUILD [ENGINE]      ENGINE: BUILD-wasm/npm if it is there
 set -euo pipefail
-cd "$(dirname "$0")/.."
 build=$(mkdir -p "$1" && cd "$1" && pwd)
+cd "$(dirname "$0")/.."
 engine=${2:-$build-wasm/npm}
 for tool in node npm; do
   command -v $tool >/dev/null || { echo "The viewer's page needs $tool (Debian: nodejs, npm); it is not built." >&2; exit 1; }

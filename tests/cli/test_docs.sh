@@ -13,7 +13,7 @@ sed -e 's/\\-/-/g' -e 's/\\f[RIBP]//g' "$man" >man.txt
 sed -nE '/^complete/s/ -l ([a-z-]+)/ --\1/gp' "$completions/scarp.fish" >fish.txt
 
 commands=$("$scarp" --help | sed -n '/^Commands:/,/^$/s/^  \([a-z-]*\) .*/\1/p')
-[ "$(wc -w <<<"$commands")" = 13 ] || fail "--help lists other commands: $commands"
+[ "$(wc -w <<<"$commands")" = 14 ] || fail "--help lists other commands: $commands"
 "$scarp" help >help.txt
 "$scarp" --help | cmp - help.txt || fail "scarp help and scarp --help differ"
 : >all_options
@@ -115,6 +115,7 @@ END
       "simplify --line-conflict") try "$scarp" simplify "$dem" out.obj -e 1 --breaklines lines "$option" nonsense ;;
       "measure --norm") try "$scarp" measure "$dem" out.obj --image "$option" nonsense ;;
       simplify*) try "$scarp" simplify "$dem" out.obj -e 1 "$option" nonsense ;;
+      view*) try "$scarp" view out.obj "$dem" "$option" nonsense ;;
       measure*) try "$scarp" measure "$dem" out.obj "$option" nonsense ;;
       "tile-plan --hash") try "$scarp" tile-plan "$dem" out.json "$option" nonsense ;;
       tile*) try "$scarp" tile "$dem" out "$option" nonsense ;;

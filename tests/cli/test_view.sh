@@ -57,6 +57,32 @@ else
   echo "left out: Mesh.view() of Python (needs the C library, numpy and rasterio)"
 fi
 
+# With the engine of the npm package, where it was built.
+if [ -e "$SCARP_BUILD-wasm/npm/inline-data.js" ]; then
+  succeeds node "$SCARP_BUILD/viewer/build.mjs" other/share/scarp/viewer.html "$SCARP_BUILD-wasm/npm"
+  grep -q 'with the engine' "$logs/out" || fail "the page has no engine"
+  succeeds other/bin/scarp view plain.glb "$dem" -o live.html
+  cp other/share/scarp/viewer.html try.html
+  cp "$dem" dem.tif
+  head -c 3000 "$dem" > cut.tif
+  printf 'x' > wrong.xyz
+  printf 'x' > broken.png
+  head -c 22 "$dem" > thin.hgt
+  python3 - << 'E2'
+import math, struct, zlib
+side = 65
+heights = [[int(500 + 200 * math.sin(row / 9) * math.cos(col / 7) + (row * col) % 5) for col in range(side)] for row in range(side)]
+open("N36W085.hgt", "wb").write(b"".join(struct.pack(">h", z) for row in heights for z in row))
+pixels = b"".join(b"\0" + b"".join(struct.pack(">HB", z + 32768, 0) for z in row) for row in heights)
+chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+open("terrarium.png", "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0)) +
+                                 chunk(b"IDAT", zlib.compress(pixels)) + chunk(b"IEND", b""))
+E2
+  sed "s/ 'wasm-unsafe-eval'//" live.html > no_wasm.html
+else
+  echo "left out: live meshes in the page (make npm builds their engine)"
+fi
+
 need chromium
 npm_judges playwright-core axe-core || skip "npm could not fetch playwright-core and axe-core"
 for name in plain packed; do
@@ -69,7 +95,7 @@ cp "$logs/out" level2.json
 # Damaged files to drop: cut off, no GLB, a vertex that is NaN, a triangle that names no vertex.
 head -c 4000 plain.glb > cut.glb
 head -c 4000 "$dem" > other.glb
-cp "$dem" raster.tif
+cp "$dem" raster.xyz
 python3 - << 'E2'
 import json, struct
 plain = bytearray(open("plain.glb", "rb").read())
@@ -154,12 +180,13 @@ job(lambda values: same("packed.json", values[0][0]), "by_simplify.html", [{"unt
 
 def levels(values):
     assert values[0] == 3, values
-    same("level2.json", values[1][0])
+    same("level2.json", values[2][0])
 
 
 job(levels, "levels_lod0.html", [
     {"until": READY, "read": "scarp_page.document.levels.length", "shot": "phone"},
-    {"keys": ["-", "+", "+"], "after": "document.getElementById('fold').click()"},
+    {"do": "(slider => { slider.value = '2'; slider.dispatchEvent(new Event('input')); })(document.getElementById('level'))",
+     "after": "document.getElementById('fold').click()"},
     {"read": READ, "shot": "phone_controls"}], axe=True, width=390, height=780)
 job(lambda values: same("plain.json", values[0][0]), "obj.html", [{"until": READY, "read": READ}])
 
@@ -184,7 +211,7 @@ job(alone, "alone.html", [{"until": READY, "read": READ}])
 
 def sentences(values):
     for name, words in (("cut.glb", "cut off"), ("other.glb", "no GLB file"), ("nan.glb", "Vertex 17"), ("index.glb", "vertex 65535"),
-                        ("raster.tif", "no GLB file")):
+                        ("raster.xyz", "no file that this page reads")):
         told = values.pop(0)
         assert name in told and words in told, (name, told)
     same("packed.json", values[0][0])  # a good file is shown after them, and judged by the same raster
@@ -193,7 +220,7 @@ def sentences(values):
 
 job(sentences, "plain.html", [{"until": READY}] + [
     {"drop": [{"name": name, "path": os.path.abspath(name)}], "until": NOTICE,
-     "read": NOTICE, "after": "document.getElementById('notice').hidden = true"} for name in ("cut.glb", "other.glb", "nan.glb", "index.glb", "raster.tif")] + [
+     "read": NOTICE, "after": "document.getElementById('notice').hidden = true"} for name in ("cut.glb", "other.glb", "nan.glb", "index.glb", "raster.xyz")] + [
     {"drop": [{"name": "packed.glb", "path": os.path.abspath("packed.glb")}], "until": "document.title === 'packed.glb'", "read": READ},
     {"read": NOTICE}])
 job(lambda values: values[0].index("refuses WebAssembly"), "by_simplify.html", [{"until": NOTICE, "read": NOTICE, "shot": "refused"}],
@@ -202,13 +229,77 @@ job(lambda values: values[0].index("WebGL"), "plain.html", [{"until": NOTICE, "r
     before="HTMLCanvasElement.prototype.getContext = () => null", errors_are_expected=True)
 empty = open(os.environ["SCARP_BUILD"] + "/share/scarp/viewer.html").read()
 open("empty.html", "w").write(empty)
-job(lambda values: values[0].index("holds no mesh"), "empty.html", [{"until": NOTICE, "read": NOTICE}])
+job(lambda values: values[0].index("here"), "empty.html", [{"until": NOTICE, "read": NOTICE}])
 
 
 def loads(values):
     first, last = values[0]
     assert first == last and 0 < last["geometries"] < 10, values
 
+
+DRAG = ("(slider => { slider.value = String(%d); slider.dispatchEvent(new Event('input')); })(document.getElementById('error'))")
+RELEASE = "document.getElementById('error').dispatchEvent(new Event('change'))"
+NOW = ("[scarp_page.live.error_of(scarp_page.live.step_now), ...scarp_page.shown.map(t => [t.name, t.triangles, t.judged.max_error,"
+       " t.judged.uncovered])]")
+HIGH = "scarp_page.shown.at(-1).name === 'high' && document.getElementById('progress').hidden"
+
+
+def kept(asked, mesh, name):
+    assert mesh[0] == name and mesh[2] <= asked * (1 + 1e-6) and mesh[3] == 0, (asked, mesh)
+    return mesh[1]
+
+
+def live(values):
+    (first, coarse), (second, fine), (third, high), (_, left, right), (_, greedy, same), state = [v for v in values if isinstance(v, (list, str))]
+    assert kept(second, fine, "greedy") > kept(first, coarse, "greedy") and second < first, values
+    assert kept(third, high, "high") < 0.5 * fine[1] and third == second, values
+    assert kept(second, left, "greedy") == fine[1] and kept(second, right, "high") == high[1], values
+    assert greedy == left and same[1] <= greedy[1] and same[2] < 0.6 * greedy[2], values
+    assert "both=1" in state and "error=" in state, state
+
+
+def rasters(values):
+    for name, notes, said in ((os.path.basename("dem.tif"), "", "--order greedy"), ("N36W085.hgt", "", "--order greedy"), ("terrarium.png", "terrarium", "")):
+        (title, cols, error, most, uncovered, exaggeration, shown_notes, command), size = values.pop(0), values.pop(0)
+        assert title == name and error <= most * (1 + 1e-6) and uncovered == 0 and said in command and notes in shown_notes, (name, title, command)
+        assert ("(true)" in exaggeration) == (name != "terrarium.png"), exaggeration
+        assert size > 1000, size
+    for name, words in (("thin.hgt", "no square"), ("cut.tif", "damaged"), ("wrong.xyz", "no file that this page reads"), ("broken.png", "as an image")):
+        told = values.pop(0)
+        assert name in told and words in told, (name, told)
+
+
+def refused(values):
+    words = values[-1]
+    assert "No mesh" in words and "WebAssembly" in words, words
+
+
+if os.path.exists("live.html"):
+    job(live, "live.html", [
+        {"until": READY}, {"do": DRAG % 20, "until": "scarp_page.shown[0].name === 'greedy'", "read": NOW},
+        {"do": DRAG % 28, "until": "scarp_page.live.step_now === 28 && scarp_page.shown[0].judged.max_error <= scarp_page.live.error_of(28)",
+         "read": NOW},
+        {"do": RELEASE, "until": HIGH, "read": NOW, "shot": "live"},
+        {"keys": ["s"], "until": "scarp_page.shown.length === 2", "read": NOW, "shot": "side_by_side"},
+        {"do": "(menu => { menu.value = 'count'; menu.dispatchEvent(new Event('change')); })(document.getElementById('same'))",
+         "until": "scarp_page.shown[1].judged.max_error < 0.6 * scarp_page.shown[0].judged.max_error", "read": NOW},
+        {"until": "location.hash.includes('both=1')", "read": "location.hash"}], axe=True)
+    OPENED = ("[document.title, scarp_page.document.field.cols, scarp_page.shown[0].judged.max_error, (f => (f.high - f.low) * 0.02)"
+              "(scarp_page.document.field), scarp_page.shown[0].judged.uncovered, document.getElementById('exaggeration-text').textContent,"
+              " document.getElementById('notes').textContent, document.getElementById('command').textContent]")
+    # What Download makes, caught before it is a file.
+    SAVED = ("new Promise(done => { const make = URL.createObjectURL; URL.createObjectURL = blob => { done(blob.size); URL.createObjectURL = make;"
+             " return make(blob); }; document.getElementById('format').value = '%s'; document.getElementById('save').click(); })")
+    steps = [{"until": "document.getElementById('notice').textContent"}]
+    for name, form in (("dem.tif", "glb"), ("N36W085.hgt", "stl"), ("terrarium.png", "obj")):
+        steps += [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": f"document.title === '{name}' && scarp_page.drawn > 0",
+                   "read": OPENED, "shot": name.split(".")[0]}, {"do": SAVED % form}]
+    for name in ("thin.hgt", "cut.tif", "wrong.xyz", "broken.png"):
+        steps += [{"drop": [{"name": name, "path": os.path.abspath(name)}], "until": NOTICE, "read": NOTICE,
+                   "after": "document.getElementById('notice').hidden = true"}]
+    job(rasters, "try.html", steps, axe=True)
+    job(refused, "no_wasm.html", [{"until": READY}, {"do": DRAG % 20, "until": "!document.getElementById('progress').hidden",
+                                                    "read": "document.getElementById('progress').textContent"}], errors_are_expected=True)
 
 # Each load replaces what the last one holds.
 job(loads, "plain.html", [{"until": READY}, {"do": """(async () => {

@@ -54,16 +54,14 @@ std::vector<std::string> ViewCommand::mesh_paths() const {
   }
 }
 
-Result<std::vector<PageMesh>> ViewCommand::read_meshes(Mesh& first) const {
+Result<std::vector<PageMesh>> ViewCommand::read_meshes(bool is_y_up, Mesh& first) const {
   std::vector<PageMesh> meshes;
-  const Result<bool> is_y_up = parse_up(up_);
-  if (!is_y_up) return tl::unexpected(is_y_up.error());
   for (const std::string& path : mesh_paths()) {
     auto bytes = read_file(path);
     if (!bytes) return tl::unexpected(bytes.error());
     Result<Mesh> mesh = decode_mesh(*bytes, path);
     if (!mesh) return tl::unexpected(mesh.error());
-    turn_up(*is_y_up, path, *mesh);
+    turn_up(is_y_up, path, *mesh);
     undo_placement(*mesh);
     const std::uint64_t size = bytes->size();
     if (!std::string_view(reinterpret_cast<const char*>(bytes->data()), bytes->size()).starts_with("glTF")) {
@@ -88,12 +86,17 @@ Result<OwnedHeightField> ViewCommand::read_raster(const Mesh& mesh, std::vector<
 }
 
 Result<void> ViewCommand::run() const {
+  if (!raster_.paths.empty()) {
+    if (const auto read = raster_.parse(); !read) return tl::unexpected(read.error());
+  }
+  const Result<bool> is_y_up = parse_up(up_);
+  if (!is_y_up) return tl::unexpected(is_y_up.error());
   const auto page_template = read_page_template();
   if (!page_template) return tl::unexpected(page_template.error());
   const std::string path = page_.value_or(std::filesystem::path(mesh_).replace_extension(".html").string());
   if (auto checked = check_outputs({{"--output", path}}, files_read(*command_), overwrite_); !checked) return checked;
   Mesh mesh;
-  const auto meshes = read_meshes(mesh);
+  const auto meshes = read_meshes(*is_y_up, mesh);
   if (!meshes) return tl::unexpected(meshes.error());
   std::optional<OwnedHeightField> field;
   std::vector<std::string> warnings;

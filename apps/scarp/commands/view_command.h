@@ -24,7 +24,7 @@ class ViewCommand {
   /// MESH; of OUT_lod0.glb the other levels, too.
   std::vector<std::string> mesh_paths() const;
   /// The page without a raster: the meshes, of which `first` is read.
-  Result<std::vector<PageMesh>> read_meshes(Mesh& first) const;
+  Result<std::vector<PageMesh>> read_meshes(bool is_y_up, Mesh& first) const;
   /// In the coordinates of the mesh.
   Result<OwnedHeightField> read_raster(const Mesh& mesh, std::vector<std::string>& warnings) const;
 

@@ -34,7 +34,23 @@ export async function make_document(files, field, metres = null, unit = null) {
   const frame = parts[0].extras.crs_option;
   const known = metres !== null || frame === 'local' || frame === 'enu', place = new Place(parts[0].positions, metres ?? [1, 1, 1]);
   const terrains = parts.map(part => new Terrain(part, place, field));
-  return { name: files[0].name, levels: terrains, place, field, unit: unit ?? parts[0].extras.unit ?? '', knows_metres: known };
+  return { name: files[0].name, levels: terrains, place, field, unit: unit ?? parts[0].extras.unit ?? '', knows_metres: known, notes: [] };
+}
+
+/** The raster itself, with the mesh that the engine has made of it: on the grid, as live.js has it. */
+export function document_of_raster(field, knows_metres, notes, { mesh, judged }) {
+  const corners = [field.to_place(0, field.rows - 1), field.to_place(field.cols - 1, 0)], place = new Place([...corners[0], field.low, ...corners[1], field.high], [1, 1, 1]);
+  return { name: field.name, levels: [place_on_grid('greedy', mesh, judged, field, place)], place, field, unit: knows_metres ? 'm' : '', knows_metres, notes };
+}
+
+/** A mesh whose x is the column, and whose y counts rows from the last one up. */
+export function place_on_grid(name, { positions, indices, origin }, judged, field, place) {
+  const placed = new Float64Array(positions.length);
+  for (let v = 0; v < positions.length; v += 3) {
+    const [x, y] = field.to_place(positions[v] + origin[0], field.rows - 1 - positions[v + 1] - origin[1]);
+    placed.set([x, y, positions[v + 2] + origin[2]], v);
+  }
+  return new Terrain({ name, positions: placed, indices: Uint32Array.from(indices), judged }, place, field);
 }
 
 /** Whether a mesh lies where the raster does, so that one can judge the other. */

@@ -1,27 +1,45 @@
-// A GLB file dropped on the page is shown in place of the mesh, and judged if it lies where the raster does.
-import { fits, make_document } from './document.js';
+// Files dropped on the page or chosen: a GLB takes the place of the mesh, and is judged if it lies where the raster does;
+// a raster is simplified here. Nothing leaves the page.
+import { document_of_raster, fits, make_document } from './document.js';
 import { Sentence } from './sentence.js';
 
 const MOST_BYTES = 2 ** 30;
+const RASTERS = /\.(tiff?|hgt|png)$/i;
+const FIRST_SHARE = 0.02;  // max error of the first mesh, of the relief
+
+async function open_raster(page, file) {
+  if (!HAS_ENGINE) throw new Sentence(`${file.name} is a raster, and this page was built without the engine that makes a mesh of it.`);
+  const { read_raster } = await import('./rasters.js');
+  const { field, knows_metres, notes } = await read_raster(file);
+  page.open(await document_of_raster(field, knows_metres, notes, await page.live.make_first(field, (field.high - field.low) * FIRST_SHARE)));
+}
 
 /** What a drop does; `page.load` for who brings files in another way. */
 async function open_files(page, files) {
-  const wrong = files.find(file => !/\.glb$/i.test(file.name));
-  if (wrong) throw new Sentence(`${wrong.name} is no GLB file: drop a mesh that Scarp or another program wrote as .glb.`);
-  const large = files.find(file => file.size > MOST_BYTES);
+  const large = files.find(file => file.size > MOST_BYTES), wrong = files.find(file => !/\.glb$/i.test(file.name) && !RASTERS.test(file.name));
+  if (wrong) throw new Sentence(`${wrong.name} is no file that this page reads: .glb${HAS_ENGINE ? ', .tif, .hgt or .png' : ''}.`);
   if (large) throw new Sentence(`${large.name} is too large for this page, which takes 1 GiB.`);
-  const read = await Promise.all(files.map(async file => ({ name: file.name, bytes: file.size, buffer: await file.arrayBuffer() })));
+  if (files.length > 1) throw new Sentence('One file at a time, please.');
+  const [file] = files;
+  if (RASTERS.test(file.name)) return open_raster(page, file);
+  const read = [{ name: file.name, bytes: file.size, buffer: await file.arrayBuffer() }];
   const old = page.document, field = old?.field ?? null, opened = await make_document(read, null);
   page.open(field && fits(field, opened) ? await make_document(read, field, old.place.metres, old.unit) : opened);
 }
 
 export function accept_drops(page, complain) {
-  page.load = files => open_files(page, files);
+  page.load = files => {
+    document.getElementById('notice').hidden = true;
+    return open_files(page, files).catch(complain);
+  };
   addEventListener('dragover', event => event.preventDefault());
   addEventListener('drop', event => {
     event.preventDefault();
-    document.getElementById('notice').hidden = true;
     const files = [...event.dataTransfer.files];
-    if (files.length) page.load(files).catch(complain);
+    if (files.length) page.load(files);
+  });
+  document.getElementById('file').addEventListener('change', ({ target }) => {
+    if (target.files.length) page.load([...target.files]);
+    target.value = '';
   });
 }

@@ -1,6 +1,7 @@
 // The engine beside the page: meshes for the slider's max error, and side by side. Without it the controls stay away.
 import SOURCE from 'worker-source';
-import { Terrain } from './terrain.js';
+import { place_on_grid } from './document.js';
+import { Sentence } from './sentence.js';
 import { with_unit } from './words.js';
 
 const $ = id => document.getElementById(id);
@@ -88,6 +89,16 @@ export class Live {
     else if (error !== undefined) this.choose(this.step_of(error)), this.finish();
   }
 
+  /** Of a raster that has no mesh yet: {mesh, judged}, on its grid. */
+  make_first(field, error) {
+    const helper = new Helper(field);
+    return new Promise((done, failed) => helper.ask({ kind: 'refine', error }, answer => {
+      helper.end();
+      if (answer.error) failed(new Sentence(`${field.name}: ${answer.error}`));
+      else done(answer);
+    }));
+  }
+
   error_of(step) {
     return this.largest / 2 ** (step / STEPS_AN_OCTAVE);
   }
@@ -108,6 +119,14 @@ export class Live {
 
   state() {
     return this.step_now === null ? {} : { error: this.error_of(this.step_now), ...(this.both ? { both: 1 } : {}) };
+  }
+
+  /** For a mesh of the file. */
+  leave() {
+    this.slow?.cancel();
+    this.say('');
+    this.step_now = null;
+    this.both = $('both').checked = false;
   }
 
   /** Positive: a larger error, or the next level where there is no engine. */
@@ -152,12 +171,8 @@ export class Live {
       this.say(`No mesh: ${error}`);
       return false;
     }
-    const { field, place } = this.page.document, { positions, indices, origin } = mesh, inside = new Float64Array(positions.length);
-    for (let v = 0; v < positions.length; v += 3) {
-      const [x, y] = field.to_place(positions[v] + origin[0], field.rows - 1 - positions[v + 1] - origin[1]);
-      inside.set([x, y, positions[v + 2] + origin[2]], v);
-    }
-    this.meshes.set(key, new Terrain({ name, positions: inside, indices: Uint32Array.from(indices), judged }, place, field));
+    const { field, place } = this.page.document;
+    this.meshes.set(key, place_on_grid(name, mesh, judged, field, place));
     return true;
   }
 

@@ -6,6 +6,7 @@ import { listen_to_keys } from './keys.js';
 import { Live } from './live.js';
 import { Measuring } from './measuring.js';
 import { draw_bar, draw_compass, draw_legend, draw_map } from './overlay.js';
+import { save, save_mesh } from './downloads.js';
 import { fill_readout, summarize } from './readout.js';
 import { Scene } from './scene.js';
 import { Sentence } from './sentence.js';
@@ -65,6 +66,7 @@ class Page {
   }
 
   choose_level(level) {
+    this.live.leave();
     this.level = Math.max(0, Math.min(this.document.levels.length - 1, level));
     this.show([this.document.levels[this.level]]);
   }
@@ -93,11 +95,14 @@ class Page {
     $('map').hidden = !look.errors;
     if (look.errors && (this.mapped !== terrain || this.mapped_scale !== look.scale)) draw_map(terrain.judged, field, look.scale);
     [this.mapped, this.mapped_scale] = look.errors ? [terrain, look.scale] : [];
-    const notes = [];
+    const notes = [...this.document.notes];
     if (!field) notes.push('Without its raster nothing can be judged here: scarp view MESH RASTER.');
     if (!knows_metres) notes.push('The units of x and y are not known: the exaggeration is true if they are those of the heights.');
     if (field && !this.live.is_there) notes.push('This page was built without the engine: the mesh is as in its file.');
     $('notes').textContent = notes.join(' ');
+    const made = shown.at(-1), how = { greedy: '--effort fast --order greedy', high: '--effort high' }[made.name];
+    $('command').hidden = how === undefined;
+    if (how) $('command').textContent = `scarp simplify ${field.name} mesh.glb -e ${number(made.judged.max_error)} ${how}`;
     $('canvas').setAttribute('aria-label', `Terrain: ${summarize(terrain, unit)}${look.errors ? `; coloured by error, blue ${number(look.scale)} below to red above` : ''}`);
     this.scene.invalidate();
   }
@@ -127,11 +132,7 @@ class Page {
   }
 
   async save_picture() {
-    const link = document.createElement('a');
-    link.href = URL.createObjectURL(await this.scene.png());
-    link.download = `${this.document.name.replace(/\.[^.]*$/, '')}.png`;
-    link.click();
-    URL.revokeObjectURL(link.href);
+    save([await this.scene.png()], `${this.document.name.replace(/\.[^.]*$/, '')}.png`);
   }
 
   wire() {
@@ -145,6 +146,7 @@ class Page {
     on('measured-close', 'click', () => this.measuring.turn(false));
     on('reset', 'click', () => this.scene.reset());
     on('picture', 'click', () => this.save_picture().catch(complain));
+    on('save', 'click', () => save_mesh(this.shown.at(-1), this.document.name, $('format').value));
     on('full', 'click', () => document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen());
     on('help', 'click', () => $('keys').showModal());
     on('fold', 'click', () => {
@@ -174,9 +176,10 @@ class Page {
 async function start() {
   const data = $('scarp-data');
   const page = new Page();
-  if (!data) throw new Sentence('This page holds no mesh: scarp view MESH RASTER makes one that does. Or drop a GLB file here.');
-  page.open(await read_inline(JSON.parse(data.textContent)), read_fragment());
   window.scarp_page = page;
+  if (!data) throw new Sentence(HAS_ENGINE ? 'Drop a GeoTIFF, an .hgt file or a PNG tile here, or a GLB. It stays on this machine.'
+    : 'This page holds no mesh: scarp view MESH RASTER makes one that does. Or drop a GLB file here.');
+  page.open(await read_inline(JSON.parse(data.textContent)), read_fragment());
 }
 
 addEventListener('error', event => complain(event.error ?? new Error(event.message)));
