@@ -20,6 +20,4 @@ target_link_libraries(fmt::fmt INTERFACE scarp_headers)
 target_compile_definitions(fmt::fmt INTERFACE FMT_HEADER_ONLY FMT_STATIC_THOUSANDS_SEPARATOR=',')
 
 target_compile_options(scarp_flags INTERFACE -fwasm-exceptions -msimd128)
-# One file: node's own fetch(), which em++ prefers, takes no path. -O1 at the link: above it em++ minifies its JavaScript with a node package that Debian's emscripten does not find.
-target_link_options(scarp_flags INTERFACE -fwasm-exceptions -sALLOW_MEMORY_GROWTH=1 -sTOTAL_STACK=1048576 -O1
-  -sSINGLE_FILE=1)
+target_link_options(scarp_flags INTERFACE -fwasm-exceptions -sALLOW_MEMORY_GROWTH=1 -sTOTAL_STACK=1048576)

@@ -6,11 +6,9 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${BUILD:-build}
 jobs=${JOBS:-$(nproc 2>/dev/null || echo 2)}
-toolchain=/usr/share/emscripten/cmake/Modules/Platform/Emscripten.cmake
-options=(-DCMAKE_BUILD_TYPE=Release -DSCARP_CORE_ONLY=ON -DSCARP_WITH_MESHOPTIMIZER=OFF)
-tools/configure.sh "$build-core" "${options[@]}"
+tools/configure.sh "$build-core" -DCMAKE_BUILD_TYPE=Release -DSCARP_CORE_ONLY=ON -DSCARP_WITH_MESHOPTIMIZER=OFF
 cmake --build "$build-core" -j "$jobs" --target scarp_core_check
-tools/configure.sh "$build-wasm" -DCMAKE_TOOLCHAIN_FILE=$toolchain "${options[@]}"
+tools/configure_wasm.sh "$build-wasm"
 cmake --build "$build-wasm" -j "$jobs" --target scarp_core_check
 native=$("$build-core/bin/scarp_core_check")
 wasm=$(node --experimental-wasm-eh "$build-wasm/bin/scarp_core_check.js" 2>/dev/null || node "$build-wasm/bin/scarp_core_check.js")

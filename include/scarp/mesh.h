@@ -41,7 +41,7 @@ struct Mesh {
 
 /// Sorts triangles by place and for the vertex cache, and vertices by first use (meshoptimizer). Same triangles, same
 /// corners, same winding; deterministic, and the same for any number of threads (0: one for each core). Unused vertices
-/// are dropped. Cost: O(triangles).
+/// are dropped. Without meshoptimizer triangles stay where they are. Cost: O(triangles).
 void optimize_order(Mesh& mesh, int threads = 1);
 
 /// Turns the mesh y up: (x, y, z) becomes (x, z, −y), normals too, and metadata["up"] is "y". undo_y_up() turns a mesh

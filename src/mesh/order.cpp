@@ -24,12 +24,19 @@
 
 namespace scarp {
 
+namespace {
+
+constexpr std::size_t kPartVertices = 1 << 15;
+constexpr std::uint32_t kUnused = VertexNumbers::kUnused;
+
+}  // namespace
+
 VertexNumbers number_used(std::span<const std::uint32_t> corners, std::size_t vertices) {
-  VertexNumbers numbers{std::vector<std::uint32_t>(vertices, VertexNumbers::kUnused)};
+  VertexNumbers numbers{std::vector<std::uint32_t>(vertices, kUnused)};
   for (const std::uint32_t v : corners) numbers.ids[v] = 0;
   std::uint32_t count = 0;
   for (std::uint32_t& id : numbers.ids) {
-    if (id != VertexNumbers::kUnused) id = count++;
+    if (id != kUnused) id = count++;
   }
   numbers.count = count;
   return numbers;
@@ -39,8 +46,7 @@ VertexNumbers number_used(std::span<const std::uint32_t> corners, std::size_t ve
 
 namespace {
 
-constexpr std::size_t kChunkTriangles = 1 << 14, kCellTriangles = 64, kPartVertices = 1 << 15;
-constexpr std::uint32_t kUnused = VertexNumbers::kUnused;
+constexpr std::size_t kChunkTriangles = 1 << 14, kCellTriangles = 64;
 constexpr unsigned kCacheSize = 16;
 
 /// Where each vertex lies on a curve through `side` × `side` cells of the rectangle of all.
@@ -216,6 +222,24 @@ VertexNumbers sort_for_cache(std::vector<std::uint32_t>& corners, std::size_t ve
   return numbers;
 }
 
+#else
+
+std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners, std::size_t, const FindPlaces&, int) {
+  return {corners.begin(), corners.end()};
+}
+
+VertexNumbers sort_for_cache(std::vector<std::uint32_t>& corners, std::size_t vertices, int) {
+  VertexNumbers numbers{std::vector<std::uint32_t>(vertices, kUnused)};
+  for (std::uint32_t& corner : corners) {
+    std::uint32_t& id = numbers.ids[corner];
+    if (id == kUnused) id = static_cast<std::uint32_t>(numbers.count++);
+    corner = id;
+  }
+  return numbers;
+}
+
+#endif
+
 void optimize_order(Mesh& mesh, int threads) {
   const std::size_t vertices = mesh.vertex_count();
   const auto find_places = [&](std::size_t first, std::size_t end, std::span<std::array<double, 2>> places) {
@@ -240,21 +264,5 @@ void optimize_order(Mesh& mesh, int threads) {
   if (!mesh.normals.empty()) reorder(mesh.normals, 3);
   for_each_attribute(mesh, reorder);
 }
-
-#else
-
-std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners, std::size_t, const FindPlaces&, int) {
-  return {corners.begin(), corners.end()};
-}
-
-VertexNumbers sort_for_cache(std::vector<std::uint32_t>& corners, std::size_t vertices, int) {
-  VertexNumbers numbers = number_used(corners, vertices);
-  for (std::uint32_t& corner : corners) corner = numbers.ids[corner];
-  return numbers;
-}
-
-void optimize_order(Mesh&, int) {}
-
-#endif
 
 }  // namespace scarp

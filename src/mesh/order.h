@@ -32,7 +32,8 @@ std::vector<std::uint32_t> sort_by_place(std::span<const std::uint32_t> corners,
                                          const FindPlaces& find_places, int threads);
 
 /// Sorts the triangles for the vertex cache, near where they are, and numbers vertices by first use, as
-/// optimize_order() does: after sort_by_place() that is its order. The corners are the new numbers then.
+/// optimize_order() does: after sort_by_place() that is its order. The corners are the new numbers then. Without
+/// meshoptimizer triangles stay as they are.
 VertexNumbers sort_for_cache(std::vector<std::uint32_t>& corners, std::size_t vertices, int threads);
 
 }  // namespace scarp

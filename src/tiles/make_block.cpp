@@ -1,11 +1,11 @@
 // A block: the tile of the block level and all below it, of nodes that are read once.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/bits.h"
 #include "scarp/tile.h"
 #include "tiles/coarse_nodes.h"
 #include "tiles/pyramid_tiles.h"
@@ -30,7 +30,7 @@ Result<std::optional<HeldNodes>> read_block(const PyramidPlan& plan, TileId bloc
 }
 
 std::uint64_t mixed(std::uint64_t hash, double value) {
-  hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0xff51afd7ed558ccd;
+  hash = (hash ^ bit_cast<std::uint64_t>(value)) * 0xff51afd7ed558ccd;
   return hash ^ (hash >> 32);
 }
 

@@ -1,9 +1,9 @@
 #include "tiles/tile_nodes.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
+#include "base/bits.h"
 #include "base/parallel.h"
 
 namespace scarp {
@@ -108,7 +108,7 @@ std::uint64_t HeldNodes::hash() const {
   std::uint64_t hash = 0x9e3779b97f4a7c15;
   for (const float height : heights_) {
     // One pattern of bits for all that are no height.
-    const std::uint32_t bits = std::isnan(height) ? 0x7fc00000 : std::bit_cast<std::uint32_t>(height);
+    const std::uint32_t bits = std::isnan(height) ? 0x7fc00000 : bit_cast<std::uint32_t>(height);
     hash = (hash ^ bits) * 0xff51afd7ed558ccd;
     hash ^= hash >> 32;
   }

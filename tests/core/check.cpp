@@ -7,13 +7,6 @@
 #include "scarp/generate.h"
 #include "scarp/simplify.h"
 
-#ifdef __EMSCRIPTEN__
-#include <hwy/targets.h>
-namespace hwy {
-std::int64_t SupportedTargets() { return HWY_STATIC_TARGET; }
-}  // namespace hwy
-#endif
-
 namespace {
 
 std::uint64_t hash_of(const scarp::Mesh& mesh) {

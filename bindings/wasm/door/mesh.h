@@ -1,0 +1,36 @@
+// What a handle of a mesh holds, and how JavaScript sees it.
+#pragma once
+
+#include "door.h"
+#include "scarp/measure.h"
+#include "scarp/mesh.h"
+
+namespace scarp::wasm {
+
+/// What a mesh is measured to be. Errors are vertical, mesh minus sample, in z units.
+struct Report {
+  double stop = -1;    ///< why the run ended: 0 max_error, 1 max_triangles, 2 max_vertices, 3 every sample is exact
+  double effort = -1;  ///< 0 fast, 1 normal, 2 high, 3 max; -1 where a mesh was only measured
+  double vertices = 0, triangles = 0;
+  double samples = 0, uncovered = 0, stray = 0;
+  double max_error = 0, max_error_col = -1, max_error_row = -1;
+  double rmse = 0, mean_error = 0, mean_abs_error = 0, p50 = 0, p95 = 0, p99 = 0;
+  double is_sound = -1;  ///< -1: nobody looked
+};
+Report describe(const Measurement& measured);
+
+struct WholeMesh {
+  Mesh mesh;
+  Report report;
+  double cell[2] = {0, 0};  ///< sides of a cell of the raster along x and y, of either sign; 0: not known
+};
+
+struct MeshView {
+  double vertices, triangles;
+  double positions, corners, normals, uvs;  ///< addresses; 0: none
+  double origin[3];
+  double cell[2];
+  Report report;
+};
+
+}  // namespace scarp::wasm

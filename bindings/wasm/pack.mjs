@@ -1,0 +1,40 @@
+// Packs the npm package: pack.mjs BUILD DIST, of the modules in BUILD/bin. Prints the path of DIST/scarp-VERSION.tgz.
+import { execFileSync } from 'node:child_process';
+import fs from 'node:fs';
+import path from 'node:path';
+
+const [build, dist] = process.argv.slice(2).map(folder => path.resolve(folder));
+const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
+const root = path.resolve(here, '../..');
+const version = /project\(scarp VERSION ([\d.]+)/.exec(fs.readFileSync(`${root}/CMakeLists.txt`, 'utf8'))[1];
+const staged = path.join(build, 'npm');
+
+/// The worker and what it imports in one script: each file a function, after those that it needs.
+function join_worker() {
+  const files = ['module.js', 'heights.js', 'mesh.js', 'simplify.js', 'worker.js'];
+  const parts = files.map(file => {
+    const text = fs.readFileSync(`${here}/package/${file}`, 'utf8').replace(/^\s*\/\/.*\n/gm, '');
+    const names = [...text.matchAll(/^export (?:async )?(?:const|function|class) (\w+)/gm)].map(([, name]) => name);
+    const body = text.replace(/^import ({[^}]*}) from '.\/(.*)';$/gm, "const $1 = files['$2'];").replace(/^export /gm, '');
+    return `files['${file}'] = (() => {\n${body}return { ${names.join(', ')} };\n})();\n`;
+  });
+  return `const files = {};\n${parts.join('')}`;
+}
+
+fs.rmSync(staged, { recursive: true, force: true });
+fs.cpSync(`${here}/package`, staged, { recursive: true });
+fs.writeFileSync(`${staged}/package.json`, fs.readFileSync(`${staged}/package.json`, 'utf8').replace('VERSION', version));
+for (const [from, to] of [[`${here}/README.md`, 'README.md'], [`${root}/LICENSE`, 'LICENSE']]) fs.copyFileSync(from, path.join(staged, to));
+const imports = ['progress', 'clock_time_get', 'emscripten_notify_memory_growth', 'environ_get', 'environ_sizes_get', 'proc_exit'];
+for (const name of ['scarp.wasm', 'full.wasm', 'lite.wasm']) {
+  const bytes = fs.readFileSync(`${build}/bin/${name}`);
+  // The linker takes what it does not find for an import.
+  const unknown = WebAssembly.Module.imports(new WebAssembly.Module(bytes)).map(entry => entry.name).filter(entry => !imports.includes(entry));
+  if (unknown.length > 0) throw new Error(`${name} lacks ${unknown.join(', ')}`);
+  fs.writeFileSync(path.join(staged, name), bytes);
+}
+const bytes = fs.readFileSync(`${staged}/scarp.wasm`).toString('base64');
+fs.writeFileSync(`${staged}/inline-data.js`, `export const MODULE = ${JSON.stringify(bytes)};\nexport const WORKER = ${JSON.stringify(join_worker())};\n`);
+fs.mkdirSync(dist, { recursive: true });
+execFileSync('npm', ['pack', '--silent', '--offline', '--pack-destination', dist], { cwd: staged });
+console.log(path.join(dist, `scarp-${version}.tgz`));

@@ -1,0 +1,14 @@
+// What the entries for rasters export.
+import { pool } from './pool.js';
+
+export { ScarpError, isStarted as isReady, version } from './module.js';
+export { Mesh } from './mesh.js';
+export { measure, simplifySync } from './simplify.js';
+export { Refiner } from './refiner.js';
+export { encodeGlb } from './glb.js';
+export { decodeTile } from './decode.js';
+export { createPool } from './pool.js';
+export { ready } from './ready.js';
+
+/// As simplifySync(), in a worker of a pool that all calls share.
+export const simplify = async (z, width, height, options) => pool().simplify(z, width, height, options);

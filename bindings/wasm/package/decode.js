@@ -1,0 +1,25 @@
+// Heights of the pixels of terrain tiles.
+import { ScarpError } from './module.js';
+
+/// Metres: scaler · value, summed, plus the offset.
+const ENCODINGS = {
+  terrarium: { rScaler: 256, gScaler: 1, bScaler: 1 / 256, offset: -32768 },
+  mapbox: { rScaler: 6553.6, gScaler: 25.6, bScaler: 0.1, offset: -10000 },
+};
+
+/// `rgba`: four bytes a pixel, as a canvas' ImageData has them. Float32Array, the first row in the north. A pixel that is wholly
+/// transparent has no height: NaN.
+export function decodeTile(rgba, width, height, encoding = 'terrarium') {
+  const { rScaler, gScaler, bScaler, offset } = typeof encoding === 'object' && encoding ? encoding : ENCODINGS[encoding] ?? {};
+  if (![rScaler, gScaler, bScaler, offset].every(Number.isFinite)) {
+    throw new ScarpError('usage', `the encoding is none of ${Object.keys(ENCODINGS).join(', ')}, nor { rScaler, gScaler, bScaler, offset }`);
+  }
+  if (rgba?.length !== 4 * width * height)
+    throw new ScarpError('usage', `a tile of ${width} x ${height} pixels has ${4 * width * height} bytes, and ${rgba?.length} were given`);
+  const z = new Float32Array(width * height);
+  for (let k = 0; k < z.length; ++k) {
+    const at = 4 * k;
+    z[k] = rgba[at + 3] === 0 ? NaN : rgba[at] * rScaler + rgba[at + 1] * gScaler + rgba[at + 2] * bScaler + offset;
+  }
+  return z;
+}

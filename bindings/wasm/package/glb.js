@@ -1,0 +1,178 @@
+// GLB: glTF 2.0 in one file, y up. A JSON chunk describes one binary chunk of arrays by vertex and indices.
+import { ScarpError } from './module.js';
+import { encodeAttributes, encodeTriangles, orderForCodec } from './meshopt.js';
+
+const MESHOPT = 'EXT_meshopt_compression';
+const BYTE_KINDS = new Map([[Int16Array, 5122], [Uint16Array, 5123], [Uint32Array, 5125], [Float32Array, 5126]]);
+const ARRAY_BUFFER = 34962, INDEX_BUFFER = 34963;
+const pad4 = size => Math.ceil(size / 4) * 4;
+
+/// (x, y, z) becomes (x, z, -y): a rotation, so winding stays as it is.
+function yUp(array) {
+  const turned = new Float32Array(array.length);
+  for (let k = 0; k < array.length; k += 3) {
+    turned[k] = array[k];
+    turned[k + 1] = array[k + 2];
+    turned[k + 2] = 0 - array[k + 1];
+  }
+  return turned;
+}
+
+function bounds(positions) {
+  const min = [Infinity, Infinity, Infinity], max = [-Infinity, -Infinity, -Infinity];
+  for (let k = 0; k < positions.length; ++k) {
+    min[k % 3] = Math.min(min[k % 3], positions[k]);
+    max[k % 3] = Math.max(max[k % 3], positions[k]);
+  }
+  return { min, max };
+}
+
+class Builder {
+  pieces = [];
+  size = 0;
+  unpacked = 0;
+  accessors = [];
+  bufferViews = [];
+
+  #addPiece(bytes) {
+    const byteOffset = pad4(this.size);
+    this.pieces.push({ byteOffset, bytes });
+    this.size = byteOffset + bytes.length;
+    return { byteOffset, byteLength: bytes.length };
+  }
+  #addAccessor(array, count, width, more) {
+    this.accessors.push({ bufferView: this.bufferViews.length - 1, componentType: BYTE_KINDS.get(array.constructor), count,
+      type: width === 1 ? 'SCALAR' : `VEC${width}`, ...more });
+    return this.accessors.length - 1;
+  }
+
+  add(array, width, target, more = {}) {
+    const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+    this.bufferViews.push({ buffer: 0, ...this.#addPiece(bytes), target });
+    return this.#addAccessor(array, array.length / width, width, more);
+  }
+
+  /// Compressed; items of attributes are padded to 4 bytes.
+  addPacked(array, width, target, more = {}) {
+    const count = array.length / width, isIndices = target === INDEX_BUFFER, size = array.BYTES_PER_ELEMENT * width;
+    const byteStride = isIndices ? size : pad4(size);
+    let packed;
+    if (isIndices) packed = encodeTriangles(array);
+    else {
+      const items = new Uint8Array(count * byteStride), bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+      for (let v = 0; v < count; ++v) items.set(bytes.subarray(v * size, (v + 1) * size), v * byteStride);
+      packed = encodeAttributes(items, byteStride);
+    }
+    this.bufferViews.push({ buffer: 1, byteOffset: this.unpacked, byteLength: count * byteStride, ...(isIndices ? {} : { byteStride }), target,
+      extensions: { [MESHOPT]: { buffer: 0, ...this.#addPiece(packed), byteStride, count, mode: isIndices ? 'TRIANGLES' : 'ATTRIBUTES' } } });
+    this.unpacked = pad4(this.unpacked + count * byteStride);
+    return this.#addAccessor(array, count, width, more);
+  }
+
+  assemble(json) {
+    const { accessors, bufferViews, size, unpacked } = this;
+    const buffers = [{ byteLength: size }];
+    if (unpacked > 0) buffers.push({ byteLength: unpacked, extensions: { [MESHOPT]: { fallback: true } } });
+    const text = new TextEncoder().encode(JSON.stringify({ ...json, accessors, bufferViews, buffers }));
+    const padded = new Uint8Array(pad4(text.length)).fill(0x20);
+    padded.set(text);
+    const total = 28 + padded.length + pad4(size);
+    if (total >= 2 ** 32) throw new ScarpError('output', `a GLB file holds less than 4 GiB, and this mesh needs ${total} bytes`);
+    const file = new Uint8Array(total), words = new DataView(file.buffer);
+    [0x46546C67, 2, total, padded.length, 0x4E4F534A].forEach((word, k) => words.setUint32(4 * k, word, true));
+    file.set(padded, 20);
+    words.setUint32(20 + padded.length, pad4(size), true);
+    words.setUint32(24 + padded.length, 0x004E4942, true);
+    for (const { byteOffset, bytes } of this.pieces) file.set(bytes, 28 + padded.length + byteOffset);
+    return file;
+  }
+}
+
+/// The largest step of which an axis' offsets are multiples, at most 65535; null without one. `slack`: what float32 may have
+/// rounded, as a share.
+function findStep(values, axis, low, unit, finest, slack) {
+  for (let step = unit; step >= finest; step /= 2) {
+    let isOnGrid = true;
+    for (let k = axis; k < values.length && isOnGrid; k += 3) {
+      const number = Math.round((values[k] - low) / step);
+      if (number > 65535) return null;
+      isOnGrid = Math.abs(low + number * step - values[k]) <= slack * Math.abs(values[k]);
+    }
+    if (isOnGrid) return step;
+  }
+  return null;
+}
+
+/// Positions as 16-bit numbers, y up, that keep their values; null where there is no such grid.
+function findGrid({ positions, cell = [0, 0] }) {
+  const { min, max } = bounds(positions);
+  const sides = [Math.abs(cell[0]) || 1, Math.abs(cell[1]) || 1];
+  const [x, y, z] = [0, 1, 2].map(axis => (axis < 2 ? findStep(positions, axis, min[axis], sides[axis], sides[axis] / 256, 2 ** -24)
+                                                    : findStep(positions, axis, min[axis], 1024, 2 ** -40, 0)));
+  if (!(x && y && z)) return null;
+  const numbers = new Uint16Array(positions.length);
+  for (let k = 0; k < positions.length; k += 3) {
+    numbers[k] = Math.round((positions[k] - min[0]) / x);
+    numbers[k + 1] = Math.round((positions[k + 2] - min[2]) / z);
+    numbers[k + 2] = Math.round((max[1] - positions[k + 1]) / y);
+  }
+  return { numbers, shift: [min[0], min[2], 0 - max[1]], scale: [x, z, y] };
+}
+
+/// Rounded to 15 bits; a renderer divides normals by the scale of the node.
+function packNormals(normals, scale) {
+  const packed = new Int16Array(normals.length);
+  for (let k = 0; k < normals.length; k += 3) {
+    const scaled = [0, 1, 2].map(axis => normals[k + axis] * scale[axis]), length = Math.hypot(...scaled);
+    for (let axis = 0; axis < 3; ++axis) packed[k + axis] = Math.round(32767 * scaled[axis] / length);
+  }
+  return packed;
+}
+
+/// In another order of vertices.
+function gather(array, width, from) {
+  const moved = new array.constructor(from.length * width);
+  from.forEach((v, to) => moved.set(array.subarray(v * width, (v + 1) * width), to * width));
+  return moved;
+}
+
+/// The attributes and indices, compressed. Positions keep their values; normals and texture coordinates are rounded.
+function addCompressed(glb, mesh) {
+  const { positions, indices, normals, uvs } = mesh;
+  const { corners, from } = orderForCodec(indices, positions.length / 3);
+  const { numbers, shift, scale } = findGrid(mesh) ?? { numbers: yUp(positions), shift: [0, 0, 0], scale: [1, 1, 1] };
+  const placed = gather(numbers, 3, from);
+  const attributes = { POSITION: glb.addPacked(placed, 3, ARRAY_BUFFER, bounds(placed)) };
+  if (normals) attributes.NORMAL = glb.addPacked(gather(packNormals(yUp(normals), scale), 3, from), 3, ARRAY_BUFFER, { normalized: true });
+  if (uvs) attributes.TEXCOORD_0 = glb.addPacked(gather(Uint16Array.from(uvs, value => Math.round(65535 * value)), 2, from), 2, ARRAY_BUFFER, { normalized: true });
+  const Corner = from.length <= 65535 ? Uint16Array : Uint32Array;
+  return { attributes, indices: glb.addPacked(Corner.from(corners), 1, INDEX_BUFFER), shift, scale };
+}
+
+function addPlain(glb, { positions, indices, normals, uvs }) {
+  const turned = yUp(positions);
+  const attributes = { POSITION: glb.add(turned, 3, ARRAY_BUFFER, bounds(turned)) };
+  if (normals) attributes.NORMAL = glb.add(yUp(normals), 3, ARRAY_BUFFER);
+  if (uvs) attributes.TEXCOORD_0 = glb.add(Float32Array.from(uvs), 2, ARRAY_BUFFER);
+  const corners = [Uint16Array, Uint32Array].some(Kind => indices instanceof Kind) ? indices : Uint32Array.from(indices);
+  return { attributes, indices: glb.add(corners, 1, INDEX_BUFFER), shift: [0, 0, 0], scale: [1, 1, 1] };
+}
+
+/// The bytes of a GLB file, whose node's translation is the mesh's origin. `compress`: meshoptimizer's codec, which loaders of
+/// three.js, Babylon.js and CesiumJS know; positions on a lattice (simplify's option) take 16 bits each.
+export function encodeGlb(mesh, { compress = false } = {}) {
+  const { positions, indices, origin: [x, y, z] = [0, 0, 0] } = mesh ?? {};
+  if (!positions?.length || !indices?.length) throw new ScarpError('usage', 'the mesh needs positions and indices');
+  const glb = new Builder();
+  const { shift, scale, ...primitive } = (compress ? addCompressed : addPlain)(glb, mesh);
+  const extensions = compress ? ['KHR_mesh_quantization', MESHOPT] : [];
+  return glb.assemble({
+    asset: { version: '2.0', generator: 'Scarp' },
+    ...(compress ? { extensionsUsed: extensions, extensionsRequired: extensions } : {}),
+    scene: 0,
+    scenes: [{ nodes: [0] }],
+    nodes: [{ name: 'terrain', mesh: 0, translation: [x + shift[0], z + shift[1], 0 - y + shift[2]], scale }],
+    meshes: [{ name: 'terrain', primitives: [{ ...primitive, material: 0, mode: 4 }] }],
+    materials: [{ name: 'earth', pbrMetallicRoughness: { baseColorFactor: [0.47, 0.42, 0.33, 1], metallicFactor: 0, roughnessFactor: 1 } }],
+  });
+}

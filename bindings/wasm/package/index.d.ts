@@ -1,0 +1,178 @@
+/** Heights: whole numbers and float32 exactly; float64 is rounded to float32, and the promise counts what that costs. */
+export type Heights = Float32Array | Float64Array | Int8Array | Uint8Array | Uint8ClampedArray | Int16Array | Uint16Array
+  | Int32Array | Uint32Array | readonly number[];
+
+export type ErrorCode = 'usage' | 'memory' | 'input' | 'promise' | 'output' | 'cancelled' | 'internal' | 'unsupported';
+/** One sentence that names the culprit and the way out. */
+export class ScarpError extends Error {
+  constructor(code: ErrorCode, message: string, options?: { cause?: unknown });
+  readonly code: ErrorCode;
+}
+
+/**
+ * Loads the library, once. The asynchronous functions call it themselves.
+ * @param source The bytes of scarp.wasm, their URL or Response, or a compiled module. Default: the file beside the script.
+ */
+export function ready(source?: BufferSource | URL | string | Response | WebAssembly.Module): Promise<void>;
+export function isReady(): boolean;
+export function version(): string;
+
+/** Where samples lie. Without a transform x is the column, and y counts rows from the last one up. */
+export interface Place {
+  /** A value that is no height. NaN and infinities never are. */
+  nodata?: number;
+  /** GDAL's geotransform, of pixel corners: x = t[0] + t[1] column + t[2] row, y = t[3] + t[4] column + t[5] row. */
+  transform?: ArrayLike<number>;
+  /** The transform is in degrees of WGS 84: the mesh is in metres around the raster's centre. */
+  degrees?: boolean;
+}
+
+export interface Progress {
+  pass: string;
+  /** 0 to 1 of this pass. */
+  fraction: number;
+  vertices: number;
+  maxError: number;
+}
+
+/** At least one; the first that is reached ends the run. */
+export interface Goals {
+  /** Largest vertical error at any sample, in the units of the heights. */
+  maxError?: number;
+  maxTriangles?: number;
+  maxVertices?: number;
+}
+
+export interface Options extends Goals, Place {
+  /** fast: the mesh of insertion; normal: about half its triangles; high: about a third, in some ten times the time. */
+  effort?: 'auto' | 'fast' | 'normal' | 'high' | 'max';
+  vertices?: 'auto' | 'samples' | 'free';
+  order?: 'auto' | 'greedy' | 'dominant';
+  /** What a budget makes small: the largest error, or the root of the mean square. */
+  objective?: 'max' | 'rms';
+  /** Floor of triangles' height over longest edge, 0 to 0.5. */
+  minShape?: number;
+  /** How far the outline of valid data may move outwards, in samples. */
+  outlineTolerance?: number;
+  normals?: boolean;
+  uvs?: boolean;
+  /** Heights become multiples of a power of two, so that encodeGlb(mesh, { compress: true }) can hold positions in 16 bits. */
+  lattice?: boolean;
+  /** Positions are float64. */
+  doubles?: boolean;
+  /** Edges of the raster depend on their own samples alone: neighbours that share them fit. */
+  lockBorder?: boolean;
+  /** A weight for each sample: weight * |error| is bounded. 0: no bound. */
+  mask?: ArrayLike<number>;
+  /** A bound of its own for each sample; Infinity: none. */
+  tolerance?: ArrayLike<number>;
+  /** A few times a second at most; false cancels. */
+  onProgress?: (progress: Progress) => boolean | void;
+}
+
+export interface AsyncOptions {
+  signal?: AbortSignal;
+  /** The buffer of the heights is moved to the worker, not copied. */
+  transfer?: boolean;
+}
+
+/** Errors are vertical, mesh minus sample, in the units of the heights. */
+export interface Report {
+  vertexCount: number;
+  triangleCount: number;
+  /** Samples that were judged. */
+  samples: number;
+  /** Valid samples that no triangle covers. */
+  uncovered: number;
+  stray: number;
+  maxError: number;
+  /** Column and row. */
+  maxErrorAt: [number, number] | null;
+  rmse: number;
+  meanError: number;
+  meanAbsError: number;
+  p50: number;
+  p95: number;
+  p99: number;
+  /** Why the run ended. */
+  stop?: 'maxError' | 'maxTriangles' | 'maxVertices' | 'exact';
+  effort?: 'fast' | 'normal' | 'high' | 'max';
+  /** Of measure(): no flipped, overlapping or degenerate triangles, no cracks or holes. */
+  isSound?: boolean;
+}
+
+/** x east, y north, z up; vertex v lies at origin + positions[3v .. 3v + 2]. */
+export class Mesh {
+  positions: Float32Array | Float64Array;
+  /** Counter-clockwise from above. */
+  indices: Uint32Array | Uint16Array;
+  normals?: Float32Array;
+  uvs?: Float32Array;
+  origin: [number, number, number];
+  /** Sides of the raster's cell along x and y, of either sign; 0 where it has none. */
+  cell: [number, number];
+  /** The largest error, proven on this mesh. */
+  maxError: number;
+  /** Not of a Refiner's mesh. */
+  rmse?: number;
+  report?: Report;
+  readonly vertexCount: number;
+  readonly triangleCount: number;
+  /** What postMessage() may move instead of copying. */
+  transferables(): ArrayBufferLike[];
+}
+
+/** Simplifies in this thread. Needs ready(). */
+export function simplifySync(z: Heights, width: number, height: number, options: Options): Mesh;
+/** Simplifies in a worker of a pool that all calls share. */
+export function simplify(z: Heights, width: number, height: number, options: Options & AsyncOptions): Promise<Mesh>;
+
+/** Judges a mesh by brute force, without knowing how it was made. */
+export function measure(z: Heights, width: number, height: number,
+  mesh: { positions: ArrayLike<number>, indices: ArrayLike<number>, origin?: ArrayLike<number> }, place?: Place): Report;
+
+export interface PointOptions extends Goals {
+  /** Of several points at one place. */
+  duplicates?: 'first' | 'last' | 'highest' | 'lowest' | 'mean';
+  doubles?: boolean;
+  onProgress?: (progress: Progress) => boolean | void;
+}
+export interface PoolOptions {
+  /** Workers. Default: one less than cores, 4 at most. */
+  size?: number;
+  /** Makes a worker of the script scarp/worker, where a bundler does not find it. */
+  worker?: () => Worker;
+}
+export interface Pool {
+  readonly size: number;
+  simplify(z: Heights, width: number, height: number, options: Options & AsyncOptions): Promise<Mesh>;
+  /** With scarp/full. */
+  simplifyPoints(points: Heights, options: PointOptions & AsyncOptions): Promise<Mesh>;
+  terminate(): void;
+}
+export function createPool(options?: PoolOptions): Pool;
+
+/** A mesh that grows by one vertex at a time, the worst sample first. */
+export class Refiner {
+  constructor(z: Heights, width: number, height: number, place?: Place);
+  /** Inserts until both hold, or all is exact; returns how many were inserted. */
+  run(goals?: { maxError?: number, maxVertices?: number }): number;
+  /** False once every sample is exact. */
+  insertWorst(): boolean;
+  readonly maxError: number;
+  readonly vertexCount: number;
+  readonly triangleCount: number;
+  mesh(): Mesh;
+  free(): void;
+}
+
+/**
+ * A GLB file (glTF 2.0, y up). compress: by meshoptimizer's codec (EXT_meshopt_compression); positions keep their values, and take 16
+ * bits each where simplify() was asked for a lattice.
+ */
+export function encodeGlb(mesh: { positions: Float32Array | Float64Array, indices: ArrayLike<number>, normals?: Float32Array,
+  uvs?: Float32Array, origin?: ArrayLike<number>, cell?: ArrayLike<number> }, options?: { compress?: boolean }): Uint8Array;
+
+/** Heights in metres of a tile's pixels, four bytes each; NaN where a pixel is transparent. */
+export function decodeTile(rgba: Uint8ClampedArray | Uint8Array, width: number, height: number,
+  encoding?: 'terrarium' | 'mapbox' | { rScaler: number, gScaler: number, bScaler: number, offset: number }): Float32Array;

@@ -1,0 +1,7 @@
+// The package as most have it: beside its .wasm file and its worker.
+import { defaults } from './ready.js';
+
+defaults.source ??= () => new URL('./scarp.wasm', import.meta.url);
+defaults.worker ??= () => new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
+
+export * from './api.js';

@@ -1,0 +1,51 @@
+// In place of @mapbox/martini: the same names, any size, and an error that is kept. Needs ready().
+import { ScarpError, simplifySync } from './index.js';
+import { buildSkirts } from './skirts.js';
+
+export { ready } from './index.js';
+
+class Tile {
+  #terrain;
+  #martini;
+
+  constructor(terrain, martini) {
+    this.#terrain = terrain;
+    this.#martini = martini;
+  }
+
+  /// Columns and rows of the vertices, the first row at the top, and the triangles.
+  getMesh(maxError = 0) {
+    const { width, height, effort } = this.#martini;
+    const { positions, indices, origin: [x, y] } = simplifySync(this.#terrain, width, height, { maxError, effort, vertices: 'samples' });
+    const vertices = new Uint16Array(positions.length / 3 * 2);
+    for (let v = 0; v < vertices.length / 2; ++v) {
+      vertices[2 * v] = positions[3 * v] + x;
+      vertices[2 * v + 1] = height - 1 - (positions[3 * v + 1] + y);
+    }
+    return { vertices, triangles: Uint32Array.from(indices) };
+  }
+
+  /// The same with a second vertex below each on the edges, and two triangles for each of their edges: vertices from
+  /// numVerticesWithoutSkirts on are skirts.
+  getMeshWithSkirts(maxError = 0) {
+    const { vertices, triangles } = this.getMesh(maxError);
+    const count = vertices.length / 2, { tops, indices } = buildSkirts(triangles, count);
+    const below = tops.flatMap(v => [vertices[2 * v], vertices[2 * v + 1]]);
+    return { vertices: Uint16Array.from([...vertices, ...below]), triangles: indices, numVerticesWithoutSkirts: count };
+  }
+}
+
+export default class Martini {
+  /// `gridSize`: samples a side, any; `effort`: as simplifySync() takes it.
+  constructor(gridSize = 257, { height = gridSize, effort = 'normal' } = {}) {
+    if (gridSize > 65536 || height > 65536) throw new ScarpError('usage', 'columns and rows are Uint16: at most 65536 samples a side');
+    this.gridSize = this.width = gridSize;
+    this.height = height;
+    this.effort = effort;
+  }
+  createTile(terrain) {
+    if (terrain?.length !== this.width * this.height)
+      throw new ScarpError('usage', `the terrain has ${terrain?.length} values, and a grid of ${this.width} x ${this.height} has ${this.width * this.height}`);
+    return new Tile(terrain, this);
+  }
+}

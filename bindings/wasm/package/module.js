@@ -1,0 +1,180 @@
+// The WebAssembly module: how it starts, what it imports, its memory and its errors.
+
+const KINDS = ['usage', 'memory', 'input', 'promise', 'output', 'cancelled', 'internal'];
+
+export class ScarpError extends Error {
+  constructor(code, message, options) {
+    super(message, options);
+    this.name = 'ScarpError';
+    this.code = code;
+  }
+}
+
+let starting = null;  // the promise of start()
+let compiled = null;
+let functions = null;
+let tell = null;    // asked for progress during a call
+let thrown = null;  // by it
+
+export const isStarted = () => functions !== null;
+export const compiledModule = () => compiled;
+
+/// An array over the module's memory: valid until the next call, which may let it grow.
+export const view = (Kind, address, count) => new Kind(functions.memory.buffer, address, count);
+
+function text(address) {
+  const bytes = new Uint8Array(functions.memory.buffer, address);
+  return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
+}
+
+/// Few: the module opens no file, and its environment is empty.
+const IMPORTS = {
+  progress(pass, fraction, vertices, maxError) {
+    try {
+      return tell?.({ pass: text(pass), fraction, vertices, maxError }) === false ? 1 : 0;
+    } catch (error) {  // must not unwind the library
+      thrown = { error };
+      return 1;
+    }
+  },
+  clock_time_get(clock, precision, time) {
+    new DataView(functions.memory.buffer).setBigUint64(time, BigInt(Math.round(performance.now() * 1e6)), true);
+    return 0;
+  },
+  environ_sizes_get(count, size) {
+    view(Uint32Array, count, 1)[0] = 0;
+    view(Uint32Array, size, 1)[0] = 0;
+    return 0;
+  },
+  environ_get: () => 0,
+  emscripten_notify_memory_growth() {},
+};
+
+const ADVICE = "serve the package's .wasm file there, or import 'scarp/inline', which holds it";
+
+function refuse(error) {
+  const why = error instanceof Error ? error.message : String(error);
+  return new ScarpError('unsupported', `WebAssembly is refused here: ${why}; it needs WebAssembly with SIMD and exceptions ` +
+    `(Chrome 95, Firefox 100, Safari 16.4, Node 18), and a content policy with 'wasm-unsafe-eval'`, { cause: error });
+}
+
+/// The bytes at an address; of a file in Node, whose fetch() does not know files.
+async function fetchBytes(address) {
+  const url = new URL(address, globalThis.location?.href);
+  try {
+    if (url.protocol === 'file:' && globalThis.process?.versions?.node !== undefined) {
+      const name = 'node:fs/promises';
+      const files = await import(/* webpackIgnore: true */ /* @vite-ignore */ name);
+      return await files.readFile(url);
+    }
+    return await readBytes(await fetch(url));
+  } catch (error) {
+    if (error instanceof ScarpError) throw error;
+    throw new ScarpError('input', `${url} cannot be loaded: ${error.message}; ${ADVICE}`, { cause: error });
+  }
+}
+
+async function readBytes(response) {
+  if (response.ok) return response.arrayBuffer();
+  throw new ScarpError('input', `${response.url} cannot be loaded: HTTP ${response.status}; ${ADVICE}`);
+}
+
+async function instantiate(source) {
+  if (typeof WebAssembly === 'undefined') throw refuse('there is none');
+  if (source instanceof WebAssembly.Module) compiled = source;
+  else {
+    const isBytes = source instanceof ArrayBuffer || ArrayBuffer.isView(source);
+    const bytes = isBytes ? source : source instanceof Response ? await readBytes(source) : await fetchBytes(source);
+    try {
+      compiled = await WebAssembly.compile(bytes);
+    } catch (error) {
+      throw refuse(error);
+    }
+  }
+  const imports = {};
+  for (const { module, name } of WebAssembly.Module.imports(compiled)) {
+    (imports[module] ??= {})[name] = IMPORTS[name] ?? (() => {
+      throw new ScarpError('internal', `the library asked for ${name}; please report it`);
+    });
+  }
+  try {
+    ({ exports: functions } = await WebAssembly.instantiate(compiled, imports));
+    functions._initialize();
+  } catch (error) {
+    functions = null;
+    throw refuse(error);
+  }
+}
+
+/// Compiles and starts the module, once. `source`: its bytes, their URL or Response, or a module.
+export function start(source) {
+  starting ??= instantiate(source).catch(error => {
+    starting = null;
+    throw error;
+  });
+  return starting;
+}
+
+/// Calls a function of the module. `progress` is asked during the call; false cancels.
+export function call(name, args, progress) {
+  if (!functions) throw new ScarpError('usage', "the library is not loaded yet: await ready() first");
+  if (!functions[name]) throw new ScarpError('usage', 'this module does not hold that: import scarp for rasters, scarp/full for points and tiles');
+  const outer = [tell, thrown];
+  [tell, thrown] = [progress, null];
+  try {
+    const result = functions[name](...args);
+    if (thrown) throw thrown.error;
+    return result;
+  } catch (error) {
+    if (thrown) throw thrown.error;
+    if (!(error instanceof WebAssembly.RuntimeError || error instanceof RangeError)) throw error;
+    throw new ScarpError('internal', `the library failed: ${error.message}; please report it`, { cause: error });
+  } finally {
+    [tell, thrown] = outer;
+  }
+}
+
+/// The same of a function that tells failure by 0; throws its sentence.
+export function callOrThrow(name, args, progress) {
+  const result = call(name, args, progress);
+  if (result) return result;
+  throw lastError();
+}
+
+export const lastError = () =>
+  new ScarpError(KINDS[functions.scarp_error_kind()], text(functions.scarp_error_text()));
+
+export const version = () => text(call('scarp_version', []));
+
+/// Blocks of the module's memory that are freed together.
+export class Blocks {
+  #addresses = [];
+  allocate(bytes) {
+    const address = call('scarp_allocate', [Math.max(bytes, 8)]);
+    if (!address) {
+      throw new ScarpError('memory', `there is no memory for ${bytes} bytes: a module of WebAssembly has 4 GiB at most; ` +
+        'take a smaller raster');
+    }
+    this.#addresses.push(address);
+    return address;
+  }
+  /// A copy of an array.
+  put(array) {
+    const address = this.allocate(array.byteLength);
+    view(array.constructor, address, array.length).set(array);
+    return address;
+  }
+  free() {
+    for (const address of this.#addresses.splice(0)) call('scarp_release', [address]);
+  }
+}
+
+/// Runs `work` with blocks that are freed after it.
+export function withBlocks(work) {
+  const blocks = new Blocks();
+  try {
+    return work(blocks);
+  } finally {
+    blocks.free();
+  }
+}

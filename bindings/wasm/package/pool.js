@@ -1,0 +1,190 @@
+// Workers that simplify: one raster a worker, which is faster than many threads in one raster.
+import { ScarpError, compiledModule } from './module.js';
+import { defaults, ready } from './ready.js';
+import { Mesh } from './mesh.js';
+import { checkHeights } from './heights.js';
+import { checkSignal } from './simplify.js';
+
+/// A worker of the browser or of Node, behind the same two functions.
+async function openWorker(make, onMessage, onFailure) {
+  if (typeof Worker === 'undefined') {
+    const name = 'node:worker_threads';
+    globalThis.Worker ??= (await import(/* webpackIgnore: true */ /* @vite-ignore */ name)).Worker;
+  }
+  const worker = make();
+  if (worker.on) {
+    worker.on('message', onMessage);
+    worker.on('error', onFailure);
+    worker.on('exit', () => onFailure(new Error('it has ended')));
+  } else {
+    worker.onmessage = event => onMessage(event.data);
+    worker.onerror = event => onFailure(new Error(event.message ?? 'its script cannot be loaded'));
+    worker.onmessageerror = () => onFailure(new Error('a message to it cannot be read'));
+  }
+  return worker;
+}
+
+const mayShare = () => typeof SharedArrayBuffer !== 'undefined' && globalThis.crossOriginIsolated !== false;
+const cancelled = signal => new ScarpError('cancelled', 'the call was cancelled', { cause: signal?.reason });
+
+/// One worker, and the job that it has.
+class Hand {
+  isBusy = false;
+  #make;
+  #worker = null;
+  #running = null;
+  #serial = 0;
+  #hear = null;
+  #lose = null;
+
+  constructor(make) {
+    this.#make = make;
+  }
+
+  /// Sends a message, and hears of progress until the answer is there.
+  #exchange(message, moved, onProgress) {
+    return new Promise((resolve, reject) => {
+      const id = ++this.#serial;
+      this.#lose = reject;
+      this.#hear = answer => {
+        if (answer.id !== id) return;
+        if (answer.progress) onProgress(answer.progress);
+        else if (answer.error) reject(new ScarpError(answer.error.code, answer.error.message));
+        else resolve(answer.mesh);
+      };
+      this.#worker.postMessage({ id, ...message }, moved);
+    });
+  }
+
+  /// Starts the worker, and warms it up.
+  async #open() {
+    await ready();
+    const worker = await openWorker(this.#make, answer => this.#hear(answer), cause => {
+      if (worker !== this.#worker) return;
+      this.end(new ScarpError('internal', `a worker failed: ${cause.message}; its script is scarp/worker, which a bundler may not ` +
+        "have found: give createPool({ worker }), or import 'scarp/inline'", { cause }));
+    });
+    this.#worker = worker;
+    await this.#exchange({ module: compiledModule() }, []);
+  }
+
+  async run(job) {
+    this.isBusy = true;
+    try {
+      if (!this.#worker) await this.#open();
+      this.#worker.ref?.();
+      if (job.isOver) return;
+      this.#running = job;
+      job.flag = mayShare() ? new SharedArrayBuffer(4) : null;
+      const { work, args, flag, moved, onProgress } = job;
+      const mesh = await this.#exchange({ work, args, flag, tells: Boolean(onProgress) }, moved, job.tell);
+      job.resolve(new Mesh(mesh));
+    } catch (error) {
+      job.reject(error);
+    } finally {
+      this.#running = null;
+      this.isBusy = false;
+      this.#worker?.unref?.();
+    }
+  }
+
+  /// A worker that is busy hears no message: it looks at shared memory, or is replaced.
+  stop(job) {
+    if (job !== this.#running) return;
+    if (job.flag) Atomics.store(new Int32Array(job.flag), 0, 1); else this.end(cancelled());
+  }
+
+  end(error) {
+    const worker = this.#worker;
+    this.#worker = null;
+    worker?.terminate();
+    this.#lose?.(error);
+  }
+}
+
+const cores = () => globalThis.navigator?.hardwareConcurrency ?? 4;
+
+class Pool {
+  #hands;
+  #waiting = [];
+  #jobs = new Set();
+  #isOver = false;
+
+  constructor({ size = Math.min(4, Math.max(1, cores() - 1)), worker = defaults.worker } = {}) {
+    if (!Number.isInteger(size) || size < 1) throw new ScarpError('usage', `size is ${size}; it is a whole number of workers, at least 1`);
+    this.#hands = Array.from({ length: size }, () => new Hand(worker));
+  }
+
+  get size() {
+    return this.#hands.length;
+  }
+
+  #next() {
+    const hand = this.#hands.find(free => !free.isBusy);
+    if (!hand || this.#waiting.length === 0) return;
+    const job = this.#waiting.shift();
+    job.hand = hand;
+    hand.run(job).finally(() => this.#next());
+    this.#next();
+  }
+
+  #add(work, args, buffer, { signal, onProgress, transfer, ...options }) {
+    return new Promise((resolve, reject) => {
+      checkSignal(signal);
+      if (this.#isOver) throw new ScarpError('usage', 'the pool was terminated');
+      const job = { work, args: [...args, options], moved: transfer ? [buffer] : [], onProgress, isOver: false };
+      const settle = end => value => {
+        if (job.isOver) return;
+        job.isOver = true;
+        signal?.removeEventListener('abort', onAbort);
+        this.#jobs.delete(job);
+        end(value);
+      };
+      job.resolve = settle(resolve);
+      job.reject = settle(reject);
+      job.cancel = error => {
+        job.reject(error);
+        if (job.hand) job.hand.stop(job); else this.#waiting = this.#waiting.filter(other => other !== job);
+      };
+      job.tell = progress => {
+        if (job.isOver) return;
+        try {
+          if (onProgress(progress) === false) job.cancel(cancelled());
+        } catch (error) {
+          job.cancel(error);
+        }
+      };
+      const onAbort = () => job.cancel(cancelled(signal));
+      signal?.addEventListener('abort', onAbort);
+      this.#jobs.add(job);
+      this.#waiting.push(job);
+      this.#next();
+    });
+  }
+
+  /// As simplifySync(), in a worker. `transfer`: the heights' buffer is moved there, not copied.
+  async simplify(z, width, height, options = {}) {
+    const { samples, rounding } = checkHeights(z, width, height);
+    const isMoved = Boolean(options.transfer) && samples === z;
+    // Float64 goes as it is: the worker counts what float32 rounds.
+    return this.#add('simplify', [rounding ? Float64Array.from(z) : samples, width, height], samples.buffer, { ...options, transfer: isMoved });
+  }
+
+  async simplifyPoints(points, options = {}) {
+    return this.#add('simplifyPoints', [points], points?.buffer, options);
+  }
+
+  /// Ends the workers; what they had is rejected.
+  terminate() {
+    this.#isOver = true;
+    const error = new ScarpError('cancelled', 'the pool was terminated');
+    for (const job of [...this.#jobs]) job.cancel(error);
+    for (const hand of this.#hands) hand.end(error);
+  }
+}
+
+export const createPool = options => new Pool(options);
+
+let common = null;
+/// The pool of those who make none.
+export const pool = () => (common ??= createPool());

@@ -1,0 +1,91 @@
+#!/usr/bin/env bash
+# The npm package: packed, installed into an empty project, and used in Node, in Chromium and through bundlers. Its meshes and
+# tiles are the program's.
+source "$(dirname "$0")/lib.sh"
+need em++ node npm python3 gdal_translate
+[ "$(node -p 'parseInt(process.versions.node) >= 20')" = true ] || skip "needs Node 20"
+
+package=$("$SCARP_SOURCE/tools/build_npm.sh" "$SCARP_BUILD-wasm" "$PWD/dist" 2> "$logs/err") || fail "the package cannot be built"
+cp "$SCARP_SOURCE"/tests/js/npm/* .
+echo '{ "type": "module", "private": true }' > package.json
+succeeds npm install --offline --no-audit --no-fund --ignore-scripts "$package"
+
+# Sizes after brotli, as they go over the wire.
+for limit in lite:90 scarp:345 full:440; do
+  size=$(node -p 'require("node:zlib").brotliCompressSync(require("node:fs").readFileSync(process.argv[1])).length' "node_modules/scarp/${limit%:*}.wasm")
+  echo "${limit%:*}.wasm: $((size / 1000)) kB after brotli"
+  holds "$size <= 1000 * ${limit#*:}" || fail "${limit%:*}.wasm has grown to $size bytes after brotli, above ${limit#*:} kB"
+done
+
+# The same meshes as the program.
+add() {  # NAME WIDTH HEIGHT ERROR
+  local effort
+  succeeds gdal_translate -q -of ENVI -ot Float32 "$1.tif" "$1.f32"
+  for effort in fast normal high; do
+    succeeds "$scarp" simplify "$1.tif" "$1_$effort.glb" -e "$4" --effort "$effort" --crs grid -q
+    echo "$1 $2 $3 $4 $effort" >> cases
+  done
+}
+while read -r style cols rows range error; do
+  succeeds "$scarp" generate "$style" "$cols" "$rows" "$style.tif" --range "$range" -q
+  add "$style" "$cols" "$rows" "$error"
+done << 'RASTERS'
+fractal 160 120 1000 20
+smooth 140 150 500 2
+cliff 100 100 50 1
+p 120 90 100 0.25
+x 90 110 30 1
+RASTERS
+succeeds gdal_translate -q -srcwin 60 60 200 180 "$dem" land.tif
+add land 200 180 8
+succeeds gdal_translate -q -srcwin 0 0 130 130 -ot Float32 -scale 0 1000 0 333.3 "$dem" odd.tif
+add odd 130 130 1.7
+succeeds node same.mjs cases
+[ "$(wc -l < "$logs/out")" = 21 ] || fail "not all cases were compared"
+
+succeeds node --expose-gc api.mjs
+
+# The guide's code, from top to bottom.
+python3 - "$SCARP_SOURCE/docs/guide/web.md" > guide.mjs << 'E2'
+import re, sys
+print("".join(re.findall(r"^```js\n(.*?)^```$", open(sys.argv[1], encoding="utf-8").read(), re.M | re.S)))
+E2
+succeeds node guide.mjs
+grep -q '^true true true$' "$logs/out" && grep -q '^true usage ' "$logs/out" && [ -s tile.glb ] || fail "the guide's code does not do what it says"
+
+# The same tiles as the program.
+succeeds gdal_translate -q -srcwin 0 0 150 150 -a_srs EPSG:4979 -a_ullr 9.9 10.2 10.025 10.075 "$dem" placed.tif
+succeeds gdal_translate -q -of ENVI -ot Float32 placed.tif placed.f32
+succeeds "$scarp" tile placed.tif set -q
+succeeds node tiles.mjs placed 150 150 9.9 10.075 10.025 10.2 set
+read -r tiles proven < "$logs/out"
+[ "$tiles" = "$(find set -name '*.terrain' | wc -l)" ] && holds "$proven > 4" || fail "not all tiles were compared"
+
+# GLBs, plain and compressed, as the program reads them.
+succeeds node glb.mjs land 200 180 8
+read -r plain lattice plain_bytes packed_bytes loose_bytes < "$logs/out"
+for file in plain:$plain packed:$lattice loose:$plain; do
+  succeeds "$scarp" measure land.tif "${file%:*}.glb" --crs grid --fail-above 8 --json
+  [ "$(json "$logs/out" triangles)" = "${file#*:}" ] || fail "${file%:*}.glb has other triangles: $(cat "$logs/out")"
+done
+holds "2 * $packed_bytes < $plain_bytes && $loose_bytes < $plain_bytes"
+
+# What follows needs packages of others.
+told= bundles=()
+npm_judges gltf-validator && succeeds node "$js/validate_glb.cjs" plain.glb packed.glb loose.glb
+if npm_judges typescript delatin @mapbox/martini @loaders.gl/terrain esbuild vite webpack; then
+  for installed in "$js"/node_modules/*; do [ -e "node_modules/$(basename "$installed")" ] || ln -s "$installed" node_modules/; done
+  succeeds node dropins.mjs
+  succeeds node node_modules/typescript/bin/tsc --noEmit --strict --module nodenext --target es2022 --lib es2022,dom --typeRoots none typed.mts
+  told=$(node app.mjs)
+  for bundler in esbuild inline vite webpack; do succeeds node bundle.mjs "$bundler"; done
+  bundles=(esbuild/index.html file:inline/index.html vite/vite.html webpack/index.html)
+fi
+if command -v chromium > /dev/null && npm_judges playwright-core; then
+  cp "$js/browser.mjs" open_page.mjs
+  [ -e node_modules/playwright-core ] || ln -s "$js/node_modules/playwright-core" node_modules/
+  succeeds node browser.mjs "$(command -v chromium)" "$told" "${bundles[@]}"
+  cat "$logs/out"
+else
+  echo "left out: Chromium"
+fi

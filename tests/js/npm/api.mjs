@@ -1,0 +1,260 @@
+// What the package promises, in Node.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import test from 'node:test';
+import * as scarp from 'scarp/full';
+import { ROUNDING, judgeMesh } from './judge.mjs';
+import { hills } from './rasters.mjs';
+
+const { ScarpError, Refiner, Tiler, createPool, decodeTile, encodeGlb, measure, ready, simplify, simplifyPoints,
+  simplifyPointsSync, simplifySync } = scarp;
+const [width, height] = [97, 83], z = hills(width, height);
+const refuses = (work, code, sentence) => assert.throws(work, error =>
+  error instanceof ScarpError && error.code === code && sentence.test(error.message) || assert.fail(`${error.code}: ${error.message}`));
+const rejects = (promise, code, sentence) => assert.rejects(promise, error =>
+  error instanceof ScarpError && error.code === code && sentence.test(error.message) || assert.fail(`${error.code}: ${error.message}`));
+
+test('before ready() a sentence says so', () => refuses(() => simplifySync(z, width, height, { maxError: 1 }), 'usage', /await ready/));
+
+test('ready() may be called twice, and the version is the library’s', async () => {
+  await Promise.all([ready(), ready()]);
+  assert.equal(scarp.version(), JSON.parse(fs.readFileSync('node_modules/scarp/package.json')).version);
+});
+
+test('no sample is farther away than the error that was asked for', () => {
+  for (const effort of ['fast', 'normal', 'high']) {
+    for (const maxError of [0, 0.5, 4, 30]) {
+      const mesh = simplifySync(z, width, height, { maxError, effort });
+      const { max, uncovered } = judgeMesh(z, width, height, mesh);
+      assert.equal(uncovered, 0);
+      assert.ok(max <= maxError + ROUNDING * 1000, `${effort}: ${max} of ${maxError}`);
+      assert.ok(Math.abs(max - mesh.maxError) <= 1e-9, `${effort}: judged ${max}, told ${mesh.maxError}`);
+    }
+  }
+});
+
+test('more effort takes fewer triangles', () => {
+  const [fast, normal, high] = ['fast', 'normal', 'high'].map(effort => simplifySync(z, width, height, { maxError: 4, effort }).triangleCount);
+  assert.ok(high < normal && normal < fast, `${fast} ${normal} ${high}`);
+});
+
+test('a budget is kept', () => {
+  const mesh = simplifySync(z, width, height, { maxTriangles: 500 });
+  assert.ok(mesh.triangleCount <= 500 && mesh.triangleCount > 400, `${mesh.triangleCount}`);
+  assert.equal(mesh.report.stop, 'maxTriangles');
+  const judged = judgeMesh(z, width, height, mesh);
+  assert.ok(Math.abs(judged.max - mesh.maxError) <= 1e-9);
+});
+
+test('measure() finds what simplifySync() told, and a vertex that was moved', () => {
+  const mesh = simplifySync(z, width, height, { maxError: 4 });
+  const report = measure(z, width, height, mesh);
+  assert.equal(report.maxError, mesh.maxError);
+  assert.equal(report.rmse, mesh.rmse);
+  assert.equal(report.isSound, true);
+  assert.equal(report.samples, width * height);
+  mesh.positions[2] += 1000;
+  assert.ok(measure(z, width, height, mesh).maxError > 900);
+});
+
+test('arrays of every kind give the same mesh', () => {
+  const whole = Int16Array.from(z);
+  const counts = [whole, Float32Array.from(whole), Float64Array.from(whole), Array.from(whole), Uint16Array.from(whole)].map(
+    heights => [...simplifySync(heights, width, height, { maxError: 4 }).positions].join());
+  assert.equal(new Set(counts).size, 1);
+});
+
+test('the promise is about float64 values as they are given', () => {
+  const exact = Float64Array.from(z, value => value + 1e5 + 1 / 3);
+  const mesh = simplifySync(exact, width, height, { maxError: 0.05 });
+  assert.ok(judgeMesh(exact, width, height, mesh).max <= 0.05 + ROUNDING * 1e5);
+});
+
+test('NaN and nodata are no heights, and are not covered', () => {
+  const holes = Float32Array.from(z), marked = Float32Array.from(z);
+  for (let k = 30; k < 50; ++k) {
+    holes.fill(NaN, k * width + 20, k * width + 40);
+    marked.fill(-9999, k * width + 20, k * width + 40);
+  }
+  const [a, b] = [simplifySync(holes, width, height, { maxError: 4 }), simplifySync(marked, width, height, { maxError: 4, nodata: -9999 })];
+  assert.deepEqual(a.positions, b.positions);
+  assert.ok(judgeMesh(holes, width, height, a).max <= 4 + ROUNDING * 1000);
+  assert.equal(measure(holes, width, height, a).samples, width * height - 400);
+});
+
+test('weights and tolerances bind each sample', () => {
+  const tolerance = Float32Array.from(z, (_, k) => (k % width < 50 ? 0.5 : 20));
+  const mesh = simplifySync(z, width, height, { tolerance });
+  assert.ok(judgeMesh(z.map((value, k) => (k % width < 50 ? value : NaN)), width, height, mesh).max <= 0.5 + ROUNDING * 1000);
+  const mask = Float32Array.from(z, (_, k) => (k % width < 50 ? 1 : 0.1));
+  const weighted = simplifySync(z, width, height, { maxError: 1, mask });
+  assert.ok(judgeMesh(z.map((value, k) => (k % width < 50 ? value : NaN)), width, height, weighted).max <= 1 + ROUNDING * 1000);
+  assert.ok(weighted.triangleCount < simplifySync(z, width, height, { maxError: 1 }).triangleCount);
+});
+
+test('a transform places the mesh, and degrees become metres', () => {
+  const placed = simplifySync(z, width, height, { maxError: 4, transform: [500000, 30, 0, 4000000, 0, -30] });
+  const [x, y] = [0, 1].map(axis => {
+    const values = Array.from(placed.positions).filter((_, k) => k % 3 === axis).map(value => value + placed.origin[axis]);
+    return [values.reduce((a, b) => Math.min(a, b)), values.reduce((a, b) => Math.max(a, b))];
+  });
+  assert.deepEqual(x, [500015, 500015 + 30 * (width - 1)]);
+  assert.deepEqual(y, [4000000 - 15 - 30 * (height - 1), 4000000 - 15]);
+  const local = simplifySync(z, width, height, { maxError: 4, transform: [8, 1 / 1200, 0, 46, 0, -1 / 1200], degrees: true });
+  const widest = Math.max(...local.positions.filter((_, k) => k % 3 === 0)) - Math.min(...local.positions.filter((_, k) => k % 3 === 0));
+  assert.ok(Math.abs(widest / ((width - 1) / 1200 * 111320 * Math.cos(46 * Math.PI / 180)) - 1) < 0.01, `${widest}`);
+});
+
+test('normals point up, and texture coordinates run over the raster', () => {
+  const { normals, uvs, vertexCount } = simplifySync(z, width, height, { maxError: 4, normals: true, uvs: true });
+  assert.equal(normals.length, 3 * vertexCount);
+  assert.ok(normals.every((value, k) => k % 3 < 2 || value > 0));
+  assert.ok(uvs.every(value => value >= 0 && value <= 1));
+});
+
+test('progress is told, and false cancels', () => {
+  const large = hills(400, 300), told = [];
+  simplifySync(large, 400, 300, { maxError: 1, effort: 'high', onProgress: progress => { told.push(progress); } });
+  assert.ok(told.length > 0 && told.every(({ pass, fraction }) => pass.length > 0 && fraction >= 0 && fraction <= 1));
+  refuses(() => simplifySync(large, 400, 300, { maxError: 0.1, effort: 'high', onProgress: () => false }), 'cancelled', /cancel/);
+  assert.throws(() => simplifySync(large, 400, 300, { maxError: 0.1, effort: 'high', onProgress: () => { throw new Error('mine'); } }), /mine/);
+  assert.ok(simplifySync(large, 400, 300, { maxError: 30 }).triangleCount > 0);
+});
+
+test('a Refiner inserts the worst sample first, as the greedy order does', () => {
+  const refiner = new Refiner(z, width, height);
+  const first = refiner.maxError;
+  assert.equal(refiner.insertWorst(), true);
+  const inserted = refiner.run({ maxError: 4 });
+  assert.ok(inserted > 10 && refiner.maxError <= 4 && first > 4);
+  const mesh = refiner.mesh();
+  assert.equal(mesh.vertexCount, refiner.vertexCount);
+  assert.equal(mesh.triangleCount, refiner.triangleCount);
+  assert.ok(Math.abs(judgeMesh(z, width, height, mesh).max - refiner.maxError) <= 1e-9);
+  assert.equal(mesh.triangleCount, simplifySync(z, width, height, { maxError: 4, order: 'greedy', effort: 'fast' }).triangleCount);
+  refiner.run({ maxVertices: mesh.vertexCount + 5 });
+  assert.equal(refiner.vertexCount, mesh.vertexCount + 5);
+  refiner.run();
+  assert.equal(refiner.maxError, 0);
+  assert.equal(refiner.insertWorst(), false);
+  refiner.free();
+  refiner.free();
+  refuses(() => refiner.maxError, 'usage', /freed/);
+});
+
+test('scattered points are kept within the error', () => {
+  const points = [];
+  for (let k = 0; k < z.length; k += 3) points.push((k % width) + (k % 7) / 10, Math.floor(k / width) + (k % 5) / 10, z[k]);
+  const mesh = simplifyPointsSync(Float64Array.from(points), { maxError: 6 });
+  assert.ok(mesh.maxError <= 6 && mesh.report.uncovered === 0 && mesh.triangleCount < points.length / 3);
+  refuses(() => simplifyPointsSync([0, 0, 0, 1, 1, 1], { maxError: 1 }), 'input', /./);
+  refuses(() => simplifyPointsSync([0, 0], { maxError: 1 }), 'usage', /x, y, z/);
+});
+
+test('pixels of tiles become heights', () => {
+  const pixel = (...bytes) => Uint8ClampedArray.from(bytes);
+  assert.deepEqual([...decodeTile(pixel(128, 10, 128, 255), 1, 1)], [10.5]);
+  assert.ok(Math.abs(decodeTile(pixel(1, 134, 160, 255), 1, 1, 'mapbox')[0] - 0) < 1e-3);
+  assert.deepEqual([...decodeTile(pixel(7, 2, 1, 255), 1, 1, { rScaler: 1, gScaler: 10, bScaler: 100, offset: -5 })], [122]);
+  assert.ok(Number.isNaN(decodeTile(pixel(7, 2, 1, 0), 1, 1)[0]));
+  refuses(() => decodeTile(pixel(1, 2, 3, 4), 2, 1), 'usage', /8 bytes/);
+  refuses(() => decodeTile(pixel(1, 2, 3, 4), 1, 1, 'mapzen'), 'usage', /terrarium/);
+});
+
+test('a pool simplifies as the thread itself, in any order', async () => {
+  const pool = createPool({ size: 2 });
+  const errors = [1, 8, 2, 16, 4];
+  const meshes = await Promise.all(errors.map(maxError => pool.simplify(z, width, height, { maxError })));
+  errors.forEach((maxError, k) => {
+    const mine = simplifySync(z, width, height, { maxError });
+    assert.deepEqual(meshes[k].positions, mine.positions);
+    assert.deepEqual(meshes[k].indices, mine.indices);
+    assert.equal(meshes[k].triangleCount, mine.triangleCount);
+  });
+  const told = [];
+  const large = hills(400, 300);
+  await pool.simplify(large, 400, 300, { maxError: 1, effort: 'high', onProgress: progress => { told.push(progress.pass); } });
+  assert.ok(told.length > 0);
+  const kept = z.slice();
+  assert.ok((await pool.simplify(kept, width, height, { maxError: 4, transfer: true })).triangleCount > 0);
+  assert.equal(kept.length, 0);
+  await rejects(pool.simplify(kept, width, height, { maxError: 4 }), 'usage', /detached/);
+  await rejects(pool.simplify(z.fill(NaN, 0, 0), width, height, {}), 'usage', /goal/);
+  pool.terminate();
+  await rejects(pool.simplify(z, width, height, { maxError: 4 }), 'usage', /terminated/);
+});
+
+test('a signal cancels what runs, what waits and what has not begun', async () => {
+  const pool = createPool({ size: 1 });
+  await pool.simplify(z, width, height, { maxError: 4 });
+  const large = hills(1200, 900), work = signal => pool.simplify(large, 1200, 900, { maxError: 0.01, effort: 'max', signal });
+  const [runs, waits] = [new AbortController(), new AbortController()];
+  const running = work(runs.signal), waiting = work(waits.signal);
+  setTimeout(() => { waits.abort(); runs.abort('enough'); }, 200);
+  await rejects(waiting, 'cancelled', /cancelled/);
+  await rejects(running, 'cancelled', /cancelled/);
+  await rejects(work(AbortSignal.abort()), 'cancelled', /before it began/);
+  refuses(() => simplifySync(z, width, height, { maxError: 1, signal: AbortSignal.abort() }), 'cancelled', /before it began/);
+  assert.ok((await pool.simplify(z, width, height, { maxError: 4 })).triangleCount > 0, 'the pool goes on');
+  pool.terminate();
+});
+
+test('a pool that is terminated rejects what it had', async () => {
+  const pool = createPool({ size: 1 });
+  const had = pool.simplify(hills(400, 300), 400, 300, { maxError: 0.01, effort: 'high' });
+  setTimeout(() => pool.terminate(), 100);
+  await rejects(had, 'cancelled', /terminated/);
+});
+
+test('simplify() needs neither ready() nor a pool', async () => {
+  assert.ok((await simplify(z, width, height, { maxError: 4 })).triangleCount > 0);
+  assert.ok((await simplifyPoints([0, 0, 1, 9, 0, 2, 0, 9, 3, 9, 9, 4, 5, 5, 60], { maxError: 1 })).triangleCount === 4);
+});
+
+test('bad input gets a sentence that names it', () => {
+  const cases = [
+    [() => simplifySync(z, width, height + 1, { maxError: 1 }), 'usage', /8051 values, and a raster of 97 x 84 has 8148/],
+    [() => simplifySync(z, 1, z.length, { maxError: 1 }), 'usage', /width is 1/],
+    [() => simplifySync(z, 97.5, height, { maxError: 1 }), 'usage', /width is 97.5/],
+    [() => simplifySync(null, width, height, { maxError: 1 }), 'usage', /no array/],
+    [() => simplifySync('heights', width, height, { maxError: 1 }), 'usage', /no array/],
+    [() => simplifySync(new DataView(z.buffer), width, height, { maxError: 1 }), 'usage', /no array/],
+    [() => simplifySync(new Float32Array(9).fill(NaN), 3, 3, { maxError: 1 }), 'input', /./],
+    [() => simplifySync(z, width, height, {}), 'usage', /goal/],
+    [() => simplifySync(z, width, height, { maxError: -1 }), 'usage', /maxError is -1/],
+    [() => simplifySync(z, width, height, { maxError: NaN }), 'usage', /maxError is NaN/],
+    [() => simplifySync(z, width, height, { maxTriangles: 1.5 }), 'usage', /maxTriangles is 1.5/],
+    [() => simplifySync(z, width, height, { maxTriangles: 1 }), 'usage', /./],
+    [() => simplifySync(z, width, height, { maxEror: 1 }), 'usage', /maxEror is unknown/],
+    [() => simplifySync(z, width, height, { maxError: 1, effort: 'best' }), 'usage', /best.*normal/],
+    [() => simplifySync(z, width, height, { maxError: 1, mask: [1] }), 'usage', /mask has 1 values/],
+    [() => simplifySync(z, width, height, { maxError: 1, transform: [1, 2] }), 'usage', /transform/],
+    [() => simplifySync(z, width, height, { maxError: 1, transform: [0, 0, 0, 0, 0, 0] }), 'usage', /line/],
+    [() => simplifySync(z, width, height, { maxError: 1, degrees: true }), 'usage', /transform/],
+    [() => measure(z, width, height, {}), 'usage', /positions/],
+    [() => measure(z, width, height, { positions: [0, 0, 0], indices: [0, 1, 2] }), 'input', /./],
+    [() => new Refiner(z, 5, 5), 'usage', /25/],
+    [() => encodeGlb({}), 'usage', /positions/],
+    [() => new Tiler(z, width, height, { bounds: [0, 0, 0, 0] }), 'usage', /bounds/],
+    [() => createPool({ size: 0 }), 'usage', /size is 0/],
+  ];
+  for (const [work, code, sentence] of cases) refuses(work, code, sentence);
+});
+
+test('what ran before leaves no memory behind', () => {
+  const run = () => {
+    for (let k = 0; k < 60; ++k) simplifySync(z, width, height, { maxError: 1, normals: true });
+    for (let k = 0; k < 20; ++k) {
+      const refiner = new Refiner(z, width, height);
+      refiner.run({ maxError: 1 });
+      refiner.mesh();
+      refiner.free();
+    }
+    for (let k = 0; k < 20; ++k) assert.throws(() => simplifySync(z, width, height, {}));
+  };
+  run();
+  const before = process.memoryUsage().external;
+  run();
+  globalThis.gc?.();
+  assert.ok(process.memoryUsage().external - before < 2 ** 23, `${process.memoryUsage().external - before}`);
+});

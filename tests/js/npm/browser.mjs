@@ -1,0 +1,41 @@
+// The package in Chromium: browser.mjs CHROMIUM [BUNDLE=TOLD...]. A plain module makes the meshes of Node; each BUNDLE, a page
+// in this folder or beside it, tells TOLD.
+import { pathToFileURL } from 'node:url';
+import { open_page } from './open_page.mjs';
+import { serve } from './serve.mjs';
+
+const [program, told, ...bundles] = process.argv.slice(2);
+const server = await serve(process.cwd());
+const { browser, page, errors } = await open_page(server.address, { width: 400, height: 300 }, program);
+const visit = async address => {
+  await page.goto(address);
+  await page.waitForFunction(() => window.told !== undefined);
+  return page.evaluate(() => window.told);
+};
+const fail = message => {
+  console.error(`FAILED: ${message}`);
+  process.exitCode = 1;
+};
+try {
+  for (const where of ['', '/isolated']) {
+    const answer = await visit(`${server.address}${where}/page.html`);
+    console.log(where || '/', JSON.stringify(answer));
+    if (answer.failed || answer.wrong.length > 0 || answer.cancelled !== 'cancelled' || !(answer.after > 0)) fail(JSON.stringify(answer));
+    if (answer.isolated !== (where === '/isolated')) fail('the headers were not obeyed');
+  }
+  if (errors.length > 0) fail(errors.join('\n'));
+  const strict = await visit(`${server.address}/strict/page.html`);
+  console.log('/strict', JSON.stringify(strict));
+  if (strict.refused !== 'unsupported' || !/wasm-unsafe-eval/.test(strict.message)) fail('a refusal of WebAssembly has no sentence');
+  errors.length = 0;
+  for (const bundle of bundles) {
+    const address = bundle.startsWith('file:') ? pathToFileURL(bundle.slice(5)).href : `${server.address}/${bundle}`;
+    const answer = await visit(address);
+    console.log(bundle, answer);
+    if (answer !== told) fail(`${bundle} tells ${answer}, and Node ${told}`);
+    if (errors.length > 0) fail(`${bundle}: ${errors.splice(0).join('\n')}`);
+  }
+} finally {
+  await browser.close();
+  server.close();
+}

@@ -1,0 +1,37 @@
+// Packs app.mjs as the guides of the bundlers say: bundle.mjs NAME, into the folder NAME.
+import fs from 'node:fs';
+
+const [name] = process.argv.slice(2);
+const page = script => `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><title>${name}</title><script type="module" src="${script}"></script>\n`;
+fs.mkdirSync(name, { recursive: true });
+switch (name) {
+  case 'esbuild': {  // leaves new URL() as it is: the module and the worker go beside the script
+    const { build } = await import('esbuild');
+    await build({ entryPoints: ['app.mjs', 'node_modules/scarp/worker.js'], entryNames: '[name]', bundle: true, format: 'esm', minify: true, outdir: name });
+    fs.copyFileSync('node_modules/scarp/scarp.wasm', `${name}/scarp.wasm`);
+    fs.writeFileSync(`${name}/index.html`, page('app.js'));
+    break;
+  }
+  case 'inline': {  // one page that opens from a file
+    const { build } = await import('esbuild');
+    const { outputFiles: [script] } = await build({ entryPoints: ['app.mjs'], bundle: true, format: 'esm', minify: true, write: false,
+      alias: { scarp: 'scarp/inline' } });
+    fs.writeFileSync(`${name}/index.html`, `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><title>inline</title><script type="module">${script.text.replaceAll('</script', '<\\/script')}</script>\n`);
+    break;
+  }
+  case 'vite': {
+    const { build } = await import('vite');
+    fs.writeFileSync('vite.html', page('/app.mjs'));
+    await build({ root: process.cwd(), base: './', logLevel: 'warn', configFile: false, build: { outDir: name, emptyOutDir: true,
+      target: 'es2022', rollupOptions: { input: 'vite.html' } } });
+    break;
+  }
+  case 'webpack': {
+    const { default: webpack } = await import('webpack');
+    const stats = await new Promise((resolve, reject) => webpack({ mode: 'production', context: process.cwd(), entry: './app.mjs', performance: false,
+      output: { path: `${process.cwd()}/webpack`, filename: 'app.js' } }, (error, done) => (error ? reject(error) : resolve(done))));
+    if (stats.hasErrors() || stats.hasWarnings()) throw new Error(stats.toString());
+    fs.writeFileSync(`${name}/index.html`, page('app.js'));
+    break;
+  }
+}

@@ -1,0 +1,13 @@
+// Writes GLBs for readers of others: glb.mjs NAME WIDTH HEIGHT ERROR. Prints triangles, and the bytes of each.
+import fs from 'node:fs';
+import { encodeGlb, measure, ready, simplifySync } from 'scarp';
+
+const [name, ...words] = process.argv.slice(2), [width, height, maxError] = words.map(Number);
+await ready();
+const z = new Float32Array(new Uint8Array(fs.readFileSync(`${name}.f32`)).buffer);
+const options = { maxError, normals: true, uvs: true, effort: 'high' };
+const [plain, lattice] = [simplifySync(z, width, height, options), simplifySync(z, width, height, { ...options, lattice: true })];
+if (measure(z, width, height, lattice).maxError > maxError) throw new Error('the lattice breaks the bound');
+const files = { 'plain.glb': encodeGlb(plain), 'packed.glb': encodeGlb(lattice, { compress: true }), 'loose.glb': encodeGlb(plain, { compress: true }) };
+for (const [file, bytes] of Object.entries(files)) fs.writeFileSync(file, bytes);
+console.log(plain.triangleCount, lattice.triangleCount, ...Object.values(files).map(bytes => bytes.length));

@@ -1,0 +1,28 @@
+// What a page of the browser test does: the cases of same.mjs here, cancelled work, and refusals.
+import { createPool, ready, simplifySync } from './node_modules/scarp/index.js';
+import { hashOf } from './canonical.mjs';
+import { hills } from './rasters.mjs';
+
+async function run() {
+  try {
+    await ready();
+  } catch (error) {
+    return { refused: error.code, message: error.message };
+  }
+  const wrong = [];
+  const cases = await (await fetch('cases.json')).json();
+  for (const { name, width, height, error, effort, hash } of cases) {
+    const z = new Float32Array(await (await fetch(`${name}.f32`)).arrayBuffer());
+    const mine = await hashOf(simplifySync(z, width, height, { maxError: error, effort }));
+    if (mine !== hash) wrong.push(`${name} ${effort}: ${mine}, in Node ${hash}`);
+  }
+  const pool = createPool({ size: 1 }), controller = new AbortController();
+  const work = pool.simplify(hills(900, 700), 900, 700, { maxError: 0.01, effort: 'max', signal: controller.signal });
+  setTimeout(() => controller.abort(), 300);
+  const cancelled = await work.then(() => 'not cancelled', error => error.code);
+  const after = (await pool.simplify(hills(50, 50), 50, 50, { maxError: 1 })).triangleCount;
+  pool.terminate();
+  return { cases: cases.length, wrong, cancelled, after, isolated: crossOriginIsolated };
+}
+
+window.told = run().catch(error => ({ failed: `${error.code}: ${error.message}` }));

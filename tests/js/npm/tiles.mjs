@@ -1,0 +1,56 @@
+// The program's tiles, but for the order of their triangles: tiles.mjs NAME WIDTH HEIGHT WEST SOUTH EAST NORTH FOLDER
+//
+// Prints how many were compared, and how many of them tell their error.
+import fs from 'node:fs';
+import zlib from 'node:zlib';
+import { Tiler, ready } from 'scarp/full';
+
+/// The header, and the triangles of quantized-mesh with the normals of their corners, as one text.
+function canonical(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength), count = view.getUint32(88, true);
+  const list = (at, length) => Array.from({ length }, (_, k) => view.getUint16(at + 2 * k, true));
+  const [u, v, h] = [0, 1, 2].map(k => {
+    let value = 0;
+    return list(92 + 2 * count * k, count).map(code => (value += (code >> 1) ^ -(code & 1)));
+  });
+  let at = 92 + 6 * count, highest = 0;
+  const triangles = view.getUint32(at, true);
+  const corners = list(at + 4, 3 * triangles).map(code => {
+    if (code === 0) ++highest;
+    return highest - code - (code === 0 ? 1 : 0);
+  });
+  at += 4 + 6 * triangles;
+  const edges = [0, 1, 2, 3].map(() => {
+    const length = view.getUint32(at, true), edge = list(at + 4, length);
+    at += 4 + 2 * length;
+    return edge;
+  });
+  const normals = bytes.subarray(at + 5, at + 5 + 2 * count);
+  const vertex = k => [u[k], v[k], h[k], normals[2 * k], normals[2 * k + 1]].join();
+  const turned = Array.from({ length: triangles }, (_, t) => {
+    const three = [0, 1, 2].map(k => vertex(corners[3 * t + k])), first = three.indexOf(three.toSorted()[0]);
+    return [0, 1, 2].map(k => three[(first + k) % 3]).join(' ');
+  });
+  return [Buffer.from(bytes.subarray(0, 92)).toString('hex'), ...turned.sort(), ...edges.map(edge => edge.map(vertex).sort().join(' '))].join('\n');
+}
+
+const [name, ...words] = process.argv.slice(2), [width, height, west, south, east, north] = words.map(Number), folder = words.at(-1);
+await ready();
+const z = new Float32Array(new Uint8Array(fs.readFileSync(`${name}.f32`)).buffer);
+const tiler = new Tiler(z, width, height, { bounds: [west, south, east, north] });
+let tiles = 0, proven = 0;
+for (let level = 0; level <= tiler.maxZoom; ++level) {
+  const listed = tiler.list(level).map(pair => pair.join('/')).sort();
+  const kept = fs.readdirSync(`${folder}/${level}`).flatMap(x => fs.readdirSync(`${folder}/${level}/${x}`).map(file => `${x}/${file.split('.')[0]}`)).sort();
+  if (listed.join() !== kept.join()) throw new Error(`level ${level}: ${listed} here, and ${kept} there`);
+  for (const place of listed) {
+    const tile = tiler.tile(level, ...place.split('/').map(Number));
+    const theirs = zlib.gunzipSync(fs.readFileSync(`${folder}/${level}/${place}.terrain`));
+    if (canonical(theirs) !== canonical(tile.bytes)) throw new Error(`tile ${level}/${place} is not the program's`);
+    ++tiles;
+    if (tile.nodeError >= 0) ++proven;
+  }
+}
+if (fs.existsSync(`${folder}/${tiler.maxZoom + 1}`)) throw new Error('the program has more levels');
+tiler.free();
+console.log(tiles, proven);

@@ -1,0 +1,10 @@
+#!/bin/bash
+# Builds and packs the npm package: tools/build_npm.sh BUILD DIST. BUILD is the folder for Emscripten. Prints the file's path.
+#
+# Environment: JOBS (cores).
+set -euo pipefail
+build=$1 dist=$2
+root=$(cd "$(dirname "$0")/.." && pwd)
+"$root/tools/configure_wasm.sh" "$build" >&2
+cmake --build "$build" -j "${JOBS:-$(nproc 2>/dev/null || echo 2)}" --target scarp_npm >&2
+node "$root/bindings/wasm/pack.mjs" "$build" "$dist"
