@@ -9,7 +9,7 @@ root = pathlib.Path(__file__).resolve().parent.parent
 package = root / "bindings" / "python" / "src" / "scarp"
 # What users name, by the module that it stands in.
 PUBLIC = [("__init__", ["simplify", "simplify_points", "measure"]), ("mesh", ["read_mesh", "Mesh", "Report"]),
-          ("refiner", ["Refiner"]), ("tiles", ["Tiles"]), ("_call", ["Progress"]),
+          ("refiner", ["Refiner"]), ("tiles", ["tile", "Tiles"]), ("_call", ["Progress"]),
           ("errors", ["ScarpError", "UsageError", "InputError", "PromiseError", "OutputError", "Cancelled",
                       "InternalError", "ScarpWarning"]),
           ("compat/pydelatin", ["Delatin"])]

@@ -214,6 +214,15 @@ scarp_status scarp_raster_read(const char* path, const scarp_options* options, s
 void scarp_raster_field(const scarp_raster* raster, scarp_field* field);
 void scarp_raster_free(scarp_raster* raster);
 
+/* All tiles of a raster, by the options of `scarp tile` ("zoom", "vertical", "max_error", "of", "only" ...): into a folder,
+ * or into one file if `output` ends in .pmtiles, .mbtiles or .3tz. The set takes its name at the end; a call that fails
+ * leaves nothing. `overwrite`, other than 0: a set that Scarp has made is replaced. `out`, if not NULL: the report of the
+ * set, as JSON. Needs GDAL. */
+scarp_status scarp_tile(const scarp_field* field, const scarp_options* options, const char* output, int32_t overwrite,
+                        scarp_bytes** out);
+/* The same of files: at each place the first that has a height there counts. */
+scarp_status scarp_tile_files(const char* const* paths, uint64_t count, const scarp_options* options,
+                              const char* output, int32_t overwrite, scarp_bytes** out);
 /* Tiles of quantized-mesh, by the options of `scarp tile` ("zoom", "vertical", "effort" ...). Needs GDAL. */
 scarp_status scarp_tiles_open(const char* path, const scarp_options* options, scarp_tiles** out);
 scarp_status scarp_tiles_open_field(const scarp_field* field, const scarp_options* options, scarp_tiles** out);

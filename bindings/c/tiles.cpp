@@ -1,15 +1,17 @@
-// Tiles that are made as they are asked for, by the program's own plans.
+// Tiles, all at once or made as they are asked for, by the program's own plans.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
 
+#include "commands/tile_work.h"
 #include "door.h"
 #include "inputs.h"
 #include "mesh.h"
 #include "options/option_table.h"
-#include "options/tile_options.h"
+#include "reports/report.h"
+#include "reports/tile_report.h"
 #include "scarp/live_tiles.h"
 #include "settings.h"
 
@@ -37,32 +39,64 @@ std::vector<std::vector<std::uint32_t>> list_tiles(const LiveTileSet& set) {
   return lists;
 }
 
-scarp_status open_tiles(const std::string& input, const scarp_options& asked, scarp_tiles** out) {
+/// The command's options, as a run of the program would hold them.
+struct TileWords {
   CLI::App program;
-  CLI::App* const command = cli::add_command(program, cli::kTile);
+  CLI::App* command = cli::add_command(program, cli::kTile);
   cli::TileArguments given;
-  std::string output, threads;
-  cli::add_arguments(*command, cli::OptionId::kInput, given.raster.paths, cli::OptionId::kOutput, output);
-  given.add_to(*command);
-  cli::Given count;
-  cli::add_option(*command, cli::OptionId::kThreads, count);
-  if (auto parsed = parse_words(program, cli::kTile, {"tile", input, "-"}, asked); !parsed)
-    return report(parsed.error());
-  if (given.format && *given.format != "qm")
-    return report(ErrorKind::kUsage, "tiles that are made as they are asked for are quantized-mesh: leave of out");
-  const ProgressCallback progress = progress_of(asked);
-  auto opened = given.open(progress);
-  if (!opened) return report(opened.error());
+  std::string output;
+  cli::Given threads;
   Run run;
-  run.threads = asked.threads;
-  run.progress = progress;
-  auto set = LiveTileSet::open(opened->job, opened->raster->nodes(), kCacheBytes, run);
+
+  TileWords() {
+    cli::add_arguments(*command, cli::OptionId::kInput, given.raster.paths, cli::OptionId::kOutput, output);
+    given.add_to(*command);
+    cli::add_option(*command, cli::OptionId::kThreads, threads);
+  }
+  Result<void> parse(const std::vector<std::string>& inputs, const std::string& to, const scarp_options& asked) {
+    std::vector<std::string> words{"tile"};
+    words.insert(words.end(), inputs.begin(), inputs.end());
+    words.push_back(to);
+    if (auto parsed = parse_words(program, cli::kTile, std::move(words), asked); !parsed) return parsed;
+    const Result<int> count = cli::parse_threads(threads);
+    if (!count) return tl::unexpected(count.error());
+    run.threads = *count;
+    run.progress = progress_of(asked);
+    return {};
+  }
+};
+
+scarp_status open_tiles(const std::string& input, const scarp_options& asked, scarp_tiles** out) {
+  TileWords words;
+  if (auto parsed = words.parse({input}, "-", asked); !parsed) return report(parsed.error());
+  if (words.given.format && *words.given.format != "qm")
+    return report(ErrorKind::kUsage, "tiles that are made as they are asked for are quantized-mesh: leave of out");
+  auto opened = words.given.open(words.run.progress);
+  if (!opened) return report(opened.error());
+  auto set = LiveTileSet::open(opened->job, opened->raster->nodes(), kCacheBytes, words.run);
   if (!set) return report(set.error());
   auto tiles = std::make_unique<scarp_tiles>();
   tiles->opened = std::move(*opened);
   tiles->set = std::move(*set);
   tiles->lists = list_tiles(*tiles->set);
   *out = tiles.release();
+  return SCARP_OK;
+}
+
+scarp_status make_all_tiles(const std::vector<std::string>& inputs, const scarp_options& asked, const char* output,
+                            bool overwrite, scarp_bytes** out) {
+  if (output == nullptr || *output == '\0') return report(ErrorKind::kUsage, "the output's path is empty");
+  TileWords words;
+  if (auto parsed = words.parse(inputs, output, asked); !parsed) return report(parsed.error());
+  cli::TileCounts counts;
+  const auto made = cli::make_tiles(words.given, output, overwrite, words.run, counts);
+  if (!made) return report(made.error());
+  if (out == nullptr) return SCARP_OK;
+  cli::Json json{{"input", inputs}};
+  cli::add_tiles(json, made->opened.job, output, made->report);
+  json["warnings"] = made->warnings;
+  const std::string text = cli::to_text(json);
+  *out = new scarp_bytes{{text.begin(), text.end()}};
   return SCARP_OK;
 }
 
@@ -91,6 +125,31 @@ scarp_status scarp_tiles_open_field(const scarp_field* field, const scarp_option
     const LentInputs inputs(field, asked);
     if (auto checked = inputs.check(); !checked) return report(checked.error());
     return open_tiles(inputs.name(), asked, out);
+  });
+}
+
+scarp_status scarp_tile(const scarp_field* field, const scarp_options* options, const char* output, int32_t overwrite,
+                        scarp_bytes** out) {
+  return guarded([&]() -> scarp_status {
+    if (out != nullptr) *out = nullptr;
+    const scarp_options asked = known(options, scarp_options_init);
+    const LentInputs inputs(field, asked);
+    if (auto checked = inputs.check(); !checked) return report(checked.error());
+    return make_all_tiles({inputs.name()}, asked, output, overwrite != 0, out);
+  });
+}
+
+scarp_status scarp_tile_files(const char* const* paths, uint64_t count, const scarp_options* options,
+                              const char* output, int32_t overwrite, scarp_bytes** out) {
+  return guarded([&]() -> scarp_status {
+    if (out != nullptr) *out = nullptr;
+    if (paths == nullptr || count == 0) return report(ErrorKind::kUsage, "no path of a raster is given");
+    std::vector<std::string> inputs;
+    for (uint64_t k = 0; k < count; ++k) {
+      if (paths[k] == nullptr || *paths[k] == '\0') return report(ErrorKind::kUsage, "a path is empty");
+      inputs.emplace_back(paths[k]);
+    }
+    return make_all_tiles(inputs, known(options, scarp_options_init), output, overwrite != 0, out);
   });
 }
 

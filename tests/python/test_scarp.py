@@ -145,6 +145,8 @@ class Library(unittest.TestCase):
 
         if not os.path.exists("/proc/self/statm"):
             self.skipTest("needs /proc")
+        if "asan" in os.environ.get("LD_PRELOAD", ""):
+            self.skipTest("needs memory that no sanitizer keeps")
         for _ in range(300):
             scarp.simplify(z, 8, effort="fast").triangles
         gc.collect()
@@ -485,6 +487,13 @@ class Arrays(unittest.TestCase):
         with self.assertRaises(scarp.UsageError):
             scarp.simplify(grid.expand_dims(time=3), 2)
 
+    @need("tqdm")
+    def test_progress_is_a_bar_of_tqdm(self):
+        script = "import scarp, test_scarp; scarp.simplify(test_scarp.hills(500, 500), 0.5, effort='high', progress=True)"
+        done = subprocess.run([sys.executable, "-c", script], stderr=subprocess.PIPE, check=True,
+                              cwd=os.path.dirname(os.path.abspath(__file__)))
+        self.assertRegex(done.stderr, rb"refine: +\d+%\|")
+
 
 @unittest.skipIf(np is None or not DEM, "needs numpy, and a raster in SCARP_DEM")
 class Files(unittest.TestCase):
@@ -503,6 +512,18 @@ class Files(unittest.TestCase):
         with self.assertRaises(scarp.InputError):
             scarp.simplify(dataset, 5)
         self.assertTrue(is_same(mesh, scarp.simplify(DEM, 5)))
+
+    @need("rioxarray", "rasterio")
+    def test_rioxarray_tells_the_place_the_crs_and_the_voids(self):
+        import rasterio
+        import rioxarray
+        with rasterio.open(DEM) as dataset, rioxarray.open_rasterio(DEM) as grid:
+            expected = scarp.simplify(dataset, 5)
+            mesh = scarp.simplify(grid, 5)
+            self.assertTrue(is_same(mesh, expected) and mesh.origin == expected.origin and mesh.crs == expected.crs)
+            void = int(grid.values.max())
+            self.assertEqual(scarp.simplify(grid.rio.write_nodata(void), 5).report.samples,
+                             int((grid.values != void).sum()))
 
     def test_a_path_is_read_by_something(self):
         def can_read():
@@ -577,6 +598,56 @@ class Files(unittest.TestCase):
         self.assertIn(b"quantized-mesh", tiles.layer_json())
         with self.assertRaises(scarp.InputError):
             tiles.read(11, 0, 0)
+
+    @unittest.skipUnless(PROGRAM and scarp.has_gdal, "needs SCARP_PROGRAM and a library with GDAL")
+    @need("rasterio")
+    def test_whole_sets_of_tiles_are_the_program_s_to_the_byte(self):
+        import rasterio
+
+        def files_of(folder):
+            found = {}
+            for place, _, names in os.walk(folder):
+                for name in names:
+                    with open(os.path.join(place, name), "rb") as file:
+                        found[os.path.relpath(os.path.join(place, name), folder)] = file.read()
+            return found
+
+        with rasterio.open(DEM) as dataset:
+            z, transform, crs = dataset.read(1), dataset.transform, dataset.crs
+        with tempfile.TemporaryDirectory() as folder:
+            expected, made, packed = (os.path.join(folder, name) for name in ("program", "made", "one.pmtiles"))
+            subprocess.run([PROGRAM, "tile", DEM, expected, "--vertical", "egm96", "--zoom", "9", "-q"], check=True)
+            told = []
+            report = scarp.tile(DEM, made, vertical="egm96", zoom=9, progress=told.append)
+            self.assertEqual(files_of(made), files_of(expected))
+            self.assertEqual((report["max_zoom"], len(report["levels"])), (9, 10))
+            self.assertEqual(sum(level["tiles"] for level in report["levels"]),
+                             sum(name.endswith(".terrain") for name in files_of(made)))
+            self.assertIn("tiles", {step.name for step in told})
+            scarp.tile([DEM, DEM], packed, vertical="egm96", zoom=9, threads=1)
+            with self.assertRaises(scarp.OutputError):
+                scarp.tile(DEM, packed, vertical="egm96", zoom=9)
+            scarp.tile(DEM, packed, vertical="egm96", zoom=8, of="3dtiles", overwrite=True)
+            tiles = {name: data for name, data in files_of(made).items() if name.endswith(".terrain")}
+            scarp.tile(z, made, transform=transform, crs=crs, vertical="egm96", zoom=9, overwrite=True)
+            self.assertEqual({name: files_of(made)[name] for name in tiles}, tiles)
+
+            class Own(Exception):
+                pass
+
+            def bad(_):
+                raise Own
+            never = os.path.join(folder, "never")
+            for kind, options in ((scarp.Cancelled, {"progress": lambda _: False}), (Own, {"progress": bad}),
+                                  (scarp.UsageError, {"vertical": "egm97"}), (scarp.UsageError, {"breaklines": "a"}),
+                                  (scarp.UsageError, {"report": "r.json"}), (scarp.UsageError, {"transform": transform})):
+                with self.assertRaises(kind):
+                    scarp.tile([DEM], never, **{"vertical": "egm96", "zoom": 9, **options})
+            with self.assertRaises(scarp.InputError):
+                scarp.tile(["missing.tif"], never, vertical="egm96")
+            with self.assertRaises(scarp.InputError):
+                scarp.tile(np.full((9, 9), np.nan), never, transform=transform, crs=crs, vertical="egm96")
+            self.assertEqual(sorted(os.listdir(folder)), ["made", "one.pmtiles", "program"])
 
 
 if __name__ == "__main__":

@@ -1,11 +1,9 @@
 #include "commands/tile_command.h"
 
-#include <fmt/format.h>
-
 #include <utility>
 #include <vector>
 
-#include "commands/counted_set.h"
+#include "commands/tile_work.h"
 #include "options/option_table.h"
 #include "reports/report.h"
 #include "reports/tile_report.h"
@@ -34,43 +32,26 @@ Result<void> TileCommand::run(const std::string& command_line) const {
   if (auto checked = check_outputs(outputs, files_read(*command_), overwrite_); !checked) return checked;
 
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
-  const Result<OpenedJob> opened = tiles_.open(display.callback());
-  if (!opened) return tl::unexpected(opened.error());
-  const TileJob& job = opened->job;
-  auto container = create_tile_set(output_, job.format, overwrite_);
-  if (!container) return tl::unexpected(container.error());
   TileCounts counts;
   display.show_tiles(counts);
-  CountedSet set(std::move(*container), counts);
-  const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, set, job.plan);
   Run run;
   run.threads = *threads;
   run.progress = display.callback();
-  Result<PyramidReport> report = make_pyramid(job.plan, opened->raster->nodes(), *sink, run);
-  if (!report) return tl::unexpected(report.error());
-  if (auto same = check_rasters(job); !same) return same;
-  if (auto checked = check_heights(job, *report); !checked) return checked;
-  if (auto put = sink->put_files(*report, job.facts); !put) return put;
-  if (auto finished = set.finish(); !finished) return finished;
+  const Result<MadeTiles> made = make_tiles(tiles_, output_, overwrite_, run, counts);
+  if (!made) return tl::unexpected(made.error());
   display.finish();
-  if (!quiet_) {
-    print_warnings(warnings_of_raster(*opened->raster));
-    print_warnings(warnings_of_levels(job.plan, *report));
-  }
+  if (!quiet_) print_warnings(made->warnings);
+  const TileJob& job = made->opened.job;
   const double seconds = seconds_since(start);
   if (report_) {
-    const Json json{{"command", command_line},
-                    {"input", tiles_.raster.paths},
-                    {"output", output_},
-                    {"vertical", job.facts.heights_above},
-                    {"ellipsoid", {job.plan.ellipsoid.semi_major, semi_minor(job.plan.ellipsoid)}},
-                    {"max_zoom", job.plan.max_zoom()},
-                    {"levels", describe_levels(job.plan, *report)},
-                    {"seconds", seconds}};
+    Json json{{"command", command_line}, {"input", tiles_.raster.paths}};
+    add_tiles(json, job, output_, made->report);
+    json["warnings"] = made->warnings;
+    json["seconds"] = seconds;
     if (auto written = write_report(json, *report_, overwrite_, output_); !written) return written;
   }
   if (quiet_) return {};
-  return print_summary(make_tile_summary(job, output_, *report, seconds));
+  return print_summary(make_tile_summary(job, output_, made->report, seconds));
 }
 
 }  // namespace scarp::cli

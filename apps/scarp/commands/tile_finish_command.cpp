@@ -55,15 +55,10 @@ Result<void> TileFinishCommand::run(const std::string& command_line) const {
   }
   const double seconds = seconds_since(start);
   if (report_) {
-    const Json json{{"command", command_line},
-                    {"plan", plan_},
-                    {"output", output_},
-                    {"vertical", job->facts.heights_above},
-                    {"ellipsoid", {job->plan.ellipsoid.semi_major, semi_minor(job->plan.ellipsoid)}},
-                    {"max_zoom", job->plan.max_zoom()},
-                    {"levels", describe_levels(job->plan, *report)},
-                    {"model", compare_model(*job, *report, cost)},
-                    {"seconds", seconds}};
+    Json json{{"command", command_line}, {"plan", plan_}};
+    add_tiles(json, *job, output_, *report);
+    json["model"] = compare_model(*job, *report, cost);
+    json["seconds"] = seconds;
     if (auto written = write_report(json, *report_, overwrite_, output_); !written) return written;
   }
   if (quiet_) return {};

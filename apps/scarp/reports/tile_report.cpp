@@ -13,8 +13,6 @@ namespace {
 
 std::string format_metres(double metres) { return format_number(metres) + " m"; }
 
-}  // namespace
-
 Json describe_levels(const PyramidPlan& plan, const PyramidReport& report) {
   Json levels = Json::array();
   for (std::size_t z = 0; z < plan.levels.size(); ++z) {
@@ -31,6 +29,16 @@ Json describe_levels(const PyramidPlan& plan, const PyramidReport& report) {
                       {"source_error", level.source_error}});
   }
   return levels;
+}
+
+}  // namespace
+
+void add_tiles(Json& json, const TileJob& job, const std::string& output, const PyramidReport& report) {
+  json["output"] = output;
+  json["vertical"] = job.facts.heights_above;
+  json["ellipsoid"] = {job.plan.ellipsoid.semi_major, semi_minor(job.plan.ellipsoid)};
+  json["max_zoom"] = job.plan.max_zoom();
+  json["levels"] = describe_levels(job.plan, report);
 }
 
 std::string make_tile_summary(const TileJob& job, const std::string& output, const PyramidReport& report,

@@ -9,8 +9,8 @@
 
 namespace scarp::cli {
 
-/// "levels": one object a level.
-Json describe_levels(const PyramidPlan& plan, const PyramidReport& report);
+/// The set, and "levels": one object a level.
+void add_tiles(Json& json, const TileJob& job, const std::string& output, const PyramidReport& report);
 /// A table of the levels, with what was read and written above it, and the time below.
 std::string make_tile_summary(const TileJob& job, const std::string& output, const PyramidReport& report,
                               double seconds);

@@ -26,7 +26,7 @@ from .errors import (Cancelled, InputError, InternalError, OutputError, PromiseE
                      UsageError)
 from .mesh import Mesh, Report, read_mesh, report_of
 from .refiner import Refiner
-from .tiles import Tiles
+from .tiles import Tiles, tile
 
 if TYPE_CHECKING:
     from ._call import ProgressArgument
@@ -35,7 +35,7 @@ __version__: str = _abi.lib.scarp_version().decode()
 #: Whether the library reads what GDAL reads and knows CRSs. Without it paths are read by rasterio or GDAL's own Python.
 has_gdal: bool = bool(_abi.lib.scarp_has_gdal())
 
-__all__ = ["simplify", "simplify_points", "measure", "read_mesh", "Mesh", "Report", "Refiner", "Tiles", "Progress",
+__all__ = ["simplify", "simplify_points", "measure", "read_mesh", "Mesh", "Report", "Refiner", "Tiles", "tile", "Progress",
            "ScarpError", "UsageError", "InputError", "PromiseError", "OutputError", "Cancelled", "InternalError",
            "ScarpWarning", "has_gdal", "__version__"]
 
@@ -86,7 +86,7 @@ def _by_name(source: _inputs.Input, frame: str, band: int, nodata: Optional[floa
     if source.path is not None:
         named.update({"band": None if band == 1 else band, "nodata": nodata})
     for name, value in (("mask", mask), ("tolerance", tolerance)):
-        if isinstance(value, (str, os.PathLike)):
+        if value is not None and isinstance(value, (str, os.PathLike)):
             named[name] = value
     if isinstance(max_error, str):
         named["max_error"] = max_error

@@ -35,7 +35,7 @@ class Progress(C.Structure):
                 ("vertices", C.c_uint64), ("max_error", C.c_double)]
 
 
-ProgressFn = C.CFUNCTYPE(C.c_int32, C.POINTER(Progress), C.c_void_p)
+ProgressFn = C.CFUNCTYPE(C.c_int32, C.c_void_p, C.c_void_p)  # the first: the address of a Progress
 
 
 class Field(C.Structure):
@@ -111,6 +111,8 @@ _FUNCTIONS = {
     "scarp_refiner_triangle_count": (_U, [_P]),
     "scarp_refiner_mesh": (_I, [_P, _P]),
     "scarp_refiner_free": (None, [_P]),
+    "scarp_tile": (_I, [_P, _P, _S, _I, _P]),
+    "scarp_tile_files": (_I, [_P, _U, _P, _S, _I, _P]),
     "scarp_tiles_open": (_I, [_S, _P, _P]),
     "scarp_tiles_open_field": (_I, [_P, _P, _P]),
     "scarp_tiles_max_level": (_I, [_P]),

@@ -1,15 +1,65 @@
-"""Terrain tiles for globes, made as they are asked for."""
+"""Terrain tiles for globes: all at once, or made as they are asked for."""
 from __future__ import annotations
 
 import ctypes as C
+import json
 import math
+import os
+import warnings
 from typing import TYPE_CHECKING, Any, Optional
 
 from . import _abi, _call, _inputs
+from .errors import ScarpWarning, UsageError
 
 if TYPE_CHECKING:
     from numpy import uint32
     from numpy.typing import NDArray
+
+
+def tile(source: Any, out: str | os.PathLike[str], *, band: int = 1, transform: Any = None, crs: Any = None,
+         nodata: Optional[float] = None, threads: int = 0, overwrite: bool = False,
+         progress: _call.ProgressArgument = None, **options: Any) -> dict[str, Any]:
+    """Makes all tiles of a raster, as `scarp tile` does: the same bytes. Needs a library with GDAL: see scarp.has_gdal.
+
+    source     as in simplify(); or a list of paths: at each place the first that has a height there counts
+    out        a folder, or one file by its ending: .pmtiles, .mbtiles, .3tz. It gets its name once all tiles are made;
+               a call that fails, or is cancelled, leaves nothing.
+    overwrite  replaces a set that Scarp has made
+    options    those of `scarp tile`, with _ for -: `zoom=14`, `max_error=2`, `vertical="egm96"`, `of="3dtiles"`,
+               `effort="high"`, `only="7,46,8,47"` ...
+
+    Returns what `scarp tile --report` writes: "max_zoom", "vertical", and "levels" with "tiles", "bytes" and "bound" of
+    each. Raises and warns as simplify() does.
+    """
+    out_bytes = C.c_void_p()
+    lib = _abi.lib
+    target = os.fspath(out).encode()
+    if isinstance(source, (list, tuple)) and source and all(isinstance(one, (str, os.PathLike)) for one in source):
+        if transform is not None or crs is not None:
+            raise UsageError("transform and crs are for arrays: files tell theirs")
+        read = _inputs.Input(None, None, None)
+        paths = [os.fspath(one).encode() for one in source]
+    else:
+        read = _inputs.read(source, band=band, transform=transform, crs=crs, nodata=nodata)
+        paths = [] if read.path is None else [read.path]
+    if paths:
+        options = {"band": None if band == 1 else band, "nodata": nodata, **options}
+    with _call.Settings(options) as settings:
+        settings.struct.threads = threads
+
+        def work(pointer: Any) -> int:
+            if paths:
+                names = (C.c_char_p * len(paths))(*paths)
+                return lib.scarp_tile_files(names, len(paths), pointer, target, overwrite,  # type: ignore[no-any-return]
+                                            C.byref(out_bytes))
+            return lib.scarp_tile(C.byref(read.field), pointer, target, overwrite,  # type: ignore[no-any-return]
+                                  C.byref(out_bytes))
+
+        _abi.check(_call.run(settings, progress, work))
+    report: dict[str, Any] = json.loads(_abi.take_bytes(out_bytes.value))
+    for sentence in report.pop("warnings"):
+        warnings.warn(sentence, ScarpWarning, stacklevel=2)
+    return report
 
 
 class Tiles:

@@ -1,0 +1,30 @@
+#include "commands/tile_work.h"
+
+#include <utility>
+
+#include "commands/counted_set.h"
+#include "reports/tile_report.h"
+
+namespace scarp::cli {
+
+Result<MadeTiles> make_tiles(const TileArguments& tiles, const std::string& output, bool overwrite, const Run& run,
+                             TileCounts& counts) {
+  auto opened = tiles.open(run.progress);
+  if (!opened) return tl::unexpected(opened.error());
+  const TileJob& job = opened->job;
+  auto container = create_tile_set(output, job.format, overwrite);
+  if (!container) return tl::unexpected(container.error());
+  CountedSet set(std::move(*container), counts);
+  const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, set, job.plan);
+  Result<PyramidReport> report = make_pyramid(job.plan, opened->raster->nodes(), *sink, run);
+  if (!report) return tl::unexpected(report.error());
+  if (auto same = check_rasters(job); !same) return tl::unexpected(same.error());
+  if (auto checked = check_heights(job, *report); !checked) return tl::unexpected(checked.error());
+  if (auto put = sink->put_files(*report, job.facts); !put) return tl::unexpected(put.error());
+  if (auto finished = set.finish(); !finished) return tl::unexpected(finished.error());
+  std::vector<std::string> warnings = warnings_of_raster(*opened->raster);
+  for (std::string& warning : warnings_of_levels(job.plan, *report)) warnings.push_back(std::move(warning));
+  return MadeTiles{std::move(*opened), std::move(*report), std::move(warnings)};
+}
+
+}  // namespace scarp::cli

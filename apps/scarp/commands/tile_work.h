@@ -1,0 +1,22 @@
+// scarp tile without its terminal: from rasters to a finished set.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "options/tile_options.h"
+#include "terminal/tile_counts.h"
+
+namespace scarp::cli {
+
+struct MadeTiles {
+  OpenedJob opened;
+  PyramidReport report;
+  std::vector<std::string> warnings;
+};
+
+/// Makes the set under its final name, or nothing. Counts its tiles meanwhile.
+Result<MadeTiles> make_tiles(const TileArguments& tiles, const std::string& output, bool overwrite, const Run& run,
+                             TileCounts& counts);
+
+}  // namespace scarp::cli
