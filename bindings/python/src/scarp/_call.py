@@ -3,10 +3,10 @@ from __future__ import annotations
 
 import ctypes as C
 import os
-import signal
 import sys
 import threading
 import warnings
+from _signal import SIGINT, default_int_handler, getsignal, signal  # type: ignore  # `signal` makes enums: 10 us a call
 from types import TracebackType
 from typing import Any, Callable, Iterable, Mapping, NamedTuple, Optional, Union
 
@@ -70,9 +70,9 @@ class _Interrupts:
         self._old: Any = None
 
     def __enter__(self) -> _Interrupts:
-        if (threading.current_thread() is threading.main_thread()
-                and signal.getsignal(signal.SIGINT) is signal.default_int_handler):
-            self._old = signal.signal(signal.SIGINT, self._note)
+        if (getsignal(SIGINT) is default_int_handler
+                and threading.current_thread() is threading.main_thread()):
+            self._old = signal(SIGINT, self._note)
         return self
 
     def _note(self, *_: object) -> None:
@@ -81,7 +81,7 @@ class _Interrupts:
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
                  trace: TracebackType | None) -> None:
         if self._old is not None:
-            signal.signal(signal.SIGINT, self._old)
+            signal(SIGINT, self._old)
 
 
 def text_of(name: str, value: object) -> str:
@@ -135,13 +135,13 @@ def run(settings: Settings, progress: ProgressArgument, work: Callable[[Any], in
     raised: list[BaseException] = []
     with _Interrupts() as interrupts:
 
-        def told(pointer: Any, _: object) -> int:
+        def told(address: int, _: object) -> int:
             if interrupts.came:
                 return 1
             if tell is None:
                 return 0
             try:
-                struct = pointer[0]
+                struct = _abi.Progress.from_address(address)
                 name: bytes = getattr(struct, "pass")
                 answer = tell(Progress(name.decode(), struct.fraction, struct.vertices, struct.max_error))
                 return 1 if answer is False else 0

@@ -179,15 +179,13 @@ def _as_float32(np: Any, z: Any) -> tuple[Any, float]:
         raise UsageError("heights are numbers, and the array's dtype is %s: convert it, as in z.astype('float32')"
                          % z.dtype)
     _check_shape(z.shape)
-    native = z.dtype.newbyteorder("=")
     samples = np.ascontiguousarray(z, dtype=np.float32)
     if mask is not np.ma.nomask and mask.any():
         if samples is z or np.may_share_memory(samples, z):
             samples = samples.copy()
         samples[mask] = np.nan
     rounding = 0.0
-    if native in (np.dtype(np.float64), np.dtype(np.int64), np.dtype(np.uint64), np.dtype(np.int32),
-                  np.dtype(np.uint32), np.dtype(np.longdouble)):
+    if z.dtype.itemsize > (4 if z.dtype.kind == "f" else 2):
         with np.errstate(invalid="ignore", over="ignore"):
             for row, given in zip(samples, z):
                 difference = np.abs(given.astype(np.float64) - row)
@@ -229,7 +227,9 @@ def grid_values(values: Any, rows: int, cols: int, name: str) -> Any:
 def read(source: Any, *, band: int = 1, transform: Any = None, crs: Any = None, nodata: Optional[float] = None,
          wants_array: bool = False) -> Input:
     """The source as the library takes it. Arguments go before what the source says of itself."""
-    if _is_path(source):
+    if type(source).__name__ == "ndarray":  # the most frequent first: what else it could be takes longer to find out
+        raster = _Raster(source)
+    elif _is_path(source):
         path = os.fspath(source)
         path = path.decode() if isinstance(path, bytes) else path
         if _has_file_reader(path) and not wants_array and transform is None and crs is None:
