@@ -10,7 +10,7 @@ DATA ?= $(or $(SCARP_SHARED),../shared)/data
 C_TARGETS = $(if $(filter -DSCARP_BUILD_C=OFF,$(CMAKE_FLAGS)),,scarp_c scarp_c_static)
 export BUILD JOBS DATA
 
-.PHONY: build demo viewer site globe qgis python npm check test soak wasm-check bench paper install clean format tidy help
+.PHONY: build demo viewer site globe qgis python npm dist check test soak wasm-check bench paper install clean format tidy help
 
 build:
 	@tools/install_packages.sh build
@@ -47,6 +47,12 @@ python:
 npm:
 	@tools/install_packages.sh build wasm
 	@JOBS=$(JOBS) tools/build_npm.sh $(BUILD)-wasm dist
+
+dist:
+	@tools/install_packages.sh build run dist
+	@tools/configure.sh $(BUILD) $(CMAKE_FLAGS)
+	@cmake --build $(BUILD) -j $(JOBS) --target scarp_program scarp_c_alone
+	@tools/dist.sh $(BUILD) dist
 
 check:
 	@tools/install_packages.sh build run test
@@ -105,6 +111,7 @@ help:
 	@echo 'make qgis     build, pack the plugin for QGIS into dist/'
 	@echo 'make python   the wheel and the sdist of Scarp for Python, into dist/'
 	@echo 'make npm      the npm package, compiled with Emscripten, into dist/'
+	@echo 'make dist     sources, wheel, sdist, plugin for QGIS and Debian packages, into dist/ with SHA256SUMS'
 	@echo 'make check    what to run before every commit: the fast tests'
 	@echo 'make test     everything: tests, sanitizers, a short run of the fuzzers'
 	@echo 'make soak     the files in DATA, then laws and fuzzers from fresh random seeds for SOAK_MINUTES (10)'

@@ -7,7 +7,9 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 if(SCARP_BUILD_C)
   install(TARGETS scarp_c EXPORT scarpTargets)
-  install(TARGETS scarp_c_static)
+  if(NOT BUILD_SHARED_LIBS)
+    install(TARGETS scarp_c_static)
+  endif()
   install(FILES ${PROJECT_SOURCE_DIR}/bindings/c/scarp_c.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endif()
 
