@@ -292,6 +292,33 @@ class Arrays(unittest.TestCase):
             with self.assertRaises(kind):
                 scarp.simplify(z, 1, mask=mask)
 
+    def test_every_function_refuses_them(self):
+        z = hills(20, 30)
+        mesh = scarp.simplify(z, 2)
+        bad = [(scarp.UsageError, z.astype(object)), (scarp.UsageError, z[None]), (scarp.UsageError, z > 0),
+               (scarp.InputError, z[:0]), (scarp.InputError, np.full((9, 9), np.nan))]
+        for call in (lambda source: scarp.simplify(source, 1), scarp.Refiner, lambda source: scarp.measure(source, mesh)):
+            for kind, source in bad:
+                with self.assertRaises(kind) as caught:
+                    call(source)
+                self.assertTrue(str(caught.exception))
+
+    def test_what_a_progress_function_raises_comes_out_of_every_function(self):
+        class Own(Exception):
+            pass
+
+        def bad(_):
+            raise Own
+
+        z = hills(300, 300)
+        mesh = scarp.simplify(z, 5)
+        rng = np.random.RandomState(1)
+        points = rng.rand(20000, 3) * (1000, 1000, 20)
+        for call in (lambda: scarp.simplify(z, 0.5, effort="high", progress=bad), lambda: scarp.measure(z, mesh, progress=bad),
+                     lambda: scarp.simplify_points(points, 0.5, progress=bad)):
+            with self.assertRaises(Own):
+                call()
+
     def test_masks_and_tolerances_are_arrays(self):
         z = hills()
         plain = scarp.simplify(z, 2)
