@@ -24,7 +24,7 @@ struct EdgeVertices {
 /// bounds. Where nodata lies right behind an edge whose samples are valid, corners of the surface's outline may lie
 /// between two vertices of the line; they are more vertices, at the line's height, rounded to float32.
 ///
-/// The greedy order makes such a mesh, with the samples in memory and a copy of them, 4 bytes a sample.
+/// One thread refines such a mesh, with the samples in memory and two copies of them, 8 bytes a sample; see Order.
 struct Border {
   bool is_locked = false;  ///< DEFAULT: false, edges are simplified with the surface.
   /// Of the line, at most that of the goals. DEFAULT: that of the goals, and where the samples have tolerances or

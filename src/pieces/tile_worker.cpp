@@ -44,12 +44,32 @@ TileOutcome TileWorker::refine(const HeightField& field, const TileWindow& windo
                                double threshold, double density, std::size_t most) {
   TileOutcome outcome;
   if (outcome.status = tile_.load(field, window); !outcome.status) return outcome;
-  if (!(tile_.largest_height() <= kMaxScanHeight)) {
-    outcome.is_unsuited = true;
-    return outcome;
-  }
+  outcome.is_unsuited = !is_suited();
+  if (outcome.is_unsuited) return outcome;
   if (outcome.status = find_border(field, window, shared, threshold); !outcome.status) return outcome;
+  return refine_loaded(field, window, shared, threshold, density, most, {});
+}
+
+TileOutcome TileWorker::refine_alone(const HeightField& field, std::span<const Point> on_sides,
+                                     std::span<const Point> inside, double threshold, std::size_t most) {
+  const TileWindow window{0, 0, field.cols, field.rows};
+  TileOutcome outcome;
+  if (outcome.status = tile_.load(field, window); !outcome.status) return outcome;
+  outcome.is_unsuited = !tile_.is_whole() || !is_suited();
+  if (outcome.is_unsuited) return outcome;
+  border_.clear();
+  for (const Point p : on_sides) border_.push_back(tile_point(p.x, p.y));
+  steps_ = 2 * (std::int64_t{field.cols} + field.rows - 2);
+  return refine_loaded(field, window, {true, true, true, true}, threshold, 0, most, inside);
+}
+
+TileOutcome TileWorker::refine_loaded(const HeightField& field, const TileWindow& window, const SharedSides& shared,
+                                      double threshold, double density, std::size_t most,
+                                      std::span<const Point> inside) {
+  TileOutcome outcome;
   if (outcome.status = start_tile(tile_, border_, mesh_); !outcome.status) return outcome;
+  TileMesh::Id last = 0;
+  for (const Point p : inside) last = mesh_.insert(tile_point(p.x, p.y), last);
   const double expected = steps_ > 0 ? expected_density(border_.size(), steps_) : density;
   const TileOrder order = choose_order(tile_.view(), expected);
   coarse_.insert(tile_, shared, threshold, expected, order == TileOrder::kLazyOne, mesh_);

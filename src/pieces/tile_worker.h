@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "refine/coarse_start.h"
@@ -38,7 +39,17 @@ class TileWorker {
   TileOutcome refine(const HeightField& field, const TileWindow& window, const SharedSides& shared, double threshold,
                      double density, std::size_t most);
 
+  /// The same of a whole field as one tile, from vertices that it begins with: those on its sides, where no other
+  /// comes, and some inside. Unsuited is a field with nodata, too. REQUIRES: its sides are at most kMaxTileSide samples
+  /// long; the samples on them break no bound.
+  TileOutcome refine_alone(const HeightField& field, std::span<const Point> on_sides, std::span<const Point> inside,
+                           double threshold, std::size_t most);
+
  private:
+  bool is_suited() const { return tile_.largest_height() <= kMaxScanHeight; }
+  /// From the border and others that the tile begins with; the tile is loaded.
+  TileOutcome refine_loaded(const HeightField& field, const TileWindow& window, const SharedSides& shared,
+                            double threshold, double density, std::size_t most, std::span<const Point> inside);
   Result<void> find_border(const HeightField& field, const TileWindow& window, const SharedSides& shared,
                            double threshold);
 

@@ -359,4 +359,31 @@ Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledO
   return TiledRun(field, options, TilePlan(field.cols, field.rows, side), density).execute();
 }
 
+Result<std::optional<Tiled>> refine_alone(const Raster& raster, std::span<const Point> on_sides,
+                                          std::span<const Point> inside, const TiledOptions& options) {
+  if (std::max(raster.cols, raster.rows) > kMaxTileSide) return std::optional<Tiled>();
+  HeightField field;
+  field.samples = raster.samples;
+  field.cols = raster.cols;
+  field.rows = raster.rows;
+  const MemoryBudget& memory = options.memory;
+  const std::uint64_t bytes = worker_bytes(TilePlan(raster.cols, raster.rows, std::max(raster.cols, raster.rows)));
+  if (auto fits = memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
+  const std::uint64_t room = memory.rest() - std::min(memory.rest(), bytes);
+  const std::size_t most =
+      memory.is_limited() ? room / TileRoom::bytes_per_vertex(memory) : std::numeric_limits<std::size_t>::max();
+  TileWorker worker;
+  const TileOutcome outcome = worker.refine_alone(field, on_sides, inside, options.threshold, most);
+  if (!outcome.status) return tl::unexpected(outcome.status.error());
+  if (outcome.is_unsuited) return std::optional<Tiled>();
+  const std::uint64_t vertices = outcome.is_broken_off ? most + 1 : outcome.piece.points.size();
+  const std::uint64_t more = outcome.is_broken_off ? room : 0;
+  if (auto fits = memory.check_mesh(bytes + more, vertices, 1); !fits) return tl::unexpected(fits.error());
+  Assembly assembly(1);
+  assembly.append(outcome.piece);
+  std::vector<HalfEdge> seams;
+  DomainMesh domain{assembly.finish(seams), true};
+  return std::optional<Tiled>(Tiled{std::move(domain), {}, {}, 1, {}, outcome.work});
+}
+
 }  // namespace scarp

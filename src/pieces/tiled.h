@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/memory_budget.h"
@@ -73,5 +74,11 @@ std::vector<std::int32_t> shared_rows(const HeightField& field, std::int32_t sid
 /// heights span magnitudes beyond exact arithmetic, and where it may decline. Fails as the field's source does; with
 /// kInput if no cell is surface or the triangles are too many; with kUsage if the memory is too little; kCancelled.
 Result<std::optional<Tiled>> refine_tiled(const HeightField& field, const TiledOptions& options);
+
+/// The same of a raster in memory as one tile, whose border is locked: it begins with these vertices on its sides, where
+/// no other comes, and these inside. Nothing also where it has nodata or is too large for one tile. Of the options the
+/// threshold and the memory are read.
+Result<std::optional<Tiled>> refine_alone(const Raster& raster, std::span<const Point> on_sides,
+                                          std::span<const Point> inside, const TiledOptions& options);
 
 }  // namespace scarp

@@ -134,7 +134,11 @@ bool may_be_dominant(const HeightField& field, const SimplifyOptions& options) {
   if (!has_goal || has_budget(options) || options.quality.order == Order::kGreedy) return false;
   // The worst of the whole raster first takes fewer triangles where bounds differ.
   if (options.quality.order == Order::kAuto && has_own_bounds(field, options)) return false;
-  const auto of_order = [](const Conflict& conflict) { return conflict.one == Field::kOrderDominant; };
+  // A locked border is refined as one tile, which may begin with points.
+  const auto of_order = [&](const Conflict& conflict) {
+    return conflict.one == Field::kOrderDominant &&
+           !(conflict.other == Field::kPoints && options.domain.border.is_locked);
+  };
   const auto conflicts = find_conflicts(fields_of(field, options) | Fields(Field::kOrderDominant));
   return std::none_of(conflicts.begin(), conflicts.end(), of_order);
 }

@@ -22,15 +22,19 @@ Result<Simplified> simplify_in_order(const HeightField& field, const Request& op
                                      LineWork* lines) {
   if (auto sound = check_values(field, options); !sound) return tl::unexpected(sound.error());
   if (auto sound = check_size(field); !sound) return tl::unexpected(sound.error());
-  const auto run = may_be_dominant(field, options) ? run_by_tiles : run_greedily;
+  // No lines beside a locked border.
+  const auto run = [&](const Plan& plan) {
+    if (plan.options.domain.border.is_locked) return run_locked(plan);
+    return may_be_dominant(field, options) ? run_by_tiles(plan, lines) : run_greedily(plan, lines);
+  };
   const Plan plan(field, options, scale);
-  auto result = run(plan, lines);
+  auto result = run(plan);
   if (result || result.error().kind != ErrorKind::kPromise || options.quality.vertices != Vertices::kAuto)
     return result;
   if (!plan.frees_vertices) return result;
   Request on_samples = options;
   on_samples.quality.vertices = Vertices::kSamples;
-  return run(Plan(field, on_samples, scale), lines);
+  return run(Plan(field, on_samples, scale));
 }
 
 /// Towards the error `error`, with the lines of `options`.

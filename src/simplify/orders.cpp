@@ -14,6 +14,7 @@
 #include "pieces/strips.h"
 #include "pieces/tile_worker.h"
 #include "pieces/tiled.h"
+#include "simplify/checks.h"
 #include "simplify/proof.h"
 #include "simplify/run.h"
 
@@ -64,17 +65,18 @@ Result<std::optional<Tiled>> refine_beside_lines(const Plan& plan, const Raster&
   return tiled;
 }
 
+Pass pass_of(const char* name, double seconds, const Work& work) {
+  return {name, seconds, work.samples_scanned, work.triangles_scanned, work.passes};
+}
+
 /// What tiles and strips did, `seconds` in all.
 std::vector<Pass> list_passes(const Plan& plan, const Work& tiles, const StripTotals& strips, bool has_lines,
                               double seconds) {
-  const auto pass = [](const char* name, double took, const Work& work) {
-    return Pass{name, took, work.samples_scanned, work.triangles_scanned, work.passes};
-  };
   const double beside = strips.seconds_of_fit + strips.seconds_of_lines + strips.seconds_of_refinement;
-  std::vector<Pass> passes{pass("tiles", seconds - beside, tiles)};
-  if (plan.finishes_strips && has_lines) passes.push_back(pass("lines", strips.seconds_of_lines, strips.lines));
+  std::vector<Pass> passes{pass_of("tiles", seconds - beside, tiles)};
+  if (plan.finishes_strips && has_lines) passes.push_back(pass_of("lines", strips.seconds_of_lines, strips.lines));
   if (strips.seconds_of_refinement > 0)
-    passes.push_back(pass("refine", strips.seconds_of_refinement, strips.refinement));
+    passes.push_back(pass_of("refine", strips.seconds_of_refinement, strips.refinement));
   if (plan.fits_strips) passes.push_back({"fit", strips.seconds_of_fit, 0, 0, 0, strips.removed});
   return passes;
 }
@@ -129,18 +131,48 @@ Result<Simplified> run_greedily(const Plan& plan, LineWork* lines) {
   }
   auto samples = Samples::to_refine(plan.field, plan.options.run.threads);
   if (!samples) return tl::unexpected(samples.error());
+  const Raster raster = samples->raster();
+  const auto criterion =
+      Criterion::make(plan.field, plan.options, raster, plan.aim * plan.scale.start, plan.scale.factor);
+  if (!criterion) return tl::unexpected(criterion.error());
+  return run_passes(plan, raster, *criterion, graph_of(lines), std::nullopt);
+}
+
+Result<Simplified> run_locked(const Plan& plan) {
+  const SimplifyOptions& options = plan.options;
+  const auto samples = Samples::to_refine(plan.field, options.run.threads);
+  if (!samples) return tl::unexpected(samples.error());
   const auto make_criterion = [&](const Raster& raster) {
-    return Criterion::make(plan.field, plan.options, raster, plan.aim * plan.scale.start, plan.scale.factor);
+    return Criterion::make(plan.field, options, raster, plan.aim * plan.scale.start, plan.scale.factor);
   };
-  auto criterion = make_criterion(samples->raster());
-  if (!criterion) return tl::unexpected(criterion.error());
-  if (!plan.options.domain.border.is_locked)
-    return run_passes(plan, samples->raster(), *criterion, graph_of(lines), std::nullopt);
-  const auto border = LockedBorder::make(plan.field, plan.options, samples->raster());
+  // The border's line needs tolerances that are sound.
+  if (auto sound = make_criterion(samples->raster()); !sound) return tl::unexpected(sound.error());
+  const auto border = LockedBorder::make(plan.field, options, samples->raster());
   if (!border) return tl::unexpected(border.error());
-  criterion = make_criterion(border->raster());
+  const Raster raster = border->raster();
+  const auto criterion = make_criterion(raster);
   if (!criterion) return tl::unexpected(criterion.error());
-  return run_passes(plan, border->raster(), *criterion, nullptr, std::nullopt, border->vertices());
+  const auto start = Clock::now();
+  std::optional<Tiled> tiled;
+  if (may_be_dominant(plan.field, options) && !std::isinf(criterion->largest_aim())) {
+    std::vector<Point> inside;
+    for (const auto& [col, row] : options.features.points) inside.push_back({col, row});
+    TiledOptions alone;
+    alone.threshold = criterion->largest_aim();
+    alone.memory = plan.memory;
+    if (options.run.progress && !Reporter(options.run.progress).report("refine", 0, 0, 0))
+      return fail(ErrorKind::kCancelled, "cancelled while refining");
+    auto refined = refine_alone(raster, border->vertices(), inside, alone);
+    if (!refined) return tl::unexpected(refined.error());
+    tiled = std::move(*refined);
+  }
+  const double seconds = seconds_since(start);
+  const auto pass = tiled ? std::optional(pass_of("tiles", seconds, tiled->work)) : std::nullopt;
+  auto result = run_passes(plan, raster, *criterion, nullptr, std::move(tiled), border->vertices());
+  if (!result || !pass) return result;
+  result->passes.insert(result->passes.begin(), *pass);
+  result->seconds_refine += seconds;
+  return result;
 }
 
 }  // namespace scarp

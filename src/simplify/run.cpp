@@ -115,6 +115,7 @@ class EngineRun {
   Result<void> free_seams(Tiled tiled, Simplified& result) {
     const auto start = Clock::now();
     take(std::move(tiled.domain));
+    if (!border_.empty()) on_sides_ = find_side_vertices(piece_->tin, raster_, 1);
     heights_ = std::move(tiled.heights);
     result.work = tiled.work;
     if (plan_.finishes_strips) {

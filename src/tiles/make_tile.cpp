@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "scarp/measure.h"
 #include "scarp/mesh.h"
 #include "scarp/simplify.h"
 #include "scarp/tile.h"
 #include "tiles/globe.h"
+#include "tiles/node_scan.h"
 #include "tiles/source_samples.h"
 #include "tiles/tile_edges.h"
 #include "tiles/tile_maker.h"
@@ -189,28 +189,11 @@ class TileMaker {
 }  // namespace
 
 Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, double max_error) {
-  const std::int32_t steps = nodes.steps();
-  std::vector<float> heights;
-  heights.reserve(static_cast<std::size_t>(steps + 1) * static_cast<std::size_t>(steps + 1));
-  for (std::int32_t row = 0; row <= steps; ++row) {
-    for (std::int32_t col = 0; col <= steps; ++col) heights.push_back(nodes.at(col, row));
-  }
-  HeightField field;
-  field.samples = heights.data();
-  field.cols = field.rows = steps + 1;
-  field.frame = grid_frame(field.rows);
-  MeasureOptions options;
-  options.topology = false;
-  options.run.threads = 1;
-  options.collect_above = max_error;
-  const Result<Measurement> measured = measure(field, decoded(tile, steps), options);
-  if (!measured) return tl::unexpected(measured.error());
-  if (measured->uncovered > 0)
+  NodeErrors errors = scan_nodes(tile, nodes, max_error);
+  if (errors.uncovered > 0)
     return fail(ErrorKind::kInternal, fmt::format("tile {}/{}/{} leaves {} of its nodes uncovered", tile.id.z,
-                                                  tile.id.x, tile.id.y, measured->uncovered));
-  TileVerdict verdict{measured->max_error, {}};
-  for (const Offender& offender : measured->offenders) verdict.offenders.push_back({offender.col, offender.row});
-  return verdict;
+                                                  tile.id.x, tile.id.y, errors.uncovered));
+  return TileVerdict{errors.largest, std::move(errors.worst)};
 }
 
 Result<TerrainTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileJudge& judge) {

@@ -16,7 +16,7 @@ struct TileVerdict {
 };
 using TileJudge = std::function<Result<TileVerdict>(const TerrainTile& tile)>;
 
-/// The errors at the nodes themselves, by measure().
+/// The errors at the nodes themselves.
 Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, double max_error);
 
 /// A mesh of the nodes that satisfies the level's max error where rounded positions can, else the one with the least.

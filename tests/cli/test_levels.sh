@@ -86,8 +86,15 @@ cmp one.glb two.glb || fail "threads change a mesh with a locked border"
 refuses 1 "--lock-border needs --max-error" "$scarp" simplify "$dem" x.glb -t 5000 --lock-border
 refuses 1 "the locked border and the outline of the valid data alone need" \
   "$scarp" simplify "$dem" x.glb -e 10 -t 50 --lock-border
-refuses 1 "--order dominant cannot be combined with --lock-border" \
-  "$scarp" simplify "$dem" x.glb -e 10 --order dominant --lock-border
+
+# One tile in the dominant order, as long as nobody asks for the other.
+succeeds "$scarp" simplify "$dem" tile.glb -e 10 --lock-border --report tile.json
+[ "$(json tile.json strategy order)" = '"dominant"' ] || fail "a locked border takes $(json tile.json strategy order)"
+succeeds "$scarp" simplify "$dem" worst.glb -e 10 --lock-border --order greedy --effort normal --report worst.json
+[ "$(json worst.json strategy order)" = '"greedy"' ] || fail "--order greedy gives way to $(json worst.json strategy order)"
+succeeds "$scarp" measure "$dem" tile.glb --fail-above 10 -q
+holds "$(json tile.json triangles) < 1.03 * $(json worst.json triangles)"
+holds "$(json worst.json triangles) < 1.03 * $(json tile.json triangles)"
 
 # Levels: each keeps its own bound in the eyes of measure, and all have the finest one's outline.
 succeeds "$scarp" simplify "$dem" hills.ply -e 5 --lods 3 --report levels.json

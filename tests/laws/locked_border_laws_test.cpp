@@ -173,6 +173,7 @@ RC_GTEST_PROP(locked_border, has_the_vertices_of_the_line_and_no_others, ()) {
   const double goal = *rc::gen::element(0.0, 0.5, 1.0, 3.0, 20.0);
   auto options = locked(goal, any_effort());
   options.output.float32_positions = *rc::gen::arbitrary<bool>();
+  options.quality.order = *rc::gen::element(Order::kAuto, Order::kDominant, Order::kGreedy);
   options.run.threads = 1;
   const auto made = simplify(field.view(), options);
   if (!made) {
@@ -180,6 +181,10 @@ RC_GTEST_PROP(locked_border, has_the_vertices_of_the_line_and_no_others, ()) {
     return;
   }
   expect_line(made->mesh, field, goal);
+  const bool has_nodata =
+      std::any_of(field.samples.begin(), field.samples.end(), [](float z) { return std::isnan(z); });
+  if (has_nodata || options.quality.order == Order::kGreedy) RC_ASSERT(made->order == Order::kGreedy);
+  if (!has_nodata && options.quality.order == Order::kDominant) RC_ASSERT(made->order == Order::kDominant);
   const Measurement m = *measure(field.view(), made->mesh);
   RC_ASSERT(m.max_error <= goal + 1e-9);
   RC_ASSERT(m.uncovered == 0u);
@@ -234,6 +239,30 @@ TEST(locked_border, tolerances_weights_and_ignored_samples_decide_the_line_too) 
         std::vector<std::int32_t> found;
         for (const auto& [i, z] : vertices_on(made->mesh, field, edge)) found.push_back(static_cast<std::int32_t>(i));
         EXPECT_EQ(found, simplify_edge(edge.heights, 0, bounds));
+      }
+    }
+  }
+}
+
+TEST(locked_border, lets_the_mesh_begin_with_points_in_either_order) {
+  const Field field = testing::random_field(11, 90, 70, Relief::kRidges);
+  for (const Order order : {Order::kAuto, Order::kGreedy}) {
+    for (const Effort effort : {Effort::kFast, Effort::kNormal, Effort::kHigh}) {
+      SimplifyOptions options = locked(5, effort);
+      options.quality.order = order;
+      options.features.points = {{1, 1}, {44, 35}, {44, 36}, {88, 68}};
+      const auto made = simplify(field.view(), options);
+      ASSERT_TRUE(made) << made.error().message;
+      EXPECT_EQ(made->order, order == Order::kAuto ? Order::kDominant : Order::kGreedy);
+      EXPECT_LE(measure(field.view(), made->mesh)->max_error, 5 + 1e-9);
+      expect_line(made->mesh, field, 5);
+      for (const SampleAt& point : options.features.points) {
+        std::size_t found = 0;
+        for (std::size_t v = 0; v < made->mesh.vertex_count(); ++v) {
+          const auto [x, up, z] = made->mesh.vertex(v);
+          found += x == point.col && field.rows - 1 - up == point.row;
+        }
+        EXPECT_EQ(found, 1u);
       }
     }
   }

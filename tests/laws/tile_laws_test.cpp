@@ -14,10 +14,13 @@
 #include <vector>
 
 #include "laws/sanitized.h"
+#include "scarp/measure.h"
 #include "scarp/tile.h"
 #include "tiles/coarse_nodes.h"
 #include "tiles/globe.h"
+#include "tiles/node_scan.h"
 #include "tiles/sine.h"
+#include "tiles/tile_mesh_parts.h"
 
 namespace scarp::tile_laws_test {
 namespace {
@@ -187,6 +190,52 @@ RC_GTEST_PROP(tile_laws, the_bound_is_that_of_all_nodes_as_clients_decode_them, 
   const double error = brute_force(decode(*tile), id, nodes_of(plan, z), land, plan.background);
   RC_ASSERT(error <= tile->node_error * (1 + 1e-9) + 1e-6);
   RC_ASSERT(tile->node_error <= plan.levels[static_cast<std::size_t>(z)].max_error);
+}
+
+/// Nodes at which the tile's decoded triangles err, by the judge of finished meshes.
+Measurement judge(const TerrainTile& tile, const TileNodes& nodes, double limit) {
+  std::vector<float> heights;
+  for (std::int32_t row = 0; row <= nodes.steps(); ++row)
+    heights.insert(heights.end(), nodes.from(0, row), nodes.from(0, row) + nodes.steps() + 1);
+  HeightField field;
+  field.samples = heights.data();
+  field.cols = field.rows = nodes.steps() + 1;
+  field.frame = grid_frame(field.rows);
+  MeasureOptions options;
+  options.topology = false;
+  options.collect_above = limit;
+  return *measure(field, decoded(tile, nodes.steps()), options);
+}
+
+RC_GTEST_PROP(tile_laws, the_scan_of_nodes_finds_what_the_judge_finds, ()) {
+  double relief = 0, noise = 0;
+  const AnyLand land = any_land(relief, noise);
+  const int finest = *rc::gen::inRange(1, 9), z = std::max(0, finest - *rc::gen::inRange(0, 4));
+  const PyramidPlan plan = plan_of(relief, noise, finest, 32, any_effort());
+  const TileId id{z, *rc::gen::inRange<std::uint32_t>(0, std::uint32_t{2} << z),
+                  *rc::gen::inRange<std::uint32_t>(0, std::uint32_t{1} << z)};
+  const std::int32_t steps = nodes_of(plan, z);
+  const TileNodes nodes = *TileNodes::read(plan, id, steps, normal_reach(steps), land);
+  TerrainTile tile = *make_tile(plan, id, land);
+  // Some vertices go astray, so that nodes around them are beyond the limit.
+  const double limit = plan.levels[static_cast<std::size_t>(z)].max_error;
+  const auto far = static_cast<std::int32_t>(3 * limit / tile.quantum);
+  const auto astray = *rc::gen::inRange(0, 5);
+  for (int k = 0; k < astray; ++k) tile.heights[*rc::gen::inRange<std::size_t>(0, tile.heights.size())] += far;
+  const NodeErrors errors = scan_nodes(tile, nodes, limit);
+  const Measurement judged = judge(tile, nodes, limit);
+  RC_ASSERT(errors.uncovered == 0u);
+  RC_ASSERT(std::abs(errors.largest - judged.max_error) <= 1e-9 * (1 + judged.max_error));
+  // Both name the worst node of a triangle; one that is that of two triangles may be named once or twice.
+  const auto places = [](const auto& nodes) {
+    std::set<std::pair<std::int32_t, std::int32_t>> all;
+    for (const auto& node : nodes) all.insert({node.row, node.col});
+    return all;
+  };
+  RC_ASSERT(places(errors.worst) == places(judged.offenders));
+  tile.triangles.resize(tile.triangles.size() - 3);
+  // The judge forgives a node that lies beside a triangle by less than a 256th of a step.
+  RC_ASSERT(scan_nodes(tile, nodes, limit).uncovered >= judge(tile, nodes, limit).uncovered);
 }
 
 /// Tiles in memory.

@@ -232,5 +232,26 @@ TEST(gzip, is_read_back_and_damage_is_noticed) {
   EXPECT_FALSE(decompress_gzip(*packed, 1 << 20));
 }
 
+/// Bytes of few values in a random order, as the differences of a mesh's numbers are; or the same over and over.
+std::vector<std::uint8_t> mesh_like(std::size_t count, std::size_t period) {
+  std::mt19937 random(3);
+  std::vector<std::uint8_t> bytes;
+  for (std::size_t i = 0; i < count; ++i)
+    bytes.push_back(i < period ? static_cast<std::uint8_t>(std::min(random() % 40, random() % 40)) : bytes[i - period]);
+  return bytes;
+}
+
+TEST(gzip, of_a_mesh_is_no_larger_whether_it_repeats_itself_or_not) {
+  for (const std::size_t period : {40'000u, 7u}) {
+    for (const std::size_t count : {0u, 100u, 5000u, 40'000u}) {
+      const std::vector<std::uint8_t> bytes = mesh_like(count, period);
+      const auto packed = compress_gzip_of_mesh(bytes), thorough = compress_gzip(bytes);
+      ASSERT_TRUE(packed && thorough);
+      EXPECT_EQ(*decompress_gzip(*packed, 1 << 20), bytes);
+      EXPECT_LE(packed->size(), thorough->size() + thorough->size() / 50 + 20) << period << ' ' << count;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace scarp::tile_test

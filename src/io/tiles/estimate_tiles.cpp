@@ -1,18 +1,22 @@
 // What a set of tiles will take.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <vector>
 
+#include "io/tiles/core_seconds.h"
 #include "scarp/tile_job.h"
 
 namespace scarp {
 namespace {
 
-/// Time of all levels ÷ that of the finest: docs/tiles.md, "Speed".
-constexpr double kPyramidTime = 1.8;
-/// Bytes of all levels ÷ those of the finest. Each level has a quarter of the tiles, and more triangles in each.
-constexpr double kPyramidBytes = 1.6;
+/// Core time that a look may take; levels of larger tiles are then extrapolated.
+constexpr double kMostSeconds = 5;
+/// What a tile takes beside one of the next finer level, which has a quarter of its nodes and most of its triangles.
+constexpr double kTimeOfLarger = 2.2, kBytesOfLarger = 1.3;
+/// Of a block beside its tiles, a node of its lattice: copies for its tiles, the hash, the reduction.
+constexpr double kSecondsOfNode = 25e-9;
+/// Of a tile above the blocks.
+constexpr double kSecondsAbove = 0.01, kBytesAbove = 2000;
 /// What finish_pyramid() needs of a block.
 constexpr std::uint64_t kReducedBytes = 330'000;
 /// The program, without nodes.
@@ -24,7 +28,7 @@ bool overlap(const PyramidPlan& plan, const DegreeBox& box, const DegreeBox& cov
       plan.grid.turns(), [&](double turn) { return box.west + turn < covered.east && box.east + turn > covered.west; });
 }
 
-/// Whether a tile of the finest level may be made.
+/// Whether a tile may be made.
 bool is_expected(const PyramidPlan& plan, TileId id) {
   const DegreeBox box = plan.grid.bounds_of(id);
   if (plan.sources.empty()) return overlap(plan, box, plan.covered);
@@ -33,14 +37,14 @@ bool is_expected(const PyramidPlan& plan, TileId id) {
   });
 }
 
-/// Tiles of the finest level below a block that may have heights.
-std::vector<TileId> finest_tiles(const PyramidPlan& plan, TileId block) {
-  const int deeper = plan.max_zoom() - block.z;
+/// Tiles of a level below a block, or the block's own, that may have heights.
+std::vector<TileId> tiles_below(const PyramidPlan& plan, TileId block, int level) {
+  const int deeper = level - block.z;
   const std::uint32_t side = std::uint32_t{1} << deeper;
   std::vector<TileId> tiles;
   for (std::uint32_t y = 0; y < side; ++y) {
     for (std::uint32_t x = 0; x < side; ++x) {
-      const TileId id{plan.max_zoom(), (block.x << deeper) + x, (block.y << deeper) + y};
+      const TileId id{level, (block.x << deeper) + x, (block.y << deeper) + y};
       if (is_expected(plan, id)) tiles.push_back(id);
     }
   }
@@ -48,55 +52,105 @@ std::vector<TileId> finest_tiles(const PyramidPlan& plan, TileId block) {
 }
 
 Result<bool> has_heights(const PyramidPlan& plan, TileId id, const NodeSource& nodes) {
-  const NodeWindow window = plan.grid.window_of(id, plan.cells);
+  const NodeWindow window = plan.grid.window_of(id, plan.cells << (plan.max_zoom() - id.z));
   std::vector<float> heights(static_cast<std::size_t>(window.cols) * static_cast<std::size_t>(window.rows));
   if (auto read = nodes.read(window, heights); !read) return tl::unexpected(read.error());
   return std::any_of(heights.begin(), heights.end(), [](float height) { return !std::isnan(height); });
+}
+
+/// What the tiles of a level are like, of some of them.
+struct LevelLook {
+  double looked_at = 0, made = 0;
+  double reading = 0, making = 0;  ///< seconds: of those looked at, of those made without reading
+  double bytes = 0;                ///< of those made
+
+  double share() const { return looked_at > 0 ? made / looked_at : 0; }
+  double seconds_of_reading() const { return reading / std::max(looked_at, 1.0); }
+  double seconds_of_making() const { return making / std::max(made, 1.0); }
+  double bytes_of_one() const { return bytes / std::max(made, 1.0); }
+};
+
+/// At `count` tiles, evenly over the blocks.
+Result<LevelLook> look_at(const TileJob& job, const std::vector<TileId>& blocks, int level, int count,
+                          const NodeSource& nodes) {
+  const PyramidPlan& plan = job.plan;
+  const TileEncoder encode = make_tile_encoder(job.format, plan);
+  LevelLook look;
+  for (int k = 0; k < count; ++k) {
+    const auto twice = static_cast<std::size_t>(2 * k + 1);
+    const std::size_t block = twice * blocks.size() / (2 * static_cast<std::size_t>(count));
+    const std::vector<TileId> tiles = tiles_below(plan, blocks[block], level);
+    // Steps of the golden ratio spread the places in the blocks.
+    const double place = std::fmod(0.6180339887498949 * (k + 1), 1);
+    const TileId id = tiles[static_cast<std::size_t>(place * static_cast<double>(tiles.size()))];
+    const double start = core_seconds();
+    const Result<bool> is_land = has_heights(plan, id, nodes);
+    if (!is_land) return tl::unexpected(is_land.error());
+    const double reading = core_seconds() - start;
+    look.reading += reading;
+    ++look.looked_at;
+    if (!*is_land) continue;
+    const auto tile = make_tile(plan, id, nodes);
+    if (!tile) return tl::unexpected(tile.error());
+    const auto packed = encode(*tile);
+    if (!packed) return tl::unexpected(packed.error());
+    look.making += std::max(0.0, core_seconds() - start - 2 * reading);
+    look.bytes += static_cast<double>(packed->size());
+    ++look.made;
+  }
+  return look;
 }
 
 }  // namespace
 
 Result<TileEstimate> estimate_tiles(const TileJob& job, const NodeSource& nodes, int samples) {
   const PyramidPlan& plan = job.plan;
-  const TileEncoder encode = make_tile_encoder(job.format, plan);
   TileEstimate estimate;
   std::vector<TileId> blocks;
+  std::vector<double> counts(plan.levels.size(), 0);
   for (const TileId block : find_blocks(plan)) {
-    const std::size_t tiles = finest_tiles(plan, block).size();
-    if (tiles == 0) continue;
+    if (tiles_below(plan, block, plan.max_zoom()).empty()) continue;
     blocks.push_back(block);
-    estimate.finest_tiles += tiles;
+    for (int z = plan.block_level; z <= plan.max_zoom(); ++z)
+      counts[static_cast<std::size_t>(z)] += static_cast<double>(tiles_below(plan, block, z).size());
   }
   estimate.blocks = blocks.size();
-  double made = 0, seconds = 0, bytes = 0, looked_at = 0;
-  for (int k = 0; k < samples && !blocks.empty(); ++k) {
-    const auto count = static_cast<std::size_t>(samples), at = static_cast<std::size_t>(k);
-    const std::vector<TileId> tiles = finest_tiles(plan, blocks[at * blocks.size() / count]);
-    // Steps of the golden ratio spread the places in the blocks.
-    const double place = std::fmod(0.6180339887498949 * (k + 1), 1);
-    const TileId id = tiles[static_cast<std::size_t>(place * static_cast<double>(tiles.size()))];
-    const auto start = std::chrono::steady_clock::now();
-    const Result<bool> is_land = has_heights(plan, id, nodes);
-    if (!is_land) return tl::unexpected(is_land.error());
-    ++looked_at;
-    if (!*is_land) continue;
-    const auto tile = make_tile(plan, id, nodes);
-    if (!tile) return tl::unexpected(tile.error());
-    const auto packed = encode(*tile);
-    if (!packed) return tl::unexpected(packed.error());
-    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    bytes += static_cast<double>(packed->size());
-    ++made;
-  }
-  const double share = looked_at > 0 ? made / looked_at : 0;
-  const double finest = share * static_cast<double>(estimate.finest_tiles), each = std::max(made, 1.0);
-  estimate.core_seconds = kPyramidTime * finest * seconds / each;
-  estimate.bytes = static_cast<std::uint64_t>(kPyramidBytes * finest * bytes / each);
-  estimate.finest_tiles = static_cast<std::uint64_t>(finest);
-  estimate.tiles =
-      static_cast<std::uint64_t>(finest * 4 / 3) + 4 * static_cast<std::uint64_t>(plan.block_level) + plan.grid.roots();
-  estimate.parts = estimate.bytes + kReducedBytes * estimate.blocks;
   const auto side = static_cast<std::uint64_t>(plan.cells) << (plan.max_zoom() - plan.block_level);
+  const double nodes_of_block = static_cast<double>(side) * static_cast<double>(side);
+  const double began = core_seconds();
+  double tiles = 0, seconds = 0, bytes = 0;
+  // Of one of the level at hand, and the tiles' share that has heights.
+  double making = 0, size = 0, share = 0, reading = 0;
+  for (int z = plan.max_zoom(); z >= plan.block_level && !blocks.empty(); --z) {
+    const double left = kMostSeconds - (core_seconds() - began), next = kTimeOfLarger * making;
+    const int wanted = std::max(1, samples / (plan.max_zoom() - z + 1));
+    const int count = next * wanted < left ? wanted : static_cast<int>(left / next);
+    if (count > 0) {
+      const auto look = look_at(job, blocks, z, count, nodes);
+      if (!look) return tl::unexpected(look.error());
+      reading = look->seconds_of_reading() * counts[static_cast<std::size_t>(z)];
+      share = look->share();
+      if (look->made > 0) {
+        making = look->seconds_of_making();
+        size = look->bytes_of_one();
+      }
+    } else {
+      making *= kTimeOfLarger;
+      size *= kBytesOfLarger;
+    }
+    const double made = share * counts[static_cast<std::size_t>(z)];
+    if (z == plan.max_zoom()) estimate.finest_tiles = static_cast<std::uint64_t>(made);
+    tiles += made;
+    seconds += made * making;
+    bytes += made * size;
+  }
+  // Nodes are read once for all levels.
+  seconds += reading + kSecondsOfNode * nodes_of_block * static_cast<double>(blocks.size());
+  const double above = static_cast<double>(4 * plan.block_level) + plan.grid.roots();
+  estimate.core_seconds = seconds + kSecondsAbove * above;
+  estimate.bytes = static_cast<std::uint64_t>(bytes + kBytesAbove * above);
+  estimate.tiles = static_cast<std::uint64_t>(tiles + above);
+  estimate.parts = estimate.bytes + kReducedBytes * estimate.blocks;
   estimate.memory = kProgramBytes + 3 * sizeof(float) * side * side;
   return estimate;
 }

@@ -1,12 +1,12 @@
 // A share of the blocks into a part, and all parts into a set.
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <time.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "base/reporter.h"
+#include "io/tiles/core_seconds.h"
 #include "io/tiles/part_writer.h"
 #include "scarp/tile_job.h"
 
@@ -29,13 +29,6 @@ class BlockSink final : public TileSink {
  private:
   TileEncoder encoder_;
 };
-
-/// CPU time of the process.
-double core_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) / 1e9;
-}
 
 std::uint64_t peak_memory() {
   rusage usage{};

@@ -31,7 +31,7 @@ Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path) {
 TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan) {
   if (format == TileFormat::kGlb)
     return [&plan](const TerrainTile& tile) { return encode_tile_glb(place_on_earth(tile, plan)); };
-  return [&plan](const TerrainTile& tile) { return compress_gzip(encode_quantized_mesh(tile, plan.ellipsoid, plan.grid)); };
+  return [&plan](const TerrainTile& tile) { return compress_gzip_of_mesh(encode_quantized_mesh(tile, plan.ellipsoid, plan.grid)); };
 }
 
 std::unique_ptr<TileSetSink> make_tile_sink(TileFormat format, TileSetWriter& writer, const PyramidPlan& plan) {

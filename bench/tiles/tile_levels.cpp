@@ -1,0 +1,152 @@
+// Times tiles, level by level, as `scarp tile` makes them: from nodes of a raster in memory to compressed bytes.
+//
+//   tile_levels RASTER [--te W S E N] [--effort fast|normal|high] [--error M] [--zoom Z] [--levels A B] [--tiles N]
+//               [--rounds N]
+//
+// One line a level, from the block's down: tiles (N at most, 20, spread over those that the raster covers wholly),
+// their triangles and bytes, CPU milliseconds a tile (of each tile the least of N rounds, 3) to read its nodes, to make
+// it of them, and to encode it, and a hash of all bytes: the same before and after what changes the time alone.
+
+#include <time.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "scarp/tile.h"
+#include "scarp/tile_job.h"
+#include "scarp/tile_set.h"
+#include "tiles/tile_maker.h"
+#include "tiles/tile_mesh_parts.h"
+#include "tiles/tile_nodes.h"
+
+namespace {
+
+[[noreturn]] void die(const std::string& sentence) {
+  std::fprintf(stderr, "%s\n", sentence.c_str());
+  std::exit(2);
+}
+
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+struct Options {
+  std::string raster;
+  scarp::ReadOptions reading;
+  scarp::PyramidSettings settings;
+  int first = 0, last = scarp::kMaxTileLevel, tiles = 20, rounds = 3;
+};
+
+Options parse(int argc, char** argv) {
+  Options options;
+  if (argc < 2) die("usage: tile_levels RASTER [OPTION...]");
+  options.raster = argv[1];
+  int k = 2;
+  const auto next = [&] { return k < argc ? std::string(argv[k++]) : (die("a value is missing"), std::string()); };
+  const auto number = [&] { return std::atof(next().c_str()); };
+  while (k < argc) {
+    const std::string name = next();
+    if (name == "--te") {
+      std::array<double, 4> box{};
+      for (double& side : box) side = number();
+      options.reading.view.extent = box;
+    } else if (name == "--effort") {
+      const std::string effort = next();
+      options.settings.effort = effort == "fast"   ? scarp::Effort::kFast
+                                : effort == "high" ? scarp::Effort::kHigh
+                                                   : scarp::Effort::kNormal;
+    } else if (name == "--error") {
+      options.settings.max_error = number();
+    } else if (name == "--zoom") {
+      options.settings.max_zoom = static_cast<int>(number());
+    } else if (name == "--levels") {
+      options.first = static_cast<int>(number());
+      options.last = static_cast<int>(number());
+    } else if (name == "--tiles") {
+      options.tiles = static_cast<int>(number());
+    } else if (name == "--rounds") {
+      options.rounds = static_cast<int>(number());
+    } else {
+      die("no option " + name);
+    }
+  }
+  return options;
+}
+
+/// Tiles of a level that the raster covers wholly; else those that it covers in part.
+std::vector<scarp::TileId> choose_tiles(const scarp::PyramidPlan& plan, int z, int most) {
+  std::vector<scarp::TileId> whole, all;
+  const scarp::DegreeBox& covered = plan.covered;
+  const double side = 180.0 / static_cast<double>(std::uint64_t{1} << z);
+  const auto first = [&](double from, double origin) { return static_cast<std::uint32_t>((from - origin) / side); };
+  for (std::uint32_t y = first(covered.south, -90); y <= first(covered.north, -90); ++y) {
+    for (std::uint32_t x = first(covered.west, -180); x <= first(covered.east, -180); ++x) {
+      const scarp::DegreeBox box = plan.grid.bounds_of({z, x, y});
+      const double slack = side / 1e3;
+      all.push_back({z, x, y});
+      if (box.west >= covered.west - slack && box.east <= covered.east + slack && box.south >= covered.south - slack &&
+          box.north <= covered.north + slack)
+        whole.push_back({z, x, y});
+    }
+  }
+  const std::vector<scarp::TileId>& from = whole.empty() ? all : whole;
+  std::vector<scarp::TileId> chosen;
+  const std::size_t count = std::min(from.size(), static_cast<std::size_t>(most));
+  for (std::size_t i = 0; i < count; ++i) chosen.push_back(from[i * from.size() / count]);
+  return chosen;
+}
+
+template <class T>
+T take(scarp::Result<T> result) {
+  if (!result) die(result.error().message);
+  return std::move(*result);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options = parse(argc, argv);
+  options.reading.with_range = true;
+  const auto raster = take(scarp::GlobeRaster::open({{options.raster}}, options.reading, {scarp::Vertical::kNone}));
+  options.settings.ellipsoid = raster->place().ellipsoid;
+  const scarp::PyramidPlan plan = take(scarp::plan_pyramid(raster->facts(), options.settings));
+  const scarp::TileEncoder encode = scarp::make_tile_encoder(scarp::TileFormat::kQuantizedMesh, plan);
+  std::printf("level  tiles  triangles   bytes   read   make  encode  [CPU ms a tile]  hash\n");
+  for (int z = std::max(plan.block_level, options.first); z <= std::min(plan.max_zoom(), options.last); ++z) {
+    const std::vector<scarp::TileId> ids = choose_tiles(plan, z, options.tiles);
+    std::uint64_t triangles = 0, bytes = 0, hash = 0xcbf29ce484222325;
+    std::array<double, 3> sum{};
+    for (const scarp::TileId id : ids) {
+      std::array<double, 3> least{};
+      for (int round = 0; round < options.rounds; ++round) {
+        const std::int32_t steps = scarp::steps_of(plan, z);
+        const double start = cpu_seconds();
+        const auto nodes = take(scarp::TileNodes::read(plan, id, steps, scarp::normal_reach(steps), raster->nodes()));
+        const double is_read = cpu_seconds();
+        const auto tile = take(scarp::make_proven_tile(plan, id, nodes, raster->nodes()));
+        const double is_made = cpu_seconds();
+        const auto packed = take(encode(tile));
+        const double end = cpu_seconds();
+        const std::array<double, 3> took{is_read - start, is_made - is_read, end - is_made};
+        for (std::size_t k = 0; k < 3; ++k) least[k] = round == 0 ? took[k] : std::min(least[k], took[k]);
+        if (round > 0) continue;
+        triangles += tile.triangles.size() / 3;
+        bytes += packed.size();
+        for (const std::uint8_t byte : packed) hash = (hash ^ byte) * 0x100000001b3;
+      }
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += least[k];
+    }
+    const auto count = static_cast<double>(ids.size());
+    std::printf("%5d  %5zu  %9.0f  %6.0f  %5.2f  %5.2f   %5.2f                    %016llx\n", z, ids.size(),
+                static_cast<double>(triangles) / count, static_cast<double>(bytes) / count, 1e3 * sum[0] / count,
+                1e3 * sum[1] / count, 1e3 * sum[2] / count, static_cast<unsigned long long>(hash));
+    std::fflush(stdout);
+  }
+}
