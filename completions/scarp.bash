@@ -145,6 +145,10 @@ _scarp() {
       COMPREPLY=($(compgen -W 'fast normal high' -- "$current"))
       return
       ;;
+    "tile --grid" | "tile-plan --grid" | "tile-check --grid" | "serve --grid")
+      COMPREPLY=($(compgen -W 'geographic mercator' -- "$current"))
+      return
+      ;;
     "tile --cells" | "tile-plan --cells" | "tile-check --cells" | "serve --cells")
       COMPREPLY=($(compgen -W '16 32 64 128 256' -- "$current"))
       return
@@ -198,14 +202,14 @@ _scarp() {
       tile)
         options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --geoid'
         options+=' --ellipsoid --only --report --overwrite --of --effort --max-error --quality'
-        options+=' --zoom --cells --nodata --background --num-threads --quiet --json-progress --help'
-        options+=' --help-all --version'
+        options+=' --zoom --grid --cells --nodata --background --num-threads --quiet --json-progress'
+        options+=' --help --help-all --version'
         ;;
       tile-plan)
         options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --geoid'
         options+=' --ellipsoid --only --changed-since --hash --overwrite --of --shards --slurm'
-        options+=' --effort --max-error --quality --zoom --cells --nodata --background --survey'
-        options+=' --quiet --json-progress --help --help-all --version'
+        options+=' --effort --max-error --quality --zoom --grid --cells --nodata --background'
+        options+=' --survey --quiet --json-progress --help --help-all --version'
         ;;
       tile-run)
         options+=' --shard --only --parts --memory --num-threads --quiet --json-progress --help'
@@ -216,15 +220,15 @@ _scarp() {
         options+=' --version'
         ;;
       tile-check)
-        options+=' --source --band --te --resolution --decode --z-scale --z-offset --vertical'
-        options+=' --geoid --ellipsoid --json --cells --nodata --background --num-threads --quiet'
-        options+=' --json-progress --help --help-all --version'
+        options+=' --source --band --te --resolution --decode --z-scale --z-offset --grid'
+        options+=' --vertical --geoid --ellipsoid --json --cells --nodata --background --num-threads'
+        options+=' --quiet --json-progress --help --help-all --version'
         ;;
       serve)
         options+=' --band --te --resolution --decode --z-scale --z-offset --vertical --geoid'
-        options+=' --ellipsoid --effort --max-error --quality --zoom --cells --nodata --background'
-        options+=' --memory --port --host --num-threads --quiet --json-progress --help --help-all'
-        options+=' --version'
+        options+=' --ellipsoid --effort --max-error --quality --zoom --grid --cells --nodata'
+        options+=' --background --memory --port --host --num-threads --quiet --json-progress --help'
+        options+=' --help-all --version'
         ;;
       info)
         options+=' --band --te --resolution --decode --z-scale --z-offset --cell-size --crs'

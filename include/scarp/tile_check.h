@@ -53,8 +53,9 @@ struct TileCheckOptions {
   CheckedNodes nodes = {};  ///< DEFAULT: none, bounds are not measured
   /// Of the globe. DEFAULT: what the set says, else WGS 84.
   std::optional<Geodetic> ellipsoid = std::nullopt;
-  std::size_t most_faults = 1;  ///< that are described, of each kind
-  Run run = {};                 ///< threads and progress, passes "check" and "nodes"
+  std::optional<TileGrid> grid = std::nullopt;  ///< DEFAULT: of the projection that layer.json names, else geographic.
+  std::size_t most_faults = 1;                  ///< that are described, of each kind
+  Run run = {};                                 ///< threads and progress, passes "check" and "nodes"
 };
 
 struct TileFault {

@@ -2,10 +2,15 @@
 //
 // All grids are quadtrees: a tile of level z + 1 is a quarter of one of level z; y counts from the south. Nodes divide
 // a tile's sides into equal numbers of steps; each node of a level is one of the finer levels, too.
+//
+// Clients place vertices by the tile's bounds in degrees, linearly. So do nodes of the geographic grid lie, evenly;
+// rows of the Mercator grid are evenly apart on its map, not in degrees.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string_view>
 
 #pragma GCC visibility push(default)
 
@@ -28,6 +33,7 @@ struct DegreeBox {
 
 enum class GridKind {
   kGeographic,  ///< TMS in degrees: two tiles of 180° at level 0, side by side
+  kMercator,    ///< TMS on the map of Web Mercator: one tile at level 0, which ends at ±85.0511°
 };
 
 struct NodeWindow;
@@ -36,8 +42,15 @@ struct NodeWindow;
 struct TileGrid {
   GridKind kind = GridKind::kGeographic;
 
+  /// "geographic", "mercator".
+  std::string_view name() const;
+  static std::optional<TileGrid> find(std::string_view name);
+  /// What layer.json calls it.
+  std::string_view projection() const;
+  static std::optional<TileGrid> find_projection(std::string_view projection);
+
   /// Tiles of level 0, side by side.
-  std::uint32_t roots() const { return 2; }
+  std::uint32_t roots() const { return kind == GridKind::kMercator ? 1 : 2; }
   std::uint32_t columns(int z) const { return roots() << z; }
   std::uint32_t rows(int z) const { return std::uint32_t{1} << z; }
   bool has(TileId id) const { return id.z >= 0 && id.z <= kMaxTileLevel && id.x < columns(id.z) && id.y < rows(id.z); }
@@ -46,9 +59,17 @@ struct TileGrid {
   /// tiles is next to the first.
   std::span<const double> turns() const;
   /// Whether the first and the last row of nodes are a pole each: one place.
-  bool has_poles() const { return true; }
+  bool has_poles() const { return kind == GridKind::kGeographic; }
+  /// Whether rows of nodes are evenly apart in degrees.
+  bool has_even_rows() const { return kind == GridKind::kGeographic; }
 
+  DegreeBox bounds() const;
   DegreeBox bounds_of(TileId id) const;
+  /// Degrees of a row of nodes, where rows count from 0, the northern end, to `last_row`, a power of two. The same bits
+  /// on every machine.
+  double latitude(std::int64_t row, std::int64_t last_row) const;
+  /// From a row of nodes to the next, in degrees, over the same from a column to the next: at a latitude.
+  double row_step(double latitude) const;
   /// Degrees between two nodes, the larger of both ways.
   double largest_step(std::int64_t per_turn) const { return 360 / static_cast<double>(per_turn); }
   /// Nodes' steps from the western to the eastern end of the grid, for so many along a side of a tile of level z.
@@ -81,9 +102,7 @@ struct NodeWindow {
     const std::int64_t wrapped = ((of_col % per_turn) + per_turn) % per_turn;
     return -180 + 360 * (static_cast<double>(wrapped) / static_cast<double>(per_turn));
   }
-  double latitude(std::int64_t of_row) const {
-    return 90 - 360 * (static_cast<double>(of_row) / static_cast<double>(per_turn));
-  }
+  double latitude(std::int64_t of_row) const { return grid.latitude(of_row, last_row()); }
 };
 
 }  // namespace scarp

@@ -33,7 +33,7 @@ enum class TileFormat {
 
 /// The name that a tile has where tiles are files, as TileFormat says.
 std::string tile_name(TileFormat format, TileId id);
-/// The reverse; nothing for other names, and for tiles that the grid does not have.
+/// The reverse; nothing for other names, and for tiles that no grid has.
 std::optional<TileId> find_tile_id(TileFormat format, std::string_view name);
 
 /// Takes a set of tiles into its container. One thread at a time.

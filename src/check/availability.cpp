@@ -61,7 +61,7 @@ void check_availability(const TileSetReader& set, const SetClaims& claims, const
   for (std::uint32_t x = 0; x < grid.roots(); ++x) {
     const std::vector<std::uint64_t>& roots = tiles_of(0);
     if (!std::binary_search(roots.begin(), roots.end(), key_of(x, 0)))
-      add(fmt::format("{} is missing: clients begin with both roots", name({0, x, 0})));
+      add(fmt::format("{} is missing: clients begin with the roots", name({0, x, 0})));
   }
 }
 

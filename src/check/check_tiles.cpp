@@ -38,6 +38,7 @@ class TilesCheck {
       : set_(set),
         options_(options),
         claims_(read_set_claims(set)),
+        grid_(options.grid.value_or(claims_.grid)),
         ellipsoid_(options.ellipsoid.value_or(claims_.ellipsoid.value_or(Geodetic{}))),
         reporter_(options.run.progress) {}
 
@@ -177,8 +178,8 @@ class TilesCheck {
 
   const TileSetReader& set_;
   const TileCheckOptions& options_;
-  TileGrid grid_;
   SetClaims claims_;
+  TileGrid grid_;
   Ellipsoid ellipsoid_;
   Reporter reporter_;
   TileCheck check_;

@@ -9,6 +9,7 @@
 #include "tiles/larger.h"
 #include "tiles/row_range.h"
 #include "tiles/tile_mesh_parts.h"
+#include "tiles/tile_rows.h"
 
 namespace scarp {
 namespace {
@@ -58,18 +59,19 @@ struct Extremes {
   }
 };
 
-Extremes extremes(const Piece& piece, const Corners& surface, std::int32_t col, std::int32_t row) {
+/// `north`, `height`: of the cell.
+Extremes extremes(const Piece& piece, const Corners& surface, std::int32_t col, double north, double height) {
   Extremes found;
   const double bend = surface.nw - surface.ne - surface.sw + surface.se;
   for (std::size_t k = 0; k < piece.size(); ++k) {
     const Corner& from = piece[k];
     const Corner& to = piece[(k + 1) % piece.size()];
     const auto difference = [&](double t) {
-      const double x = from.x + (to.x - from.x) * t - col, y = from.y + (to.y - from.y) * t - row;
+      const double x = from.x + (to.x - from.x) * t - col, y = (from.y + (to.y - from.y) * t - north) / height;
       return from.z + (to.z - from.z) * t - surface.at(x, y);
     };
     found.add(difference(0));
-    const double curve = -bend * (to.x - from.x) * (to.y - from.y);
+    const double curve = -bend * (to.x - from.x) * ((to.y - from.y) / height);
     if (curve == 0) continue;
     const double t = 0.5 - (difference(1) - difference(0)) / (2 * curve);
     if (t > 0 && t < 1) found.add(difference(t));
@@ -83,6 +85,7 @@ Result<CoarseTile> CoarseTile::reduce(const PyramidPlan& plan, TileId id, const 
                                       const NodeSource& source) {
   CoarseTile tile;
   const std::int32_t step = nodes.steps() / kCoarseCells;
+  const TileRows rows(plan.grid, id, nodes.steps());
   for (std::int32_t row = 0; row <= kCoarseCells; ++row) {
     for (std::int32_t col = 0; col <= kCoarseCells; ++col) tile.nodes_.push_back(nodes.at(col * step, row * step));
   }
@@ -91,11 +94,13 @@ Result<CoarseTile> CoarseTile::reduce(const PyramidPlan& plan, TileId id, const 
       const Corners surface = tile.corners(col, row);
       double low = 0, high = 0;
       Extremes heights;
+      const double north = rows.line(row * step), cell = rows.line((row + 1) * step) - north;
       for (std::int32_t y = 0; y <= step; ++y) {
+        const double down = (rows.line(row * step + y) - north) / cell;
         const float* const from = nodes.from(col * step, row * step + y);
         for (std::int32_t x = 0; x <= step; ++x) {
           const double height = from[x];
-          const double off = height - surface.at(static_cast<double>(x) / step, static_cast<double>(y) / step);
+          const double off = height - surface.at(static_cast<double>(x) / step, down);
           low = std::min(low, off);
           high = std::max(high, off);
           heights.add(height);
@@ -118,6 +123,7 @@ Result<void> CoarseTile::look_at_samples(const PyramidPlan& plan, TileId id, con
   const DegreeBox box = plan.grid.bounds_of(id);
   const double per_x = kCoarseCells / (box.east - box.west), per_y = kCoarseCells / (box.north - box.south);
   const double finer = static_cast<double>(nodes.steps()) / kCoarseCells;
+  const TileRows rows(plan.grid, id, kCoarseCells), fine_rows(plan.grid, id, nodes.steps());
   return source.visit_samples(box, [&](const SampleRow& row) {
     const auto [first, end] =
         range_within(row.longitude, row.step_longitude, row.latitude, row.step_latitude, row.heights.size(), box);
@@ -125,16 +131,14 @@ Result<void> CoarseTile::look_at_samples(const PyramidPlan& plan, TileId id, con
       const double height = row.heights[i];
       const double x = (row.longitude + row.step_longitude * static_cast<double>(i) - box.west) * per_x;
       const double y = (box.north - row.latitude - row.step_latitude * static_cast<double>(i)) * per_y;
-      const auto within = [](double place) {
-        return std::clamp(static_cast<std::int32_t>(place), 0, kCoarseCells - 1);
-      };
-      const std::int32_t at_col = within(x), at_row = within(y);
+      const std::int32_t at_col = std::clamp(static_cast<std::int32_t>(x), 0, kCoarseCells - 1), at_row = rows.above(y);
+      const double north = rows.line(at_row), down = (y - north) / (rows.line(at_row + 1) - north);
       CoarseCell& cell = cells_[static_cast<std::size_t>(at_row * kCoarseCells + at_col)];
-      const double off = height - corners(at_col, at_row).at(x - at_col, y - at_row);
+      const double off = height - corners(at_col, at_row).at(x - at_col, down);
       const double apart = std::max(
           {off - double{cell.high}, double{cell.low} - off, height - double{cell.max}, double{cell.min} - height});
       if (!(apart > double{cell.apart})) continue;
-      if (nodes.has_voids() && !nodes.has_heights_around(x * finer, y * finer)) continue;
+      if (nodes.has_voids() && !nodes.has_heights_around(x * finer, fine_rows.above(y * finer))) continue;
       cell.apart = rounded_up(apart);
     }
   });
@@ -148,8 +152,9 @@ CoarseTile CoarseTile::flat(float height) {
   return tile;
 }
 
-CoarseTile CoarseTile::join(const std::array<const CoarseTile*, 4>& children) {
+CoarseTile CoarseTile::join(const TileGrid& grid, TileId id, const std::array<const CoarseTile*, 4>& children) {
   CoarseTile tile;
+  const TileRows rows(grid, id, 2 * kCoarseCells);
   const auto child_of = [&](std::int32_t& col, std::int32_t& row, std::int32_t last) {
     std::size_t which = 0;
     if (col > last) {
@@ -179,12 +184,15 @@ CoarseTile CoarseTile::join(const std::array<const CoarseTile*, 4>& children) {
       double low = 0, high = 0;
       float samples_apart = 0;
       Extremes heights;
+      const double north = rows.line(2 * row),
+                   middle = (rows.line(2 * row + 1) - north) / (rows.line(2 * row + 2) - north);
+      const double downs[] = {0, middle, 1};
       for (std::int32_t y = 0; y < 2; ++y) {
         for (std::int32_t x = 0; x < 2; ++x) {
           Extremes apart;
           for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {0, 1}, {1, 1}})
             apart.add(double{fine_node(2 * col + x + dx, 2 * row + y + dy)} -
-                      surface.at((x + dx) / 2.0, (y + dy) / 2.0));
+                      surface.at((x + dx) / 2.0, downs[y + dy]));
           const CoarseCell fine = fine_cell(2 * col + x, 2 * row + y);
           low = std::min(low, apart.low + double{fine.low});
           high = std::max(high, apart.high + double{fine.high});
@@ -241,8 +249,9 @@ Result<void> CoarseLevel::read(const NodeWindow& window, std::span<float> out) c
   return {};
 }
 
-CoarseVerdict bound_errors(const TerrainTile& tile, const CoarseLevel& level) {
+CoarseVerdict bound_errors(const TerrainTile& tile, const TileGrid& grid, const CoarseLevel& level) {
   constexpr std::int32_t kSide = 2 * kCoarseCells;
+  const TileRows rows(grid, tile.id, kSide);
   const Mesh mesh = decoded(tile, kSide);
   const auto corner = [&](std::uint32_t vertex) {
     const std::array<double, 3> at = mesh.vertex(vertex);
@@ -252,16 +261,12 @@ CoarseVerdict bound_errors(const TerrainTile& tile, const CoarseLevel& level) {
   Piece strip, piece, scratch;
   for (std::size_t k = 0; k < mesh.triangles.size(); k += 3) {
     const Piece triangle{corner(mesh.triangles[k]), corner(mesh.triangles[k + 1]), corner(mesh.triangles[k + 2])};
-    const auto range = [&](double Corner::*coordinate) {
-      const auto [low, high] = std::minmax({triangle[0].*coordinate, triangle[1].*coordinate, triangle[2].*coordinate});
-      const std::int32_t first = std::clamp(static_cast<std::int32_t>(std::floor(low)), 0, kSide - 1);
-      return std::pair{first, std::clamp(static_cast<std::int32_t>(std::ceil(high)) - 1, first, kSide - 1)};
-    };
-    const auto [top, bottom] = range(&Corner::y);
-    for (std::int32_t row = top; row <= bottom; ++row) {
+    const auto [low, high] = std::minmax({triangle[0].y, triangle[1].y, triangle[2].y});
+    for (std::int32_t row = rows.above(low); row < kSide && rows.line(row) < high; ++row) {
+      const double north = rows.line(row), south = rows.line(row + 1);
       strip = triangle;
-      cut(strip, &Corner::y, row, -1, scratch);
-      cut(strip, &Corner::y, row + 1, 1, scratch);
+      cut(strip, &Corner::y, north, -1, scratch);
+      cut(strip, &Corner::y, south, 1, scratch);
       if (strip.size() < 3) continue;
       double left = kSide, right = 0;
       for (const Corner& at : strip) {
@@ -279,7 +284,7 @@ CoarseVerdict bound_errors(const TerrainTile& tile, const CoarseLevel& level) {
         const CoarseTile& coarse = level.at(2 * tile.id.x + is_east, 2 * tile.id.y + !is_south);
         const std::int32_t x = col - is_east * kCoarseCells, y = row - is_south * kCoarseCells;
         const Corners surface = coarse.corners(x, y);
-        const Extremes apart = extremes(piece, surface, col, row);
+        const Extremes apart = extremes(piece, surface, col, north, south - north);
         const CoarseCell nodes = coarse.cell(x, y);
         const double from_surface = std::max(double{nodes.high} - apart.low, apart.high - double{nodes.low});
         Extremes flat;

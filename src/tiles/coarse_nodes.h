@@ -1,7 +1,8 @@
 // Nodes above the blocks: reduced, with what each cell lost.
 //
 // A coarse tile holds 128 × 128 cells of its place. Each cell knows by how much the nodes of the source lie below and
-// above the bilinear surface between its corners, over all nodes in it. Four coarse tiles become one of the level
+// above the bilinear surface between its corners, over all nodes in it: bilinear in degrees, as triangles are planes in
+// degrees, whatever the rows of nodes are. Four coarse tiles become one of the level
 // above, every second node left out: the bilinear surfaces of both differ by one that is bilinear too, so that its
 // extremes are at corners, and bounds add up. Where they add up to more than the heights in the cell allow, these
 // count.
@@ -30,7 +31,7 @@ struct CoarseCell {
   float apart = 0;  ///< of the samples in it from both; NaN where they are not known
 };
 
-/// Heights at the corners of a cell, from its north-western corner.
+/// Heights at the corners of a cell; x and y 0 … 1 from its north-western corner.
 struct Corners {
   double nw = 0, ne = 0, sw = 0, se = 0;
 
@@ -49,7 +50,7 @@ class CoarseTile {
   /// Without heights.
   static CoarseTile flat(float height);
   /// Of the level above. `children`: north-west, north-east, south-west, south-east.
-  static CoarseTile join(const std::array<const CoarseTile*, 4>& children);
+  static CoarseTile join(const TileGrid& grid, TileId id, const std::array<const CoarseTile*, 4>& children);
 
   /// Little-endian floats: nodes, then cells.
   std::vector<std::uint8_t> to_bytes() const;
@@ -97,6 +98,6 @@ struct CoarseVerdict {
 };
 
 /// Bounds |mesh − node| over all nodes of the source under a tile of the level above `level`, and |mesh − sample|.
-CoarseVerdict bound_errors(const TerrainTile& tile, const CoarseLevel& level);
+CoarseVerdict bound_errors(const TerrainTile& tile, const TileGrid& grid, const CoarseLevel& level);
 
 }  // namespace scarp

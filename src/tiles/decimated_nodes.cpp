@@ -16,7 +16,8 @@ Result<void> DecimatedNodes::read(const NodeWindow& window, std::span<float> out
   std::vector<float> between(step <= kReadThrough ? static_cast<std::size_t>((window.cols - 1) * step + 1) : 0);
   for (int j = 0; j < window.rows; ++j) {
     float* const row = out.data() + std::ptrdiff_t{j} * window.cols;
-    NodeWindow fine{per_turn_, window.col * step, (window.row + j) * step, static_cast<int>(between.size()), 1};
+    NodeWindow fine{per_turn_, window.col * step, (window.row + j) * step, static_cast<int>(between.size()),
+                    1,         window.grid};
     if (!between.empty()) {
       if (auto read = source_.read(fine, between); !read) return read;
       for (int i = 0; i < window.cols; ++i) row[i] = between[static_cast<std::size_t>(i * step)];

@@ -20,13 +20,13 @@ using Flags = std::vector<bool>;
 /// Whether the tiles of the finest level below a block have heights.
 Result<Flags> find_heights(const PyramidPlan& plan, TileId block, const NodeSource& source) {
   const std::int32_t side = 1 << (plan.max_zoom() - block.z), steps = steps_of(plan, block.z), cells = plan.cells;
-  const std::int64_t per_turn = std::int64_t{steps} << (block.z + 1);
-  const std::int64_t first = (((std::int64_t{1} << block.z) - 1) - block.y) * steps;
+  NodeWindow band = plan.grid.window_of(block, steps);
+  const std::int64_t first = band.row;
+  band.rows = cells + 1;
   Flags has(static_cast<std::size_t>(side * side));
   std::vector<float> heights(static_cast<std::size_t>(steps + 1) * static_cast<std::size_t>(cells + 1));
   for (std::int32_t y = 0; y < side; ++y) {
-    const NodeWindow band{per_turn, std::int64_t{block.x} * steps, first + std::int64_t{side - 1 - y} * cells,
-                          steps + 1, cells + 1};
+    band.row = first + std::int64_t{side - 1 - y} * cells;
     if (auto read = source.read(band, heights); !read) return tl::unexpected(read.error());
     for (std::size_t k = 0; k < heights.size(); ++k) {
       if (std::isnan(heights[k])) continue;

@@ -9,6 +9,7 @@
 #include "scarp/tile.h"
 #include "tiles/globe.h"
 #include "tiles/powers.h"
+#include "tiles/tile_rows.h"
 
 namespace scarp {
 namespace {
@@ -29,24 +30,47 @@ constexpr double kSpacing = 1.1;
 constexpr double kHighestOnEarth = 20000, kHighest = 60000;
 
 /// Edges between grid points are so short that the sag is at most an eighth of the geometric error.
-int segments_of(int z) { return z < 10 ? 32 >> (z / 2) : 1; }
-
-/// Metres between two nodes on the ground, the geometric mean of both ways.
-double spacing_of(int z, int cells, double latitude, const Globe& globe) {
-  const Globe::Radii radii = globe.radii(latitude);
-  const double radians = kPi / std::ldexp(cells, z);
-  return radians * std::sqrt(radii.meridian * radii.parallel);
+int segments_of(int z, const TileGrid& grid) {
+  const int halves = z + std::countr_zero(grid.roots());  // of a whole turn
+  return halves < 11 ? 64 >> ((halves + 1) / 2) : 1;
 }
 
-int find_max_zoom(const SourceFacts& source, int cells, const Globe& globe) {
+/// Degrees between two nodes, the geometric mean of both ways.
+double degrees_of_step(int z, int cells, double latitude, const TileGrid& grid) {
+  return grid.largest_step(grid.per_turn(z, cells)) * std::sqrt(grid.row_step(latitude));
+}
+
+/// The same on the ground, in metres.
+double spacing_of(int z, int cells, double latitude, const TileGrid& grid, const Globe& globe) {
+  const Globe::Radii radii = globe.radii(latitude);
+  return degrees_of_step(z, cells, latitude, grid) * (kPi / 180) * std::sqrt(radii.meridian * radii.parallel);
+}
+
+/// What a grid has of a box; nothing where it ends before it.
+std::optional<DegreeBox> part_on(const TileGrid& grid, const DegreeBox& box) {
+  const DegreeBox all = grid.bounds();
+  if (box.south >= all.north || box.north <= all.south) return {};
+  return DegreeBox{box.west, std::max(box.south, all.south), box.east, std::min(box.north, all.north)};
+}
+
+/// Whether each row of nodes of a block has a v of its own: rows of some grids crowd at its ends.
+bool are_rows_apart(const TileGrid& grid, int z, std::int32_t steps) {
+  const TileRows rows(grid, {z, 0, grid.rows(z) - 1}, steps);
+  for (std::int32_t row = 0; !rows.are_even() && row < steps; ++row) {
+    if (rows.v_of(row + 1) == rows.v_of(row)) return false;
+  }
+  return true;
+}
+
+int find_max_zoom(const SourceFacts& source, int cells, const TileGrid& grid, const Globe& globe) {
   const DegreeBox& covered = source.covered;
   // Where a pole is covered, nodes are as dense as anybody likes there: what counts is the edge.
   const double latitude = covered.north >= 90    ? std::max(covered.south, 0.0)
                           : covered.south <= -90 ? std::min(covered.north, 0.0)
                                                  : (covered.south + covered.north) / 2;
   const auto is_coarse = [&](int z) {
-    return source.cell_degrees > 0 ? 180 / std::ldexp(cells, z) > kSpacing * source.cell_degrees
-                                   : spacing_of(z, cells, latitude, globe) > kSpacing * source.cell;
+    return source.cell_degrees > 0 ? degrees_of_step(z, cells, latitude, grid) > kSpacing * source.cell_degrees
+                                   : spacing_of(z, cells, latitude, grid, globe) > kSpacing * source.cell;
   };
   int z = 0;
   while (z < kMaxTileLevel && is_coarse(z)) ++z;
@@ -92,7 +116,18 @@ Result<PyramidPlan> plan_pyramid(const SourceFacts& source, const PyramidSetting
   return plan_pyramid(std::span(&source, 1), settings);
 }
 
-Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> stack, const PyramidSettings& settings) {
+Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> given, const PyramidSettings& settings) {
+  std::vector<SourceFacts> stack;
+  for (const SourceFacts& one : given) {
+    const std::optional<DegreeBox> covered = part_on(settings.grid, one.covered);
+    if (!covered) continue;
+    stack.push_back(one);
+    stack.back().covered = *covered;
+  }
+  if (stack.empty())
+    return fail(ErrorKind::kUsage,
+                fmt::format("the {} grid ends at {:.4f} degrees, and the raster lies beyond: take the geographic grid",
+                            settings.grid.name(), settings.grid.bounds().north));
   const SourceFacts source = join_facts(stack);
   if (settings.cells < 16 || settings.cells > 256 || !std::has_single_bit(static_cast<unsigned>(settings.cells)))
     return fail(ErrorKind::kUsage, fmt::format("{} cells a tile: give 16, 32, 64, 128 or 256", settings.cells));
@@ -132,12 +167,13 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> stack, const Pyram
     plan.covered = *shared;
   }
   std::vector<int> asked;
-  for (const SourceFacts& one : stack) asked.push_back(find_max_zoom(one, settings.cells, globe));
+  for (const SourceFacts& one : stack) asked.push_back(find_max_zoom(one, settings.cells, settings.grid, globe));
   const int most = *std::max_element(asked.begin(), asked.end());
   const int finest = settings.max_zoom >= 0 ? settings.max_zoom : most;
   for (std::size_t k = 0; stack.size() > 1 && k < stack.size(); ++k)
     plan.sources.push_back({stack[k].covered, asked[k] == most ? finest : std::min(asked[k], finest)});
   plan.block_level = std::max(0, finest - kBlockDepth);
+  while (!are_rows_apart(plan.grid, plan.block_level, plan.cells << (finest - plan.block_level))) ++plan.block_level;
   // A tile's 32767 steps must hold its relief, here that of the whole source.
   const double room = (high - low) / 32767;
   const double least_quantum = std::max(kLeastQuantum, room > 0 ? 2 * power_of_two_below(room) : 0);
@@ -156,7 +192,7 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> stack, const Pyram
           fmt::format("a max error of {} m is less than quantized-mesh holds for heights of {} to {} m, the background "
                       "included: its steps are {} m; give {} or more",
                       level.max_error, low, high, level.quantum, 4 * level.quantum));
-    level.segments = segments_of(z);
+    level.segments = segments_of(z, settings.grid);
     plan.levels.push_back(level);
   }
   return plan;

@@ -24,7 +24,7 @@ Result<std::optional<TerrainTile>> make_coarse(const PyramidPlan& plan, TileId i
   if (!nodes) return tl::unexpected(nodes.error());
   double source_error = 0;
   const auto judge = [&](const TerrainTile& made) -> Result<TileVerdict> {
-    const CoarseVerdict verdict = bound_errors(made, below);
+    const CoarseVerdict verdict = bound_errors(made, plan.grid, below);
     source_error = verdict.source_error;
     return TileVerdict{verdict.node_error, {}};
   };
@@ -46,7 +46,7 @@ CoarseLevel join_level(const PyramidPlan& plan, const std::vector<TileId>& tiles
     const std::array<const CoarseTile*, 4> children{
         &below.at(north_west.x, north_west.y), &below.at(north_east.x, north_east.y),
         &below.at(south_west.x, south_west.y), &below.at(south_east.x, south_east.y)};
-    CoarseTile joined = CoarseTile::join(children);
+    CoarseTile joined = CoarseTile::join(plan.grid, id, children);
     if (joined.has_heights) level.add(id.x, id.y, std::move(joined));
   }
   return level;
@@ -56,7 +56,7 @@ CoarseLevel join_level(const PyramidPlan& plan, const std::vector<TileId>& tiles
 
 Result<TerrainTile> make_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source) {
   const std::int32_t steps = 2 * kCoarseCells;
-  const DecimatedNodes few(source, std::int64_t{plan.cells} << (plan.max_zoom() + 1));
+  const DecimatedNodes few(source, plan.grid.per_turn(plan.max_zoom(), plan.cells));
   const auto nodes = TileNodes::read(plan, id, steps, normal_reach(steps), few);
   if (!nodes) return tl::unexpected(nodes.error());
   // As in make_coarse(): the first mesh that does not fold is the tile, whatever its error.

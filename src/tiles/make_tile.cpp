@@ -18,6 +18,8 @@
 #include "tiles/tile_maker.h"
 #include "tiles/tile_mesh_parts.h"
 #include "tiles/tile_nodes.h"
+#include "tiles/tile_rows.h"
+#include "tiles/tile_surface.h"
 
 namespace scarp {
 namespace {
@@ -25,12 +27,17 @@ namespace {
 /// Meshes that are made at most, until what clients decode satisfies the level's max error.
 constexpr int kMeshTrials = 12;
 /// Free vertices lie on eighths of a step.
-constexpr std::int64_t kParts = 8;
+constexpr std::int32_t kParts = 8;
 
 class TileMaker {
  public:
   TileMaker(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileJudge& judge)
-      : plan_(plan), level_(plan.levels[static_cast<std::size_t>(id.z)]), id_(id), nodes_(nodes), judge_(judge) {}
+      : plan_(plan),
+        level_(plan.levels[static_cast<std::size_t>(id.z)]),
+        id_(id),
+        nodes_(nodes),
+        rows_(plan.grid, id, nodes.steps()),
+        judge_(judge) {}
 
   Result<TerrainTile> make() {
     lay_edges();
@@ -70,17 +77,25 @@ class TileMaker {
       for (std::int32_t col = 0; col <= steps(); ++col) samples_[index(col, row)] = rounded(nodes_.at(col, row));
     }
     const std::int32_t last = steps();
-    edges_.top = lay_edge([&](std::int32_t i) { return std::pair{i, 0}; });
-    edges_.bottom = lay_edge([&](std::int32_t i) { return std::pair{i, last}; });
-    edges_.left = lay_edge([&](std::int32_t i) { return std::pair{0, i}; });
-    edges_.right = lay_edge([&](std::int32_t i) { return std::pair{last, i}; });
+    EdgeNodes across, down;
+    for (std::int32_t i = 0; i <= last; ++i) {
+      across.places.push_back(i);
+      across.decoded.push_back(static_cast<double>(quantized(i, last)) * last / 32767);
+      down.places.push_back(rows_.line(i));
+      down.decoded.push_back(static_cast<double>(32767 - rows_.v_of(last - i)) * last / 32767);
+    }
+    edges_.top = lay_edge(across, [&](std::int32_t i) { return std::pair{i, 0}; });
+    edges_.bottom = lay_edge(across, [&](std::int32_t i) { return std::pair{i, last}; });
+    edges_.left = lay_edge(down, [&](std::int32_t i) { return std::pair{0, i}; });
+    edges_.right = lay_edge(down, [&](std::int32_t i) { return std::pair{last, i}; });
   }
 
   template <class Place>
-  std::vector<std::int32_t> lay_edge(const Place& place) {
-    std::vector<float> heights;
+  std::vector<std::int32_t> lay_edge(EdgeNodes& nodes, const Place& place) {
+    std::vector<float>& heights = nodes.heights;
+    heights.clear();
     for (std::int32_t i = 0; i <= steps(); ++i) heights.push_back(nodes_.at(place(i).first, place(i).second));
-    std::vector<std::int32_t> vertices = choose_edge_vertices(heights, level_);
+    std::vector<std::int32_t> vertices = choose_edge_vertices(nodes, level_);
     for (std::size_t k = 1; k < vertices.size(); ++k) {
       const std::int32_t from = vertices[k - 1], to = vertices[k];
       const double low = double{rounded(heights[static_cast<std::size_t>(from)])};
@@ -135,10 +150,9 @@ class TileMaker {
     whole.triangles = mesh.triangles;
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
       const std::array<double, 3> at = mesh.vertex(v);
-      for (const double way : {at[0], at[1]}) {
-        const auto parts = static_cast<std::int64_t>(std::floor(way * kParts + 0.5));
-        whole.positions.push_back(quantized(parts, kParts * steps()));
-      }
+      const auto parts = [](double way) { return static_cast<std::int64_t>(std::floor(way * kParts + 0.5)); };
+      whole.positions.push_back(quantized(parts(at[0]), std::int64_t{kParts} * steps()));
+      whole.positions.push_back(rows_.v_of(parts(at[1]), kParts));
       whole.positions.push_back(quanta_of(at[2], level_.quantum));
     }
     optimize_order(whole);
@@ -164,7 +178,7 @@ class TileMaker {
       const std::int64_t acx = tile.u[c] - tile.u[a], acy = tile.v[c] - tile.v[a];
       if (abx * acy > acx * aby) continue;
       for (const std::uint32_t v : {a, b, c}) {
-        nodes.push_back({nearest_node(tile.u[v], steps()), steps() - nearest_node(tile.v[v], steps())});
+        nodes.push_back({nearest_node(tile.u[v], steps()), rows_.nearest(tile.v[v])});
       }
     }
     return nodes;
@@ -173,13 +187,14 @@ class TileMaker {
   void finish(TerrainTile& tile) const {
     const Globe globe(plan_.ellipsoid);
     tile.sag = largest_sag(tile, plan_.grid, globe);
-    tile.normals = node_normals(tile, nodes_, plan_.grid, globe);
+    tile.normals = node_normals(tile, nodes_, rows_, plan_.grid, globe);
   }
 
   const PyramidPlan& plan_;
   const PyramidLevel& level_;
   TileId id_;
   const TileNodes& nodes_;
+  const TileRows rows_;
   const TileJudge& judge_;
   std::vector<float> samples_;
   EdgeVertices edges_;
@@ -188,7 +203,29 @@ class TileMaker {
 
 }  // namespace
 
-Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, double max_error) {
+namespace {
+
+TileVerdict judge_by_rows(const TerrainTile& tile, const TileNodes& nodes, const TileRows& rows, double max_error) {
+  const std::int32_t steps = nodes.steps();
+  TileSurface surface(tile, max_error);
+  for (std::int32_t row = 0; row <= steps; ++row) {
+    const double v = 32767 * (1 - rows.line(row) / steps);
+    surface.judge({0, v, 32767.0 / steps, 0, {nodes.from(0, row), static_cast<std::size_t>(steps) + 1}});
+  }
+  TileVerdict verdict{surface.largest_error(), {}};
+  for (const FarPoint& far : surface.far_points()) {
+    verdict.offenders.push_back({static_cast<std::int32_t>(std::floor(far.u * steps / 32767 + 0.5)),
+                                 rows.nearest(static_cast<std::uint16_t>(std::floor(far.v + 0.5)))});
+  }
+  return verdict;
+}
+
+}  // namespace
+
+Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, const TileGrid& grid,
+                                   double max_error) {
+  if (const TileRows rows(grid, tile.id, nodes.steps()); !rows.are_even())
+    return judge_by_rows(tile, nodes, rows, max_error);
   NodeErrors errors = scan_nodes(tile, nodes, max_error);
   if (errors.uncovered > 0)
     return fail(ErrorKind::kInternal, fmt::format("tile {}/{}/{} leaves {} of its nodes uncovered", tile.id.z,
@@ -202,7 +239,8 @@ Result<TerrainTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileN
 
 Result<TerrainTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes) {
   const double max_error = plan.levels[static_cast<std::size_t>(id.z)].max_error;
-  return make_tile_of(plan, id, nodes, [&](const TerrainTile& tile) { return judge_at_nodes(tile, nodes, max_error); });
+  return make_tile_of(plan, id, nodes,
+                      [&](const TerrainTile& tile) { return judge_at_nodes(tile, nodes, plan.grid, max_error); });
 }
 
 Result<TerrainTile> make_flat_tile(const PyramidPlan& plan, TileId id) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "tiles/tile_rows.h"
+
 namespace scarp {
 
 Result<void> NodeSource::visit_samples(const DegreeBox&, const SampleVisitor&) const { return {}; }
@@ -12,9 +14,10 @@ Result<SampleVerdict> judge_at_samples(const TerrainTile& tile, const TileGrid& 
   const DegreeBox box = grid.bounds_of(tile.id);
   const double per_u = 32767 / (box.east - box.west), per_v = 32767 / (box.north - box.south);
   TileSurface::Counts counts;
+  const TileRows rows(grid, tile.id, nodes.steps());
   if (nodes.has_voids()) {
     counts = [&](double u, double v) {
-      return nodes.has_heights_around(u / 32767 * nodes.steps(), (1 - v / 32767) * nodes.steps());
+      return nodes.has_heights_around(u / 32767 * nodes.steps(), rows.above((1 - v / 32767) * nodes.steps()));
     };
   }
   TileSurface surface(tile, limit, counts);

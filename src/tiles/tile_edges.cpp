@@ -14,22 +14,19 @@ constexpr int kTrials = 64;
 constexpr double kShare = 511.0 / 512;
 
 /// Largest error of the line through `vertices` as clients decode it.
-double edge_error(std::span<const float> heights, std::span<const std::int32_t> vertices, double quantum) {
-  const auto steps = static_cast<std::int64_t>(heights.size()) - 1;
-  const auto place = [&](std::int32_t node) {
-    return static_cast<double>(quantized(node, steps)) * static_cast<double>(steps) / 32767;
-  };
+double edge_error(const EdgeNodes& nodes, std::span<const std::int32_t> vertices, double quantum) {
+  const auto place = [&](std::int32_t node) { return nodes.decoded[static_cast<std::size_t>(node)]; };
   const auto height = [&](std::int32_t node) {
-    return quantum * quanta_of(double{heights[static_cast<std::size_t>(node)]}, quantum);
+    return quantum * quanta_of(double{nodes.heights[static_cast<std::size_t>(node)]}, quantum);
   };
   double worst = 0;
   std::size_t k = 0;
-  for (std::int32_t i = 0; i <= steps; ++i) {
-    while (k + 2 < vertices.size() && place(vertices[k + 1]) < i) ++k;
+  for (std::size_t i = 0; i < nodes.heights.size(); ++i) {
+    while (k + 2 < vertices.size() && place(vertices[k + 1]) < nodes.places[i]) ++k;
     const double from = place(vertices[k]), to = place(vertices[k + 1]);
     const double low = height(vertices[k]), high = height(vertices[k + 1]);
-    const double line = low + (high - low) * ((i - from) / (to - from));
-    worst = std::max(worst, std::abs(line - double{heights[static_cast<std::size_t>(i)]}));
+    const double line = low + (high - low) * ((nodes.places[i] - from) / (to - from));
+    worst = std::max(worst, std::abs(line - double{nodes.heights[i]}));
   }
   return worst;
 }
@@ -40,9 +37,9 @@ std::int32_t quanta_of(double height, double quantum) {
   return static_cast<std::int32_t>(std::floor(height / quantum + 0.5));
 }
 
-std::vector<std::int32_t> choose_edge_vertices(std::span<const float> heights, const PyramidLevel& level) {
-  const auto steps = static_cast<std::int32_t>(heights.size()) - 1;
-  std::vector<float> rounded(heights.begin(), heights.end());
+std::vector<std::int32_t> choose_edge_vertices(const EdgeNodes& nodes, const PyramidLevel& level) {
+  const auto steps = static_cast<std::int32_t>(nodes.heights.size()) - 1;
+  std::vector<float> rounded = nodes.heights;
   for (float& z : rounded) z = static_cast<float>(level.quantum * quanta_of(double{z}, level.quantum));
   const std::int32_t segments = std::min<std::int32_t>(level.segments, steps), side = steps / segments;
   double tolerance = level.max_error - level.quantum / 2;
@@ -55,9 +52,9 @@ std::vector<std::int32_t> choose_edge_vertices(std::span<const float> heights, c
         if (i > 0) vertices.push_back(first + i);
       }
     }
-    if (edge_error(heights, vertices, level.quantum) <= kShare * level.max_error) return vertices;
+    if (edge_error(nodes, vertices, level.quantum) <= kShare * level.max_error) return vertices;
   }
-  std::vector<std::int32_t> all(heights.size());
+  std::vector<std::int32_t> all(nodes.heights.size());
   for (std::int32_t i = 0; i <= steps; ++i) all[static_cast<std::size_t>(i)] = i;
   return all;
 }

@@ -17,9 +17,16 @@ inline std::uint16_t quantized(std::int64_t node, std::int64_t steps) {
 /// The nearest multiple of the quantum; halves go up.
 std::int32_t quanta_of(double height, double quantum);
 
+/// An edge's nodes, one after the other.
+struct EdgeNodes {
+  std::vector<float> heights;   ///< none missing
+  std::vector<double> places;   ///< along the edge, as clients divide it
+  std::vector<double> decoded;  ///< places of vertices at the nodes, as clients decode them
+};
+
 /// The nodes of an edge that are vertices, ascending, with the ends and each node that begins a segment of the level:
 /// as few as keep every node within the level's max error of the line through them, the vertices where clients decode
-/// them. `heights`: of steps + 1 nodes, none missing.
-std::vector<std::int32_t> choose_edge_vertices(std::span<const float> heights, const PyramidLevel& level);
+/// them.
+std::vector<std::int32_t> choose_edge_vertices(const EdgeNodes& nodes, const PyramidLevel& level);
 
 }  // namespace scarp

@@ -16,8 +16,9 @@ struct TileVerdict {
 };
 using TileJudge = std::function<Result<TileVerdict>(const TerrainTile& tile)>;
 
-/// The errors at the nodes themselves.
-Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, double max_error);
+/// The errors at the nodes themselves. Where the grid's rows are not even the offenders are the worst of each triangle.
+Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, const TileGrid& grid,
+                                   double max_error);
 
 /// A mesh of the nodes that satisfies the level's max error where rounded positions can, else the one with the least.
 Result<TerrainTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileJudge& judge);

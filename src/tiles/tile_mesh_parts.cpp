@@ -23,24 +23,28 @@ Degrees degrees_at(const DegreeBox& box, double u, double v) {
 std::int32_t normal_reach(std::int32_t steps) { return std::max(1, steps / 256); }
 
 std::vector<std::array<std::uint8_t, 2>> node_normals(const TerrainTile& tile, const TileNodes& nodes,
-                                                      const TileGrid& grid, const Globe& globe) {
+                                                      const TileRows& rows, const TileGrid& grid, const Globe& globe) {
   const std::int32_t steps = nodes.steps(), reach = normal_reach(steps);
   const DegreeBox box = grid.bounds_of(tile.id);
   const NodeWindow window = grid.window_of(tile.id, steps);
   std::vector<std::array<std::uint8_t, 2>> normals;
   for (std::size_t k = 0; k < tile.u.size(); ++k) {
-    const std::int32_t col = nearest_node(tile.u[k], steps), row = steps - nearest_node(tile.v[k], steps);
+    const std::int32_t col = nearest_node(tile.u[k], steps), row = rows.nearest(tile.v[k]);
     // The node's degrees by its place on the globe, so that tiles on either side of an edge have the same bits.
     const double longitude = window.longitude(window.col + col), latitude = window.latitude(window.row + row);
     const Space up = Globe::up(longitude, latitude);
     Space normal = up;
     if (!window.is_pole(window.row + row)) {
       const Globe::Radii radii = globe.radii(latitude);
-      const double step = (box.north - box.south) / steps * kRadians, both = 2 * reach * step;
+      // Beyond the grid's ends the last row's nodes are repeated.
+      const double north_of = window.latitude(std::max<std::int64_t>(window.row + row - reach, 0)),
+                   south_of = window.latitude(std::min(window.row + row + reach, window.last_row()));
+      const double across = 2 * reach * ((box.east - box.west) / steps * kRadians),
+                   down = (north_of - south_of) * kRadians;
       const double rise_east =
-          (double{nodes.at(col + reach, row)} - double{nodes.at(col - reach, row)}) / (both * radii.parallel);
+          (double{nodes.at(col + reach, row)} - double{nodes.at(col - reach, row)}) / (across * radii.parallel);
       const double rise_north =
-          (double{nodes.at(col, row - reach)} - double{nodes.at(col, row + reach)}) / (both * radii.meridian);
+          (double{nodes.at(col, row - reach)} - double{nodes.at(col, row + reach)}) / (down * radii.meridian);
       const auto [sin_lon, cos_lon] = sine_of_degrees(longitude);
       const auto [sin_lat, cos_lat] = sine_of_degrees(latitude);
       const Space east{-sin_lon, cos_lon, 0}, north{-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat};

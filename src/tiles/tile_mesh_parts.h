@@ -9,6 +9,7 @@
 #include "scarp/tile.h"
 #include "tiles/globe.h"
 #include "tiles/tile_nodes.h"
+#include "tiles/tile_rows.h"
 
 namespace scarp {
 
@@ -23,7 +24,7 @@ std::int32_t normal_reach(std::int32_t steps);
 /// Central differences at the nearest node of each vertex: a function of node and level, so equal in all tiles there.
 /// At a pole away from the earth.
 std::vector<std::array<std::uint8_t, 2>> node_normals(const TerrainTile& tile, const TileNodes& nodes,
-                                                      const TileGrid& grid, const Globe& globe);
+                                                      const TileRows& rows, const TileGrid& grid, const Globe& globe);
 
 /// How far the ellipsoid's curve rises above the flat triangles at most: r² / 2R, r the radius of the smallest circle
 /// around a triangle, R the smallest radius of curvature.

@@ -40,6 +40,17 @@ for format in qm 3dtiles; do
   succeeds "$scarp" tile land.tif "site/land.$format" --of "$format" --report "land.$format.json" -q
 done
 succeeds "$scarp" tile date.tif site/date.qm -q
+# Of the grid of web maps, whose tiles end at other latitudes: what clients decode must be what was judged.
+succeeds "$scarp" tile planet.tif site/planet.web --grid mercator -e 20 --report planet.web.json -q
+python3 - > nodes << 'E2'
+import math
+from planet import height
+# Nodes of level 3, none on an edge of a tile. Cubic interpolation between half degrees is within a millimetre there.
+for row in range(3, 1023, 4):
+    latitude = math.degrees(math.atan(math.sinh(math.pi * (1 - row / 512))))
+    longitude = -180 + 360 * ((row * 37 % 1024 | 1) / 1024)
+    print(longitude, latitude, height(longitude, latitude))
+E2
 
 cat > judge.py << 'E2'
 import json, random, sys
@@ -105,6 +116,20 @@ for form in ("qm", "3dtiles"):
         job(smooth, kind="globe", of=form, url=f"planet.{form}", pixels=3, ramp=[-6000, 6000], picks=picks,
             shot=f"{name}_{form}", **{"from": [*middle, 3.5e6], "to": [*middle, 0]})
 
+# Web Mercator: at nodes, level by level, near the ends of the grid too; then around the antimeridian and the north.
+nodes = [list(map(float, line.split())) for line in open("nodes")]
+for z in (1, 2, 3):
+    job(lambda answer, bound=levels("planet.web")[z]["node_error"] * 1.001 + 0.1: near(answer["heights"], [place[2] for place in nodes], bound),
+        kind="sample", of="qm", url="planet.web", level=z, places=nodes)
+
+
+def drawn_web(answer):
+    bound = max(level["bound"] for level in levels("planet.web")[2:])
+    return near(drawn(answer)["picked"], [height(*place) for place in across], bound)
+
+
+job(drawn_web, kind="globe", of="qm", url="planet.web", pixels=3, ramp=[-6000, 6000], picks=across, shot="across_web",
+    **{"from": [180, 5, 3.5e6], "to": [180, 5, 0]})
 job(drawn, kind="globe", of="qm", url="date.qm", pixels=2, ramp=[200, 1000], shot="date_qm",
     **{"from": [180.07, 9.6, 30000], "to": [180.07, 10.05, 500]})
 

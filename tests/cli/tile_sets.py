@@ -81,7 +81,8 @@ def read_pmtiles(path, names):
     assert [o for *_, o in found] == sorted(o for *_, o in found), "not clustered"
     assert sum(length for _, _, length, _ in found) == tiles_size, "gaps"
     metadata = json.loads(gzip.decompress(data[about:about + about_size]))
-    assert metadata["grid"] == "geographic" and metadata["zoom_offset"] == 1
+    more = {"geographic": 1, "mercator": 0}[metadata["grid"]]
+    assert metadata["zoom_offset"] == more
     files = {name: text.encode() if isinstance(text, str) else base64.b64decode(text["base64"])
              for name, text in metadata["files"].items()}
     places = {number: data[tiles + offset:tiles + offset + length] for number, _, length, offset in found}
@@ -93,8 +94,8 @@ def read_pmtiles(path, names):
         z, x, y = int(parts[LEVEL_OF_TILES]), int(parts[-2]), int(parts[-1].split(".")[0])
         if len(parts) == 4:
             x += int(parts[0]) << z
-        zooms.add(z + 1)
-        files[name] = places.pop(tile_number(z + 1, x, (1 << z) - 1 - y))
+        zooms.add(z + more)
+        files[name] = places.pop(tile_number(z + more, x, (1 << z) - 1 - y))
         assert packed == (2 if files[name][:2] == b"\x1f\x8b" else 1)
     assert not places, "tiles that the folder does not have"
     assert (least, most) == (min(zooms), max(zooms))
@@ -106,7 +107,7 @@ def read_mbtiles(path, names):
     assert database.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
     assert database.execute("PRAGMA application_id").fetchone() == (0x4d504258,)
     about = dict(database.execute("SELECT name, value FROM metadata"))
-    assert about["scheme"] == "tms" and about["grid"] == "geographic"
+    assert about["scheme"] == "tms" and about["grid"] in ("geographic", "mercator")
     ending = {"application/vnd.quantized-mesh": "terrain", "model/gltf-binary": "glb"}[about["format"]]
     files = dict(database.execute("SELECT name, data FROM files"))
     for z, x, y, data in database.execute("SELECT * FROM tiles"):

@@ -65,13 +65,14 @@ def main():
                  for x in range(r["startX"], r["endX"] + 1) for y in range(r["startY"], r["endY"] + 1)}
     there = {(int(p.parts[-3]), int(p.parts[-2]), int(p.stem)): p for p in folder.glob("*/*/*.terrain")}
     assert announced == set(there), "layer.json and the folder differ"
-    assert {(0, 0, 0), (0, 1, 0)} <= announced
+    roots = {"EPSG:4326": 2, "EPSG:3857": 1}[layer["projection"]]
+    assert {(0, root, 0) for root in range(roots)} == {key for key in announced if key[0] == 0}
     for z, x, y in announced:
         assert z == 0 or (z - 1, x // 2, y // 2) in announced, "a tile without a parent"
     tiles = {key: read_tile(path) for key, path in there.items()}
     edges = 0
     for (z, x, y), tile in tiles.items():
-        for key, mine, theirs in (((z, (x + 1) % (2 << z), y), "east", "west"), ((z, x, y + 1), "north", "south")):
+        for key, mine, theirs in (((z, (x + 1) % (roots << z), y), "east", "west"), ((z, x, y + 1), "north", "south")):
             if key in tiles:
                 edges += 1
                 assert tile[mine] == tiles[key][theirs], f"{(z, x, y)} and {key} differ"

@@ -96,7 +96,8 @@ class Land final : public NodeSource {
 };
 
 struct Made {
-  Made(TileFormat format, DegreeBox box, double relief, double noise, bool has_voids, Effort effort, int finest = 6)
+  Made(TileFormat format, DegreeBox box, double relief, double noise, bool has_voids, Effort effort, int finest = 6,
+       const TileGrid& grid = {})
       : land(box, relief, noise, has_voids), shelf(format) {
     PyramidSettings settings;
     settings.cells = 16;
@@ -104,6 +105,7 @@ struct Made {
     settings.effort = effort;
     settings.has_siblings = format == TileFormat::kGlb;
     settings.background = 12.5f;
+    settings.grid = grid;
     plan = *plan_pyramid({box, 1, 0, 1.5 * relief + noise}, settings);
     const auto sink = make_tile_sink(format, shelf, plan);
     auto report = make_pyramid(plan, land, *sink);
@@ -142,13 +144,18 @@ std::string described(const TileCheck& check) {
 }
 
 const DegreeBox kIsland{10.3, 34.1, 31.9, 50.2}, kAcross{171.2, -20, 187.7, -8}, kPolar{-180, 71, 180, 90};
+constexpr TileGrid kMercator{GridKind::kMercator};
 
 TEST(tile_check, sets_that_were_made_well_hold_at_every_node) {
   std::uint64_t edges = 0, nodes = 0;
-  for (const TileFormat format : {TileFormat::kQuantizedMesh, TileFormat::kGlb}) {
+  for (const auto& [format, grid] : {std::pair{TileFormat::kQuantizedMesh, TileGrid{}},
+                                     {TileFormat::kGlb, TileGrid{}},
+                                     {TileFormat::kQuantizedMesh, kMercator}}) {
     for (const DegreeBox& box : {kIsland, kAcross, kPolar}) {
       const Effort effort = box.west == kIsland.west ? Effort::kHigh : Effort::kNormal;
-      const Made made(format, box, 900, 40, true, effort, box.north == 90 ? 5 : 6);
+      // Tiles of the same size on either grid.
+      const int finest = (box.north == 90 ? 5 : 6) + (grid.roots() == 1);
+      const Made made(format, box, 900, 40, true, effort, finest, grid);
       const TileCheck check = made.check();
       EXPECT_TRUE(check.holds()) << described(check);
       EXPECT_GT(check.levels.back().edges, 20u);
@@ -278,8 +285,8 @@ const Planted kPlanted[] = {
     {"a vertex in the air", TileFaultKind::kBound, [](Bytes& b) { lift_inner_vertex(b, 16000); }},
 };
 
-TEST(tile_check, finds_what_is_planted_in_a_tile) {
-  const Made good(TileFormat::kQuantizedMesh, kIsland, 900, 40, false, Effort::kNormal);
+void expect_finds_planted(const TileGrid& grid) {
+  const Made good(TileFormat::kQuantizedMesh, kIsland, 900, 40, false, Effort::kNormal, 6, grid);
   ASSERT_TRUE(good.check().holds());
   const TileId id = good.inner_tile();
   const std::string name = tile_name(TileFormat::kQuantizedMesh, id);
@@ -291,6 +298,24 @@ TEST(tile_check, finds_what_is_planted_in_a_tile) {
     EXPECT_GT(check.faults[static_cast<std::size_t>(fault.kind)], 0u) << fault.what << "\n" << described(check);
     EXPECT_NE(described(check).find(name), std::string::npos) << fault.what << "\n" << described(check);
   }
+}
+
+TEST(tile_check, finds_what_is_planted_in_a_tile) { expect_finds_planted({}); }
+TEST(tile_check, finds_what_is_planted_in_a_tile_of_mercator) { expect_finds_planted(kMercator); }
+
+TEST(tile_check, finds_a_set_whose_projection_is_not_that_of_its_tiles) {
+  Made made(TileFormat::kQuantizedMesh, kIsland, 900, 40, false, Effort::kFast, 5, kMercator);
+  made.options.nodes.source = nullptr;
+  Bytes& layer = made.shelf.texts.at("layer.json");
+  std::string text(layer.begin(), layer.end());
+  text.replace(text.find("EPSG:3857"), 9, "EPSG:4326");
+  layer.assign(text.begin(), text.end());
+  const TileCheck check = made.check();
+  // Vertices are not where spheres say, and a root is missing.
+  EXPECT_GT(check.faults[static_cast<std::size_t>(TileFaultKind::kHeader)], 0u) << described(check);
+  EXPECT_GT(check.faults[static_cast<std::size_t>(TileFaultKind::kAvailability)], 0u) << described(check);
+  made.options.grid = kMercator;
+  EXPECT_TRUE(made.check().holds()) << described(made.check());
 }
 
 TEST(tile_check, finds_tiles_that_are_missing_or_not_announced_or_packed_otherwise) {

@@ -1,4 +1,4 @@
-// Laws of tiles: two neighbours decode to the same edge, and a tile's bound is that of all its nodes.
+// Laws of tiles, of every grid: two neighbours decode to the same edge, and a tile's bound is that of all its nodes.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -33,11 +33,10 @@ class AnyLand final : public NodeSource {
   AnyLand(std::uint32_t seed, double relief, double noise, bool has_voids, DegreeBox covered)
       : seed_(seed), relief_(relief), noise_(noise), has_voids_(has_voids), covered_(covered) {}
 
-  float at(std::int64_t per_turn, std::int64_t col, std::int64_t row) const {
-    col = ((col % per_turn) + per_turn) % per_turn;
-    if (row == 0 || row == per_turn / 2) col = 0;
-    const double lon = -180 + 360.0 * static_cast<double>(col) / static_cast<double>(per_turn);
-    const double lat = 90 - 360.0 * static_cast<double>(row) / static_cast<double>(per_turn);
+  float at(const NodeWindow& window, std::int64_t col, std::int64_t row) const {
+    col = ((col % window.per_turn) + window.per_turn) % window.per_turn;
+    if (window.is_pole(row)) col = 0;
+    const double lon = window.longitude(col), lat = window.latitude(row);
     if (lon < covered_.west || lon > covered_.east || lat < covered_.south || lat > covered_.north) return kNone;
     const std::uint32_t hash =
         mix(static_cast<std::uint32_t>(col) * 2654435761u ^ mix(static_cast<std::uint32_t>(row) + seed_));
@@ -52,7 +51,7 @@ class AnyLand final : public NodeSource {
   Result<void> read(const NodeWindow& window, std::span<float> out) const override {
     std::size_t k = 0;
     for (int j = 0; j < window.rows; ++j) {
-      for (int i = 0; i < window.cols; ++i) out[k++] = at(window.per_turn, window.col + i, window.row + j);
+      for (int i = 0; i < window.cols; ++i) out[k++] = at(window, window.col + i, window.row + j);
     }
     return {};
   }
@@ -72,20 +71,26 @@ class AnyLand final : public NodeSource {
   DegreeBox covered_;
 };
 
-PyramidPlan plan_of(double relief, double noise, int finest, int cells, Effort effort, double share = 0.25) {
+constexpr TileGrid kGrids[] = {{GridKind::kGeographic}, {GridKind::kMercator}};
+
+TileGrid any_grid() { return kGrids[*rc::gen::inRange<std::size_t>(0, 2)]; }
+
+PyramidPlan plan_of(double relief, double noise, int finest, int cells, Effort effort, const TileGrid& grid = {},
+                    double share = 0.25) {
   SourceFacts source{{-180, -90, 180, 90}, 1, -relief, relief + noise};
   PyramidSettings settings;
   settings.cells = cells;
   settings.max_zoom = finest;
   settings.effort = effort;
-  settings.max_error = share * TileGrid{}.geometric_error(finest);
+  settings.grid = grid;
+  settings.max_error = share * grid.geometric_error(finest);
   const Result<PyramidPlan> plan = plan_pyramid(source, settings);
   EXPECT_TRUE(plan) << plan.error().message;
   return *plan;
 }
 
-QuantizedMesh decode(const TerrainTile& tile) {
-  const auto decoded = decode_quantized_mesh(encode_quantized_mesh(tile), "tile");
+QuantizedMesh decode(const TerrainTile& tile, const TileGrid& grid = {}) {
+  const auto decoded = decode_quantized_mesh(encode_quantized_mesh(tile, {}, grid), "tile");
   EXPECT_TRUE(decoded) << decoded.error().message;
   return *decoded;
 }
@@ -109,13 +114,28 @@ std::vector<EdgeVertex> without_dust(std::vector<EdgeVertex> edge) {
   return edge;
 }
 
+/// Where the rows of nodes of a tile lie in the degrees between its ends, as steps: by the library's own mathematics.
+std::vector<double> lines_of(TileId id, std::int32_t steps, const TileGrid& grid) {
+  constexpr double kPi = 3.141592653589793;
+  std::vector<double> degrees, lines;
+  for (std::int32_t row = 0; row <= steps; ++row) {
+    const double part = (grid.rows(id.z) - 1.0 - id.y + static_cast<double>(row) / steps) / grid.rows(id.z);
+    degrees.push_back(grid.has_poles() ? 90 - 180 * part : std::atan(std::sinh(kPi * (1 - 2 * part))) * 180 / kPi);
+  }
+  for (const double degree : degrees)
+    lines.push_back((degrees.front() - degree) / (degrees.front() - degrees.back()) * steps);
+  return lines;
+}
+
 /// Largest error at the nodes of a decoded tile, by brute force: every node in every triangle around it.
-double brute_force(const QuantizedMesh& mesh, TileId id, std::int32_t steps, const NodeSource& source,
-                   float background) {
+double brute_force(const QuantizedMesh& mesh, TileId id, std::int32_t steps, const NodeSource& source, float background,
+                   const TileGrid& grid) {
   std::vector<float> nodes(static_cast<std::size_t>(steps + 1) * static_cast<std::size_t>(steps + 1));
-  const std::int64_t per_turn = std::int64_t{steps} << (id.z + 1);
-  const std::int64_t row = ((std::int64_t{1} << id.z) - 1 - id.y) * std::int64_t{steps};
-  EXPECT_TRUE(source.read({per_turn, std::int64_t{id.x} * steps, row, steps + 1, steps + 1}, nodes));
+  EXPECT_TRUE(source.read(grid.window_of(id, steps), nodes));
+  const std::vector<double> lines = lines_of(id, steps, grid);
+  const auto first_row = [&](double line) {
+    return static_cast<std::int32_t>(std::lower_bound(lines.begin(), lines.end(), line - 1e-9) - lines.begin());
+  };
   std::vector<double> worst(nodes.size(), -1);
   for (std::size_t k = 0; k < mesh.triangles.size(); k += 3) {
     std::array<double, 3> x{}, y{}, z{};
@@ -128,10 +148,11 @@ double brute_force(const QuantizedMesh& mesh, TileId id, std::int32_t steps, con
     const double area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
     const auto [left, right] = std::minmax({x[0], x[1], x[2]});
     const auto [top, bottom] = std::minmax({y[0], y[1], y[2]});
-    for (auto j = static_cast<std::int32_t>(std::ceil(top - 1e-9)); j <= bottom + 1e-9; ++j) {
+    for (std::int32_t j = first_row(top); j <= steps && lines[static_cast<std::size_t>(j)] <= bottom + 1e-9; ++j) {
+      const double line = lines[static_cast<std::size_t>(j)];
       for (auto i = static_cast<std::int32_t>(std::ceil(left - 1e-9)); i <= right + 1e-9; ++i) {
-        const double b = ((i - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (j - y[0])) / area;
-        const double c = ((x[1] - x[0]) * (j - y[0]) - (i - x[0]) * (y[1] - y[0])) / area;
+        const double b = ((i - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (line - y[0])) / area;
+        const double c = ((x[1] - x[0]) * (line - y[0]) - (i - x[0]) * (y[1] - y[0])) / area;
         if (b < -1e-9 || c < -1e-9 || b + c > 1 + 1e-9) continue;
         const auto at = static_cast<std::size_t>(j * (steps + 1) + i);
         const double node = std::isnan(nodes[at]) ? double{background} : double{nodes[at]};
@@ -157,23 +178,24 @@ RC_GTEST_PROP(tile_laws, neighbours_decode_to_the_same_edge, ()) {
   double relief = 0, noise = 0;
   const AnyLand land = any_land(relief, noise);
   const int finest = *rc::gen::inRange(2, 9), z = std::max(0, finest - *rc::gen::inRange(0, 3));
-  const PyramidPlan plan = plan_of(relief, noise, finest, 32, any_effort());
-  const std::uint32_t across = std::uint32_t{2} << z, down = std::uint32_t{1} << z;
+  const TileGrid grid = any_grid();
+  const PyramidPlan plan = plan_of(relief, noise, finest, 32, any_effort(), grid);
+  const std::uint32_t across = grid.columns(z), down = grid.rows(z);
   const auto x = *rc::gen::inRange<std::uint32_t>(0, across), y = *rc::gen::inRange<std::uint32_t>(0, down);
   const auto tile = make_tile(plan, {z, x, y}, land);
   RC_ASSERT(tile.has_value());
-  const QuantizedMesh here = decode(*tile);
+  const QuantizedMesh here = decode(*tile, grid);
   // The eastern neighbour of the last column is the first.
   const auto east = make_tile(plan, {z, (x + 1) % across, y}, land);
   RC_ASSERT(east.has_value());
-  const QuantizedMesh there = decode(*east);
+  const QuantizedMesh there = decode(*east, grid);
   RC_ASSERT(without_dust(edge_of(here, here.east, here.v)) == without_dust(edge_of(there, there.west, there.v)));
   if (y + 1 < down) {
     const auto north = make_tile(plan, {z, x, y + 1}, land);
     RC_ASSERT(north.has_value());
-    const QuantizedMesh above = decode(*north);
+    const QuantizedMesh above = decode(*north, grid);
     RC_ASSERT(without_dust(edge_of(here, here.north, here.u)) == without_dust(edge_of(above, above.south, above.u)));
-  } else {
+  } else if (grid.has_poles()) {
     for (const std::uint32_t v : here.north) RC_ASSERT(here.h[v] == here.h[here.north[0]]);
   }
 }
@@ -182,12 +204,13 @@ RC_GTEST_PROP(tile_laws, the_bound_is_that_of_all_nodes_as_clients_decode_them, 
   double relief = 0, noise = 0;
   const AnyLand land = any_land(relief, noise);
   const int finest = *rc::gen::inRange(1, 9), z = std::max(0, finest - *rc::gen::inRange(0, 3));
-  const PyramidPlan plan = plan_of(relief, noise, finest, 32, any_effort());
-  const TileId id{z, *rc::gen::inRange<std::uint32_t>(0, std::uint32_t{2} << z),
-                  *rc::gen::inRange<std::uint32_t>(0, std::uint32_t{1} << z)};
+  const TileGrid grid = any_grid();
+  const PyramidPlan plan = plan_of(relief, noise, finest, 32, any_effort(), grid);
+  const TileId id{z, *rc::gen::inRange<std::uint32_t>(0, grid.columns(z)),
+                  *rc::gen::inRange<std::uint32_t>(0, grid.rows(z))};
   const auto tile = make_tile(plan, id, land);
   RC_ASSERT(tile.has_value());
-  const double error = brute_force(decode(*tile), id, nodes_of(plan, z), land, plan.background);
+  const double error = brute_force(decode(*tile, grid), id, nodes_of(plan, z), land, plan.background, grid);
   RC_ASSERT(error <= tile->node_error * (1 + 1e-9) + 1e-6);
   RC_ASSERT(tile->node_error <= plan.levels[static_cast<std::size_t>(z)].max_error);
 }
@@ -241,10 +264,11 @@ RC_GTEST_PROP(tile_laws, the_scan_of_nodes_finds_what_the_judge_finds, ()) {
 /// Tiles in memory.
 class Kept final : public TileSink {
  public:
+  explicit Kept(const TileGrid& grid = {}) : grid_(grid) {}
   Result<std::vector<std::uint8_t>> encode(const TerrainTile& tile) const override {
     const std::lock_guard lock(mutex_);
     made_[key(tile.id)] = tile;
-    return encode_quantized_mesh(tile);
+    return encode_quantized_mesh(tile, {}, grid_);
   }
   Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override {
     order.push_back(key(id));
@@ -259,22 +283,27 @@ class Kept final : public TileSink {
   std::map<Key, std::vector<std::uint8_t>> files;
 
  private:
+  TileGrid grid_;
   mutable std::mutex mutex_;
   mutable std::map<Key, TerrainTile> made_;
 };
 
 struct Made {
+  explicit Made(const TileGrid& grid) : kept(grid) {}
+
   PyramidPlan plan;
   Kept kept;
   PyramidReport report;
 };
 
-std::unique_ptr<Made> make_small_pyramid(const AnyLand& land, const DegreeBox& covered, int threads) {
+std::unique_ptr<Made> make_small_pyramid(const AnyLand& land, const DegreeBox& covered, int threads,
+                                         const TileGrid& grid = {}) {
   SourceFacts source{covered, 1, -1000, 1200};
   PyramidSettings settings;
   settings.cells = 16;
   settings.max_zoom = 7;
-  auto made = std::make_unique<Made>();
+  settings.grid = grid;
+  auto made = std::make_unique<Made>(grid);
   made->plan = *plan_pyramid(source, settings);
   Run run;
   run.threads = threads;
@@ -288,25 +317,27 @@ const DegreeBox kIsland{10.3, 34.1, 31.9, 50.2};
 
 TEST(pyramid_laws, a_tile_of_a_pyramid_is_the_one_made_alone_and_threads_change_nothing) {
   const AnyLand land(7, 900, 50, false, kIsland);
-  const auto one = make_small_pyramid(land, kIsland, 1), three = make_small_pyramid(land, kIsland, 3);
-  EXPECT_EQ(one->kept.order, three->kept.order);
-  EXPECT_EQ(one->kept.files, three->kept.files);
-  std::size_t alone = 0;
-  for (const auto& [key, bytes] : one->kept.files) {
-    const auto [z, x, y] = key;
-    if (z < one->plan.block_level) continue;
-    const auto tile = make_tile(one->plan, {z, x, y}, land);
-    ASSERT_TRUE(tile) << tile.error().message;
-    EXPECT_EQ(encode_quantized_mesh(*tile), bytes) << z << "/" << x << "/" << y;
-    ++alone;
+  for (const TileGrid& grid : kGrids) {
+    const auto one = make_small_pyramid(land, kIsland, 1, grid), three = make_small_pyramid(land, kIsland, 3, grid);
+    EXPECT_EQ(one->kept.order, three->kept.order);
+    EXPECT_EQ(one->kept.files, three->kept.files);
+    std::size_t alone = 0;
+    for (const auto& [key, bytes] : one->kept.files) {
+      const auto [z, x, y] = key;
+      if (z < one->plan.block_level) continue;
+      const auto tile = make_tile(one->plan, {z, x, y}, land);
+      ASSERT_TRUE(tile) << tile.error().message;
+      EXPECT_EQ(encode_quantized_mesh(*tile, {}, grid), bytes) << grid.name() << " " << z << "/" << x << "/" << y;
+      ++alone;
+    }
+    EXPECT_GT(alone, 100u) << grid.name();
   }
-  EXPECT_GT(alone, 200u);
 }
 
 TEST(pyramid_laws, a_tile_above_the_blocks_is_the_same_without_its_proof_and_tiles_are_known_before_they_are_made) {
-  for (const bool has_voids : {false, true}) {
+  for (const auto& [grid, has_voids] : {std::pair{kGrids[0], false}, {kGrids[0], true}, {kGrids[1], true}}) {
     const AnyLand land(21, 900, 50, has_voids, kIsland);
-    const auto made = make_small_pyramid(land, kIsland, 2);
+    const auto made = make_small_pyramid(land, kIsland, 2, grid);
     std::size_t above = 0;
     for (const auto& [key, bytes] : made->kept.files) {
       const auto [z, x, y] = key;
@@ -314,10 +345,10 @@ TEST(pyramid_laws, a_tile_above_the_blocks_is_the_same_without_its_proof_and_til
       const auto tile = make_unproven_tile(made->plan, {z, x, y}, land);
       ASSERT_TRUE(tile) << tile.error().message;
       EXPECT_TRUE(std::isnan(tile->node_error));
-      EXPECT_EQ(encode_quantized_mesh(*tile), bytes) << z << "/" << x << "/" << y;
+      EXPECT_EQ(encode_quantized_mesh(*tile, {}, grid), bytes) << z << "/" << x << "/" << y;
       ++above;
     }
-    EXPECT_GE(above, 6u);
+    EXPECT_GE(above, 5u);
     const auto tiles = find_tiles(made->plan, &land);
     ASSERT_TRUE(tiles) << tiles.error().message;
     EXPECT_EQ(*tiles, made->report.tiles);
@@ -407,25 +438,27 @@ TEST(pyramid_laws, every_tile_with_heights_is_there_with_its_ancestors_and_sibli
 
 TEST(pyramid_laws, bounds_above_the_blocks_hold_for_all_nodes_below) {
   const AnyLand land(11, 900, 120, true, kIsland);
-  const auto made = make_small_pyramid(land, kIsland, 2);
-  ASSERT_EQ(made->plan.block_level, 2);
-  for (int z = 0; z < made->plan.block_level; ++z) {
-    for (const std::uint64_t id : made->report.tiles[static_cast<std::size_t>(z)]) {
-      const TileId tile{z, static_cast<std::uint32_t>(id), static_cast<std::uint32_t>(id >> 32)};
-      const TerrainTile& mesh = made->kept.tile(tile);
-      const double error = brute_force(decode(mesh), tile, nodes_of(made->plan, z), land, 0);
-      EXPECT_LE(error, mesh.node_error) << z << "/" << tile.x << "/" << tile.y;
-      EXPECT_GE(error, 0.5 * mesh.node_error) << "the bound says little";
+  for (const TileGrid& grid : kGrids) {
+    const auto made = make_small_pyramid(land, kIsland, 2, grid);
+    ASSERT_EQ(made->plan.block_level, 2);
+    for (int z = 0; z < made->plan.block_level; ++z) {
+      for (const std::uint64_t id : made->report.tiles[static_cast<std::size_t>(z)]) {
+        const TileId tile{z, static_cast<std::uint32_t>(id), static_cast<std::uint32_t>(id >> 32)};
+        const TerrainTile& mesh = made->kept.tile(tile);
+        const double error = brute_force(decode(mesh, grid), tile, nodes_of(made->plan, z), land, 0, grid);
+        EXPECT_LE(error, mesh.node_error) << grid.name() << " " << z << "/" << tile.x << "/" << tile.y;
+        EXPECT_GE(error, 0.5 * mesh.node_error) << "the bound says little";
+      }
     }
   }
 }
 
-void expect_same_edges(const DegreeBox& covered, int least) {
+void expect_same_edges(const DegreeBox& covered, int least, const TileGrid& grid = {}) {
   const AnyLand land(11, 900, 120, true, covered);
-  const auto made = make_small_pyramid(land, covered, 2);
+  const auto made = make_small_pyramid(land, covered, 2, grid);
   int edges = 0;
   for (int z = 0; z <= made->plan.max_zoom(); ++z) {
-    const std::uint32_t across = std::uint32_t{2} << z;
+    const std::uint32_t across = grid.columns(z);
     for (const auto& [key, bytes] : made->kept.files) {
       const auto [level, x, y] = key;
       if (level != z) continue;
@@ -445,11 +478,54 @@ void expect_same_edges(const DegreeBox& covered, int least) {
   EXPECT_GT(edges, least);
 }
 
-TEST(pyramid_laws, neighbours_in_a_pyramid_decode_to_the_same_edge) { expect_same_edges(kIsland, 300); }
+TEST(pyramid_laws, neighbours_in_a_pyramid_decode_to_the_same_edge) {
+  expect_same_edges(kIsland, 300);
+  expect_same_edges(kIsland, 100, kGrids[1]);
+  // Around the antimeridian, up to where the grid ends.
+  expect_same_edges({170, 78, 190, 90}, 50, kGrids[1]);
+}
 
 TEST(pyramid_laws, land_that_ends_just_before_an_edge_is_seen_by_the_tile_behind_it) {
   expect_same_edges({100, 20, 179.95, 22.45}, 50);
   expect_same_edges({45.05, 44.95, 60, 50}, 50);
+}
+
+TEST(grid_laws, rows_of_mercator_are_those_of_the_librarys_functions_and_of_the_level_below) {
+  const TileGrid grid = kGrids[1];
+  constexpr std::int64_t kLast = 1 << 14;
+  for (std::int64_t row = 0; row <= kLast; ++row) {
+    const double place = 3.141592653589793 * (1 - 2 * static_cast<double>(row) / kLast);
+    EXPECT_NEAR(grid.latitude(row, kLast), std::atan(std::sinh(place)) * 57.29577951308232, 1e-12);
+    EXPECT_EQ(grid.latitude(row, kLast), -grid.latitude(kLast - row, kLast));
+    EXPECT_EQ(grid.latitude(row, kLast), grid.latitude(2 * row, 2 * kLast));
+  }
+  EXPECT_NEAR(grid.bounds().north, 85.0511287798066, 1e-12);
+  EXPECT_EQ(grid.latitude(1, 2), 0);
+  for (const TileGrid& one : kGrids) {
+    EXPECT_EQ(TileGrid::find(one.name())->kind, one.kind);
+    EXPECT_EQ(TileGrid::find_projection(one.projection())->kind, one.kind);
+  }
+}
+
+TEST(grid_laws, a_raster_beyond_the_grids_end_is_refused_and_one_across_it_is_cut) {
+  PyramidSettings settings;
+  settings.grid = kGrids[1];
+  const auto beyond = plan_pyramid(SourceFacts{{10, 86, 20, 89}, 1000, 0, 100}, settings);
+  ASSERT_FALSE(beyond);
+  EXPECT_NE(beyond.error().message.find("ends at 85.0511"), std::string::npos);
+  const auto across = plan_pyramid(SourceFacts{{10, 80, 20, 89}, 1000, 0, 100}, settings);
+  ASSERT_TRUE(across);
+  EXPECT_EQ(across->covered.north, settings.grid.bounds().north);
+  // Twice the error and half the tiles across of the geographic grid's level; so fine a level is one more.
+  EXPECT_EQ(settings.grid.geometric_error(5), TileGrid{}.geometric_error(4));
+  const SourceFacts equator{{10, -1, 20, 1}, 30, 0, 100};
+  const auto web = plan_pyramid(equator, settings), degrees = plan_pyramid(equator);
+  EXPECT_EQ(web->max_zoom(), degrees->max_zoom() + 1);
+  EXPECT_EQ(web->levels.back().max_error, degrees->levels.back().max_error);
+  // Rows of a block that crowd at the end of the grid keep places of their own.
+  settings.cells = 256;
+  settings.max_zoom = 5;
+  EXPECT_GT(plan_pyramid(SourceFacts{{-180, -90, 180, 90}, 1000, 0, 100}, settings)->block_level, 0);
 }
 
 TEST(globe_laws, sines_are_those_of_the_library) {

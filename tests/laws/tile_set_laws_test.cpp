@@ -339,25 +339,30 @@ TEST(mbtiles, questions_without_an_end_are_given_up) {
 }
 
 TEST(pmtiles, numbers_are_those_of_the_specification) {
-  EXPECT_EQ(pmtiles_number({0, 0, 0}), 1u);                   // 1/0/0
-  EXPECT_EQ(pmtiles_number({0, 1, 0}), 4u);                   // 1/1/0
-  EXPECT_EQ(pmtiles_number({1, 0, 1}), 5u);                   // 2/0/0
-  EXPECT_EQ(pmtiles_number({17, 39, 131068}), 22906496015u);  // 18/39/3
-  std::set<std::uint64_t> numbers;
-  for (int z = 0; z < 7; ++z) {
-    for (std::uint32_t y = 0; y < 1u << z; ++y) {
-      for (std::uint32_t x = 0; x < 2u << z; ++x) {
-        const std::uint64_t number = pmtiles_number({z, x, y});
-        EXPECT_TRUE(numbers.insert(number).second);
-        EXPECT_EQ(find_pmtiles_id(number), (TileId{z, x, y}));
+  const TileGrid geographic, mercator{GridKind::kMercator};
+  EXPECT_EQ(pmtiles_number({0, 0, 0}, geographic), 1u);                   // 1/0/0
+  EXPECT_EQ(pmtiles_number({0, 1, 0}, geographic), 4u);                   // 1/1/0
+  EXPECT_EQ(pmtiles_number({1, 0, 1}, geographic), 5u);                   // 2/0/0
+  EXPECT_EQ(pmtiles_number({17, 39, 131068}, geographic), 22906496015u);  // 18/39/3
+  EXPECT_EQ(pmtiles_number({18, 39, (1u << 18) - 4}, mercator), 22906496015u);
+  for (const TileGrid& grid : {geographic, mercator}) {
+    std::set<std::uint64_t> numbers;
+    for (int z = 0; z < 7; ++z) {
+      for (std::uint32_t y = 0; y < grid.rows(z); ++y) {
+        for (std::uint32_t x = 0; x < grid.columns(z); ++x) {
+          const std::uint64_t number = pmtiles_number({z, x, y}, grid);
+          EXPECT_TRUE(numbers.insert(number).second);
+          EXPECT_EQ(find_pmtiles_id(number, grid), (TileId{z, x, y}));
+        }
       }
     }
+    EXPECT_FALSE(find_pmtiles_id(UINT64_MAX, grid));
+    const TileId last{kMaxTileLevel, grid.columns(kMaxTileLevel) - 1, 0};
+    EXPECT_EQ(find_pmtiles_id(pmtiles_number(last, grid), grid), last);
   }
-  EXPECT_FALSE(find_pmtiles_id(0));
-  EXPECT_FALSE(find_pmtiles_id(2));  // 1/0/1, of the southern half of a square world
-  EXPECT_FALSE(find_pmtiles_id(UINT64_MAX));
-  const TileId last{kMaxTileLevel, (2u << kMaxTileLevel) - 1, 0};
-  EXPECT_EQ(find_pmtiles_id(pmtiles_number(last)), last);
+  EXPECT_FALSE(find_pmtiles_id(0, geographic));
+  EXPECT_FALSE(find_pmtiles_id(2, geographic));  // 1/0/1, of the southern half of a square world
+  EXPECT_EQ(find_pmtiles_id(0, mercator), (TileId{0, 0, 0}));
 }
 
 TEST(md5, is_that_of_rfc_1321) {

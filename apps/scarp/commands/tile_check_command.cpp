@@ -24,6 +24,7 @@ TileCheckCommand::TileCheckCommand(CLI::App& program) : command_(add_command(pro
   add_option(*command_, OptionId::kInput, set_);
   add_option(*command_, OptionId::kSource, source_);
   tiles_.add_nodes_to(*command_);
+  add_option(*command_, OptionId::kGrid, tiles_.grid);
   add_flag(*command_, OptionId::kJson, json_);
   add_option(*command_, OptionId::kThreads, threads_);
   add_flag(*command_, OptionId::kQuiet, quiet_);
@@ -34,7 +35,7 @@ Result<void> TileCheckCommand::check_unused() const {
   if (source_ && lower_extension(*source_) != ".json") return {};
   for (const CLI::Option* option : command_->get_options()) {
     const std::string name = option->get_name();
-    constexpr std::array kFree{"--source", "--json", "--num-threads", "--quiet", "--json-progress"};
+    constexpr std::array kFree{"--source", "--grid", "--json", "--num-threads", "--quiet", "--json-progress"};
     if (option->count() == 0 || name.rfind("--", 0) != 0 || std::ranges::count(kFree, name) > 0) continue;
     return fail(ErrorKind::kUsage, source_ ? fmt::format("{} is for rasters: {} has decided it", name, *source_)
                                            : fmt::format("{} is for the raster of --source: give that too", name));
@@ -62,6 +63,11 @@ Result<void> TileCheckCommand::run(const std::string& command_line) const {
   if (auto unused = check_unused(); !unused) return unused;
   const auto set = open_tile_set(set_);
   if (!set) return tl::unexpected(set.error());
+  if (tiles_.grid) {
+    const Result<TileGrid> grid = parse_grid(*tiles_.grid);
+    if (!grid) return tl::unexpected(grid.error());
+    options.grid = *grid;
+  }
   ProgressDisplay display(ProgressDisplay::choose(json_progress_, quiet_));
   OpenedJob opened;
   if (source_) {

@@ -123,6 +123,7 @@ enum class OptionId {
   kNoSuggest,
   kNoTiming,
   kQuality,
+  kGrid,
   kZoom,
   kCells,
   kVertical,

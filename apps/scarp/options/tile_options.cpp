@@ -15,6 +15,7 @@ namespace {
 
 constexpr Choice<Effort> kTileEfforts[] = {
     {"fast", Effort::kFast}, {"normal", Effort::kNormal}, {"high", Effort::kHigh}};
+constexpr Choice<GridKind> kGrids[] = {{"geographic", GridKind::kGeographic}, {"mercator", GridKind::kMercator}};
 constexpr Choice<int> kCells[] = {{"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}};
 constexpr int kEgm2008 = 3855;
 struct DatumWord {
@@ -105,6 +106,12 @@ Result<std::optional<DegreeBox>> parse_box(const Given& text) {
   return std::optional(box);
 }
 
+Result<TileGrid> parse_grid(const std::string& text) {
+  const Result<GridKind> kind = choose("--grid", text, kGrids);
+  if (!kind) return tl::unexpected(kind.error());
+  return TileGrid{*kind};
+}
+
 void TileArguments::add_nodes_to(CLI::App& command) {
   add_option(command, OptionId::kBand, raster.band);
   add_numbers(command, OptionId::kExtent, raster.extent, 4);
@@ -127,6 +134,7 @@ void TileArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kMaxError, max_error);
   add_option(command, OptionId::kQuality, quality);
   add_option(command, OptionId::kZoom, zoom);
+  add_option(command, OptionId::kGrid, grid);
   if (command.get_name() != "serve") add_option(command, OptionId::kOnly, only);
 }
 
@@ -148,6 +156,11 @@ Result<PyramidSettings> TileArguments::parse_settings() const {
     const Result<std::uint64_t> level = parse_count("--zoom", *zoom, 0);
     if (!level) return tl::unexpected(level.error());
     settings.max_zoom = static_cast<int>(std::min<std::uint64_t>(*level, kMaxTileLevel + 1));
+  }
+  if (grid) {
+    const Result<TileGrid> chosen = parse_grid(*grid);
+    if (!chosen) return tl::unexpected(chosen.error());
+    settings.grid = *chosen;
   }
   if (cells) {
     const Result<int> count = choose("--cells", *cells, kCells);
@@ -196,6 +209,11 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   if (!options) return tl::unexpected(options.error());
   const Result<TileFormat> kept = choose("--of", format.value_or("qm"), kTileFormats);
   if (!kept) return tl::unexpected(kept.error());
+  if (*kept == TileFormat::kGlb && !settings->grid.has_even_rows())
+    return fail(ErrorKind::kUsage,
+                fmt::format("--of 3dtiles does not go with --grid {}: clients of 3D Tiles halve tiles in degrees of "
+                            "latitude",
+                            settings->grid.name()));
   OpenedJob opened;
   TileJob& job = opened.job;
   job.format = *kept;

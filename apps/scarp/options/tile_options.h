@@ -26,9 +26,12 @@ Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads);
 /// "WEST,SOUTH,EAST,NORTH" in degrees. East of a box across the antimeridian is beyond 180. Fails with kUsage.
 Result<std::optional<DegreeBox>> parse_box(const Given& text);
 
+/// "geographic", "mercator". Fails with kUsage.
+Result<TileGrid> parse_grid(const std::string& text);
+
 struct TileArguments {
   RasterArguments raster;  ///< the paths are arguments of their own
-  Given max_error, quality, zoom, cells, effort, vertical, geoid, ellipsoid, background, format, only;
+  Given max_error, quality, zoom, grid, cells, effort, vertical, geoid, ellipsoid, background, format, only;
   Effort default_effort = Effort::kNormal;
 
   /// What the nodes are: how the raster is read, what its heights are above, and the lattice.

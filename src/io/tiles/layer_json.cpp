@@ -58,7 +58,7 @@ std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const Pyram
              {"attribution", facts.attribution},
              {"schema", "tms"},
              {"tiles", {"{z}/{x}/{y}.terrain?v={version}"}},
-             {"projection", "EPSG:4326"},
+             {"projection", plan.grid.projection()},
              {"bounds", {plan.covered.west, plan.covered.south, plan.covered.east, plan.covered.north}},
              {"minzoom", 0},
              {"maxzoom", plan.max_zoom()},

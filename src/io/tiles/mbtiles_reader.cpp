@@ -140,7 +140,9 @@ class MbtilesReader final : public TileSetReader {
     if (!is_glb && format.rfind(media_type(TileFormat::kQuantizedMesh), 0) != 0 &&
         std::find(std::begin(kOthers), std::end(kOthers), format) == std::end(kOthers))
       return refuse(fmt::format("is no set of terrain tiles: its format is \"{}\"", format.substr(0, 40)));
-    if (grid != "geographic") return refuse("is no set of terrain tiles of the geographic grid");
+    const auto known = TileGrid::find(grid);
+    if (!known) return refuse("is no set of terrain tiles of a grid that Scarp knows");
+    grid_ = *known;
     format_ = is_glb ? TileFormat::kGlb : TileFormat::kQuantizedMesh;
     return {};
   }
@@ -156,7 +158,7 @@ class MbtilesReader final : public TileSetReader {
                         std::max(numbers[1], numbers[2]) <= UINT32_MAX;
       const TileId id{fits ? static_cast<int>(numbers[0]) : -1, static_cast<std::uint32_t>(numbers[1]),
                       static_cast<std::uint32_t>(numbers[2])};
-      if (!is_of_grid(id)) return refuse("is damaged: it has tiles that the geographic grid has not");
+      if (!grid_.has(id)) return refuse(fmt::format("is damaged: it has tiles that the {} grid has not", grid_.name()));
       if (levels_.count() > size_) return refuse("is damaged: it lists more tiles than it has bytes");
       levels_.add(id);
     }
@@ -188,6 +190,7 @@ class MbtilesReader final : public TileSetReader {
   std::uint64_t size_;
   SqliteDatabase database_;
   TileFormat format_ = TileFormat::kQuantizedMesh;
+  TileGrid grid_;
   TileLevels levels_;
   std::vector<std::string> files_;
 };

@@ -68,7 +68,7 @@ Result<void> write_mbtiles(TileSpool& spool, TileFormat format, StagedFile& file
       {"minzoom", std::to_string(has_tiles ? spool.tiles().front().id.z : 0)},
       {"maxzoom", std::to_string(has_tiles ? spool.tiles().back().id.z : 0)},
       {"scheme", "tms"},
-      {"grid", "geographic"},
+      {"grid", std::string(facts.grid.name())},
       {"generator", std::string("scarp ") + version()}};
   for (const auto& [name, value] : metadata) {
     bind_text(insert_metadata.get(), 1, name);

@@ -1,6 +1,7 @@
 #include "io/tiles/pmtiles_parts.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <string_view>
@@ -53,9 +54,11 @@ std::int32_t in_e7(double degrees) {
 
 }  // namespace
 
-std::uint64_t pmtiles_number(TileId id) {
-  const int zoom = id.z + 1;
-  std::uint64_t number = 0, x = id.x, y = (std::uint64_t{1} << id.z) - 1 - id.y;
+int pmtiles_zoom_offset(const TileGrid& grid) { return std::countr_zero(grid.roots()); }
+
+std::uint64_t pmtiles_number(TileId id, const TileGrid& grid) {
+  const int zoom = id.z + pmtiles_zoom_offset(grid);
+  std::uint64_t number = 0, x = id.x, y = std::uint64_t{grid.rows(id.z)} - 1 - id.y;
   for (int bit = zoom - 1; bit >= 0; --bit) {
     const std::uint64_t size = std::uint64_t{1} << bit;
     const bool right = (x & size) != 0, upper = (y & size) != 0;
@@ -65,10 +68,11 @@ std::uint64_t pmtiles_number(TileId id) {
   return first_number(zoom) + number;
 }
 
-std::optional<TileId> find_pmtiles_id(std::uint64_t number) {
-  int zoom = 1;
-  while (zoom <= kMaxTileLevel + 1 && number >= first_number(zoom + 1)) ++zoom;
-  if (zoom > kMaxTileLevel + 1 || number < first_number(1)) return {};
+std::optional<TileId> find_pmtiles_id(std::uint64_t number, const TileGrid& grid) {
+  const int offset = pmtiles_zoom_offset(grid);
+  int zoom = offset;
+  while (zoom <= kMaxTileLevel + offset && number >= first_number(zoom + 1)) ++zoom;
+  if (zoom > kMaxTileLevel + offset || number < first_number(offset)) return {};
   std::uint64_t rest = number - first_number(zoom), x = 0, y = 0;
   for (int bit = 0; bit < zoom; ++bit, rest /= 4) {
     const std::uint64_t size = std::uint64_t{1} << bit;
@@ -77,9 +81,9 @@ std::optional<TileId> find_pmtiles_id(std::uint64_t number) {
     x += right ? size : 0;
     y += upper ? size : 0;
   }
-  const std::uint64_t rows = std::uint64_t{1} << (zoom - 1);
+  const std::uint64_t rows = grid.rows(zoom - offset);
   if (y >= rows) return {};
-  return TileId{zoom - 1, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(rows - 1 - y)};
+  return TileId{zoom - offset, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(rows - 1 - y)};
 }
 
 std::vector<std::uint8_t> encode_pmtiles_directory(std::span<const PmtilesEntry> entries) {

@@ -1,7 +1,7 @@
 // PMTiles, version 3: the numbers of tiles, the header and the directories (the public specification, 3.x).
 //
-// A pyramid of the geographic grid has two tiles at its top, and PMTiles one. So level z is kept as zoom z + 1, whose
-// upper half it fills: x as it is, y from the north.
+// PMTiles has one tile at its top, a pyramid of the geographic grid two. So its level z is kept as zoom z + 1, whose
+// upper half it fills; that of the Mercator grid as zoom z: x as it is, y from the north.
 #pragma once
 
 #include <array>
@@ -15,10 +15,12 @@
 
 namespace scarp {
 
+/// The zoom that level 0 is kept as.
+int pmtiles_zoom_offset(const TileGrid& grid);
 /// Its place on the Hilbert curves of all zooms, one after the other.
-std::uint64_t pmtiles_number(TileId id);
+std::uint64_t pmtiles_number(TileId id, const TileGrid& grid);
 /// The reverse; nothing where the grid has no such tile.
-std::optional<TileId> find_pmtiles_id(std::uint64_t number);
+std::optional<TileId> find_pmtiles_id(std::uint64_t number, const TileGrid& grid);
 
 /// Tiles `number` to `number + run - 1`, all with the same bytes; a directory if run is 0.
 struct PmtilesEntry {

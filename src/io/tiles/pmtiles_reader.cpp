@@ -37,7 +37,7 @@ class PmtilesReader final : public TileSetReader {
   }
   Result<Bytes> read_tile(TileId id) const override {
     if (!is_of_grid(id) || !levels_.has(id)) return refuse(fmt::format("holds no {}", tile_name(format_, id)));
-    const std::uint64_t number = pmtiles_number(id);
+    const std::uint64_t number = pmtiles_number(id, grid_);
     const auto after =
         std::upper_bound(entries_.begin(), entries_.end(), number,
                          [](std::uint64_t one, const PmtilesEntry& entry) { return one < entry.number; });
@@ -69,9 +69,11 @@ class PmtilesReader final : public TileSetReader {
           fmt::format("{}: its header says that tiles lie in their order, which they do not", source_->path()));
     const auto& levels = levels_.levels();
     const auto first = std::find_if(levels.begin(), levels.end(), [](const auto& level) { return !level.empty(); });
-    if (header_.min_zoom != first - levels.begin() + 1 || header_.max_zoom != static_cast<int>(levels.size()))
+    const int offset = pmtiles_zoom_offset(grid_), least = static_cast<int>(first - levels.begin()) + offset,
+              most = static_cast<int>(levels.size()) - 1 + offset;
+    if (header_.min_zoom != least || header_.max_zoom != most)
       faults.push_back(fmt::format("{}: its header says zooms {} to {}, and it has {} to {}", source_->path(),
-                                   header_.min_zoom, header_.max_zoom, first - levels.begin() + 1, levels.size()));
+                                   header_.min_zoom, header_.max_zoom, least, most));
     return faults;
   }
   Result<Bytes> read_file(const std::string& name) const override {
@@ -122,8 +124,9 @@ class PmtilesReader final : public TileSetReader {
       const auto found = metadata.find(key);
       return found != metadata.end() && found->is_string() ? found->get<std::string>() : std::string();
     };
-    if (text("grid") != "geographic")
-      return refuse("is no set of terrain tiles: its metadata do not say that its grid is \"geographic\"");
+    const auto grid = TileGrid::find(text("grid"));
+    if (!grid) return refuse("is no set of terrain tiles: its metadata name no grid that Scarp knows");
+    grid_ = *grid;
     if (text("format") != media_type(TileFormat::kQuantizedMesh) && text("format") != media_type(TileFormat::kGlb))
       return refuse("is no set of terrain tiles: its metadata name no format that Scarp knows");
     format_ = text("format") == media_type(TileFormat::kGlb) ? TileFormat::kGlb : TileFormat::kQuantizedMesh;
@@ -176,7 +179,7 @@ class PmtilesReader final : public TileSetReader {
       entries_.push_back(entry);
       next_ = entry.number + entry.run;
       for (std::uint64_t number = entry.number; number < next_; ++number) {
-        const auto id = find_pmtiles_id(number);
+        const auto id = find_pmtiles_id(number, grid_);
         if (!id) return damaged();
         levels_.add(*id);
       }
@@ -188,6 +191,7 @@ class PmtilesReader final : public TileSetReader {
   std::uint64_t most_tiles_;  ///< more than a file of its size has, unless its tiles are all alike
   PmtilesHeader header_;
   TileFormat format_ = TileFormat::kQuantizedMesh;
+  TileGrid grid_;
   std::vector<PmtilesEntry> entries_;  ///< of tiles
   std::uint64_t next_ = 0;             ///< the least number that may follow
   TileLevels levels_;

@@ -76,8 +76,8 @@ Result<Bytes> make_metadata(const TileSpool& spool, TileFormat format, const Set
                       {"description", facts.description},
                       {"attribution", facts.attribution},
                       {"format", media_type(format)},
-                      {"grid", "geographic"},
-                      {"zoom_offset", 1},
+                      {"grid", facts.grid.name()},
+                      {"zoom_offset", pmtiles_zoom_offset(facts.grid)},
                       {"generator", std::string("scarp ") + version()},
                       {"files", std::move(files)}};
   const std::string text = metadata.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -91,18 +91,18 @@ Result<Bytes> make_metadata(const TileSpool& spool, TileFormat format, const Set
 }  // namespace
 
 Result<void> write_pmtiles(TileSpool& spool, TileFormat format, StagedFile& file) {
-  spool.sort_tiles(
-      [](const TileSpool::Tile& a, const TileSpool::Tile& b) { return pmtiles_number(a.id) < pmtiles_number(b.id); });
+  const SetFacts facts = facts_of(spool);
+  const auto number = [&](const TileSpool::Tile& tile) { return pmtiles_number(tile.id, facts.grid); };
+  spool.sort_tiles([&](const TileSpool::Tile& a, const TileSpool::Tile& b) { return number(a) < number(b); });
   spool.sort_files();
   std::vector<PmtilesEntry> entries;
   entries.reserve(spool.tiles().size());
   PmtilesHeader header;
   for (const TileSpool::Tile& tile : spool.tiles()) {
-    entries.push_back({pmtiles_number(tile.id), header.tiles.length, tile.length, 1});
+    entries.push_back({number(tile), header.tiles.length, tile.length, 1});
     header.tiles.length += tile.length;
   }
   if (entries.empty()) return fail(ErrorKind::kOutput, fmt::format("{} would hold no tile", file.path()));
-  const SetFacts facts = facts_of(spool);
   const auto directories = make_directories(entries);
   if (!directories) return tl::unexpected(directories.error());
   const auto metadata = make_metadata(spool, format, facts);
@@ -116,8 +116,8 @@ Result<void> write_pmtiles(TileSpool& spool, TileFormat format, StagedFile& file
   header.tile = spool.all_gzip()  ? PmtilesCompression::kGzip
                 : spool.no_gzip() ? PmtilesCompression::kNone
                                   : PmtilesCompression::kUnknown;
-  header.min_zoom = spool.tiles().front().id.z + 1;
-  header.max_zoom = spool.tiles().back().id.z + 1;
+  header.min_zoom = spool.tiles().front().id.z + pmtiles_zoom_offset(facts.grid);
+  header.max_zoom = spool.tiles().back().id.z + pmtiles_zoom_offset(facts.grid);
   header.bounds = facts.bounds;
 
   ChunkedOutput output(file);

@@ -107,6 +107,9 @@ SetFacts facts_of(const TileSpool& spool) {
     take("name", facts.name);
     take("description", facts.description);
     take("attribution", facts.attribution);
+    std::string projection;
+    take("projection", projection);
+    facts.grid = TileGrid::find_projection(projection).value_or(TileGrid{});
     const auto bounds = layer.find("bounds");
     if (bounds == layer.end() || !bounds->is_array() || bounds->size() != 4) continue;
     double* const sides[] = {&facts.bounds.west, &facts.bounds.south, &facts.bounds.east, &facts.bounds.north};

@@ -44,6 +44,7 @@ class ChunkedOutput {
 struct SetFacts {
   std::string name = "terrain", description, attribution;
   DegreeBox bounds{-180, -90, 180, 90};
+  TileGrid grid = {};
 };
 SetFacts facts_of(const TileSpool& spool);
 

@@ -91,10 +91,16 @@ void read_layer(const TileSetReader& set, SetClaims& claims) {
   const Json* const format = find_member(&*layer, "format");
   if (format == nullptr || *format != "quantized-mesh-1.0")
     claims.faults.push_back("layer.json does not name the format \"quantized-mesh-1.0\"");
+  if (const Json* const projection = find_member(&*layer, "projection"); projection != nullptr) {
+    const auto grid =
+        projection->is_string() ? TileGrid::find_projection(projection->get<std::string>()) : std::nullopt;
+    if (!grid) claims.faults.push_back("layer.json names another projection than EPSG:4326 and EPSG:3857");
+    claims.grid = grid.value_or(TileGrid{});
+  }
   const Json* const available = find_member(&*layer, "available");
   if (find_member(&*layer, "metadataAvailability") != nullptr) claims.announces_all = false;
   if (available != nullptr && available->is_array()) {
-    read_ranges(*available, {}, claims);
+    read_ranges(*available, claims.grid, claims);
   } else {
     if (claims.announces_all) claims.faults.push_back("layer.json announces no tiles: it has no \"available\"");
     claims.announces_all = false;

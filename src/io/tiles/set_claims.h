@@ -24,7 +24,8 @@ struct SetClaims {
   std::optional<int> cells;
   std::optional<double> background;
   std::optional<Geodetic> ellipsoid;
-  FactsByTile facts;  ///< of 3D Tiles
+  TileGrid grid = {};  ///< of the projection that layer.json names
+  FactsByTile facts;   ///< of 3D Tiles
 };
 
 /// Believes nothing: claims that make no sense are among the faults.

@@ -29,7 +29,6 @@ constexpr std::pair<Decode, const char*> kDecodes[] = {
 constexpr std::pair<Vertical, const char*> kVerticals[] = {
     {Vertical::kAuto, "auto"}, {Vertical::kEllipsoid, "ellipsoid"}, {Vertical::kEgm96, "egm96"},
     {Vertical::kEpsg, "epsg"}, {Vertical::kGeoid, "geoid"},         {Vertical::kNone, "none"}};
-constexpr std::pair<GridKind, const char*> kGrids[] = {{GridKind::kGeographic, "geographic"}};
 constexpr std::pair<TileFormat, const char*> kFormats[] = {{TileFormat::kQuantizedMesh, "quantized-mesh"},
                                                            {TileFormat::kGlb, "glb"}};
 
@@ -91,7 +90,7 @@ Json describe_plan(const PyramidPlan& plan) {
           {"background", plan.background},
           {"has_siblings", plan.has_siblings},
           {"ellipsoid", {plan.ellipsoid.semi_major, plan.ellipsoid.inverse_flattening}},
-          {"grid", {{"kind", word_of(plan.grid.kind, kGrids)}}},
+          {"grid", {{"kind", plan.grid.name()}}},
           {"covered", describe_box(plan.covered)},
           {"sources", std::move(sources)},
           {"levels", std::move(levels)}};
@@ -139,7 +138,7 @@ PyramidPlan parse_plan(const Json& json) {
   plan.has_siblings = json.at("has_siblings");
   plan.ellipsoid.semi_major = json.at("ellipsoid").at(0);
   plan.ellipsoid.inverse_flattening = json.at("ellipsoid").at(1);
-  plan.grid.kind = value_of(json.at("grid").at("kind"), kGrids);
+  plan.grid = TileGrid::find(json.at("grid").at("kind").get<std::string>()).value();
   plan.covered = parse_box(json.at("covered"));
   for (const Json& source : json.at("sources"))
     plan.sources.push_back({parse_box(source.at("covered")), source.at("max_zoom")});
