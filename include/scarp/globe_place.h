@@ -38,6 +38,7 @@ struct Datum {
 struct RasterOnGlobe {
   RasterPlace place;
   std::shared_ptr<const PointTransform> to_degrees;  ///< null where place.from_degrees is
+  std::string degrees;  ///< the CRS of longitude and latitude, as RasterInfo::crs
   Geodetic ellipsoid;
   std::string body;                        ///< whose ellipsoid, in the CRS's words; empty for WGS 84
   std::shared_ptr<const HeightZero> zero;  ///< of the heights; null where they are above the ellipsoid

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -110,6 +111,9 @@ struct ReadLinesOptions {
 /// for a wanted CRS unknown to GDAL; kCancelled. Cost: a few tenths of a second for a million vertices of a GeoPackage,
 /// a second with a transformation (bench/speed/speed_lines.cpp).
 Result<LineSet> read_lines(const std::string& path, const ReadLinesOptions& options = {});
+/// The lines of several files as one set: polygons count on from file to file. It has no path and no CRS. Fails as
+/// read_lines() of the first that does.
+Result<LineSet> read_lines(std::span<const std::string> paths, const ReadLinesOptions& options = {});
 
 }  // namespace scarp
 

@@ -125,6 +125,8 @@ struct PyramidSettings {
   std::optional<DegreeBox> only = {};
 };
 
+struct TileWaters;
+
 /// A level of a pyramid.
 struct PyramidLevel {
   double geometric_error = 0;  ///< metres
@@ -153,6 +155,8 @@ struct PyramidPlan {
   DegreeBox covered = {};  ///< by the source
   /// Of a stack, else empty. Tiles below the block level are made only where a source asks for their level.
   std::vector<PlannedSource> sources = {};
+  /// What the nodes were given, tile_waters.h; null without water.
+  std::shared_ptr<const TileWaters> waters = nullptr;
 
   int max_zoom() const { return static_cast<int>(levels.size()) - 1; }
 };

@@ -30,6 +30,8 @@
 
 namespace scarp {
 
+struct TileJob;
+
 /// Rasters in the order of their priority, open as one source of nodes on the globe: a node has the height of the first
 /// that has one there. Each has a CRS, cells, a nodata value and a datum of its own.
 class GlobeRaster {
@@ -44,16 +46,19 @@ class GlobeRaster {
   GlobeRaster& operator=(const GlobeRaster&) = delete;
   ~GlobeRaster();
 
-  /// Heights above the ellipsoid. Lives as long as this.
+  /// Heights above the ellipsoid. Lives as long as this, or until water is added.
   const NodeSource& nodes() const;
+  /// From now on nodes() have the plan's water, if it has any. REQUIRES: called once, of a plan for this raster.
+  void add_waters(const PyramidPlan& plan);
   /// For plan_pyramid(). REQUIRES: opened with options.with_range.
   std::vector<SourceFacts> facts() const;
   const RasterInfo& info() const;             ///< of the first
   const RasterOnGlobe& place() const;         ///< of the first
   std::string heights_above() const;          ///< RasterOnGlobe::vertical of all, each once
-  std::vector<std::string> warnings() const;  ///< RasterInfo::warnings of all
+  std::vector<std::string> warnings() const;  ///< RasterInfo::warnings of all, and of find_waters()
 
  private:
+  friend Result<void> find_waters(TileJob& job, GlobeRaster& raster);
   struct Impl;
   explicit GlobeRaster(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
@@ -87,14 +92,23 @@ struct TileEstimate {
   std::uint64_t parts = 0;         ///< bytes of the parts, until the set is finished
 };
 
+/// Vector files of water, as read_lines() takes them: FILE or FILE:LAYER.
+struct WaterFiles {
+  std::vector<std::string> lakes, rivers;
+  double percentile = 5;  ///< as in WaterOptions
+
+  bool is_empty() const { return lakes.empty() && rivers.empty(); }
+};
+
 /// All that a set depends on.
 struct TileJob {
   std::vector<FileStamp> rasters;      ///< in the order of their priority
   std::vector<std::uint32_t> mosaics;  ///< how many of them, one after the other, make each mosaic
-  std::vector<FileStamp> files;        ///< others that they are made of, such as those that a VRT names
+  std::vector<FileStamp> files;        ///< others that they are made of, such as those that a VRT names, and of water
   ReadOptions reading;             ///< band, nodata, decode, z_scale, z_offset and view
   Datum datum;
   FileStamp geoid;  ///< of datum.geoid, where that is given
+  WaterFiles waters;  ///< what plan.waters was found of
   TileFormat format = TileFormat::kQuantizedMesh;
   PyramidPlan plan;
   LayerFacts facts;                      ///< but for the version
@@ -106,6 +120,10 @@ struct TileJob {
 
 /// Sets job.rasters and job.files: what these rasters are made of, as list_files() tells.
 void stamp_rasters(TileJob& job, const std::vector<std::string>& paths);
+
+/// Reads job.waters, if there are any, finds their levels on the raster's nodes, and sets job.plan.waters, job.files and
+/// the raster's nodes(). Fails as read_lines() and find_tile_waters() do. REQUIRES: job.plan is set, of this raster.
+Result<void> find_waters(TileJob& job, GlobeRaster& raster);
 
 /// The text of a plan file: JSON. Numbers are read back exactly.
 std::vector<std::uint8_t> encode_tile_job(const TileJob& job);

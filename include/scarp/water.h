@@ -57,6 +57,11 @@ struct WaterOptions {
 Result<std::vector<Lake>> flatten_lakes(OwnedHeightField& field, std::span<const Line> lines,
                                         const WaterOptions& options);
 
+/// The lakes of flatten_lakes(), with their levels and shores; the field does not change. Options and failures as there,
+/// but that nothing takes memory for samples. Cost: of a source the rows of shores are read.
+Result<std::vector<Lake>> find_lakes(const HeightField& field, std::span<const Line> lines,
+                                     const WaterOptions& options);
+
 struct FlatOptions {
   std::array<double, 6> affine{0, 1, 0, 0, 0, 1};  ///< from samples to the coordinates of shores: map_affine()
   std::uint64_t min_samples = 100;                 ///< at least 3

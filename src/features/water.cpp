@@ -304,7 +304,7 @@ struct LakesFound {
 
 /// Those with a level, at it. All levels are found before any change: a lake's shore is the raster's, not what its
 /// neighbour has made of it.
-Result<LakesFound> find_lakes(const Shores& shores, const std::vector<Rings>& polygons) {
+Result<LakesFound> find_levels(const Shores& shores, const std::vector<Rings>& polygons) {
   const auto samples = shores.read_samples(polygons);
   if (!samples) return tl::unexpected(samples.error());
   LakesFound found;
@@ -326,6 +326,15 @@ Result<LakesFound> find_lakes(const Shores& shores, const std::vector<Rings>& po
 
 }  // namespace
 
+Result<std::vector<Lake>> find_lakes(const HeightField& field, std::span<const Line> lines,
+                                     const WaterOptions& options) {
+  if (auto sound = check_options(options); !sound) return tl::unexpected(sound.error());
+  const Shores shores(field, options);
+  auto found = find_levels(shores, shores.find_polygons(lines));
+  if (!found) return tl::unexpected(found.error());
+  return std::move(found->lakes);
+}
+
 Result<std::vector<Lake>> flatten_lakes(OwnedHeightField& field, std::span<const Line> lines,
                                         const WaterOptions& options) {
   if (auto sound = check_options(options); !sound) return tl::unexpected(sound.error());
@@ -335,7 +344,7 @@ Result<std::vector<Lake>> flatten_lakes(OwnedHeightField& field, std::span<const
   for (const Rings& rings : polygons) bytes += line_bytes(field, rings, options.affine);
   const MemoryBudget memory{options.run.memory.limit, options.run.memory.taken, 0};
   if (auto fits = memory.check_start(bytes); !fits) return tl::unexpected(fits.error());
-  auto found = find_lakes(shores, polygons);
+  auto found = find_levels(shores, polygons);
   if (!found) return tl::unexpected(found.error());
   if (auto done = flatten_field(find_runs(shores, found->rings), options, found->lakes, field); !done)
     return tl::unexpected(done.error());

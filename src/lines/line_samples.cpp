@@ -12,6 +12,9 @@ namespace scarp {
 
 namespace {
 
+/// Samples between lines that are not read with those beside them.
+constexpr std::int32_t kWideGap = 4096;
+
 /// Corners of a cell, as valid_corners() counts them.
 unsigned corners_near(const LineSamples& samples, std::int32_t col, std::int32_t row) {
   const auto bit = [&](std::int32_t i, std::int32_t j, unsigned k) { return samples.is_valid({i, j}) ? 1u << k : 0u; };
@@ -36,15 +39,20 @@ Result<LineSamples> LineSamples::read(const HeightField& field, std::span<const 
   samples.begins_.assign(static_cast<std::size_t>(field.rows) + 1, 0);
   for (const Run& run : samples.runs_) ++samples.begins_[static_cast<std::size_t>(run.row) + 1];
   for (std::size_t row = 1; row < samples.begins_.size(); ++row) samples.begins_[row] += samples.begins_[row - 1];
-  // Whole rows, as sources like to be asked.
+  // Whole rows, as sources like to be asked, but for wide gaps.
   std::vector<float> row(static_cast<std::size_t>(field.cols));
   for (std::size_t i = 0; i < samples.runs_.size();) {
-    const std::int32_t at = samples.runs_[i].row;
-    if (auto copied = read_window(field, 0, at, field.cols, 1, row.data(), field.cols); !copied)
+    const std::int32_t at = samples.runs_[i].row, first = samples.runs_[i].col;
+    std::size_t end = i + 1;
+    while (end < samples.runs_.size() && samples.runs_[end].row == at &&
+           samples.runs_[end].col - samples.runs_[end - 1].end < kWideGap)
+      ++end;
+    const std::int32_t count = samples.runs_[end - 1].end - first;
+    if (auto copied = read_window(field, first, at, count, 1, row.data(), count); !copied)
       return tl::unexpected(copied.error());
-    for (; i < samples.runs_.size() && samples.runs_[i].row == at; ++i) {
+    for (; i < end; ++i) {
       const Run& run = samples.runs_[i];
-      std::copy(row.begin() + run.col, row.begin() + run.end,
+      std::copy(row.begin() + (run.col - first), row.begin() + (run.end - first),
                 samples.heights_.begin() + static_cast<std::ptrdiff_t>(run.first));
     }
   }

@@ -29,19 +29,10 @@ double largest_edit(const std::vector<SampleEdit>& edits) {
 
 Result<std::vector<Line>> read_files(const std::vector<std::string>& files, const ReadLinesOptions& options,
                                      std::vector<std::string>& warnings) {
-  std::vector<Line> lines;
-  std::uint32_t polygons = 0;
-  for (const std::string& file : files) {
-    auto set = read_lines(file, options);
-    if (!set) return tl::unexpected(std::move(set.error()));
-    for (Line& line : set->lines) {
-      if (line.polygon != kNoPolygon) line.polygon += polygons;
-      lines.push_back(std::move(line));
-    }
-    polygons += set->polygons;
-    warnings.insert(warnings.end(), set->warnings.begin(), set->warnings.end());
-  }
-  return lines;
+  auto set = read_lines(files, options);
+  if (!set) return tl::unexpected(std::move(set.error()));
+  warnings.insert(warnings.end(), set->warnings.begin(), set->warnings.end());
+  return std::move(set->lines);
 }
 
 void LineArguments::add_to(CLI::App& command) {

@@ -82,6 +82,7 @@ Result<OpenedJob> open_job(TileJob job, std::uint64_t memory, int threads) {
   options.run.threads = threads;
   auto raster = GlobeRaster::open(mosaics_of(job), options, job.datum);
   if (!raster) return tl::unexpected(raster.error());
+  (*raster)->add_waters(job.plan);
   return OpenedJob{std::move(*raster), std::move(job)};
 }
 
@@ -135,6 +136,9 @@ void TileArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kQuality, quality);
   add_option(command, OptionId::kZoom, zoom);
   add_option(command, OptionId::kGrid, grid);
+  add_option(command, OptionId::kWater, water);
+  add_option(command, OptionId::kWaterPercentile, percentile);
+  add_option(command, OptionId::kRivers, rivers);
   if (command.get_name() != "serve") add_option(command, OptionId::kOnly, only);
 }
 
@@ -200,6 +204,18 @@ Result<Datum> TileArguments::parse_datum() const {
   return datum;
 }
 
+Result<WaterFiles> TileArguments::parse_waters() const {
+  WaterFiles files{water, rivers};
+  if (!percentile) return files;
+  if (water.empty()) return fail(ErrorKind::kUsage, "--water-percentile needs --water: there is no lake without");
+  const Result<double> share = parse_non_negative("--water-percentile", *percentile);
+  if (!share) return tl::unexpected(share.error());
+  if (*share > 100)
+    return fail(ErrorKind::kUsage, fmt::format("--water-percentile {} is above 100", shell_word(*percentile)));
+  files.percentile = *share;
+  return files;
+}
+
 Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uint64_t memory) const {
   Result<PyramidSettings> settings = parse_settings();
   if (!settings) return tl::unexpected(settings.error());
@@ -207,6 +223,8 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
   if (!datum) return tl::unexpected(datum.error());
   Result<ReadOptions> options = raster.parse();
   if (!options) return tl::unexpected(options.error());
+  const Result<WaterFiles> waters = parse_waters();
+  if (!waters) return tl::unexpected(waters.error());
   const Result<TileFormat> kept = choose("--of", format.value_or("qm"), kTileFormats);
   if (!kept) return tl::unexpected(kept.error());
   if (*kept == TileFormat::kGlb && !settings->grid.has_even_rows())
@@ -238,6 +256,8 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
     paths.insert(paths.end(), mosaic.begin(), mosaic.end());
   }
   stamp_rasters(job, paths);
+  job.waters = *waters;
+  if (auto found = find_waters(job, *opened.raster); !found) return tl::unexpected(found.error());
   job.facts.heights_above = opened.raster->heights_above();
   job.facts.body = opened.raster->place().body;
   job.facts.name = base_name(raster.path());
@@ -271,6 +291,8 @@ Result<OpenedJob> TileArguments::follow(const TileJob& earlier, const ProgressCa
     paths.insert(paths.end(), mosaic.begin(), mosaic.end());
   }
   stamp_rasters(now, paths);
+  now.waters = earlier.waters;
+  if (auto found = find_waters(now, *opened.raster); !found) return tl::unexpected(found.error());
   if (!earlier.geoid.path.empty()) now.geoid = stamp_of(earlier.geoid.path);
   now.facts = earlier.facts;
   now.facts.heights_above = opened.raster->heights_above();

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "options/options.h"
 #include "scarp/tile_job.h"
@@ -32,6 +33,8 @@ Result<TileGrid> parse_grid(const std::string& text);
 struct TileArguments {
   RasterArguments raster;  ///< the paths are arguments of their own
   Given max_error, quality, zoom, grid, cells, effort, vertical, geoid, ellipsoid, background, format, only;
+  Given percentile;
+  std::vector<std::string> water, rivers;  ///< FILE or FILE:LAYER
   Effort default_effort = Effort::kNormal;
 
   /// What the nodes are: how the raster is read, what its heights are above, and the lattice.
@@ -46,6 +49,7 @@ struct TileArguments {
  private:
   Result<PyramidSettings> parse_settings() const;
   Result<Datum> parse_datum() const;
+  Result<WaterFiles> parse_waters() const;
 };
 
 }  // namespace scarp::cli

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "reports/report.h"
+#include "scarp/tile_waters.h"
 #include "terminal/text.h"
 
 namespace scarp::cli {
@@ -31,12 +32,38 @@ Json describe_levels(const PyramidPlan& plan, const PyramidReport& report) {
   return levels;
 }
 
+Json describe_waters(const TileJob& job) {
+  if (!job.plan.waters) return nullptr;
+  Json lakes = Json::array(), rivers = Json::array();
+  for (const TileLake& lake : job.plan.waters->lakes) lakes.push_back({{"name", lake.name}, {"level", lake.level}});
+  for (const TileRiver& river : job.plan.waters->rivers) rivers.push_back({{"name", river.name}});
+  return {{"lakes", std::move(lakes)}, {"rivers", std::move(rivers)}};
+}
+
 }  // namespace
+
+std::string waters_line(const TileJob& job) {
+  if (!job.plan.waters) return "";
+  double low = INFINITY, high = -INFINITY;
+  std::uint64_t lakes = 0;
+  for (const TileLake& lake : job.plan.waters->lakes) {
+    if (std::isnan(lake.level)) continue;
+    ++lakes;
+    low = std::min(low, lake.level);
+    high = std::max(high, lake.level);
+  }
+  std::string text = fmt::format("  water          {}", format_plural(lakes, "lake"));
+  if (lakes > 0 && low == high) text += fmt::format(" at {}", format_metres(low));
+  if (low < high) text += fmt::format(" at {} to {}", format_metres(low), format_metres(high));
+  return text + fmt::format(", {}; bounds are relative to nodes with water\n",
+                            format_plural(job.plan.waters->rivers.size(), "river"));
+}
 
 void add_tiles(Json& json, const TileJob& job, const std::string& output, const PyramidReport& report) {
   json["output"] = output;
   json["vertical"] = job.facts.heights_above;
   json["ellipsoid"] = {job.plan.ellipsoid.semi_major, semi_minor(job.plan.ellipsoid)};
+  json["water"] = describe_waters(job);
   json["max_zoom"] = job.plan.max_zoom();
   json["levels"] = describe_levels(job.plan, report);
 }
@@ -52,6 +79,7 @@ std::string make_tile_summary(const TileJob& job, const std::string& output, con
   }
   std::string text = fmt::format("{} -> {}\n", job.facts.name, output);
   text += fmt::format("  heights above  {}\n", job.facts.heights_above);
+  text += waters_line(job);
   text += fmt::format("  tiles          {}, levels 0 to {}, {}, {}\n", format_count(all.tiles), plan.max_zoom(),
                       format_plural(all.triangles, "triangle"), format_bytes(all.bytes));
   text += "  level      tiles  triangles/tile  bytes/tile      asked   at nodes  with the earth's curve  at samples\n";

@@ -212,6 +212,7 @@ Result<RasterOnGlobe> place_on_globe(const RasterInfo& info, int cols, int rows,
   const Degrees degrees = choose_degrees(source, datum.ellipsoid);
   globe.ellipsoid = degrees.ellipsoid;
   globe.body = degrees.body;
+  globe.degrees = degrees.crs ? gdal::crs_name(degrees.crs) : "";
   const std::array<double, 6>& gt = info.geotransform;
   globe.place.affine = {gt[0] + (gt[1] + gt[2]) / 2, gt[1], gt[2], gt[3] + (gt[4] + gt[5]) / 2, gt[4], gt[5]};
   auto forth = degrees.crs ? gdal::build_transform(source, degrees.crs) : nullptr;

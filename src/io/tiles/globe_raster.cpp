@@ -7,6 +7,7 @@
 
 #include "scarp/io.h"
 #include "scarp/tile_job.h"
+#include "scarp/tile_waters.h"
 
 namespace scarp {
 namespace {
@@ -56,6 +57,16 @@ Result<std::unique_ptr<GlobeSource>> open_source(const std::vector<std::string>&
   return source;
 }
 
+/// Of FILE, or of FILE:LAYER, which becomes absolute where it names a file.
+FileStamp stamp_lines(std::string& file) {
+  FileStamp stamp = stamp_of(file);
+  const std::size_t colon = file.rfind(':');
+  const std::string layer = stamp.size > 0 || colon == std::string::npos ? "" : file.substr(colon);
+  if (!layer.empty()) stamp = stamp_of(file.substr(0, colon));
+  if (stamp.size > 0) file = stamp.path + layer;
+  return stamp;
+}
+
 /// Sources of one stack lie on one globe, and what is said of all must not be what one of them denies.
 Result<void> check_stack(const GlobeSource& first, const GlobeSource& source, const Datum& datum) {
   const RasterInfo& info = source.field.info;
@@ -81,6 +92,10 @@ Result<void> check_stack(const GlobeSource& first, const GlobeSource& source, co
 struct GlobeRaster::Impl {
   std::vector<std::unique_ptr<GlobeSource>> sources;
   std::unique_ptr<NodeSource> stack;  ///< of more than one
+  std::unique_ptr<NodeSource> watered;  ///< with water
+  std::vector<std::string> warnings;    ///< of water
+
+  const NodeSource& land() const { return stack ? *stack : sources.front()->nodes(); }
 };
 
 GlobeRaster::GlobeRaster(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -117,7 +132,11 @@ Result<std::unique_ptr<GlobeRaster>> GlobeRaster::open(const std::vector<std::ve
   return std::unique_ptr<GlobeRaster>(new GlobeRaster(std::move(impl)));
 }
 
-const NodeSource& GlobeRaster::nodes() const { return impl_->stack ? *impl_->stack : impl_->sources.front()->nodes(); }
+const NodeSource& GlobeRaster::nodes() const { return impl_->watered ? *impl_->watered : impl_->land(); }
+
+void GlobeRaster::add_waters(const PyramidPlan& plan) {
+  if (plan.waters) impl_->watered = make_watered_source(impl_->land(), plan.waters, place().zero);
+}
 
 std::vector<SourceFacts> GlobeRaster::facts() const {
   std::vector<SourceFacts> facts;
@@ -151,7 +170,45 @@ std::vector<std::string> GlobeRaster::warnings() const {
     for (const std::string& one : raster.warnings)
       warnings.push_back(impl_->stack ? fmt::format("{}: {}", raster.path, one) : one);
   }
+  warnings.insert(warnings.end(), impl_->warnings.begin(), impl_->warnings.end());
   return warnings;
+}
+
+Result<void> find_waters(TileJob& job, GlobeRaster& raster) {
+  if (job.waters.is_empty()) return {};
+  auto& impl = *raster.impl_;
+  ReadLinesOptions reading;
+  reading.crs = raster.place().degrees;
+  reading.ignore_z = true;
+  auto lakes = read_lines(job.waters.lakes, reading);
+  if (!lakes) return tl::unexpected(lakes.error());
+  auto rivers = read_lines(job.waters.rivers, reading);
+  if (!rivers) return tl::unexpected(rivers.error());
+  for (const LineSet* set : {&*lakes, &*rivers})
+    impl.warnings.insert(impl.warnings.end(), set->warnings.begin(), set->warnings.end());
+  for (auto* files : {&job.waters.lakes, &job.waters.rivers}) {
+    for (std::string& file : *files) job.files.push_back(stamp_lines(file));
+  }
+  DegreeBox covered = impl.sources.front()->covered;
+  for (const auto& source : impl.sources) {
+    const DegreeBox& one = source->covered;
+    covered = {std::min(covered.west, one.west), std::min(covered.south, one.south), std::max(covered.east, one.east),
+               std::max(covered.north, one.north)};
+  }
+  const std::size_t lines = rivers->lines.size();
+  auto waters = find_tile_waters(job.plan, impl.land(), raster.place().zero, covered,
+                                 {std::move(lakes->lines), std::move(rivers->lines), job.waters.percentile});
+  if (!waters) return tl::unexpected(waters.error());
+  const auto flat = std::count_if(waters->lakes.begin(), waters->lakes.end(),
+                                  [](const TileLake& lake) { return !std::isnan(lake.level); });
+  if (!job.waters.lakes.empty() && flat == 0)
+    impl.warnings.push_back("--water names no lake in the raster: it changes nothing");
+  if (waters->rivers.size() < lines)
+    impl.warnings.push_back(fmt::format("--rivers: {} of {} lines are beside the raster or closed: no rivers",
+                                        lines - waters->rivers.size(), lines));
+  job.plan.waters = std::make_shared<const TileWaters>(std::move(*waters));
+  raster.add_waters(job.plan);
+  return {};
 }
 
 }  // namespace scarp

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "io/tiles/byte_source.h"
+#include "io/tiles/plan_waters.h"
 #include "scarp/tile_job.h"
 #include "scarp/version.h"
 
@@ -84,7 +85,7 @@ Json describe_plan(const PyramidPlan& plan) {
   Json sources = Json::array();
   for (const PlannedSource& source : plan.sources)
     sources.push_back({{"covered", describe_box(source.covered)}, {"max_zoom", source.max_zoom}});
-  return {{"cells", plan.cells},
+  Json json{{"cells", plan.cells},
           {"block_level", plan.block_level},
           {"effort", word_of(plan.effort, kEfforts)},
           {"background", plan.background},
@@ -94,6 +95,8 @@ Json describe_plan(const PyramidPlan& plan) {
           {"covered", describe_box(plan.covered)},
           {"sources", std::move(sources)},
           {"levels", std::move(levels)}};
+  if (plan.waters) json["waters"] = describe_waters(*plan.waters);
+  return json;
 }
 
 Json describe_stamp(const FileStamp& file) {
@@ -145,6 +148,12 @@ PyramidPlan parse_plan(const Json& json) {
   for (const Json& level : json.at("levels"))
     plan.levels.push_back(
         {level.at("geometric_error"), level.at("max_error"), level.at("quantum"), level.at("segments")});
+  if (json.contains("waters")) {
+    TileWaters waters = parse_waters(json["waters"]);
+    waters.grid = plan.grid;
+    waters.per_turn = plan.grid.per_turn(plan.max_zoom(), plan.cells);
+    plan.waters = std::make_shared<const TileWaters>(std::move(waters));
+  }
   return plan;
 }
 
@@ -186,6 +195,11 @@ TileJob parse_job(const Json& json) {
   job.reading.view.extent = optional_of<std::array<double, 4>>(reading.at("extent"));
   job.reading.view.resolution = optional_of<double>(reading.at("resolution"));
   parse_datum(json.at("datum"), job);
+  if (json.contains("waters")) {
+    const Json& waters = json["waters"];
+    job.waters = {waters.at("lakes").get<std::vector<std::string>>(),
+                  waters.at("rivers").get<std::vector<std::string>>(), waters.at("percentile")};
+  }
   job.format = value_of(json.at("format"), kFormats);
   job.facts = {json.at("name"),          json.at("description"), json.at("attribution"),
                json.at("heights_above"), json.at("body"),        ""};
@@ -226,6 +240,10 @@ Json describe_job(const TileJob& job) {
             {"description", job.facts.description},
             {"attribution", job.facts.attribution},
             {"pyramid", describe_plan(job.plan)}};
+  if (!job.waters.is_empty())
+    json["waters"] = {{"lakes", job.waters.lakes},
+                      {"rivers", job.waters.rivers},
+                      {"percentile", job.waters.percentile}};
   if (!job.parts.empty()) json["parts"] = job.parts;
   if (!job.costs.empty()) json["costs"] = job.costs;
   if (job.estimate) {
@@ -314,11 +332,12 @@ std::uint64_t key_of(const TileJob& job) {
 
 std::uint64_t settings_key_of(const TileJob& job) {
   Json json = describe_job(job);
-  for (const char* other : {"estimate", "costs", "rasters", "files", "parts", "heights_above", "body", "name",
-                            "description", "attribution"})
+  for (const char* other : {"estimate", "costs", "rasters", "files", "waters", "parts", "heights_above", "body",
+                            "name", "description", "attribution"})
     json.erase(other);
   json["datum"].erase("geoid");
   json["pyramid"].erase("covered");
+  json["pyramid"].erase("waters");
   return hash_of(json);
 }
 
@@ -333,6 +352,7 @@ std::uint64_t sources_key_of(const TileJob& job) {
   std::ranges::for_each(job.rasters, add);
   std::ranges::for_each(job.files, add);
   if (job.datum.vertical == Vertical::kGeoid) add(job.geoid);
+  if (job.plan.waters) stamps.push_back(hash_of(describe_waters(*job.plan.waters)));
   return hash_of(stamps);
 }
 
@@ -395,6 +415,7 @@ Result<TileJob> follow_job(const TileJob& earlier, TileJob now) {
   job.estimate = {};
   job.mosaics = std::move(now.mosaics);
   job.plan.covered = now.plan.covered;
+  job.plan.waters = std::move(now.plan.waters);
   job.plan.sources = std::move(now.plan.sources);
   return job;
 }

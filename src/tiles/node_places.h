@@ -1,0 +1,35 @@
+// Where degrees lie among nodes.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "scarp/tile_grid.h"
+
+namespace scarp {
+
+class NodePlaces {
+ public:
+  NodePlaces(const TileGrid& grid, std::int64_t per_turn) { lattice_ = {per_turn, 0, 0, 0, 0, grid}; }
+
+  /// Of a longitude, which may lie beyond a turn.
+  double col(double longitude) const { return (longitude + 180) / 360 * static_cast<double>(lattice_.per_turn); }
+
+  /// Between the rows whose latitudes are on both sides of it; 0 or the last row beyond.
+  double row(double latitude) const {
+    std::int64_t above = 0, below = lattice_.last_row();
+    if (latitude >= lattice_.latitude(above)) return static_cast<double>(above);
+    if (latitude <= lattice_.latitude(below)) return static_cast<double>(below);
+    while (below - above > 1) {
+      const std::int64_t middle = above + (below - above) / 2;
+      (lattice_.latitude(middle) >= latitude ? above : below) = middle;
+    }
+    const double from = lattice_.latitude(above);
+    return static_cast<double>(above) + (from - latitude) / (from - lattice_.latitude(below));
+  }
+
+ private:
+  NodeWindow lattice_;
+};
+
+}  // namespace scarp

@@ -1,0 +1,57 @@
+// Lakes and rivers on the lattice: the nodes around them, and the nodes that they hold.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "grid/sample_runs.h"
+#include "scarp/lines.h"
+#include "scarp/tile_waters.h"
+
+namespace scarp {
+
+/// Nodes of a lattice. Columns may lie beyond a turn.
+struct NodeBox {
+  std::int64_t col = 0, row = 0;
+  int cols = 0, rows = 0;
+};
+
+/// As many nodes side by side as lines can count.
+inline constexpr std::int64_t kMostNodes = (std::int64_t{1} << 22) - 1;
+
+/// Nodes on both sides of points, two more, and no more of them than the source covers; nothing: it covers none.
+/// `cols` and `rows` may be more than kMostNodes.
+class NodesAround {
+ public:
+  void add(double col, double row);
+  std::optional<NodeBox> box(const TileWaters& waters) const;
+
+ private:
+  double left_ = INFINITY, right_ = -INFINITY, top_ = INFINITY, bottom_ = -INFINITY;
+};
+
+/// Coordinates are columns and rows of the lattice.
+std::vector<Line> lines_of(const TileLake& lake);
+/// Nothing beside the source, or for a lake with more nodes side by side than lines can count.
+std::optional<NodeBox> box_of(const TileLake& lake, const TileWaters& waters);
+
+/// From nodes of a box, counted from its first, to columns and rows of the lattice.
+inline std::array<double, 6> affine_of(const NodeBox& box) {
+  return {static_cast<double>(box.col), 1, 0, static_cast<double>(box.row), 0, 1};
+}
+
+/// The nodes of a lake, counted from its box's first.
+std::vector<SampleRun> nodes_of(const TileLake& lake, const NodeBox& box);
+
+/// A node next to a river.
+struct RiverNode {
+  std::int64_t row = 0, col = 0;
+  float height = 0;
+};
+/// By rows, each once, at the lowest of the river's heights beside it.
+std::vector<RiverNode> nodes_of(const TileRiver& river);
+
+}  // namespace scarp
