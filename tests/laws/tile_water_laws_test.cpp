@@ -59,15 +59,19 @@ TileLake any_lake(double level) {
   return lake;
 }
 
-/// 1 in the polygon, −1 outside, 0 too near its edge to tell.
+/// 1 in the polygon, −1 outside, 0 too near to tell: flatten_lakes() takes nodes within a 128th of an edge's line, just
+/// beyond its ends, too.
 int side_of(const TileLake& lake, double col, double row) {
-  bool is_inside = false;
+  bool is_inside = false, is_near = false;
   const auto& ring = lake.rings.front();
+  for (const auto& [x, y] : ring) is_near = is_near || (std::abs(x - col) < 42 && std::abs(y - row) < 42);
+  if (!is_near) return -1;
   for (std::size_t k = 0; k + 1 < ring.size(); ++k) {
     const auto &p = ring[k], &q = ring[k + 1];
     const double dx = q[0] - p[0], dy = q[1] - p[1], length = std::hypot(dx, dy);
-    const double along = std::clamp(((col - p[0]) * dx + (row - p[1]) * dy) / (length * length), 0.0, 1.0);
-    if (std::hypot(p[0] + along * dx - col, p[1] + along * dy - row) < 0.02) return 0;
+    const double along = ((col - p[0]) * dx + (row - p[1]) * dy) / length;
+    const double beside = ((col - p[0]) * dy - (row - p[1]) * dx) / length;
+    if (std::abs(beside) < 0.02 && along > -1 && along < length + 1) return 0;
     if ((p[1] <= row) != (q[1] <= row) && col < p[0] + (row - p[1]) / dy * dx) is_inside = !is_inside;
   }
   return is_inside ? 1 : -1;
