@@ -123,6 +123,9 @@ struct PyramidSettings {
   /// Blocks that do not touch it are taken for places without heights. The others' tiles are those of the whole
   /// pyramid. DEFAULT: all.
   std::optional<DegreeBox> only = {};
+  /// Of a tile, as it is kept. Where a tile has more, the max error of its interior is doubled until it fits, or until
+  /// nothing but its border is left; the border stays. DEFAULT: 0, any.
+  std::uint64_t max_tile_bytes = 0;
 };
 
 struct TileWaters;
@@ -150,6 +153,7 @@ struct PyramidPlan {
   Effort effort = Effort::kNormal;
   float background = 0;
   bool has_siblings = false;  ///< as in PyramidSettings
+  std::uint64_t max_tile_bytes = 0;
   Geodetic ellipsoid = {};
   TileGrid grid = {};
   DegreeBox covered = {};  ///< by the source
@@ -187,6 +191,7 @@ struct TerrainTile {
   std::vector<std::array<std::uint8_t, 2>> normals;  ///< octahedral, earth-centred
   std::vector<std::uint32_t> triangles;              ///< counter-clockwise seen from above
   double quantum = 1;
+  double max_error = 0;  ///< asked of its interior, metres: the level's, or more because of max_tile_bytes
 
   /// Largest |mesh − node| over all nodes of the tile, of the heights as clients decode them, in metres, where edges
   /// are straight on the map. Above the plan's block level an upper bound.
@@ -202,14 +207,29 @@ struct TerrainTile {
   double source_error = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// The tile. Its node_error is at most the level's max error, but where positions in 32767ths of the tile cannot follow
-/// the land, next to a cliff. REQUIRES: plan.block_level <= id.z <= plan.max_zoom(). Fails as the source does.
+/// The tile, of as many bytes as it takes. Its node_error is at most the level's max error, but where positions in
+/// 32767ths of the tile cannot follow the land, next to a cliff. REQUIRES: plan.block_level <= id.z <= plan.max_zoom().
+/// Fails as the source does.
 Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
 
 /// A tile above the plan's block level, of the nodes that its mesh needs and no others: the mesh of finish_pyramid(),
 /// but without its proof. node_error is NaN, for nobody has looked between these nodes. REQUIRES: id.z <
 /// plan.block_level. Cost: some 70,000 nodes, each read alone where they are far apart. Fails as the source does.
 Result<TerrainTile> make_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source);
+
+/// The bytes that are kept of a tile. Several threads call it at once.
+using TileEncoder = std::function<Result<std::vector<std::uint8_t>>(const TerrainTile&)>;
+
+struct KeptTile {
+  TerrainTile tile;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// The tile as a set keeps it, within plan.max_tile_bytes where that can be: a function of (id, plan, nodes, encoder).
+/// Without a limit it is that of make_tile(), or above plan.block_level of make_unproven_tile(). Fails as these and the
+/// encoder do.
+Result<KeptTile> make_kept_tile(const PyramidPlan& plan, TileId id, const NodeSource& source,
+                                const TileEncoder& encode);
 
 /// The tiles of make_pyramid(), without making one: by level, rows and columns, y · 2^32 + x, sorted. Reads each node
 /// once; without a source no node, and then tiles below the blocks count as soon as the plan's source may cover them.
@@ -232,9 +252,11 @@ struct LevelSummary {
   std::uint64_t tiles = 0, triangles = 0, bytes = 0;
   double node_error = 0, bound = 0;  ///< the largest of its tiles
   double source_error = 0;           ///< the same; NaN where one of them is
-  /// Tiles whose node_error is above the level's max error: those with cliffs that rounded positions cannot follow, and
+  /// Tiles whose node_error is above their max error: those with cliffs that rounded positions cannot follow, and
   /// above the block level those whose reduced nodes let no less be proven.
   std::uint64_t over = 0;
+  std::uint64_t coarser = 0;    ///< tiles whose max error is above the level's because of plan.max_tile_bytes
+  std::uint64_t oversized = 0;  ///< of these, those that have more bytes all the same: their borders alone do
 };
 
 struct PyramidReport {
@@ -268,10 +290,10 @@ struct BlockReport {
 
 /// Makes the tiles of one block that have heights, their siblings if the plan wants them, and the block's own in any
 /// case. A tile's bytes are those of
-/// make_tile(). REQUIRES: find_blocks() names the block.
+/// make_kept_tile(). REQUIRES: find_blocks() names the block.
 ///
 /// Cost: each node is read once; memory: that of its nodes, 4 · (32 · cells)² bytes. Progress: pass "tiles". Fails as
-/// make_tile() and the sink do, and with kCancelled.
+/// make_kept_tile() and the sink do, and with kCancelled.
 Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const NodeSource& source, TileSink& sink,
                                const Run& run = {});
 

@@ -82,9 +82,6 @@ class TileSetReader {
 /// Memory: 8 bytes a tile, PMTiles 32, .3tz some 150; never more than a multiple of the set's size.
 Result<std::unique_ptr<TileSetReader>> open_tile_set(const std::string& path);
 
-/// The bytes that are kept of a tile. Several threads call it at once. Borrows the plan.
-using TileEncoder = std::function<Result<std::vector<std::uint8_t>>(const TerrainTile&)>;
-
 /// What a set says of itself besides the tiles.
 struct LayerFacts {
   std::string name = "terrain";
@@ -100,7 +97,7 @@ struct LayerFacts {
 std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const PyramidReport& report,
                                             const LayerFacts& facts);
 
-/// Of a format. quantized-mesh is in gzip: servers must send "Content-Encoding: gzip" with such tiles.
+/// Of a format. quantized-mesh is in gzip: servers must send "Content-Encoding: gzip" with such tiles. Borrows the plan.
 TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan);
 
 /// Tiles of a format into a set.

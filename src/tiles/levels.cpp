@@ -158,6 +158,7 @@ Result<PyramidPlan> plan_pyramid(std::span<const SourceFacts> given, const Pyram
   plan.effort = settings.effort;
   plan.background = settings.background;
   plan.has_siblings = settings.has_siblings;
+  plan.max_tile_bytes = settings.max_tile_bytes;
   plan.ellipsoid = settings.ellipsoid;
   plan.grid = settings.grid;
   plan.covered = source.covered;

@@ -72,19 +72,20 @@ Result<TileNodes> read_nodes(const PyramidPlan& plan, TileId id, const NodeSourc
 }
 
 /// Nothing for a tile without heights, unless it is the block's own or a wanted sibling of one that may have some.
-Result<std::optional<TerrainTile>> make_if_any(const PyramidPlan& plan, TileId id, const NodeSource& source) {
-  if (!is_wanted(plan, id)) return std::optional<TerrainTile>();
+Result<std::optional<KeptTile>> make_if_any(const PyramidPlan& plan, TileId id, const NodeSource& source,
+                                            const TileEncoder& encode) {
+  if (!is_wanted(plan, id)) return std::optional<KeptTile>();
   const auto nodes = read_nodes(plan, id, source);
   if (!nodes) return tl::unexpected(nodes.error());
   if (!nodes->has_heights() && id.z > plan.block_level) {
-    if (!plan.has_siblings) return std::optional<TerrainTile>();
+    if (!plan.has_siblings) return std::optional<KeptTile>();
     const auto parent = read_nodes(plan, {id.z - 1, id.x / 2, id.y / 2}, source);
     if (!parent) return tl::unexpected(parent.error());
-    if (!parent->has_heights()) return std::optional<TerrainTile>();
+    if (!parent->has_heights()) return std::optional<KeptTile>();
   }
-  auto tile = make_proven_tile(plan, id, *nodes, source);
-  if (!tile) return tl::unexpected(tile.error());
-  return std::optional(std::move(*tile));
+  auto kept = make_proven_tile(plan, id, *nodes, source, encode);
+  if (!kept) return tl::unexpected(kept.error());
+  return std::optional(std::move(*kept));
 }
 
 }  // namespace
@@ -104,14 +105,17 @@ Result<BlockReport> make_block(const PyramidPlan& plan, TileId block, const Node
   if (!read) return tl::unexpected(read.error());
   const std::optional<HeldNodes>& nodes = *read;
   if (!nodes) {
-    Result<TerrainTile> flat = make_flat_tile(plan, block);
-    if (!flat) return tl::unexpected(flat.error());
-    flat->source_error = 0;
-    if (auto put = output.put(*flat); !put) return tl::unexpected(put.error());
+    const auto make_flat = [&](TileId id, const TileEncoder& encode) -> Result<std::optional<KeptTile>> {
+      auto flat = make_flat_tile(plan, id, encode);
+      if (!flat) return tl::unexpected(flat.error());
+      flat->tile.source_error = 0;
+      return std::optional(std::move(*flat));
+    };
+    if (auto put = output.make({block}, make_flat); !put) return tl::unexpected(put.error());
     made.report = output.take_report();
     return made;
   }
-  const auto make = [&](TileId id) { return make_if_any(plan, id, *nodes); };
+  const auto make = [&](TileId id, const TileEncoder& encode) { return make_if_any(plan, id, *nodes, encode); };
   if (auto put = output.make(tiles_of(plan, block), make); !put) return tl::unexpected(put.error());
   made.report = output.take_report();
   made.report.has_heights = true;

@@ -18,7 +18,8 @@
 namespace scarp {
 namespace {
 
-Result<std::optional<TerrainTile>> make_coarse(const PyramidPlan& plan, TileId id, const CoarseLevel& below) {
+Result<std::optional<KeptTile>> make_coarse(const PyramidPlan& plan, TileId id, const CoarseLevel& below,
+                                            const TileEncoder& encode) {
   const std::int32_t steps = 2 * kCoarseCells;
   const auto nodes = TileNodes::read(plan, id, steps, normal_reach(steps), below);
   if (!nodes) return tl::unexpected(nodes.error());
@@ -28,15 +29,15 @@ Result<std::optional<TerrainTile>> make_coarse(const PyramidPlan& plan, TileId i
     source_error = verdict.source_error;
     return TileVerdict{verdict.node_error, {}};
   };
-  auto tile = nodes->is_flat() ? make_flat_tile(plan, id) : make_tile_of(plan, id, *nodes, judge);
-  if (!tile) return tl::unexpected(tile.error());
+  auto kept = nodes->is_flat() ? make_flat_tile(plan, id, encode) : make_tile_of(plan, id, *nodes, judge, encode);
+  if (!kept) return tl::unexpected(kept.error());
   // Between flat nodes there may be land.
   const std::array<TileId, 4> children = children_of(id);
   const bool has_land = std::any_of(children.begin(), children.end(),
                                     [&](TileId child) { return below.at(child.x, child.y).has_heights; });
-  if (nodes->is_flat() && has_land) tile->node_error = judge(*tile)->error;
-  tile->source_error = source_error;
-  return std::optional(std::move(*tile));
+  if (nodes->is_flat() && has_land) kept->tile.node_error = judge(kept->tile)->error;
+  kept->tile.source_error = source_error;
+  return std::optional(std::move(*kept));
 }
 
 CoarseLevel join_level(const PyramidPlan& plan, const std::vector<TileId>& tiles, const CoarseLevel& below) {
@@ -54,18 +55,23 @@ CoarseLevel join_level(const PyramidPlan& plan, const std::vector<TileId>& tiles
 
 }  // namespace
 
-Result<TerrainTile> make_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source) {
+Result<KeptTile> make_kept_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source,
+                                         const TileEncoder& encode) {
   const std::int32_t steps = 2 * kCoarseCells;
   const DecimatedNodes few(source, plan.grid.per_turn(plan.max_zoom(), plan.cells));
   const auto nodes = TileNodes::read(plan, id, steps, normal_reach(steps), few);
   if (!nodes) return tl::unexpected(nodes.error());
   // As in make_coarse(): the first mesh that does not fold is the tile, whatever its error.
-  auto tile = nodes->is_flat() ? make_flat_tile(plan, id)
-                               : make_tile_of(plan, id, *nodes, [](const TerrainTile&) -> Result<TileVerdict> {
-                                   return TileVerdict{0, {}};
-                                 });
-  if (tile) tile->node_error = std::numeric_limits<double>::quiet_NaN();
-  return tile;
+  const auto accept = [](const TerrainTile&) -> Result<TileVerdict> { return TileVerdict{0, {}}; };
+  auto kept = nodes->is_flat() ? make_flat_tile(plan, id, encode) : make_tile_of(plan, id, *nodes, accept, encode);
+  if (kept) kept->tile.node_error = std::numeric_limits<double>::quiet_NaN();
+  return kept;
+}
+
+Result<TerrainTile> make_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source) {
+  auto kept = make_kept_unproven_tile(plan, id, source, {});
+  if (!kept) return tl::unexpected(kept.error());
+  return std::move(kept->tile);
 }
 
 Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockReport> blocks, TileSink& sink,
@@ -88,7 +94,8 @@ Result<PyramidReport> finish_pyramid(const PyramidPlan& plan, std::vector<BlockR
   for (int z = plan.block_level - 1; z >= 0; --z) {
     std::vector<TileId> tiles;
     for (const auto& [y, x] : chosen[static_cast<std::size_t>(z)]) tiles.push_back({z, x, y});
-    auto made = output.make(tiles, [&](TileId id) { return make_coarse(plan, id, below); });
+    auto made = output.make(
+        tiles, [&](TileId id, const TileEncoder& encode) { return make_coarse(plan, id, below, encode); });
     if (!made) return tl::unexpected(made.error());
     below = join_level(plan, tiles, below);
   }

@@ -39,14 +39,17 @@ class TileMaker {
         rows_(plan.grid, id, nodes.steps()),
         judge_(judge) {}
 
-  Result<TerrainTile> make() {
-    lay_edges();
+  /// `max_error`: of the interior.
+  Result<TerrainTile> make(double max_error) {
+    if (samples_.empty()) lay_edges();
+    forced_.clear();
     std::optional<TerrainTile> best;
     for (int trial = 0; trial < kMeshTrials; ++trial) {
       // A little less each time: the rounding of a forced vertex may break the bound elsewhere.
-      auto mesh = refine((level_.max_error - level_.quantum / 2) * (1 - trial / 128.0));
+      auto mesh = refine((max_error - level_.quantum / 2) * (1 - trial / 128.0));
       if (!mesh) return tl::unexpected(mesh.error());
       TerrainTile tile = quantize(*mesh);
+      tile.max_error = max_error;
       const std::vector<SampleAt> folds = find_folds(tile);
       if (!folds.empty()) {
         force_around(folds);
@@ -56,12 +59,18 @@ class TileMaker {
       if (!verdict) return tl::unexpected(verdict.error());
       tile.node_error = verdict->error;
       if (!best || verdict->error < best->node_error) best = std::move(tile);
-      if (verdict->error <= level_.max_error || verdict->offenders.empty()) break;
+      if (verdict->error <= max_error || verdict->offenders.empty()) break;
       force_around(verdict->offenders);
     }
     if (!best) return fail(ErrorKind::kInternal, fmt::format("tile {}/{}/{} folds over", id_.z, id_.x, id_.y));
     finish(*best);
     return std::move(*best);
+  }
+
+  /// Between the lowest and the highest node of the mesh: a larger max error leaves nothing out.
+  double relief() const {
+    const auto [low, high] = std::minmax_element(samples_.begin(), samples_.end());
+    return double{*high} - double{*low};
   }
 
  private:
@@ -205,9 +214,9 @@ class TileMaker {
 
 namespace {
 
-TileVerdict judge_by_rows(const TerrainTile& tile, const TileNodes& nodes, const TileRows& rows, double max_error) {
+TileVerdict judge_by_rows(const TerrainTile& tile, const TileNodes& nodes, const TileRows& rows) {
   const std::int32_t steps = nodes.steps();
-  TileSurface surface(tile, max_error);
+  TileSurface surface(tile, tile.max_error);
   for (std::int32_t row = 0; row <= steps; ++row) {
     const double v = 32767 * (1 - rows.line(row) / steps);
     surface.judge({0, v, 32767.0 / steps, 0, {nodes.from(0, row), static_cast<std::size_t>(steps) + 1}});
@@ -222,47 +231,61 @@ TileVerdict judge_by_rows(const TerrainTile& tile, const TileNodes& nodes, const
 
 }  // namespace
 
-Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, const TileGrid& grid,
-                                   double max_error) {
-  if (const TileRows rows(grid, tile.id, nodes.steps()); !rows.are_even())
-    return judge_by_rows(tile, nodes, rows, max_error);
-  NodeErrors errors = scan_nodes(tile, nodes, max_error);
+Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, const TileGrid& grid) {
+  if (const TileRows rows(grid, tile.id, nodes.steps()); !rows.are_even()) return judge_by_rows(tile, nodes, rows);
+  NodeErrors errors = scan_nodes(tile, nodes, tile.max_error);
   if (errors.uncovered > 0)
     return fail(ErrorKind::kInternal, fmt::format("tile {}/{}/{} leaves {} of its nodes uncovered", tile.id.z,
                                                   tile.id.x, tile.id.y, errors.uncovered));
   return TileVerdict{errors.largest, std::move(errors.worst)};
 }
 
-Result<TerrainTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileJudge& judge) {
-  return TileMaker(plan, id, nodes, judge).make();
+Result<KeptTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileJudge& judge,
+                              const TileEncoder& encode) {
+  TileMaker maker(plan, id, nodes, judge);
+  for (double max_error = plan.levels[static_cast<std::size_t>(id.z)].max_error;; max_error *= 2) {
+    auto tile = maker.make(max_error);
+    if (!tile) return tl::unexpected(tile.error());
+    KeptTile kept{std::move(*tile), {}};
+    if (!encode) return kept;
+    auto bytes = encode(kept.tile);
+    if (!bytes) return tl::unexpected(bytes.error());
+    kept.bytes = std::move(*bytes);
+    const bool fits = plan.max_tile_bytes == 0 || kept.bytes.size() <= plan.max_tile_bytes;
+    if (fits || max_error >= maker.relief()) return kept;
+  }
 }
 
-Result<TerrainTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes) {
-  const double max_error = plan.levels[static_cast<std::size_t>(id.z)].max_error;
-  return make_tile_of(plan, id, nodes,
-                      [&](const TerrainTile& tile) { return judge_at_nodes(tile, nodes, plan.grid, max_error); });
-}
-
-Result<TerrainTile> make_flat_tile(const PyramidPlan& plan, TileId id) {
+Result<KeptTile> make_flat_tile(const PyramidPlan& plan, TileId id, const TileEncoder& encode) {
   const TileNodes nodes = TileNodes::flat(2 * plan.levels[static_cast<std::size_t>(id.z)].segments, plan.background);
-  return make_tile_of(plan, id, nodes);
+  return make_tile_of(
+      plan, id, nodes, [&](const TerrainTile& tile) { return judge_at_nodes(tile, nodes, plan.grid); }, encode);
 }
 
-Result<TerrainTile> make_proven_tile(const PyramidPlan& plan, TileId id, const TileNodes& nodes,
-                                     const NodeSource& source) {
-  auto tile = nodes.is_flat() ? make_flat_tile(plan, id) : make_tile_of(plan, id, nodes);
-  if (!tile) return tile;
-  const Result<SampleVerdict> verdict = judge_at_samples(*tile, plan.grid, nodes, source);
+Result<KeptTile> make_proven_tile(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const NodeSource& source,
+                                  const TileEncoder& encode) {
+  const auto judge = [&](const TerrainTile& tile) { return judge_at_nodes(tile, nodes, plan.grid); };
+  auto kept = nodes.is_flat() ? make_flat_tile(plan, id, encode) : make_tile_of(plan, id, nodes, judge, encode);
+  if (!kept) return kept;
+  const Result<SampleVerdict> verdict = judge_at_samples(kept->tile, plan.grid, nodes, source);
   if (!verdict) return tl::unexpected(verdict.error());
-  tile->source_error = verdict->error;
-  return tile;
+  kept->tile.source_error = verdict->error;
+  return kept;
 }
 
-Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source) {
+Result<KeptTile> make_kept_tile(const PyramidPlan& plan, TileId id, const NodeSource& source,
+                                const TileEncoder& encode) {
+  if (id.z < plan.block_level) return make_kept_unproven_tile(plan, id, source, encode);
   const std::int32_t steps = steps_of(plan, id.z);
   const auto nodes = TileNodes::read(plan, id, steps, normal_reach(steps), source);
   if (!nodes) return tl::unexpected(nodes.error());
-  return make_proven_tile(plan, id, *nodes, source);
+  return make_proven_tile(plan, id, *nodes, source, encode);
+}
+
+Result<TerrainTile> make_tile(const PyramidPlan& plan, TileId id, const NodeSource& source) {
+  auto kept = make_kept_tile(plan, id, source, {});
+  if (!kept) return tl::unexpected(kept.error());
+  return std::move(kept->tile);
 }
 
 }  // namespace scarp

@@ -12,27 +12,31 @@ namespace scarp {
 /// A bound of the largest |mesh − node| of a tile, of the mesh that clients decode.
 struct TileVerdict {
   double error = 0;
-  std::vector<SampleAt> offenders;  ///< nodes that break the level's max error; empty where they are not known
+  std::vector<SampleAt> offenders;  ///< nodes that break the tile's max error; empty where they are not known
 };
 using TileJudge = std::function<Result<TileVerdict>(const TerrainTile& tile)>;
 
 /// The errors at the nodes themselves. Where the grid's rows are not even the offenders are the worst of each triangle.
-Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, const TileGrid& grid,
-                                   double max_error);
+Result<TileVerdict> judge_at_nodes(const TerrainTile& tile, const TileNodes& nodes, const TileGrid& grid);
 
-/// A mesh of the nodes that satisfies the level's max error where rounded positions can, else the one with the least.
-Result<TerrainTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileJudge& judge);
-/// The same, judged at its nodes.
-Result<TerrainTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes);
+/// A mesh of the nodes that satisfies the tile's max error where rounded positions can, else the one with the least.
+/// That max error is the level's, doubled while the tile's bytes are more than the plan's limit and its interior can have
+/// fewer vertices. Without an encoder there are no bytes and no limit.
+Result<KeptTile> make_tile_of(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const TileJudge& judge,
+                              const TileEncoder& encode);
 
-/// A tile at or below the plan's block level, judged at the samples of its source, too.
-Result<TerrainTile> make_proven_tile(const PyramidPlan& plan, TileId id, const TileNodes& nodes,
-                                     const NodeSource& source);
+/// A tile at or below the plan's block level, judged at its nodes and at the samples of its source.
+Result<KeptTile> make_proven_tile(const PyramidPlan& plan, TileId id, const TileNodes& nodes, const NodeSource& source,
+                                  const TileEncoder& encode);
+
+/// make_unproven_tile() as it is kept.
+Result<KeptTile> make_kept_unproven_tile(const PyramidPlan& plan, TileId id, const NodeSource& source,
+                                         const TileEncoder& encode);
 
 /// Nodes of a side of a tile at or below the plan's block level.
 inline std::int32_t steps_of(const PyramidPlan& plan, int z) { return plan.cells << (plan.max_zoom() - z); }
 
 /// A tile without a height, of the background alone: the same on its edges as its neighbours.
-Result<TerrainTile> make_flat_tile(const PyramidPlan& plan, TileId id);
+Result<KeptTile> make_flat_tile(const PyramidPlan& plan, TileId id, const TileEncoder& encode);
 
 }  // namespace scarp

@@ -15,30 +15,22 @@ TileOutput::TileOutput(const PyramidPlan& plan, TileSink& sink, const Run& run)
 }
 
 Result<void> TileOutput::make(const std::vector<TileId>& tiles,
-                              const std::function<Result<std::optional<TerrainTile>>(TileId)>& make) {
+                              const std::function<Result<std::optional<KeptTile>>(TileId, const TileEncoder&)>& make) {
   struct Made {
-    std::optional<TerrainTile> tile;
-    std::vector<std::uint8_t> bytes;
+    std::optional<KeptTile> tile;
     std::optional<Error> error;
   };
+  const TileEncoder encode = [&](const TerrainTile& tile) { return sink_.encode(tile); };
   std::vector<Made> made(tiles.size());
   Result<void> result;
   parallel_in_order(
       tiles.size(), run_.threads,
       [&](std::size_t k, std::size_t) {
-        auto tile = make(tiles[k]);
-        if (!tile) {
+        auto tile = make(tiles[k], encode);
+        if (tile)
+          made[k].tile = std::move(*tile);
+        else
           made[k].error = tile.error();
-          return;
-        }
-        if (!*tile) return;
-        auto bytes = sink_.encode(**tile);
-        if (!bytes) {
-          made[k].error = bytes.error();
-          return;
-        }
-        made[k].tile = std::move(*tile);
-        made[k].bytes = std::move(*bytes);
       },
       [&](std::size_t k) {
         const Made one = std::move(made[k]);
@@ -48,31 +40,28 @@ Result<void> TileOutput::make(const std::vector<TileId>& tiles,
         else if (reporter_.due() && !reporter_.report("tiles", share, tiles_, 0))
           result = fail(ErrorKind::kCancelled, "cancelled");
         else if (one.tile)
-          result = put(*one.tile, one.bytes);
+          result = put(*one.tile);
         return result.has_value();
       });
   return result;
 }
 
-Result<void> TileOutput::put(const TerrainTile& tile) {
-  auto bytes = sink_.encode(tile);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return put(tile, *bytes);
-}
-
-Result<void> TileOutput::put(const TerrainTile& tile, const std::vector<std::uint8_t>& bytes) {
+Result<void> TileOutput::put(const KeptTile& kept) {
+  const TerrainTile& tile = kept.tile;
   const auto z = static_cast<std::size_t>(tile.id.z);
   LevelSummary& level = report_.levels[z];
   ++level.tiles;
   ++tiles_;
   level.triangles += tile.triangles.size() / 3;
-  level.bytes += bytes.size();
+  level.bytes += kept.bytes.size();
   level.node_error = std::max(level.node_error, tile.node_error);
   level.bound = std::max(level.bound, tile.bound());
   level.source_error = larger(level.source_error, tile.source_error);
-  level.over += tile.node_error > plan_.levels[z].max_error;
+  level.over += tile.node_error > tile.max_error;
+  level.coarser += tile.max_error > plan_.levels[z].max_error;
+  level.oversized += plan_.max_tile_bytes > 0 && kept.bytes.size() > plan_.max_tile_bytes;
   report_.tiles[z].push_back(std::uint64_t{tile.id.y} << 32 | tile.id.x);
-  return sink_.put(tile.id, bytes);
+  return sink_.put(tile.id, kept.bytes);
 }
 
 PyramidReport TileOutput::take_report() {
@@ -91,6 +80,8 @@ void PyramidReport::add(const PyramidReport& more) {
     level.triangles += other.triangles;
     level.bytes += other.bytes;
     level.over += other.over;
+    level.coarser += other.coarser;
+    level.oversized += other.oversized;
     level.node_error = std::max(level.node_error, other.node_error);
     level.bound = std::max(level.bound, other.bound);
     level.source_error = larger(level.source_error, other.source_error);

@@ -19,14 +19,13 @@ class TileOutput {
   /// Makes the tiles on all threads and puts them in this order; `make` returns nothing for a tile that is not wanted.
   /// Progress: the share of these tiles. Fails as `make` and the sink do, and with kCancelled.
   Result<void> make(const std::vector<TileId>& tiles,
-                    const std::function<Result<std::optional<TerrainTile>>(TileId)>& make);
-  Result<void> put(const TerrainTile& tile);
+                    const std::function<Result<std::optional<KeptTile>>(TileId, const TileEncoder&)>& make);
 
   /// Its tiles sorted.
   PyramidReport take_report();
 
  private:
-  Result<void> put(const TerrainTile& tile, const std::vector<std::uint8_t>& bytes);
+  Result<void> put(const KeptTile& kept);
 
   const PyramidPlan& plan_;
   TileSink& sink_;

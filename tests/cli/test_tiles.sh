@@ -29,6 +29,30 @@ done
 succeeds "$scarp" tile "$dem" again --vertical egm96 -j 3 -q
 diff -r globe again || fail "3 threads make other tiles"
 
+# A limit of bytes makes interiors coarser; edges stay, bounds are true, and what does not fit is counted.
+limit=2500
+succeeds "$scarp" tile "$dem" small --vertical egm96 --max-tile-bytes $limit --report small.json -j 1
+grep -q -- "--max-tile-bytes $limit" "$logs/err" || fail "no warning counts the tiles"
+python3 "$reader" small > /dev/null
+holds "$(find small -name '*.terrain' -size +${limit}c | wc -l) == $(python3 -c '
+import json
+print(sum(level["tiles_oversized"] for level in json.load(open("small.json"))["levels"]))')"
+holds "$(json small.json levels 11 tiles_coarser) > 10 && $(json r.json levels 11 tiles_coarser) == 0"
+holds "$(json small.json levels 11 tiles_coarser) == $(json small/layer.json scarp levels 11 tiles_coarser)"
+holds "$(json small.json levels 11 node_error) > $(json small.json levels 11 asked)"
+[ "$(json small.json levels 11 tiles_over)" = 0 ] || fail "coarser tiles count as cliffs"
+succeeds "$scarp" tile check small --source "$dem" --vertical egm96
+succeeds "$scarp" tile plan "$dem" plan.json --vertical egm96 --max-tile-bytes $limit -q
+for shard in 2/3 3/3 1/3; do succeeds "$scarp" tile run plan.json --shard $shard -j 2 -q; done
+succeeds "$scarp" tile finish plan.json small_parts
+grep -q -- "--max-tile-bytes $limit" "$logs/err" || fail "no warning counts the tiles of parts"
+diff -r small small_parts || fail "shares make other tiles"
+succeeds "$scarp" tile "$dem" least --vertical egm96 --zoom 9 --max-tile-bytes 1 --report least.json
+grep -q "what neighbours share alone takes more" "$logs/err" || fail "no warning of tiles that are too large"
+[ "$(json least.json levels 9 tiles_oversized)" = "$(json least.json levels 9 tiles)" ] || fail "not all tiles are counted"
+refuses 1 "holds no tile" "$scarp" tile "$dem" no --vertical egm96 --max-tile-bytes 0
+refuses 1 "--max-tile-bytes" "$scarp" tile "$dem" no --vertical egm96 --max-tile-bytes x
+
 # What is there stays.
 refuses 4 "--overwrite" "$scarp" tile "$dem" globe --vertical egm96
 mkdir other && touch other/mine

@@ -261,6 +261,39 @@ RC_GTEST_PROP(tile_laws, the_scan_of_nodes_finds_what_the_judge_finds, ()) {
   RC_ASSERT(scan_nodes(tile, nodes, limit).uncovered >= judge(tile, nodes, limit).uncovered);
 }
 
+RC_GTEST_PROP(tile_laws, a_limit_of_bytes_changes_the_interior_alone_and_the_bound_stays_true, ()) {
+  double relief = 0, noise = 0;
+  const AnyLand land = any_land(relief, noise);
+  const int finest = *rc::gen::inRange(2, 9), z = std::max(0, finest - *rc::gen::inRange(0, 3));
+  PyramidPlan plan = plan_of(relief, noise, finest, 32, any_effort());
+  const TileId id{z, *rc::gen::inRange<std::uint32_t>(0, std::uint32_t{2} << z),
+                  *rc::gen::inRange<std::uint32_t>(0, std::uint32_t{1} << z)};
+  const TileEncoder encode = [](const TerrainTile& tile) { return encode_quantized_mesh(tile); };
+  const auto free = make_kept_tile(plan, id, land, encode);
+  RC_ASSERT(free.has_value());
+  plan.max_tile_bytes = *rc::gen::inRange<std::uint64_t>(1, free->bytes.size() + 100);
+  const auto kept = make_kept_tile(plan, id, land, encode);
+  RC_ASSERT(kept.has_value());
+  const double asked = plan.levels[static_cast<std::size_t>(z)].max_error;
+  RC_ASSERT(kept->tile.max_error >= asked);
+  if (free->bytes.size() <= plan.max_tile_bytes) RC_ASSERT(kept->bytes == free->bytes);
+  // What does not fit has nothing left to leave out.
+  if (kept->bytes.size() > plan.max_tile_bytes) {
+    plan.max_tile_bytes = 1;
+    const auto least = make_kept_tile(plan, id, land, encode);
+    RC_ASSERT(least.has_value());
+    RC_ASSERT(kept->bytes == least->bytes);
+  }
+  const QuantizedMesh whole = decode(free->tile), small = decode(kept->tile);
+  RC_ASSERT(without_dust(edge_of(whole, whole.west, whole.v)) == without_dust(edge_of(small, small.west, small.v)));
+  RC_ASSERT(without_dust(edge_of(whole, whole.south, whole.u)) == without_dust(edge_of(small, small.south, small.u)));
+  RC_ASSERT(without_dust(edge_of(whole, whole.east, whole.v)) == without_dust(edge_of(small, small.east, small.v)));
+  RC_ASSERT(without_dust(edge_of(whole, whole.north, whole.u)) == without_dust(edge_of(small, small.north, small.u)));
+  const double error = brute_force(small, id, nodes_of(plan, z), land, plan.background);
+  RC_ASSERT(error <= kept->tile.node_error * (1 + 1e-9) + 1e-6);
+  RC_ASSERT(kept->tile.node_error <= kept->tile.max_error);
+}
+
 /// Tiles in memory.
 class Kept final : public TileSink {
  public:
@@ -297,12 +330,13 @@ struct Made {
 };
 
 std::unique_ptr<Made> make_small_pyramid(const AnyLand& land, const DegreeBox& covered, int threads,
-                                         const TileGrid& grid = {}) {
+                                         const TileGrid& grid = {}, std::uint64_t max_tile_bytes = 0) {
   SourceFacts source{covered, 1, -1000, 1200};
   PyramidSettings settings;
   settings.cells = 16;
   settings.max_zoom = 7;
   settings.grid = grid;
+  settings.max_tile_bytes = max_tile_bytes;
   auto made = std::make_unique<Made>(grid);
   made->plan = *plan_pyramid(source, settings);
   Run run;
@@ -332,6 +366,31 @@ TEST(pyramid_laws, a_tile_of_a_pyramid_is_the_one_made_alone_and_threads_change_
     }
     EXPECT_GT(alone, 100u) << grid.name();
   }
+}
+
+TEST(pyramid_laws, tiles_within_a_limit_of_bytes_are_those_made_alone_and_are_counted) {
+  constexpr std::uint64_t kLimit = 900;
+  const AnyLand land(7, 900, 50, false, kIsland);
+  const auto one = make_small_pyramid(land, kIsland, 1, {}, kLimit), three = make_small_pyramid(land, kIsland, 3, {}, kLimit);
+  EXPECT_EQ(one->kept.files, three->kept.files);
+  const TileEncoder encode = [](const TerrainTile& tile) { return encode_quantized_mesh(tile); };
+  std::vector<std::uint64_t> coarser(one->plan.levels.size()), oversized(coarser);
+  for (const auto& [key, bytes] : one->kept.files) {
+    const auto [z, x, y] = key;
+    const auto level = static_cast<std::size_t>(z);
+    const auto tile = make_kept_tile(one->plan, {z, x, y}, land, encode);
+    ASSERT_TRUE(tile) << tile.error().message;
+    EXPECT_EQ(tile->bytes, bytes) << z << "/" << x << "/" << y;
+    coarser[level] += tile->tile.max_error > one->plan.levels[level].max_error;
+    oversized[level] += bytes.size() > kLimit;
+  }
+  std::uint64_t all = 0;
+  for (std::size_t z = 0; z < coarser.size(); ++z) {
+    EXPECT_EQ(one->report.levels[z].coarser, coarser[z]) << z;
+    EXPECT_EQ(one->report.levels[z].oversized, oversized[z]) << z;
+    all += coarser[z];
+  }
+  EXPECT_GT(all, 50u);
 }
 
 TEST(pyramid_laws, a_tile_above_the_blocks_is_the_same_without_its_proof_and_tiles_are_known_before_they_are_made) {

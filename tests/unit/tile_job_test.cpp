@@ -82,12 +82,14 @@ TEST(tile_job, comes_back_from_its_file) {
   job.rasters[0].content = 0xfedcba9876543210;
   job.files = {{"/member.tif", 5, 6}};
   job.parts = "/earlier.parts";
+  job.plan.max_tile_bytes = 12345;
   job.estimate = TileEstimate{1, 2, 3, 4, 5.25, 6, 7};
   const auto back = decode_tile_job(encode_tile_job(job), "plan");
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_EQ(back->rasters, job.rasters);
   EXPECT_EQ(back->files, job.files);
   EXPECT_EQ(back->parts, job.parts);
+  EXPECT_EQ(back->plan.max_tile_bytes, 12345u);
   ASSERT_TRUE(back->estimate);
   EXPECT_EQ(back->estimate->core_seconds, 5.25);
   EXPECT_EQ(back->estimate->parts, 7u);

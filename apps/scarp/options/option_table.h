@@ -131,6 +131,7 @@ enum class OptionId {
   kEllipsoid,
   kPlan,
   kOnly,
+  kMaxTileBytes,
   kChangedSince,
   kHash,
   kSurvey,

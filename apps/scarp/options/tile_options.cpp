@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "options/memory.h"
 #include "options/option_table.h"
 
 namespace scarp::cli {
@@ -139,6 +140,7 @@ void TileArguments::add_to(CLI::App& command) {
   add_option(command, OptionId::kWater, water);
   add_option(command, OptionId::kWaterPercentile, percentile);
   add_option(command, OptionId::kRivers, rivers);
+  add_option(command, OptionId::kMaxTileBytes, max_tile_bytes);
   if (command.get_name() != "serve") add_option(command, OptionId::kOnly, only);
 }
 
@@ -165,6 +167,12 @@ Result<PyramidSettings> TileArguments::parse_settings() const {
     const Result<TileGrid> chosen = parse_grid(*grid);
     if (!chosen) return tl::unexpected(chosen.error());
     settings.grid = *chosen;
+  }
+  if (max_tile_bytes) {
+    const Result<std::uint64_t> bytes = parse_bytes("--max-tile-bytes", *max_tile_bytes);
+    if (!bytes) return tl::unexpected(bytes.error());
+    if (*bytes == 0) return fail(ErrorKind::kUsage, "--max-tile-bytes 0 holds no tile: give 1 or more, such as 20k");
+    settings.max_tile_bytes = *bytes;
   }
   if (cells) {
     const Result<int> count = choose("--cells", *cells, kCells);

@@ -33,7 +33,7 @@ Result<TileGrid> parse_grid(const std::string& text);
 struct TileArguments {
   RasterArguments raster;  ///< the paths are arguments of their own
   Given max_error, quality, zoom, grid, cells, effort, vertical, geoid, ellipsoid, background, format, only;
-  Given percentile;
+  Given max_tile_bytes, percentile;
   std::vector<std::string> water, rivers;  ///< FILE or FILE:LAYER
   Effort default_effort = Effort::kNormal;
 

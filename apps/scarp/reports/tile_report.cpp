@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
+#include <utility>
 
 #include "reports/report.h"
 #include "scarp/tile_waters.h"
@@ -25,6 +28,8 @@ Json describe_levels(const PyramidPlan& plan, const PyramidReport& report) {
                       {"geometric_error", plan.levels[z].geometric_error},
                       {"asked", plan.levels[z].max_error},
                       {"tiles_over", level.over},
+                      {"tiles_coarser", level.coarser},
+                      {"tiles_oversized", level.oversized},
                       {"node_error", level.node_error},
                       {"bound", level.bound},
                       {"source_error", level.source_error}});
@@ -148,21 +153,40 @@ std::vector<std::string> warnings_of_raster(const GlobeRaster& raster) {
   return warnings;
 }
 
+namespace {
+
+/// Tiles of all levels that `count` counts, and the levels, as "9, 10"; nothing where there are none.
+std::optional<std::pair<std::string, std::string>> count_tiles(const PyramidReport& report,
+                                                               std::uint64_t LevelSummary::*count) {
+  std::string levels;
+  std::uint64_t tiles = 0;
+  for (std::size_t z = 0; z < report.levels.size(); ++z) {
+    if (report.levels[z].*count == 0) continue;
+    levels += fmt::format("{}{}", levels.empty() ? "" : ", ", z);
+    tiles += report.levels[z].*count;
+  }
+  if (tiles == 0) return std::nullopt;
+  return std::pair{format_plural(tiles, "tile"), levels};
+}
+
+}  // namespace
+
 std::vector<std::string> warnings_of_levels(const PyramidPlan& plan, const PyramidReport& report) {
   std::vector<std::string> warnings;
-  std::string over;
-  std::uint64_t tiles = 0;
-  for (std::size_t z = 0; z < plan.levels.size(); ++z) {
-    if (report.levels[z].over == 0) continue;
-    over += fmt::format("{}{}", over.empty() ? "" : ", ", z);
-    tiles += report.levels[z].over;
-  }
-  if (tiles > 0)
+  if (const auto over = count_tiles(report, &LevelSummary::over))
     warnings.push_back(
         fmt::format("{} of the levels {} did not keep the max error asked, as the table shows: next to a "
                     "cliff, the raster's own edge above the background included, positions in 32767ths "
                     "of a tile are too coarse",
-                    format_plural(tiles, "tile"), over));
+                    over->first, over->second));
+  if (const auto coarser = count_tiles(report, &LevelSummary::coarser))
+    warnings.push_back(fmt::format("{} of the levels {} have a larger max error inside, as the table shows, so as to "
+                                   "keep within --max-tile-bytes {}",
+                                   coarser->first, coarser->second, plan.max_tile_bytes));
+  if (const auto oversized = count_tiles(report, &LevelSummary::oversized))
+    warnings.push_back(fmt::format("{} of the levels {} are larger than --max-tile-bytes {}: what neighbours share "
+                                   "alone takes more",
+                                   oversized->first, oversized->second, plan.max_tile_bytes));
   return warnings;
 }
 

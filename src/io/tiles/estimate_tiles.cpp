@@ -90,12 +90,10 @@ Result<LevelLook> look_at(const TileJob& job, const std::vector<TileId>& blocks,
     look.reading += reading;
     ++look.looked_at;
     if (!*is_land) continue;
-    const auto tile = make_tile(plan, id, nodes);
+    const auto tile = make_kept_tile(plan, id, nodes, encode);
     if (!tile) return tl::unexpected(tile.error());
-    const auto packed = encode(*tile);
-    if (!packed) return tl::unexpected(packed.error());
     look.making += std::max(0.0, core_seconds() - start - 2 * reading);
-    look.bytes += static_cast<double>(packed->size());
+    look.bytes += static_cast<double>(tile->bytes.size());
     ++look.made;
   }
   return look;

@@ -78,6 +78,10 @@ std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const Pyram
       level["node_error"] = report.levels[z].node_error;
       level["bound"] = report.levels[z].bound;
       level["source_error"] = report.levels[z].source_error;
+      if (plan.max_tile_bytes > 0) {
+        level["tiles_coarser"] = report.levels[z].coarser;
+        level["tiles_oversized"] = report.levels[z].oversized;
+      }
     }
     levels.push_back(std::move(level));
   }

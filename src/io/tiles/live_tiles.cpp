@@ -111,14 +111,11 @@ Result<std::shared_ptr<const LiveTile>> LiveTileSet::make(TileId id) const {
     return fail(ErrorKind::kInput, fmt::format("there is no tile {}", tile_name(format(), id)));
   if (auto kept = impl_->cache.with([&](TileCache& cache) { return cache.find(id); })) return kept;
   const PyramidPlan& plan = impl_->job.plan;
-  const bool is_proven = id.z >= plan.block_level;
-  const auto made = is_proven ? make_tile(plan, id, *impl_->nodes) : make_unproven_tile(plan, id, *impl_->nodes);
+  auto made = make_kept_tile(plan, id, *impl_->nodes, impl_->encode);
   if (!made) return tl::unexpected(made.error());
-  auto bytes = impl_->encode(*made);
-  if (!bytes) return tl::unexpected(bytes.error());
   auto tile = std::make_shared<LiveTile>();
-  tile->bytes = std::move(*bytes);
-  if (is_proven) tile->bound = made->bound();
+  tile->bytes = std::move(made->bytes);
+  if (id.z >= plan.block_level) tile->bound = made->tile.bound();
   impl_->cache.with([&](TileCache& cache) { cache.add(id, tile); });
   return tile;
 }

@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kPartMark[] = "SCARPTIL";
-constexpr std::uint64_t kPartVersion = 3;
+constexpr std::uint64_t kPartVersion = 4;
 constexpr std::uint64_t kFileHead = 24, kRecordHead = 16, kBlockHead = 28;
 
 static_assert(std::endian::native == std::endian::little);
@@ -114,7 +114,9 @@ std::vector<std::uint8_t> pack(const BlockReport& block, std::uint64_t sources, 
   packer.add(std::uint64_t{block.report.has_heights});
   packer.add(std::uint64_t{block.report.levels.size()});
   for (const LevelSummary& level : block.report.levels) {
-    for (const std::uint64_t count : {level.tiles, level.triangles, level.bytes, level.over}) packer.add(count);
+    for (const std::uint64_t count :
+         {level.tiles, level.triangles, level.bytes, level.over, level.coarser, level.oversized})
+      packer.add(count);
     packer.add(level.node_error);
     packer.add(level.bound);
     packer.add(level.source_error);
@@ -285,7 +287,8 @@ Result<BlockReport> TileParts::read(
   if (levels > kMaxTileLevel + 1) return is_damaged();
   for (std::uint64_t z = 0; z < levels; ++z) {
     LevelSummary level;
-    for (std::uint64_t* count : {&level.tiles, &level.triangles, &level.bytes, &level.over})
+    for (std::uint64_t* count :
+         {&level.tiles, &level.triangles, &level.bytes, &level.over, &level.coarser, &level.oversized})
       *count = unpacker.take<std::uint64_t>();
     level.node_error = unpacker.take<double>();
     level.bound = unpacker.take<double>();

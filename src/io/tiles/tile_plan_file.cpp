@@ -96,6 +96,7 @@ Json describe_plan(const PyramidPlan& plan) {
           {"sources", std::move(sources)},
           {"levels", std::move(levels)}};
   if (plan.waters) json["waters"] = describe_waters(*plan.waters);
+  if (plan.max_tile_bytes > 0) json["max_tile_bytes"] = plan.max_tile_bytes;
   return json;
 }
 
@@ -139,6 +140,7 @@ PyramidPlan parse_plan(const Json& json) {
   plan.effort = value_of(json.at("effort"), kEfforts);
   plan.background = json.at("background");
   plan.has_siblings = json.at("has_siblings");
+  plan.max_tile_bytes = json.value("max_tile_bytes", std::uint64_t{0});
   plan.ellipsoid.semi_major = json.at("ellipsoid").at(0);
   plan.ellipsoid.inverse_flattening = json.at("ellipsoid").at(1);
   plan.grid = TileGrid::find(json.at("grid").at("kind").get<std::string>()).value();
