@@ -100,6 +100,16 @@ struct WaterFiles {
   bool is_empty() const { return lakes.empty() && rivers.empty(); }
 };
 
+/// An image laid over the tiles, of 3D Tiles alone.
+struct TileDrape {
+  std::vector<FileStamp> files;  ///< the image, and others that it is made of
+  ImageFormat format = ImageFormat::kJpeg;
+
+  const std::string& path() const { return files.front().path; }
+};
+/// The stamps of an image.
+TileDrape stamp_drape(const std::string& path, ImageFormat format);
+
 /// All that a set depends on.
 struct TileJob {
   std::vector<FileStamp> rasters;      ///< in the order of their priority
@@ -110,6 +120,7 @@ struct TileJob {
   FileStamp geoid;  ///< of datum.geoid, where that is given
   WaterFiles waters;  ///< what plan.waters was found of
   TileFormat format = TileFormat::kQuantizedMesh;
+  std::optional<TileDrape> drape = std::nullopt;
   PyramidPlan plan;
   LayerFacts facts;                      ///< but for the version
   std::string parts;                     ///< folder of the parts of the plan before; empty for a plan that follows none
@@ -117,6 +128,9 @@ struct TileJob {
   std::vector<std::uint32_t> costs;
   std::optional<TileEstimate> estimate;  ///< no part of any key
 };
+
+/// The bytes that the job keeps of a tile. Opens its image. Borrows the job. Fails as open_globe_image().
+Result<TileEncoder> open_tile_encoder(const TileJob& job);
 
 /// Sets job.rasters and job.files: what these rasters are made of, as list_files() tells.
 void stamp_rasters(TileJob& job, const std::vector<std::string>& paths);

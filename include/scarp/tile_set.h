@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scarp/globe_image.h"
 #include "scarp/result.h"
 #include "scarp/tile.h"
 
@@ -99,12 +100,14 @@ std::vector<std::uint8_t> encode_layer_json(const PyramidPlan& plan, const Pyram
 
 /// Of a format. quantized-mesh is in gzip: servers must send "Content-Encoding: gzip" with such tiles. Borrows the plan.
 TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan);
+/// Of kGlb, with a texture of the image on each tile.
+TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const GlobeImage> image, ImageFormat format);
 
 /// Tiles of a format into a set.
 class TileSetSink : public TileSink {
  public:
-  /// Borrows both.
-  TileSetSink(TileSetWriter& writer, TileFormat format, const PyramidPlan& plan);
+  /// Borrows both. DEFAULT encoder: that of the format.
+  TileSetSink(TileSetWriter& writer, TileFormat format, const PyramidPlan& plan, TileEncoder encoder = {});
 
   Result<std::vector<std::uint8_t>> encode(const TerrainTile& tile) const override;
   Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override;
@@ -125,8 +128,9 @@ class TileSetSink : public TileSink {
   std::uint64_t hash_ = 0;
 };
 
-/// The sink of a format. Borrows both.
-std::unique_ptr<TileSetSink> make_tile_sink(TileFormat format, TileSetWriter& writer, const PyramidPlan& plan);
+/// The sink of a format. Borrows both. DEFAULT encoder: that of the format.
+std::unique_ptr<TileSetSink> make_tile_sink(TileFormat format, TileSetWriter& writer, const PyramidPlan& plan,
+                                            TileEncoder encoder = {});
 
 }  // namespace scarp
 

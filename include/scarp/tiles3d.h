@@ -9,11 +9,13 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "scarp/globe_image.h"
 #include "scarp/result.h"
 #include "scarp/tile.h"
 #include "scarp/tile_set.h"
@@ -48,6 +50,7 @@ struct EarthTile {
   std::array<std::int64_t, 3> origin{};                 ///< in steps: x towards 0° E, z towards the north pole
   std::vector<std::array<std::uint32_t, 3>> offsets;    ///< from there, in steps, below 2^24
   std::vector<std::array<double, 3>> normals;           ///< of unit length
+  std::vector<std::array<std::uint16_t, 2>> places;     ///< 0 … 32767 of the tile from west, from south
   std::vector<std::uint32_t> triangles;                 ///< counter-clockwise seen from outside
   std::vector<std::uint32_t> west, south, east, north;  ///< vertices on the edges, by place
   TileFacts facts;
@@ -60,11 +63,11 @@ struct TileGlbOptions {
   /// EXT_meshopt_compression (version 0 of the codec) and KHR_mesh_quantization. Positions then take 16 bits where the
   /// lattice's offsets do, normals 8. Ignored in builds without libmeshoptimizer. DEFAULT: true.
   bool compress = true;
-  std::array<double, 3> color{0.47, 0.42, 0.33};  ///< of the ground, linear. DEFAULT: earth.
+  std::optional<TileTexture> texture = std::nullopt;  ///< DEFAULT: none, the ground has one colour.
 };
 
 /// The bytes of a GLB file: one node with a matrix, one mesh of one primitive, and CESIUM_tile_edges. Its y is up, as
-/// glTF demands: clients of 3D Tiles turn it back. asset.extras hold the facts. Fails as encode_glb().
+/// glTF demands: clients of 3D Tiles turn it back. A texture's coordinates are whole 65535ths. asset.extras hold the facts. Fails as encode_glb().
 Result<std::vector<std::uint8_t>> encode_tile_glb(const EarthTile& tile, const TileGlbOptions& options = {});
 
 /// The facts of a tile that encode_tile_glb() wrote. Fails with kInput for other files.
@@ -100,8 +103,8 @@ std::vector<NamedFile> encode_tileset(const PyramidPlan& plan, const PyramidRepo
 /// Tiles into a set of 3D Tiles.
 class TerrainTilesetSink final : public TileSetSink {
  public:
-  /// Borrows both.
-  TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan);
+  /// Borrows both. DEFAULT encoder: that of the format.
+  TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan, TileEncoder encoder = {});
 
   Result<void> put(TileId id, std::span<const std::uint8_t> bytes) override;
   /// The files of encode_tileset(). Adds lattice_error() to the bounds.

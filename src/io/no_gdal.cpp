@@ -11,6 +11,7 @@
 #include "scarp/cutline.h"
 #include "scarp/degrees.h"
 #include "scarp/drape.h"
+#include "scarp/globe_image.h"
 #include "scarp/globe_place.h"
 #include "scarp/lines.h"
 #include "scarp/tile_job.h"
@@ -115,6 +116,10 @@ Result<std::vector<std::uint8_t>> encode_image(const Picture&, ImageFormat) {
 
 Result<std::vector<std::uint8_t>> encode_png(const Picture& picture) {
   return encode_image(picture, ImageFormat::kPng);
+}
+
+Result<std::shared_ptr<const GlobeImage>> open_globe_image(const std::string& path, const Geodetic&) {
+  return fail(ErrorKind::kInput, path + ": this build of Scarp drapes no image: it was built without GDAL");
 }
 
 Result<Drape> read_drape(const std::string& path, const RasterInfo&, int, int, int, const Run&) {

@@ -87,6 +87,7 @@ EarthTile place_on_earth(const TerrainTile& tile, const PyramidPlan& plan) {
     placed.offsets.push_back(offset);
   }
   for (const auto& normal : tile.normals) placed.normals.push_back(decode_octahedral(normal));
+  for (std::size_t v = 0; v < tile.u.size(); ++v) placed.places.push_back({tile.u[v], tile.v[v]});
   placed.triangles = tile.triangles;
   placed.west = vertices_along(tile.u, 0, tile.v);
   placed.south = vertices_along(tile.v, 0, tile.u);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# CesiumJS in a browser: heights of both formats within the bound, the sag of a flat ocean, poles, the antimeridian, and a
-# plain tileset. SCARP_SHOTS=FOLDER keeps what it draws.
+# CesiumJS in a browser: heights of both formats within the bound, the sag of a flat ocean, poles, the antimeridian, a plain
+# tileset, and one with an image on it. SCARP_SHOTS=FOLDER keeps what it draws.
 source "$(dirname "$0")/lib.sh"
 need python3 gdal_translate node chromium
 npm_judges cesium playwright-core || skip "npm could not fetch CesiumJS"
@@ -51,6 +51,10 @@ for row in range(3, 1023, 4):
     longitude = -180 + 360 * ((row * 37 % 1024 | 1) / 1024)
     print(longitude, latitude, height(longitude, latitude))
 E2
+# An image that is red in the west and blue in the east, with squares that are darker.
+make_image halves.tif '(200 if col < 201 else 30) * (1 if (col // 20 + row // 20) % 2 else 0.7)' '30' '(30 if col < 201 else 200) * (1 if (col // 20 + row // 20) % 2 else 0.7)'
+succeeds gdal_translate -q -a_srs EPSG:4326 -a_ullr "$west" "$north" "$east" "$south" halves.tif image.tif
+succeeds "$scarp" tile land.tif site/draped.3dtiles --of 3dtiles --drape image.tif -q
 
 cat > judge.py << 'E2'
 import json, random, sys
@@ -145,6 +149,20 @@ job(lambda answer: tileset(answer, 480 * 320 * 9 // 10), kind="tileset", url="pl
 middle = places[0][:2]
 job(lambda answer: tileset(answer, 0), kind="tileset", url="land.3dtiles", pixels=2, shot="tileset_land",
     **{"from": [middle[0], middle[1] - 0.4, 25000], "to": [*middle, 0]})
+
+
+def draped(answer):
+    tileset(answer, 0)
+    left, right = answer["halves"]
+    assert left[0] > 2 * left[2] and right[2] > 2 * right[0] and min(left[0], right[2]) > 30, answer["halves"]
+    return answer["halves"]
+
+
+centre = [(a + b) / 2 for a, b in zip(rows[0][:2], rows[-1][:2])]
+job(draped, kind="tileset", url="draped.3dtiles", pixels=2, shot="tileset_draped",
+    **{"from": [*centre, 14000], "to": [*centre, 0]})
+job(lambda answer: near(answer["heights"], [place[2] for place in places], levels("land.3dtiles")[11]["bound"] * 1.001 + 0.01),
+    kind="sample", of="3dtiles", url="draped.3dtiles", level=11, places=places)
 
 if sys.argv[1:] == ["jobs"]:
     print(json.dumps(jobs))

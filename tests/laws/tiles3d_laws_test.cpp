@@ -65,6 +65,7 @@ class Land final : public NodeSource {
 struct Decoded {
   std::vector<Point> positions;
   std::vector<std::array<float, 3>> normals;
+  std::vector<std::array<double, 2>> places;  ///< in a texture, in pixels from its upper left corner
   std::vector<std::uint32_t> triangles, west, south, east, north;
 };
 
@@ -112,6 +113,14 @@ class TileReader {
                           : load_number<float>(&ways[12 * v + 4 * k]);
       }
       tile.normals.push_back({way[0], -way[2], way[1]});
+    }
+    if (primitive["attributes"].contains("TEXCOORD_0")) {
+      const Json& places = json_["accessors"][primitive["attributes"]["TEXCOORD_0"].get<std::size_t>()];
+      EXPECT_TRUE(places["normalized"].get<bool>());
+      const std::vector<std::uint8_t> shares = bytes_of(places);
+      for (std::size_t v = 0; v < places["count"]; ++v)
+        tile.places.push_back({load_number<std::uint16_t>(&shares[4 * v]) / 65535.0,
+                               load_number<std::uint16_t>(&shares[4 * v + 2]) / 65535.0});
     }
     tile.triangles = indices_of(primitive["indices"]);
     const Json& edges = primitive["extensions"]["CESIUM_tile_edges"];
@@ -468,6 +477,73 @@ TEST(tiles3d_laws, subtrees_tell_what_is_there_and_what_it_is_like) {
   for (std::size_t z = 0; z < made.report.levels.size(); ++z) {
     EXPECT_GE(std::ldexp(error, -static_cast<int>(z)),
               made.report.levels[z].bound + lattice_error(made.plan, static_cast<int>(z)));
+  }
+}
+
+/// An image whose colours tell the place of each pixel's middle.
+class PlaceImage final : public GlobeImage {
+ public:
+  explicit PlaceImage(double per_degree) : per_degree_(per_degree) {}
+  DegreeBox covered() const override { return {-180, -90, 180, 90}; }
+  std::array<double, 2> per_degree() const override { return {per_degree_, per_degree_}; }
+  Result<std::optional<Picture>> read(const DegreeBox& box, int side,
+                                      const std::array<std::uint8_t, 3>&) const override {
+    asked = box;
+    Picture picture{side, side, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(side * side), 200)};
+    return std::optional(std::move(picture));
+  }
+  mutable DegreeBox asked = {};
+
+ private:
+  double per_degree_;
+};
+
+TEST(tiles3d_laws, a_texture_has_a_pixel_more_on_each_side_and_as_many_as_the_image_and_clients_need) {
+  const PyramidPlan plan = plan_of({-180, -90, 180, 90}, 6, 16);
+  for (const auto& [per_degree, z, side] :
+       std::vector<std::tuple<double, int, int>>{{1, 6, 256}, {100, 6, 512}, {100, 5, 512}, {100, 0, 512},
+                                                 {300, 6, 1024}, {300, 5, 512}, {1e5, 6, 2048}, {0.5, 0, 256}}) {
+    const PlaceImage image(per_degree);
+    const TileId id{z, 1, 0};
+    const auto texture = make_tile_texture(image, ImageFormat::kJpeg, plan, id);
+    ASSERT_TRUE(texture && *texture);
+    EXPECT_EQ((*texture)->side, side) << per_degree << " " << z;
+    const DegreeBox tile = plan.grid.bounds_of(id);
+    const double pixel = (tile.east - tile.west) / (side - 2);
+    EXPECT_NEAR(image.asked.west, tile.west - pixel, 1e-9);
+    EXPECT_NEAR(image.asked.north, tile.north + pixel, 1e-9);
+    EXPECT_NEAR(image.asked.east - image.asked.west, side * pixel, 1e-9);
+  }
+}
+
+TEST(tiles3d_laws, vertices_lie_in_the_texture_where_they_lie_in_the_tile) {
+  const PyramidPlan plan = plan_of({-180, -90, 180, 90}, 3, 16);
+  const auto tile = make_tile(plan, {3, 5, 4}, Land({-180, -90, 180, 90}));
+  ASSERT_TRUE(tile);
+  const EarthTile placed = place_on_earth(*tile, plan);
+  for (const bool compress : {true, false}) {
+    TileGlbOptions options;
+    options.compress = compress;
+    options.texture = TileTexture{{1, 2, 3}, ImageFormat::kPng, 256};
+    const auto glb = encode_tile_glb(placed, options);
+    ASSERT_TRUE(glb) << glb.error().message;
+    TileReader reader(*glb);
+    const Decoded decoded = reader.decode();
+    EXPECT_EQ(reader.json()["images"][0]["mimeType"], "image/png");
+    ASSERT_EQ(decoded.places.size(), tile->u.size());
+    // Vertices are in another order in the file: as sets.
+    std::multiset<std::pair<int, int>> found, wanted;
+    const auto thousandths = [](double pixels) { return static_cast<int>(std::floor(pixels * 50 + 0.5)); };
+    for (const auto& [u, v] : decoded.places) {
+      const double x = (u * 256 - 1) / 254 * 32767, y = 32767 - (v * 256 - 1) / 254 * 32767;
+      found.insert({thousandths(x / 1000), thousandths(y / 1000)});
+      EXPECT_GE(u * 256, 1 - 0.01);
+      EXPECT_LE(v * 256, 255 + 0.01);
+    }
+    for (std::size_t v = 0; v < tile->u.size(); ++v)
+      wanted.insert({thousandths(tile->u[v] / 1000.0), thousandths(tile->v[v] / 1000.0)});
+    EXPECT_EQ(found, wanted);
+    EXPECT_EQ(encode_tile_glb(placed, options).value(), *glb);
   }
 }
 

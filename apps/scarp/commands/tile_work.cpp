@@ -12,10 +12,12 @@ Result<MadeTiles> make_tiles(const TileArguments& tiles, const std::string& outp
   auto opened = tiles.open(run.progress);
   if (!opened) return tl::unexpected(opened.error());
   const TileJob& job = opened->job;
+  auto encoder = open_tile_encoder(job);
+  if (!encoder) return tl::unexpected(encoder.error());
   auto container = create_tile_set(output, job.format, overwrite);
   if (!container) return tl::unexpected(container.error());
   CountedSet set(std::move(*container), counts);
-  const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, set, job.plan);
+  const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, set, job.plan, std::move(*encoder));
   Result<PyramidReport> report = make_pyramid(job.plan, opened->raster->nodes(), *sink, run);
   if (!report) return tl::unexpected(report.error());
   if (auto same = check_rasters(job); !same) return tl::unexpected(same.error());

@@ -53,15 +53,9 @@ Result<ImagePlan> ImageArguments::parse(const OutputFormat& format) const {
     if (!side) return tl::unexpected(side.error());
     plan.drape_size = *side;
   }
-  const std::string named = drape_format.value_or("jpeg");
-  if (named == "png") {
-    plan.drape_format = ImageFormat::kPng;
-  } else if (named == "webp") {
-    plan.drape_format = ImageFormat::kWebp;
-  } else if (named != "jpeg") {
-    return fail(ErrorKind::kUsage,
-                fmt::format("--drape-format {} is unknown: choose jpeg, png or webp", shell_word(named)));
-  }
+  const Result<ImageFormat> stored = parse_image_format(drape_format);
+  if (!stored) return tl::unexpected(stored.error());
+  plan.drape_format = *stored;
   if (normal_map) {
     const Result<int> side = parse_side("--normal-map", *normal_map);
     if (!side) return tl::unexpected(side.error());
@@ -74,6 +68,14 @@ std::string ImageArguments::canonical() const {
   return canonical_option("--drape", drape ? Given(base_name(*drape)) : drape) +
          canonical_option("--drape-size", drape_size) + canonical_option("--drape-format", drape_format) +
          canonical_option("--normal-map", normal_map);
+}
+
+Result<ImageFormat> parse_image_format(const Given& name) {
+  const std::string named = name.value_or("jpeg");
+  if (named == "jpeg") return ImageFormat::kJpeg;
+  if (named == "png") return ImageFormat::kPng;
+  if (named == "webp") return ImageFormat::kWebp;
+  return fail(ErrorKind::kUsage, fmt::format("--drape-format {} is unknown: choose jpeg, png or webp", shell_word(named)));
 }
 
 const char* mime_type_of(ImageFormat format) {

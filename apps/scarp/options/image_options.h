@@ -35,6 +35,9 @@ struct ImageArguments {
   std::string canonical() const;
 };
 
+/// jpeg, png or webp. DEFAULT: jpeg. Fails with kUsage.
+Result<ImageFormat> parse_image_format(const Given& name);
+
 /// "image/png", …
 const char* mime_type_of(ImageFormat format);
 

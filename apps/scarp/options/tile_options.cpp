@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "options/image_options.h"
 #include "options/memory.h"
 #include "options/option_table.h"
 
@@ -130,7 +131,11 @@ void TileArguments::add_nodes_to(CLI::App& command) {
 }
 
 void TileArguments::add_to(CLI::App& command) {
-  if (command.get_name() != "serve") add_option(command, OptionId::kOf, format);
+  if (command.get_name() != "serve") {
+    add_option(command, OptionId::kOf, format);
+    add_option(command, OptionId::kDrape, drape);
+    add_option(command, OptionId::kDrapeFormat, drape_format);
+  }
   add_nodes_to(command);
   add_option(command, OptionId::kEffort, effort);
   add_option(command, OptionId::kMaxError, max_error);
@@ -224,6 +229,17 @@ Result<WaterFiles> TileArguments::parse_waters() const {
   return files;
 }
 
+Result<std::optional<TileDrape>> TileArguments::parse_drape(TileFormat kept) const {
+  const Result<ImageFormat> image = parse_image_format(drape_format);
+  if (!image) return tl::unexpected(image.error());
+  if (drape_format && !drape) return fail(ErrorKind::kUsage, "--drape-format needs an image: --drape FILE");
+  if (!drape) return std::optional<TileDrape>();
+  if (kept != TileFormat::kGlb)
+    return fail(ErrorKind::kUsage,
+                "--drape is for 3D Tiles, --of 3dtiles: clients of quantized-mesh lay images over the terrain themselves");
+  return std::optional(stamp_drape(*drape, *image));
+}
+
 Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uint64_t memory) const {
   Result<PyramidSettings> settings = parse_settings();
   if (!settings) return tl::unexpected(settings.error());
@@ -240,9 +256,12 @@ Result<OpenedJob> TileArguments::open(const ProgressCallback& progress, std::uin
                 fmt::format("--of 3dtiles does not go with --grid {}: clients of 3D Tiles halve tiles in degrees of "
                             "latitude",
                             settings->grid.name()));
+  auto image = parse_drape(*kept);
+  if (!image) return tl::unexpected(image.error());
   OpenedJob opened;
   TileJob& job = opened.job;
   job.format = *kept;
+  job.drape = std::move(*image);
   settings->has_siblings = *kept == TileFormat::kGlb;
   job.reading = *options;
   job.datum = *datum;
@@ -302,6 +321,7 @@ Result<OpenedJob> TileArguments::follow(const TileJob& earlier, const ProgressCa
   now.waters = earlier.waters;
   if (auto found = find_waters(now, *opened.raster); !found) return tl::unexpected(found.error());
   if (!earlier.geoid.path.empty()) now.geoid = stamp_of(earlier.geoid.path);
+  if (earlier.drape) now.drape = stamp_drape(earlier.drape->path(), earlier.drape->format);
   now.facts = earlier.facts;
   now.facts.heights_above = opened.raster->heights_above();
   now.facts.body = opened.raster->place().body;

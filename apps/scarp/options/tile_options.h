@@ -33,7 +33,7 @@ Result<TileGrid> parse_grid(const std::string& text);
 struct TileArguments {
   RasterArguments raster;  ///< the paths are arguments of their own
   Given max_error, quality, zoom, grid, cells, effort, vertical, geoid, ellipsoid, background, format, only;
-  Given max_tile_bytes, percentile;
+  Given max_tile_bytes, drape, drape_format, percentile;
   std::vector<std::string> water, rivers;  ///< FILE or FILE:LAYER
   Effort default_effort = Effort::kNormal;
 
@@ -50,6 +50,8 @@ struct TileArguments {
   Result<PyramidSettings> parse_settings() const;
   Result<Datum> parse_datum() const;
   Result<WaterFiles> parse_waters() const;
+  /// Fails with kUsage for another format than 3D Tiles.
+  Result<std::optional<TileDrape>> parse_drape(TileFormat kept) const;
 };
 
 }  // namespace scarp::cli

@@ -71,10 +71,8 @@ struct LevelLook {
 };
 
 /// At `count` tiles, evenly over the blocks.
-Result<LevelLook> look_at(const TileJob& job, const std::vector<TileId>& blocks, int level, int count,
-                          const NodeSource& nodes) {
-  const PyramidPlan& plan = job.plan;
-  const TileEncoder encode = make_tile_encoder(job.format, plan);
+Result<LevelLook> look_at(const PyramidPlan& plan, const std::vector<TileId>& blocks, int level, int count,
+                          const NodeSource& nodes, const TileEncoder& encode) {
   LevelLook look;
   for (int k = 0; k < count; ++k) {
     const auto twice = static_cast<std::size_t>(2 * k + 1);
@@ -103,6 +101,8 @@ Result<LevelLook> look_at(const TileJob& job, const std::vector<TileId>& blocks,
 
 Result<TileEstimate> estimate_tiles(const TileJob& job, const NodeSource& nodes, int samples) {
   const PyramidPlan& plan = job.plan;
+  const auto encode = open_tile_encoder(job);
+  if (!encode) return tl::unexpected(encode.error());
   TileEstimate estimate;
   std::vector<TileId> blocks;
   std::vector<double> counts(plan.levels.size(), 0);
@@ -124,7 +124,7 @@ Result<TileEstimate> estimate_tiles(const TileJob& job, const NodeSource& nodes,
     const int wanted = std::max(1, samples / (plan.max_zoom() - z + 1));
     const int count = next * wanted < left ? wanted : static_cast<int>(left / next);
     if (count > 0) {
-      const auto look = look_at(job, blocks, z, count, nodes);
+      const auto look = look_at(plan, blocks, z, count, nodes, *encode);
       if (!look) return tl::unexpected(look.error());
       reading = look->seconds_of_reading() * counts[static_cast<std::size_t>(z)];
       share = look->share();

@@ -77,6 +77,8 @@ Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, cons
       blocks.push_back(block);
   }
   if (blocks.empty()) return report;
+  const auto encoder = open_tile_encoder(job);
+  if (!encoder) return tl::unexpected(encoder.error());
   auto writer = PartWriter::create(folder, shard, job);
   if (!writer) return tl::unexpected(writer.error());
   report.has_company = (*writer)->has_company();
@@ -105,7 +107,7 @@ Result<PartsReport> make_parts(const TileJob& job, const NodeSource& nodes, cons
         continue;
       }
     }
-    BlockSink sink(make_tile_encoder(job.format, job.plan));
+    BlockSink sink(*encoder);
     const double start = core_seconds();
     auto made = make_block(job.plan, block, nodes, sink, part);
     if (!made) return tl::unexpected(made.error());
@@ -132,7 +134,9 @@ Result<PyramidReport> finish_parts(const TileJob& job, const std::string& folder
     return fail(ErrorKind::kInput, fmt::format("{} of {} blocks are not in {}: run their shares with scarp tile run, "
                                                "which makes only what is missing",
                                                missing, blocks.size(), folder));
-  const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, set, job.plan);
+  auto encoder = open_tile_encoder(job);
+  if (!encoder) return tl::unexpected(encoder.error());
+  const std::unique_ptr<TileSetSink> sink = make_tile_sink(job.format, set, job.plan, std::move(*encoder));
   std::vector<BlockReport> made;
   PartsCost taken;
   // Putting the blocks' tiles takes most of the time.

@@ -20,6 +20,7 @@ namespace scarp {
 namespace {
 
 constexpr const char* kTileEdges = "CESIUM_tile_edges";
+constexpr const char* kWebpExtension = "EXT_texture_webp";
 /// 65535 itself ends a strip of triangles.
 constexpr std::size_t kShortIndices = 65535;
 constexpr std::uint32_t kShort = 65535;
@@ -54,14 +55,12 @@ class TileGlbWriter {
     Json attributes = Json::object();
     attributes["POSITION"] = add_positions();
     if (!tile_.normals.empty()) attributes["NORMAL"] = add_normals();
+    if (options_.texture) attributes["TEXCOORD_0"] = add_places();
     const std::size_t indices = add_indices();
     Json primitive = {{"attributes", std::move(attributes)}, {"indices", indices}, {"material", 0}, {"mode", 4}};
     primitive["extensions"][kTileEdges] = add_edges();
     glb_.json["meshes"] = Json::array({{{"primitives", Json::array({std::move(primitive)})}}});
-    const auto& [red, green, blue] = options_.color;
-    glb_.json["materials"] = Json::array(
-        {{{"pbrMetallicRoughness",
-           {{"baseColorFactor", {red, green, blue, 1.0}}, {"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}}}});
+    add_material();
     return glb_.assemble(1);
   }
 
@@ -89,6 +88,10 @@ class TileGlbWriter {
       used.emplace_back("KHR_mesh_quantization");
       required.emplace_back(kMeshoptExtension);
       required.emplace_back("KHR_mesh_quantization");
+    }
+    if (options_.texture && options_.texture->format == ImageFormat::kWebp) {
+      used.emplace_back(kWebpExtension);
+      required.emplace_back(kWebpExtension);
     }
     glb_.json["extensionsUsed"] = used;
     if (!required.empty()) glb_.json["extensionsRequired"] = required;
@@ -177,6 +180,54 @@ class TileGlbWriter {
     Json& accessor = glb_.add_accessor(view, is_packed_ ? kInt8Component : kFloatComponent, count, "VEC3");
     if (is_packed_) accessor["normalized"] = true;
     return glb_.accessor_count() - 1;
+  }
+
+  /// Where the vertices lie in the texture, whose outermost pixels lie beyond the tile. From the top.
+  std::size_t add_places() {
+    constexpr std::size_t kStride = 4;
+    const std::uint64_t count = vertices_.size();
+    const double side = options_.texture->side;
+    const auto whole = [&](double share) {
+      return static_cast<std::uint16_t>(std::floor((1 + share * (side - 2)) / side * kShort + 0.5));
+    };
+    std::vector<std::uint8_t> items(count * kStride);
+    std::uint8_t* at = items.data();
+    for (const std::uint32_t v : vertices_) {
+      const auto& [u, north] = tile_.places[v];
+      store_number(at, whole(u / 32767.0));
+      store_number(at, whole((32767 - north) / 32767.0));
+    }
+    const std::size_t view = is_packed_ ? glb_.add_packed(encode_meshopt_attributes(items, kStride), kArrayBuffer,
+                                                          count, kStride, "ATTRIBUTES")
+                                        : add_plain(std::move(items), kArrayBuffer);
+    Json& accessor = glb_.add_accessor(view, kUint16Component, count, "VEC2");
+    accessor["normalized"] = true;
+    return glb_.accessor_count() - 1;
+  }
+
+  void add_material() {
+    const auto& [red, green, blue] = kGroundColor;
+    const Json color = options_.texture ? Json{1.0, 1.0, 1.0, 1.0} : Json{red, green, blue, 1.0};
+    Json surface = {{"baseColorFactor", color}, {"metallicFactor", 0.0}, {"roughnessFactor", 1.0}};
+    if (options_.texture) {
+      const TileTexture& texture = *options_.texture;
+      const bool is_webp = texture.format == ImageFormat::kWebp;
+      const char* const type = is_webp                                   ? "image/webp"
+                               : texture.format == ImageFormat::kJpeg ? "image/jpeg"
+                                                                         : "image/png";
+      glb_.json["images"] = Json::array({{{"bufferView", add_plain(texture.bytes, 0)}, {"mimeType", type}}});
+      constexpr int kLinear = 9729, kLinearMipmaps = 9987, kClamp = 33071;
+      glb_.json["samplers"] =
+          Json::array({{{"magFilter", kLinear}, {"minFilter", kLinearMipmaps}, {"wrapS", kClamp}, {"wrapT", kClamp}}});
+      Json shown = {{"sampler", 0}};
+      if (is_webp)
+        shown["extensions"] = {{kWebpExtension, {{"source", 0}}}};
+      else
+        shown["source"] = 0;
+      glb_.json["textures"] = Json::array({std::move(shown)});
+      surface["baseColorTexture"] = {{"index", 0}};
+    }
+    glb_.json["materials"] = Json::array({{{"pbrMetallicRoughness", std::move(surface)}}});
   }
 
   template <class Range>

@@ -33,6 +33,9 @@ constexpr std::pair<Vertical, const char*> kVerticals[] = {
 constexpr std::pair<TileFormat, const char*> kFormats[] = {{TileFormat::kQuantizedMesh, "quantized-mesh"},
                                                            {TileFormat::kGlb, "glb"}};
 
+constexpr std::pair<ImageFormat, const char*> kImageFormats[] = {
+    {ImageFormat::kJpeg, "jpeg"}, {ImageFormat::kPng, "png"}, {ImageFormat::kWebp, "webp"}};
+
 template <class T, std::size_t N>
 const char* word_of(T value, const std::pair<T, const char*> (&words)[N]) {
   for (const auto& [one, word] : words) {
@@ -133,6 +136,12 @@ void parse_datum(const Json& json, TileJob& job) {
   datum.ellipsoid->inverse_flattening = json["ellipsoid"].at(1);
 }
 
+Json describe_drape(const TileDrape& drape) {
+  Json files = Json::array();
+  for (const FileStamp& file : drape.files) files.push_back(describe_stamp(file));
+  return {{"files", std::move(files)}, {"format", word_of(drape.format, kImageFormats)}};
+}
+
 PyramidPlan parse_plan(const Json& json) {
   PyramidPlan plan;
   plan.cells = json.at("cells");
@@ -203,6 +212,8 @@ TileJob parse_job(const Json& json) {
                   waters.at("rivers").get<std::vector<std::string>>(), waters.at("percentile")};
   }
   job.format = value_of(json.at("format"), kFormats);
+  if (json.contains("drape"))
+    job.drape = {parse_stamps(json["drape"].at("files")), value_of(json["drape"].at("format"), kImageFormats)};
   job.facts = {json.at("name"),          json.at("description"), json.at("attribution"),
                json.at("heights_above"), json.at("body"),        ""};
   job.parts = json.value("parts", "");
@@ -246,6 +257,7 @@ Json describe_job(const TileJob& job) {
     json["waters"] = {{"lakes", job.waters.lakes},
                       {"rivers", job.waters.rivers},
                       {"percentile", job.waters.percentile}};
+  if (job.drape) json["drape"] = describe_drape(*job.drape);
   if (!job.parts.empty()) json["parts"] = job.parts;
   if (!job.costs.empty()) json["costs"] = job.costs;
   if (job.estimate) {
@@ -256,6 +268,18 @@ Json describe_job(const TileJob& job) {
         {"parts", estimate.parts}};
   }
   return json;
+}
+
+/// Files by their content where that is known, else by their stamps.
+Json describe_contents(const std::vector<FileStamp>& files) {
+  Json stamps = Json::array();
+  for (const FileStamp& file : files) {
+    if (file.content != 0)
+      stamps.push_back(file.content);
+    else
+      stamps.push_back(describe_stamp(file));
+  }
+  return stamps;
 }
 
 std::uint64_t hash_of(const Json& json) {
@@ -285,6 +309,18 @@ FileStamp stamp_of(const std::string& path) {
           std::int64_t{facts.st_mtim.tv_sec} * 1000000000 + facts.st_mtim.tv_nsec};
 }
 
+TileDrape stamp_drape(const std::string& path, ImageFormat format) {
+  TileDrape drape{{stamp_of(path)}, format};
+  std::set<std::string> others;
+  for (const std::string& file : list_files(path)) others.insert(stamp_of(file).path);
+  others.erase(drape.path());
+  for (const std::string& file : others) {
+    const FileStamp stamp = stamp_of(file);
+    if (stamp.size > 0) drape.files.push_back(stamp);
+  }
+  return drape;
+}
+
 void stamp_rasters(TileJob& job, const std::vector<std::string>& paths) {
   std::set<std::string> others;
   for (const std::string& path : paths) {
@@ -308,7 +344,8 @@ Result<TileJob> decode_tile_job(std::span<const std::uint8_t> bytes, const std::
     const Json json = Json::parse(bytes.begin(), bytes.end());
     if (json.at("scarp_tile_plan") == kPlanVersion) {
       TileJob job = parse_job(json);
-      if (is_sound(job.plan) && has_sound_mosaics(job)) return job;
+      const bool has_sound_drape = !job.drape || !job.drape->files.empty();
+      if (is_sound(job.plan) && has_sound_mosaics(job) && has_sound_drape) return job;
     }
   } catch (const std::exception&) {
     // Said below.
@@ -340,20 +377,16 @@ std::uint64_t settings_key_of(const TileJob& job) {
   json["datum"].erase("geoid");
   json["pyramid"].erase("covered");
   json["pyramid"].erase("waters");
+  // No block is kept whose texture would be another.
+  if (job.drape) json["drape"]["files"] = describe_contents(job.drape->files);
   return hash_of(json);
 }
 
 std::uint64_t sources_key_of(const TileJob& job) {
-  Json stamps = Json::array();
-  const auto add = [&](const FileStamp& file) {
-    if (file.content != 0)
-      stamps.push_back(file.content);
-    else
-      stamps.push_back(describe_stamp(file));
-  };
-  std::ranges::for_each(job.rasters, add);
-  std::ranges::for_each(job.files, add);
-  if (job.datum.vertical == Vertical::kGeoid) add(job.geoid);
+  std::vector<FileStamp> files = job.rasters;
+  files.insert(files.end(), job.files.begin(), job.files.end());
+  if (job.datum.vertical == Vertical::kGeoid) files.push_back(job.geoid);
+  Json stamps = describe_contents(files);
   if (job.plan.waters) stamps.push_back(hash_of(describe_waters(*job.plan.waters)));
   return hash_of(stamps);
 }
@@ -373,7 +406,9 @@ Result<void> add_contents(TileJob& job) {
     file.content = std::max<std::uint64_t>(hash, 1);
     return {};
   };
-  for (auto* files : {&job.rasters, &job.files}) {
+  std::vector<std::vector<FileStamp>*> lists{&job.rasters, &job.files};
+  if (job.drape) lists.push_back(&job.drape->files);
+  for (auto* files : lists) {
     for (FileStamp& file : *files) {
       if (auto added = add(file); !added) return added;
     }
@@ -385,6 +420,7 @@ std::optional<std::string> find_changed(const TileJob& job) {
   std::vector<FileStamp> files = job.rasters;
   files.insert(files.end(), job.files.begin(), job.files.end());
   if (job.datum.vertical == Vertical::kGeoid) files.push_back(job.geoid);
+  if (job.drape) files.insert(files.end(), job.drape->files.begin(), job.drape->files.end());
   for (const FileStamp& file : files) {
     const FileStamp now = stamp_of(file.path);
     if (now.size == file.size && now.changed == file.changed) continue;
@@ -401,6 +437,16 @@ Result<void> check_rasters(const TileJob& job) {
   return fail(ErrorKind::kInput, *changed + ": put it back as it was, or plan again");
 }
 
+namespace {
+
+bool has_same_drape(const TileJob& earlier, const TileJob& now) {
+  return now.drape && std::ranges::equal(earlier.drape->files, now.drape->files, [](const auto& a, const auto& b) {
+           return a.path == b.path && a.size == b.size && a.changed == b.changed;
+         });
+}
+
+}  // namespace
+
 Result<TileJob> follow_job(const TileJob& earlier, TileJob now) {
   // Coarser levels have steps as coarse or coarser.
   const double needed = now.plan.levels.back().quantum, has = earlier.plan.levels.back().quantum;
@@ -408,6 +454,10 @@ Result<TileJob> follow_job(const TileJob& earlier, TileJob now) {
     return fail(ErrorKind::kUsage,
                 fmt::format("the relief of {} needs steps of {} m where the earlier plan has {} m: make the set anew",
                             now.rasters.front().path, needed, has));
+  if (earlier.drape && !has_same_drape(earlier, now))
+    return fail(ErrorKind::kUsage, fmt::format("{} has changed since the earlier plan, and all tiles show it: make the "
+                                               "set anew",
+                                               earlier.drape->path()));
   TileJob job = earlier;
   job.rasters = std::move(now.rasters);
   job.files = std::move(now.files);

@@ -8,6 +8,7 @@
 #include "io/tiles/folder_set.h"
 #include "io/tiles/set_archive.h"
 #include "scarp/gzip.h"
+#include "scarp/tile_job.h"
 #include "scarp/tiles3d.h"
 
 namespace scarp {
@@ -34,13 +35,31 @@ TileEncoder make_tile_encoder(TileFormat format, const PyramidPlan& plan) {
   return [&plan](const TerrainTile& tile) { return compress_gzip_of_mesh(encode_quantized_mesh(tile, plan.ellipsoid, plan.grid)); };
 }
 
-std::unique_ptr<TileSetSink> make_tile_sink(TileFormat format, TileSetWriter& writer, const PyramidPlan& plan) {
-  if (format == TileFormat::kGlb) return std::make_unique<TerrainTilesetSink>(writer, plan);
-  return std::make_unique<TileSetSink>(writer, format, plan);
+TileEncoder make_draped_encoder(const PyramidPlan& plan, std::shared_ptr<const GlobeImage> image, ImageFormat format) {
+  return [&plan, image = std::move(image), format](const TerrainTile& tile) -> Result<std::vector<std::uint8_t>> {
+    auto texture = make_tile_texture(*image, format, plan, tile.id);
+    if (!texture) return tl::unexpected(texture.error());
+    TileGlbOptions options;
+    options.texture = std::move(*texture);
+    return encode_tile_glb(place_on_earth(tile, plan), options);
+  };
 }
 
-TileSetSink::TileSetSink(TileSetWriter& writer, TileFormat format, const PyramidPlan& plan)
-    : writer_(&writer), plan_(&plan), encoder_(make_tile_encoder(format, plan)) {}
+Result<TileEncoder> open_tile_encoder(const TileJob& job) {
+  if (!job.drape) return make_tile_encoder(job.format, job.plan);
+  auto image = open_globe_image(job.drape->path(), job.plan.ellipsoid);
+  if (!image) return tl::unexpected(image.error());
+  return make_draped_encoder(job.plan, std::move(*image), job.drape->format);
+}
+
+std::unique_ptr<TileSetSink> make_tile_sink(TileFormat format, TileSetWriter& writer, const PyramidPlan& plan,
+                                            TileEncoder encoder) {
+  if (format == TileFormat::kGlb) return std::make_unique<TerrainTilesetSink>(writer, plan, std::move(encoder));
+  return std::make_unique<TileSetSink>(writer, format, plan, std::move(encoder));
+}
+
+TileSetSink::TileSetSink(TileSetWriter& writer, TileFormat format, const PyramidPlan& plan, TileEncoder encoder)
+    : writer_(&writer), plan_(&plan), encoder_(encoder ? std::move(encoder) : make_tile_encoder(format, plan)) {}
 
 Result<std::vector<std::uint8_t>> TileSetSink::encode(const TerrainTile& tile) const { return encoder_(tile); }
 

@@ -237,8 +237,8 @@ std::vector<NamedFile> encode_tileset(const PyramidPlan& plan, const PyramidRepo
   return files;
 }
 
-TerrainTilesetSink::TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan)
-    : TileSetSink(writer, TileFormat::kGlb, plan) {}
+TerrainTilesetSink::TerrainTilesetSink(TileSetWriter& writer, const PyramidPlan& plan, TileEncoder encoder)
+    : TileSetSink(writer, TileFormat::kGlb, plan, std::move(encoder)) {}
 
 Result<void> TerrainTilesetSink::put(TileId id, std::span<const std::uint8_t> bytes) {
   const Result<TileFacts> facts = read_tile_facts(bytes);
