@@ -35,6 +35,7 @@ PATH=$PWD/tools:$PATH succeeds "$scarp" view plain.glb -o opened.html --open
 printf '#!/bin/sh\nexit 3\n' > tools/xdg-open
 PATH=$PWD/tools:$PATH try "$scarp" view plain.glb -o opened.html --open --overwrite
 [ "$code" = 4 ] && grep -q 'open it in a browser' "$logs/err" || fail "a browser that does not open is not told"
+refuses 1 '(--band 2), and no RASTER' "$scarp" view plain.glb --band 2 -o x.html
 refuses 2 'no_such.glb' "$scarp" view no_such.glb
 refuses 2 'no_such.tif' "$scarp" view plain.glb no_such.tif -o x.html
 refuses 1 '--html cannot be combined with --solid' "$scarp" simplify "$dem" x.stl -e 20 --solid size=100mm --html x.html

@@ -27,7 +27,8 @@ Result<void> open_in_browser(const std::string& path) {
   const bool is_open = posix_spawnp(&child, program.c_str(), nullptr, nullptr, words, environ) == 0 &&
                        waitpid(child, &status, 0) == child && status == 0;
   if (is_open) return {};
-  return fail(ErrorKind::kOutput, fmt::format("{} is written, but xdg-open cannot open it: open it in a browser", path));
+  return fail(ErrorKind::kOutput,
+              fmt::format("{} is written, but xdg-open cannot open it: open it in a browser", path));
 }
 
 }  // namespace
@@ -86,6 +87,11 @@ Result<OwnedHeightField> ViewCommand::read_raster(const Mesh& mesh, std::vector<
 }
 
 Result<void> ViewCommand::run() const {
+  if (raster_.paths.empty() && !raster_.canonical().empty()) {
+    return fail(ErrorKind::kUsage,
+                fmt::format("options of a raster are given ({}), and no RASTER: scarp view {} RASTER",
+                            raster_.canonical().substr(1), shell_word(mesh_)));
+  }
   if (!raster_.paths.empty()) {
     if (const auto read = raster_.parse(); !read) return tl::unexpected(read.error());
   }

@@ -85,9 +85,10 @@ std::optional<std::string> find_obstacle(const OwnedHeightField& field) {
   if (!field.frame.is_affine())
     return "the page holds no raster: the mesh's CRS bends the raster's grid, so that the page cannot judge it";
   if (samples > kMostSamples) {
-    return fmt::format("the page holds no raster: {} samples are more than the {} of a page; --resolution or --te "
-                       "make them fewer",
-                       format_count(samples), format_count(kMostSamples));
+    return fmt::format(
+        "the page holds no raster: {} samples are more than the {} of a page; --resolution or --te "
+        "make them fewer",
+        format_count(samples), format_count(kMostSamples));
   }
   return std::nullopt;
 }
